@@ -1,0 +1,2 @@
+//! The `fastphong` command-line tool.
+fn main() {}

@@ -1,0 +1,241 @@
+//! Polygon meshes: polygons of any number of sides, concave ones too, never triangulated.
+
+pub mod newell;
+pub mod vertex_normals;
+
+use crate::lighting::Material;
+use alloc::vec::Vec;
+use core::fmt;
+use glam::Vec3;
+
+/// Normals that came with a mesh: by formula, or from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GivenNormals {
+    /// Unit vectors, or zero where the source has none (the average of L21 3.1 is used there).
+    pub values: Vec<Vec3>,
+    /// The entry of `values` that each corner uses; `None` means that `values[i]` belongs to position `i`.
+    pub corners: Option<Vec<u32>>,
+}
+
+/// A mesh of polygons with shared positions.
+///
+/// Made by [`MeshBuilder`], which checks every index, so that what reads a mesh need not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolygonMesh {
+    positions: Vec<Vec3>,
+    corners: Vec<u32>,
+    ends: Vec<u32>,
+    given_normals: Option<GivenNormals>,
+    materials: Vec<Material>,
+    polygon_materials: Vec<u32>,
+}
+
+impl PolygonMesh {
+    /// The most polygons a mesh may have: 16 million, so that polygon numbers are exact in an `f32`.
+    pub const MAX_POLYGONS: usize = 1 << 24;
+    /// The most corners, all polygons together: 128 million.
+    pub const MAX_CORNERS: usize = 1 << 27;
+
+    /// Positions in model space.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// How many polygons there are.
+    pub fn polygon_count(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// All corners, polygon after polygon: each an index into [`PolygonMesh::positions`].
+    pub fn corners(&self) -> &[u32] {
+        &self.corners
+    }
+
+    /// Where the corners of polygon `p` stand in [`PolygonMesh::corners`].
+    pub fn corner_range(&self, p: usize) -> core::ops::Range<usize> {
+        let start = if p == 0 { 0 } else { self.ends[p - 1] as usize };
+        start..self.ends[p] as usize
+    }
+
+    /// The corners of polygon `p`: indices into [`PolygonMesh::positions`], counter-clockwise seen from outside.
+    pub fn polygon(&self, p: usize) -> &[u32] {
+        &self.corners[self.corner_range(p)]
+    }
+
+    /// All polygons in order.
+    pub fn polygons(&self) -> impl ExactSizeIterator<Item = &[u32]> {
+        (0..self.polygon_count()).map(|p| self.polygon(p))
+    }
+
+    /// The normals that came with the mesh, if any did.
+    pub fn given_normals(&self) -> Option<&GivenNormals> {
+        self.given_normals.as_ref()
+    }
+
+    /// The materials that polygons refer to; may be empty.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The material of polygon `p`: an index into [`PolygonMesh::materials`], `None` for the default material.
+    pub fn polygon_material(&self, p: usize) -> Option<usize> {
+        self.polygon_materials.get(p).map(|&m| m as usize).filter(|&m| m < self.materials.len())
+    }
+
+    /// Smallest and largest coordinates over all positions that polygons use; `None` without polygons.
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let mut used = self.corners.iter().map(|&c| self.positions[c as usize]);
+        let first = used.next()?;
+        Some(used.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
+    }
+}
+
+/// Why a mesh could not be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshError {
+    /// A position or normal holds a NaN or an infinity.
+    NotFinite {
+        /// Its number, counted from 0.
+        index: usize,
+    },
+    /// A polygon names a position, normal or material that does not exist.
+    IndexOutOfRange {
+        /// The polygon, counted from 0.
+        polygon: usize,
+        /// The index that it names.
+        index: u32,
+    },
+    /// A polygon has fewer than three corners.
+    TooFewCorners {
+        /// The polygon, counted from 0.
+        polygon: usize,
+    },
+    /// More polygons than [`PolygonMesh::MAX_POLYGONS`] or more corners than [`PolygonMesh::MAX_CORNERS`].
+    TooLarge,
+    /// The normals are not one a position, or their corner indices not one a corner.
+    NormalCount {
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+}
+
+impl fmt::Display for MeshError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            MeshError::NotFinite { index } => write!(f, "vector {index} is not finite"),
+            MeshError::IndexOutOfRange { polygon, index } => {
+                write!(f, "polygon {polygon} names index {index}, which does not exist")
+            }
+            MeshError::TooFewCorners { polygon } => write!(f, "polygon {polygon} has fewer than three corners"),
+            MeshError::TooLarge => write!(
+                f,
+                "the mesh is over the limit of {} polygons or {} corners",
+                PolygonMesh::MAX_POLYGONS,
+                PolygonMesh::MAX_CORNERS
+            ),
+            MeshError::NormalCount { found, expected } => write!(f, "{found} normals where {expected} were expected"),
+        }
+    }
+}
+
+impl core::error::Error for MeshError {}
+
+/// Collects positions and polygons, then checks them once.
+#[derive(Clone, Debug)]
+pub struct MeshBuilder {
+    mesh: PolygonMesh,
+}
+
+impl MeshBuilder {
+    /// Starts from `positions`.
+    pub fn new(positions: Vec<Vec3>) -> Self {
+        MeshBuilder {
+            mesh: PolygonMesh {
+                positions,
+                corners: Vec::new(),
+                ends: Vec::new(),
+                given_normals: None,
+                materials: Vec::new(),
+                polygon_materials: Vec::new(),
+            },
+        }
+    }
+
+    /// Makes room for `polygons` polygons with `corners` corners together.
+    pub fn reserve(&mut self, polygons: usize, corners: usize) {
+        self.mesh.ends.reserve_exact(polygons);
+        self.mesh.corners.reserve_exact(corners);
+    }
+
+    /// Adds a polygon: indices of its positions, counter-clockwise seen from outside.
+    pub fn polygon(&mut self, corners: &[u32]) -> &mut Self {
+        self.mesh.corners.extend_from_slice(corners);
+        // A mesh past u32 is past MAX_CORNERS, and `finish` refuses it by the corners' own count.
+        self.mesh.ends.push(self.mesh.corners.len() as u32);
+        self
+    }
+
+    /// Adds the normals that belong to the mesh.
+    pub fn normals(&mut self, normals: GivenNormals) -> &mut Self {
+        self.mesh.given_normals = Some(normals);
+        self
+    }
+
+    /// Adds materials, and for each polygon the one it has (an index past the end means none).
+    pub fn materials(&mut self, materials: Vec<Material>, of_polygons: Vec<u32>) -> &mut Self {
+        self.mesh.materials = materials;
+        self.mesh.polygon_materials = of_polygons;
+        self
+    }
+
+    /// The mesh.
+    ///
+    /// # Errors
+    /// [`MeshError`] when a vector is not finite, an index does not exist, a polygon has fewer than three corners, or
+    /// the mesh is over its limits.
+    pub fn finish(self) -> Result<PolygonMesh, MeshError> {
+        let mesh = self.mesh;
+        if mesh.ends.len() > PolygonMesh::MAX_POLYGONS || mesh.corners.len() > PolygonMesh::MAX_CORNERS {
+            return Err(MeshError::TooLarge);
+        }
+        check_finite(&mesh.positions)?;
+        for (polygon, corners) in mesh.polygons().enumerate() {
+            if corners.len() < 3 {
+                return Err(MeshError::TooFewCorners { polygon });
+            }
+            check_indices(polygon, corners, mesh.positions.len())?;
+        }
+        if let Some(normals) = &mesh.given_normals {
+            check_finite(&normals.values)?;
+            let (found, expected) = match &normals.corners {
+                None => (normals.values.len(), mesh.positions.len()),
+                Some(corners) => (corners.len(), mesh.corners.len()),
+            };
+            if found != expected {
+                return Err(MeshError::NormalCount { found, expected });
+            }
+            if let Some(corners) = &normals.corners {
+                for polygon in 0..mesh.polygon_count() {
+                    check_indices(polygon, &corners[mesh.corner_range(polygon)], normals.values.len())?;
+                }
+            }
+        }
+        Ok(mesh)
+    }
+}
+
+fn check_finite(vectors: &[Vec3]) -> Result<(), MeshError> {
+    match vectors.iter().position(|v| !v.is_finite()) {
+        Some(index) => Err(MeshError::NotFinite { index }),
+        None => Ok(()),
+    }
+}
+
+fn check_indices(polygon: usize, indices: &[u32], count: usize) -> Result<(), MeshError> {
+    match indices.iter().find(|&&i| i as usize >= count) {
+        Some(&index) => Err(MeshError::IndexOutOfRange { polygon, index }),
+        None => Ok(()),
+    }
+}

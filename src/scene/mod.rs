@@ -1,0 +1,90 @@
+//! A scene: objects, lights, a camera, and how they are to be drawn.
+
+use crate::camera::Camera;
+use crate::lighting::{Light, Material, Rgb};
+use crate::mesh::PolygonMesh;
+use crate::mesh::vertex_normals::NormalSource;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use glam::DAffine3;
+
+/// How attributes vary over the screen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Linearly on the screen, as the lecture does.
+    #[default]
+    Screen,
+    /// Linearly in space: attributes are divided by w at the corners (`methods.md` finding: degree-0 methods need no
+    /// division a pixel).
+    Perspective,
+}
+
+/// Which polygons are left out for the direction in which they are seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Culling {
+    /// Leave out polygons whose corners run clockwise on the screen.
+    #[default]
+    Back,
+    /// Leave out polygons whose corners run counter-clockwise on the screen.
+    Front,
+    /// Draw all.
+    None,
+}
+
+/// How linear values are stored in eight bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Encoding {
+    /// round(255 c): no transfer function.
+    #[default]
+    Linear,
+    /// The sRGB transfer function (IEC 61966-2-1), then rounded.
+    Srgb,
+}
+
+/// A mesh somewhere in the world.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Its shape; may be shared between objects.
+    pub mesh: Arc<PolygonMesh>,
+    /// Model space to world space. Normals follow by the inverse transpose; a mirroring transform keeps the winding
+    /// (outside stays outside).
+    pub transform: DAffine3,
+    /// Replaces the materials of the mesh.
+    pub material: Option<Material>,
+    /// Where the vertex normals come from.
+    pub normals: NormalSource,
+}
+
+/// All that a picture shows.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Texels a row, 1..=[`Scene::MAX_SIDE`].
+    pub width: u32,
+    /// Rows, 1..=[`Scene::MAX_SIDE`].
+    pub height: u32,
+    /// Colour where nothing is drawn, 0..=1.
+    pub background: Rgb,
+    /// Where the scene is seen from.
+    pub camera: Camera,
+    /// Ambient intensity `I_a` of each channel.
+    pub ambient: Rgb,
+    /// Directional lights; none means ambient light only.
+    pub lights: Vec<Light>,
+    /// How attributes vary over the screen.
+    pub interpolation: Interpolation,
+    /// Which sides are left out.
+    pub culling: Culling,
+    /// Whether nearer polygons hide farther ones; without it, later ones hide earlier ones.
+    pub depth_test: bool,
+    /// How values are stored in eight bits.
+    pub encoding: Encoding,
+    /// What is drawn, in this order.
+    pub objects: Vec<Object>,
+}
+
+impl Scene {
+    /// The longest side of a picture: 16,384 texels, as far as a 16-bit texel coordinate with two guard bits goes.
+    pub const MAX_SIDE: u32 = 16_384;
+    /// The most lights a scene may have.
+    pub const MAX_LIGHTS: usize = 64;
+}
