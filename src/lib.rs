@@ -5,6 +5,7 @@ extern crate alloc;
 extern crate std;
 
 pub mod camera;
+pub mod frame;
 pub mod lighting;
 pub mod mesh;
 pub mod picture;
