@@ -1,12 +1,22 @@
 //! Every way of making Phong shading fast, after *Lecture 21: Shading* (L21).
 #![no_std]
 extern crate alloc;
-#[cfg(feature = "std")]
+#[cfg(any(feature = "std", test))]
 extern crate std;
 
 pub mod camera;
+pub mod encoding;
 pub mod frame;
 pub mod lighting;
 pub mod mesh;
+pub mod number;
 pub mod picture;
+pub mod raster;
+pub mod reference;
 pub mod scene;
+pub mod shader;
+pub mod suggest;
+pub mod walk;
+
+#[cfg(test)]
+mod test_random;

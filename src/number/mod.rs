@@ -1,0 +1,89 @@
+//! Numbers, and the machines that make them.
+//!
+//! The methods are written once, over [`Num`]; which arithmetic they run on is decided by a [`Machine`]: [`Scalar`]
+//! makes plain `f32`, [`Counting`] makes numbers that count every operation. A machine has two kinds of numbers:
+//! `One` for set-up (vertices, polygons, edges, span starts) and `F` for the pixel loop, which on a wide machine holds
+//! [`Machine::WIDTH`] neighbouring pixels.
+//!
+//! Everything here is `#[inline(always)]`: a helper that is not inlined into the pixel loop costs a call a pixel.
+
+mod counting;
+mod scalar;
+
+pub use counting::{Counted, Counter, Counting, Counts};
+pub use scalar::Scalar;
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number: one pixel's or a group's. Carries no knowledge of how to be made.
+pub trait Num:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// The square root.
+    fn sqrt(self) -> Self;
+    /// The larger of both; the other one where one is NaN.
+    fn max(self, other: Self) -> Self;
+    /// The smaller of both; the other one where one is NaN.
+    fn min(self, other: Self) -> Self;
+    /// Itself where `condition` > 0, else 0 (also where `condition` is NaN).
+    fn gate(self, condition: Self) -> Self;
+    /// Itself, 0 or more, to the power `exponent`.
+    fn powf(self, exponent: f32) -> Self;
+}
+
+/// A number of the set-up, where decisions and trigonometric functions are affordable.
+pub trait Real: Num {
+    /// Sine and cosine of an angle in radians.
+    fn sin_cos(self) -> (Self, Self);
+    /// The angle in radians of the point (`x`, self).
+    fn atan2(self, x: Self) -> Self;
+    /// Its value, to decide by.
+    fn value(self) -> f32;
+}
+
+/// An arithmetic: makes its numbers.
+pub trait Machine: Copy {
+    /// Numbers of the set-up.
+    type One: Real;
+    /// Numbers of the pixel loop.
+    type F: Num;
+    /// How many pixels one `F` holds.
+    const WIDTH: usize;
+
+    /// A number of the set-up.
+    fn one(self, x: f32) -> Self::One;
+    /// The same number for every pixel.
+    fn splat(self, x: Self::One) -> Self::F;
+    /// `at + k step` for pixel k of the group.
+    fn ramp(self, at: Self::One, step: Self::One) -> Self::F;
+    /// `WIDTH step`: from one group to the next.
+    fn stride(self, step: Self::One) -> Self::F;
+    /// `WIDTH` values of a recurrence, in order.
+    fn take(self, next: impl FnMut() -> Self::One) -> Self::F;
+    /// The first value of a group.
+    fn first(self, x: Self::F) -> f32;
+}
+
+/// `[f(0), f(1), …]`.
+///
+/// Not `core::array::from_fn`: on wide numbers that leaves a call inside the pixel loop (measured by the prototypes:
+/// ten times slower), as it is not inlined into functions with target features.
+#[inline(always)]
+pub fn each<T: Copy, const L: usize>(mut f: impl FnMut(usize) -> T) -> [T; L] {
+    if L == 0 {
+        return core::array::from_fn(f);
+    }
+    let mut all = [f(0); L];
+    let mut i = 1;
+    while i < L {
+        all[i] = f(i);
+        i += 1;
+    }
+    all
+}
+
+/// The dot product.
+#[inline(always)]
+pub fn dot<N: Num>(a: [N; 3], b: [N; 3]) -> N {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

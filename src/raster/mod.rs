@@ -1,0 +1,26 @@
+//! The engines: they own the loops, and know nothing of lights.
+//!
+//! - [`scanline`] is the lecture's: an edge table, active edges that step their attributes from scanline to scanline,
+//!   a depth buffer of one line, and visible runs that are walked and shaded once.
+//! - [`barycentric`] is what it is measured against: a bounding box a triangle, three edge functions a pixel.
+//!
+//! Both draw exactly the same pixels: those whose centres have an odd number of polygon edges to their left, counted in
+//! exact integers on corners snapped to 1/256 pixel. Polygons that share an edge share none of its pixels and leave no
+//! hole.
+
+mod active;
+mod aov;
+pub mod barycentric;
+mod edge;
+mod edge_table;
+pub mod scanline;
+mod setup;
+mod target;
+mod visibility;
+
+pub use aov::{coverage, depth, normals, polygon_numbers};
+pub use barycentric::Edges;
+pub use edge::Crossing;
+pub use visibility::NOTHING;
+
+pub(crate) use target::{Target, linear_picture, picture8};

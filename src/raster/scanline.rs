@@ -1,0 +1,70 @@
+//! The scanline engine: the lecture as written.
+//!
+//! For each scanline the active edges give spans; a depth buffer of one line tells which span is seen at each pixel;
+//! each visible run is then walked and shaded once, so that hidden pixels are never shaded.
+
+use super::active::{ActiveEdge, ActiveEdges};
+use super::edge_table::EdgeTable;
+use super::setup::SetUp;
+use super::target::Target;
+use super::visibility::VisibleLine;
+use crate::frame::Frame;
+use crate::number::{Machine, each};
+use crate::shader::{Shader, Span};
+use crate::walk::{Attribute, Walk};
+use alloc::vec;
+
+/// Goes down the picture with the attributes of all vertices, and gives every scanline on which anything is drawn: its
+/// number, what is seen on it, and the active edges that its spans refer to.
+pub(super) fn scan<M: Machine, A: Attribute<M::One>>(
+    m: M,
+    frame: &Frame,
+    attributes: &[A],
+    mut visit: impl FnMut(usize, &VisibleLine, &[ActiveEdge<A::Edge>]),
+) {
+    let table = EdgeTable::new(frame);
+    let mut active = ActiveEdges::new();
+    let mut line = VisibleLine::new(frame.width(), frame.depth_test());
+    for row in 0..frame.height() {
+        active.advance::<M, A>(row);
+        active.enter(m, frame, &table, attributes, row);
+        if active.edges().is_empty() {
+            continue;
+        }
+        line.clear();
+        active.spans(frame.width() as u32, |span| line.draw(span));
+        visit(row, &line, active.edges());
+    }
+}
+
+/// Draws `frame` with a shader into `target`.
+pub(crate) fn draw<S: Shader, M: Machine>(m: M, frame: &Frame, parameters: &[u32], target: &mut dyn Target) {
+    const { assert!(M::WIDTH == 1, "this engine walks pixel by pixel") };
+    let setup = SetUp::<S, M>::new(m, frame, parameters);
+    let consts: alloc::vec::Vec<S::Consts<M::F>> =
+        frame.lightings().iter().map(|l| S::consts(l, parameters, |x| m.splat(m.one(x)))).collect();
+    let mut colours = vec![[0.0f32; 3]; frame.width()];
+    scan(m, frame, &setup.attributes, |row, line, edges| {
+        line.runs(|span, pixels| {
+            let polygon = &frame.polygons()[span.polygon as usize];
+            let material = polygon.material as usize;
+            let face = each(|i| m.one(polygon.normal[i]));
+            // A run that begins inside its span starts at its own first pixel's parameter.
+            let t0 = span.t0 + (pixels.start as u32 - span.start) as f32 * span.dt;
+            let (left, right) = (&edges[span.left as usize], &edges[span.right as usize]);
+            let (left, right) = (S::Attribute::at(&left.attribute), S::Attribute::at(&right.attribute));
+            let start = Span {
+                x: m.one(pixels.start as f32 + 0.5),
+                y: m.one(row as f32 + 0.5),
+                attribute: S::Attribute::span(m, face, left, right, m.one(t0), m.one(span.dt)),
+            };
+            let mut walk = S::walk(m, &setup.consts[material], &setup.polygons[span.polygon as usize], &start);
+            let consts = &consts[material];
+            for colour in &mut colours[pixels] {
+                let rgb = S::shade(consts, walk.next());
+                *colour = each(|i| m.first(rgb[i]));
+            }
+        });
+        target.store(row, line, &colours);
+    });
+}

@@ -1,0 +1,47 @@
+//! What is computed before the first scanline: once a material, once a vertex, once a polygon.
+
+use crate::frame::Frame;
+use crate::number::Machine;
+use crate::scene::Interpolation;
+use crate::shader::{Corners, Shader};
+use crate::walk::Attribute;
+use alloc::vec::Vec;
+
+/// A shader's constants by material, attributes by vertex and values by polygon.
+pub(super) struct SetUp<S: Shader, M: Machine> {
+    pub consts: Vec<S::Consts<M::One>>,
+    pub attributes: Vec<S::Attribute<M::One>>,
+    pub polygons: Vec<S::Polygon<M::One>>,
+}
+
+impl<S: Shader, M: Machine> SetUp<S, M> {
+    pub fn new(m: M, frame: &Frame, parameters: &[u32]) -> Self {
+        let consts: Vec<_> = frame.lightings().iter().map(|l| S::consts(l, parameters, |x| m.one(x))).collect();
+        let attributes = attributes::<S, M>(m, frame, &consts);
+        let polygons = frame.polygons().iter().map(|polygon| {
+            let corners = Corners { machine: m, frame, polygon, attributes: &attributes };
+            S::polygon(&consts[polygon.material as usize], &corners)
+        });
+        let polygons = polygons.collect();
+        SetUp { consts, attributes, polygons }
+    }
+}
+
+/// Vertices are lit; clip corners lie between two of them and are not lit again; then all are weighted by 1/w where
+/// attributes are linear in space.
+fn attributes<S: Shader, M: Machine>(m: M, frame: &Frame, consts: &[S::Consts<M::One>]) -> Vec<S::Attribute<M::One>> {
+    let three = |v: [f32; 3]| v.map(|c| m.one(c));
+    let vertices = frame.vertices();
+    let mut all: Vec<_> = vertices.iter().map(|v| S::vertex(&consts[v.material as usize], three(v.normal))).collect();
+    for corner in frame.clip_corners() {
+        let (a, b) = (all[corner.a as usize], all[corner.b as usize]);
+        let edge = S::Attribute::edge(m, three(corner.face), a, b, m.one(corner.t), m.one(0.0));
+        all[corner.vertex as usize] = S::Attribute::at(&edge);
+    }
+    if frame.interpolation() == Interpolation::Perspective {
+        for (attribute, vertex) in all.iter_mut().zip(vertices) {
+            *attribute = attribute.weighted(m.one(vertex.inv_w));
+        }
+    }
+    all
+}

@@ -1,0 +1,71 @@
+//! Where finished lines go: a stored picture or a linear one.
+
+use super::visibility::VisibleLine;
+use crate::encoding::quantise;
+use crate::frame::Frame;
+use crate::picture::{LinearPicture, Picture, Picture8};
+
+/// A colour as it is stored.
+pub(crate) trait Texel: Copy {
+    /// A drawn colour: clamped to 0..=1, opaque.
+    fn drawn(rgb: [f32; 3]) -> Self;
+    /// The background: clamped to 0..=1, transparent.
+    fn background(rgb: [f32; 3]) -> Self;
+}
+
+impl Texel for [u8; 4] {
+    #[inline(always)]
+    fn drawn([r, g, b]: [f32; 3]) -> Self {
+        [quantise(r), quantise(g), quantise(b), 255]
+    }
+    fn background(rgb: [f32; 3]) -> Self {
+        let [r, g, b, _] = Self::drawn(rgb);
+        [r, g, b, 0]
+    }
+}
+
+impl Texel for [f32; 4] {
+    #[inline(always)]
+    fn drawn([r, g, b]: [f32; 3]) -> Self {
+        let clamp = |c: f32| c.clamp(0.0, 1.0);
+        [clamp(r), clamp(g), clamp(b), 1.0]
+    }
+    fn background(rgb: [f32; 3]) -> Self {
+        let [r, g, b, _] = Self::drawn(rgb);
+        [r, g, b, 0.0]
+    }
+}
+
+/// A picture that takes finished lines, whatever its texels are: one indirect call a line.
+pub(crate) trait Target {
+    /// Stores the drawn pixels of a line.
+    fn store(&mut self, row: usize, line: &VisibleLine, colours: &[[f32; 3]]);
+    /// Stores one pixel.
+    fn put(&mut self, x: usize, row: usize, colour: [f32; 3]);
+}
+
+impl<T: Texel> Target for Picture<T> {
+    fn store(&mut self, row: usize, line: &VisibleLine, colours: &[[f32; 3]]) {
+        let texels = self.row_mut(row);
+        line.runs(|_, pixels| {
+            for (texel, colour) in texels[pixels.clone()].iter_mut().zip(&colours[pixels]) {
+                *texel = T::drawn(*colour);
+            }
+        });
+    }
+
+    #[inline(always)]
+    fn put(&mut self, x: usize, row: usize, colour: [f32; 3]) {
+        self.row_mut(row)[x] = T::drawn(colour);
+    }
+}
+
+/// An empty stored picture for `frame`: its background, alpha 0.
+pub(crate) fn picture8(frame: &Frame) -> Picture8 {
+    Picture::new(frame.width(), frame.height(), Texel::background(frame.background()))
+}
+
+/// An empty linear picture for `frame`: its background, alpha 0.
+pub(crate) fn linear_picture(frame: &Frame) -> LinearPicture {
+    Picture::new(frame.width(), frame.height(), Texel::background(frame.background()))
+}

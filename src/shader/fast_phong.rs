@@ -1,0 +1,96 @@
+//! Fast Phong shading: scalars instead of vectors, Newton's root instead of a true one (L21 4.2–4.3).
+
+use super::illumination::Illumination;
+use super::{Corners, Info, Method, Parameter, Perspective, Shader, SpanOf};
+use crate::lighting::Lighting;
+use crate::number::{Machine, Num, Real, each};
+use crate::reference::Model;
+use crate::walk::{Lerp, Linear, Newton};
+
+/// Fast Phong shading as the lecture prints it: `J = L·N` for each light, `K = V·N` and N by additions, `D = N·N`, and
+/// `d = √D` by Newton's method from the previous pixel's (L21 4.2–4.3).
+///
+/// The diffuse term is `J/d`, the specular term `(2JK/D − L·V)^n`: the root touches only the former. With m steps a
+/// pixel costs m + 2 divisions, where naive Phong has one division and one root.
+#[derive(Debug)]
+pub struct FastPhong;
+
+impl Method for FastPhong {
+    const INFO: Info = Info {
+        name: "fast-phong",
+        title: "J = L.N, K = V.N and N by additions, the root by Newton's method",
+        formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  D = N.N;  d = sqrt(D) by Newton from the \
+                  previous pixel\nI = Ia ka + Ip kd J/d + Ip ks (2 J K / D - L.V)^n",
+        source: "L21 4.2, 4.3, eq 4.3-4.6",
+        model: Model::Phong,
+        tolerance: 1e-3,
+        derivation: "",
+        fails: "on spans of few pixels over a large angle, where the previous length is a bad first guess (use more \
+                steps), and where normals cancel inside a span",
+        parameters: &[Parameter {
+            name: "steps",
+            meaning: "steps of Newton's method a pixel",
+            default: 2,
+            least: 1,
+            most: 8,
+        }],
+        perspective: Perspective::Free,
+        barycentric: false,
+    };
+    type Screen<const L: usize> = Of<L>;
+    type Perspective<const L: usize> = Of<L>;
+}
+
+/// Fast Phong shading with `L` lights.
+#[derive(Debug)]
+pub struct Of<const L: usize>;
+
+/// The light, and how many steps of Newton's method a pixel takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Consts<N, const L: usize> {
+    light: Illumination<N, L>,
+    steps: u32,
+}
+
+/// J of each light, K, N.
+type Jkn<R, const L: usize> = ([R; L], R, [R; 3]);
+
+impl<const L: usize> Shader for Of<L> {
+    type Consts<N: Num> = Consts<N, L>;
+    type Attribute<R: Real> = Lerp<Jkn<R, L>>;
+    type Polygon<R: Real> = ();
+    type Walk<M: Machine> = ([Linear<M::F>; L], Linear<M::F>, Newton<[Linear<M::F>; 3], M::F>);
+    type Pixel<F: Num> = ([F; L], F, (F, F));
+
+    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> Consts<N, L> {
+        Consts { light: Illumination::new(lighting, of), steps: parameters[0] }
+    }
+    #[inline(always)]
+    fn vertex<R: Real>(c: &Consts<R, L>, normal: [R; 3]) -> Lerp<Jkn<R, L>> {
+        Lerp((c.light.light_cosines(normal), c.light.view_cosine(normal), normal))
+    }
+    #[inline(always)]
+    fn polygon<M: Machine>(_: &Consts<M::One, L>, _: &Corners<'_, M, Self::Attribute<M::One>>) {}
+    #[inline(always)]
+    fn walk<M: Machine>(m: M, c: &Consts<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+        let ((j, k, n), (dj, dk, dn)) = (span.attribute.at, span.attribute.step);
+        let normal = each(
+            #[inline(always)]
+            |i| Linear::new(m, n[i], dn[i]), // 4.2
+        );
+        let light = each(
+            #[inline(always)]
+            |i| Linear::new(m, j[i], dj[i]), // 4.3
+        );
+        (light, Linear::new(m, k, dk), Newton::new(m, normal, n, c.steps))
+    }
+    #[inline(always)]
+    fn shade<F: Num>(c: &Consts<F, L>, (j, k, (d, squared)): Self::Pixel<F>) -> [F; 3] {
+        let light = &c.light;
+        let (over_d, twice_k) = (light.one() / d, light.two() * k / squared);
+        light.colour(
+            #[inline(always)]
+            |i| (j[i] * over_d, twice_k * j[i] - light.light_view(i)), // 4.6
+        )
+    }
+}

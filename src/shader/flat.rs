@@ -1,0 +1,68 @@
+//! Flat shading: one colour a polygon (L21 2).
+
+use super::illumination::Illumination;
+use super::{Corners, Info, Method, Perspective, Shader, SpanOf};
+use crate::lighting::Lighting;
+use crate::number::{Machine, Num, Real};
+use crate::reference::Model;
+use crate::walk::{Constant, Lerp};
+
+/// Flat (uniform) shading: the polygon's own normal, lit once (L21 2.1).
+#[derive(Debug)]
+pub struct Flat;
+
+impl Method for Flat {
+    const INFO: Info = Info {
+        name: "flat",
+        title: "one colour a polygon, from its own normal",
+        formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, N the polygon's normal by Newell's formula",
+        source: "L21 2, eq 2.1 (Bouknight 1970)",
+        model: Model::Flat,
+        tolerance: 1e-4,
+        derivation: "a colour is one evaluation of eq 2.1 in f32. R.V is off by at most 8 roundings of 2^-24, 5e-7; \
+                     the power multiplies that by n, at most 200 in the shipped scenes: 1e-4",
+        fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",
+        parameters: &[],
+        perspective: Perspective::Unaffected,
+        barycentric: true,
+    };
+    type Screen<const L: usize> = Of<L>;
+    type Perspective<const L: usize> = Of<L>;
+}
+
+/// Flat shading with `L` lights.
+#[derive(Debug)]
+pub struct Of<const L: usize>;
+
+impl<const L: usize> Shader for Of<L> {
+    type Consts<N: Num> = Illumination<N, L>;
+    type Attribute<R: Real> = Lerp<()>;
+    type Polygon<R: Real> = [R; 3];
+    type Walk<M: Machine> = Constant<[M::F; 3]>;
+    type Pixel<F: Num> = [F; 3];
+
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Illumination<N, L> {
+        Illumination::new(lighting, of)
+    }
+    #[inline(always)]
+    fn vertex<R: Real>(_: &Illumination<R, L>, _: [R; 3]) -> Lerp<()> {
+        Lerp(())
+    }
+    #[inline(always)]
+    fn polygon<M: Machine>(c: &Illumination<M::One, L>, corners: &Corners<'_, M, Lerp<()>>) -> [M::One; 3] {
+        c.clamped(c.lit(corners.normal()))
+    }
+    #[inline(always)]
+    fn walk<M: Machine>(
+        m: M,
+        _: &Illumination<M::One, L>,
+        colour: &[M::One; 3],
+        _: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
+        Constant([m.splat(colour[0]), m.splat(colour[1]), m.splat(colour[2])])
+    }
+    #[inline(always)]
+    fn shade<F: Num>(_: &Illumination<F, L>, colour: [F; 3]) -> [F; 3] {
+        colour
+    }
+}

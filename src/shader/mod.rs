@@ -1,0 +1,132 @@
+//! The shading methods: one trait, one table, one file a method.
+//!
+//! Methods differ in *what is computed how often*: once a vertex, a polygon, a span or a pixel. [`Shader`] says that and
+//! nothing else; the loops belong to [`crate::raster`]. **Memory of the previous pixel is walk; shade is a pure
+//! function** of what the walk gives. [`METHODS`] lists all methods: what is in it is rendered, compared, timed,
+//! counted, tested and drawn; what is not does not exist.
+
+mod count;
+mod dispatch;
+mod info;
+mod span;
+mod table;
+
+pub mod illumination;
+
+mod fast_phong;
+mod flat;
+mod gouraud;
+mod naive_phong;
+mod slerp_phong;
+mod slerp_phong_vector;
+
+pub use count::OperationCounts;
+pub use fast_phong::FastPhong;
+pub use flat::Flat;
+pub use gouraud::Gouraud;
+pub use info::{Info, Parameter, Perspective};
+pub use naive_phong::NaivePhong;
+pub use slerp_phong::SlerpPhong;
+pub use slerp_phong_vector::SlerpPhongVector;
+pub use span::SpanBench;
+pub use table::{Entry, METHODS, MethodError, Variant};
+
+use crate::frame::{Frame, Polygon};
+use crate::lighting::Lighting;
+use crate::number::{Machine, Num, Real};
+use crate::walk::{Attribute, Walk};
+
+/// The corners of one polygon, for what a shader computes once a polygon.
+#[derive(Debug)]
+pub struct Corners<'a, M, A> {
+    pub(crate) machine: M,
+    pub(crate) frame: &'a Frame,
+    pub(crate) polygon: &'a Polygon,
+    pub(crate) attributes: &'a [A],
+}
+
+impl<M: Machine, A: Copy> Corners<'_, M, A> {
+    /// The unit normal by Newell's formula (L21 1.1).
+    #[inline(always)]
+    pub fn normal(&self) -> [M::One; 3] {
+        self.polygon.normal.map(|n| self.machine.one(n))
+    }
+
+    /// How many corners there are, three or more.
+    #[allow(clippy::len_without_is_empty)] // never empty
+    pub fn len(&self) -> usize {
+        self.polygon.count as usize
+    }
+
+    /// Column and row of corner `i` on the picture, in pixels.
+    pub fn position(&self, i: usize) -> [M::One; 2] {
+        let vertex = &self.frame.vertices()[self.frame.corners(self.polygon)[i] as usize];
+        [self.machine.one(vertex.x.to_num()), self.machine.one(vertex.y.to_num())]
+    }
+
+    /// The attribute of corner `i`.
+    pub fn attribute(&self, i: usize) -> A {
+        self.attributes[self.frame.corners(self.polygon)[i] as usize]
+    }
+}
+
+/// Where a walk along a span starts.
+#[derive(Clone, Copy, Debug)]
+pub struct Span<R, S> {
+    /// Column of the centre of the first pixel.
+    pub x: R,
+    /// Row of the centre of the first pixel.
+    pub y: R,
+    /// The attribute there, and how it goes on.
+    pub attribute: S,
+}
+
+/// The span of a shader's attribute.
+pub type SpanOf<S, R> = Span<R, <<S as Shader>::Attribute<R> as Attribute<R>>::Span>;
+
+/// A shading method for a fixed number of lights: what it computes at each of four rates.
+///
+/// Every function must be `#[inline(always)]`: one that is not costs a call a pixel.
+pub trait Shader: 'static {
+    /// Lights, material and parameters, made once a material.
+    type Consts<N: Num>: Copy;
+    /// What is walked along edges.
+    type Attribute<R: Real>: Attribute<R>;
+    /// What holds over one polygon.
+    type Polygon<R: Real>: Copy;
+    /// What is walked along one visible run of a span.
+    type Walk<M: Machine>: Walk<Out = Self::Pixel<M::F>>;
+    /// What the walk gives to each pixel: numbers, arrays and tuples of them.
+    type Pixel<F: Num>: Copy;
+
+    /// Constants from the light on one material; `parameters` are in the order of [`Info::parameters`].
+    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> Self::Consts<N>;
+    /// Once a vertex, from its unit normal.
+    fn vertex<R: Real>(c: &Self::Consts<R>, normal: [R; 3]) -> Self::Attribute<R>;
+    /// Once a polygon.
+    fn polygon<M: Machine>(
+        c: &Self::Consts<M::One>,
+        corners: &Corners<'_, M, Self::Attribute<M::One>>,
+    ) -> Self::Polygon<M::One>;
+    /// Once a visible run.
+    fn walk<M: Machine>(
+        m: M,
+        c: &Self::Consts<M::One>,
+        polygon: &Self::Polygon<M::One>,
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M>
+    where
+        Self: Sized;
+    /// Once a pixel: linear red, green and blue, not yet clamped.
+    fn shade<F: Num>(c: &Self::Consts<F>, pixel: Self::Pixel<F>) -> [F; 3];
+}
+
+/// A shading method: what is said about it, and its shader for every number of lights.
+pub trait Method: 'static {
+    /// What is said about it.
+    const INFO: Info;
+    /// Its shader when attributes are linear on the screen.
+    type Screen<const L: usize>: Shader;
+    /// Its shader when attributes are linear in space: they come weighted by 1/w.
+    type Perspective<const L: usize>: Shader;
+}

@@ -1,0 +1,98 @@
+//! Slerp Phong shading with scalars: `J` and `K` by incremental sines and cosines (L21 4.4, summary c).
+
+use super::illumination::Illumination;
+use super::{Corners, Info, Method, Perspective, Shader, SpanOf};
+use crate::lighting::Lighting;
+use crate::number::{Machine, Num, Real, each};
+use crate::reference::Model;
+use crate::walk::{Sines, UnitNormal, Walk};
+
+/// Slerp Phong shading, scalar form: unit normals walk great circles along the edges; along a span only `J = L·N` and
+/// `K = V·N` are formed, from sines stepped by (4.9)–(4.12). No root and no division a pixel.
+#[derive(Debug)]
+pub struct SlerpPhong;
+
+impl Method for SlerpPhong {
+    const INFO: Info = Info {
+        name: "slerp-phong",
+        title: "J = L.N and K = V.N along great circles, by incremental sines and cosines",
+        formula: "J(t) = sin((1-t)phi)/sin(phi) L.N1 + sin(t phi)/sin(phi) L.N2, K likewise; sines by eq 4.9-4.12\n\
+                  I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
+        source: "L21 4.4, eq 4.7-4.12, summary c",
+        model: Model::Slerp,
+        tolerance: 1e-3,
+        derivation: "",
+        fails: "on short spans, which pay one inverse tangent, three pairs of sine and cosine, two roots and a \
+                division each; on triangles the picture depends on how they lie; opposite normals have no great circle",
+        parameters: &[],
+        perspective: Perspective::ScreenOnly,
+        barycentric: false,
+    };
+    type Screen<const L: usize> = Of<L>;
+    type Perspective<const L: usize> = Of<L>;
+}
+
+/// Slerp Phong shading with `L` lights.
+#[derive(Debug)]
+pub struct Of<const L: usize>;
+
+/// `J` of each light and `K` along a great circle: the ends, divided by sin φ, and the weights between them.
+#[derive(Clone, Copy, Debug)]
+pub struct Cosines<F, const L: usize> {
+    sines: Sines<F>,
+    j: [[F; 2]; L],
+    k: [F; 2],
+}
+
+impl<F: Num, const L: usize> Walk for Cosines<F, L> {
+    type Out = ([F; L], F);
+
+    #[inline(always)]
+    fn next(&mut self) -> Self::Out {
+        let (from, to) = self.sines.next(); // 4.9–4.12
+        let j = each(
+            #[inline(always)]
+            |i| from * self.j[i][0] + to * self.j[i][1],
+        );
+        (j, from * self.k[0] + to * self.k[1])
+    }
+}
+
+impl<const L: usize> Shader for Of<L> {
+    type Consts<N: Num> = Illumination<N, L>;
+    type Attribute<R: Real> = UnitNormal<R>;
+    type Polygon<R: Real> = ();
+    type Walk<M: Machine> = Cosines<M::F, L>;
+    type Pixel<F: Num> = ([F; L], F);
+
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Illumination<N, L> {
+        Illumination::new(lighting, of)
+    }
+    #[inline(always)]
+    fn vertex<R: Real>(_: &Illumination<R, L>, normal: [R; 3]) -> UnitNormal<R> {
+        UnitNormal(normal)
+    }
+    #[inline(always)]
+    fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, UnitNormal<M::One>>) {}
+    #[inline(always)]
+    fn walk<M: Machine>(m: M, c: &Illumination<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+        let arc = &span.attribute;
+        let (from, to) = (c.light_cosines(arc.from), c.light_cosines(arc.to));
+        Cosines {
+            sines: Sines::new(m, arc.phi, arc.t0, arc.dt),
+            j: each(
+                #[inline(always)]
+                |i| [m.splat(from[i]), m.splat(to[i])],
+            ),
+            k: [m.splat(c.view_cosine(arc.from)), m.splat(c.view_cosine(arc.to))],
+        }
+    }
+    #[inline(always)]
+    fn shade<F: Num>(c: &Illumination<F, L>, (j, k): Self::Pixel<F>) -> [F; 3] {
+        let twice_k = c.two() * k;
+        c.colour(
+            #[inline(always)]
+            |i| (j[i], twice_k * j[i] - c.light_view(i)), // 4.5
+        )
+    }
+}

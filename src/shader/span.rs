@@ -1,0 +1,79 @@
+//! One span on its own: what benches measure to tell set-up from pixels.
+
+use super::dispatch::{Job, dispatch};
+use super::{Corners, Method, Shader, Span};
+use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use crate::lighting::{Light, Lighting, Material};
+use crate::number::{Machine, Scalar, each};
+use crate::scene::Interpolation;
+use crate::walk::{Attribute, Walk};
+use glam::DVec3;
+
+/// A span between two unit normals, lit by some lights.
+#[derive(Clone, Debug)]
+pub struct SpanBench {
+    frame: Frame,
+}
+
+impl SpanBench {
+    /// A span whose end normals enclose `degrees`, facing the viewer, with `lights` lights in front of it (at most
+    /// [`crate::scene::Scene::MAX_LIGHTS`] are used) and the default material.
+    pub fn new(degrees: f32, lights: usize) -> Self {
+        let view = DVec3::Z;
+        let lights: alloc::vec::Vec<Light> = (0..lights.min(crate::scene::Scene::MAX_LIGHTS))
+            .map(|i| {
+                let angle = i as f64;
+                let direction = DVec3::new(0.5 * libm::cos(angle), 0.5 * libm::sin(angle), 1.0).normalize();
+                Light { direction, colour: [0.9, 0.8, 0.7] }
+            })
+            .collect();
+        let half = degrees.to_radians() / 2.0;
+        let (sin, cos) = libm::sincosf(half);
+        let mut builder = FrameBuilder::new(1, 1);
+        let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &lights, view));
+        for (x, y, normal) in [(0, 0, [-sin, 0.0, cos]), (1, 0, [sin, 0.0, cos]), (0, 1, [0.0, sin, cos])] {
+            let (x, y) = (SubPixel::from_num(x), SubPixel::from_num(y));
+            builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal, material });
+        }
+        builder.polygon(&[0, 1, 2], [0.0, 0.0, 1.0], 0);
+        let frame = builder.finish().expect("one triangle, in range");
+        SpanBench { frame }
+    }
+
+    pub(super) fn frame(&self) -> &Frame {
+        &self.frame
+    }
+}
+
+/// Shades the span into `out`: vertices and span set-up as the engine does them, then every pixel.
+pub(super) fn shade<D: Method>(parameters: &[u32], bench: &SpanBench, out: &mut [[f32; 3]]) {
+    struct Shade<'a>(&'a [u32], &'a Frame, &'a mut [[f32; 3]]);
+    impl Job for Shade<'_> {
+        type Out = ();
+        fn run<S: Shader>(self) {
+            run::<S, Scalar>(Scalar, self.0, self.1, self.2);
+        }
+    }
+    dispatch::<D, _>(bench.frame.light_count(), Interpolation::Screen, Shade(parameters, &bench.frame, out));
+}
+
+#[inline(always)]
+fn run<S: Shader, M: Machine>(m: M, parameters: &[u32], frame: &Frame, out: &mut [[f32; 3]]) {
+    let one = |x: f32| m.one(x);
+    let lighting = &frame.lightings()[0];
+    let consts = S::consts(lighting, parameters, one);
+    let wide = S::consts(lighting, parameters, |x| m.splat(m.one(x)));
+    let polygon = &frame.polygons()[0];
+    let corner: [_; 3] = each(|i| S::vertex(&consts, frame.vertices()[i].normal.map(one)));
+    let corners = Corners { machine: m, frame, polygon, attributes: &corner };
+    let over_polygon = S::polygon(&consts, &corners);
+    let dt = 1.0 / out.len() as f32;
+    let face = polygon.normal.map(one);
+    let attribute = S::Attribute::span(m, face, corner[0], corner[1], m.one(0.5 * dt), m.one(dt));
+    let start = Span { x: m.one(0.5), y: m.one(0.5), attribute };
+    let mut walk = S::walk(m, &consts, &over_polygon, &start);
+    for colour in out {
+        let rgb = S::shade(&wide, walk.next());
+        *colour = each(|i| m.first(rgb[i]));
+    }
+}

@@ -1,0 +1,274 @@
+//! The method table, and a method as a user names it.
+
+use super::count::{self, OperationCounts};
+use super::dispatch::{Job, dispatch};
+use super::span::{self, SpanBench};
+use super::{FastPhong, Flat, Gouraud, Info, Method, NaivePhong, Shader, SlerpPhong, SlerpPhongVector};
+use crate::frame::Frame;
+use crate::number::Scalar;
+use crate::picture::{LinearPicture, Picture8};
+use crate::raster::{Edges, Target, barycentric, linear_picture, picture8, scanline};
+use crate::scene::Encoding;
+use crate::suggest::nearest;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt;
+
+/// All shading methods. A method is one file beside this one, and one line here.
+pub static METHODS: &[Entry] = &[
+    Entry::of::<Flat>(),
+    Entry::of::<Gouraud>(),
+    Entry::of::<NaivePhong>(),
+    Entry::of::<FastPhong>(),
+    Entry::of::<SlerpPhong>(),
+    Entry::of::<SlerpPhongVector>(),
+];
+
+/// A row of the method table: what is said about a method, and what can be done with it.
+#[derive(Clone, Copy)]
+pub struct Entry {
+    /// What is said about it.
+    pub info: &'static Info,
+    draw: fn(&Frame, &[u32], &mut dyn Target),
+    draw_barycentric: Option<fn(&Frame, &[u32], Edges, &mut dyn Target)>,
+    count: fn(&[u32], usize) -> OperationCounts,
+    span: fn(&[u32], &SpanBench, &mut [[f32; 3]]),
+}
+
+impl fmt::Debug for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Entry").field(&self.info.name).finish()
+    }
+}
+
+impl Entry {
+    /// The row of a method, also of one defined outside this crate.
+    pub const fn of<D: Method>() -> Entry {
+        Entry {
+            info: &D::INFO,
+            draw: draw::<D>,
+            draw_barycentric: if D::INFO.barycentric { Some(draw_barycentric::<D>) } else { None },
+            count: count::count::<D>,
+            span: span::shade::<D>,
+        }
+    }
+
+    /// The row called `name`.
+    pub fn named(name: &str) -> Option<&'static Entry> {
+        METHODS.iter().find(|entry| entry.info.name == name)
+    }
+
+    /// The method with its default parameters.
+    pub fn variant(&'static self) -> Variant {
+        Variant { entry: self, parameters: self.info.parameters.iter().map(|p| p.default).collect() }
+    }
+}
+
+fn draw<D: Method>(frame: &Frame, parameters: &[u32], target: &mut dyn Target) {
+    struct Draw<'a>(&'a Frame, &'a [u32], &'a mut dyn Target);
+    impl Job for Draw<'_> {
+        type Out = ();
+        fn run<S: Shader>(self) {
+            scanline::draw::<S, Scalar>(Scalar, self.0, self.1, self.2);
+        }
+    }
+    dispatch::<D, _>(frame.light_count(), frame.interpolation(), Draw(frame, parameters, target));
+}
+
+fn draw_barycentric<D: Method>(frame: &Frame, parameters: &[u32], edges: Edges, target: &mut dyn Target) {
+    struct Draw<'a>(&'a Frame, &'a [u32], Edges, &'a mut dyn Target);
+    impl Job for Draw<'_> {
+        type Out = ();
+        fn run<S: Shader>(self) {
+            barycentric::draw::<S, Scalar>(Scalar, self.0, self.1, self.2, self.3);
+        }
+    }
+    dispatch::<D, _>(frame.light_count(), frame.interpolation(), Draw(frame, parameters, edges, target));
+}
+
+/// A method with values for its parameters: what the lecture calls a variant, as in `fast-phong:steps=1`.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    entry: &'static Entry,
+    parameters: Vec<u32>,
+}
+
+impl Variant {
+    /// The variant that `text` names: `NAME` or `NAME:key=value`, further parameters after further colons.
+    ///
+    /// # Errors
+    /// [`MethodError`] when there is no such method or parameter, or the value is outside its range.
+    pub fn parse(text: &str) -> Result<Variant, MethodError> {
+        let mut parts = text.split(':');
+        let name = parts.next().unwrap_or_default();
+        let entry = Entry::named(name).ok_or_else(|| MethodError::UnknownMethod { name: name.to_string() })?;
+        let mut variant = entry.variant();
+        for part in parts {
+            let (key, value) = part.split_once('=').unwrap_or((part, ""));
+            let place = entry
+                .info
+                .parameters
+                .iter()
+                .position(|p| p.name == key)
+                .ok_or_else(|| MethodError::UnknownParameter { method: entry.info, key: key.to_string() })?;
+            let parameter = &entry.info.parameters[place];
+            let number = value.parse().ok().filter(|n| (parameter.least..=parameter.most).contains(n));
+            variant.parameters[place] = number.ok_or_else(|| MethodError::Value {
+                key: key.to_string(),
+                value: value.to_string(),
+                least: parameter.least,
+                most: parameter.most,
+            })?;
+        }
+        Ok(variant)
+    }
+
+    /// Its row of the method table.
+    pub fn entry(&self) -> &'static Entry {
+        self.entry
+    }
+
+    /// What is said about its method.
+    pub fn info(&self) -> &'static Info {
+        self.entry.info
+    }
+
+    /// The values of its parameters, in the order of [`Info::parameters`].
+    pub fn parameters(&self) -> &[u32] {
+        &self.parameters
+    }
+
+    /// Whether all parameters have their default values.
+    pub fn is_default(&self) -> bool {
+        self.parameters.iter().zip(self.info().parameters).all(|(value, p)| *value == p.default)
+    }
+
+    /// Draws `frame` as a stored picture.
+    pub fn render(&self, frame: &Frame) -> Picture8 {
+        stored(frame, |target| (self.entry.draw)(frame, &self.parameters, target))
+    }
+
+    /// Draws `frame` before rounding: linear channels, clamped to 0..=1.
+    pub fn render_linear(&self, frame: &Frame) -> LinearPicture {
+        let mut picture = linear_picture(frame);
+        (self.entry.draw)(frame, &self.parameters, &mut picture);
+        picture
+    }
+
+    /// Draws the triangles of `frame` with the barycentric renderer; `None` when it does not have this method.
+    pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
+        let draw = self.entry.draw_barycentric?;
+        Some(stored(frame, |target| draw(frame, &self.parameters, edges, target)))
+    }
+
+    /// As [`Variant::render_barycentric`], before rounding.
+    pub fn render_barycentric_linear(&self, frame: &Frame, edges: Edges) -> Option<LinearPicture> {
+        let draw = self.entry.draw_barycentric?;
+        let mut picture = linear_picture(frame);
+        draw(frame, &self.parameters, edges, &mut picture);
+        Some(picture)
+    }
+
+    /// How many operations of each kind it takes, counted by running it on numbers that count.
+    pub fn operations(&self, lights: usize) -> OperationCounts {
+        (self.entry.count)(&self.parameters, lights)
+    }
+
+    /// Shades one span into `out`: the set-up and as many pixels as `out` has.
+    pub fn shade_span(&self, bench: &SpanBench, out: &mut [[f32; 3]]) {
+        (self.entry.span)(&self.parameters, bench, out);
+    }
+}
+
+/// A stored picture, in the frame's encoding. Pictures without a transfer function are stored line by line as they are
+/// drawn; others are drawn in full precision first.
+fn stored(frame: &Frame, draw: impl FnOnce(&mut dyn Target)) -> Picture8 {
+    match frame.encoding() {
+        Encoding::Linear => {
+            let mut picture = picture8(frame);
+            draw(&mut picture);
+            picture
+        }
+        Encoding::Srgb => {
+            let mut picture = linear_picture(frame);
+            draw(&mut picture);
+            picture.map(|texel| crate::encoding::store(texel, Encoding::Srgb))
+        }
+    }
+}
+
+impl fmt::Display for Variant {
+    /// The name, and those parameters that differ from their defaults.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.info().name)?;
+        for (value, parameter) in self.parameters.iter().zip(self.info().parameters) {
+            if *value != parameter.default {
+                write!(f, ":{}={value}", parameter.name)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Why a text names no variant.
+#[derive(Clone, Debug)]
+pub enum MethodError {
+    /// There is no such method.
+    UnknownMethod {
+        /// The name given.
+        name: String,
+    },
+    /// The method has no such parameter.
+    UnknownParameter {
+        /// What is said about the method.
+        method: &'static Info,
+        /// The name given.
+        key: String,
+    },
+    /// The value is not a whole number in its range.
+    Value {
+        /// The parameter.
+        key: String,
+        /// The value given.
+        value: String,
+        /// The smallest value allowed.
+        least: u32,
+        /// The largest value allowed.
+        most: u32,
+    },
+}
+
+impl fmt::Display for MethodError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            MethodError::UnknownMethod { name } => {
+                write!(f, "unknown method `{name}`")?;
+                let names = || METHODS.iter().map(|entry| entry.info.name);
+                if let Some(near) = nearest(name, names()) {
+                    return write!(f, ": did you mean `{near}`?");
+                }
+                write!(f, ": expected one of ")?;
+                list(f, names())
+            }
+            MethodError::UnknownParameter { method, key } if method.parameters.is_empty() => {
+                write!(f, "method `{}` has no parameters, so `{key}` means nothing", method.name)
+            }
+            MethodError::UnknownParameter { method, key } => {
+                write!(f, "method `{}` has no parameter `{key}`: expected one of ", method.name)?;
+                list(f, method.parameters.iter().map(|p| p.name))
+            }
+            MethodError::Value { key, value, least, most } => {
+                write!(f, "`{key}={value}`: expected a whole number from {least} to {most}")
+            }
+        }
+    }
+}
+
+fn list<'a>(f: &mut fmt::Formatter<'_>, names: impl Iterator<Item = &'a str>) -> fmt::Result {
+    for (i, name) in names.enumerate() {
+        write!(f, "{}`{name}`", if i == 0 { "" } else { ", " })?;
+    }
+    Ok(())
+}
+
+impl core::error::Error for MethodError {}

@@ -1,0 +1,294 @@
+//! What is walked along edges: affine values by a constant step, unit normals along great circles.
+
+use super::Sines;
+use crate::number::{Machine, Real, dot, each};
+
+/// A value at a corner, and how it varies along an edge and between two edges.
+///
+/// `t0` and `dt` are the parameter at the first scanline (pixel) centre and its step; `face` is the unit normal of the
+/// polygon, for values that need a way out where interpolation is undefined.
+pub trait Attribute<R: Real>: Copy {
+    /// Running state along an edge.
+    type Edge: Copy;
+    /// What a span shader starts from.
+    type Span: Copy;
+
+    /// Starts the walk from `a` (upper end) to `b` (lower end).
+    fn edge<M: Machine<One = R>>(m: M, face: [R; 3], a: Self, b: Self, t0: R, dt: R) -> Self::Edge;
+    /// The value here.
+    fn at(edge: &Self::Edge) -> Self;
+    /// To the next scanline.
+    fn advance(edge: &mut Self::Edge);
+    /// Starts a span from `left` to `right`.
+    fn span<M: Machine<One = R>>(m: M, face: [R; 3], left: Self, right: Self, t0: R, dt: R) -> Self::Span;
+    /// Times the weight of perspective interpolation; attributes that cannot be weighted stay as they are.
+    fn weighted(self, inv_w: R) -> Self;
+    /// A span of one pixel at barycentric coordinates `w`, for the barycentric renderer.
+    fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Self::Span;
+}
+
+/// Values that can be added and scaled: numbers, arrays and tuples of them.
+pub trait Affine<R: Real>: Copy {
+    /// The sum.
+    fn plus(self, other: Self) -> Self;
+    /// The difference.
+    fn minus(self, other: Self) -> Self;
+    /// The multiple.
+    fn times(self, factor: R) -> Self;
+}
+
+impl<R: Real> Affine<R> for R {
+    #[inline(always)]
+    fn plus(self, other: R) -> R {
+        self + other
+    }
+    #[inline(always)]
+    fn minus(self, other: R) -> R {
+        self - other
+    }
+    #[inline(always)]
+    fn times(self, factor: R) -> R {
+        self * factor
+    }
+}
+
+impl<R: Real, const L: usize> Affine<R> for [R; L] {
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        each(|i| self[i] + other[i])
+    }
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        each(|i| self[i] - other[i])
+    }
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        each(|i| self[i] * factor)
+    }
+}
+
+impl<R: Real> Affine<R> for () {
+    #[inline(always)]
+    fn plus(self, _: ()) {}
+    #[inline(always)]
+    fn minus(self, _: ()) {}
+    #[inline(always)]
+    fn times(self, _: R) {}
+}
+
+impl<R: Real, A: Affine<R>, B: Affine<R>> Affine<R> for (A, B) {
+    #[inline(always)]
+    fn plus(self, o: Self) -> Self {
+        (self.0.plus(o.0), self.1.plus(o.1))
+    }
+    #[inline(always)]
+    fn minus(self, o: Self) -> Self {
+        (self.0.minus(o.0), self.1.minus(o.1))
+    }
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        (self.0.times(factor), self.1.times(factor))
+    }
+}
+
+impl<R: Real, A: Affine<R>, B: Affine<R>, C: Affine<R>> Affine<R> for (A, B, C) {
+    #[inline(always)]
+    fn plus(self, o: Self) -> Self {
+        (self.0.plus(o.0), self.1.plus(o.1), self.2.plus(o.2))
+    }
+    #[inline(always)]
+    fn minus(self, o: Self) -> Self {
+        (self.0.minus(o.0), self.1.minus(o.1), self.2.minus(o.2))
+    }
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        (self.0.times(factor), self.1.times(factor), self.2.times(factor))
+    }
+}
+
+/// An affine value here, and by how much it grows in a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Ramp<A> {
+    /// The value here.
+    pub at: A,
+    /// Its growth in a step.
+    pub step: A,
+}
+
+/// An attribute that is interpolated linearly.
+///
+/// ```text
+/// ΔI = (I_2 − I_1) / (y_2 − y_1)  along edges,   ΔI = (I_2 − I_1) / (x_2 − x_1)  along scan lines      (L21 3.5, 4.1)
+/// I_next = I_current + ΔI                                                                              (L21 3.6, 4.2)
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Lerp<A>(pub A);
+
+#[inline(always)]
+fn ramp<R: Real, A: Affine<R>>(a: A, b: A, t0: R, dt: R) -> Ramp<A> {
+    let difference = b.minus(a);
+    Ramp { at: a.plus(difference.times(t0)), step: difference.times(dt) } // 3.5, 4.1
+}
+
+impl<R: Real, A: Affine<R>> Attribute<R> for Lerp<A> {
+    type Edge = Ramp<A>;
+    type Span = Ramp<A>;
+
+    #[inline(always)]
+    fn edge<M: Machine<One = R>>(_: M, _: [R; 3], a: Self, b: Self, t0: R, dt: R) -> Ramp<A> {
+        ramp(a.0, b.0, t0, dt)
+    }
+    #[inline(always)]
+    fn at(edge: &Ramp<A>) -> Self {
+        Lerp(edge.at)
+    }
+    #[inline(always)]
+    fn advance(edge: &mut Ramp<A>) {
+        edge.at = edge.at.plus(edge.step); // 3.6, 4.2
+    }
+    #[inline(always)]
+    fn span<M: Machine<One = R>>(_: M, _: [R; 3], left: Self, right: Self, t0: R, dt: R) -> Ramp<A> {
+        ramp(left.0, right.0, t0, dt)
+    }
+    #[inline(always)]
+    fn weighted(self, inv_w: R) -> Self {
+        Lerp(self.0.times(inv_w))
+    }
+    #[inline(always)]
+    fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Ramp<A> {
+        let [a, b, c] = corners;
+        let at = a.0.times(w[0]).plus(b.0.times(w[1])).plus(c.0.times(w[2]));
+        Ramp { at, step: at.times(m.one(0.0)) }
+    }
+}
+
+/// A unit normal: interpolated along the great circle, at uniform speed (L21 4.7).
+#[derive(Clone, Copy, Debug)]
+pub struct UnitNormal<R>(pub [R; 3]);
+
+/// The great circle from one unit normal to another, ready for the weights of [`Sines`].
+///
+/// ```text
+/// N(t) = sin((1−t)φ) / sin φ · N_1 + sin(tφ) / sin φ · N_2,      cos φ = N_1 · N_2      (L21 4.7, 4.8)
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Arc<R> {
+    /// N_1 / sin φ.
+    pub from: [R; 3],
+    /// N_2 / sin φ.
+    pub to: [R; 3],
+    /// The angle φ between them, in radians.
+    pub phi: R,
+    /// The parameter at the first pixel centre.
+    pub t0: R,
+    /// Its step from pixel to pixel.
+    pub dt: R,
+}
+
+impl<R: Real> Arc<R> {
+    /// Below this angle, in radians, the circle is replaced by its chord: the weights are those of this angle, which
+    /// differ from linear ones by less than φ²/16, 6·10⁻⁸, about half a unit in the last place of an `f32`.
+    pub const SMALLEST_ANGLE: f32 = 1e-3;
+    /// Beyond this angle (179°) the great circle is not defined by its ends: the face normal takes its place.
+    pub const LARGEST_ANGLE: f32 = 179.0 * core::f32::consts::PI / 180.0;
+
+    #[inline(always)]
+    fn new<M: Machine<One = R>>(m: M, face: [R; 3], a: [R; 3], b: [R; 3], t0: R, dt: R) -> Self {
+        let (sum, difference): ([R; 3], [R; 3]) = (a.plus(b), b.minus(a));
+        let (cos_half, sin_half) = (dot(sum, sum).sqrt(), dot(difference, difference).sqrt());
+        // φ = cos⁻¹(N_1 · N_2) as printed loses half of its digits near 0 and near π; the half-angle form does not.
+        let half = sin_half.atan2(cos_half);
+        let phi = half + half;
+        let (a, b, phi, sin_phi) = if phi.value() > Self::LARGEST_ANGLE {
+            let phi = m.one(Self::SMALLEST_ANGLE);
+            (face, face, phi, phi)
+        } else if phi.value() < Self::SMALLEST_ANGLE {
+            let phi = m.one(Self::SMALLEST_ANGLE);
+            (a, b, phi, phi)
+        } else {
+            // sin φ = 2 sin(φ/2) cos(φ/2), and |b − a| = 2 sin(φ/2), |a + b| = 2 cos(φ/2) for unit vectors.
+            (a, b, phi, m.one(0.5) * sin_half * cos_half)
+        };
+        let scale = m.one(1.0) / sin_phi;
+        Arc { from: a.times(scale), to: b.times(scale), phi, t0, dt }
+    }
+}
+
+/// A great circle on its way down an edge.
+#[derive(Clone, Copy, Debug)]
+pub struct ArcWalk<R> {
+    from: [R; 3],
+    to: [R; 3],
+    sines: Sines<R>,
+}
+
+impl<R: Real> Attribute<R> for UnitNormal<R> {
+    type Edge = ArcWalk<R>;
+    type Span = Arc<R>;
+
+    #[inline(always)]
+    fn edge<M: Machine<One = R>>(m: M, face: [R; 3], a: Self, b: Self, t0: R, dt: R) -> ArcWalk<R> {
+        let arc = Arc::new(m, face, a.0, b.0, t0, dt);
+        ArcWalk { from: arc.from, to: arc.to, sines: Sines::new(SetUp(m), arc.phi, t0, dt) }
+    }
+    #[inline(always)]
+    fn at(edge: &ArcWalk<R>) -> Self {
+        let (s_from, s_to) = edge.sines.weights();
+        UnitNormal(edge.from.times(s_from).plus(edge.to.times(s_to))) // 4.8
+    }
+    #[inline(always)]
+    fn advance(edge: &mut ArcWalk<R>) {
+        edge.sines.step(); // 4.9–4.12
+    }
+    #[inline(always)]
+    fn span<M: Machine<One = R>>(m: M, face: [R; 3], left: Self, right: Self, t0: R, dt: R) -> Arc<R> {
+        Arc::new(m, face, left.0, right.0, t0, dt)
+    }
+    #[inline(always)]
+    fn weighted(self, _: R) -> Self {
+        // The increments of a great circle are constant on the screen only: slerp stays screen-linear.
+        self
+    }
+    #[inline(always)]
+    fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Arc<R> {
+        let [a, b, c] = corners;
+        let sum: [R; 3] = a.0.times(w[0]).plus(b.0.times(w[1])).plus(c.0.times(w[2]));
+        let unit = sum.times(m.one(1.0) / dot(sum, sum).sqrt());
+        Arc::new(m, unit, unit, unit, m.one(0.0), m.one(0.0))
+    }
+}
+
+/// The set-up of a machine as a machine of its own: walks along edges run on `One`, one scanline at a time.
+#[derive(Clone, Copy)]
+struct SetUp<M>(M);
+
+impl<M: Machine> Machine for SetUp<M> {
+    type One = M::One;
+    type F = M::One;
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn one(self, x: f32) -> M::One {
+        self.0.one(x)
+    }
+    #[inline(always)]
+    fn splat(self, x: M::One) -> M::One {
+        x
+    }
+    #[inline(always)]
+    fn ramp(self, at: M::One, _: M::One) -> M::One {
+        at
+    }
+    #[inline(always)]
+    fn stride(self, step: M::One) -> M::One {
+        step
+    }
+    #[inline(always)]
+    fn take(self, mut next: impl FnMut() -> M::One) -> M::One {
+        next()
+    }
+    #[inline(always)]
+    fn first(self, x: M::One) -> f32 {
+        x.value()
+    }
+}
