@@ -9,3 +9,4 @@ pub mod lighting;
 pub mod mesh;
 pub mod picture;
 pub mod scene;
+pub mod suggest;
