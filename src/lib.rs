@@ -5,12 +5,14 @@ extern crate alloc;
 extern crate std;
 
 pub mod camera;
+mod clip;
 pub mod encoding;
 pub mod frame;
 pub mod lighting;
 pub mod mesh;
 pub mod number;
 pub mod picture;
+mod projection;
 pub mod raster;
 pub mod reference;
 pub mod scene;

@@ -2,6 +2,7 @@
 
 pub mod newell;
 pub mod vertex_normals;
+pub mod weld;
 
 use crate::lighting::Material;
 use alloc::vec::Vec;

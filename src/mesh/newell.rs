@@ -1,6 +1,7 @@
-//! Polygon normals by Newell's formula (L21 1.1).
+//! Polygon normals by Newell's formula (L21 1.1), and when a polygon has none.
 
-use glam::DVec3;
+use super::PolygonMesh;
+use glam::{DVec3, Vec3};
 
 /// The normal of a polygon by Newell's formula, taken about its first corner, in `f64`.
 ///
@@ -10,7 +11,8 @@ use glam::DVec3;
 ///
 /// The sum does not depend on the origin in exact arithmetic; about a corner it does not cancel for polygons far from
 /// the origin. Collinear corners add nothing. The result is zero when the polygon has no normal: fewer than three
-/// corners, all of them collinear, or lobes whose areas cancel.
+/// corners, all of them collinear, or lobes whose areas cancel. Rounded corners may leave a remainder instead:
+/// [`polygon_normal`] knows how large it can be.
 pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let mut corners = corners.into_iter();
     let Some(origin) = corners.next() else { return DVec3::ZERO };
@@ -22,4 +24,162 @@ pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
         previous = current;
     }
     normal
+}
+
+/// The normal of polygon `p` by Newell's formula: twice its area long, zero when the polygon has no normal.
+///
+/// A polygon has a normal if rounding its corners to `f32` cannot have made it. Moving each corner by at most `δ` (half
+/// an `f32` step of the largest coordinate, for each axis) changes (L21 1.1) by `Σ δ_k × (P_{k+1} − P_{k−1})` to first
+/// order, so along x by at most
+///
+/// ```text
+/// δ_y Σ |z_{k+1} − z_{k−1}| + δ_z Σ |y_{k+1} − y_{k−1}|
+/// ```
+///
+/// and alike along y and z. A sum no longer than that bound is what collinear points may leave, and counts as zero. The
+/// rounding of the sum itself in `f64` is smaller, 2⁻⁵³ against 2⁻²⁵, for any polygon below 2²⁶ corners.
+pub fn polygon_normal(mesh: &PolygonMesh, p: usize) -> DVec3 {
+    let positions = mesh.positions();
+    let corners = mesh.polygon(p);
+    let normal = newell(corners.iter().map(|&c| positions[c as usize].as_dvec3()));
+    let bound = input_rounding(positions, corners);
+    // Written so that a bound or a sum that is not a number counts as no normal.
+    if normal.length_squared() > bound.length_squared() { normal } else { DVec3::ZERO }
+}
+
+/// The unit vector along `normal`, or `None` for zero (or a vector that is not finite).
+///
+/// Cross products of `f32` vectors, and of their differences, are between 1e-90 and 1e77 long, so that the square
+/// neither underflows nor overflows.
+pub fn unit_normal(normal: DVec3) -> Option<DVec3> {
+    let square = normal.length_squared();
+    (square > 0.0 && square < f64::INFINITY).then(|| normal / libm::sqrt(square))
+}
+
+/// How far rounding every corner to `f32` can have moved the sum of Newell's formula, along each axis.
+fn input_rounding(positions: &[Vec3], corners: &[u32]) -> DVec3 {
+    let corner = |k: usize| positions[corners[k] as usize];
+    let (Some(last), true) = (corners.len().checked_sub(1), corners.len() >= 3) else { return DVec3::ZERO };
+    let mut largest = Vec3::ZERO;
+    let mut spread = DVec3::ZERO;
+    let (mut before, mut here) = (corner(last), corner(0));
+    for k in 0..corners.len() {
+        let after = corner(if k == last { 0 } else { k + 1 });
+        largest = largest.max(here.abs());
+        spread += (after.as_dvec3() - before.as_dvec3()).abs();
+        (before, here) = (here, after);
+    }
+    let delta = DVec3::new(half_step(largest.x), half_step(largest.y), half_step(largest.z));
+    DVec3::new(
+        delta.y * spread.z + delta.z * spread.y,
+        delta.z * spread.x + delta.x * spread.z,
+        delta.x * spread.y + delta.y * spread.x,
+    )
+}
+
+/// Half the distance between neighbouring `f32` numbers around `x`: the most that rounding to nearest moves it.
+fn half_step(x: f32) -> f64 {
+    const EXPONENT: u32 = 0x7f80_0000;
+    const HALF_STEP_OF_ONE: f64 = 1.0 / (1u32 << 24) as f64;
+    // With the fraction cleared, the power of two below |x|; zero for zero and subnormals, whose step is far below all.
+    f32::from_bits(x.to_bits() & EXPONENT) as f64 * HALF_STEP_OF_ONE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::MeshBuilder;
+    use alloc::vec::Vec;
+
+    fn mesh_of(points: &[Vec3]) -> PolygonMesh {
+        let mut builder = MeshBuilder::new(points.to_vec());
+        builder.polygon(&(0..points.len() as u32).collect::<Vec<_>>());
+        builder.finish().expect("a polygon")
+    }
+
+    fn normal_of(points: &[[f32; 3]]) -> DVec3 {
+        let points: Vec<Vec3> = points.iter().map(|&p| Vec3::from(p)).collect();
+        polygon_normal(&mesh_of(&points), 0)
+    }
+
+    const SQUARE: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+    #[test]
+    fn length_is_twice_the_area_from_any_first_corner_and_either_side() {
+        for first in 0..4 {
+            let mut square = SQUARE;
+            square.rotate_left(first);
+            assert_eq!(normal_of(&square), DVec3::new(0.0, 0.0, 2.0));
+            square.reverse();
+            assert_eq!(normal_of(&square), DVec3::new(0.0, 0.0, -2.0));
+        }
+        let upright = SQUARE.map(|[x, y, z]| [z, x, y]);
+        assert_eq!(normal_of(&upright), DVec3::new(2.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn nothing_is_lost_far_from_the_origin() {
+        // Integers below 2^24 are exact in f32, so their differences and this sum are exact too.
+        let far = SQUARE.map(|[x, y, z]| [x + 1e6, y - 1e6, z + 1e6]);
+        assert_eq!(normal_of(&far), DVec3::new(0.0, 0.0, 2.0));
+    }
+
+    #[test]
+    fn concave_polygons_have_their_area() {
+        // An L of three unit squares: its first three corners turn the wrong way at the notch.
+        let l = [[1.0, 1.0, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0]];
+        assert_eq!(normal_of(&l), DVec3::new(0.0, 0.0, 6.0));
+        // Two adjacent edges, as the lecture warns: at the notch their product points to the other side.
+        let notch: Vec<DVec3> = [5, 0, 1].iter().map(|&k: &usize| Vec3::from(l[k]).as_dvec3()).collect();
+        assert!((notch[1] - notch[0]).cross(notch[2] - notch[1]).z < 0.0);
+    }
+
+    #[test]
+    fn collinear_neighbours_do_not_matter() {
+        // The first two edges are parallel: their product is zero where Newell's formula still sees the square.
+        let mut points = SQUARE.to_vec();
+        points.insert(1, [0.5, 0.0, 0.0]);
+        assert_eq!(normal_of(&points), DVec3::new(0.0, 0.0, 2.0));
+        let [a, b, c] = [0, 1, 2].map(|k| Vec3::from(points[k]).as_dvec3());
+        assert_eq!((b - a).cross(c - b), DVec3::ZERO);
+    }
+
+    #[test]
+    fn polygons_without_a_normal_give_zero() {
+        assert_eq!(newell([]), DVec3::ZERO);
+        assert_eq!(newell([DVec3::ONE, DVec3::X]), DVec3::ZERO);
+        let zero: [&[[f32; 3]]; 5] = [
+            &[[1.0, 2.0, 3.0]; 3],
+            &[[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]],
+            &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+            &[[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            &[[1.0, 0.0, 0.0], [1.0, 5.0, 0.0], [1.0, 7.0, 0.0], [1.0, 5.0, 0.0]],
+        ];
+        for points in zero {
+            assert_eq!(normal_of(points), DVec3::ZERO, "{points:?}");
+        }
+    }
+
+    #[test]
+    fn collinear_points_with_rounded_coordinates_have_no_normal() {
+        // In exact arithmetic all of these lie on one line; their f32 coordinates do not, and Newell's sum is not zero.
+        let mut with_remainder = 0;
+        for step in 1..200 {
+            let along = DVec3::new(1.0 / 3.0, 2.0 / 7.0, -1.0 / 11.0) * step as f64;
+            let start = DVec3::new(1e4 + 1.0 / 3.0, -2e3 / 7.0, 5e4 / 9.0);
+            let points: Vec<Vec3> = [0.0, 1.0, 1.7, 0.4].iter().map(|&t| (start + along * t).as_vec3()).collect();
+            with_remainder += usize::from(newell(points.iter().map(|p| p.as_dvec3())) != DVec3::ZERO);
+            assert_eq!(polygon_normal(&mesh_of(&points), 0), DVec3::ZERO, "step {step}");
+        }
+        assert!(with_remainder > 100, "the test asks nothing: only {with_remainder} sums are not zero");
+    }
+
+    #[test]
+    fn unit_normals() {
+        assert_eq!(unit_normal(DVec3::ZERO), None);
+        assert_eq!(unit_normal(DVec3::NAN), None);
+        assert_eq!(unit_normal(DVec3::new(0.0, -3.0, 0.0)), Some(-DVec3::Y));
+        assert_eq!(unit_normal(DVec3::new(0.0, 0.0, 1e-90)), Some(DVec3::Z));
+        assert_eq!(unit_normal(DVec3::new(1e77, 0.0, 0.0)), Some(DVec3::X));
+    }
 }
