@@ -53,3 +53,6 @@ impl<A: Walk, B: Walk, C: Walk> Walk for (A, B, C) {
         (self.0.next(), self.1.next(), self.2.next())
     }
 }
+
+#[cfg(test)]
+mod tests;
