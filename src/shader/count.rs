@@ -1,11 +1,10 @@
 //! How many operations a method takes, counted by running it on numbers that count.
 
-use super::dispatch::{Job, dispatch};
+use super::dispatch::{Job, dispatch_sample};
 use super::span::SpanBench;
 use super::{Corners, Method, Shader, Span};
 use crate::frame::Frame;
 use crate::number::{Counter, Counting, Counts, Machine, each};
-use crate::scene::Interpolation;
 use crate::walk::{Attribute, Walk};
 
 /// The operations of one method at each rate, for a material of shininess 32 (five multiplications a light).
@@ -36,7 +35,7 @@ pub(super) fn count<D: Method>(parameters: &[u32], lights: usize) -> OperationCo
         }
     }
     let bench = SpanBench::new(20.0, lights);
-    dispatch::<D, _>(bench.frame().light_count(), Interpolation::Screen, Count(parameters, bench.frame()))
+    dispatch_sample::<D, _>(lights, Count(parameters, bench.frame()))
 }
 
 fn run<S: Shader>(parameters: &[u32], frame: &Frame) -> OperationCounts {

@@ -1,11 +1,10 @@
 //! One span on its own: what benches measure to tell set-up from pixels.
 
-use super::dispatch::{Job, dispatch};
+use super::dispatch::{Job, dispatch_sample};
 use super::{Corners, Method, Shader, Span};
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Light, Lighting, Material};
 use crate::number::{Machine, Scalar, each};
-use crate::scene::Interpolation;
 use crate::walk::{Attribute, Walk};
 use glam::DVec3;
 
@@ -16,11 +15,11 @@ pub struct SpanBench {
 }
 
 impl SpanBench {
-    /// A span whose end normals enclose `degrees`, facing the viewer, with `lights` lights in front of it (at most
-    /// [`crate::scene::Scene::MAX_LIGHTS`] are used) and the default material.
+    /// A span whose end normals enclose `degrees`, facing the viewer, with one light in front of it (`lights` ≤ 1)
+    /// or four, and the default material.
     pub fn new(degrees: f32, lights: usize) -> Self {
         let view = DVec3::Z;
-        let lights: alloc::vec::Vec<Light> = (0..lights.min(crate::scene::Scene::MAX_LIGHTS))
+        let lights: alloc::vec::Vec<Light> = (0..if lights <= 1 { 1 } else { 4 })
             .map(|i| {
                 let angle = i as f64;
                 let direction = DVec3::new(0.5 * libm::cos(angle), 0.5 * libm::sin(angle), 1.0).normalize();
@@ -54,7 +53,7 @@ pub(super) fn shade<D: Method>(parameters: &[u32], bench: &SpanBench, out: &mut 
             run::<S, Scalar>(Scalar, self.0, self.1, self.2);
         }
     }
-    dispatch::<D, _>(bench.frame.light_count(), Interpolation::Screen, Shade(parameters, &bench.frame, out));
+    dispatch_sample::<D, _>(bench.frame.light_count(), Shade(parameters, &bench.frame, out));
 }
 
 #[inline(always)]

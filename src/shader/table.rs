@@ -169,7 +169,8 @@ impl Variant {
         Some(picture)
     }
 
-    /// How many operations of each kind it takes, counted by running it on numbers that count.
+    /// How many operations of each kind it takes with one light (`lights` ≤ 1) or four, counted by running it on
+    /// numbers that count.
     pub fn operations(&self, lights: usize) -> OperationCounts {
         (self.entry.count)(&self.parameters, lights)
     }
