@@ -5,7 +5,9 @@ extern crate alloc;
 extern crate std;
 
 pub mod camera;
+pub mod encoding;
 pub mod lighting;
 pub mod mesh;
+pub mod metrics;
 pub mod picture;
 pub mod scene;
