@@ -6,6 +6,8 @@ extern crate std;
 
 pub mod camera;
 pub mod encoding;
+#[cfg(feature = "io")]
+pub mod image_file;
 pub mod lighting;
 pub mod mesh;
 pub mod metrics;
