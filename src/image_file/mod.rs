@@ -208,23 +208,37 @@ pub fn read_png(path: &Path) -> Result<Picture8, ImageFileError> {
 /// # Errors
 /// If the bytes are none of the formats, are broken or cut off, or hold more than [`MAX_PIXELS`] pixels.
 pub fn decode_picture(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
-    if bytes.starts_with(&png::SIGNATURE) {
-        let (picture, has_alpha) = png::decode(bytes)?;
-        return Ok(FilePicture { texels: FileTexels::Stored(picture), has_alpha });
-    }
-    let texels = match bytes {
-        [b'P', b'6', ..] => FileTexels::Stored(netpbm::decode_ppm(bytes)?),
-        [b'P', b'F' | b'f', ..] => FileTexels::Linear(netpbm::decode_pfm(bytes)?),
-        _ => return Err(DecodeError::NotAPicture),
+    let (texels, has_alpha) = match announced(bytes).ok_or(DecodeError::NotAPicture)? {
+        Format::Png => {
+            let (picture, has_alpha) = png::decode(bytes)?;
+            (FileTexels::Stored(picture), has_alpha)
+        }
+        Format::Ppm => (FileTexels::Stored(netpbm::decode_ppm(bytes)?), false),
+        Format::Pfm => (FileTexels::Linear(netpbm::decode_pfm(bytes)?), false),
     };
-    Ok(FilePicture { texels, has_alpha: false })
+    Ok(FilePicture { texels, has_alpha })
+}
+
+/// The format that the first bytes of a file announce.
+fn announced(bytes: &[u8]) -> Option<Format> {
+    match bytes {
+        _ if bytes.starts_with(&png::SIGNATURE) => Some(Format::Png),
+        [b'P', b'6', ..] => Some(Format::Ppm),
+        [b'P', b'F' | b'f', ..] => Some(Format::Pfm),
+        _ => None,
+    }
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
     let read = || -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         // One byte more than is allowed, to see that there is more: some files, such as devices, never end.
-        File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+        let mut file = File::open(path)?.take(MAX_BYTES + 1);
+        file.by_ref().take(png::SIGNATURE.len() as u64).read_to_end(&mut bytes)?;
+        // What does not begin like a picture is told by its beginning, and need not be read to its end.
+        if announced(&bytes).is_some() {
+            file.read_to_end(&mut bytes)?;
+        }
         if bytes.len() as u64 > MAX_BYTES {
             return Err(io::Error::new(io::ErrorKind::FileTooLarge, "the file is too large for a picture"));
         }

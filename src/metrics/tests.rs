@@ -163,6 +163,9 @@ fn thresholds_bite_beyond_whole_and_half_levels() {
     assert_eq!(d.coverage_mismatches, 1, "any difference of alpha");
 
     let linear = |c: f32| LinearPicture::new(1, 1, [c, 0.0, 0.0, 1.0]);
+    let levels = |c: f64| Picture::new(1, 1, Levels([c, 0.0, 0.0, 255.0]));
+    assert_eq!(compare(&levels(0.0), &levels(0.5)).unwrap().over_half_level, 0, "half a level is not more than half");
+
     // 0.5/255 = 0.0019607… : on either side of it.
     assert_eq!(compare(&linear(0.0), &linear(0.001_960)).unwrap().over_half_level, 0);
     assert_eq!(compare(&linear(0.0), &linear(0.001_961)).unwrap().over_half_level, 1);
