@@ -32,13 +32,15 @@ pub(super) struct Statements<'a> {
     rest: Option<&'a str>,
     separator: char,
     line: usize,
+    /// Whether any line may be continued: nearly no file has one.
+    backslashes: bool,
 }
 
 impl<'a> Statements<'a> {
     pub(super) fn new(text: &'a str) -> Self {
         // Files from before Mac OS X end lines by a carriage return alone.
         let separator = if text.contains('\n') { '\n' } else { '\r' };
-        Statements { rest: Some(text), separator, line: 0 }
+        Statements { rest: Some(text), separator, line: 0, backslashes: text.contains('\\') }
     }
 
     fn physical_line(&mut self) -> Option<&'a str> {
@@ -55,10 +57,6 @@ impl<'a> Statements<'a> {
 
 /// The part before a `\` at the end of a line, if the line goes on in the next one.
 fn continued(line: &str) -> Option<&str> {
-    // Cheap first: nearly no line is continued.
-    if !line.contains('\\') {
-        return None;
-    }
     without_comment(line).trim_end().strip_suffix('\\')
 }
 
@@ -68,7 +66,8 @@ impl<'a> Iterator for Statements<'a> {
     fn next(&mut self) -> Option<Self::Item> {
         let line = self.physical_line()?;
         let number = self.line;
-        let Some(start) = continued(line) else { return Some((number, Cow::Borrowed(line))) };
+        let start = if self.backslashes { continued(line) } else { None };
+        let Some(start) = start else { return Some((number, Cow::Borrowed(line))) };
         let mut joined = String::from(start);
         while let Some(line) = self.physical_line() {
             joined.push(' ');
@@ -87,7 +86,7 @@ impl<'a> Iterator for Statements<'a> {
 /// The first word of a statement and the rest, both without white space around them.
 pub(super) fn keyword(statement: &str) -> (&str, &str) {
     let statement = statement.trim();
-    match statement.find(char::is_whitespace) {
+    match statement.bytes().position(|byte| byte.is_ascii_whitespace()) {
         Some(at) => (&statement[..at], statement[at..].trim_start()),
         None => (statement, ""),
     }

@@ -7,6 +7,7 @@
 //! `tobj` does the parsing, between a pass that checks the text and knows its lines, and the checks of
 //! [`MeshBuilder`]. What cannot be read is an [`ObjError`]; what can be read only in part is a warning.
 
+mod corner;
 mod error;
 mod lines;
 mod mtl;

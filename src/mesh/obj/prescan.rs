@@ -5,6 +5,7 @@
 //! that is out of range, and starts again with other vertices at each `g`. So it is given positions, normals and faces only,
 //! with absolute indices, as one group; groups, materials and smoothing are followed here.
 
+use super::corner::{Corner, WrittenCorner, push_decimal, resolve};
 use super::error::{ObjProblem, quote};
 use super::lines::{Statements, keyword, without_comment};
 use std::collections::HashMap;
@@ -88,9 +89,6 @@ struct Smoothing {
     /// Faces of another group than the first, or of none by `s off`.
     edges: Tally,
 }
-
-/// A corner as resolved: position and, if given, normal, both counted from 0.
-type Corner = (usize, Option<usize>);
 
 /// Where and what: an error without its path.
 type Failure = (Option<usize>, ObjProblem);
@@ -257,24 +255,14 @@ impl Prescan {
     }
 
     fn corner(&mut self, line: usize, word: &str) -> Result<Corner, ObjProblem> {
-        let bad = || ObjProblem::BadCorner { found: quote(word) };
-        let mut parts = word.split('/');
-        let position = parts.next().and_then(|part| part.parse::<i64>().ok()).ok_or_else(bad)?;
-        let mut optional = || match parts.next() {
-            None | Some("") => Ok(None),
-            Some(part) => part.parse::<i64>().map(Some).map_err(|_| bad()),
-        };
-        let (texture, normal) = (optional()?, optional()?);
-        if parts.next().is_some() {
-            return Err(bad());
-        }
-        if let Some(index) = texture
+        let written = WrittenCorner::read(word)?;
+        if let Some(index) = written.texture
             && (index == 0 || index.unsigned_abs() > self.texture_coordinates as u64)
         {
             self.lost_texture_indices.add(line);
         }
-        let position = resolve("position", position, self.positions, line, &mut self.ahead[0])?;
-        let normal = match normal {
+        let position = resolve("position", written.position, self.positions, line, &mut self.ahead[0])?;
+        let normal = match written.normal {
             Some(index) => Some(resolve("normal", index, self.normals, line, &mut self.ahead[1])?),
             None => None,
         };
@@ -321,44 +309,6 @@ impl Smoothing {
 /// The number of a smoothing group: 0 for `off`, and for what is no number.
 fn smoothing_group(word: &str) -> u64 {
     word.parse().unwrap_or(if word == "on" { 1 } else { 0 })
-}
-
-/// The entry, counted from 0, that `index` names among `count` so far.
-///
-/// A positive index may be ahead of what it names: that is noted in `ahead` and checked at the end of the file.
-fn resolve(
-    what: &'static str,
-    index: i64,
-    count: usize,
-    line: usize,
-    ahead: &mut Vec<(usize, usize)>,
-) -> Result<usize, ObjProblem> {
-    let error = || ObjProblem::IndexOutOfRange { what, index, count };
-    if index <= 0 {
-        let back = usize::try_from(index.unsigned_abs()).map_err(|_| error())?;
-        return if back == 0 || back > count { Err(error()) } else { Ok(count - back) };
-    }
-    let entry = usize::try_from(index - 1).map_err(|_| error())?;
-    if entry >= count && ahead.last().is_none_or(|&(_, largest)| entry > largest) {
-        ahead.push((line, entry));
-    }
-    Ok(entry)
-}
-
-/// Appends `number` in decimal. Ten times as fast as `write!`, and there are as many numbers as corners.
-fn push_decimal(text: &mut String, mut number: usize) {
-    // 20 digits hold every 64-bit number.
-    let mut digits = [0_u8; 20];
-    let mut start = digits.len();
-    loop {
-        start -= 1;
-        digits[start] = b'0' + (number % 10) as u8;
-        number /= 10;
-        if number == 0 {
-            break;
-        }
-    }
-    text.extend(digits[start..].iter().map(|&digit| digit as char));
 }
 
 /// Statements that change nothing in a picture of polygons: names, groups, textures, levels of detail, display.
