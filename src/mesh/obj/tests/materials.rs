@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::lighting::Material;
+use crate::mesh::obj::read_library;
 use std::cell::RefCell;
+use std::path::Path;
 use std::string::ToString;
 use std::vec;
 
@@ -144,4 +146,18 @@ fn a_library_in_latin_1() {
     })
     .unwrap();
     assert_eq!(loaded.mesh.materials()[0].diffuse, [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn where_libraries_are_looked_for() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    // Paths with either separator; the bare name when the path leads nowhere here.
+    for name in ["scenes/vase.mtl", "scenes\\vase.mtl", "src\\..\\scenes\\vase.mtl"] {
+        assert!(read_library(root, name).is_ok(), "{name}");
+    }
+    assert!(read_library(&root.join("scenes"), "C:\\models\\vase.mtl").is_ok());
+    // Neither a directory nor, where there is one, a device that never ends.
+    for name in ["src", "/dev/zero", "", "..", "no.mtl"] {
+        assert!(read_library(root, name).is_err(), "{name}");
+    }
 }
