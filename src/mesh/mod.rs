@@ -1,6 +1,8 @@
 //! Polygon meshes: polygons of any number of sides, concave ones too, never triangulated.
 
 pub mod newell;
+#[cfg(feature = "io")]
+pub mod obj;
 pub mod vertex_normals;
 pub mod weld;
 

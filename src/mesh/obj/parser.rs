@@ -1,0 +1,45 @@
+//! The call of the parser, `tobj`: what it is given, and what its answer is checked for.
+
+use super::prescan::Prescan;
+use std::format;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::string::{String, ToString};
+
+/// Runs the parser. A panic inside it becomes an error: the text it gets is checked first, so this is a last resort.
+pub(super) fn guarded<T>(parse: impl FnOnce() -> Result<T, tobj::LoadError>) -> Result<T, String> {
+    match catch_unwind(AssertUnwindSafe(parse)) {
+        Ok(Ok(parsed)) => Ok(parsed),
+        Ok(Err(error)) => Err(error.to_string()),
+        Err(_) => Err("it panicked".to_string()),
+    }
+}
+
+/// The one model in the text of `scan`, polygons with all their sides, positions and normals with indices of their own.
+pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
+    let options =
+        tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: true, ignore_lines: true };
+    // No `mtllib` reaches the parser, so that this is never asked.
+    let no_library = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
+    let (models, _) = guarded(|| tobj::load_obj_buf(&mut scan.text.as_bytes(), &options, no_library))?;
+    let [model] = <[tobj::Model; 1]>::try_from(models).map_err(|models| format!("{} models", models.len()))?;
+    let mut mesh = model.mesh;
+    if mesh.face_arities.is_empty() {
+        // The parser leaves the list of corner counts out when all polygons are triangles.
+        mesh.face_arities.resize(scan.polygons, 3);
+    }
+    let corners: usize = mesh.face_arities.iter().map(|&n| n as usize).sum();
+    let normals_fit = !scan.has_normals() || mesh.normal_indices.len() == corners;
+    if mesh.face_arities.len() != scan.polygons
+        || corners != scan.corners
+        || mesh.indices.len() != corners
+        || !normals_fit
+    {
+        return Err(format!(
+            "{} polygons with {corners} corners where {} with {} were given",
+            mesh.face_arities.len(),
+            scan.polygons,
+            scan.corners
+        ));
+    }
+    Ok(mesh)
+}

@@ -1,0 +1,33 @@
+//! What the parser does to legal and illegal files was tried on `tobj` 4.0.5; each case that goes wrong has a test here.
+
+mod errors;
+mod fuzz;
+mod geometry;
+mod materials;
+
+use super::{LoadedObj, ObjError, parse_obj};
+use std::string::String;
+use std::vec::Vec;
+use std::{format, io};
+
+/// Five positions: a unit square and a point above its first corner.
+const POINTS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n";
+
+fn parse(text: impl AsRef<[u8]>) -> Result<LoadedObj, ObjError> {
+    parse_obj("t.obj", text.as_ref(), |_| Err(io::ErrorKind::NotFound.into()))
+}
+
+/// Five points, then `text`.
+fn after_points(text: &str) -> LoadedObj {
+    parse(format!("{POINTS}{text}")).unwrap()
+}
+
+fn polygons(loaded: &LoadedObj) -> Vec<Vec<u32>> {
+    loaded.mesh.polygons().map(<[u32]>::to_vec).collect()
+}
+
+/// The only warning.
+fn warning(loaded: &LoadedObj) -> &String {
+    assert_eq!(loaded.warnings.len(), 1, "{:?}", loaded.warnings);
+    &loaded.warnings[0]
+}
