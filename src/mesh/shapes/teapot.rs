@@ -184,3 +184,19 @@ impl Bernstein {
 fn weigh(p: DVec3, a: f64, q: DVec3, b: f64) -> DVec3 {
     p * a + q * b
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_has_the_same_points_from_both_ends() {
+        let edge = PATCHES[0].map(|i| DVec3::from(POINTS[i as usize]))[..4].to_vec();
+        let (forward, backward) = ([edge[0], edge[1], edge[2], edge[3]], [edge[3], edge[2], edge[1], edge[0]]);
+        for n in 1..200 {
+            for k in 0..=n {
+                assert_eq!(Bernstein::at(k, n).point(forward), Bernstein::at(n - k, n).point(backward), "{k}/{n}");
+            }
+        }
+    }
+}
