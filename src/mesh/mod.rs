@@ -1,8 +1,10 @@
 //! Polygon meshes: polygons of any number of sides, concave ones too, never triangulated.
 
+pub mod builtin;
 pub mod newell;
 #[cfg(feature = "io")]
 pub mod obj;
+pub mod shapes;
 pub mod vertex_normals;
 pub mod weld;
 
