@@ -9,4 +9,6 @@ pub mod frame;
 pub mod lighting;
 pub mod mesh;
 pub mod picture;
+pub mod reference;
 pub mod scene;
+pub mod triangulate;
