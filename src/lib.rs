@@ -5,7 +5,9 @@ extern crate alloc;
 extern crate std;
 
 pub mod camera;
+pub mod camera_fit;
 pub mod lighting;
 pub mod mesh;
 pub mod picture;
 pub mod scene;
+pub mod suggest;

@@ -1,0 +1,83 @@
+//! "Did you mean …?": the known word nearest to one that is not known.
+
+use alloc::vec::Vec;
+
+/// The candidate nearest to `word`, if one is near enough to be meant; the first among equally near ones.
+///
+/// Near enough is one slip for each three letters of the longer word, and one slip for shorter ones. Case does not count.
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let word: Vec<char> = word.chars().flat_map(char::to_lowercase).collect();
+    let mut best: Option<(usize, &str)> = None;
+    for candidate in candidates {
+        let letters: Vec<char> = candidate.chars().flat_map(char::to_lowercase).collect();
+        let allowed = (word.len().max(letters.len()) / 3).max(1);
+        // A difference in length alone is that many slips: no need to look closer, however long the word.
+        if word.len().abs_diff(letters.len()) > allowed {
+            continue;
+        }
+        let slips = edit_distance(&word, &letters);
+        if slips <= allowed && best.is_none_or(|(least, _)| slips < least) {
+            best = Some((slips, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// How many letters must be inserted, deleted, replaced or swapped with their neighbour to turn `a` into `b`.
+///
+/// The optimal string alignment distance: Damerau, *A technique for computer detection and correction of spelling
+/// errors*, CACM 7 (1964), where no letter is edited twice.
+fn edit_distance(a: &[char], b: &[char]) -> usize {
+    let mut before = Vec::new();
+    let mut above: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut row = Vec::with_capacity(b.len() + 1);
+        row.push(i + 1);
+        for j in 0..b.len() {
+            let replaced = above[j] + usize::from(a[i] != b[j]);
+            let mut least = replaced.min(above[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                let two_above: &Vec<usize> = &before;
+                least = least.min(two_above[j - 1] + 1);
+            }
+            row.push(least);
+        }
+        before = core::mem::replace(&mut above, row);
+    }
+    above[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn distance(a: &str, b: &str) -> usize {
+        edit_distance(&a.chars().collect::<Vec<_>>(), &b.chars().collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn distances() {
+        for (a, b, slips) in [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("kitten", "sitting", 3),
+            ("teapot", "taepot", 1),
+            ("sphere", "shpere", 1),
+            ("flaw", "lawn", 2),
+            ("torus", "torus", 0),
+        ] {
+            assert_eq!((distance(a, b), distance(b, a)), (slips, slips), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn only_near_words_are_suggested() {
+        let words = ["sphere", "torus", "teapot", "knot"];
+        assert_eq!(nearest("Spheer", words), Some("sphere"));
+        assert_eq!(nearest("taepot", words), Some("teapot"));
+        assert_eq!(nearest("not", words), Some("knot"));
+        assert_eq!(nearest("bunny", words), None);
+        assert_eq!(nearest("", words), None);
+        assert_eq!(nearest("abc", []), None);
+    }
+}
