@@ -11,6 +11,7 @@ use glam::{DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
 use std::format;
 use std::path::PathBuf;
+use std::string::ToString;
 use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
@@ -231,7 +232,7 @@ fn each_mesh_is_loaded_once_from_its_folder() {
     let mut file = SceneFile::parse(text, "some/where/scene.toml").expect("valid");
     let mut asked = Vec::new();
     let mut load = |spec: &str, folder: &std::path::Path| {
-        asked.push((format!("{spec}"), PathBuf::from(folder)));
+        asked.push((spec.to_string(), PathBuf::from(folder)));
         Ok((Arc::new(cube()), vec![format!("odd {spec}")]))
     };
     let resolved = file.resolve(&mut load).expect("valid");
@@ -241,7 +242,7 @@ fn each_mesh_is_loaded_once_from_its_folder() {
     file.object[2].mesh = Located::flag("a.obj".into(), "MESH");
     asked.clear();
     let mut load = |spec: &str, folder: &std::path::Path| {
-        asked.push((format!("{spec}"), PathBuf::from(folder)));
+        asked.push((spec.to_string(), PathBuf::from(folder)));
         Ok((Arc::new(cube()), vec![]))
     };
     file.resolve(&mut load).expect("valid");

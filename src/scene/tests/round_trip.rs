@@ -32,12 +32,12 @@ impl Random {
     }
 
     fn one_or_three(&mut self) -> OneOrThree {
-        if self.next() % 2 == 0 { OneOrThree::splat(self.number()) } else { OneOrThree(self.triple()) }
+        if self.next().is_multiple_of(2) { OneOrThree::splat(self.number()) } else { OneOrThree(self.triple()) }
     }
 
     /// Given in half of all cases.
     fn maybe<T>(&mut self, make: impl FnOnce(&mut Self) -> T) -> Option<Located<T>> {
-        (self.next() % 2 == 0).then(|| make(self).into())
+        (self.next().is_multiple_of(2)).then(|| make(self).into())
     }
 
     fn choice<T: Copy>(&mut self, of: &[T]) -> T {
