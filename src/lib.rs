@@ -5,6 +5,7 @@ extern crate alloc;
 extern crate std;
 
 pub mod camera;
+pub mod camera_fit;
 mod clip;
 pub mod encoding;
 pub mod frame;
