@@ -4,7 +4,7 @@ use crate::clip::{Corner, Cut, Plane, clip};
 use crate::frame::{ClipCorner, Frame, FrameBuilder, FrameError, FrameStats, SubPixel, Vertex};
 use crate::lighting::{Lighting, Material};
 use crate::mesh::PolygonMesh;
-use crate::mesh::newell::{newell, unit_normal};
+use crate::mesh::newell::{polygon_normal, unit_normal};
 use crate::mesh::vertex_normals::{VertexNormals, vertex_normals};
 use crate::scene::{Culling, Interpolation, Object, Scene};
 use alloc::vec;
@@ -51,7 +51,6 @@ struct Projection<'a> {
 struct Projected<'a> {
     mesh: &'a PolygonMesh,
     normals: VertexNormals,
-    world: Vec<DVec3>,
     clip: Vec<DVec4>,
     normal_matrix: DMat3,
     mirrored: bool,
@@ -122,9 +121,8 @@ impl<'a> Projection<'a> {
 
     fn project<'m>(&mut self, object: &'m Object) -> Projected<'m> {
         let mesh: &PolygonMesh = &object.mesh;
-        let world: Vec<DVec3> =
-            mesh.positions().iter().map(|p| object.transform.transform_point3(p.as_dvec3())).collect();
-        let clip = world.iter().map(|p| self.clip_matrix * p.extend(1.0)).collect();
+        let matrix = self.clip_matrix * DMat4::from(object.transform);
+        let clip = mesh.positions().iter().map(|p| matrix * p.as_dvec3().extend(1.0)).collect();
         let linear = object.transform.matrix3;
         let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
         let determinant = x.dot(y.cross(z));
@@ -142,7 +140,6 @@ impl<'a> Projection<'a> {
         Projected {
             materials: materials.collect(),
             normals: vertex_normals(mesh, object.normals),
-            world,
             clip,
             normal_matrix,
             mirrored: determinant < 0.0,
@@ -162,7 +159,8 @@ impl<'a> Projection<'a> {
             self.stats.outside += 1;
             return;
         }
-        let Some(face) = unit_normal(newell(corners.iter().map(|&c| projected.world[position(c)]))) else {
+        // Newell's sum is one of cross products, which the cofactor matrix carries to world space.
+        let Some(face) = unit_normal(projected.normal_matrix * polygon_normal(mesh, polygon)) else {
             self.stats.zero_area += 1;
             return;
         };
