@@ -7,7 +7,7 @@ use super::{FastPhong, Flat, Gouraud, Info, Method, NaivePhong, Shader, SlerpPho
 use crate::frame::Frame;
 use crate::number::Scalar;
 use crate::picture::{LinearPicture, Picture8};
-use crate::raster::{Edges, Target, barycentric, linear_picture, picture8, scanline};
+use crate::raster::{Edges, Target, barycentric, clear, linear_picture, picture8, scanline};
 use crate::scene::Encoding;
 use crate::suggest::nearest;
 use alloc::string::{String, ToString};
@@ -146,6 +146,19 @@ impl Variant {
     /// Draws `frame` as a stored picture.
     pub fn render(&self, frame: &Frame) -> Picture8 {
         stored(frame, |target| (self.entry.draw)(frame, &self.parameters, target))
+    }
+
+    /// Draws `frame` into `picture`, which is made anew unless it has the frame's size: for drawing many frames without
+    /// asking for memory each time.
+    pub fn render_into(&self, frame: &Frame, picture: &mut Picture8) {
+        if (picture.width(), picture.height()) != (frame.width(), frame.height())
+            || frame.encoding() != Encoding::Linear
+        {
+            *picture = self.render(frame);
+            return;
+        }
+        clear(frame, picture);
+        (self.entry.draw)(frame, &self.parameters, picture);
     }
 
     /// Draws `frame` before rounding: linear channels, clamped to 0..=1.
