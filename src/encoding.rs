@@ -2,13 +2,22 @@
 
 use crate::scene::Encoding;
 
-/// The stored grey level of intensity `c`: 255 c, rounded to the nearest integer, halves upwards.
+/// The stored grey level of intensity `c`: 255 c, rounded to the nearest integer.
 ///
-/// `c` is clamped to 0..=1 first; NaN becomes 0.
+/// `c` is clamped to 0..=1 first; NaN becomes 0. The only `f32` for which 255 c is a half is ½ itself; it gives 128. In
+/// `f32` the product is rounded too, so that values within 2⁻¹⁷ of a half may fall on either side of it: far less than
+/// shading in `f32` is off by.
+///
+/// Tried and dropped: exact in `f64`, and a conversion by `as`, whose saturation keeps the loop from being vectorised:
+/// both took 4 ns a pixel, a quarter of a flat-shaded frame.
 #[inline(always)]
 pub fn quantise(c: f32) -> u8 {
-    // In f64 both 255 c and the sum are exact, so that the cast, which truncates and saturates, sees the true value.
-    (255.0 * f64::from(c) + 0.5) as u8
+    /// 2²³: from here on floats are integers, so that adding it rounds, and its lowest bits are the result.
+    const INTEGERS: f32 = 8_388_608.0;
+    // The comparisons in this order make NaN 0.
+    let c = if c > 0.0 { c } else { 0.0 };
+    let c = if c < 1.0 { c } else { 1.0 };
+    (255.0 * c + INTEGERS).to_bits() as u8
 }
 
 /// The sRGB value of linear intensity `c`, both in 0..=1 (IEC 61966-2-1:1999, 5.2).
@@ -52,10 +61,6 @@ mod tests {
     fn quantise_rounds_halves_up_and_clamps() {
         assert_eq!(quantise(0.5), 128, "127.5 is a half and goes up");
         assert_eq!(quantise(f32::from_bits(0.5f32.to_bits() - 1)), 127, "just below the half");
-        // The float below 0.5/255 = 0.00196…, which a sum in f32 would round up to one level.
-        let half = 0.5f32 / 255.0;
-        let below = if 255.0 * f64::from(half) < 0.5 { half } else { f32::from_bits(half.to_bits() - 1) };
-        assert_eq!(quantise(below), 0);
         assert_eq!([-1.0, -0.0, 1.0, 1.5, f32::INFINITY, f32::NEG_INFINITY].map(quantise), [0, 0, 255, 255, 255, 0]);
         assert_eq!(quantise(f32::NAN), 0);
     }
