@@ -206,7 +206,7 @@ fn stored(frame: &Frame, draw: impl FnOnce(&mut dyn Target)) -> Picture8 {
         Encoding::Srgb => {
             let mut picture = linear_picture(frame);
             draw(&mut picture);
-            picture.map(|texel| crate::encoding::store(texel, Encoding::Srgb))
+            crate::encoding::store(&picture, Encoding::Srgb)
         }
     }
 }
