@@ -7,6 +7,7 @@ pub mod diagnostics;
 #[cfg(feature = "io")]
 pub mod file;
 #[cfg(feature = "io")]
+mod of_mesh;
 mod overlay;
 #[cfg(feature = "io")]
 pub mod resolve;
