@@ -8,8 +8,11 @@ pub mod camera;
 mod clip;
 pub mod encoding;
 pub mod frame;
+#[cfg(feature = "io")]
+pub mod image_file;
 pub mod lighting;
 pub mod mesh;
+pub mod metrics;
 pub mod number;
 pub mod picture;
 mod projection;

@@ -1,0 +1,201 @@
+//! Files that are replaced as a whole or not at all.
+
+use std::borrow::ToOwned;
+use std::format;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process;
+
+use super::ImageFileError;
+
+/// Writes a file that is either complete or not there: beside its place first, then renamed.
+///
+/// A file already there is replaced, with its permissions kept, and stays as it was if anything fails; a link is
+/// followed. What is not a plain file, such as a pipe or a device, is written to directly.
+///
+/// # Errors
+/// If the directory does not exist or cannot be written to, the place is a directory or a read-only file, or the disk is full.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
+    replace(path, |file| file.write_all(bytes))
+        .map_err(|source| ImageFileError::Write { path: path.to_owned(), source })
+}
+
+fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+    let old = match fs::metadata(path) {
+        Ok(old) => Some(old),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        Err(error) => return Err(error),
+    };
+    if let Some(old) = &old {
+        if old.is_dir() {
+            return Err(io::Error::from(io::ErrorKind::IsADirectory));
+        }
+        if !old.is_file() {
+            return write(&mut OpenOptions::new().write(true).open(path)?);
+        }
+        // A rename would not ask.
+        if old.permissions().readonly() {
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file there is read-only"));
+        }
+    }
+    let place = if old.is_some() { fs::canonicalize(path)? } else { path.to_owned() };
+    let (draft, mut file) = Draft::beside(&place)?;
+    write(&mut file)?;
+    if let Some(old) = old {
+        file.set_permissions(old.permissions())?;
+    }
+    file.sync_all()?;
+    drop(file);
+    draft.rename(&place)
+}
+
+/// A file that is removed unless it is renamed.
+struct Draft {
+    path: Option<PathBuf>,
+}
+
+impl Draft {
+    fn beside(place: &Path) -> io::Result<(Draft, File)> {
+        let mut attempt = 0u32;
+        loop {
+            let path = place.with_file_name(format!(".fastphong-{}-{attempt}.tmp", process::id()));
+            match OpenOptions::new().write(true).create_new(true).open(&path) {
+                Ok(file) => return Ok((Draft { path: Some(path) }, file)),
+                // Another thread's, or left by a process that was killed.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => attempt += 1,
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    fn rename(mut self, place: &Path) -> io::Result<()> {
+        if let Some(path) = &self.path {
+            fs::rename(path, place)?;
+        }
+        self.path = None;
+        Ok(())
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        if let Some(path) = &self.path {
+            // The failure that led here is the one to report.
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::string::ToString;
+    use std::vec::Vec;
+
+    use super::*;
+
+    /// An empty directory that is removed in the end.
+    struct Directory(PathBuf);
+
+    impl Directory {
+        fn new(name: &str) -> Directory {
+            let path = std::env::temp_dir().join(format!("fastphong-{name}-{}", process::id()));
+            let _ = fs::remove_dir_all(&path);
+            fs::create_dir(&path).unwrap();
+            Directory(path)
+        }
+
+        fn names(&self) -> Vec<std::ffi::OsString> {
+            fs::read_dir(&self.0).unwrap().map(|entry| entry.unwrap().file_name()).collect()
+        }
+    }
+
+    impl Drop for Directory {
+        fn drop(&mut self) {
+            let _ = fs::remove_dir_all(&self.0);
+        }
+    }
+
+    #[test]
+    fn writes_and_replaces() {
+        let directory = Directory::new("replaces");
+        let path = directory.0.join("out.bin");
+        for bytes in [b"long first text" as &[u8], b"short", b""] {
+            write_file(&path, bytes).unwrap();
+            assert_eq!(fs::read(&path).unwrap(), bytes);
+            assert_eq!(directory.names(), ["out.bin"], "nothing else is left");
+        }
+    }
+
+    #[test]
+    fn a_failure_half_way_keeps_the_old_file_and_leaves_no_draft() {
+        let directory = Directory::new("half-way");
+        let path = directory.0.join("out.bin");
+        let fail = |file: &mut File| {
+            file.write_all(b"half")?;
+            Err(io::Error::other("disk full"))
+        };
+        assert_eq!(replace(&path, fail).unwrap_err().to_string(), "disk full");
+        assert!(directory.names().is_empty());
+        fs::write(&path, "old").unwrap();
+        assert_eq!(replace(&path, fail).unwrap_err().to_string(), "disk full");
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(directory.names(), ["out.bin"]);
+    }
+
+    #[test]
+    fn places_that_cannot_be_written_are_errors() {
+        let directory = Directory::new("places");
+        let plain = directory.0.join("plain");
+        fs::write(&plain, "old").unwrap();
+        let cases = [directory.0.join("missing/out.bin"), plain.join("out.bin"), directory.0.clone()];
+        for path in cases {
+            let message = write_file(&path, b"new").unwrap_err().to_string();
+            assert!(message.starts_with(&format!("{}: cannot be written: ", path.display())), "{message}");
+        }
+        assert!(write_file(Path::new(""), b"new").is_err());
+        assert_eq!(fs::read(&plain).unwrap(), b"old");
+        assert_eq!(directory.names(), ["plain"]);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_directory_that_takes_no_files_is_an_error() {
+        // Refused by the kernel whoever asks; permissions would not stop the superuser.
+        assert!(write_file(Path::new("/proc/self/out.bin"), b"new").is_err());
+    }
+
+    #[test]
+    fn a_read_only_file_is_kept() {
+        let directory = Directory::new("read-only");
+        let path = directory.0.join("out.bin");
+        fs::write(&path, "old").unwrap();
+        let mut permissions = fs::metadata(&path).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&path, permissions).unwrap();
+        let message = write_file(&path, b"new").unwrap_err().to_string();
+        assert!(message.ends_with("out.bin: cannot be written: the file there is read-only"), "{message}");
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_links_and_sockets_stay_what_they_are() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let directory = Directory::new("links");
+        let (file, link) = (directory.0.join("file"), directory.0.join("link"));
+        fs::write(&file, "old").unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+        symlink(&file, &link).unwrap();
+        write_file(&link, b"new").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+
+        // A socket stands for pipes and devices: it is opened as it is, which fails, and not replaced.
+        let socket = directory.0.join("socket");
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        assert!(write_file(&socket, b"new").is_err());
+        assert!(!fs::metadata(&socket).unwrap().is_file());
+    }
+}

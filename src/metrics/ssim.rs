@@ -1,0 +1,121 @@
+//! Structural similarity.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// Side of the window.
+const WINDOW: usize = 11;
+/// Standard deviation of the window's weights, in pixels.
+const SIGMA: f64 = 1.5;
+/// (K1 L)², K1 = 0.01, for values in 0..=1 (L = 1).
+const C1: f64 = 0.01 * 0.01;
+/// (K2 L)², K2 = 0.03.
+const C2: f64 = 0.03 * 0.03;
+
+/// Sums kept per window: means of x, y, x² + y² and x y. Variances enter only as a sum, so x² and y² need not be told apart.
+const MOMENTS: usize = 4;
+
+/// The weights of one row of the window; they sum to 1.
+fn weights() -> [f64; WINDOW] {
+    let mut weights = [0.0; WINDOW];
+    let centre = (WINDOW / 2) as f64;
+    for (i, weight) in weights.iter_mut().enumerate() {
+        let distance = (i as f64 - centre) / SIGMA;
+        *weight = libm::exp(-0.5 * distance * distance);
+    }
+    let sum: f64 = weights.iter().sum();
+    weights.map(|weight| weight / sum)
+}
+
+/// Mean structural similarity of two rasters of values in 0..=1, each `width` values a row; `None` if the window does not fit.
+///
+/// ```text
+/// SSIM = (2 μx μy + C1)(2 σxy + C2) / ((μx² + μy² + C1)(σx² + σy² + C2))
+/// ```
+///
+/// with an 11×11 Gaussian window of σ = 1.5, averaged over all places where the window lies inside the raster
+/// (Wang, Bovik, Sheikh, Simoncelli: *Image quality assessment*, IEEE TIP 13(4), 2004, equation 13 and section III C).
+/// The Gaussian is a product of a row and a column: rows are filtered as they come, the last eleven are kept for the columns.
+pub(super) fn mean_ssim(reference: &[f64], actual: &[f64], width: usize) -> Option<f64> {
+    let height = reference.len().checked_div(width)?;
+    if width < WINDOW || height < WINDOW {
+        return None;
+    }
+    let places = width - WINDOW + 1;
+    let weights = weights();
+    let mut filtered = vec![0.0; WINDOW * MOMENTS * places];
+    let mut moments = vec![0.0; MOMENTS * places];
+    let mut products: [Vec<f64>; MOMENTS] = core::array::from_fn(|_| vec![0.0; width]);
+    let mut sum = 0.0;
+    for (y, (x_row, y_row)) in reference.chunks_exact(width).zip(actual.chunks_exact(width)).enumerate() {
+        multiply(x_row, y_row, &mut products);
+        let slot = &mut filtered[y % WINDOW * MOMENTS * places..][..MOMENTS * places];
+        for (product, out) in products.iter().zip(slot.chunks_exact_mut(places)) {
+            weigh(&weights, |k| &product[k..], out);
+        }
+        if y + 1 >= WINDOW {
+            // y + 1 is the slot of the oldest row.
+            weigh(&weights, |k| &filtered[(y + 1 + k) % WINDOW * MOMENTS * places..], &mut moments);
+            sum += row_sum(&moments, places);
+        }
+    }
+    Some(sum / (places * (height - WINDOW + 1)) as f64)
+}
+
+/// The values whose window means are the moments, for one row.
+fn multiply(x_row: &[f64], y_row: &[f64], [xs, ys, squares, crosses]: &mut [Vec<f64>; MOMENTS]) {
+    xs.copy_from_slice(x_row);
+    ys.copy_from_slice(y_row);
+    for ((square, cross), (x, y)) in squares.iter_mut().zip(crosses).zip(x_row.iter().zip(y_row)) {
+        *square = x * x + y * y;
+        *cross = x * y;
+    }
+}
+
+/// The weighted sum of eleven slices, element by element.
+fn weigh<'a>(weights: &[f64; WINDOW], slice: impl Fn(usize) -> &'a [f64], out: &mut [f64]) {
+    out.fill(0.0);
+    for (k, weight) in weights.iter().enumerate() {
+        for (sum, value) in out.iter_mut().zip(slice(k)) {
+            *sum += weight * value;
+        }
+    }
+}
+
+/// The sum of SSIM over one row of windows.
+fn row_sum(moments: &[f64], places: usize) -> f64 {
+    let (means, seconds) = moments.split_at(2 * places);
+    let (mean_x, mean_y) = means.split_at(places);
+    let (square, cross) = seconds.split_at(places);
+    let mut sum = 0.0;
+    for i in 0..places {
+        let (mx, my) = (mean_x[i], mean_y[i]);
+        let variances = square[i] - mx * mx - my * my;
+        let covariance = cross[i] - mx * my;
+        sum += (2.0 * mx * my + C1) * (2.0 * covariance + C2) / ((mx * mx + my * my + C1) * (variances + C2));
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_are_a_normalised_bell() {
+        let weights = weights();
+        assert_eq!(weights.iter().zip(weights.iter().rev()).find(|(a, b)| a != b), None, "symmetric");
+        // Eleven quotients, each off by half a unit in the last place of at most 2^-2, and ten sums: below 21 * 2^-53.
+        assert!((weights.iter().sum::<f64>() - 1.0).abs() < 21.0 * f64::EPSILON / 2.0);
+        // exp(-1/(2 * 1.5²)): the ratio of neighbours at the top.
+        assert!((weights[4] / weights[5] - 0.800_737_402_916_808_1).abs() < 4.0 * f64::EPSILON, "four roundings");
+    }
+
+    #[test]
+    fn needs_room_for_one_window() {
+        assert_eq!(mean_ssim(&[], &[], 0), None);
+        assert_eq!(mean_ssim(&[0.5; 110], &[0.5; 110], 10), None);
+        assert_eq!(mean_ssim(&[0.5; 110], &[0.5; 110], 11), None);
+        assert_eq!(mean_ssim(&[0.5; 121], &[0.5; 121], 11), Some(1.0));
+    }
+}

@@ -1,0 +1,52 @@
+//! Texels of every kind, seen as grey levels.
+
+/// Weights of red, green and blue in luminance (ITU-R BT.709-6, item 3.2).
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Red, green, blue, alpha in grey levels: 0 is black, 255 is full, as in a stored picture but with fractions.
+///
+/// A texel of 8 bits and the difference of two of them are exact in this unit, so that thresholds of whole levels
+/// bite where they say; `1.0 / 255.0` has no such luck.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Levels(pub [f64; 4]);
+
+impl Levels {
+    /// Red, green, blue.
+    pub fn rgb(self) -> [f64; 3] {
+        [self.0[0], self.0[1], self.0[2]]
+    }
+
+    /// Coverage: 255 where something was drawn.
+    pub fn alpha(self) -> f64 {
+        self.0[3]
+    }
+
+    /// Luminance in grey levels, Rec. 709 weights on the values as they are stored; a channel that is not finite counts as 0.
+    pub fn luminance(self) -> f64 {
+        LUMINANCE.iter().zip(self.rgb()).map(|(weight, c)| if c.is_finite() { weight * c } else { 0.0 }).sum()
+    }
+}
+
+/// A texel that can be compared: one that can be stated in grey levels.
+pub trait Texel: Copy {
+    /// This texel in grey levels.
+    fn levels(self) -> Levels;
+}
+
+impl Texel for [u8; 4] {
+    fn levels(self) -> Levels {
+        Levels(self.map(f64::from))
+    }
+}
+
+impl Texel for [f32; 4] {
+    fn levels(self) -> Levels {
+        Levels(self.map(|c| 255.0 * f64::from(c)))
+    }
+}
+
+impl Texel for Levels {
+    fn levels(self) -> Levels {
+        self
+    }
+}
