@@ -21,6 +21,7 @@ pub mod reference;
 pub mod scene;
 pub mod shader;
 pub mod suggest;
+pub mod triangulate;
 pub mod walk;
 
 #[cfg(test)]

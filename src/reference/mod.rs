@@ -1,14 +1,116 @@
-//! Which picture a method aims at.
+//! The reference picture: slow, in `f64`, and easy to see right.
+//!
+//! It takes the same [`Frame`] as the shading methods and shares no arithmetic with them: coverage is decided in exact
+//! integers, places on edges and spans come from exact fractions, and every pixel is computed from closed forms with no
+//! memory of its neighbours.
+//!
+//! * `coverage`: which pixels a polygon covers, and where in the polygon they lie
+//! * `visibility`: which polygon is seen at each pixel
+//! * `attributes`: colours and normals at vertices, and between them
+//! * `illumination`: L21 2.1
+//!
+//! Unit vectors of the frame (normals, directions of light and view) are taken as they are given, in `f32`, and not
+//! normalised again.
 
-/// The closed form that a method's picture is measured against.
+pub(crate) mod attributes;
+pub(crate) mod coverage;
+pub(crate) mod illumination;
+mod visibility;
+
+#[cfg(test)]
+pub(crate) mod fixtures;
+#[cfg(test)]
+mod tests;
+
+pub use visibility::{Visibility, visibility};
+
+use crate::frame::Frame;
+use crate::picture::{LinearPicture, Picture, Picture8};
+use attributes::VertexAttributes;
+use coverage::Scanline;
+
+/// What varies over a polygon, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
-    /// One colour a polygon (L21 2).
+    /// One colour a polygon, lit by its own normal (L21 2).
     Flat,
-    /// Interpolated vertex colours (L21 3).
+    /// Colours: each vertex is lit by its own normal and clamped to 0..=1; then colours are interpolated linearly
+    /// (L21 3).
     Gouraud,
-    /// Interpolated, renormalised normals (L21 4.1).
+    /// Normals, linearly and not normalised on the edges; normalised and lit at each pixel (L21 4.1). Where the
+    /// interpolated normal vanishes it has no direction, and only ambient light is left.
     Phong,
-    /// Spherically interpolated normals (L21 4.4).
+    /// Normals, along great circles: first along the two edges, then along the span between them (L21 4.4), triangles
+    /// too; lit at each pixel, not normalised again. It does not know of depth:
+    /// [`Interpolation::Perspective`](crate::scene::Interpolation::Perspective) changes nothing.
+    ///
+    /// Less than 1e-3 apart, normals are interpolated linearly; more than 179° apart they name no great circle, and the
+    /// normal of the polygon stands in all along that edge or span.
     Slerp,
+}
+
+impl Model {
+    /// All models, in the order of the lecture.
+    pub const ALL: [Model; 4] = [Model::Flat, Model::Gouraud, Model::Phong, Model::Slerp];
+}
+
+/// A picture of the reference, and what it knows of each pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferencePicture {
+    /// Linear red, green, blue in 0..=1; alpha is 1 where a polygon is seen. Elsewhere the background, with alpha 0.
+    pub picture: Picture<[f64; 4]>,
+    /// See [`Visibility::polygons`].
+    pub polygons: Picture<u32>,
+    /// See [`Visibility::depth`].
+    pub depth: Picture<f64>,
+    /// See [`Visibility::depth_gap`].
+    pub depth_gap: Picture<f64>,
+}
+
+impl ReferencePicture {
+    /// The picture in single precision.
+    pub fn to_linear(&self) -> LinearPicture {
+        self.picture.map(|texel| texel.map(|c| c as f32))
+    }
+
+    /// The picture in eight bits: round(255 c), with no transfer function.
+    pub fn to_picture8(&self) -> Picture8 {
+        self.picture.map(|texel| texel.map(|c| libm::round(255.0 * c) as u8))
+    }
+}
+
+/// The picture of `frame` under `model`.
+pub fn render(frame: &Frame, model: Model) -> ReferencePicture {
+    shade(frame, &visibility(frame), model)
+}
+
+/// The picture of `frame` under `model` where `visibility` is known: several models share one.
+///
+/// `visibility` must be that of `frame`; where it names what `frame` does not have, the background is left.
+pub fn shade(frame: &Frame, visibility: &Visibility, model: Model) -> ReferencePicture {
+    let (width, height) = (visibility.polygons.width(), visibility.polygons.height());
+    let [r, g, b] = frame.background().map(f64::from);
+    let mut picture = Picture::new(width, height, [r, g, b, 0.0]);
+    let attributes = VertexAttributes::new(frame, model);
+    let mut scanline = Scanline::new(frame);
+    for y in 0..height {
+        // Pixels of one polygon side by side share its scanline.
+        let mut cut = Visibility::NONE;
+        for (x, &number) in visibility.polygons.row(y).iter().enumerate() {
+            let Some(polygon) = frame.polygons().get(number as usize) else { continue };
+            if number != cut {
+                scanline.cut(frame.corners(polygon), y);
+                cut = number;
+            }
+            if let Some(colour) = attributes.colour(polygon, &scanline, x) {
+                picture.row_mut(y)[x] = [colour.x, colour.y, colour.z, 1.0];
+            }
+        }
+    }
+    ReferencePicture {
+        picture,
+        polygons: visibility.polygons.clone(),
+        depth: visibility.depth.clone(),
+        depth_gap: visibility.depth_gap.clone(),
+    }
 }

@@ -1,0 +1,152 @@
+//! Colours and normals: at the vertices, and between them.
+
+use super::Model;
+use super::coverage::{Crossing, Scanline, SpanPlace, Weights};
+use super::illumination::{illuminate, wide};
+use crate::frame::{ClipCorner, Frame, Polygon, Vertex};
+use crate::scene::Interpolation;
+use alloc::vec::Vec;
+use glam::DVec3;
+
+/// Below this angle a chord is as good as its arc (it sags by φ²/8, 1.3e-7), and sin φ = 0 is never a divisor.
+const STRAIGHT: f64 = 1e-3;
+
+/// Above this angle the two normals name no great circle: 179°.
+const OPPOSITE: f64 = 179.0 / 180.0 * core::f64::consts::PI;
+
+/// From `a` to `b` in a straight line.
+fn lerp(a: DVec3, b: DVec3, t: f64) -> DVec3 {
+    (1.0 - t) * a + t * b
+}
+
+/// From `a` to `b` along the great circle, both unit vectors:
+/// ```text
+/// slerp(N₁, N₂, t) = sin((1−t)φ)/sin(φ) N₁ + sin(tφ)/sin(φ) N₂      (L21 4.7)
+/// ```
+/// The angle φ is 2 atan2(|N₁−N₂|, |N₁+N₂|), as the inverse cosine of L21 loses half of the digits of a small one. Close
+/// vectors are interpolated linearly; between opposite ones stands `face`.
+fn slerp(a: DVec3, b: DVec3, t: f64, face: DVec3) -> DVec3 {
+    let phi = 2.0 * libm::atan2((a - b).length(), (a + b).length());
+    if phi < STRAIGHT {
+        lerp(a, b, t)
+    } else if phi > OPPOSITE {
+        face
+    } else {
+        (libm::sin((1.0 - t) * phi) * a + libm::sin(t * phi) * b) / libm::sin(phi) // 4.7
+    }
+}
+
+/// The direction of `n`, or zero where it has none.
+fn unit(n: DVec3) -> DVec3 {
+    let length = n.length();
+    if length > 0.0 { n / length } else { DVec3::ZERO }
+}
+
+/// What a model interpolates, at every vertex of a frame.
+pub(crate) struct VertexAttributes<'a> {
+    frame: &'a Frame,
+    model: Model,
+    /// Colours (Gouraud) or normals (Phong, slerp); none for flat shading.
+    values: Vec<DVec3>,
+}
+
+impl<'a> VertexAttributes<'a> {
+    /// Colours or normals at the vertices of `frame`, as `model` asks for.
+    ///
+    /// A vertex that clipping made lies between two others, which may be such vertices too: it has what the model would
+    /// show there, and is not lit by a normal of its own.
+    pub fn new(frame: &'a Frame, model: Model) -> Self {
+        let normal = |v: &Vertex| wide(v.normal);
+        let colour = |v: &Vertex| illuminate(&frame.lightings()[v.material as usize], wide(v.normal));
+        let mut values: Vec<DVec3> = match model {
+            Model::Flat => Vec::new(),
+            Model::Gouraud => frame.vertices().iter().map(colour).collect(),
+            Model::Phong | Model::Slerp => frame.vertices().iter().map(normal).collect(),
+        };
+        if !values.is_empty() {
+            for &ClipCorner { vertex, a, b, t, face } in frame.clip_corners() {
+                let (a, b, t) = (values[a as usize], values[b as usize], f64::from(t));
+                values[vertex as usize] =
+                    if model == Model::Slerp { slerp(a, b, t, wide(face)) } else { lerp(a, b, t) };
+            }
+        }
+        VertexAttributes { frame, model, values }
+    }
+
+    /// The colour of the pixel `x` on a scanline of `polygon`; `None` where the polygon does not cover it.
+    pub fn colour(&self, polygon: &Polygon, scanline: &Scanline, x: usize) -> Option<DVec3> {
+        let lighting = &self.frame.lightings()[polygon.material as usize];
+        Some(match self.model {
+            Model::Flat => {
+                scanline.edges(x)?;
+                illuminate(lighting, wide(polygon.normal))
+            }
+            Model::Gouraud => self.interpolated(&scanline.weights(x)?),
+            Model::Phong => illuminate(lighting, unit(self.interpolated(&scanline.weights(x)?))),
+            Model::Slerp => illuminate(lighting, self.slerped(&scanline.place(x)?, wide(polygon.normal))),
+        })
+    }
+
+    /// The blend of the corners' values: linear on the screen, or in space, where value/w and 1/w are linear on the
+    /// screen (perspective interpolation).
+    fn interpolated(&self, weights: &Weights) -> DVec3 {
+        match self.frame.interpolation() {
+            Interpolation::Screen => weights.sum(|v| self.values[v]),
+            Interpolation::Perspective => {
+                let inv_w = |v: usize| f64::from(self.frame.vertices()[v].inv_w);
+                weights.sum(|v| self.values[v] * inv_w(v)) / weights.sum(inv_w)
+            }
+        }
+    }
+
+    /// Slerp along both edges, then along the span between them (L21 4.4).
+    fn slerped(&self, place: &SpanPlace, face: DVec3) -> DVec3 {
+        let on_edge =
+            |edge: &Crossing| slerp(self.values[edge.top as usize], self.values[edge.bottom as usize], edge.t(), face);
+        slerp(on_edge(&place.left), on_edge(&place.right), place.u, face)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slerp_turns_at_a_uniform_rate() {
+        for k in 0..=18 {
+            let angle = f64::from(k) * 5.0f64.to_radians();
+            let n = slerp(DVec3::X, DVec3::Y, f64::from(k) / 18.0, DVec3::Z);
+            // φ = π/2 and each sine round a few times, all values are at most 1: 4 ε is ample and 1° is 8e13 times more.
+            assert!(
+                (n - DVec3::new(libm::cos(angle), libm::sin(angle), 0.0)).length() < 4.0 * f64::EPSILON,
+                "{k}: {n}"
+            );
+        }
+    }
+
+    #[test]
+    fn slerp_of_close_vectors_is_the_chord() {
+        let near = DVec3::new(0.0, libm::sin(9e-4), libm::cos(9e-4));
+        assert_eq!(slerp(DVec3::Z, near, 0.25, DVec3::X), lerp(DVec3::Z, near, 0.25));
+        assert_eq!(slerp(DVec3::Z, DVec3::Z, 0.7, DVec3::X), lerp(DVec3::Z, DVec3::Z, 0.7));
+        let apart = DVec3::new(0.0, libm::sin(1.1e-3), libm::cos(1.1e-3));
+        assert_ne!(slerp(DVec3::Z, apart, 0.25, DVec3::X), lerp(DVec3::Z, apart, 0.25));
+    }
+
+    #[test]
+    fn slerp_of_opposite_vectors_is_the_face_normal() {
+        let at = |degrees: f64| DVec3::new(libm::sin(degrees.to_radians()), 0.0, libm::cos(degrees.to_radians()));
+        for t in [0.0, 0.3, 1.0] {
+            assert_eq!(slerp(DVec3::Z, at(180.0), t, DVec3::Y), DVec3::Y);
+            assert_eq!(slerp(DVec3::Z, at(179.1), t, DVec3::Y), DVec3::Y);
+        }
+        // sin 178.9° = 0.019 divides errors of a few ε.
+        assert!((slerp(DVec3::Z, at(178.9), 0.5, DVec3::Y) - at(89.45)).length() < 1e-13);
+    }
+
+    #[test]
+    fn the_zero_vector_has_no_direction() {
+        assert_eq!(unit(DVec3::ZERO), DVec3::ZERO);
+        assert_eq!(unit(DVec3::new(0.0, 3.0, 4.0)), DVec3::new(0.0, 0.6, 0.8));
+    }
+}

@@ -1,0 +1,88 @@
+//! Small frames for tests.
+
+use super::coverage::{Scanline, bounding_box};
+use crate::frame::{ClipCorner, Frame, FrameBuilder, SubPixel, Vertex};
+use crate::lighting::{LightTerm, Lighting};
+use crate::picture::Picture;
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// A light along z that shows the z of a unit normal as a grey: no ambient, no specular light.
+pub(crate) fn z_light() -> Lighting {
+    let light = LightTerm { direction: [0.0, 0.0, 1.0], diffuse: [1.0; 3], specular: [0.0; 3] };
+    Lighting { ambient: [0.0; 3], lights: vec![light], view: [0.0, 0.0, 1.0], shininess: 1.0 }
+}
+
+/// A vertex at a place of the picture, of the first material.
+pub(crate) fn vertex((x, y): (f64, f64), normal: [f32; 3]) -> Vertex {
+    Vertex { x: SubPixel::from_num(x), y: SubPixel::from_num(y), depth: 0.5, inv_w: 1.0, normal, material: 0 }
+}
+
+/// Polygons of these corners (pixels) and nothing more to them.
+pub(crate) fn shape(width: u32, height: u32, polygons: &[&[(f64, f64)]]) -> Frame {
+    let mut builder = FrameBuilder::new(width, height);
+    builder.lighting(z_light());
+    for (source, polygon) in (0..).zip(polygons) {
+        let corners: Vec<u32> = polygon.iter().map(|&p| builder.vertex(vertex(p, [0.0, 0.0, 1.0]))).collect();
+        builder.polygon(&corners, [0.0, 0.0, 1.0], source);
+    }
+    builder.finish().unwrap()
+}
+
+/// One polygon over these vertices under [`z_light`], its face along y.
+pub(crate) fn polygon_of(side: u32, vertices: &[Vertex], change: impl FnOnce(&mut FrameBuilder)) -> Frame {
+    let mut builder = FrameBuilder::new(side, side);
+    builder.lighting(z_light());
+    let corners: Vec<u32> = vertices.iter().map(|&v| builder.vertex(v)).collect();
+    builder.polygon(&corners, [0.0, 1.0, 0.0], 0);
+    change(&mut builder);
+    builder.finish().unwrap()
+}
+
+/// The vertex `vertex` halfway or so between `a` and `b`, cut from a face along x.
+pub(crate) fn between(vertex: u32, a: u32, b: u32, t: f32) -> ClipCorner {
+    ClipCorner { vertex, a, b, t, face: [1.0, 0.0, 0.0] }
+}
+
+/// How many polygons cover each pixel.
+pub(crate) fn covered(frame: &Frame) -> Picture<u32> {
+    let mut counts = Picture::new(frame.width(), frame.height(), 0);
+    let mut scanline = Scanline::new(frame);
+    for polygon in frame.polygons() {
+        let (columns, rows) = bounding_box(frame, frame.corners(polygon));
+        for y in rows {
+            scanline.cut(frame.corners(polygon), y);
+            for x in columns.clone() {
+                counts.row_mut(y)[x] += u32::from(scanline.edges(x).is_some());
+            }
+        }
+    }
+    counts
+}
+
+/// [`covered`] by [`shape`], one text a row: a dot where it is 0.
+pub(crate) fn drawing(width: u32, height: u32, polygons: &[&[(f64, f64)]]) -> Vec<String> {
+    let counts = covered(&shape(width, height, polygons));
+    let sign = |&n: &u32| if n == 0 { '.' } else { char::from_digit(n, 36).unwrap_or('#') };
+    (0..counts.height()).map(|y| counts.row(y).iter().map(sign).collect()).collect()
+}
+
+/// Random numbers that are the same on every run: xorshift64* (Vigna, *An experimental exploration of Marsaglia's xorshift
+/// generators, scrambled*, 2016).
+pub(crate) struct Dice(u64);
+
+impl Dice {
+    /// Dice of their own for each seed.
+    pub fn new(seed: u64) -> Self {
+        Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    }
+
+    /// A number of 0..`end`.
+    pub fn below(&mut self, end: u64) -> i64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        ((self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) % end) as i64
+    }
+}
