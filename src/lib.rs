@@ -4,8 +4,12 @@ extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+#[cfg(feature = "cli")]
+pub mod bench;
 pub mod camera;
 mod clip;
+#[cfg(feature = "cli")]
+pub mod comparison;
 pub mod encoding;
 pub mod frame;
 #[cfg(feature = "io")]
