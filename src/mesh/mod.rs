@@ -1,6 +1,8 @@
 //! Polygon meshes: polygons of any number of sides, concave ones too, never triangulated.
 
+pub mod builtin;
 pub mod newell;
+pub mod shapes;
 pub mod vertex_normals;
 pub mod weld;
 

@@ -320,12 +320,13 @@ mod tests {
 
     #[test]
     fn given_normals_are_normalised_and_completed() {
-        let mut builder = MeshBuilder::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y]);
+        let mut builder = MeshBuilder::new(vec![Vec3::ZERO, Vec3::Y, Vec3::Z]);
         builder.polygon(&[0, 1, 2]);
         builder.normals(GivenNormals { values: vec![Vec3::new(0.0, 3.0, 4.0), Vec3::ZERO, -Vec3::X], corners: None });
         let mesh = builder.finish().expect("a triangle");
         let normals = vertex_normals(&mesh, NormalSource::Given);
-        assert_eq!([0, 1, 2].map(|k| at(&normals, k)), [Vec3::new(0.0, 0.6, 0.8), Vec3::Z, -Vec3::X]);
+        // The zero at the second corner is replaced by the average, the triangle's own normal.
+        assert_eq!([0, 1, 2].map(|k| at(&normals, k)), [Vec3::new(0.0, 0.6, 0.8), Vec3::X, -Vec3::X]);
 
         let mut builder = MeshBuilder::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y]);
         builder.polygon(&[0, 1, 2]);

@@ -1,5 +1,6 @@
 //! Finds positions that coincide exactly: the seams of meshes whose files repeat them.
 
+use alloc::vec;
 use alloc::vec::Vec;
 use glam::Vec3;
 
@@ -14,8 +15,7 @@ pub fn weld(positions: &[Vec3]) -> (Vec<u32>, usize) {
     sorted.extend(positions.iter().enumerate().map(|(i, p)| [bits(p.x), bits(p.y), bits(p.z), i as u32]));
     sorted.sort_unstable();
     // First the lowest index among equals, then the numbers in order of those.
-    let mut number = Vec::new();
-    number.resize(positions.len(), 0);
+    let mut number = vec![0; positions.len()];
     let mut first = 0;
     for (k, key) in sorted.iter().enumerate() {
         if key[..3] != sorted[first][..3] {
@@ -43,7 +43,7 @@ mod tests {
     #[test]
     fn equal_positions_share_a_number_in_order_of_first_occurrence() {
         let p = [Vec3::Z, Vec3::new(0.0, 1.0, -0.0), Vec3::Z, Vec3::X, Vec3::new(-0.0, 1.0, 0.0), Vec3::Z];
-        assert_eq!(weld(&p), (alloc::vec![0, 1, 0, 2, 1, 0], 3));
+        assert_eq!(weld(&p), (vec![0, 1, 0, 2, 1, 0], 3));
         assert_eq!(weld(&[]), (Vec::new(), 0));
     }
 }

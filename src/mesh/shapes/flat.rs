@@ -1,0 +1,131 @@
+//! Flat meshes facing +z: single polygons of many sides, concave ones too, and the square of Figure 5.
+
+use super::turn;
+use crate::mesh::{GivenNormals, MeshBuilder, MeshError, PolygonMesh};
+use alloc::vec;
+use alloc::vec::Vec;
+use glam::{DVec2, DVec3, Vec3};
+
+/// The point at `k / n` of a turn, counter-clockwise from the top, on the circle of radius `radius`.
+fn around(radius: f64, k: usize, n: usize) -> DVec2 {
+    let (sin, cos) = turn(k, n);
+    radius * DVec2::new(-sin, cos)
+}
+
+/// The corners of a star with `points` points on the unit circle, and as many corners between them at radius `inner`.
+pub(super) fn star_outline(points: usize, inner: f64) -> Vec<DVec2> {
+    let n = 2 * points.max(2);
+    (0..n).map(|k| around(if k % 2 == 0 { 1.0 } else { inner }, k, n)).collect()
+}
+
+/// One polygon for each outline; outlines share no corners.
+fn flat(outlines: &[Vec<DVec2>]) -> Result<PolygonMesh, MeshError> {
+    let corners: usize = outlines.iter().map(Vec::len).sum();
+    if corners > PolygonMesh::MAX_CORNERS {
+        return Err(MeshError::TooLarge);
+    }
+    let mut builder = MeshBuilder::new(outlines.iter().flatten().map(|p| p.extend(0.0).as_vec3()).collect());
+    builder.reserve(outlines.len(), corners);
+    let mut start = 0;
+    for outline in outlines {
+        let end = start + outline.len() as u32;
+        builder.polygon(&(start..end).collect::<Vec<_>>());
+        start = end;
+    }
+    builder.finish()
+}
+
+/// One equilateral triangle in the unit circle, a corner at the top.
+///
+/// # Errors
+/// None in practice: three corners are always a mesh.
+pub fn triangle() -> Result<PolygonMesh, MeshError> {
+    polygon(3)
+}
+
+/// One regular polygon of `sides` sides in the unit circle, a corner at the top.
+///
+/// # Errors
+/// [`MeshError::TooLarge`].
+pub fn polygon(sides: usize) -> Result<PolygonMesh, MeshError> {
+    let n = sides.max(3);
+    flat(&[(0..n).map(|k| around(1.0, k, n)).collect()])
+}
+
+/// One star-shaped polygon: `points` points on the unit circle, the corners between them at radius `inner`.
+///
+/// # Errors
+/// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if `inner` is not finite.
+pub fn star(points: usize, inner: f64) -> Result<PolygonMesh, MeshError> {
+    flat(&[star_outline(points, inner)])
+}
+
+/// One comb-shaped polygon of 4 `teeth` sides, 2 wide and 1 high: a scan line crosses it up to 2 `teeth` times.
+///
+/// # Errors
+/// [`MeshError::TooLarge`].
+pub fn comb(teeth: usize) -> Result<PolygonMesh, MeshError> {
+    let teeth = teeth.max(1);
+    let width = (2 * teeth - 1) as f64;
+    // In units of a tooth's width across and a quarter of the height upward.
+    let at = |x: usize, y: f64| DVec2::new((2.0 * x as f64 - width) / width, (y - 2.0) / 4.0);
+    let mut outline = vec![at(0, 0.0), at(2 * teeth - 1, 0.0)];
+    for tooth in (0..teeth).rev() {
+        outline.extend([at(2 * tooth + 1, 4.0), at(2 * tooth, 4.0)]);
+        if tooth > 0 {
+            outline.extend([at(2 * tooth, 1.0), at(2 * tooth - 1, 1.0)]);
+        }
+    }
+    flat(&[outline])
+}
+
+/// Block letters without holes, counter-clockwise, in squares of a grid; each is 5 high.
+const SHINE: [&[[i8; 2]]; 5] = [
+    &[[0, 0], [3, 0], [3, 3], [1, 3], [1, 4], [3, 4], [3, 5], [0, 5], [0, 2], [2, 2], [2, 1], [0, 1]],
+    &[[0, 0], [1, 0], [1, 2], [2, 2], [2, 0], [3, 0], [3, 5], [2, 5], [2, 3], [1, 3], [1, 5], [0, 5]],
+    &[[0, 0], [3, 0], [3, 1], [2, 1], [2, 4], [3, 4], [3, 5], [0, 5], [0, 4], [1, 4], [1, 1], [0, 1]],
+    &[[0, 0], [1, 0], [1, 3], [3, 0], [4, 0], [4, 5], [3, 5], [3, 2], [1, 5], [0, 5]],
+    &[[0, 0], [3, 0], [3, 1], [1, 1], [1, 2], [3, 2], [3, 3], [1, 3], [1, 4], [3, 4], [3, 5], [0, 5]],
+];
+
+/// The word SHINE in block letters: five concave polygons of 10 or 12 sides, 2 wide and 0.5 high.
+///
+/// # Errors
+/// None in practice: the letters are always a mesh.
+pub fn letters() -> Result<PolygonMesh, MeshError> {
+    let mut left = 0.0;
+    let mut outlines = Vec::new();
+    for letter in SHINE {
+        // The whole word is 20 squares wide, with one between letters.
+        let place = |&[x, y]: &[i8; 2]| DVec2::new((left + x as f64 - 10.0) / 10.0, (y as f64 - 2.5) / 10.0);
+        outlines.push(letter.iter().map(place).collect());
+        left += letter.iter().map(|c| c[0] as f64).fold(0.0, f64::max) + 1.0;
+    }
+    flat(&outlines)
+}
+
+/// The square of Figure 5 (L21 3), turned counter-clockwise by `angle` degrees: a quad with its normals given, whose
+/// shading by scan lines depends on how it is turned.
+///
+/// The square stands on a corner, and has corners at distance 1. Three corners have the normal (0, 0, 1), and the lowest
+/// one, at angle 0, the normal that points down along the diagonal. Under one light from +z three corners are white and
+/// one is black. At 0° every scan line of the upper half runs between white edges: half the square is white. At 90° the
+/// same scan lines run from a white corner to the black one, and the same half of the square is gray up to the diagonal.
+/// Split into two triangles along that diagonal, it does not depend on the angle.
+///
+/// # Errors
+/// [`MeshError::NotFinite`] if the angle is not finite.
+pub fn figure5(angle: f64) -> Result<PolygonMesh, MeshError> {
+    // Whole degrees are exact at quarter turns.
+    let (sin, cos) = if angle == libm::trunc(angle) {
+        turn((angle % 360.0 + 360.0) as usize, 360)
+    } else {
+        libm::sincos(angle.to_radians())
+    };
+    let turned = |p: DVec3| DVec3::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y, p.z).as_vec3();
+    let positions = [DVec3::Y, -DVec3::X, -DVec3::Y, DVec3::X].map(turned).to_vec();
+    let mut builder = MeshBuilder::new(positions);
+    builder.polygon(&[0, 1, 2, 3]);
+    builder.normals(GivenNormals { values: vec![Vec3::Z, Vec3::Z, turned(-DVec3::Y), Vec3::Z], corners: None });
+    builder.finish()
+}

@@ -1,0 +1,120 @@
+//! The mesh of a surface with two parameters: a sheet, a ball with poles, or a closed tube.
+
+use crate::mesh::{GivenNormals, MeshBuilder, MeshError, PolygonMesh};
+use alloc::vec::Vec;
+use glam::{DVec3, Vec3};
+
+/// How the edges of a parameter grid are joined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Topology {
+    /// Not at all: four open edges.
+    Sheet,
+    /// The last column to the first; the first and the last row are one point each, and their cells triangles.
+    Ball,
+    /// The last column to the first and the last row to the first.
+    Tube,
+}
+
+/// A grid of cells over a surface: quads, or two triangles each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Grid {
+    /// How its edges are joined.
+    pub topology: Topology,
+    /// Cells along the first parameter; 3 at least where columns are joined, else 1.
+    pub columns: usize,
+    /// Cells along the second parameter; 2 at least on a ball, 3 on a tube, else 1.
+    pub rows: usize,
+    /// Whether quads are split into two triangles.
+    pub triangles: bool,
+}
+
+impl Grid {
+    /// The grid, with resolutions that are too low raised to the least that the topology allows.
+    pub fn new(topology: Topology, columns: usize, rows: usize, triangles: bool) -> Self {
+        let (least_columns, least_rows) = match topology {
+            Topology::Sheet => (1, 1),
+            Topology::Ball => (3, 2),
+            Topology::Tube => (3, 3),
+        };
+        Grid { topology, columns: columns.max(least_columns), rows: rows.max(least_rows), triangles }
+    }
+
+    /// How many polygons the mesh has; `u64::MAX` where that overflows.
+    pub fn polygon_count(&self) -> u64 {
+        let (columns, rows) = (self.columns as u64, self.rows as u64);
+        match (self.topology, self.triangles) {
+            (_, false) => columns.saturating_mul(rows),
+            (Topology::Ball, true) => columns.saturating_mul(rows - 1).saturating_mul(2),
+            (_, true) => columns.saturating_mul(rows).saturating_mul(2),
+        }
+    }
+
+    /// The mesh of the surface whose point and unit normal at `(column, row)` is `surface(column, row)`.
+    ///
+    /// Polygons are counter-clockwise seen from the side of ∂column × ∂row. `surface` is asked for each position once,
+    /// row after row, at a pole for column 0.
+    ///
+    /// # Errors
+    /// [`MeshError::TooLarge`] before anything is allocated; [`MeshError::NotFinite`] if the surface is not finite.
+    pub fn mesh(&self, mut surface: impl FnMut(usize, usize) -> (DVec3, DVec3)) -> Result<PolygonMesh, MeshError> {
+        let polygons = self.polygon_count();
+        if polygons > PolygonMesh::MAX_POLYGONS as u64 {
+            return Err(MeshError::TooLarge);
+        }
+        let (stored_columns, stored_rows) = match self.topology {
+            Topology::Sheet => (self.columns + 1, self.rows + 1),
+            Topology::Ball => (self.columns, self.rows + 1),
+            Topology::Tube => (self.columns, self.rows),
+        };
+        let mut positions: Vec<Vec3> = Vec::with_capacity(stored_columns * stored_rows);
+        let mut normals: Vec<Vec3> = Vec::with_capacity(stored_columns * stored_rows);
+        for row in 0..stored_rows {
+            let width = if self.is_pole(row) { 1 } else { stored_columns };
+            for column in 0..width {
+                let (position, normal) = surface(column, row);
+                positions.push(position.as_vec3());
+                normals.push(normal.as_vec3());
+            }
+        }
+        let mut builder = MeshBuilder::new(positions);
+        builder.reserve(polygons as usize, polygons as usize * if self.triangles { 3 } else { 4 });
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                self.cell(&mut builder, column, row);
+            }
+        }
+        builder.normals(GivenNormals { values: normals, corners: None });
+        builder.finish()
+    }
+
+    fn is_pole(&self, row: usize) -> bool {
+        self.topology == Topology::Ball && (row == 0 || row == self.rows)
+    }
+
+    /// The index of the position at `(column, row)`, with both wrapped where the grid is joined.
+    fn index(&self, column: usize, row: usize) -> u32 {
+        let wrapped = if column == self.columns { 0 } else { column };
+        let index = match self.topology {
+            Topology::Sheet => row * (self.columns + 1) + column,
+            Topology::Tube => (if row == self.rows { 0 } else { row }) * self.columns + wrapped,
+            Topology::Ball if row == 0 => 0,
+            Topology::Ball if row == self.rows => (row - 1) * self.columns + 1,
+            Topology::Ball => (row - 1) * self.columns + 1 + wrapped,
+        };
+        // At most 2^24 polygons have fewer than 2^26 positions.
+        index as u32
+    }
+
+    fn cell(&self, builder: &mut MeshBuilder, column: usize, row: usize) {
+        let [a, b, c, d] = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| self.index(column + i, row + j));
+        if self.is_pole(row) {
+            builder.polygon(&[a, c, d]);
+        } else if self.is_pole(row + 1) {
+            builder.polygon(&[a, b, c]);
+        } else if self.triangles {
+            builder.polygon(&[a, b, c]).polygon(&[a, c, d]);
+        } else {
+            builder.polygon(&[a, b, c, d]);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Open surfaces over a square: corrugated sheet and terrain.
+
+use super::grid::{Grid, Topology};
+use super::noise::fractal_noise;
+use crate::mesh::{MeshError, PolygonMesh};
+use core::f64::consts::PI;
+use glam::{DVec2, DVec3};
+
+/// Coordinates of grid line `k` of `n` over −1..=1.
+fn across(k: usize, n: usize) -> f64 {
+    (2.0 * k as f64 - n as f64) / n as f64
+}
+
+/// A sheet over the square −1..=1, facing +z: `z = amplitude · sin(π waves x)`, so that `waves` whole waves run across.
+///
+/// Its inflections are what linear interpolation of normals hides: between equal normals it shades flat.
+///
+/// # Errors
+/// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a parameter is not finite.
+pub fn corrugated(
+    waves: f64,
+    amplitude: f64,
+    segments: usize,
+    rows: usize,
+    triangles: bool,
+) -> Result<PolygonMesh, MeshError> {
+    let grid = Grid::new(Topology::Sheet, segments, rows, triangles);
+    grid.mesh(|column, row| {
+        let (x, y) = (across(column, grid.columns), across(row, grid.rows));
+        let phase = PI * waves * x;
+        let slope = amplitude * PI * waves * libm::cos(phase);
+        (DVec3::new(x, y, amplitude * libm::sin(phase)), DVec3::new(-slope, 0.0, 1.0).normalize())
+    })
+}
+
+/// What a terrain looks like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terrain {
+    /// Height of the largest hills.
+    pub amplitude: f64,
+    /// How many of the largest hills stand along a side.
+    pub frequency: f64,
+    /// How often smaller hills, half as wide and half as high, are added.
+    pub octaves: usize,
+    /// Which terrain.
+    pub seed: u64,
+}
+
+/// Hills over the square −1..=1 of x and z, y upward: the same for the same numbers, on every platform.
+///
+/// # Errors
+/// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a parameter is not finite.
+pub fn terrain(terrain: Terrain, columns: usize, rows: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
+    let grid = Grid::new(Topology::Sheet, columns, rows, triangles);
+    grid.mesh(|column, row| {
+        // Rows run away from the viewer, so that east × north is up.
+        let (x, z) = (across(column, grid.columns), -across(row, grid.rows));
+        let scale = terrain.frequency / 2.0;
+        let (height, gradient) = fractal_noise(DVec2::new(x, z) * scale, terrain.octaves, terrain.seed);
+        let slope = terrain.amplitude * scale * gradient;
+        (DVec3::new(x, terrain.amplitude * height, z), DVec3::new(-slope.x, 1.0, -slope.y).normalize())
+    })
+}

@@ -1,0 +1,65 @@
+//! The unit sphere, smooth and bumpy, by longitude and latitude.
+
+use super::grid::{Grid, Topology};
+use super::{turn, turns};
+use crate::mesh::{MeshError, PolygonMesh};
+use glam::DVec3;
+
+/// The unit sphere: `segments` meridians, `rings` bands of latitude, poles on the y axis.
+///
+/// The bands at the poles are triangles, all other polygons quads (or two triangles each).
+///
+/// # Errors
+/// [`MeshError::TooLarge`].
+pub fn sphere(segments: usize, rings: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
+    over_directions(segments, rings, triangles, |direction| (direction, direction))
+}
+
+/// The unit sphere with bumps: radius `1 + amplitude · sin(f x) sin(f y) sin(f z)` in direction (x, y, z), `f` being
+/// the `frequency`.
+///
+/// The radius is a smooth function of the direction, at the poles too. Star-convex for any amplitude below 1.
+///
+/// # Errors
+/// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a parameter is not finite.
+pub fn bumpy(
+    segments: usize,
+    rings: usize,
+    amplitude: f64,
+    frequency: f64,
+    triangles: bool,
+) -> Result<PolygonMesh, MeshError> {
+    over_directions(segments, rings, triangles, |d| {
+        let sin = DVec3::new(libm::sin(frequency * d.x), libm::sin(frequency * d.y), libm::sin(frequency * d.z));
+        let cos = DVec3::new(libm::cos(frequency * d.x), libm::cos(frequency * d.y), libm::cos(frequency * d.z));
+        let radius = 1.0 + amplitude * sin.x * sin.y * sin.z;
+        let gradient =
+            amplitude * frequency * DVec3::new(cos.x * sin.y * sin.z, sin.x * cos.y * sin.z, sin.x * sin.y * cos.z);
+        // Of the surface r(d) d, with ∇ the gradient along the unit sphere, the normal is r d − ∇r.
+        let along_sphere = gradient - gradient.dot(d) * d;
+        (radius * d, (radius * d - along_sphere).normalize())
+    })
+}
+
+fn over_directions(
+    segments: usize,
+    rings: usize,
+    triangles: bool,
+    surface: impl Fn(DVec3) -> (DVec3, DVec3),
+) -> Result<PolygonMesh, MeshError> {
+    let grid = Grid::new(Topology::Ball, segments, rings, triangles);
+    if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
+        return Err(MeshError::TooLarge);
+    }
+    let longitudes = turns(grid.columns);
+    let mut latitude = turn(0, 1);
+    grid.mesh(|column, row| {
+        // From the south pole to the north: half a turn from there.
+        if column == 0 {
+            latitude = turn(row, 2 * grid.rows);
+        }
+        let (sin, cos) = latitude;
+        let (east, front) = longitudes[column];
+        surface(DVec3::new(sin * east, -cos, sin * front))
+    })
+}

@@ -1,0 +1,75 @@
+//! The torus, and tubes along knots on it.
+
+use super::grid::{Grid, Topology};
+use super::{turn, turns};
+use crate::mesh::{MeshError, PolygonMesh};
+use alloc::vec::Vec;
+use glam::DVec3;
+
+/// The torus around the z axis: a circle of radius `major`, with a tube of radius `minor` around it.
+///
+/// `segments` cells along the circle, `sides` around the tube.
+///
+/// # Errors
+/// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a radius is not finite.
+pub fn torus(major: f64, minor: f64, segments: usize, sides: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
+    let grid = Grid::new(Topology::Tube, segments, sides, triangles);
+    if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
+        return Err(MeshError::TooLarge);
+    }
+    let (along, around) = (turns(grid.columns), turns(grid.rows));
+    grid.mesh(|column, row| {
+        let ((sin_u, cos_u), (sin_v, cos_v)) = (along[column], around[row]);
+        let normal = DVec3::new(cos_v * cos_u, cos_v * sin_u, sin_v);
+        (major * DVec3::new(cos_u, sin_u, 0.0) + minor * normal, normal)
+    })
+}
+
+/// Radii of the torus that knots lie on, around the z axis: as [`torus`] has them by default.
+const KNOT_MAJOR: f64 = 1.0;
+const KNOT_MINOR: f64 = 0.4;
+
+/// A tube of radius `radius` along the torus knot that goes `p` times around the axis while it goes `q` times around
+/// the tube of a torus of radii 1 and 0.4.
+///
+/// The tube's cross section is turned by the normal of that torus, which comes back to itself after one round: the seam
+/// has no jump. `p` and `q` without a common factor give one knot; with one, the curve is run through several times.
+/// The tube meets itself when `radius` is large for the knot.
+///
+/// # Errors
+/// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if the radius is not finite.
+pub fn knot(
+    p: usize,
+    q: usize,
+    segments: usize,
+    sides: usize,
+    radius: f64,
+    triangles: bool,
+) -> Result<PolygonMesh, MeshError> {
+    let grid = Grid::new(Topology::Tube, segments, sides, triangles);
+    if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
+        return Err(MeshError::TooLarge);
+    }
+    let frames: Vec<[DVec3; 3]> = (0..grid.columns).map(|k| knot_frame(p, q, k, grid.columns)).collect();
+    let around = turns(grid.rows);
+    grid.mesh(|column, row| {
+        let [centre, outward, sideways] = frames[column];
+        let (sin, cos) = around[row];
+        let normal = cos * outward + sin * sideways;
+        (centre + radius * normal, normal)
+    })
+}
+
+/// The knot's point at `k / n` of its length in parameter, the normal of its torus there, and that normal × tangent.
+fn knot_frame(p: usize, q: usize, k: usize, n: usize) -> [DVec3; 3] {
+    let at = |times: usize| turn((k as u64 * times as u64 % n as u64) as usize, n);
+    let ((sin_p, cos_p), (sin_q, cos_q)) = (at(p), at(q));
+    let (p, q) = (p as f64, q as f64);
+    let distance = KNOT_MAJOR + KNOT_MINOR * cos_q;
+    let centre = DVec3::new(distance * cos_p, distance * sin_p, KNOT_MINOR * sin_q);
+    let outward = DVec3::new(cos_q * cos_p, cos_q * sin_p, sin_q);
+    let away = -KNOT_MINOR * q * sin_q;
+    let tangent =
+        DVec3::new(away * cos_p - distance * p * sin_p, away * sin_p + distance * p * cos_p, KNOT_MINOR * q * cos_q);
+    [centre, outward, outward.cross(tangent).normalize()]
+}
