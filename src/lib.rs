@@ -7,6 +7,7 @@ extern crate std;
 #[cfg(feature = "cli")]
 pub mod bench;
 pub mod camera;
+pub mod camera_fit;
 mod clip;
 #[cfg(feature = "cli")]
 pub mod comparison;

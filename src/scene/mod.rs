@@ -1,5 +1,20 @@
 //! A scene: objects, lights, a camera, and how they are to be drawn.
 
+#[cfg(feature = "io")]
+mod check;
+#[cfg(feature = "io")]
+pub mod diagnostics;
+#[cfg(feature = "io")]
+pub mod file;
+#[cfg(feature = "io")]
+mod overlay;
+#[cfg(feature = "io")]
+pub mod resolve;
+#[cfg(feature = "io")]
+pub mod value;
+#[cfg(feature = "io")]
+mod viewpoint;
+
 use crate::camera::Camera;
 use crate::lighting::{Light, Material, Rgb};
 use crate::mesh::PolygonMesh;
@@ -7,6 +22,11 @@ use crate::mesh::vertex_normals::NormalSource;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use glam::DAffine3;
+
+/// The largest coordinate in world space of a scene file: squares of distances (at most 12 times its square) and their
+/// products with coefficients stay far inside the range of an `f32`.
+#[cfg(feature = "io")]
+const MAX_COORDINATE: f64 = 1e15;
 
 /// How attributes vary over the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -88,3 +108,6 @@ impl Scene {
     /// The most lights a scene may have.
     pub const MAX_LIGHTS: usize = 64;
 }
+
+#[cfg(all(test, feature = "io"))]
+mod tests;
