@@ -45,11 +45,7 @@ const MOST_CALLS: u64 = 10_000;
 /// has a neighbour or a place of its own. A candidate too short for the clock is called several times a sample.
 ///
 /// `progress` is told, between rounds only, the part of the limits that is used up, 0..=1; there is time to draw.
-pub fn time_interleaved(
-    candidates: &mut [Candidate<'_>],
-    limits: Limits,
-    progress: impl FnMut(f32),
-) -> Vec<Timing> {
+pub fn time_interleaved(candidates: &mut [Candidate<'_>], limits: Limits, progress: impl FnMut(f32)) -> Vec<Timing> {
     let start = Instant::now();
     // 584 years of nanoseconds fit.
     run(candidates, limits, || start.elapsed().as_nanos() as u64, progress)
