@@ -1,5 +1,5 @@
 use super::*;
-use crate::bench::Machine;
+use crate::bench::{Machine, Ratio, Timing};
 use crate::camera::Camera;
 use crate::camera_fit::Fit;
 use crate::frame::{FrameBuilder, SubPixel, Vertex};
@@ -151,7 +151,7 @@ fn nothing_drawn_is_no_difference() {
         let speed = row.speed.as_ref().unwrap();
         assert_eq!(speed.ns_per_covered_pixel, None);
     }
-    let document = Document::new(&[comparison.clone()], &Machine::this(), &[]);
+    let document = Document::new(core::slice::from_ref(&comparison), &Machine::this(), &[]);
     assert!(document.comparisons[0].rows[0].error.equal);
     assert!(document.to_text().contains("\"psnr\": null"));
     assert!(table(&comparison, TableKind::Compare).contains("equal"));
@@ -170,7 +170,7 @@ fn speeds_belong_to_their_rows() {
         assert_eq!(per_pixel, speed.timing.median_ns / comparison.covered_pixels as f64);
         assert!(speed.ratio_to_naive.is_some() && speed.ratio_to_barycentric.is_some());
     }
-    let one = |ratio: Option<crate::bench::Ratio>| ratio.map(|r| (r.low, r.median, r.high)) == Some((1.0, 1.0, 1.0));
+    let one = |ratio: Option<Ratio>| ratio.map(|r| (r.low, r.median, r.high)) == Some((1.0, 1.0, 1.0));
     let of = |row: &Row| row.speed.clone().unwrap();
     assert!(one(of(named(&comparison.rows, BASELINE)).ratio_to_naive));
     for row in &comparison.barycentric {
@@ -198,7 +198,7 @@ fn documents_come_back_as_they_went() {
     let variants = [Variant::parse("fast-phong:steps=3").unwrap(), Variant::parse("flat").unwrap()];
     let comparison = compare(&input, &variants, &quick(), &mut |_, _| {});
     let command_line = ["fastphong", "bench", "prism"].map(String::from);
-    let document = Document::new(&[comparison.clone()], &Machine::this(), &command_line);
+    let document = Document::new(core::slice::from_ref(&comparison), &Machine::this(), &command_line);
     let text = document.to_text();
     assert!(text.starts_with("{\n  \"schema\": \"fastphong.bench/1\",\n"));
     assert_eq!(Document::parse(&text).unwrap(), document);
@@ -210,6 +210,42 @@ fn documents_come_back_as_they_went() {
     assert!(row["speed"]["ratio_to_naive"]["tie"].is_boolean());
     assert!(row["error"]["psnr"].is_f64() && row["error"]["equal"] == false);
     assert!(row["speed"]["timing"]["samples_ns"].as_array().is_some_and(|s| s.len() == 5));
+}
+
+#[test]
+fn the_description_names_every_field() {
+    let description = include_str!("../../docs/bench-json.md");
+    let mut comparison = errors_only(&frame_of("triangle"), &[]);
+    comparison.rows[0].variant = Variant::parse("flat").unwrap(); // no parameters, whose names are not fields
+    let timing = Timing::of(vec![1.0], 1);
+    let ratio = Ratio::paired(&[1.0], &[1.0]);
+    let row = &mut comparison.rows[0];
+    row.speed = timing.map(|timing| Speed {
+        timing,
+        ns_per_covered_pixel: None,
+        ratio_to_naive: ratio,
+        ratio_to_barycentric: ratio,
+    });
+    let document = to_json(&[comparison], &Machine::this(), &[]);
+    let mut left = vec![&document];
+    let mut fields = 0;
+    while let Some(value) = left.pop() {
+        if let Some(object) = value.as_object() {
+            for (field, value) in object {
+                let (alone, in_timing) = (alloc::format!("`{field}`"), alloc::format!("`timing.{field}`"));
+                let is_named = description.contains(&alone) || description.contains(&in_timing);
+                assert!(is_named || field == "timing", "`{field}` is not described");
+                fields += 1;
+                left.push(value);
+            }
+        }
+        left.extend(value.as_array().into_iter().flatten());
+    }
+    assert!(fields > 80, "all levels were visited: {fields}");
+    for text in [super::WHAT_IS_TIMED, super::WHAT_IS_COMPARED] {
+        let last = text.rsplit([',', ';']).next().unwrap();
+        assert!(description.contains(last.trim()), "{text}");
+    }
 }
 
 #[test]
