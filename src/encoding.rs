@@ -88,4 +88,12 @@ mod tests {
         }
         assert!(srgb_encode(f32::NAN).is_nan());
     }
+
+    #[test]
+    fn store_encodes_colours_and_not_alpha() {
+        let texel = [0.5, 0.18, 0.0, 0.5];
+        assert_eq!(store(texel, Encoding::Linear), [128, 46, 0, 128]);
+        // 255 · 0.735357 = 187.5 (187.516), 255 · 0.461356 = 117.6.
+        assert_eq!(store(texel, Encoding::Srgb), [188, 118, 0, 128]);
+    }
 }

@@ -4,9 +4,13 @@ extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+#[cfg(feature = "cli")]
+pub mod bench;
 pub mod camera;
 pub mod camera_fit;
 mod clip;
+#[cfg(feature = "cli")]
+pub mod comparison;
 pub mod encoding;
 pub mod frame;
 #[cfg(feature = "io")]

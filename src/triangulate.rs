@@ -14,6 +14,8 @@ pub struct Triangulated {
     /// The same vertices with triangles in place of the polygons of more than three corners, in the same order. They have
     /// the material, the normal and the number in the scene of the polygon that they come from.
     pub frame: Frame,
+    /// For each triangle the polygon that it comes from, an index into [`Frame::polygons`] of the frame that was cut.
+    pub origins: Vec<u32>,
     /// Polygons that were left out because they cross or overlap themselves on the picture.
     pub not_simple: usize,
 }
@@ -24,9 +26,14 @@ pub struct Triangulated {
 /// be left out, and a polygon that has no area altogether gives no triangle. Takes time with the square of the number of
 /// corners, with its cube in bad cases.
 pub fn triangulated(frame: &Frame) -> Triangulated {
-    let mut not_simple = 0;
+    let (mut not_simple, mut origins, mut number) = (0, Vec::new(), 0..);
     let triangles = frame.with_pieces(|polygon, add| {
         let corners = frame.corners(polygon);
+        let origin = number.next().unwrap_or(u32::MAX);
+        let mut add = |piece: &[u32]| {
+            origins.push(origin);
+            add(piece);
+        };
         if corners.len() == 3 {
             return add(corners);
         }
@@ -36,7 +43,7 @@ pub fn triangulated(frame: &Frame) -> Triangulated {
             None => not_simple += 1,
         }
     });
-    Triangulated { frame: triangles, not_simple }
+    Triangulated { frame: triangles, origins, not_simple }
 }
 
 /// Column and row in 1/256 pixel: at most 2²³ from 0 ([`Frame::GUARD`] pixels), so that twice an area is below 2⁵⁰.
@@ -188,6 +195,7 @@ mod tests {
         let pieces: Vec<_> = cut.frame.polygons().iter().map(|p| (cut.frame.corners(p).to_vec(), p.source)).collect();
         assert_eq!(pieces, [(vec![0, 1, 2], 0), (vec![3, 4, 5], 1), (vec![3, 5, 6], 1)]);
         assert_eq!(cut.frame.vertices(), frame.vertices());
+        assert_eq!(cut.origins, [0, 1, 1]);
     }
 
     #[test]

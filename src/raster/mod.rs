@@ -11,6 +11,7 @@
 mod active;
 mod aov;
 pub mod barycentric;
+mod barycentric_numbers;
 mod edge;
 mod edge_table;
 pub mod scanline;
@@ -20,6 +21,7 @@ mod visibility;
 
 pub use aov::{coverage, depth, normals, polygon_numbers};
 pub use barycentric::Edges;
+pub use barycentric_numbers::barycentric_polygon_numbers;
 pub use edge::Crossing;
 pub use visibility::NOTHING;
 

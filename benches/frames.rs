@@ -1,0 +1,46 @@
+//! Whole pictures: every method in the scanline engine, and those that the barycentric renderer has in it.
+//!
+//! From the projected frame to the stored picture, per covered pixel. `fastphong bench` times the same in interleaved
+//! rounds, and is the one to quote; this one tells whether a change of the code made it faster.
+
+mod scenes;
+
+use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use fastphong::raster::{Edges, NOTHING, polygon_numbers};
+use fastphong::shader::METHODS;
+use fastphong::triangulate::triangulated;
+use std::hint::black_box;
+use std::time::Duration;
+
+fn frames(c: &mut Criterion) {
+    for (name, mesh) in scenes::SCENES {
+        let frame = scenes::scene(mesh).frame().expect("a valid scene");
+        let triangles = triangulated(&frame).frame;
+        let covered = polygon_numbers(&frame).texels().iter().filter(|number| **number != NOTHING).count();
+        let mut group = c.benchmark_group(format!("frames/{name}"));
+        group.throughput(Throughput::Elements(covered as u64));
+        // Every sample with the same number of calls: frames take milliseconds, and a growing number takes minutes.
+        group.sampling_mode(SamplingMode::Flat);
+        for variant in METHODS.iter().map(|entry| entry.variant()) {
+            group.bench_function(BenchmarkId::new("scanline", &variant), |b| {
+                b.iter(|| variant.render(black_box(&frame)));
+            });
+            if variant.info().barycentric {
+                group.bench_function(BenchmarkId::new("barycentric", &variant), |b| {
+                    b.iter(|| variant.render_barycentric(black_box(&triangles), Edges::TopLeft));
+                });
+            }
+        }
+        group.finish();
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(3));
+    targets = frames
+}
+criterion_main!(benches);

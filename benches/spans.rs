@@ -1,0 +1,39 @@
+//! One span at a time: what a method takes to set up, and what it takes for each pixel.
+//!
+//! The time of a span of n pixels is set-up + n · slope. At n = 1 it is nearly all set-up (constants of the material and
+//! two vertices are part of it here, once a span); at n = 1024 the time per element is nearly the slope. Methods that
+//! step scalars instead of vectors pay in the former for the latter; where their lines cross is how long spans must be.
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use fastphong::shader::{METHODS, SpanBench};
+use std::hint::black_box;
+use std::time::Duration;
+
+/// The angle between the normals at the ends of the span, in degrees: that of a coarse mesh.
+const DEGREES: f32 = 20.0;
+const LIGHTS: usize = 1;
+
+fn spans(c: &mut Criterion) {
+    let bench = SpanBench::new(DEGREES, LIGHTS);
+    for variant in METHODS.iter().map(|entry| entry.variant()) {
+        let mut group = c.benchmark_group(format!("spans/{variant}"));
+        for length in (0..=10).map(|power| 1usize << power) {
+            let mut out = vec![[0.0; 3]; length];
+            group.throughput(Throughput::Elements(length as u64));
+            group.bench_function(BenchmarkId::from_parameter(length), |b| {
+                b.iter(|| variant.shade_span(black_box(&bench), black_box(&mut out)));
+            });
+        }
+        group.finish();
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(30)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_secs(1));
+    targets = spans
+}
+criterion_main!(benches);

@@ -1,0 +1,59 @@
+//! What happens before and around shading: meshes, vertex normals, projection, coverage, triangulation.
+
+mod scenes;
+
+use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use fastphong::mesh::builtin::builtin;
+use fastphong::mesh::vertex_normals::{NormalSource, vertex_normals};
+use fastphong::raster::{coverage, polygon_numbers};
+use fastphong::triangulate::triangulated;
+use std::hint::black_box;
+use std::time::Duration;
+
+/// The angle that keeps the edges of a prism and smooths a sphere, in degrees.
+const CREASE: f64 = 30.0;
+
+fn stages(c: &mut Criterion) {
+    for (name, mesh) in scenes::SCENES {
+        let scene = scenes::scene(mesh);
+        let shape = &scene.objects[0].mesh;
+        let frame = scene.frame().expect("a valid scene");
+        let mut group = c.benchmark_group(format!("stages/{name}"));
+        group.sampling_mode(SamplingMode::Flat);
+        group.throughput(Throughput::Elements(shape.polygon_count() as u64));
+        group.bench_function("mesh", |b| b.iter(|| builtin(black_box(mesh))));
+        let sources = [
+            ("averaged", NormalSource::Averaged),
+            ("given", NormalSource::Given),
+            ("crease", NormalSource::Crease(CREASE)),
+        ];
+        for (source_name, source) in sources {
+            group.bench_function(format!("normals/{source_name}"), |b| {
+                b.iter(|| vertex_normals(black_box(shape), source));
+            });
+        }
+        // Vertex normals are part of it: here those that came with the mesh.
+        group.bench_function("projection", |b| b.iter(|| black_box(&scene).frame()));
+        group.throughput(Throughput::Elements(frame.polygons().len() as u64));
+        group.bench_function("triangulation", |b| b.iter(|| triangulated(black_box(&frame))));
+        group.bench_function("coverage", |b| {
+            b.iter(|| {
+                let mut pixels = 0;
+                coverage(black_box(&frame), |_, _, span| pixels += span.len());
+                pixels
+            });
+        });
+        group.bench_function("visibility", |b| b.iter(|| polygon_numbers(black_box(&frame))));
+        group.finish();
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_millis(1500));
+    targets = stages
+}
+criterion_main!(benches);

@@ -1,0 +1,13 @@
+//! Timing: how long things take, and whether one is faster than another or only seems so.
+//!
+//! What disturbs a machine (clock frequency, other programs) changes slowly against one sample. So candidates are not
+//! timed one after the other but [interleaved](time_interleaved): every round samples each of them once, and two
+//! candidates are compared [round by round](Ratio::paired), where both met the same machine.
+
+mod machine;
+mod rounds;
+mod statistics;
+
+pub use machine::Machine;
+pub use rounds::{Candidate, Limits, time_interleaved};
+pub use statistics::{CONFIDENCE, Ratio, Timing};

@@ -1,0 +1,199 @@
+//! The loop: candidates in rounds, each round in another order.
+
+use super::statistics::Timing;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use std::time::{Duration, Instant};
+
+/// Something to be timed. What it makes must pass through [`core::hint::black_box`], or it may not be made at all.
+pub type Candidate<'a> = Box<dyn FnMut() + 'a>;
+
+/// How long to go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// No round begins after so much time, warm-up not counted.
+    pub time_budget: Duration,
+    /// The most rounds.
+    pub rounds: usize,
+    /// Rounds before the first that counts: caches, branch predictors and the clock frequency settle.
+    pub warm_up_rounds: usize,
+}
+
+impl Limits {
+    /// The least number of rounds, whatever the limits: fewer have no quartiles to speak of.
+    pub const LEAST_ROUNDS: usize = 5;
+}
+
+impl Default for Limits {
+    /// Up to 101 rounds within 5 seconds, after two rounds of warm-up.
+    fn default() -> Self {
+        Limits { time_budget: Duration::from_secs(5), rounds: 101, warm_up_rounds: 2 }
+    }
+}
+
+/// What a sample lasts at least, in ns: thousands of times the resolution of any clock and the cost of reading it.
+const LEAST_SAMPLE_NS: u64 = 200_000;
+
+/// The most calls a sample: a call that short is lost in the loop around it.
+const MOST_CALLS: u64 = 10_000;
+
+/// Times all candidates in rounds, until either limit is reached and [`Limits::LEAST_ROUNDS`] are over. The timings are
+/// in the order of the candidates.
+///
+/// Every round samples each candidate once. The second round of a pair runs in the reverse order of the first
+/// (A B C, C B A), so that what drifts during a pair cancels, and each pair begins with another candidate, so that none
+/// has a neighbour or a place of its own. A candidate too short for the clock is called several times a sample.
+///
+/// `progress` is told, between rounds only, the part of the limits that is used up, 0..=1; there is time to draw.
+pub fn time_interleaved(candidates: &mut [Candidate<'_>], limits: Limits, progress: impl FnMut(f32)) -> Vec<Timing> {
+    let start = Instant::now();
+    // 584 years of nanoseconds fit.
+    run(candidates, limits, || start.elapsed().as_nanos() as u64, progress)
+}
+
+/// As [`time_interleaved`], by any clock that counts nanoseconds.
+fn run(
+    candidates: &mut [Candidate<'_>],
+    limits: Limits,
+    mut now: impl FnMut() -> u64,
+    mut progress: impl FnMut(f32),
+) -> Vec<Timing> {
+    let mut sample = |candidate: &mut Candidate<'_>, calls: u64| {
+        let start = now();
+        for _ in 0..calls {
+            candidate();
+        }
+        now() - start
+    };
+    // The last round of the warm-up, which is the calmest, tells how many calls a sample needs.
+    let mut calls: Vec<u64> = candidates.iter().map(|_| 1).collect();
+    for _ in 0..limits.warm_up_rounds.max(1) {
+        for (candidate, calls) in candidates.iter_mut().zip(&mut calls) {
+            *calls = LEAST_SAMPLE_NS.div_ceil(sample(candidate, 1).max(1)).clamp(1, MOST_CALLS);
+        }
+    }
+    let mut samples: Vec<Vec<f64>> = candidates.iter().map(|_| Vec::new()).collect();
+    let most = limits.rounds.max(Limits::LEAST_ROUNDS);
+    let budget = limits.time_budget.as_nanos() as f64;
+    // Time in samples only: what `progress` takes is not ours.
+    let mut spent = 0.0;
+    for round in 0..most {
+        let part = (spent / budget).max(round as f64 / most as f64);
+        progress(if part.is_finite() { part.min(1.0) as f32 } else { 1.0 });
+        if round >= Limits::LEAST_ROUNDS && spent >= budget {
+            break;
+        }
+        for i in order(candidates.len(), round) {
+            let ns = sample(&mut candidates[i], calls[i]);
+            samples[i].push(ns as f64 / calls[i] as f64);
+            spent += ns as f64;
+        }
+    }
+    progress(1.0);
+    let timings = samples.into_iter().zip(calls);
+    timings.map(|(samples, calls)| Timing::of(samples, calls as u32).expect("finite times of five rounds")).collect()
+}
+
+/// The order of the candidates in a round: turned by one more place each pair of rounds, and reversed in the second.
+fn order(candidates: usize, round: usize) -> impl Iterator<Item = usize> {
+    let turn = round / 2;
+    (0..candidates).map(move |i| (if round.is_multiple_of(2) { i } else { candidates - 1 - i } + turn) % candidates)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::rc::Rc;
+    use alloc::string::String;
+    use alloc::vec;
+    use core::cell::{Cell, RefCell};
+
+    const FOREVER: Limits = Limits { time_budget: Duration::MAX, rounds: 6, warm_up_rounds: 1 };
+
+    /// Candidates that take times of a clock that only they move, and the letters of those that ran.
+    struct Stage {
+        clock: Rc<Cell<u64>>,
+        log: Rc<RefCell<String>>,
+    }
+
+    impl Stage {
+        fn new() -> Self {
+            Stage { clock: Rc::default(), log: Rc::default() }
+        }
+
+        fn candidate(&self, letter: char, mut ns: impl FnMut() -> u64 + 'static) -> Candidate<'static> {
+            let (clock, log) = (self.clock.clone(), self.log.clone());
+            Box::new(move || {
+                clock.set(clock.get() + ns());
+                log.borrow_mut().push(letter);
+            })
+        }
+
+        fn run(&self, candidates: &mut [Candidate<'_>], limits: Limits) -> Vec<Timing> {
+            run(candidates, limits, || self.clock.get(), |_| self.log.borrow_mut().push(' '))
+        }
+    }
+
+    #[test]
+    fn rounds_run_forth_and_back_and_begin_with_each_in_turn() {
+        let stage = Stage::new();
+        let mut candidates = ['A', 'B', 'C'].map(|letter| stage.candidate(letter, || LEAST_SAMPLE_NS));
+        let timings = stage.run(&mut candidates, FOREVER);
+        assert_eq!(*stage.log.borrow(), "ABC ABC CBA BCA ACB CAB BAC ", "warm-up, then six rounds");
+        assert!(timings.iter().all(|t| t.samples_ns.len() == 6));
+    }
+
+    #[test]
+    fn samples_are_the_candidates_own_and_in_order() {
+        let stage = Stage::new();
+        let mut time = 300_000;
+        let growing = stage.candidate('G', move || {
+            time += 1;
+            time
+        });
+        let timings = stage.run(&mut [stage.candidate('S', || 500_000), growing], FOREVER);
+        assert_eq!(timings[0].samples_ns, [500_000.0; 6]);
+        // The first of them warmed up.
+        assert_eq!(timings[1].samples_ns, [300_002.0, 300_003.0, 300_004.0, 300_005.0, 300_006.0, 300_007.0]);
+        assert_eq!(timings[1].calls_per_sample, 1);
+    }
+
+    #[test]
+    fn short_calls_are_repeated_and_stated_each() {
+        let stage = Stage::new();
+        let timings = stage.run(&mut [stage.candidate('a', || 60_000), stage.candidate('b', || 0)], FOREVER);
+        assert_eq!((timings[0].calls_per_sample, timings[0].median_ns), (4, 60_000.0), "4 · 60 µs ≥ 200 µs");
+        assert_eq!((u64::from(timings[1].calls_per_sample), timings[1].median_ns), (MOST_CALLS, 0.0));
+    }
+
+    #[test]
+    fn the_budget_ends_it_but_not_before_the_fifth_round() {
+        let rounds = |budget_ms| {
+            let stage = Stage::new();
+            let limits = Limits { time_budget: Duration::from_millis(budget_ms), rounds: 100, warm_up_rounds: 3 };
+            stage.run(&mut [stage.candidate('x', || 1_000_000)], limits)[0].samples_ns.len()
+        };
+        assert_eq!(rounds(0), Limits::LEAST_ROUNDS);
+        assert_eq!(rounds(8), 8, "warm-up takes nothing from it");
+        assert_eq!(rounds(1000), 100);
+    }
+
+    #[test]
+    fn progress_climbs_to_one() {
+        let stage = Stage::new();
+        let mut told = vec![];
+        let limits = Limits { time_budget: Duration::from_millis(6), rounds: 100, warm_up_rounds: 1 };
+        run(&mut [stage.candidate('x', || 1_000_000)], limits, || stage.clock.get(), |part| told.push(part));
+        assert_eq!((told[0], told[3], told.last()), (0.0, 0.5, Some(&1.0)));
+        assert!(told.is_sorted());
+        let mut none = vec![];
+        let limits = Limits { time_budget: Duration::ZERO, rounds: 0, warm_up_rounds: 0 };
+        run(&mut [stage.candidate('x', || 1)], limits, || stage.clock.get(), |part| none.push(part));
+        assert!(none.iter().all(|part| (0.0..=1.0).contains(part)), "{none:?}");
+    }
+
+    #[test]
+    fn nothing_to_time_takes_no_time() {
+        assert!(Stage::new().run(&mut [], FOREVER).is_empty());
+    }
+}
