@@ -2,7 +2,7 @@
 
 use super::barycentric::{self, Edges};
 use super::target::Target;
-use super::visibility::{NOTHING, VisibleLine};
+use super::visibility::NOTHING;
 use crate::frame::Frame;
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, Scalar};
@@ -27,14 +27,12 @@ struct Numbers<'a> {
 }
 
 impl Target for Numbers<'_> {
-    fn store(&mut self, row: usize, line: &VisibleLine, colours: &[[f32; 3]]) {
-        line.runs(|_, pixels| pixels.for_each(|x| self.put(x, row, colours[x])));
-    }
-
-    fn put(&mut self, x: usize, row: usize, [high, low, _]: [f32; 3]) {
-        let first = ((high as u32) << 16) | low as u32;
-        // Polygons take their corners from the list of all corners one after the other.
-        self.picture.row_mut(row)[x] = self.frame.polygons().partition_point(|p| p.first < first) as u32;
+    fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]) {
+        for (texel, [high, low, _]) in self.picture.row_mut(row)[x..].iter_mut().zip(colours) {
+            let first = ((*high as u32) << 16) | *low as u32;
+            // Polygons take their corners from the list of all corners one after the other.
+            *texel = self.frame.polygons().partition_point(|p| p.first < first) as u32;
+        }
     }
 }
 
