@@ -169,8 +169,10 @@ fn orientation_matters_for_squares_only() {
         let mut scene = Scene::of_mesh(builtin(spec).expect("a built-in mesh"));
         (scene.width, scene.height) = (128, 128);
         scene.camera.eye = scene.camera.target + DVec3::Z * 4.0;
+        (scene.camera.near, scene.camera.far) = (1.0, 8.0);
         scene.objects[0].normals = fastphong::mesh::vertex_normals::NormalSource::Given;
-        scene.objects[0].material = Some(Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 });
+        scene.objects[0].material =
+            Some(Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 });
         scene.lights = vec![Light { direction: DVec3::Z, colour: [1.0; 3] }];
         reference::render(&scene.frame().expect("a frame"), Model::Gouraud).to_linear()
     };

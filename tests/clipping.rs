@@ -163,8 +163,8 @@ fn a_comb_is_cut_into_its_teeth() {
         scene.objects[0].normals = NormalSource::Averaged;
         if !bar_in_front {
             // From the other side the tips are in front and the bar is behind the eye.
-            scene.camera.eye.z = -4.0;
-            scene.camera.target = DVec3::new(0.0, 0.7, -3.0);
+            scene.camera.eye.z = -2.5;
+            scene.camera.target = DVec3::new(0.0, 0.7, -1.5);
         }
         let frame = scene.frame().expect("a frame");
         assert_eq!(frame.polygons().len(), if bar_in_front { 1 } else { teeth }, "pieces");
