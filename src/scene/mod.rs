@@ -6,8 +6,8 @@ mod check;
 pub mod diagnostics;
 #[cfg(feature = "io")]
 pub mod file;
-#[cfg(feature = "io")]
 mod of_mesh;
+#[cfg(feature = "io")]
 mod overlay;
 #[cfg(feature = "io")]
 pub mod resolve;
