@@ -81,6 +81,7 @@ impl Add for Counted<'_> {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl)] // the `+` counts
 impl Sub for Counted<'_> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
@@ -88,6 +89,7 @@ impl Sub for Counted<'_> {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl)] // the `+` counts
 impl Mul for Counted<'_> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
@@ -95,6 +97,7 @@ impl Mul for Counted<'_> {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl)] // the `+` counts
 impl Div for Counted<'_> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
