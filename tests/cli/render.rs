@@ -123,7 +123,7 @@ fn flags_change_the_picture() {
     }
     assert!(sphere("--cull none --no-depth") != sphere("--cull none"));
     assert!(rendered("perspective --size 64x48") != rendered("perspective --size 64x48 --interpolation screen"));
-    assert!(sphere("--normals given") == plain);
+    assert!(sphere("--normals averaged") == plain);
 }
 
 #[test]
