@@ -116,7 +116,7 @@ fn flags_change_the_picture() {
         "--background 0.25",
         "--encoding srgb",
         "--cull front",
-        "--normals averaged",
+        "--normals given",
         "--normals crease=1",
     ] {
         assert!(sphere(flags) != plain, "{flags}");
