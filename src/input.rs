@@ -293,7 +293,10 @@ mod tests {
             ("scenes/taepot.toml", "did you mean `teapot`?"),
             ("torus", "did you mean `builtin:torus`?"),
             ("nothing-like-it.obj", "`nothing-like-it.obj` is neither a file nor a shipped scene"),
-            ("nothing-like-it", "is neither a file nor a shipped scene (expected a scene file .toml, a mesh file .obj,"),
+            (
+                "nothing-like-it",
+                "is neither a file nor a shipped scene (expected a scene file .toml, a mesh file .obj,",
+            ),
             ("Cargo.lock", "Cargo.lock: neither a scene nor a mesh file by its ending"),
         ] {
             let error = load(input).unwrap_err();

@@ -105,7 +105,7 @@ fn object_text(described: &Described) -> String {
         false => {
             let odd = [
                 (facts.open_edges, "open"),
-                (facts.crowded_edges, "of three polygons or more"),
+                (facts.non_manifold_edges, "non-manifold (three polygons or more)"),
                 (facts.reversed_edges, "between polygons wound differently"),
             ];
             let odd =
@@ -189,7 +189,7 @@ fn object_json(described: &Described) -> Value {
         "bounds": bounds,
         "edges": facts.edges,
         "open_edges": facts.open_edges,
-        "crowded_edges": facts.crowded_edges,
+        "non_manifold_edges": facts.non_manifold_edges,
         "reversed_edges": facts.reversed_edges,
         "closed": facts.is_closed(),
         "materials": facts.materials,

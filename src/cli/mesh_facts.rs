@@ -35,7 +35,7 @@ pub struct MeshFacts {
     /// Edges of one polygon only: none on a closed mesh.
     pub open_edges: usize,
     /// Edges of three polygons or more.
-    pub crowded_edges: usize,
+    pub non_manifold_edges: usize,
     /// Edges whose two polygons go along them in the same direction: they are not wound alike.
     pub reversed_edges: usize,
     /// Materials that come with the mesh.
@@ -82,7 +82,7 @@ impl MeshFacts {
 
     /// Whether every edge has two polygons that are wound alike.
     pub fn is_closed(&self) -> bool {
-        self.edges > 0 && self.open_edges + self.crowded_edges + self.reversed_edges == 0
+        self.edges > 0 && self.open_edges + self.non_manifold_edges + self.reversed_edges == 0
     }
 
     fn count_edges(&mut self, mesh: &PolygonMesh, vertex: &[u32]) {
@@ -102,7 +102,7 @@ impl MeshFacts {
             match edge {
                 [_] => self.open_edges += 1,
                 [one, other] => self.reversed_edges += usize::from(one.2 == other.2),
-                _ => self.crowded_edges += 1,
+                _ => self.non_manifold_edges += 1,
             }
         }
     }

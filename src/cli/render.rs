@@ -12,7 +12,7 @@ use super::{Failure, Outcome, values};
 use fastphong::frame::{Frame, FrameStats};
 use fastphong::image_file::Format;
 use fastphong::input;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Draw a scene or a mesh
@@ -69,6 +69,12 @@ impl Render {
         };
         if let Some(reference) = &self.reference {
             Format::of_path(reference)?;
+            if output.as_ref().and_then(|output| output.path.as_deref()).is_some_and(|path| same_file(path, reference))
+            {
+                let message =
+                    format!("`--output` is the reference itself, {}: expected another file", reference.display());
+                return Err(message.into());
+            }
         }
         let mut file = self.scene.load(&self.input)?;
         let progress = Progress::watched(talk);
@@ -127,6 +133,14 @@ impl Render {
             Some(aov) => aov.get_name().to_owned(),
             None => self.method.to_string(),
         }
+    }
+}
+
+/// Whether both paths lead to one file that is there.
+fn same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => a == b,
     }
 }
 
