@@ -164,8 +164,12 @@ mod tests {
     fn points_fill_the_part_of_the_frame_exactly() {
         for fovy in [None, Some(5.0), Some(40.0), Some(120.0)] {
             for fraction in [0.3, 0.8, 1.0] {
-                for aspect in [0.25, 1.0, 4.0] {
-                    let points = box_corners();
+                for (aspect, every_corner) in [(0.25, true), (1.0, true), (4.0, true), (4.0, false), (0.25, false)] {
+                    let mut points = box_corners();
+                    if !every_corner {
+                        // The same box without the symmetry in which a wrong sign of the depth would not show.
+                        points = [0, 3, 5, 6].map(|i| points[i]).to_vec();
+                    }
                     let fit = Fit { fraction, aspect, ..fit(fovy) };
                     let camera = Camera::fit(points.iter().copied(), &fit).expect("there are points");
                     let (most, low, high) = extent(&camera, &points, aspect);

@@ -109,7 +109,7 @@ pub(crate) fn draw<S: Shader, M: Machine>(
                 };
                 let mut walk = S::walk(m, &setup.consts[material], &setup.polygons[number], &start);
                 let rgb = S::shade(&consts[material], walk.next());
-                target.put(column, row, each(|i| m.first(rgb[i])));
+                target.store(column, row, &[each(|i| m.first(rgb[i]))]);
             }
         }
     }

@@ -23,4 +23,4 @@ pub use barycentric::Edges;
 pub use edge::Crossing;
 pub use visibility::NOTHING;
 
-pub(crate) use target::{Target, linear_picture, picture8};
+pub(crate) use target::{Target, clear, linear_picture, picture8};

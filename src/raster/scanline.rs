@@ -60,11 +60,12 @@ pub(crate) fn draw<S: Shader, M: Machine>(m: M, frame: &Frame, parameters: &[u32
             };
             let mut walk = S::walk(m, &setup.consts[material], &setup.polygons[span.polygon as usize], &start);
             let consts = &consts[material];
-            for colour in &mut colours[pixels] {
+            let run = &mut colours[..pixels.len()];
+            for colour in run.iter_mut() {
                 let rgb = S::shade(consts, walk.next());
                 *colour = each(|i| m.first(rgb[i]));
             }
+            target.store(pixels.start, row, run);
         });
-        target.store(row, line, &colours);
     });
 }

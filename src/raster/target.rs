@@ -1,6 +1,5 @@
-//! Where finished lines go: a stored picture or a linear one.
+//! Where finished runs of pixels go: a stored picture or a linear one.
 
-use super::visibility::VisibleLine;
 use crate::encoding::quantise;
 use crate::frame::Frame;
 use crate::picture::{LinearPicture, Picture, Picture8};
@@ -36,27 +35,18 @@ impl Texel for [f32; 4] {
     }
 }
 
-/// A picture that takes finished lines, whatever its texels are: one indirect call a line.
+/// A picture that takes finished runs, whatever its texels are: one indirect call a run, so that the engines are
+/// compiled once for both kinds.
 pub(crate) trait Target {
-    /// Stores the drawn pixels of a line.
-    fn store(&mut self, row: usize, line: &VisibleLine, colours: &[[f32; 3]]);
-    /// Stores one pixel.
-    fn put(&mut self, x: usize, row: usize, colour: [f32; 3]);
+    /// Stores a run of pixels from (`x`, `row`) on.
+    fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]);
 }
 
 impl<T: Texel> Target for Picture<T> {
-    fn store(&mut self, row: usize, line: &VisibleLine, colours: &[[f32; 3]]) {
-        let texels = self.row_mut(row);
-        line.runs(|_, pixels| {
-            for (texel, colour) in texels[pixels.clone()].iter_mut().zip(&colours[pixels]) {
-                *texel = T::drawn(*colour);
-            }
-        });
-    }
-
-    #[inline(always)]
-    fn put(&mut self, x: usize, row: usize, colour: [f32; 3]) {
-        self.row_mut(row)[x] = T::drawn(colour);
+    fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]) {
+        for (texel, colour) in self.row_mut(row)[x..].iter_mut().zip(colours) {
+            *texel = T::drawn(*colour);
+        }
     }
 }
 
@@ -68,4 +58,9 @@ pub(crate) fn picture8(frame: &Frame) -> Picture8 {
 /// An empty linear picture for `frame`: its background, alpha 0.
 pub(crate) fn linear_picture(frame: &Frame) -> LinearPicture {
     Picture::new(frame.width(), frame.height(), Texel::background(frame.background()))
+}
+
+/// Empties a stored picture of the frame's size.
+pub(crate) fn clear(frame: &Frame, picture: &mut Picture8) {
+    picture.texels_mut().fill(Texel::background(frame.background()));
 }

@@ -7,7 +7,7 @@ use super::{FastPhong, Flat, Gouraud, Info, Method, NaivePhong, Shader, SlerpPho
 use crate::frame::Frame;
 use crate::number::Scalar;
 use crate::picture::{LinearPicture, Picture8};
-use crate::raster::{Edges, Target, barycentric, linear_picture, picture8, scanline};
+use crate::raster::{Edges, Target, barycentric, clear, linear_picture, picture8, scanline};
 use crate::scene::Encoding;
 use crate::suggest::nearest;
 use alloc::string::{String, ToString};
@@ -166,6 +166,19 @@ impl Variant {
         stored(frame, |target| (self.entry.draw)(frame, &self.parameters, target))
     }
 
+    /// Draws `frame` into `picture`, which is made anew unless it has the frame's size: for drawing many frames without
+    /// asking for memory each time.
+    pub fn render_into(&self, frame: &Frame, picture: &mut Picture8) {
+        if (picture.width(), picture.height()) != (frame.width(), frame.height())
+            || frame.encoding() != Encoding::Linear
+        {
+            *picture = self.render(frame);
+            return;
+        }
+        clear(frame, picture);
+        (self.entry.draw)(frame, &self.parameters, picture);
+    }
+
     /// Draws `frame` before rounding: linear channels, clamped to 0..=1.
     pub fn render_linear(&self, frame: &Frame) -> LinearPicture {
         let mut picture = linear_picture(frame);
@@ -211,7 +224,7 @@ fn stored(frame: &Frame, draw: impl FnOnce(&mut dyn Target)) -> Picture8 {
         Encoding::Srgb => {
             let mut picture = linear_picture(frame);
             draw(&mut picture);
-            picture.map(|texel| crate::encoding::store(texel, Encoding::Srgb))
+            crate::encoding::store(&picture, Encoding::Srgb)
         }
     }
 }

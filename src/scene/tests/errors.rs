@@ -1,117 +1,11 @@
+use super::expect::{check, error};
 use super::{cubes, with_object};
 use crate::scene::Scene;
-use crate::scene::diagnostics::SceneError;
 use crate::scene::file::{LightSection, SceneFile};
 use crate::scene::value::Located;
 use std::format;
 use std::string::String;
 use std::vec;
-
-/// The error that `text` leads to, in reading or in resolving.
-fn error(text: &str) -> SceneError {
-    match SceneFile::parse(text, "scene.toml").and_then(|file| file.resolve(cubes)) {
-        Ok(_) => panic!("no error in\n{text}"),
-        Err(error) => error,
-    }
-}
-
-/// One wrong scene: the mark `«…»` is taken out before it is read, and the caret must stand under what it held.
-fn check(marked: &str, message: &str, expected: &str, hint: Option<&str>) {
-    let start = marked.find('«').expect("a mark");
-    let line = marked[..start].matches('\n').count() + 1;
-    let column = start - marked[..start].rfind('\n').map_or(0, |i| i + 1) + 1;
-    let inside = &marked[start + '«'.len_utf8()..marked.find('»').expect("a mark")];
-    let error = error(&marked.replace(['«', '»'], ""));
-    let got = (error.message(), error.expected(), error.hint(), error.line_and_column());
-    assert_eq!(got, (message, expected, hint, Some((line, column))), "in\n{marked}\n{error}");
-    let shown = format!("{error}");
-    assert!(shown.starts_with(&format!("error: {message}\n")), "{shown}");
-    assert!(shown.contains(&format!("--> scene.toml:{line}:{column}\n")), "{shown}");
-    // A caret under each character of the first line of what is marked, from the same column on.
-    let carets = "^".repeat(inside.lines().next().map_or(1, |line| line.chars().count().max(1)));
-    if !inside.contains('\n') {
-        let caret_line =
-            shown.lines().find(|line| line.contains('^')).unwrap_or_else(|| panic!("no caret in\n{shown}"));
-        let under = caret_line.split_once("| ").map_or("", |(_, under)| under);
-        let end = column - 1 + carets.len();
-        assert_eq!(under.find('^'), Some(column - 1), "{shown}");
-        assert!(under[column - 1..].starts_with(&carets) && !under[end..].starts_with('^'), "{shown}");
-    }
-}
-
-#[test]
-fn what_is_not_toml_or_has_no_such_key() {
-    check(
-        "[«camra»]\nfit = 1\n",
-        "unknown key `camra`",
-        "expected one of `title`, `description`, `ambient`, `interpolation`, `cull`, `depth_test`, `image`, `camera`, \
-         `material`, `light`, `object`",
-        Some("did you mean `camera`?"),
-    );
-    check(
-        "[material]\nka = 0.1\n«shinines» = 3\n",
-        "unknown key `shinines`",
-        "expected one of `ka`, `kd`, `ks`, `shininess`",
-        Some("did you mean `shininess`?"),
-    );
-    check(
-        "[[light]]\ndirection = [0, 0, 1]\n«color» = 1\n",
-        "unknown key `color`",
-        "expected one of `direction`, `colour`, `intensity`",
-        Some("did you mean `colour`?"),
-    );
-    check(
-        "[[object]]\nmesh = \"a.obj\"\nrotate = { axis = [0, 0, 1], «degrees» = 3 }\n",
-        "unknown key `degrees`",
-        "expected `axis` or `angle`",
-        None,
-    );
-    check(
-        "cull = «\"bakc\"»\n",
-        "unknown word `bakc`",
-        "expected one of `back`, `front`, `none`",
-        Some("did you mean `back`?"),
-    );
-    check("interpolation = «\"space\"»\n", "unknown word `space`", "expected `screen` or `perspective`", None);
-    check(
-        "[image]\nencoding = «\"srbg\"»\n",
-        "unknown word `srbg`",
-        "expected `linear` or `srgb`",
-        Some("did you mean `srgb`?"),
-    );
-    check(
-        "[[object]]\nmesh = \"a.obj\"\nnormals = «\"average\"»\n",
-        "unknown word `average`",
-        "expected `given` or `averaged`",
-        Some("did you mean `averaged`?"),
-    );
-}
-
-#[test]
-fn what_is_of_the_wrong_kind() {
-    check("depth_test = «\"yes\"»\n", "expected true or false", "found string \"yes\"", None);
-    check("[image]\nwidth = «640.5»\n", "expected a whole number", "found floating point `640.5`", None);
-    check("[camera]\nfovy = «\"wide\"»\n", "expected a number", "found string \"wide\"", None);
-    check("[camera]\neye = «[1, 2]»\n", "expected three numbers [x, y, z]", "found a list of 2", None);
-    check("[camera]\neye = [1, 2, «true»]\n", "expected a number", "found boolean `true`", None);
-    check("ambient = «[1]»\n", "expected one number or three in brackets", "found a list of one", None);
-    check("[material]\nkd = «\"red\"»\n", "expected one number or three in brackets", "found string \"red\"", None);
-    check("[[object]]\nmesh = «3»\n", "expected text in quotes", "found integer `3`", None);
-    check(
-        "[[object]]\nmesh = \"a.obj\"\nmatrix = «[[1, 0, 0, 0], [0, 1, 0, 0]]»\n",
-        "expected three rows of four numbers",
-        "found a list of 2",
-        None,
-    );
-    check(
-        "[[object]]\nmesh = \"a.obj\"\nrotate = «90»\n",
-        "expected { axis = [x, y, z], angle = degrees } or a list of those",
-        "found integer `90`",
-        None,
-    );
-    check("«[[object]]»\nscale = 2\n", "the key `mesh` is missing", "in this table", None);
-    check("«[[light]]»\ncolour = 2\n", "the key `direction` is missing", "in this table", None);
-}
 
 #[test]
 fn numbers_out_of_range() {
@@ -407,32 +301,6 @@ error: unknown word `bakc`
     assert!(misspelt.render(true).contains('\u{1b}'));
 }
 
-/// Text that is not TOML at all, of any kind, is an error with a place and never a panic.
-#[test]
-fn broken_text() {
-    for (text, line, column) in [
-        ("[camera\n", 1, 8),
-        ("[camera]\nfit = \n", 2, 7),
-        ("fit", 1, 4),
-        ("[camera]\nfit = 1\nfit = 2\n", 3, 1),
-        ("title = \"ä\" x\n", 1, 13),
-        ("title = \"no end\n", 1, 16),
-        ("\u{feff}[camera\n", 1, 8),
-        ("a = \u{1f600}\n", 1, 5),
-    ] {
-        let error = error(text);
-        assert_eq!(error.line_and_column(), Some((line, column)), "{text:?}\n{error}");
-        assert!(format!("{error}").starts_with("error: not valid TOML: "), "{error}");
-    }
-    // Every beginning of a scene, at every byte.
-    let whole = with_object("title = 'ä'\n[camera]\neye = [0, 0, 5]\n[[light]]\ndirection = [1, 1, 1]");
-    for end in (0..whole.len()).filter(|end| whole.is_char_boundary(*end)) {
-        if let Err(error) = SceneFile::parse(&whole[..end], "scene.toml").and_then(|file| file.resolve(cubes)) {
-            assert!(format!("{error}").starts_with("error: "), "{error}");
-        }
-    }
-}
-
 /// Values from flags pass the same checks; the error names the flag and shows no file.
 #[test]
 fn values_from_flags() {
@@ -450,17 +318,4 @@ fn values_from_flags() {
     flagged.camera.fit = Some(Located::flag(0.5, "--fit"));
     let error = flagged.resolve(cubes).expect_err("both");
     assert!(format!("{error}").starts_with("error: `--fit` and `camera.half_height` exclude each other"), "{error}");
-}
-
-#[test]
-fn files_that_cannot_be_read() {
-    let folder = std::env::temp_dir().join(format!("fastphong-scene-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a temporary folder");
-    let path = folder.join("latin1.toml");
-    let missing = format!("{}", SceneFile::load(folder.join("none.toml")).expect_err("no file"));
-    std::fs::write(&path, b"a = 1\ntitle = \"\xe4\"\n").expect("a temporary file");
-    let latin1 = format!("{}", SceneFile::load(&path).expect_err("not UTF-8"));
-    std::fs::remove_dir_all(&folder).expect("the temporary folder");
-    assert!(missing.starts_with("error: cannot read the scene `") && missing.contains("none.toml`: "), "{missing}");
-    assert!(latin1.ends_with("latin1.toml`: line 2 is not text: expected UTF-8"), "{latin1}");
 }

@@ -267,6 +267,27 @@ fn flags_over_a_file() {
     let merged = "ambient = 0.25\ncull = 'none'\ndepth_test = false\n[material]\nka = 1\nkd = 0.5\n[[light]]\ndirection = [1, 0, 0]";
     assert_eq!(file, SceneFile::parse(&with_object(merged), "c").expect("valid"));
 
+    // What both give is that of the flags; flags that say nothing change nothing.
+    let all = |n: u32, cull: &str, space: &str, encoding: &str| {
+        let material = format!("ka = {n}\nkd = {n}\nks = {n}\nshininess = {n}");
+        format!(
+            "title = '{n}'\ndescription = '{n}'\nambient = {n}\ncull = '{cull}'\ninterpolation = '{space}'\n\
+             depth_test = {}\n[image]\nwidth = {n}\nheight = {n}\nbackground = {n}\nencoding = '{encoding}'\n\
+             [material]\n{material}\n[[light]]\ndirection = [{n}, 0, 0]\n[[object]]\nmesh = '{n}'",
+            n == 1
+        )
+    };
+    let [below, over] = [all(1, "back", "screen", "linear"), all(2, "front", "perspective", "srgb")]
+        .map(|text| SceneFile::parse(&text, "all").expect("valid"));
+    let mut merged = below.clone();
+    merged.overlay(SceneFile::default());
+    assert_eq!(merged, below);
+    merged.overlay(over.clone());
+    assert_eq!(merged, over);
+}
+
+#[test]
+fn camera_flags_over_a_file() {
     let plain = resolve(&with_object("")).scene.camera;
     assert_eq!(overlaid("half_height = 3", "fit = 0.8"), plain);
     assert_eq!(overlaid("eye = [0.5, 0.3, 1]\nnear = 3\nfar = 4", "fit = 0.8"), plain);

@@ -1,7 +1,9 @@
 //! Scene files: what each key means, what is refused and how it is said, and the scenes that are shipped.
 
 mod errors;
+mod expect;
 mod meaning;
+mod reading;
 mod round_trip;
 mod shipped;
 
