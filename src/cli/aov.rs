@@ -64,6 +64,6 @@ fn colour_of_number(number: u32) -> [u8; 4] {
     let [r, g, b, _] = (h ^ (h >> 16)).to_le_bytes();
     // Not so dark as to be taken for the background. Odd numbers are lighter in green: neighbours in a row of polygons
     // differ by that alone.
-    let lift = if number % 2 == 0 { 0 } else { 128 };
+    let lift = if number.is_multiple_of(2) { 0 } else { 128 };
     [48 | r, 32 + g / 4 + lift, 48 | b, 255]
 }

@@ -127,8 +127,10 @@ impl Drawing {
             "{of} polygons of more than three corners are cut into triangles for the barycentric renderer: {into} in all"
         ));
         if cut.not_simple > 0 {
-            let count = grouped(cut.not_simple);
-            talk.warning(&format!("{count} polygons cross or overlap themselves and are left out"));
+            talk.warning(&match cut.not_simple {
+                1 => "1 polygon crosses or overlaps itself and is left out".to_owned(),
+                n => format!("{} polygons cross or overlap themselves and are left out", grouped(n)),
+            });
         }
         Ok(Drawing { frame: cut.frame, content })
     }
@@ -146,7 +148,7 @@ impl Drawing {
                 let picture = reference::render(frame, *model);
                 FilePicture::stored(match frame.encoding() {
                     Encoding::Linear => picture.to_picture8(),
-                    Encoding::Srgb => picture.to_linear().map(|texel| store(texel, Encoding::Srgb)),
+                    Encoding::Srgb => store(&picture.to_linear(), Encoding::Srgb),
                 })
             }
             (Content::Shaded(Method::Variant(variant), engine), linear) => shaded(frame, variant, *engine, linear),

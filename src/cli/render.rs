@@ -48,7 +48,7 @@ pub struct Render {
     reference: Option<PathBuf>,
     /// Grey levels, of 255, that a channel may differ from the reference; a pixel that only one of the pictures covers
     /// differs by 255
-    #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = values::grey_levels, requires = "reference", visible_alias = "ref-threshold")]
+    #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = values::grey_levels, allow_hyphen_values = true, requires = "reference", visible_alias = "ref-threshold")]
     reference_threshold: f64,
     #[command(flatten)]
     scene: SceneFlags,

@@ -34,9 +34,8 @@ fn the_threshold_decides_the_exit_code() {
     folder.run("diff a.png b.png --fail-above 0 --quiet").differs();
     folder.run("diff a.png a.png --fail-above 0").done();
     for bad in ["-1", "nan", "lots"] {
-        let parts = ["expected grey levels: a number, 0 or more", "a value is required"];
-        let ended = folder.run(&format!("diff a.png b.png --fail-above {bad}")).refused(&[]);
-        assert!(parts.iter().any(|part| ended.err.contains(part)) || bad == "-1", "{}", ended.err);
+        let ended = folder.run(&format!("diff a.png b.png --fail-above {bad}"));
+        ended.refused(&["--fail-above", "expected grey levels: a number, 0 or more"]);
     }
 }
 

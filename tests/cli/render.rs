@@ -82,7 +82,7 @@ fn polygons_that_cross_themselves_are_told_of() {
     folder
         .run(&format!("render bow.obj --engine barycentric {flags}"))
         .done()
-        .says("warning: 1 polygons cross or overlap themselves and are left out");
+        .says("warning: 1 polygon crosses or overlaps itself and is left out");
 }
 
 /// Each flag changes the picture; its value as the scene's own does not.
