@@ -1,5 +1,6 @@
 //! From computed intensities to stored grey levels.
 
+use crate::picture::{LinearPicture, Picture8};
 use crate::scene::Encoding;
 
 /// The stored grey level of intensity `c`: 255 c, rounded to the nearest integer.
@@ -36,14 +37,70 @@ pub fn srgb_encode(c: f32) -> f32 {
     (1.055 * libm::pow(f64::from(c), 1.0 / 2.4) - 0.055) as f32
 }
 
-/// A linear texel as it is stored; alpha has no transfer function.
-pub fn store(texel: [f32; 4], encoding: Encoding) -> [u8; 4] {
-    let [r, g, b, alpha] = texel;
-    let encode = |c| match encoding {
-        Encoding::Linear => quantise(c),
-        Encoding::Srgb => quantise(srgb_encode(c)),
-    };
-    [encode(r), encode(g), encode(b), quantise(alpha)]
+/// Stores linear texels with a transfer function, as fast as a table look-up and as exactly as the function itself.
+#[derive(Debug)]
+pub struct Encoder {
+    /// The least intensity that is stored as each level; two that no intensity reaches at the end.
+    least: [f32; 257],
+    /// The level of the lowest intensity in each of equal parts of 0..=1.
+    guess: [u8; Encoder::PARTS + 1],
+}
+
+impl Encoder {
+    const PARTS: usize = 1024;
+
+    /// The encoder of the sRGB transfer function.
+    pub fn srgb() -> Self {
+        let level = |c: f32| quantise(srgb_encode(c));
+        let mut least = [f32::INFINITY; 257];
+        least[0] = f32::NEG_INFINITY;
+        for (k, c) in least.iter_mut().enumerate().take(256).skip(1) {
+            // The inverse of the function at the lower end of the level, then to the very float.
+            let encoded = (k as f64 - 0.5) / 255.0;
+            let linear = if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) };
+            *c = linear as f32;
+            while level(*c) as usize >= k {
+                *c = c.next_down();
+            }
+            while (level(*c) as usize) < k {
+                *c = c.next_up();
+            }
+        }
+        let mut guess = [0; Self::PARTS + 1];
+        for (part, guess) in guess.iter_mut().enumerate() {
+            *guess = level(part as f32 / Self::PARTS as f32);
+        }
+        Encoder { least, guess }
+    }
+
+    /// The stored level of intensity `c`: that of [`srgb_encode`] and [`quantise`].
+    #[inline(always)]
+    pub fn level(&self, c: f32) -> u8 {
+        let c = if c > 0.0 { c } else { 0.0 };
+        let c = if c < 1.0 { c } else { 1.0 };
+        let mut level = self.guess[(c * Self::PARTS as f32) as usize];
+        while c >= self.least[usize::from(level) + 1] {
+            level += 1;
+        }
+        level
+    }
+
+    /// A linear texel as it is stored; alpha has no transfer function.
+    #[inline(always)]
+    pub fn store(&self, [r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
+        [self.level(r), self.level(g), self.level(b), quantise(alpha)]
+    }
+}
+
+/// A linear picture as it is stored.
+pub fn store(picture: &LinearPicture, encoding: Encoding) -> Picture8 {
+    match encoding {
+        Encoding::Linear => picture.map(|texel| texel.map(quantise)),
+        Encoding::Srgb => {
+            let encoder = Encoder::srgb();
+            picture.map(|texel| encoder.store(texel))
+        }
+    }
 }
 
 #[cfg(test)]
@@ -90,10 +147,18 @@ mod tests {
     }
 
     #[test]
-    fn store_encodes_colours_and_not_alpha() {
-        let texel = [0.5, 0.18, 0.0, 0.5];
-        assert_eq!(store(texel, Encoding::Linear), [128, 46, 0, 128]);
-        // 255 · 0.735357 = 187.5 (187.516), 255 · 0.461356 = 117.6.
-        assert_eq!(store(texel, Encoding::Srgb), [188, 118, 0, 128]);
+    fn the_table_is_the_function() {
+        let encoder = Encoder::srgb();
+        let same = |c: f32| assert_eq!(encoder.level(c), quantise(srgb_encode(c)), "{c}");
+        for step in 0..=100_000 {
+            same(step as f32 / 100_000.0);
+        }
+        for c in &encoder.least[1..256] {
+            same(*c);
+            same(c.next_down());
+        }
+        for c in [f32::NAN, -1.0, 2.0, f32::INFINITY, 1.0, 0.0] {
+            same(c);
+        }
     }
 }

@@ -1,2 +1,26 @@
-//! The `fastphong` command-line tool.
-fn main() {}
+//! The `fastphong` command-line tool: parse, run, print the error, exit code.
+
+mod cli;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = match cli::Cli::try_parse() {
+        Ok(cli) => cli,
+        // Help and version are no errors: they go to standard output, with exit code 0.
+        Err(message) => {
+            // Nobody is left to be told when this cannot be written.
+            let _ = message.print();
+            return u8::try_from(message.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from);
+        }
+    };
+    match cli.run() {
+        Ok(cli::Outcome::Done) => ExitCode::SUCCESS,
+        Ok(cli::Outcome::Differs) => ExitCode::from(1),
+        Err(failure) => {
+            cli::talk::to_stderr(&failure.render(cli::talk::colour()));
+            ExitCode::from(2)
+        }
+    }
+}

@@ -36,6 +36,18 @@ impl Scene {
 
 const NO_VERTEX: u32 = u32::MAX;
 
+/// A position in clip space and on the picture, and the planes that it is beyond.
+#[derive(Clone, Copy)]
+struct Place {
+    clip: DVec4,
+    /// Column and row; means nothing beyond a plane.
+    snapped: [SubPixel; 2],
+    /// One bit a side of the view: left, right, bottom, top, near, far.
+    beyond_view: u8,
+    /// One bit a plane of [`Projection::planes`].
+    beyond_planes: u8,
+}
+
 struct Projection<'a> {
     scene: &'a Scene,
     clip_matrix: DMat4,
@@ -51,7 +63,7 @@ struct Projection<'a> {
 struct Projected<'a> {
     mesh: &'a PolygonMesh,
     normals: VertexNormals,
-    clip: Vec<DVec4>,
+    places: Vec<Place>,
     normal_matrix: DMat3,
     mirrored: bool,
     /// Material of the frame by material of the mesh; the last is for polygons without one.
@@ -103,7 +115,7 @@ impl<'a> Projection<'a> {
 
     fn object(&mut self, object: &Object) -> Result<(), FrameError> {
         let mut projected = self.project(object);
-        if let Some(index) = projected.clip.iter().position(|p| !p.is_finite()) {
+        if let Some(index) = projected.places.iter().position(|p| !p.clip.is_finite()) {
             return Err(FrameError::Vertex { index });
         }
         let mut corners = Vec::new();
@@ -122,7 +134,7 @@ impl<'a> Projection<'a> {
     fn project<'m>(&mut self, object: &'m Object) -> Projected<'m> {
         let mesh: &PolygonMesh = &object.mesh;
         let matrix = self.clip_matrix * DMat4::from(object.transform);
-        let clip = mesh.positions().iter().map(|p| matrix * p.as_dvec3().extend(1.0)).collect();
+        let places = mesh.positions().iter().map(|p| self.place(matrix * p.as_dvec3().extend(1.0))).collect();
         let linear = object.transform.matrix3;
         let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
         let determinant = x.dot(y.cross(z));
@@ -140,7 +152,7 @@ impl<'a> Projection<'a> {
         Projected {
             materials: materials.collect(),
             normals: vertex_normals(mesh, object.normals),
-            clip,
+            places,
             normal_matrix,
             mirrored: determinant < 0.0,
             first_vertex: vec![NO_VERTEX; mesh.positions().len()],
@@ -154,8 +166,8 @@ impl<'a> Projection<'a> {
     fn polygon(&mut self, projected: &mut Projected<'_>, polygon: usize, corners: &[usize]) {
         self.stats.polygons += 1;
         let mesh = projected.mesh;
-        let position = |corner: usize| mesh.corners()[corner] as usize;
-        if self.is_outside(corners.iter().map(|&c| projected.clip[position(c)])) {
+        let place = |&corner: &usize| &projected.places[mesh.corners()[corner] as usize];
+        if corners.iter().map(place).fold(u8::MAX, |all, place| all & place.beyond_view) != 0 {
             self.stats.outside += 1;
             return;
         }
@@ -164,10 +176,7 @@ impl<'a> Projection<'a> {
             self.stats.zero_area += 1;
             return;
         };
-        let cut = self
-            .planes
-            .iter()
-            .any(|plane| corners.iter().any(|&c| plane.normal.dot(projected.clip[position(c)]) < 0.0));
+        let cut = corners.iter().map(place).any(|place| place.beyond_planes != 0);
         let face = face.as_vec3().to_array();
         let material = projected.materials[mesh.polygon_material(polygon).unwrap_or(mesh.materials().len())];
         if cut {
@@ -175,7 +184,7 @@ impl<'a> Projection<'a> {
             self.clipped(projected, corners, material, face);
             return;
         }
-        let area = doubled_area(corners.iter().map(|&c| self.snap(projected.clip[position(c)])));
+        let area = doubled_area(corners.iter().map(|corner| place(corner).snapped));
         if !self.is_drawn(area) {
             return;
         }
@@ -183,13 +192,13 @@ impl<'a> Projection<'a> {
         self.builder.polygon(&vertices, face, self.polygon_count);
     }
 
-    /// Whether all corners lie beyond one side of the view.
-    fn is_outside(&self, corners: impl Iterator<Item = DVec4>) -> bool {
-        let codes = corners.map(|p| {
-            let sides = [p.x < -p.w, p.x > p.w, p.y < -p.w, p.y > p.w, p.z < 0.0, p.z > p.w];
-            sides.iter().enumerate().fold(0u32, |code, (i, &beyond)| code | u32::from(beyond) << i)
-        });
-        codes.fold(u32::MAX, |all, code| all & code) != 0
+    fn place(&self, clip: DVec4) -> Place {
+        let bits = |beyond: &[bool]| beyond.iter().rev().fold(0, |bits, &b| bits << 1 | u8::from(b));
+        let DVec4 { x, y, z, w } = clip;
+        let beyond_view = bits(&[x < -w, x > w, y < -w, y > w, z < 0.0, z > w]);
+        let beyond_planes = bits(&self.planes.map(|plane| plane.normal.dot(clip) < 0.0));
+        let snapped = if beyond_planes == 0 { self.snap(clip) } else { [SubPixel::ZERO; 2] };
+        Place { clip, snapped, beyond_view, beyond_planes }
     }
 
     /// Whether a polygon of this signed area on the picture is drawn; counts it if not.
@@ -217,7 +226,7 @@ impl<'a> Projection<'a> {
             }
             candidate = next;
         }
-        let clip = projected.clip[position];
+        let clip = projected.places[position].clip;
         let direction = projected.normal_matrix * projected.normals.values[normal as usize].as_dvec3();
         let vertex = self.projected_vertex(clip, direction.normalize_or(DVec3::Z), material);
         let number = self.add(projected, vertex, normal, projected.first_vertex[position]);
@@ -258,14 +267,16 @@ impl<'a> Projection<'a> {
     fn snap(&self, clip: DVec4) -> [SubPixel; 2] {
         let column = (clip.x / clip.w * 0.5 + 0.5) * f64::from(self.scene.width);
         let row = (0.5 - clip.y / clip.w * 0.5) * f64::from(self.scene.height);
-        [SubPixel::saturating_from_num(column), SubPixel::saturating_from_num(row)]
+        // To the nearest, halves to even; positions inside the guard band are far from the ends of the type.
+        let nearest = |pixels: f64| SubPixel::from_bits(libm::rint(pixels * 256.0) as i32);
+        [nearest(column), nearest(row)]
     }
 
     /// Adds what of a polygon is inside all planes.
     fn clipped(&mut self, projected: &mut Projected<'_>, corners: &[usize], material: u32, face: [f32; 3]) {
         let whole = corners.iter().map(|&corner| {
             let vertex = self.vertex(projected, corner, material);
-            Corner { position: projected.clip[projected.mesh.corners()[corner] as usize], vertex }
+            Corner { position: projected.places[projected.mesh.corners()[corner] as usize].clip, vertex }
         });
         let mut pieces = vec![whole.collect::<Vec<_>>()];
         for plane in self.planes {

@@ -149,6 +149,20 @@ impl core::error::Error for SizeMismatch {}
 
 /// The difference of `actual` from `reference`, over all pixels.
 ///
+/// ```
+/// use fastphong::metrics::{METRICS, compare};
+/// use fastphong::picture::LinearPicture;
+///
+/// let reference = LinearPicture::new(16, 16, [0.5, 0.5, 0.5, 1.0]);
+/// let actual = LinearPicture::new(16, 16, [0.5, 0.75, 0.5, 1.0]);
+/// let difference = compare(&reference, &actual)?;
+/// assert_eq!(difference.max, 0.25);
+/// for metric in METRICS {
+///     println!("{}: {:?} {}", metric.name, (metric.value)(&difference), metric.unit);
+/// }
+/// # Ok::<(), fastphong::metrics::SizeMismatch>(())
+/// ```
+///
 /// # Errors
 /// If the sizes differ.
 pub fn compare<A: Texel, B: Texel>(reference: &Picture<A>, actual: &Picture<B>) -> Result<Difference, SizeMismatch> {

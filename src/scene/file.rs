@@ -5,7 +5,7 @@
 
 use super::diagnostics::{SceneError, SourceText};
 use super::value::{Choice, Located, OneOrThree, Origin, shortest};
-use super::{Culling, Encoding, Interpolation};
+use super::{Culling, Encoding, Interpolation, Scene};
 use crate::lighting::Material;
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::ser::{Serialize, Serializer};
@@ -302,13 +302,13 @@ impl Serialize for Rotations {
 
 impl SceneFile {
     /// Width and height of a picture when nothing else is said.
-    pub const DEFAULT_SIZE: (u32, u32) = (640, 480);
+    pub const DEFAULT_SIZE: (u32, u32) = Scene::DEFAULT_SIZE;
     /// The part of the frame that objects fill when nothing else is said.
-    pub const DEFAULT_FIT: f64 = 0.8;
+    pub const DEFAULT_FIT: f64 = Scene::DEFAULT_FIT;
     /// From the objects toward the eye when nothing else is said: a three-quarter view.
-    pub const DEFAULT_DIRECTION: [f64; 3] = [0.5, 0.3, 1.0];
+    pub const DEFAULT_DIRECTION: [f64; 3] = Scene::DEFAULT_DIRECTION;
     /// Toward the one light that is there when no light is given.
-    pub const DEFAULT_LIGHT: [f64; 3] = [0.4, 0.7, 0.9];
+    pub const DEFAULT_LIGHT: [f64; 3] = Scene::DEFAULT_LIGHT;
 
     /// Reads a scene from `text`; `path` is what messages call it and what its mesh files are relative to.
     ///

@@ -6,6 +6,7 @@ mod check;
 pub mod diagnostics;
 #[cfg(feature = "io")]
 pub mod file;
+mod of_mesh;
 #[cfg(feature = "io")]
 mod overlay;
 #[cfg(feature = "io")]

@@ -144,6 +144,24 @@ impl Variant {
     }
 
     /// Draws `frame` as a stored picture.
+    ///
+    /// ```
+    /// use fastphong::mesh::builtin::builtin;
+    /// use fastphong::scene::Scene;
+    /// use fastphong::shader::{METHODS, Variant};
+    ///
+    /// let mut scene = Scene::of_mesh(builtin("sphere")?);
+    /// (scene.width, scene.height) = (64, 48);
+    /// let frame = scene.frame()?;
+    /// let picture = Variant::parse("gouraud")?.render(&frame);
+    /// assert_eq!(picture.get(32, 24)[3], 255, "the sphere is in the middle");
+    /// // Every method covers the same pixels.
+    /// for method in METHODS {
+    ///     let other = method.variant().render(&frame);
+    ///     assert!(picture.texels().iter().zip(other.texels()).all(|(a, b)| a[3] == b[3]));
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn render(&self, frame: &Frame) -> Picture8 {
         stored(frame, |target| (self.entry.draw)(frame, &self.parameters, target))
     }
@@ -206,7 +224,7 @@ fn stored(frame: &Frame, draw: impl FnOnce(&mut dyn Target)) -> Picture8 {
         Encoding::Srgb => {
             let mut picture = linear_picture(frame);
             draw(&mut picture);
-            picture.map(|texel| crate::encoding::store(texel, Encoding::Srgb))
+            crate::encoding::store(&picture, Encoding::Srgb)
         }
     }
 }

@@ -1,0 +1,105 @@
+//! `fastphong diff`: two picture files, in numbers and as a map.
+
+use super::output::Output;
+use super::reference_check::{SCALE, largest_difference};
+use super::table::columns;
+use super::talk::{Talk, json_to_stdout, to_stderr, to_stdout};
+use super::{Failure, Outcome, values};
+use fastphong::image_file::{FilePicture, comparable, read_picture};
+use fastphong::metrics::{Difference, METRICS, compare, difference_map, signed_difference_map};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+
+/// Compare two picture files
+#[derive(clap::Args, Debug)]
+pub struct Diff {
+    /// The picture that is right: PNG, PPM or PFM
+    reference: PathBuf,
+    /// The picture that is compared with it
+    actual: PathBuf,
+    /// Exit with code 1 when a channel differs by more grey levels, of 255; a pixel that only one of the pictures
+    /// covers differs by 255
+    #[arg(long, value_name = "LEVELS", value_parser = values::grey_levels, allow_hyphen_values = true)]
+    fail_above: Option<f64>,
+    /// Write a map of the difference; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Grey levels at the light end of the map; what is beyond is magenta
+    #[arg(long, value_name = "LEVELS", default_value_t = SCALE, value_parser = values::scale, allow_hyphen_values = true, requires = "output")]
+    scale: f32,
+    /// Map brighter and darker in different colours: orange and blue
+    #[arg(long, requires = "output")]
+    signed: bool,
+    /// Print the numbers as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Diff {
+    /// Compares, prints, and writes the map.
+    pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
+        let output = self.output.as_deref().map(|path| Output::new(path, None)).transpose()?;
+        let (reference, actual) = (read_picture(&self.reference)?, read_picture(&self.actual)?);
+        let [r, a] = comparable(&reference, &actual);
+        let difference = compare(&r, &a)?;
+        if let Some(output) = &output {
+            let map = if self.signed { signed_difference_map } else { difference_map };
+            output.write(&FilePicture::stored(map(&r, &a, self.scale)?))?;
+        }
+        let above = self.fail_above.is_some_and(|most| largest_difference(&difference) > most);
+        let on_stdout = matches!(&output, Some(Output { path: None, .. }));
+        match (self.json, on_stdout) {
+            (true, true) => to_stderr(&format!("{:#}\n", self.json(&difference, reference.size()))),
+            (true, false) => json_to_stdout(&self.json(&difference, reference.size()))?,
+            (false, true) => to_stderr(&table(&difference)),
+            (false, false) => to_stdout(table(&difference).as_bytes())?,
+        }
+        if let (true, Some(most)) = (above, self.fail_above) {
+            let found = largest_difference(&difference);
+            talk.note(&format!("the pictures differ by {found:.4} grey levels, more than {most}"));
+        }
+        Ok(if above { Outcome::Differs } else { Outcome::Done })
+    }
+
+    fn json(&self, difference: &Difference, [width, height]: [usize; 2]) -> Value {
+        // JSON has neither infinity nor NaN: they become null.
+        let metrics: Map<String, Value> =
+            METRICS.iter().map(|metric| (metric.name.to_owned(), json!((metric.value)(difference)))).collect();
+        json!({
+            "schema": "fastphong.diff/1",
+            "reference": self.reference.display().to_string(),
+            "actual": self.actual.display().to_string(),
+            "width": width,
+            "height": height,
+            "equal": difference.is_none(),
+            "worst": difference.worst,
+            "metrics": metrics,
+            "fail_above": self.fail_above,
+            "failed": self.fail_above.map(|most| largest_difference(difference) > most),
+        })
+    }
+}
+
+fn table(difference: &Difference) -> String {
+    let value = |value: Option<f64>| match value {
+        None => "-".to_owned(),
+        Some(value) if value.is_infinite() => "inf".to_owned(),
+        Some(value) if value == value.round() => format!("{value:.0}"),
+        Some(value) => format!("{value:.4}"),
+    };
+    let rows = METRICS.iter().map(|metric| {
+        vec![
+            metric.name.to_owned(),
+            value((metric.value)(difference)),
+            metric.unit.to_owned(),
+            metric.meaning.to_owned(),
+        ]
+    });
+    let mut text = columns(&rows.collect::<Vec<_>>(), false, &[1]);
+    if let Some([x, y]) = difference.worst {
+        text += &format!("the largest difference is at column {x}, row {y}\n");
+    } else if difference.is_none() {
+        text += "the pictures are equal\n";
+    }
+    text
+}

@@ -1,0 +1,174 @@
+//! How a frame becomes a picture: which method, which engine.
+
+use super::talk::{Talk, grouped};
+use super::{Failure, aov::Aov};
+use fastphong::encoding::store;
+use fastphong::frame::Frame;
+use fastphong::image_file::FilePicture;
+use fastphong::raster::Edges;
+use fastphong::reference::{self, Model};
+use fastphong::scene::Encoding;
+use fastphong::shader::{METHODS, Variant};
+use fastphong::suggest::nearest;
+use fastphong::triangulate::triangulated;
+
+/// The name under which the reference picture can be asked for like a method.
+const REFERENCE: &str = "reference";
+
+/// What shades the pixels.
+#[derive(Clone, Debug)]
+pub enum Method {
+    /// A method of the table.
+    Variant(Variant),
+    /// The closed form that methods are measured against, in `f64`.
+    Reference(Model),
+}
+
+/// Models by their names on the command line.
+pub const MODELS: [(&str, Model); 4] =
+    [("flat", Model::Flat), ("gouraud", Model::Gouraud), ("phong", Model::Phong), ("slerp", Model::Slerp)];
+
+/// The name of a model.
+pub fn model_name(model: Model) -> &'static str {
+    MODELS.iter().find(|(_, named)| *named == model).map_or("", |(name, _)| name)
+}
+
+/// `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
+pub fn method(text: &str) -> Result<Method, String> {
+    let (name, rest) = text.split_once(':').unwrap_or((text, ""));
+    if name == REFERENCE {
+        if rest.is_empty() {
+            return Ok(Method::Reference(Model::Phong));
+        }
+        let named = |model| MODELS.iter().find(|(name, _)| *name == model).map(|(_, model)| Method::Reference(*model));
+        return rest
+            .strip_prefix("model=")
+            .and_then(named)
+            .ok_or_else(|| format!("`{rest}`: expected model=flat, model=gouraud, model=phong or model=slerp"));
+    }
+    let is_method = METHODS.iter().any(|entry| entry.info.name == name);
+    let means_method = nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some();
+    if !is_method && !means_method && nearest(name, [REFERENCE]).is_some() {
+        return Err(format!("unknown method `{name}`: did you mean `{REFERENCE}`?"));
+    }
+    Variant::parse(text).map(Method::Variant).map_err(|error| error.to_string())
+}
+
+impl std::fmt::Display for Method {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Method::Variant(variant) => variant.fmt(f),
+            Method::Reference(Model::Phong) => f.write_str(REFERENCE),
+            Method::Reference(model) => write!(f, "{REFERENCE}:model={}", model_name(*model)),
+        }
+    }
+}
+
+/// What finds the pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Engine {
+    /// Edge table and spans, as in the lecture.
+    #[default]
+    Scanline,
+    /// Bounding boxes and edge functions.
+    Barycentric(Edges),
+}
+
+/// `scanline`, `barycentric` or `barycentric:edges=top-left|closed`.
+pub fn engine(text: &str) -> Result<Engine, String> {
+    match text {
+        "scanline" | "span" => Ok(Engine::Scanline),
+        "barycentric" | "barycentric:edges=top-left" => Ok(Engine::Barycentric(Edges::TopLeft)),
+        "barycentric:edges=closed" => Ok(Engine::Barycentric(Edges::Closed)),
+        _ => Err(match (nearest(text, ["scanline", "barycentric"]), text.split_once(':')) {
+            (Some(near), _) => format!("unknown engine: did you mean `{near}`?"),
+            (None, Some(("barycentric", _))) => "expected edges=top-left or edges=closed".to_owned(),
+            (None, Some(("scanline" | "span", _))) => "the scanline engine has no parameters".to_owned(),
+            (None, _) => "expected `scanline` or `barycentric`".to_owned(),
+        }),
+    }
+}
+
+/// What of a frame is put into a picture.
+#[derive(Clone, Debug)]
+pub enum Content {
+    /// Colours.
+    Shaded(Method, Engine),
+    /// Something else that is known of each pixel.
+    Aov(Aov),
+}
+
+/// A frame, and what of it is put into a picture.
+pub struct Drawing {
+    frame: Frame,
+    content: Content,
+}
+
+impl Drawing {
+    /// Prepares `frame` for the engine: the barycentric renderer takes triangles.
+    ///
+    /// # Errors
+    /// When the engine does not have the method.
+    pub fn new(frame: Frame, content: Content, talk: Talk) -> Result<Drawing, Failure> {
+        let Content::Shaded(method, Engine::Barycentric(_)) = &content else { return Ok(Drawing { frame, content }) };
+        let has = METHODS.iter().filter(|entry| entry.info.barycentric).map(|entry| entry.info.name);
+        let known = matches!(method, Method::Variant(variant) if variant.info().barycentric);
+        if !known {
+            let has = has.collect::<Vec<_>>().join(", ");
+            return Err(format!("the barycentric renderer does not have `{method}`: expected one of {has}").into());
+        }
+        let with_more_corners = frame.polygons().iter().filter(|polygon| polygon.count > 3).count();
+        if with_more_corners == 0 {
+            return Ok(Drawing { frame, content });
+        }
+        let cut = triangulated(&frame);
+        let (of, into) = (grouped(with_more_corners), grouped(cut.frame.polygons().len()));
+        talk.note(&format!(
+            "{of} polygons of more than three corners are cut into triangles for the barycentric renderer: {into} in all"
+        ));
+        if cut.not_simple > 0 {
+            talk.warning(&match cut.not_simple {
+                1 => "1 polygon crosses or overlaps itself and is left out".to_owned(),
+                n => format!("{} polygons cross or overlap themselves and are left out", grouped(n)),
+            });
+        }
+        Ok(Drawing { frame: cut.frame, content })
+    }
+
+    /// The picture: floats if `linear`, else as it is stored in 8 bits.
+    pub fn picture(&self, linear: bool) -> FilePicture {
+        let frame = &self.frame;
+        match (&self.content, linear) {
+            (Content::Aov(aov), true) => FilePicture::linear(aov.linear(frame)),
+            (Content::Aov(aov), false) => FilePicture::stored(aov.stored(frame)),
+            (Content::Shaded(Method::Reference(model), _), true) => {
+                FilePicture::linear(reference::render(frame, *model).to_linear())
+            }
+            (Content::Shaded(Method::Reference(model), _), false) => {
+                let picture = reference::render(frame, *model);
+                FilePicture::stored(match frame.encoding() {
+                    Encoding::Linear => picture.to_picture8(),
+                    Encoding::Srgb => store(&picture.to_linear(), Encoding::Srgb),
+                })
+            }
+            (Content::Shaded(Method::Variant(variant), engine), linear) => shaded(frame, variant, *engine, linear),
+        }
+    }
+}
+
+fn shaded(frame: &Frame, variant: &Variant, engine: Engine, linear: bool) -> FilePicture {
+    // `Drawing::new` asked whether the barycentric renderer has the method; were it not so, the lecture's engine does.
+    if let Engine::Barycentric(edges) = engine {
+        let picture = match linear {
+            true => variant.render_barycentric_linear(frame, edges).map(FilePicture::linear),
+            false => variant.render_barycentric(frame, edges).map(FilePicture::stored),
+        };
+        if let Some(picture) = picture {
+            return picture;
+        }
+    }
+    match linear {
+        true => FilePicture::linear(variant.render_linear(frame)),
+        false => FilePicture::stored(variant.render(frame)),
+    }
+}

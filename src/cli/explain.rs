@@ -1,0 +1,127 @@
+//! `fastphong explain`: all that is said about one method, and what it costs.
+
+use super::drawing::model_name;
+use super::list::{exactness, method_json};
+use super::table::{columns, wrapped};
+use super::talk::{json_to_stdout, to_stdout};
+use super::{Failure, Outcome};
+use fastphong::number::Counts;
+use fastphong::shader::{OperationCounts, Variant};
+use serde_json::{Map, Value, json};
+
+/// Explain a shading method: formula, source, cost, tolerance, where it fails
+#[derive(clap::Args, Debug)]
+pub struct Explain {
+    /// The method, with parameters as in `fast-phong:steps=1`
+    #[arg(value_parser = Variant::parse)]
+    method: Variant,
+    /// Print all as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// The numbers of lights that operations are counted for.
+const LIGHTS: [usize; 2] = [1, 4];
+
+/// How often something is computed, and how to take it from the counts.
+type Rate = (&'static str, fn(&OperationCounts) -> Counts);
+
+const RATES: [Rate; 7] = [
+    ("vertex", |c| c.vertex),
+    ("polygon", |c| c.polygon),
+    ("edge", |c| c.edge),
+    ("edge step", |c| c.edge_step),
+    ("span", |c| c.span),
+    ("pixel: walk", |c| c.walk),
+    ("pixel: shade", |c| c.shade),
+];
+
+/// A kind of operation, and how to take it from the counts.
+type Kind = (&'static str, fn(&Counts) -> u32);
+
+const KINDS: [Kind; 7] = [
+    ("add", |c| c.additions),
+    ("mul", |c| c.multiplications),
+    ("div", |c| c.divisions),
+    ("root", |c| c.roots),
+    ("compare", |c| c.comparisons),
+    ("trig", |c| c.trigonometric),
+    ("power", |c| c.powers),
+];
+
+impl Explain {
+    /// Prints the explanation.
+    pub fn run(&self) -> Result<Outcome, Failure> {
+        if self.json {
+            json_to_stdout(&self.json())?
+        } else {
+            to_stdout(self.text().as_bytes())?
+        }
+        Ok(Outcome::Done)
+    }
+
+    fn text(&self) -> String {
+        let info = self.method.info();
+        let mut text = format!("{}: {}\n", self.method, info.title);
+        let mut section = |title: &str, body: &str| text += &format!("\n{title}\n{body}");
+        // Formulas keep their lines.
+        section("formula", &info.formula.lines().map(|line| format!("  {line}\n")).collect::<String>());
+        section("source", &wrapped(info.source, 2));
+        for lights in LIGHTS {
+            let title = format!("operations with {lights} light{}, as counted", if lights == 1 { "" } else { "s" });
+            section(&title, &costs(&self.method.operations(lights)));
+        }
+        section("tolerance", &wrapped(&format!("{}\n{}", exactness(info), info.derivation), 2));
+        section("where it fails", &wrapped(info.fails, 2));
+        section("perspective", &wrapped(info.perspective.sentence(), 2));
+        let engines = if info.barycentric { "scanline, barycentric" } else { "scanline" };
+        section("engines", &format!("  {engines}\n"));
+        let parameters = info.parameters.iter().zip(self.method.parameters());
+        let parameters: String = parameters
+            .map(|(p, value)| {
+                format!("  {}={value}: {}; {} to {}, default {}\n", p.name, p.meaning, p.least, p.most, p.default)
+            })
+            .collect();
+        section("parameters", if parameters.is_empty() { "  none\n" } else { &parameters });
+        text
+    }
+
+    fn json(&self) -> Value {
+        let info = self.method.info();
+        let mut json = method_json(info);
+        let operations: Map<String, Value> =
+            LIGHTS.iter().map(|&lights| (lights.to_string(), costs_json(&self.method.operations(lights)))).collect();
+        json["variant"] = self.method.to_string().into();
+        json["values"] = self.method.parameters().into();
+        json["formula"] = info.formula.into();
+        json["model"] = model_name(info.model).into();
+        json["derivation"] = info.derivation.into();
+        json["fails"] = info.fails.into();
+        json["operations_by_lights"] = operations.into();
+        json
+    }
+}
+
+fn costs(counts: &OperationCounts) -> String {
+    let mut rows = vec![std::iter::once("  once a").chain(KINDS.map(|(name, _)| name)).map(str::to_owned).collect()];
+    for (rate, of) in RATES {
+        let counts = of(counts);
+        let mut row = vec![format!("  {rate}")];
+        // A zero says less than nothing: what is done stands out.
+        row.extend(KINDS.map(|(_, kind)| match kind(&counts) {
+            0 => ".".to_owned(),
+            n => n.to_string(),
+        }));
+        rows.push(row);
+    }
+    columns(&rows, false, &[1, 2, 3, 4, 5, 6, 7])
+}
+
+fn costs_json(counts: &OperationCounts) -> Value {
+    let kinds = |counts: Counts| -> Map<String, Value> {
+        KINDS.iter().map(|(name, kind)| ((*name).to_owned(), json!(kind(&counts)))).collect()
+    };
+    let rates: Map<String, Value> =
+        RATES.iter().map(|(name, of)| (name.replace(": ", "_").replace(' ', "_"), kinds(of(counts)).into())).collect();
+    rates.into()
+}

@@ -1,0 +1,204 @@
+//! `fastphong list`: what there is, each from its own table.
+
+use super::drawing::model_name;
+use super::table::columns;
+use super::talk::{json_to_stdout, to_stdout};
+use super::{Failure, Outcome};
+use fastphong::input::SCENES;
+use fastphong::mesh::builtin::{BUILTINS, Kind, Parameter};
+use fastphong::metrics::{Better, METRICS};
+use fastphong::scene::file::SceneFile;
+use fastphong::shader::{Info, METHODS};
+use serde_json::{Value, json};
+
+/// List methods, meshes, scenes or metrics
+#[derive(clap::Args, Debug)]
+pub struct List {
+    /// What to list
+    #[arg(value_enum)]
+    subject: Subject,
+    /// Print the list as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Subject {
+    /// Shading methods
+    Methods,
+    /// Built-in meshes
+    Meshes,
+    /// Shipped scenes
+    Scenes,
+    /// Measures of the difference of two pictures
+    Metrics,
+}
+
+impl List {
+    /// Prints the list.
+    pub fn run(&self) -> Result<Outcome, Failure> {
+        if self.json {
+            let entries: Vec<Value> = match self.subject {
+                Subject::Methods => METHODS.iter().map(|entry| method_json(entry.info)).collect(),
+                Subject::Meshes => meshes_json(),
+                Subject::Scenes => scenes_json()?,
+                Subject::Metrics => metrics_json(),
+            };
+            json_to_stdout(&entries.into())?;
+        } else {
+            let text = match self.subject {
+                Subject::Methods => methods(),
+                Subject::Meshes => meshes(),
+                Subject::Scenes => scenes()?,
+                Subject::Metrics => metrics(),
+            };
+            to_stdout(text.as_bytes())?;
+        }
+        Ok(Outcome::Done)
+    }
+}
+
+fn methods() -> String {
+    let mut text = String::new();
+    for entry in METHODS {
+        let info = entry.info;
+        text += &format!("{}\n    {}\n", info.name, info.title);
+        text += &format!("    perspective: {}\n", info.perspective.sentence());
+        text += &format!("    {}\n", exactness(info));
+        let engines = if info.barycentric { "scanline, barycentric" } else { "scanline" };
+        text += &format!("    engines: {engines}\n");
+        for p in info.parameters {
+            text += &format!("    {}={}..{}, default {}: {}\n", p.name, p.least, p.most, p.default, p.meaning);
+        }
+    }
+    text
+}
+
+/// How near a method is to its closed form, in a sentence.
+pub fn exactness(info: &Info) -> String {
+    format!(
+        "within {:.3} grey levels of its closed form, {}",
+        255.0 * f64::from(info.tolerance),
+        model_name(info.model)
+    )
+}
+
+/// What is said about a method, without its texts of more than one line.
+pub fn method_json(info: &Info) -> Value {
+    let parameter = |p: &fastphong::shader::Parameter| json!({ "name": p.name, "meaning": p.meaning, "default": p.default, "least": p.least, "most": p.most });
+    let parameters: Vec<Value> = info.parameters.iter().map(parameter).collect();
+    json!({
+        "name": info.name,
+        "title": info.title,
+        "source": info.source,
+        "model": model_name(info.model),
+        "tolerance": decimal(info.tolerance),
+        "perspective": info.perspective.sentence(),
+        "barycentric": info.barycentric,
+        "parameters": parameters,
+    })
+}
+
+/// The double nearest to the decimal that was meant: 0.0002 and not 0.00019999999494757503.
+fn decimal(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::from(value))
+}
+
+fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Integer => "integer",
+        Kind::Real => "real",
+        Kind::Bool => "bool",
+    }
+}
+
+/// The default as it is written; `polygons` has none, as it stands for others.
+fn default_text(parameter: &Parameter) -> Option<Value> {
+    match parameter.kind {
+        _ if parameter.default < parameter.min => None,
+        Kind::Bool => Some(json!(parameter.default != 0.0)),
+        Kind::Integer => Some(json!(parameter.default as i64)),
+        Kind::Real => Some(json!(parameter.default)),
+    }
+}
+
+fn meshes() -> String {
+    let mut text = String::new();
+    for shape in BUILTINS {
+        text += &format!("builtin:{}\n    {}\n", shape.name, shape.doc);
+        let rows = shape.all_parameters().map(|p| {
+            let default = default_text(p).map_or(String::new(), |value| format!("default {value}"));
+            let range = if p.kind == Kind::Bool { "true, false".to_owned() } else { format!("{} to {}", p.min, p.max) };
+            vec![format!("    {}", p.name), range, default, p.doc.to_owned()]
+        });
+        text += &columns(&rows.collect::<Vec<_>>(), false, &[]);
+    }
+    text
+}
+
+fn meshes_json() -> Vec<Value> {
+    let shape = |shape: &fastphong::mesh::builtin::Builtin| {
+        let parameters: Vec<Value> = shape
+            .all_parameters()
+            .map(|p| {
+                json!({
+                    "name": p.name,
+                    "kind": kind(p.kind),
+                    "default": default_text(p),
+                    "min": p.min,
+                    "max": p.max,
+                    "meaning": p.doc,
+                })
+            })
+            .collect();
+        json!({ "name": shape.name, "meaning": shape.doc, "parameters": parameters })
+    };
+    BUILTINS.iter().map(shape).collect()
+}
+
+/// Each shipped scene with its title and description.
+fn described() -> Result<Vec<[String; 3]>, Failure> {
+    let describe = |scene: &fastphong::input::ShippedScene| {
+        let SceneFile { title, description, .. } = scene.load()?;
+        let text = |value: Option<fastphong::scene::value::Located<String>>| value.map_or(String::new(), |v| v.value);
+        Ok([scene.name.to_owned(), text(title), text(description)])
+    };
+    SCENES.iter().map(describe).collect()
+}
+
+fn scenes() -> Result<String, Failure> {
+    let mut text = String::new();
+    for [name, title, description] in described()? {
+        text += &format!("{name}\n    {title}\n{}", super::table::wrapped(&description, 4));
+    }
+    Ok(text)
+}
+
+fn scenes_json() -> Result<Vec<Value>, Failure> {
+    let entry =
+        |[name, title, description]: [String; 3]| json!({ "name": name, "title": title, "description": description });
+    Ok(described()?.into_iter().map(entry).collect())
+}
+
+fn better(better: Better) -> &'static str {
+    match better {
+        Better::Lower => "lower",
+        Better::Higher => "higher",
+        Better::Zero => "zero",
+    }
+}
+
+fn metrics() -> String {
+    let mut rows = vec![["metric", "unit", "better", "meaning"].map(str::to_owned).to_vec()];
+    rows.extend(
+        METRICS.iter().map(|metric| {
+            [metric.name, metric.unit, better(metric.better), metric.meaning].map(str::to_owned).to_vec()
+        }),
+    );
+    columns(&rows, true, &[])
+}
+
+fn metrics_json() -> Vec<Value> {
+    let entry = |metric: &fastphong::metrics::MetricInfo| json!({ "name": metric.name, "unit": metric.unit, "better": better(metric.better), "meaning": metric.meaning });
+    METRICS.iter().map(entry).collect()
+}

@@ -1,0 +1,137 @@
+//! What can be said about a mesh by looking at it.
+
+use fastphong::lighting::Material;
+use fastphong::mesh::PolygonMesh;
+use fastphong::mesh::newell::{polygon_normal, unit_normal};
+use fastphong::mesh::weld::weld;
+use glam::{DVec3, Vec3};
+use std::collections::BTreeMap;
+
+/// How far out of its plane a polygon may be and still count as planar, in parts of its extent.
+pub const PLANAR: f64 = 1e-3;
+/// The sine of the angle by which a polygon turns the wrong way at a corner before it counts as concave: larger than
+/// what rounding the corners of a straight edge to `f32` makes of it.
+const REFLEX: f64 = 1e-3;
+
+/// What was found out about a mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshFacts {
+    /// How many polygons there are of each number of sides.
+    pub by_sides: BTreeMap<usize, usize>,
+    /// Polygons without area.
+    pub degenerate: usize,
+    /// Polygons with a corner that turns the wrong way.
+    pub concave: usize,
+    /// Polygons that are out of their plane by more than [`PLANAR`].
+    pub not_planar: usize,
+    /// Positions that polygons use; coinciding ones count once.
+    pub vertices: usize,
+    /// Positions of the mesh.
+    pub positions: usize,
+    /// Smallest and largest coordinates.
+    pub bounds: Option<(Vec3, Vec3)>,
+    /// Edges, coinciding ones once.
+    pub edges: usize,
+    /// Edges of one polygon only: none on a closed mesh.
+    pub open_edges: usize,
+    /// Edges of three polygons or more.
+    pub non_manifold_edges: usize,
+    /// Edges whose two polygons go along them in the same direction: they are not wound alike.
+    pub reversed_edges: usize,
+    /// Materials that come with the mesh.
+    pub materials: usize,
+    /// Polygons without a material of the mesh.
+    pub without_material: usize,
+    /// Whether normals come with the mesh.
+    pub given_normals: bool,
+    /// Bytes that the mesh takes in memory.
+    pub bytes: usize,
+}
+
+impl MeshFacts {
+    /// Looks at `mesh`.
+    pub fn of(mesh: &PolygonMesh) -> MeshFacts {
+        let (vertex, _) = weld(mesh.positions());
+        let mut facts = MeshFacts {
+            positions: mesh.positions().len(),
+            bounds: mesh.bounds(),
+            materials: mesh.materials().len(),
+            given_normals: mesh.given_normals().is_some(),
+            bytes: bytes(mesh),
+            ..MeshFacts::default()
+        };
+        let mut used = vec![false; mesh.positions().len()];
+        for &corner in mesh.corners() {
+            used[vertex[corner as usize] as usize] = true;
+        }
+        facts.vertices = used.iter().filter(|used| **used).count();
+        for (p, corners) in mesh.polygons().enumerate() {
+            *facts.by_sides.entry(corners.len()).or_default() += 1;
+            facts.without_material += usize::from(mesh.polygon_material(p).is_none());
+            let Some(normal) = unit_normal(polygon_normal(mesh, p)) else {
+                facts.degenerate += 1;
+                continue;
+            };
+            let points: Vec<DVec3> = corners.iter().map(|&c| mesh.positions()[c as usize].as_dvec3()).collect();
+            facts.concave += usize::from(is_concave(&points, normal));
+            facts.not_planar += usize::from(!is_planar(&points, normal));
+        }
+        facts.count_edges(mesh, &vertex);
+        facts
+    }
+
+    /// Whether every edge has two polygons that are wound alike.
+    pub fn is_closed(&self) -> bool {
+        self.edges > 0 && self.open_edges + self.non_manifold_edges + self.reversed_edges == 0
+    }
+
+    fn count_edges(&mut self, mesh: &PolygonMesh, vertex: &[u32]) {
+        // An edge with its ends in ascending order, and whether it is passed in that direction.
+        let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(mesh.corners().len());
+        for corners in mesh.polygons() {
+            for (i, &from) in corners.iter().enumerate() {
+                let (a, b) = (vertex[from as usize], vertex[corners[(i + 1) % corners.len()] as usize]);
+                if a != b {
+                    edges.push((a.min(b), a.max(b), a < b));
+                }
+            }
+        }
+        edges.sort_unstable();
+        for edge in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            self.edges += 1;
+            match edge {
+                [_] => self.open_edges += 1,
+                [one, other] => self.reversed_edges += usize::from(one.2 == other.2),
+                _ => self.non_manifold_edges += 1,
+            }
+        }
+    }
+}
+
+fn is_concave(points: &[DVec3], normal: DVec3) -> bool {
+    let n = points.len();
+    n > 3
+        && (0..n).any(|i| {
+            let (before, here, after) = (points[(i + n - 1) % n], points[i], points[(i + 1) % n]);
+            let (into, out) = (here - before, after - here);
+            into.cross(out).dot(normal) < -REFLEX * into.length() * out.length()
+        })
+}
+
+fn is_planar(points: &[DVec3], normal: DVec3) -> bool {
+    let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+    let extent = points.iter().map(|p| (*p - middle).length()).fold(0.0, f64::max);
+    points.iter().all(|p| (*p - middle).dot(normal).abs() <= PLANAR * extent)
+}
+
+fn bytes(mesh: &PolygonMesh) -> usize {
+    let normals = mesh.given_normals().map_or(0, |normals| {
+        size_of_val(&normals.values[..]) + normals.corners.as_ref().map_or(0, |corners| size_of_val(&corners[..]))
+    });
+    let materials = match mesh.materials() {
+        [] => 0,
+        materials => size_of_val::<[Material]>(materials) + mesh.polygon_count() * size_of::<u32>(),
+    };
+    let ends = mesh.polygon_count() * size_of::<u32>();
+    size_of::<PolygonMesh>() + size_of_val(mesh.positions()) + size_of_val(mesh.corners()) + ends + normals + materials
+}

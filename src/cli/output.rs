@@ -1,0 +1,53 @@
+//! Where a picture goes: a file, or standard output.
+
+use super::Failure;
+use super::talk::to_stdout;
+use fastphong::image_file::{FilePicture, Format, write_file};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+/// Where a picture goes, and in which format.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// `None`: standard output.
+    pub path: Option<PathBuf>,
+    /// Given, or by the ending of the path; PNG on standard output.
+    pub format: Format,
+}
+
+impl Output {
+    /// From the values of `-o` and `--format`.
+    ///
+    /// # Errors
+    /// When neither names a format, or standard output is a terminal.
+    pub fn new(path: &Path, format: Option<Format>) -> Result<Output, Failure> {
+        if path.as_os_str() != "-" {
+            let format = format.map_or_else(|| Format::of_path(path), Ok)?;
+            return Ok(Output { path: Some(path.to_owned()), format });
+        }
+        if std::io::stdout().is_terminal() {
+            return Err("a picture is not for a terminal: expected `-o FILE`, or `-o -` into a pipe or a file"
+                .to_owned()
+                .into());
+        }
+        Ok(Output { path: None, format: format.unwrap_or(Format::Png) })
+    }
+
+    /// Writes `picture`, whole or not at all.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write(&self, picture: &FilePicture) -> Result<(), Failure> {
+        let bytes = picture.encode(self.format).map_err(|error| error.to_string())?;
+        match &self.path {
+            Some(path) => Ok(write_file(path, &bytes)?),
+            None => to_stdout(&bytes),
+        }
+    }
+}
+
+/// `png`, `ppm` or `pfm`.
+pub fn format(text: &str) -> Result<Format, String> {
+    let format = Format::ALL.into_iter().find(|format| format.ending() == text);
+    format.ok_or_else(|| "expected png, ppm or pfm".to_owned())
+}

@@ -1,0 +1,69 @@
+//! A progress bar, on a terminal and for work that takes longer than a second.
+
+use super::talk::Talk;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How long nothing is shown.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// How fine the bar is.
+const STEPS: u64 = 1000;
+
+/// A progress bar that is gone when this is dropped.
+pub struct Progress {
+    bar: ProgressBar,
+    started: Instant,
+    allowed: bool,
+    /// Dropped to stop the thread that shows the bar while nobody moves it.
+    _watcher: Option<Sender<()>>,
+}
+
+impl Progress {
+    /// A bar that is shown when work takes long, also if it is not moved until then.
+    pub fn watched(talk: Talk) -> Progress {
+        let mut progress = Progress::silent_between_moves(talk);
+        if progress.allowed {
+            let (sender, receiver) = channel();
+            let bar = progress.bar.clone();
+            thread::spawn(move || {
+                if receiver.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                    bar.enable_steady_tick(Duration::from_millis(100));
+                }
+            });
+            progress._watcher = Some(sender);
+        }
+        progress
+    }
+
+    /// A bar that is drawn only when it is moved: it disturbs no measurement between two moves.
+    pub fn silent_between_moves(talk: Talk) -> Progress {
+        let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template("{spinner} [{bar:30}] {elapsed} {msg}") {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        let allowed = talk != Talk::Quiet && std::io::stderr().is_terminal();
+        Progress { bar, started: Instant::now(), allowed, _watcher: None }
+    }
+
+    /// Moves the bar to `share` (0 to 1) of the work, of which `stage` comes next.
+    pub fn at(&self, share: f32, stage: &str) {
+        if !self.allowed {
+            return;
+        }
+        if self.bar.is_hidden() && self.started.elapsed() > PATIENCE {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        self.bar.set_position((share.clamp(0.0, 1.0) * STEPS as f32) as u64);
+        self.bar.set_message(stage.to_owned());
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,174 @@
+//! `fastphong render`: from an input to a picture.
+
+use super::aov::Aov;
+use super::drawing::{self, Content, Drawing, Engine, Method};
+use super::output::{self, Output};
+use super::progress::Progress;
+use super::reference_check::ReferenceCheck;
+use super::scene_flags::SceneFlags;
+use super::table::columns;
+use super::talk::{Talk, grouped, to_stderr, to_stdout};
+use super::{Failure, Outcome, values};
+use fastphong::frame::{Frame, FrameStats};
+use fastphong::image_file::Format;
+use fastphong::input;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Draw a scene or a mesh
+#[derive(clap::Args, Debug)]
+pub struct Render {
+    /// A scene file, a mesh file, builtin:NAME?key=value, or the name of a shipped scene
+    input: String,
+    /// Where the picture goes: .png, .ppm or .pfm (linear floats); `-` is standard output
+    #[arg(short, long, value_name = "FILE", required_unless_present_any = ["print_scene", "reference", "stats"])]
+    output: Option<PathBuf>,
+    /// Format of the picture, whatever the file is called [default: by its ending, png on standard output]
+    #[arg(long, value_name = "png|ppm|pfm", value_parser = output::format, requires = "output")]
+    format: Option<Format>,
+    /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `reference` is the
+    /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
+    #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
+    method: Method,
+    /// What finds the pixels: `scanline` (also called `span`), or `barycentric`, also with `:edges=top-left|closed`
+    #[arg(long, default_value = "scanline", value_parser = drawing::engine)]
+    engine: Engine,
+    /// Show something else than colours
+    #[arg(long, value_enum, conflicts_with_all = ["method", "engine"])]
+    aov: Option<Aov>,
+    /// Print the scene, flags included, as a scene file
+    #[arg(long)]
+    print_scene: bool,
+    /// Print what became of the polygons
+    #[arg(long)]
+    stats: bool,
+    /// Compare the picture with this one: exit code 1 on a difference, with the actual picture and a map of the
+    /// difference beside it
+    #[arg(long, value_name = "FILE", visible_alias = "ref")]
+    reference: Option<PathBuf>,
+    /// Grey levels, of 255, that a channel may differ from the reference; a pixel that only one of the pictures covers
+    /// differs by 255
+    #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = values::grey_levels, allow_hyphen_values = true, requires = "reference", visible_alias = "ref-threshold")]
+    reference_threshold: f64,
+    #[command(flatten)]
+    scene: SceneFlags,
+}
+
+impl Render {
+    /// Draws, compares and prints, as asked for.
+    pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
+        let talk = *talk;
+        let output = self.output.as_deref().map(|path| Output::new(path, self.format)).transpose()?;
+        // A picture on standard output leaves no room there for words.
+        let say: fn(&str) -> Result<(), Failure> = match &output {
+            Some(Output { path: None, .. }) => |text| {
+                to_stderr(text);
+                Ok(())
+            },
+            _ => |text| to_stdout(text.as_bytes()),
+        };
+        if let Some(reference) = &self.reference {
+            Format::of_path(reference)?;
+            if output.as_ref().and_then(|output| output.path.as_deref()).is_some_and(|path| same_file(path, reference))
+            {
+                let message =
+                    format!("`--output` is the reference itself, {}: expected another file", reference.display());
+                return Err(message.into());
+            }
+        }
+        let mut file = self.scene.load(&self.input)?;
+        let progress = Progress::watched(talk);
+        progress.at(0.0, "loading");
+        let started = Instant::now();
+        let resolved = self.scene.resolve(&file, talk)?;
+        if self.print_scene {
+            input::make_paths_relative_to_current_folder(&mut file);
+            say(&file.to_toml())?;
+        }
+        if output.is_none() && self.reference.is_none() && !self.stats {
+            return Ok(Outcome::Done);
+        }
+        talk.detail(&format!("loaded in {:.1} ms", milliseconds(started)));
+        progress.at(0.25, "projecting");
+        let started = Instant::now();
+        let frame = resolved.scene.frame()?;
+        talk.detail(&format!("projected in {:.1} ms", milliseconds(started)));
+        warn_of_polygons_without_area(frame.stats(), talk);
+        if self.stats {
+            say(&stats_text(&frame))?;
+        } else {
+            talk.detail(stats_text(&frame).trim_end());
+        }
+        progress.at(0.5, "shading");
+        let drawing = Drawing::new(frame, self.content(), talk)?;
+        if let Some(output) = &output {
+            let started = Instant::now();
+            let picture = drawing.picture(output.format == Format::Pfm);
+            talk.detail(&format!("shaded in {:.1} ms", milliseconds(started)));
+            progress.at(0.75, "writing");
+            output.write(&picture)?;
+            if let Some(path) = &output.path {
+                let [width, height] = picture.size();
+                talk.note(&format!("{}: {width}x{height}, {}", path.display(), self.what()));
+            }
+        }
+        let Some(reference) = &self.reference else { return Ok(Outcome::Done) };
+        let check = ReferenceCheck { reference, threshold: self.reference_threshold, written: output.as_ref() };
+        let verdict = check.run(&drawing)?;
+        drop(progress);
+        say(&verdict.text)?;
+        Ok(verdict.outcome)
+    }
+
+    fn content(&self) -> Content {
+        match self.aov {
+            Some(aov) => Content::Aov(aov),
+            None => Content::Shaded(self.method.clone(), self.engine),
+        }
+    }
+
+    fn what(&self) -> String {
+        use clap::ValueEnum;
+        match self.aov.and_then(|aov| aov.to_possible_value()) {
+            Some(aov) => aov.get_name().to_owned(),
+            None => self.method.to_string(),
+        }
+    }
+}
+
+/// Whether both paths lead to one file that is there.
+fn same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => a == b,
+    }
+}
+
+fn milliseconds(started: Instant) -> f64 {
+    1e3 * started.elapsed().as_secs_f64()
+}
+
+fn warn_of_polygons_without_area(stats: FrameStats, talk: Talk) {
+    match stats.zero_area {
+        0 => {}
+        1 => talk.warning(&format!("1 of {} polygons has no area and is left out", grouped(stats.polygons))),
+        n => talk.warning(&format!(
+            "{} of {} polygons have no area and are left out",
+            grouped(n),
+            grouped(stats.polygons)
+        )),
+    }
+}
+
+fn stats_text(frame: &Frame) -> String {
+    let stats = frame.stats();
+    let rows = [
+        ("polygons", stats.polygons, "of the scene"),
+        ("culled", stats.culled, "left out: seen from the culled side"),
+        ("zero-area", stats.zero_area, "left out: no area, in space or on the picture"),
+        ("outside", stats.outside, "left out: outside the view"),
+        ("clipped", stats.clipped, "cut by the near plane, the far plane or the guard band"),
+        ("drawn", frame.polygons().len(), "left, pieces of cut ones counted each"),
+    ];
+    columns(&rows.map(|(name, count, what)| vec![name.to_owned(), grouped(count), what.to_owned()]), false, &[1])
+}

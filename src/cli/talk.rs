@@ -1,0 +1,95 @@
+//! What is said: results on standard output, everything else on standard error.
+//!
+//! A reader that went away is no error. `println!` would panic then, so that nothing here uses it.
+
+use super::Failure;
+use std::io::{self, IsTerminal, Write};
+
+/// How much is said on standard error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Talk {
+    /// Nothing but errors.
+    Quiet,
+    /// Warnings, notes and progress.
+    Normal,
+    /// Steps and times too.
+    Verbose,
+}
+
+impl Talk {
+    /// What the global flags ask for.
+    pub fn new(quiet: bool, verbose: bool) -> Talk {
+        match (quiet, verbose) {
+            (true, _) => Talk::Quiet,
+            (_, true) => Talk::Verbose,
+            _ => Talk::Normal,
+        }
+    }
+
+    /// Says what the user should know before trusting the result.
+    pub fn warning(self, text: &str) {
+        if self != Talk::Quiet {
+            let word = if colour() { "\x1b[1;33mwarning\x1b[0m" } else { "warning" };
+            to_stderr(&format!("{word}: {text}\n"));
+        }
+    }
+
+    /// Says what was done.
+    pub fn note(self, text: &str) {
+        if self != Talk::Quiet {
+            to_stderr(&format!("{text}\n"));
+        }
+    }
+
+    /// Says what only the curious want to know.
+    pub fn detail(self, text: &str) {
+        if self == Talk::Verbose {
+            to_stderr(&format!("{text}\n"));
+        }
+    }
+}
+
+/// Whether standard error may be coloured: a terminal, and `NO_COLOR` not set (<https://no-color.org>).
+pub fn colour() -> bool {
+    io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// Writes `text` to standard error, if anybody still reads it.
+pub fn to_stderr(text: &str) {
+    let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// Writes a result to standard output; a reader that went away has enough of it.
+///
+/// # Errors
+/// When it cannot be written for another reason, such as a full disk.
+pub fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(format!("standard output: cannot be written: {error}").into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes `value` to standard output as indented JSON.
+///
+/// # Errors
+/// As [`to_stdout`].
+pub fn json_to_stdout(value: &serde_json::Value) -> Result<(), Failure> {
+    to_stdout(format!("{value:#}\n").as_bytes())
+}
+
+/// `1234567` as `1,234,567`.
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}

@@ -1,0 +1,133 @@
+//! The scene that a mesh alone gets.
+
+use super::{Culling, Encoding, Interpolation, Object, Scene};
+use crate::camera::{Camera, Projection};
+use crate::camera_fit::Fit;
+use crate::lighting::{Light, Material};
+use crate::mesh::PolygonMesh;
+use crate::mesh::vertex_normals::NormalSource;
+use alloc::sync::Arc;
+use alloc::vec;
+use glam::{DAffine3, DVec3};
+
+impl Scene {
+    /// Width and height of a picture when nothing else is said.
+    pub const DEFAULT_SIZE: (u32, u32) = (640, 480);
+    /// The part of the frame that objects fill when nothing else is said.
+    pub const DEFAULT_FIT: f64 = 0.8;
+    /// From the objects toward the eye when nothing else is said: a three-quarter view.
+    pub const DEFAULT_DIRECTION: [f64; 3] = [0.5, 0.3, 1.0];
+    /// Toward the one light that is there when no light is given.
+    pub const DEFAULT_LIGHT: [f64; 3] = [0.4, 0.7, 0.9];
+
+    /// A scene of `mesh` alone: an orthographic three-quarter view fitted to it, one white light, the default material
+    /// for polygons that have none, the normals of the mesh (averaged where it has none).
+    ///
+    /// The fields are there to be changed; a mesh without polygons gives an empty picture.
+    ///
+    /// ```
+    /// use fastphong::mesh::builtin::builtin;
+    /// use fastphong::scene::Scene;
+    ///
+    /// let mut scene = Scene::of_mesh(builtin("teapot?res=4")?);
+    /// (scene.width, scene.height) = (320, 240);
+    /// scene.lights.clear(); // ambient light only
+    /// assert_eq!(scene.frame()?.light_count(), 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of_mesh(mesh: PolygonMesh) -> Scene {
+        let (width, height) = Scene::DEFAULT_SIZE;
+        let fit = Fit {
+            direction: unit(Scene::DEFAULT_DIRECTION),
+            up: DVec3::Y,
+            fraction: Scene::DEFAULT_FIT,
+            fovy: None,
+            aspect: f64::from(width) / f64::from(height),
+        };
+        let corners = mesh.corners().iter().map(|&corner| mesh.positions()[corner as usize].as_dvec3());
+        // Without a polygon there is nothing to look at, and any camera will do.
+        let camera = Camera::fit(corners, &fit).unwrap_or(Camera {
+            eye: fit.direction,
+            target: DVec3::ZERO,
+            up: fit.up,
+            projection: Projection::Orthographic { half_height: 1.0 },
+            near: 0.0,
+            far: 2.0,
+        });
+        let own = mesh.materials().is_empty().then(Material::default);
+        Scene {
+            width,
+            height,
+            background: [0.0; 3],
+            camera,
+            ambient: [1.0; 3],
+            lights: vec![Light { direction: unit(Scene::DEFAULT_LIGHT), colour: [1.0; 3] }],
+            interpolation: Interpolation::default(),
+            culling: Culling::default(),
+            depth_test: true,
+            encoding: Encoding::default(),
+            objects: vec![Object {
+                mesh: Arc::new(mesh),
+                transform: DAffine3::IDENTITY,
+                material: own,
+                normals: NormalSource::Given,
+            }],
+        }
+    }
+}
+
+/// The unit vector along `direction`, to the last bit as a scene file's direction becomes one.
+fn unit(direction: [f64; 3]) -> DVec3 {
+    let vector = DVec3::from_array(direction);
+    (vector / vector.abs().max_element()).normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::MeshBuilder;
+    use crate::mesh::builtin::builtin;
+    use crate::shader::METHODS;
+    use alloc::vec::Vec;
+
+    #[cfg(feature = "io")]
+    #[test]
+    fn a_mesh_gets_the_frame_that_its_scene_file_gives() {
+        use crate::scene::file::SceneFile;
+        for spec in ["teapot?res=4", "gear", "sphere?rings=6&segments=8"] {
+            let mesh = builtin(spec).unwrap();
+            let from_file = SceneFile::for_mesh(std::string::String::from(spec));
+            let from_file = from_file.resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new()))).unwrap();
+            let (a, b) = (Scene::of_mesh(mesh).frame().unwrap(), from_file.scene.frame().unwrap());
+            assert_eq!(std::format!("{a:?}"), std::format!("{b:?}"), "{spec}");
+        }
+    }
+
+    #[cfg(feature = "io")]
+    #[test]
+    fn polygons_without_a_material_look_the_same_too() {
+        use crate::scene::file::SceneFile;
+        let mut builder = MeshBuilder::new(builtin("gear").unwrap().positions().to_vec());
+        let gear = builtin("gear").unwrap();
+        gear.polygons().for_each(|polygon| {
+            builder.polygon(polygon);
+        });
+        let blue = Material { diffuse: [0.1, 0.2, 0.9], ..Material::default() };
+        let none = u32::MAX;
+        builder.materials(vec![blue], (0..gear.polygon_count()).map(|p| if p % 2 == 0 { 0 } else { none }).collect());
+        let mesh = builder.finish().unwrap();
+        let from_file = SceneFile::for_mesh(std::string::String::from("gear"));
+        let from_file = from_file.resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new()))).unwrap();
+        let (a, b) = (Scene::of_mesh(mesh).frame().unwrap(), from_file.scene.frame().unwrap());
+        for method in METHODS {
+            assert_eq!(method.variant().render(&a), method.variant().render(&b), "{method:?}");
+        }
+    }
+
+    #[test]
+    fn a_mesh_without_polygons_gives_an_empty_picture() {
+        let scene = Scene::of_mesh(MeshBuilder::new(Vec::new()).finish().unwrap());
+        let frame = scene.frame().unwrap();
+        assert_eq!((frame.polygons().len(), frame.width(), frame.height()), (0, 640, 480));
+    }
+}

@@ -1,0 +1,125 @@
+//! `fastphong list`, `explain`, `info`, help.
+
+use super::Folder;
+use fastphong::input::SCENES;
+use fastphong::mesh::builtin::BUILTINS;
+use fastphong::metrics::METRICS;
+use fastphong::shader::METHODS;
+
+#[test]
+fn lists_have_an_entry_for_everything_in_their_table() {
+    let folder = Folder::new();
+    let names = |of: &str| -> Vec<String> {
+        match of {
+            "methods" => METHODS.iter().map(|entry| entry.info.name.to_owned()).collect(),
+            "meshes" => BUILTINS.iter().map(|shape| shape.name.to_owned()).collect(),
+            "scenes" => SCENES.iter().map(|scene| scene.name.to_owned()).collect(),
+            _ => METRICS.iter().map(|metric| metric.name.to_owned()).collect(),
+        }
+    };
+    for subject in ["methods", "meshes", "scenes", "metrics"] {
+        let text = folder.run(&format!("list {subject}")).done().out;
+        let json = folder.run(&format!("list {subject} --json")).done().json();
+        let entries = json.as_array().expect("a list");
+        assert_eq!(
+            entries.iter().map(|entry| entry["name"].as_str().unwrap().to_owned()).collect::<Vec<_>>(),
+            names(subject)
+        );
+        for name in names(subject) {
+            let heading = if subject == "meshes" { format!("builtin:{name}") } else { name };
+            assert!(text.lines().any(|line| line.split_whitespace().next() == Some(&heading)), "{heading}: {text}");
+        }
+    }
+    folder.run("list methods").done().prints("steps=1..8, default 2").prints("perspective-correct at no cost");
+    folder.run("list shaders").refused(&["methods, meshes, scenes, metrics"]);
+}
+
+#[test]
+fn every_method_is_explained() {
+    let folder = Folder::new();
+    for entry in METHODS {
+        let name = entry.info.name;
+        let ended = folder.run(&format!("explain {name}")).done();
+        let ended = ended.prints(entry.info.title).prints("pixel: shade").prints("with 4 lights");
+        for heading in ["formula", "source", "tolerance", "where it fails", "perspective", "engines", "parameters"] {
+            assert!(ended.out.lines().any(|line| line == heading), "{heading}: {}", ended.out);
+        }
+        let json = folder.run(&format!("explain {name} --json")).done().json();
+        for lights in [1, 4] {
+            let counted = entry.variant().operations(lights).shade.multiplications;
+            assert_eq!(json["operations_by_lights"][lights.to_string()]["pixel_shade"]["mul"], counted, "{name}");
+        }
+        assert_eq!(json["formula"], entry.info.formula);
+    }
+    // One step of Newton's method less is one division a pixel less.
+    let divisions = |variant: &str| {
+        let json = folder.run(&format!("explain {variant} --json")).done().json();
+        json["operations_by_lights"]["1"]["pixel_walk"]["div"].as_i64().expect("a count")
+    };
+    assert_eq!(divisions("fast-phong:steps=2") - divisions("fast-phong:steps=1"), 1);
+    folder.run("explain fast-fong").refused(&["did you mean `fast-phong`?"]);
+}
+
+#[test]
+fn info_counts_what_a_mesh_has() {
+    let folder = Folder::new();
+    let of = |input: &str| folder.run(&format!("info {input} --json")).done().json()["objects"][0].clone();
+    let cube = of("builtin:cube");
+    assert_eq!(cube["polygons_by_sides"], serde_json::json!({ "4": 6 }));
+    assert_eq!((&cube["vertices"], &cube["edges"], &cube["closed"]), (&8.into(), &12.into(), &true.into()));
+    assert_eq!(cube["bounds"], serde_json::json!([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]]));
+    assert_eq!((&cube["concave"], &cube["not_planar"], &cube["degenerate"]), (&0.into(), &0.into(), &0.into()));
+    let gear = of("builtin:gear?teeth=12");
+    assert_eq!((&gear["polygons_by_sides"]["48"], &gear["concave"]), (&2.into(), &2.into()));
+    let star = of("builtin:star");
+    assert_eq!((&star["concave"], &star["open_edges"], &star["closed"]), (&1.into(), &10.into(), &false.into()));
+    let football = of("football");
+    assert_eq!(football["polygons_by_sides"], serde_json::json!({ "5": 12, "6": 20 }));
+    assert_eq!((&football["materials"], &football["given_normals"]), (&2.into(), &false.into()));
+    assert_eq!(football["normals"], "averaged");
+
+    // A bent quad, a triangle without area, two triangles wound differently, a third one at their edge.
+    let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 6 -1 0\nv 5 0 1\n\
+               v 0 2 0\nf 1 2 3 4\nf 1 4 10\nf 5 6 7\nf 5 6 8\n";
+    folder.write("odd.obj", obj);
+    let odd = of("odd.obj");
+    assert_eq!((&odd["not_planar"], &odd["degenerate"], &odd["concave"]), (&1.into(), &1.into(), &0.into()));
+    assert_eq!((&odd["reversed_edges"], &odd["non_manifold_edges"]), (&1.into(), &0.into()));
+    folder.write("odd.obj", format!("{obj}f 6 5 9\n"));
+    let odd = of("odd.obj");
+    assert_eq!(
+        (&odd["reversed_edges"], &odd["non_manifold_edges"], &odd["vertices"]),
+        (&0.into(), &1.into(), &10.into())
+    );
+}
+
+#[test]
+fn info_speaks_of_scenes_too() {
+    let folder = Folder::new();
+    let ended = folder.run("info perspective --view 0,20").done();
+    ended
+        .prints("perspective: ")
+        .prints("lights   2")
+        .prints("objects  2")
+        .prints("builtin:sphere?segments=16&rings=10");
+    let json = folder.run("info perspective --json").done().json();
+    assert_eq!((&json["camera"]["fovy"], &json["camera"]["half_height"]), (&75.0.into(), &serde_json::Value::Null));
+    assert_eq!((&json["lights"], &json["schema"]), (&2.into(), &"fastphong.info/1".into()));
+    folder
+        .run("info football")
+        .done()
+        .prints("averaged up to a crease of 10 degrees")
+        .prints("12 of 5 sides, 20 of 6 sides");
+}
+
+#[test]
+fn help_and_version_are_results() {
+    let folder = Folder::new();
+    folder.run("--version").done().prints(concat!("fastphong ", env!("CARGO_PKG_VERSION")));
+    folder.run("--help").done().prints("Exit codes: 0 done, 1 a comparison failed, 2 wrong usage or input");
+    for command in ["render", "diff", "list", "explain", "info"] {
+        folder.run("--help").done().prints(command);
+        folder.run(&format!("{command} --help")).done().prints("Usage: fastphong");
+    }
+    folder.run("").says("Usage: fastphong");
+}
