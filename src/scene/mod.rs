@@ -8,6 +8,7 @@ pub mod diagnostics;
 pub mod file;
 mod of_mesh;
 #[cfg(feature = "io")]
+mod of_mesh;
 mod overlay;
 #[cfg(feature = "io")]
 pub mod resolve;

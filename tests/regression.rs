@@ -1,0 +1,108 @@
+//! Today's pictures against the blessed ones: every shipped scene by every method and by the reference.
+//!
+//! `FASTPHONG_BLESS=1 cargo test --test regression` blesses today's pictures: look at each before committing it. Pixels
+//! are compared after decoding; a channel may differ by one level, because a value within rounding of a half may be
+//! stored as either level when the compiler orders the operations of the reference differently.
+
+mod support;
+
+use fastphong::image_file::{encode_png, read_png, write_file};
+use fastphong::metrics::{compare, difference_map};
+use fastphong::picture::Picture8;
+use fastphong::reference::{self, Model};
+use fastphong::shader::METHODS;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const SIZE: (i64, i64) = (128, 96);
+
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+fn store(path: &Path, picture: &Picture8) {
+    fs::create_dir_all(path.parent().expect("a folder")).expect("a writable target folder");
+    write_file(path, &encode_png(picture).expect("a picture with pixels")).expect("a writable file");
+}
+
+/// What is wrong with `actual`, if anything; then the picture, and its difference from the blessed one, are written.
+fn check(name: &str, actual: &Picture8) -> Option<String> {
+    let blessed = folder("tests/references").join(format!("{name}.png"));
+    if std::env::var_os("FASTPHONG_BLESS").is_some() {
+        store(&blessed, actual);
+        return None;
+    }
+    let output = folder("target/regression").join(format!("{name}.actual.png"));
+    let expected = match read_png(&blessed) {
+        Ok(expected) => expected,
+        Err(error) => {
+            store(&output, actual);
+            return Some(format!("{name}: {error}; the candidate is {}", output.display()));
+        }
+    };
+    let difference = match compare(&expected, actual) {
+        Ok(difference) => difference,
+        Err(sizes) => return Some(format!("{name}: {sizes}")),
+    };
+    // One level, in units of 0..1, and half of another for rounding.
+    if difference.max <= 1.5 / 255.0 && difference.coverage_mismatches == 0 {
+        return None;
+    }
+    let map = folder("target/regression").join(format!("{name}.difference.png"));
+    store(&output, actual);
+    store(&map, &difference_map(&expected, actual, 16.0).expect("equal sizes"));
+    Some(format!(
+        "{name}: off by {:.0} levels, {} pixels drawn in one only; see {} and {}",
+        255.0 * difference.max,
+        difference.coverage_mismatches,
+        output.display(),
+        map.display()
+    ))
+}
+
+#[test]
+fn pictures_are_the_blessed_ones() {
+    let mut failures = Vec::new();
+    let mut known = Vec::new();
+    for (scene, path) in support::shipped() {
+        let frame = support::scene(&path, Some(SIZE)).frame().expect("a frame");
+        let mut one = |method: &str, picture: &Picture8| {
+            let name = format!("{scene}/{method}");
+            failures.extend(check(&name, picture));
+            known.push(folder("tests/references").join(format!("{name}.png")));
+        };
+        let visibility = reference::visibility(&frame);
+        let models = [(Model::Phong, "reference"), (Model::Slerp, "reference-slerp")];
+        for (model, name) in models {
+            one(name, &reference::shade(&frame, &visibility, model).to_picture8());
+        }
+        for entry in METHODS {
+            one(entry.info.name, &entry.variant().render(&frame));
+        }
+    }
+    // A blessed picture that nothing makes any more would never fail again.
+    for folder in fs::read_dir(folder("tests/references")).expect("the folder of blessed pictures").flatten() {
+        for file in fs::read_dir(folder.path()).into_iter().flatten().flatten() {
+            if !known.contains(&file.path()) {
+                failures.push(format!("{} belongs to no scene and method", file.path().display()));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{} pictures differ:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// The comparison itself: one pixel moved by two levels, or a method taken for another, does not pass.
+#[test]
+fn the_comparison_catches_what_it_should() {
+    let (_, path) = support::shipped().into_iter().find(|(name, _)| name == "coarse-sphere").expect("shipped");
+    let frame = support::scene(&path, Some(SIZE)).frame().expect("a frame");
+    let picture = |name: &str| fastphong::shader::Variant::parse(name).expect("a method").render(&frame);
+    let naive = picture("naive-phong");
+    let mut moved = naive.clone();
+    let lit = moved.texels().iter().position(|t| t[0] > 100 && t[0] < 250).expect("a lit pixel");
+    moved.texels_mut()[lit][0] += 2;
+    let max = |other: &Picture8| compare(&naive, other).expect("equal sizes").max;
+    assert!(max(&moved) > 1.5 / 255.0);
+    assert!(max(&picture("gouraud")) > 1.5 / 255.0);
+    assert!(max(&picture("fast-phong")) <= 1.5 / 255.0);
+}

@@ -1,0 +1,125 @@
+//! What several test files share: the same random numbers at every run, the shipped scenes, and frames of random shapes.
+#![allow(dead_code)] // each test file uses its own part
+
+use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::lighting::{LightTerm, Lighting};
+use fastphong::mesh::builtin::builtin;
+use fastphong::mesh::obj::load_obj;
+use fastphong::scene::Scene;
+use fastphong::scene::file::SceneFile;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// xorshift64* (Vigna 2016).
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+    pub fn next(&mut self) -> u64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
+    }
+    /// 0..n
+    pub fn below(&mut self, n: u64) -> u64 {
+        ((self.next() >> 32) * n) >> 32
+    }
+    /// 0..1
+    pub fn unit(&mut self) -> f32 {
+        (self.next() >> 40) as f32 / (1u32 << 24) as f32
+    }
+}
+
+/// All shipped scene files, by name.
+pub fn shipped() -> Vec<(String, PathBuf)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let files = std::fs::read_dir(folder).expect("the folder of shipped scenes");
+    let mut scenes: Vec<(String, PathBuf)> = files
+        .map(|entry| entry.expect("a readable folder").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .map(|path| (path.file_stem().expect("a name").to_string_lossy().into_owned(), path))
+        .collect();
+    scenes.sort();
+    assert!(scenes.len() >= 8, "at least eight scenes are shipped");
+    scenes
+}
+
+/// A scene from its file, at its own size or another one.
+pub fn scene(path: &Path, size: Option<(i64, i64)>) -> Scene {
+    let mut file = SceneFile::load(path).unwrap_or_else(|e| panic!("{e}"));
+    if let Some((width, height)) = size {
+        file.image.width = Some(width.into());
+        file.image.height = Some(height.into());
+    }
+    let load = |spec: &str, folder: &Path| match spec.strip_prefix("builtin:") {
+        Some(spec) => builtin(spec).map(|mesh| (Arc::new(mesh), vec![])).map_err(|e| e.to_string()),
+        None => load_obj(&folder.join(spec)).map(|l| (Arc::new(l.mesh), l.warnings)).map_err(|e| e.to_string()),
+    };
+    file.resolve(load).unwrap_or_else(|e| panic!("{e}")).scene
+}
+
+/// A light from straight ahead: the diffuse term of a normal (√(1−i²), 0, i) is i, and there is nothing else.
+pub fn plain_lighting() -> Lighting {
+    let light = LightTerm { direction: [0.0, 0.0, 1.0], diffuse: [1.0; 3], specular: [0.0; 3] };
+    Lighting { ambient: [0.0; 3], lights: vec![light], view: [0.0, 0.0, 1.0], shininess: 1.0 }
+}
+
+/// A normal whose colour under [`plain_lighting`] is `intensity`.
+pub fn normal_of(intensity: f32) -> [f32; 3] {
+    [(1.0 - intensity * intensity).max(0.0).sqrt(), 0.0, intensity]
+}
+
+/// A corner at sub-pixel (x, y) with a depth and an intensity under [`plain_lighting`].
+#[derive(Clone, Copy, Debug)]
+pub struct Corner {
+    pub x: i32,
+    pub y: i32,
+    pub depth: f32,
+    pub intensity: f32,
+}
+
+/// Adds a polygon of such corners.
+pub fn add(builder: &mut FrameBuilder, material: u32, source: u32, corners: &[Corner]) {
+    let vertices: Vec<u32> = corners
+        .iter()
+        .map(|c| {
+            builder.vertex(Vertex {
+                x: SubPixel::from_bits(c.x),
+                y: SubPixel::from_bits(c.y),
+                depth: c.depth,
+                inv_w: 1.0,
+                normal: normal_of(c.intensity),
+                material,
+            })
+        })
+        .collect();
+    builder.polygon(&vertices, [0.0, 0.0, 1.0], source);
+}
+
+/// A frame of polygons given by their corners.
+pub fn frame(width: u32, height: u32, depth_test: bool, polygons: &[Vec<Corner>]) -> Frame {
+    let mut builder = FrameBuilder::new(width, height);
+    builder.depth_test(depth_test);
+    let material = builder.lighting(plain_lighting());
+    for (number, corners) in polygons.iter().enumerate() {
+        add(&mut builder, material, number as u32, corners);
+    }
+    builder.finish().expect("corners inside the guard band")
+}
+
+/// A polygon of random corners, most of them crossing themselves; on the grid of pixel centres in one case of three,
+/// where ties are common.
+pub fn random_polygon(random: &mut Random, width: i32, height: i32, corners: usize) -> Vec<Corner> {
+    let grid = random.below(3) == 0;
+    let reach = [40, 200, 2000][random.below(3) as usize];
+    let (cx, cy) = (random.below(width as u64 * 256) as i32, random.below(height as u64 * 256) as i32);
+    let mut coordinate = |middle: i32| {
+        let at = middle + (random.below(2 * reach * 16) as i32 - reach as i32 * 16);
+        if grid { at / 128 * 128 } else { at }
+    };
+    let places: Vec<(i32, i32)> = (0..corners).map(|_| (coordinate(cx), coordinate(cy))).collect();
+    places.into_iter().map(|(x, y)| Corner { x, y, depth: random.unit(), intensity: random.unit() }).collect()
+}
