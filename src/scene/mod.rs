@@ -8,7 +8,6 @@ pub mod diagnostics;
 pub mod file;
 mod of_mesh;
 #[cfg(feature = "io")]
-mod of_mesh;
 mod overlay;
 #[cfg(feature = "io")]
 pub mod resolve;
