@@ -83,10 +83,10 @@ pub struct RowData {
     pub error: DifferenceData,
     /// See [`Row::own`].
     pub own: DifferenceData,
-    /// The largest `own.max` that the method promises.
-    pub tolerance: f64,
-    /// Whether it is kept.
-    pub within_tolerance: bool,
+    /// See [`Row::bound`].
+    pub bound: f64,
+    /// Whether `own.max` is within it.
+    pub within_bound: bool,
     /// See [`Row::other_polygon`].
     pub other_polygon: usize,
     /// `None` if no times were taken.
@@ -237,8 +237,8 @@ impl From<&Row> for RowData {
             model: alloc::format!("{:?}", info.model).to_lowercase(),
             error: row.error.into(),
             own: row.own.into(),
-            tolerance: f64::from(info.tolerance),
-            within_tolerance: row.is_within_tolerance(),
+            bound: row.bound,
+            within_bound: row.is_within_bound(),
             other_polygon: row.other_polygon,
             speed: row.speed.as_ref().map(SpeedData::from),
         }

@@ -73,7 +73,8 @@ impl References {
         };
         let picture = variant.render(frame);
         let engine = Engine::Scanline;
-        Row { variant: variant.clone(), engine, error, own, other_polygon, speed: None, picture, linear }
+        let bound = variant.info().bound(frame);
+        Row { variant: variant.clone(), engine, error, own, bound, other_polygon, speed: None, picture, linear }
     }
 
     /// The row of a variant in the barycentric renderer, without times; `None` if it does not have the method.
@@ -89,7 +90,8 @@ impl References {
         let (own, _) = difference(closed_form, &linear, &own_forms.visibility.polygons, &self.barycentric);
         let picture = variant.render_barycentric(frame, Edges::TopLeft)?;
         let engine = Engine::Barycentric;
-        Some(Row { variant: variant.clone(), engine, error, own, other_polygon, speed: None, picture, linear })
+        let bound = variant.info().bound(frame);
+        Some(Row { variant: variant.clone(), engine, error, own, bound, other_polygon, speed: None, picture, linear })
     }
 }
 

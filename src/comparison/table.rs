@@ -78,8 +78,8 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     lines.extend(comparison.all_rows().map(|row| columns.iter().map(|column| (column.cell)(row)).collect()));
     let mut text = head(comparison);
     text.push_str(&align(&lines));
-    if comparison.all_rows().any(|row| !row.is_within_tolerance()) {
-        text.push_str("! farther from its own closed form than the method promises on the shipped scenes\n");
+    if comparison.all_rows().any(|row| !row.is_within_bound()) {
+        text.push_str("! farther from its own closed form than rounding explains\n");
     }
     text
 }
@@ -161,7 +161,7 @@ pub(crate) fn signed_levels(error: f64) -> String {
 }
 
 fn own(row: &Row) -> String {
-    format!("{}{}", if row.is_within_tolerance() { "" } else { "!" }, levels(row.own.max))
+    format!("{}{}", if row.is_within_bound() { "" } else { "!" }, levels(row.own.max))
 }
 
 pub(crate) fn decibels(difference: &Difference) -> String {

@@ -1,7 +1,7 @@
 //! Fast Phong shading: scalars instead of vectors, Newton's root instead of a true one (L21 4.2–4.3).
 
 use super::illumination::Illumination;
-use super::{Corners, Info, Method, Parameter, Perspective, Shader, SpanOf};
+use super::{Corners, Info, Method, Parameter, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -23,8 +23,9 @@ impl Method for FastPhong {
                   previous pixel\nI = Ia ka + Ip kd J/d + Ip ks (2 J K / D - L.V)^n",
         source: "L21 4.2, 4.3, eq 4.3-4.6",
         model: Model::Phong,
-        tolerance: 1e-3,
-        derivation: "",
+        roundings: Roundings { start: 4.0, step: 1.4, of: Stepped::Cosines },
+        derivation: "each step rounds J and K by half of 2^-24, and the three components of N, so d = |N|, by 0.87 * 2^-24: \
+                     J/d is off by 1.4, and 2 J K / D by 2 (0.5 + 0.5 + 2 * 0.87) = 5.5, which is 4 * 1.4",
         fails: "on spans of few pixels over a large angle, where the previous length is a bad first guess (use more \
                 steps), and where normals cancel inside a span",
         parameters: &[Parameter {

@@ -1,7 +1,7 @@
 //! Flat shading: one colour a polygon (L21 2).
 
 use super::illumination::Illumination;
-use super::{Corners, Info, Method, Perspective, Shader, SpanOf};
+use super::{Corners, Info, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real};
 use crate::reference::Model;
@@ -18,9 +18,8 @@ impl Method for Flat {
         formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, N the polygon's normal by Newell's formula",
         source: "L21 2, eq 2.1 (Bouknight 1970)",
         model: Model::Flat,
-        tolerance: 1e-4,
-        derivation: "a colour is one evaluation of eq 2.1 in f32. R.V is off by at most 8 roundings of 2^-24, 5e-7; \
-                     the power multiplies that by n, at most 200 in the shipped scenes: 1e-4",
+        roundings: Roundings { start: 4.0, step: 0.0, of: Stepped::Colours },
+        derivation: "nothing is stepped; L.N and R.V take 8 roundings each of at most half of 2^-24",
         fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",
         parameters: &[],
         perspective: Perspective::Unaffected,

@@ -1,7 +1,7 @@
 //! Gouraud shading: vertex colours, interpolated linearly (L21 3).
 
 use super::illumination::Illumination;
-use super::{Corners, Info, Method, Perspective, Shader, SpanOf};
+use super::{Corners, Info, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -20,9 +20,9 @@ impl Method for Gouraud {
         formula: "dI = (I2 - I1) / (y2 - y1) along edges, (I2 - I1) / (x2 - x1) along spans; I_next = I + dI",
         source: "L21 3, eq 3.5, 3.6 (Gouraud 1971)",
         model: Model::Gouraud,
-        tolerance: 2e-4,
-        derivation: "a vertex colour is off by 1e-4 as in flat shading; each step along an edge and a span of at most \
-                     640 pixels adds half a unit in the last place, 1280 * 2^-24 = 8e-5",
+        roundings: Roundings { start: 4.0, step: 1.0, of: Stepped::Colours },
+        derivation: "a vertex is lit as in flat shading; each step of a colour of at most 1 rounds by half of 2^-24, and so does the \
+                     weight under perspective",
         fails: "highlights inside a polygon are lost or smeared; the slope of the intensity still jumps at edges",
         parameters: &[],
         perspective: Perspective::Divides,

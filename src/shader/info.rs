@@ -1,5 +1,6 @@
 //! What is said about a method: the texts and bounds that the tool, the tests and the report share.
 
+use super::bound::Roundings;
 use crate::reference::Model;
 
 /// A number that a method can be given after its name, as in `fast-phong:steps=1`.
@@ -55,9 +56,9 @@ pub struct Info {
     pub source: &'static str,
     /// The closed form that its picture is measured against.
     pub model: Model,
-    /// The largest difference to that closed form, in a linear channel of 0..=1, over all shipped scenes.
-    pub tolerance: f32,
-    /// Why that difference and no larger one.
+    /// How many roundings its numbers gather: [`Info::bound`] makes the largest difference to that closed form of it.
+    pub roundings: Roundings,
+    /// Why so many roundings and no more.
     pub derivation: &'static str,
     /// Where its picture is bad, or its arithmetic fails.
     pub fails: &'static str,

@@ -5,6 +5,7 @@
 //! function** of what the walk gives. [`METHODS`] lists all methods: what is in it is rendered, compared, timed,
 //! counted, tested and drawn; what is not does not exist.
 
+mod bound;
 mod count;
 mod dispatch;
 mod info;
@@ -20,6 +21,7 @@ mod naive_phong;
 mod slerp_phong;
 mod slerp_phong_vector;
 
+pub use bound::{Roundings, Stepped};
 pub use count::OperationCounts;
 pub use fast_phong::FastPhong;
 pub use flat::Flat;

@@ -1,7 +1,7 @@
 //! Naive Phong shading: normals, interpolated and renormalised at every pixel (L21 4.1).
 
 use super::illumination::Illumination;
-use super::{Corners, Info, Method, Perspective, Shader, SpanOf};
+use super::{Corners, Info, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, dot, each};
 use crate::reference::Model;
@@ -22,8 +22,9 @@ impl Method for NaivePhong {
         formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  eq 2.1 at every pixel",
         source: "L21 4.1, eq 4.1, 4.2 (Phong 1975)",
         model: Model::Phong,
-        tolerance: 5e-4,
-        derivation: "",
+        roundings: Roundings { start: 4.0, step: 0.9, of: Stepped::Cosines },
+        derivation: "each step rounds the three components of N by half of 2^-24, which is a vector of length 0.87 * 2^-24; what \
+                     lies along N is lost when N is normalised",
         fails: "where normals cancel inside a span; the slope of the intensity still jumps at edges (Duff 1979)",
         parameters: &[],
         perspective: Perspective::Free,

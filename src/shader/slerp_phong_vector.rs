@@ -1,7 +1,7 @@
 //! Slerp Phong shading with vectors: unit normals by incremental sines and cosines (L21 4.4, steps i–iv).
 
 use super::illumination::Illumination;
-use super::{Corners, Info, Method, Perspective, Shader, SpanOf};
+use super::{Corners, Info, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -19,8 +19,8 @@ impl Method for SlerpPhongVector {
         formula: "N(t) = sin((1-t)phi)/sin(phi) N1 + sin(t phi)/sin(phi) N2; sines by eq 4.9-4.12; eq 2.1",
         source: "L21 4.4, eq 4.7-4.12, steps i-iv",
         model: Model::Slerp,
-        tolerance: 1e-3,
-        derivation: "",
+        roundings: Roundings { start: 4.0, step: 2.0, of: Stepped::Cosines },
+        derivation: "as slerp-phong: the same sines carry the normals",
         fails: "as slerp-phong, at a higher price a pixel",
         parameters: &[],
         perspective: Perspective::ScreenOnly,
