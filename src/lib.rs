@@ -40,8 +40,8 @@
 //! | the waist | [`frame::Frame`], and [`frame::FrameBuilder`] for polygons from elsewhere |
 //! | methods | [`shader::Variant::render`], [`shader::METHODS`]; [`shader::Method`] to add one from outside this crate |
 //! | loops | [`raster`]: scan lines as in the lecture, barycentric coordinates to compare with |
-//! | truth | [`reference`]: four closed forms in `f64` |
-//! | numbers | [`metrics::compare`], [`metrics::difference_map`], [`shader::Variant::operations`] |
+//! | truth | [`mod@reference`]: four closed forms in `f64` |
+//! | numbers | [`metrics::compare`], [`metrics::difference_map`], [`shader::Variant::operations`], `comparison` |
 //! | files | `image_file` |
 //!
 //! # Features

@@ -17,7 +17,7 @@ impl Random {
 
     /// 0..n.
     pub(crate) fn below(&mut self, n: u64) -> u64 {
-        (self.next() >> 32) * n >> 32
+        ((self.next() >> 32) * n) >> 32
     }
 
     /// −1..1.

@@ -5,8 +5,9 @@ use super::list::{exactness, method_json};
 use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
+use fastphong::input;
 use fastphong::number::Counts;
-use fastphong::shader::{OperationCounts, Variant};
+use fastphong::shader::{Info, OperationCounts, Variant};
 use serde_json::{Map, Value, json};
 
 /// Explain a shading method: formula, source, cost, tolerance, where it fails
@@ -53,14 +54,14 @@ impl Explain {
     /// Prints the explanation.
     pub fn run(&self) -> Result<Outcome, Failure> {
         if self.json {
-            json_to_stdout(&self.json())?
+            json_to_stdout(&self.json()?)?
         } else {
-            to_stdout(self.text().as_bytes())?
+            to_stdout(self.text()?.as_bytes())?
         }
         Ok(Outcome::Done)
     }
 
-    fn text(&self) -> String {
+    fn text(&self) -> Result<String, Failure> {
         let info = self.method.info();
         let mut text = format!("{}: {}\n", self.method, info.title);
         let mut section = |title: &str, body: &str| text += &format!("\n{title}\n{body}");
@@ -71,7 +72,7 @@ impl Explain {
             let title = format!("operations with {lights} light{}, as counted", if lights == 1 { "" } else { "s" });
             section(&title, &costs(&self.method.operations(lights)));
         }
-        section("tolerance", &wrapped(&format!("{}\n{}", exactness(info), info.derivation), 2));
+        section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
         let engines = if info.barycentric { "scanline, barycentric" } else { "scanline" };
@@ -83,10 +84,20 @@ impl Explain {
             })
             .collect();
         section("parameters", if parameters.is_empty() { "  none\n" } else { &parameters });
-        text
+        Ok(text)
     }
 
-    fn json(&self) -> Value {
+    fn tolerance(&self) -> Result<String, Failure> {
+        let info = self.method.info();
+        let levels = 255.0 * example_bound(info)?;
+        Ok(format!(
+            "{}\n{}\nfor example, at most {levels:.3} grey levels on the scene `{EXAMPLE}` at 640x480",
+            exactness(info),
+            info.derivation
+        ))
+    }
+
+    fn json(&self) -> Result<Value, Failure> {
         let info = self.method.info();
         let mut json = method_json(info);
         let operations: Map<String, Value> =
@@ -97,9 +108,18 @@ impl Explain {
         json["model"] = model_name(info.model).into();
         json["derivation"] = info.derivation.into();
         json["fails"] = info.fails.into();
+        json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(info)? });
         json["operations_by_lights"] = operations.into();
-        json
+        Ok(json)
     }
+}
+
+/// The scene on which a bound is given as an example.
+const EXAMPLE: &str = "teapot";
+
+fn example_bound(info: &Info) -> Result<f64, Failure> {
+    let frame = input::resolve(&input::load(EXAMPLE)?)?.scene.frame()?;
+    Ok(info.bound(&frame))
 }
 
 fn costs(counts: &OperationCounts) -> String {

@@ -6,6 +6,7 @@ use super::table::{columns, wrapped};
 use super::talk::{Talk, grouped, json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
 use fastphong::camera::Projection;
+use fastphong::input;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{Object, Scene};
@@ -37,7 +38,8 @@ impl Info {
     /// Prints what there is.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         let file = self.scene.load(&self.input)?;
-        let resolved = self.scene.resolve(&file, *talk)?;
+        let resolved = input::resolve(&file)?;
+        self.scene.warn(&resolved, *talk);
         let scene = &resolved.scene;
         // A mesh that several objects share is looked at once.
         let mut seen = BTreeMap::new();

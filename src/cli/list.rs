@@ -8,7 +8,7 @@ use fastphong::input::SCENES;
 use fastphong::mesh::builtin::{BUILTINS, Kind, Parameter};
 use fastphong::metrics::{Better, METRICS};
 use fastphong::scene::file::SceneFile;
-use fastphong::shader::{Info, METHODS};
+use fastphong::shader::{Info, METHODS, Roundings, Stepped};
 use serde_json::{Value, json};
 
 /// List methods, meshes, scenes or metrics
@@ -76,32 +76,39 @@ fn methods() -> String {
 
 /// How near a method is to its closed form, in a sentence.
 pub fn exactness(info: &Info) -> String {
-    format!(
-        "within {:.3} grey levels of its closed form, {}",
-        255.0 * f64::from(info.tolerance),
-        model_name(info.model)
-    )
+    let Roundings { start, step, of } = info.roundings;
+    let model = model_name(info.model);
+    match step {
+        0.0 => format!("off its closed form, {model}, by {start} roundings of 2^-24 in its {}", stepped(of)),
+        _ => format!(
+            "off its closed form, {model}, by {start} roundings of 2^-24 in its {} and {step} more at every step",
+            stepped(of)
+        ),
+    }
+}
+
+fn stepped(of: Stepped) -> &'static str {
+    match of {
+        Stepped::Colours => "colours",
+        Stepped::Cosines => "cosines",
+    }
 }
 
 /// What is said about a method, without its texts of more than one line.
 pub fn method_json(info: &Info) -> Value {
     let parameter = |p: &fastphong::shader::Parameter| json!({ "name": p.name, "meaning": p.meaning, "default": p.default, "least": p.least, "most": p.most });
+    let Roundings { start, step, of } = info.roundings;
     let parameters: Vec<Value> = info.parameters.iter().map(parameter).collect();
     json!({
         "name": info.name,
         "title": info.title,
         "source": info.source,
         "model": model_name(info.model),
-        "tolerance": decimal(info.tolerance),
+        "roundings": { "start": start, "step": step, "of": stepped(of) },
         "perspective": info.perspective.sentence(),
         "barycentric": info.barycentric,
         "parameters": parameters,
     })
-}
-
-/// The double nearest to the decimal that was meant: 0.0002 and not 0.00019999999494757503.
-fn decimal(value: f32) -> f64 {
-    value.to_string().parse().unwrap_or(f64::from(value))
 }
 
 fn kind(kind: Kind) -> &'static str {

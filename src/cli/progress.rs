@@ -60,6 +60,11 @@ impl Progress {
         self.bar.set_position((share.clamp(0.0, 1.0) * STEPS as f32) as u64);
         self.bar.set_message(stage.to_owned());
     }
+
+    /// Does something that may say a word, with the bar out of its way.
+    pub fn aside<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.bar.suspend(work)
+    }
 }
 
 impl Drop for Progress {

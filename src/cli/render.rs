@@ -58,7 +58,7 @@ impl Render {
     /// Draws, compares and prints, as asked for.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         let talk = *talk;
-        let output = self.output.as_deref().map(|path| Output::new(path, self.format)).transpose()?;
+        let output = self.checked_output()?;
         // A picture on standard output leaves no room there for words.
         let say: fn(&str) -> Result<(), Failure> = match &output {
             Some(Output { path: None, .. }) => |text| {
@@ -67,57 +67,71 @@ impl Render {
             },
             _ => |text| to_stdout(text.as_bytes()),
         };
-        if let Some(reference) = &self.reference {
-            Format::of_path(reference)?;
-            if output.as_ref().and_then(|output| output.path.as_deref()).is_some_and(|path| same_file(path, reference))
-            {
-                let message =
-                    format!("`--output` is the reference itself, {}: expected another file", reference.display());
-                return Err(message.into());
-            }
-        }
         let mut file = self.scene.load(&self.input)?;
         let progress = Progress::watched(talk);
         progress.at(0.0, "loading");
         let started = Instant::now();
-        let resolved = self.scene.resolve(&file, talk)?;
+        let resolved = input::resolve(&file)?;
+        progress.aside(|| {
+            self.scene.warn(&resolved, talk);
+            talk.detail(&format!("loaded in {:.1} ms", milliseconds(started)));
+        });
         if self.print_scene {
             input::make_paths_relative_to_current_folder(&mut file);
-            say(&file.to_toml())?;
+            progress.aside(|| say(&file.to_toml()))?;
         }
         if output.is_none() && self.reference.is_none() && !self.stats {
             return Ok(Outcome::Done);
         }
-        talk.detail(&format!("loaded in {:.1} ms", milliseconds(started)));
         progress.at(0.25, "projecting");
         let started = Instant::now();
         let frame = resolved.scene.frame()?;
-        talk.detail(&format!("projected in {:.1} ms", milliseconds(started)));
-        warn_of_polygons_without_area(frame.stats(), talk);
-        if self.stats {
-            say(&stats_text(&frame))?;
-        } else {
-            talk.detail(stats_text(&frame).trim_end());
-        }
-        progress.at(0.5, "shading");
-        let drawing = Drawing::new(frame, self.content(), talk)?;
-        if let Some(output) = &output {
-            let started = Instant::now();
-            let picture = drawing.picture(output.format == Format::Pfm);
-            talk.detail(&format!("shaded in {:.1} ms", milliseconds(started)));
-            progress.at(0.75, "writing");
-            output.write(&picture)?;
-            if let Some(path) = &output.path {
-                let [width, height] = picture.size();
-                talk.note(&format!("{}: {width}x{height}, {}", path.display(), self.what()));
+        progress.aside(|| {
+            talk.detail(&format!("projected in {:.1} ms", milliseconds(started)));
+            warn_of_polygons_without_area(frame.stats(), talk);
+            if self.stats {
+                return say(&stats_text(&frame));
             }
+            talk.detail(stats_text(&frame).trim_end());
+            Ok(())
+        })?;
+        progress.at(0.5, "shading");
+        let drawing = progress.aside(|| Drawing::new(frame, self.content(), talk))?;
+        if let Some(output) = &output {
+            self.write(&drawing, output, &progress, talk)?;
         }
         let Some(reference) = &self.reference else { return Ok(Outcome::Done) };
         let check = ReferenceCheck { reference, threshold: self.reference_threshold, written: output.as_ref() };
         let verdict = check.run(&drawing)?;
-        drop(progress);
-        say(&verdict.text)?;
+        progress.aside(|| say(&verdict.text))?;
         Ok(verdict.outcome)
+    }
+
+    /// Where the picture goes, if that is not where its reference is.
+    fn checked_output(&self) -> Result<Option<Output>, Failure> {
+        let output = self.output.as_deref().map(|path| Output::new(path, self.format)).transpose()?;
+        let Some(reference) = &self.reference else { return Ok(output) };
+        Format::of_path(reference)?;
+        match output.as_ref().and_then(|output| output.path.as_deref()) {
+            Some(path) if same_file(path, reference) => {
+                let shown = reference.display();
+                Err(format!("`--output` is the reference itself, {shown}: expected another file").into())
+            }
+            _ => Ok(output),
+        }
+    }
+
+    fn write(&self, drawing: &Drawing, output: &Output, progress: &Progress, talk: Talk) -> Result<(), Failure> {
+        let started = Instant::now();
+        let picture = drawing.picture(output.format == Format::Pfm);
+        progress.aside(|| talk.detail(&format!("shaded in {:.1} ms", milliseconds(started))));
+        progress.at(0.75, "writing");
+        output.write(&picture)?;
+        if let Some(path) = &output.path {
+            let [width, height] = picture.size();
+            progress.aside(|| talk.note(&format!("{}: {width}x{height}, {}", path.display(), self.what())));
+        }
+        Ok(())
     }
 
     fn content(&self) -> Content {

@@ -100,12 +100,8 @@ impl SceneFlags {
         Ok(file)
     }
 
-    /// The scene of `file`, ready to be drawn; says what is odd about it.
-    ///
-    /// # Errors
-    /// When a value of it is wrong, or a mesh cannot be used.
-    pub fn resolve(&self, file: &SceneFile, talk: Talk) -> Result<Resolved, Failure> {
-        let resolved = input::resolve(file)?;
+    /// Says what is odd about a scene.
+    pub fn warn(&self, resolved: &Resolved, talk: Talk) {
         for warning in &resolved.warnings {
             talk.warning(warning);
         }
@@ -113,7 +109,6 @@ impl SceneFlags {
         if with_own > 0 && !self.material().is_empty() {
             talk.note("the material given by flags replaces those of the mesh file");
         }
-        Ok(resolved)
     }
 
     fn material(&self) -> MaterialSection {

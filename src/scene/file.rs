@@ -185,8 +185,8 @@ impl LightSection {
 pub struct ObjectSection {
     /// An OBJ file (relative to the scene file), or `builtin:NAME`, or `builtin:NAME?key=value&key=value`.
     pub mesh: Located<String>,
-    /// Where vertex normals come from: `"given"` (default: those of the mesh, averaged ones where it has none) or
-    /// `"averaged"` (always those of L21 3.1).
+    /// Where vertex normals come from: `"averaged"` (default: L21 3.1, whatever the mesh brings) or `"given"` (those of
+    /// the mesh, averaged ones where it has none).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normals: Option<Located<NormalChoice>>,
     /// Instead of `normals`: average over polygons whose normals differ by at most so many degrees, 0 to 180.
@@ -235,8 +235,8 @@ pub enum NormalChoice {
 }
 
 impl Choice for NormalChoice {
-    const WORDS: &'static [&'static str] = &["given", "averaged"];
-    const MEANINGS: &'static [Self] = &[NormalChoice::Given, NormalChoice::Averaged];
+    const WORDS: &'static [&'static str] = &["averaged", "given"];
+    const MEANINGS: &'static [Self] = &[NormalChoice::Averaged, NormalChoice::Given];
 }
 
 impl Choice for Interpolation {

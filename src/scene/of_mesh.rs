@@ -21,7 +21,7 @@ impl Scene {
     pub const DEFAULT_LIGHT: [f64; 3] = [0.4, 0.7, 0.9];
 
     /// A scene of `mesh` alone: an orthographic three-quarter view fitted to it, one white light, the default material
-    /// for polygons that have none, the normals of the mesh (averaged where it has none).
+    /// for polygons that have none, averaged vertex normals (L21 3.1).
     ///
     /// The fields are there to be changed; a mesh without polygons gives an empty picture.
     ///
@@ -70,7 +70,7 @@ impl Scene {
                 mesh: Arc::new(mesh),
                 transform: DAffine3::IDENTITY,
                 material: own,
-                normals: NormalSource::Given,
+                normals: NormalSource::Averaged,
             }],
         }
     }

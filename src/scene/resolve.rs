@@ -208,8 +208,8 @@ fn normals(section: &ObjectSection, check: &Check) -> Result<NormalSource, Scene
         (_, Some(crease)) => check
             .number(crease, "object.crease", |v| (0.0..=180.0).contains(&v), "degrees between 0 and 180")
             .map(NormalSource::Crease),
-        (Some(Located { value: NormalChoice::Averaged, .. }), None) => Ok(NormalSource::Averaged),
-        (Some(Located { value: NormalChoice::Given, .. }) | None, None) => Ok(NormalSource::Given),
+        (Some(Located { value: NormalChoice::Given, .. }), None) => Ok(NormalSource::Given),
+        (Some(Located { value: NormalChoice::Averaged, .. }) | None, None) => Ok(NormalSource::Averaged),
     }
 }
 

@@ -24,13 +24,15 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<SlerpPhongVector>(),
 ];
 
+type DrawBarycentric = fn(&Frame, &[u32], Edges, &mut dyn Target);
+
 /// A row of the method table: what is said about a method, and what can be done with it.
 #[derive(Clone, Copy)]
 pub struct Entry {
     /// What is said about it.
     pub info: &'static Info,
     draw: fn(&Frame, &[u32], &mut dyn Target),
-    draw_barycentric: Option<fn(&Frame, &[u32], Edges, &mut dyn Target)>,
+    draw_barycentric: Option<DrawBarycentric>,
     count: fn(&[u32], usize) -> OperationCounts,
     span: fn(&[u32], &SpanBench, &mut [[f32; 3]]),
 }

@@ -138,7 +138,7 @@ fn sines_follow_the_circle() {
 #[test]
 fn newton_follows_the_root() {
     // 30 degrees over 64 pixels: two steps leave nothing but rounding.
-    let (a, b) = ([-0.2588190f32, 0.0, 0.9659258], [0.2588190f32, 0.0, 0.9659258]);
+    let (a, b) = ([-0.258_819f32, 0.0, 0.965_925_8], [0.258_819f32, 0.0, 0.965_925_8]);
     let step: [f32; 3] = core::array::from_fn(|i| (b[i] - a[i]) / 64.0);
     let normal = || core::array::from_fn::<_, 3, _>(|i| Linear::new(Scalar, a[i], step[i]));
     let (mut walk, mut line) = (Newton::new(Scalar, normal(), a, 2), normal());

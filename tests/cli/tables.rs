@@ -30,6 +30,13 @@ fn lists_have_an_entry_for_everything_in_their_table() {
             assert!(text.lines().any(|line| line.split_whitespace().next() == Some(&heading)), "{heading}: {text}");
         }
     }
+    let meshes = folder.run("list meshes").done().out;
+    let json = folder.run("list meshes --json").done().json();
+    for (shape, entry) in BUILTINS.iter().zip(json.as_array().expect("a list")) {
+        let parameters = entry["parameters"].as_array().expect("a list").iter().map(|p| p["name"].as_str().unwrap());
+        assert!(parameters.eq(shape.all_parameters().map(|p| p.name)), "{entry}");
+        assert!(shape.all_parameters().all(|p| meshes.contains(p.doc)), "{meshes}");
+    }
     folder.run("list methods").done().prints("steps=1..8, default 2").prints("perspective-correct at no cost");
     folder.run("list shaders").refused(&["methods, meshes, scenes, metrics"]);
 }
@@ -50,6 +57,7 @@ fn every_method_is_explained() {
             assert_eq!(json["operations_by_lights"][lights.to_string()]["pixel_shade"]["mul"], counted, "{name}");
         }
         assert_eq!(json["formula"], entry.info.formula);
+        assert_eq!(json["roundings"]["step"].as_f64(), Some(entry.info.roundings.step));
     }
     // One step of Newton's method less is one division a pixel less.
     let divisions = |variant: &str| {

@@ -1,0 +1,194 @@
+//! Methods against each other, and one way of drawing against another.
+
+mod support;
+
+use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::lighting::{Light, Lighting, Material};
+use fastphong::mesh::builtin::builtin;
+use fastphong::metrics::compare;
+use fastphong::picture::Picture;
+use fastphong::raster::Edges;
+use fastphong::reference::{self, Model};
+use fastphong::scene::{Interpolation, Scene};
+use fastphong::shader::{METHODS, Variant};
+use glam::DVec3;
+use support::Random;
+
+fn variant(name: &str) -> Variant {
+    Variant::parse(name).expect("a method")
+}
+
+fn lights(count: usize) -> Vec<Light> {
+    let light = |i: usize| {
+        let angle = 2.399963 * i as f64; // the golden angle: directions that do not repeat
+        let direction = DVec3::new(0.7 * angle.cos(), 0.7 * angle.sin(), 1.0).normalize();
+        Light { direction, colour: [0.9, 0.7, 0.5].map(|c| c / count as f32) }
+    };
+    (0..count).map(light).collect()
+}
+
+fn sphere(change: impl FnOnce(&mut Scene)) -> Frame {
+    let mut scene = Scene::of_mesh(builtin("sphere?rings=10&segments=20").expect("a built-in mesh"));
+    (scene.width, scene.height) = (96, 72);
+    change(&mut scene);
+    scene.frame().expect("a frame")
+}
+
+/// With equal normals at all corners nothing varies over a polygon, and all methods are one: within their bounds.
+#[test]
+fn equal_normals_make_all_methods_equal() {
+    let mut random = Random::new(41);
+    let normal = {
+        let v = [0.2f64, -0.3, 0.9];
+        let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        v.map(|c| (c / length) as f32)
+    };
+    for count in [0, 1, 3, 6] {
+        let mut builder = FrameBuilder::new(64, 48);
+        let view = DVec3::new(0.1, 0.2, 1.0).normalize();
+        let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &lights(count), view));
+        for number in 0..6 {
+            let corners: Vec<u32> = support::random_polygon(&mut random, 64, 48, 3 + number % 4)
+                .iter()
+                .map(|c| {
+                    let (x, y) = (SubPixel::from_bits(c.x), SubPixel::from_bits(c.y));
+                    builder.vertex(Vertex { x, y, depth: c.depth, inv_w: 1.0, normal, material })
+                })
+                .collect();
+            builder.polygon(&corners, normal, number as u32);
+        }
+        let frame = builder.finish().expect("a frame");
+        let first = METHODS[0].variant().render_linear(&frame);
+        for entry in METHODS {
+            let difference = compare(&first, &entry.variant().render_linear(&frame)).expect("equal sizes");
+            let bound = METHODS[0].info.bound(&frame) + entry.info.bound(&frame);
+            assert!(difference.max <= bound, "{} with {count} lights: {}", entry.info.name, difference.max);
+            assert_eq!(difference.coverage_mismatches, 0);
+        }
+    }
+}
+
+/// Any number of lights: exactly as many shaders as there are sizes, padded with dark ones, give the reference's picture.
+#[test]
+fn any_number_of_lights() {
+    for count in [0, 1, 2, 3, 4, 5, 8, 9, 20, Scene::MAX_LIGHTS] {
+        let frame = sphere(|scene| scene.lights = lights(count));
+        assert_eq!(frame.light_count(), count);
+        for entry in METHODS {
+            let truth = reference::render(&frame, entry.info.model).to_linear();
+            let difference = compare(&truth, &entry.variant().render_linear(&frame)).expect("equal sizes");
+            let bound = entry.info.bound(&frame);
+            assert!(difference.max <= bound, "{}, {count} lights: {} over {bound}", entry.info.name, difference.max);
+        }
+    }
+    let mut scene = Scene::of_mesh(builtin("cube").expect("a built-in mesh"));
+    scene.lights = lights(Scene::MAX_LIGHTS + 1);
+    assert!(scene.frame().is_err(), "one light more than there may be");
+}
+
+/// No lights: ambient light only, the same from every method.
+#[test]
+fn no_lights_means_ambient_only() {
+    let frame = sphere(|scene| scene.lights.clear());
+    for entry in METHODS {
+        for texel in entry.variant().render_linear(&frame).texels().iter().filter(|t| t[3] > 0.0) {
+            assert_eq!(texel[..3], Material::default().ambient, "{}", entry.info.name);
+        }
+    }
+}
+
+/// Every way of drawing a frame stores the same picture, and does so at every run.
+#[test]
+fn stored_and_linear_pictures_agree() {
+    let frame = sphere(|_| ());
+    for entry in METHODS {
+        let stored = entry.variant().render(&frame);
+        let linear = entry.variant().render_linear(&frame);
+        let rounded = linear.map(|texel| texel.map(fastphong::encoding::quantise));
+        assert_eq!(stored, rounded, "{}", entry.info.name);
+        let mut reused = Picture::new(96, 72, [7u8; 4]);
+        entry.variant().render_into(&frame, &mut reused);
+        assert_eq!(stored, reused, "{}", entry.info.name);
+        assert_eq!(stored, entry.variant().render(&frame), "{}", entry.info.name);
+    }
+}
+
+/// Perspective interpolation on a near, wide view: degree-0 methods and Gouraud follow the reference; and it is not the
+/// picture that is linear on the screen.
+#[test]
+fn perspective_interpolation_is_the_references() {
+    let near = |interpolation| {
+        sphere(|scene| {
+            scene.interpolation = interpolation;
+            scene.camera.projection = fastphong::camera::Projection::Perspective { fovy: 100.0 };
+            scene.camera.eye = scene.camera.target + scene.camera.view() * 1.4;
+            (scene.camera.near, scene.camera.far) = (0.1, 3.0);
+        })
+    };
+    let (space, screen) = (near(Interpolation::Perspective), near(Interpolation::Screen));
+    for entry in METHODS {
+        let truth = reference::render(&space, entry.info.model).to_linear();
+        let ours = entry.variant().render_linear(&space);
+        let difference = compare(&truth, &ours).expect("equal sizes");
+        // Weights vary by a factor of at most (1.4 + 1)/(1.4 - 1) = 6 over the sphere, and with them what a rounding of
+        // the largest weight means for the smallest.
+        let bound = 6.0 * entry.info.bound(&space);
+        assert!(difference.max <= bound, "{}: {} over {bound}", entry.info.name, difference.max);
+    }
+    let differs = |name: &str| {
+        let (a, b) = (variant(name).render_linear(&space), variant(name).render_linear(&screen));
+        compare(&a, &b).expect("equal sizes").max
+    };
+    assert!(differs("gouraud") > 1e-3 && differs("naive-phong") > 1e-3);
+    assert_eq!(differs("flat"), 0.0);
+    assert_eq!(differs("slerp-phong"), 0.0, "slerp stays linear on the screen");
+}
+
+/// On triangles, scanline and barycentric interpolation are one (L21 3, Figure 6).
+#[test]
+fn barycentric_pictures_are_scanline_pictures_on_triangles() {
+    let mut scene = Scene::of_mesh(builtin("sphere?rings=10&segments=20&triangles=true").expect("a built-in mesh"));
+    (scene.width, scene.height) = (96, 72);
+    let frame = scene.frame().expect("a frame");
+    let mut compared = 0;
+    for entry in METHODS {
+        let Some(theirs) = entry.variant().render_barycentric_linear(&frame, Edges::TopLeft) else { continue };
+        let difference = compare(&theirs, &entry.variant().render_linear(&frame)).expect("equal sizes");
+        // Both are within the bound of the closed form, and the forms are equal on triangles.
+        assert!(difference.max <= 2.0 * entry.info.bound(&frame), "{}: {}", entry.info.name, difference.max);
+        assert_eq!(difference.coverage_mismatches, 0);
+        compared += 1;
+    }
+    assert_eq!(compared, 3, "flat, gouraud and naive-phong");
+}
+
+/// L21 3: on triangles the picture does not depend on how they lie; on a square it does (Figure 5).
+#[test]
+fn orientation_matters_for_squares_only() {
+    let turned = |spec: &str| {
+        let mut scene = Scene::of_mesh(builtin(spec).expect("a built-in mesh"));
+        (scene.width, scene.height) = (128, 128);
+        scene.camera.eye = scene.camera.target + DVec3::Z * 4.0;
+        (scene.camera.near, scene.camera.far) = (1.0, 8.0);
+        scene.objects[0].normals = fastphong::mesh::vertex_normals::NormalSource::Given;
+        scene.objects[0].material =
+            Some(Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 });
+        scene.lights = vec![Light { direction: DVec3::Z, colour: [1.0; 3] }];
+        reference::render(&scene.frame().expect("a frame"), Model::Gouraud).to_linear()
+    };
+    let (upright, lying) = (turned("figure5?angle=0"), turned("figure5?angle=90"));
+    // The picture turned back by 90 degrees: counter-clockwise in space, with y downward on the picture.
+    let n = 128;
+    let back: Vec<[f32; 4]> = (0..n * n).map(|i| lying.get(i / n, n - 1 - i % n)).collect();
+    let back = Picture::from_texels(n, n, back).expect("as many texels");
+    let other: Vec<[f32; 4]> = (0..n * n).map(|i| lying.get(n - 1 - i / n, i % n)).collect();
+    let other = Picture::from_texels(n, n, other).expect("as many texels");
+    let inner = |x: usize, y: usize| (x as i32 - 64).abs() + (y as i32 - 64).abs() < 40;
+    let most = |turned: &Picture<[f32; 4]>| {
+        let pixels = (0..n * n).filter(|i| inner(i % n, i / n));
+        let differences = pixels.map(|i| (turned.texels()[i][0] - upright.texels()[i][0]).abs());
+        differences.fold(0.0f32, f32::max)
+    };
+    // Half of the square is bright at 0 degrees and gray at 90: whichever way it is turned back.
+    assert!(most(&back) > 0.2 && most(&other) > 0.2, "{} {}", most(&back), most(&other));
+}

@@ -1,0 +1,195 @@
+//! Polygons that reach behind the eye, through the near plane, or far beyond the picture.
+
+mod support;
+
+use fastphong::camera::{Camera, Projection};
+use fastphong::frame::Frame;
+use fastphong::lighting::{Light, Material};
+use fastphong::mesh::vertex_normals::NormalSource;
+use fastphong::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
+use fastphong::raster;
+use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+use fastphong::shader::{METHODS, Variant};
+use glam::{DAffine3, DVec3, Vec3};
+use std::sync::Arc;
+
+fn scene(mesh: PolygonMesh, camera: Camera) -> Scene {
+    let material = Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 };
+    Scene {
+        width: 80,
+        height: 60,
+        background: [0.0; 3],
+        camera,
+        ambient: [0.0; 3],
+        lights: vec![Light { direction: DVec3::Z, colour: [1.0; 3] }],
+        interpolation: Interpolation::Perspective,
+        culling: Culling::None,
+        depth_test: true,
+        encoding: Encoding::Linear,
+        objects: vec![Object {
+            mesh: Arc::new(mesh),
+            transform: DAffine3::IDENTITY,
+            material: Some(material),
+            normals: NormalSource::Given,
+        }],
+    }
+}
+
+/// Over the plane y = 0, one unit above it, looking along −z and a little downward.
+fn above_ground(near: f64) -> Camera {
+    Camera {
+        eye: DVec3::new(0.0, 1.0, 0.0),
+        target: DVec3::new(0.0, 0.7, -1.0),
+        up: DVec3::Y,
+        projection: Projection::Perspective { fovy: 60.0 },
+        near,
+        far: 1e4,
+    }
+}
+
+/// A normal whose intensity under the light along z is `i`.
+fn normal(i: f64) -> Vec3 {
+    DVec3::new((1.0 - i * i).sqrt(), 0.0, i).as_vec3()
+}
+
+/// A ground of `n` × `n` quads over −r..r in x and z; the intensity grows linearly with x and z from 0.1 to 0.9.
+fn ground(n: usize, r: f64) -> PolygonMesh {
+    let at = |i: usize, j: usize| {
+        let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
+        (Vec3::new((r * (2.0 * u - 1.0)) as f32, 0.0, (r * (2.0 * v - 1.0)) as f32), normal(0.1 + 0.4 * u + 0.4 * v))
+    };
+    let all: Vec<(Vec3, Vec3)> = (0..=n).flat_map(|j| (0..=n).map(move |i| at(i, j))).collect();
+    let mut builder = MeshBuilder::new(all.iter().map(|a| a.0).collect());
+    let index = |i: usize, j: usize| (j * (n + 1) + i) as u32;
+    for j in 0..n {
+        for i in 0..n {
+            builder.polygon(&[index(i, j), index(i, j + 1), index(i + 1, j + 1), index(i + 1, j)]);
+        }
+    }
+    builder.normals(GivenNormals { values: all.iter().map(|a| a.1).collect(), corners: None });
+    builder.finish().expect("a mesh")
+}
+
+fn covered_once(frame: &Frame) -> Vec<u32> {
+    let mut counts = vec![0; frame.width() * frame.height()];
+    raster::coverage(frame, |_, row, pixels| pixels.for_each(|x| counts[row * frame.width() + x] += 1));
+    counts
+}
+
+/// Where the ray of a pixel meets the ground: (x, z), if it does before the far plane.
+fn ground_at(camera: &Camera, x: usize, y: usize) -> Option<(f64, f64)> {
+    let [right, up, forward] = camera.axes();
+    let Projection::Perspective { fovy } = camera.projection else { return None };
+    let scale = (fovy.to_radians() / 2.0).tan();
+    let ray = forward
+        + right * ((x as f64 + 0.5) / 40.0 - 1.0) * scale * 80.0 / 60.0
+        + up * (1.0 - (y as f64 + 0.5) / 30.0) * scale;
+    let t = -camera.eye.y / ray.y;
+    (t > 0.0).then(|| (ray.x * t, camera.eye.z + ray.z * t))
+}
+
+/// One quad under and behind the eye, as far as the guard band cuts it too: colours where each ray meets the ground are
+/// the linear ones, which is near-plane clipping, attribute clipping and perspective interpolation at once.
+#[test]
+fn ground_under_the_eye_has_the_colours_of_the_rays() {
+    for (cells, r, near) in [(1, 50.0, 0.1), (1, 5000.0, 0.5), (7, 50.0, 0.01), (1, 50.0, 1.3)] {
+        let camera = above_ground(near);
+        let frame = scene(ground(cells, r), camera).frame().expect("a frame");
+        assert!(frame.stats().clipped > 0);
+        let picture = Variant::parse("gouraud").expect("a method").render_linear(&frame);
+        let mut compared = 0;
+        for (x, y) in (0..60).flat_map(|y| (0..80).map(move |x| (x, y))) {
+            let Some((gx, gz)) = ground_at(&camera, x, y) else {
+                assert_eq!(picture.get(x, y)[3], 0.0, "sky at {x}, {y}");
+                continue;
+            };
+            let depth = (DVec3::new(gx, 0.0, gz) - camera.eye).dot(camera.axes()[2]);
+            let margin = 0.9 * r;
+            if gx.abs() > margin || gz.abs() > margin || depth < near * 1.1 {
+                continue;
+            }
+            let truth = 0.1 + 0.4 * (gx / r + 1.0) / 2.0 + 0.4 * (gz / r + 1.0) / 2.0;
+            let found = f64::from(picture.get(x, y)[0]);
+            // Corners are snapped to 1/256 pixel, half of that off in x and y. On the ground a pixel near the horizon
+            // is long: a row down from the horizon the distance changes by its own half. Rays are compared where the
+            // ground moves by at most a twentieth of its size a pixel, so that 1/512 pixel is 1e-4 of it; times 0.8.
+            let step = ground_at(&camera, x, y + 1).map_or(f64::INFINITY, |(bx, bz)| (bx - gx).hypot(bz - gz));
+            if step > r / 10.0 {
+                continue;
+            }
+            assert_eq!(picture.get(x, y)[3], 1.0, "a hole at {x}, {y} ({cells} cells, near {near})");
+            assert!((found - truth).abs() <= 4e-4, "{found} is not {truth} at {x}, {y} ({cells} cells, near {near})");
+            compared += 1;
+        }
+        assert!(compared > 800, "{compared} rays");
+    }
+}
+
+/// Cells that share edges share them after clipping too: no pixel is drawn twice, and none below the horizon is missed.
+#[test]
+fn clipped_neighbours_leave_no_hole_and_no_overlap() {
+    let camera = above_ground(0.05);
+    let whole = covered_once(&scene(ground(1, 60.0), camera).frame().expect("a frame"));
+    for cells in [2, 5, 16] {
+        let counts = covered_once(&scene(ground(cells, 60.0), camera).frame().expect("a frame"));
+        assert!(counts.iter().all(|&c| c <= 1), "{cells} cells: a pixel is drawn twice");
+        // The rim of the ground is the same edge cut into pieces, whose ends are snapped: only there may pixels differ.
+        let differing = counts.iter().zip(&whole).filter(|(a, b)| a != b).count();
+        assert!(differing <= 80, "{cells} cells: {differing} pixels differ from the whole ground");
+        assert!(counts.iter().sum::<u32>() > 2000);
+    }
+}
+
+/// A concave comb whose teeth are cut off by the near plane falls into pieces that do not touch each other.
+#[test]
+fn a_comb_is_cut_into_its_teeth() {
+    // Teeth toward the viewer: the bar is beyond the plane, the tips before it, or the reverse.
+    let teeth = 4;
+    for bar_in_front in [true, false] {
+        let mut outline = vec![Vec3::new(-4.0, 0.0, -6.0), Vec3::new(-4.0, 0.0, -3.0)];
+        for tooth in 0..teeth {
+            let x = -4.0 + 2.0 * tooth as f32;
+            outline.extend([Vec3::new(x, 0.0, 2.0), Vec3::new(x + 1.0, 0.0, 2.0), Vec3::new(x + 1.0, 0.0, -3.0)]);
+            if tooth + 1 < teeth {
+                outline.push(Vec3::new(x + 2.0, 0.0, -3.0));
+            }
+        }
+        outline.push(Vec3::new(3.0, 0.0, -6.0));
+        let corners: Vec<u32> = (0..outline.len() as u32).collect();
+        let mut builder = MeshBuilder::new(outline);
+        builder.polygon(&corners);
+        let mesh = builder.finish().expect("a mesh");
+        let mut scene = scene(mesh, above_ground(0.1));
+        scene.objects[0].normals = NormalSource::Averaged;
+        if !bar_in_front {
+            // From the other side the tips are in front and the bar is behind the eye.
+            scene.camera.eye.z = -2.5;
+            scene.camera.target = DVec3::new(0.0, 0.7, -1.5);
+        }
+        let frame = scene.frame().expect("a frame");
+        assert_eq!(frame.polygons().len(), if bar_in_front { 1 } else { teeth }, "pieces");
+        assert!(covered_once(&frame).iter().all(|&c| c <= 1), "pieces overlap");
+    }
+}
+
+/// Nothing that a user can meet makes a picture panic: the eye inside the mesh, polygons through the plane of the eye,
+/// corners at the eye itself, coordinates as large as they get.
+#[test]
+fn odd_places_give_pictures() {
+    for scale in [1e-6, 1.0, 1e6, 1e14] {
+        for eye in [DVec3::new(0.1, 0.2, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::ZERO] {
+            let mesh = fastphong::mesh::builtin::builtin("torus?segments=12&sides=8").expect("a built-in mesh");
+            let mut camera = above_ground(1e-3 * scale);
+            (camera.eye, camera.target) = (eye * scale, eye * scale + DVec3::new(0.3, 0.1, -1.0) * scale);
+            camera.far = 1e3 * scale;
+            let mut scene = scene(mesh, camera);
+            scene.objects[0].transform = DAffine3::from_scale(DVec3::splat(scale));
+            let frame = scene.frame().expect("a frame");
+            for entry in METHODS {
+                let picture = entry.variant().render_linear(&frame);
+                assert!(picture.texels().iter().all(|t| t.iter().all(|c| (0.0..=1.0).contains(c))));
+            }
+            fastphong::reference::render(&frame, fastphong::reference::Model::Phong);
+        }
+    }
+}
