@@ -32,7 +32,7 @@ fn stages(c: &mut Criterion) {
                 b.iter(|| vertex_normals(black_box(shape), source));
             });
         }
-        // Vertex normals are part of it: here those that came with the mesh.
+        // Vertex normals are part of it: here averaged ones.
         group.bench_function("projection", |b| b.iter(|| black_box(&scene).frame()));
         group.throughput(Throughput::Elements(frame.polygons().len() as u64));
         group.bench_function("triangulation", |b| b.iter(|| triangulated(black_box(&frame))));

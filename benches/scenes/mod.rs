@@ -16,7 +16,8 @@ pub const SCENES: &[(&str, &str)] = &[
     ("prism", "prism"),
 ];
 
-/// A mesh that fills 90 % of 640 × 480 pixels, seen and lit from the front and from above.
+/// A mesh that fills 90 % of 640 × 480 pixels, seen and lit from the front and from above. Vertex normals are averaged, so
+/// that they differ over every polygon, the prism's as well.
 pub fn scene(mesh: &str) -> Scene {
     let mesh = builtin(mesh).expect("a built-in mesh");
     let (width, height) = (640, 480);
@@ -38,7 +39,7 @@ pub fn scene(mesh: &str) -> Scene {
             mesh: mesh.into(),
             transform: DAffine3::IDENTITY,
             material: None,
-            normals: NormalSource::Given,
+            normals: NormalSource::Averaged,
         }],
     }
 }

@@ -1,6 +1,6 @@
 //! Comparisons as text: a row a method, in aligned columns.
 
-use super::{BASELINE, Comparison, Engine, Row, Speed, is_baseline};
+use super::{BASELINE, Comparison, Engine, Row, Speed};
 use crate::bench::Ratio;
 use crate::metrics::Difference;
 use alloc::format;
@@ -29,7 +29,8 @@ const OTHER: Column = Column { head: ["other", "polygon"], cell: |row| row.other
 const TIME: Column = Column { head: ["time", "ms"], cell: |row| speed(row, time) };
 const PER_PIXEL: Column =
     Column { head: ["per pixel", "ns"], cell: |row| speed(row, |s| optional(s.ns_per_covered_pixel, significant)) };
-const NAIVE: Column = Column { head: ["speed to", BASELINE], cell: ratio_to_naive };
+const NAIVE: Column =
+    Column { head: ["speed to", BASELINE], cell: |row| speed(row, |s| optional(s.ratio_to_naive, |r| ratio(&r))) };
 const BARYCENTRIC: Column = Column {
     head: ["speed to", "barycentric"],
     cell: |row| speed(row, |s| optional(s.ratio_to_barycentric, |r| ratio(&r))),
@@ -151,7 +152,7 @@ fn speed(row: &Row, text: impl Fn(&Speed) -> String) -> String {
 }
 
 pub(crate) fn levels(error: f64) -> String {
-    format!("{:.3}", 255.0 * error)
+    if error == 0.0 { "0".to_string() } else { significant(255.0 * error) }
 }
 
 pub(crate) fn signed_levels(error: f64) -> String {
@@ -187,16 +188,18 @@ pub(crate) fn decimals(value: f64) -> usize {
     (0..6).find(|&digits| value >= 100.0 / libm::pow(10.0, digits as f64)).unwrap_or(6)
 }
 
-fn ratio_to_naive(row: &Row) -> String {
-    let is_itself = row.engine == Engine::Scanline && is_baseline(&row.variant);
-    speed(row, |s| optional(s.ratio_to_naive, |r| if is_itself { "1".to_string() } else { ratio(&r) }))
-}
-
 fn ratio(ratio: &Ratio) -> String {
+    // Every round the same as the baseline: it is the baseline.
+    if ratio.low == 1.0 && ratio.high == 1.0 {
+        return "1".to_string();
+    }
     format!("{}{:.2}", if ratio.is_tie() { "=" } else { "" }, ratio.median)
 }
 
 fn interval(ratio: Ratio) -> String {
+    if ratio.low == 1.0 && ratio.high == 1.0 {
+        return NONE.to_string();
+    }
     format!("{:.2} to {:.2}", ratio.low, ratio.high)
 }
 
@@ -217,9 +220,16 @@ mod tests {
     }
 
     #[test]
+    fn small_errors_are_not_rounded_away() {
+        assert_eq!([0.0, 1e-6, 0.01, 0.5].map(levels), ["0", "0.000255", "2.55", "128"]);
+    }
+
+    #[test]
     fn ties_are_marked() {
         assert_eq!(ratio(&Ratio { median: 1.5, low: 1.4, high: 1.6 }), "1.50");
         assert_eq!(ratio(&Ratio { median: 1.01, low: 0.99, high: 1.03 }), "=1.01");
+        let itself = Ratio { median: 1.0, low: 1.0, high: 1.0 };
+        assert_eq!([ratio(&itself), interval(itself)], ["1", "-"]);
     }
 
     #[test]

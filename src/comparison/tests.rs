@@ -121,9 +121,15 @@ fn numbers_of_the_frame_are_those_of_a_hand_count() {
 
 #[test]
 fn own_closed_form_is_that_of_the_model() {
+    // With all steps of Newton's method, of which short spans over large angles need more than the default.
+    let with_all_steps = |variant: Variant| match variant.info().parameters.iter().find(|p| p.name == "steps") {
+        Some(steps) => Variant::parse(&alloc::format!("{}:steps={}", variant.info().name, steps.most)).unwrap(),
+        None => variant,
+    };
+    let variants: Vec<_> = all().into_iter().map(with_all_steps).collect();
     for mesh in ["sphere?rings=6&segments=12", "prism"] {
         let frame = frame_of(mesh);
-        let comparison = errors_only(&frame, &all());
+        let comparison = errors_only(&frame, &variants);
         for row in comparison.all_rows() {
             assert!(row.is_within_bound(), "{mesh}, {} {:?}: {}", row.name(), row.engine, row.own.max);
         }
@@ -274,7 +280,10 @@ fn tables_have_a_row_a_method() {
         assert_eq!(lines.len(), 2 + comparison.rows.len() + comparison.barycentric.len());
         for (line, row) in lines[2..].iter().zip(comparison.all_rows()) {
             assert!(line.starts_with(&row.name()), "{line}");
-            assert!(line.contains(" ± ") && line.contains(&alloc::format!(" {:.3}", 255.0 * row.error.rms)), "{line}");
+            let rms: Vec<f64> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
+            // Three digits: within half of the last of them, 1/200 of the number.
+            let near = |shown: &f64| (shown - 255.0 * row.error.rms).abs() <= 255.0 * row.error.rms / 200.0;
+            assert!(line.contains(" ± ") && rms.iter().any(near), "{line}");
         }
         // Columns end where their heads end: all are to the right but the first.
         let ends: Vec<usize> = lines[1..].iter().map(|line| line.chars().count()).collect();
@@ -282,7 +291,7 @@ fn tables_have_a_row_a_method() {
         assert!(!text.contains('!'));
     }
     comparison.rows[0].own.max = 1.0;
-    assert!(table(&comparison, TableKind::Compare).contains("!255.000"));
+    assert!(table(&comparison, TableKind::Compare).contains("!255"));
     for row in comparison.rows.iter_mut().chain(&mut comparison.barycentric) {
         row.speed = None;
     }

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 /// Width of every chart in its own units; a unit is a pixel where the page is wide enough.
 const WIDTH: f64 = 560.0;
 /// Mean width of a letter at the charts' 13 units, for labels that must not overlap.
-const LETTER: f64 = 6.6;
+const LETTER: f64 = 7.2;
 
 /// A bar: a ratio with its interval.
 pub(super) struct Bar {
@@ -144,8 +144,8 @@ pub(super) fn scatter(title: &str, [x_name, y_name]: [&str; 2], points: &[Point]
         let text = if point.error > 0.0 { point.label.clone() } else { format!("{} (0)", point.label) };
         let label = placed([x, y], LETTER * text.chars().count() as f64, &room, &taken);
         svg += &format!(
-            "<text class=\"name\" x=\"{:.1}\" y=\"{:.1}\">{}</text>",
-            label.left,
+            "<text class=\"name\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
+            (label.left + label.right) / 2.0,
             label.bottom - 3.5,
             escape(&text)
         );
@@ -298,32 +298,24 @@ impl Rectangle {
 /// covers the least of what is there.
 fn placed([x, y]: [f64; 2], width: f64, room: &Rectangle, taken: &[Rectangle]) -> Rectangle {
     const HEIGHT: f64 = 15.0;
+    let around = |x: f64, y: f64| Rectangle {
+        left: x - width / 2.0,
+        right: x + width / 2.0,
+        top: y - HEIGHT / 2.0,
+        bottom: y + HEIGHT / 2.0,
+    };
+    let aside = 9.0 + width / 2.0;
     let mut places = Vec::new();
     for distance in 0..6 {
         let away = f64::from(distance) * HEIGHT;
         for middle in [y - away, y + away] {
-            for left in [x + 9.0, x - 9.0 - width] {
-                places.push(Rectangle {
-                    left,
-                    right: left + width,
-                    top: middle - HEIGHT / 2.0,
-                    bottom: middle + HEIGHT / 2.0,
-                });
-            }
-            let left = x - width / 2.0;
-            let middle = if middle < y { middle } else { middle + HEIGHT };
-            places.push(Rectangle {
-                left,
-                right: left + width,
-                top: middle - HEIGHT / 2.0,
-                bottom: middle + HEIGHT / 2.0,
-            });
+            places.extend([around(x + aside, middle), around(x - aside, middle)]);
         }
+        places.extend([around(x, y - away - HEIGHT), around(x, y + away + HEIGHT)]);
     }
-    let free = places.iter().find(|p| room.contains(p) && !taken.iter().any(|t| t.overlaps(p)));
-    let inside =
-        || places.iter().filter(|p| room.contains(p)).min_by_key(|p| taken.iter().filter(|t| t.overlaps(p)).count());
-    *free.or_else(inside).unwrap_or(&places[0])
+    let overlaps = |place: &Rectangle| taken.iter().filter(|other| other.overlaps(place)).count();
+    let inside = places.iter().filter(|place| room.contains(place));
+    *inside.min_by_key(|place| overlaps(place)).unwrap_or(&places[0])
 }
 
 #[cfg(test)]
@@ -378,7 +370,7 @@ mod tests {
             .skip(1)
             .map(|text| {
                 let (x, y) = (number(text, " x=\""), number(text, " y=\""));
-                Rectangle { left: x, right: x + 18.0 * LETTER, top: y - 11.0, bottom: y + 3.0 }
+                Rectangle { left: x - 9.0 * LETTER, right: x + 9.0 * LETTER, top: y - 11.0, bottom: y + 3.0 }
             })
             .collect();
         assert_eq!(labels.len(), 6);

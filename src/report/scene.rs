@@ -149,7 +149,8 @@ fn charts(section: &Section) -> String {
                 value: ratio.ratio.median,
                 low: ratio.ratio.low,
                 high: ratio.ratio.high,
-                is_tie: ratio.tie,
+                // Not with itself.
+                is_tie: ratio.tie && (ratio.ratio.low, ratio.ratio.high) != (1.0, 1.0),
                 is_barycentric: row.engine != "scanline",
             })
         })

@@ -25,8 +25,27 @@ pub(super) fn opening(sections: &[Section], machine: &Machine) -> Vec<String> {
     } else if machine.profile != "release" {
         sentences
             .push("This program was built without optimisation: its times say nothing of the methods.".to_string());
+    } else {
+        sentences.extend(unrest(sections));
     }
     sentences
+}
+
+/// What to think of the times if the machine had other things to do: the middle half of the samples of a quiet one lies
+/// within a few hundredths of their median.
+fn unrest(sections: &[Section]) -> Option<String> {
+    const QUIET: f64 = 0.1;
+    let rows = sections.iter().flat_map(|section| section.all_rows());
+    let mut spreads: Vec<f64> = rows.filter_map(|row| Some(row.speed.as_ref()?.timing.spread)).collect();
+    spreads.sort_by(f64::total_cmp);
+    let median = *spreads.get(spreads.len() / 2)?;
+    (median > QUIET).then(|| {
+        let percent = libm::round(100.0 * median);
+        format!(
+            "The machine was busy with other things as well: the middle half of the samples of a time typically spreads \
+             over {percent} % of it, and what intervals cannot tell apart should be measured again on a quiet machine."
+        )
+    })
 }
 
 /// How the method called `name` fares against naive Phong.

@@ -68,7 +68,7 @@ const COLUMNS: &[Column] = &[
         "ratio, 95 %",
         "over 1: faster than the barycentric renderer with the same method, or naive Phong where it lacks it",
         |r| {
-            if r.engine == "scanline" { speed(r, |s| ratio(s.ratio_to_barycentric)) } else { NONE.to_string() }
+    speed(r, |s| ratio(s.ratio_to_barycentric))
         },
     ),
 ];
@@ -161,6 +161,10 @@ pub(super) fn time(speed: &SpeedData) -> String {
 /// `1.32 (1.30–1.35)`, with `=` in front of a tie.
 pub(super) fn ratio(ratio: Option<RatioData>) -> String {
     let Some(RatioData { ratio, tie }) = ratio else { return NONE.to_string() };
+    // Every round the same as the baseline: it is the baseline.
+    if ratio.low == 1.0 && ratio.high == 1.0 {
+        return "1".to_string();
+    }
     format!("{}{:.2} ({:.2}–{:.2})", if tie { "=" } else { "" }, ratio.median, ratio.low, ratio.high)
 }
 

@@ -14,8 +14,9 @@ class Viewer {
     this.reference = pictureOf(reference);
     this.methods = methods.map(pictureOf);
     if (this.methods.length === 0) throw new Error("nothing to show");
-    this.width = this.reference.picture.width;
-    this.height = this.reference.picture.height;
+    // The attributes: the properties tell how large it stands on the page.
+    this.width = Number(this.reference.picture.getAttribute("width"));
+    this.height = Number(this.reference.picture.getAttribute("height"));
     this.chosen = 0;
     this.show = "method";
     this.zoom = 1;
@@ -23,7 +24,7 @@ class Viewer {
     this.top = 0;
     this.pixel = null;
     this.build();
-    this.choose(0);
+    this.choose(Math.max(0, this.methods.findIndex((method) => method.name === "fast-phong")));
   }
 
   build() {
@@ -301,7 +302,8 @@ function remember(scene) {
     const state = new URLSearchParams({ scene: scene.id, method: scene.methods[scene.chosen].name, show: scene.show });
     if (scene.zoom > 1) {
       state.set("zoom", scene.zoom);
-      state.set("from", `${scene.left},${scene.top}`);
+      state.set("left", scene.left);
+      state.set("top", scene.top);
     }
     try {
       history.replaceState(null, "", `#${state}`);
@@ -321,9 +323,8 @@ function recall() {
   if (SHOWS.includes(state.get("show"))) scene.showing(state.get("show"));
   const zoom = Number(state.get("zoom"));
   if (ZOOMS.includes(zoom)) {
-    const [left, top] = (state.get("from") ?? "0,0").split(",").map(Number);
     scene.zoom = zoom;
-    scene.look(left || 0, top || 0);
+    scene.look(Number(state.get("left")) || 0, Number(state.get("top")) || 0);
   }
   scene.section.scrollIntoView();
 }
