@@ -85,7 +85,7 @@ fn ground_at(camera: &Camera, x: usize, y: usize) -> Option<(f64, f64)> {
         + right * ((x as f64 + 0.5) / 40.0 - 1.0) * scale * 80.0 / 60.0
         + up * (1.0 - (y as f64 + 0.5) / 30.0) * scale;
     let t = -camera.eye.y / ray.y;
-    (t > 0.0).then(|| (ray.x * t, camera.eye.z + ray.z * t))
+    (t > 0.0).then_some((ray.x * t, camera.eye.z + ray.z * t))
 }
 
 /// One quad under and behind the eye, as far as the guard band cuts it too: colours where each ray meets the ground are

@@ -74,7 +74,8 @@ fn pictures_are_the_blessed_ones() {
         let visibility = reference::visibility(&frame);
         let models = [(Model::Phong, "reference"), (Model::Slerp, "reference-slerp")];
         for (model, name) in models {
-            one(name, &reference::shade(&frame, &visibility, model).to_picture8());
+            let linear = reference::shade(&frame, &visibility, model).to_linear();
+            one(name, &fastphong::encoding::store(&linear, frame.encoding()));
         }
         for entry in METHODS {
             one(entry.info.name, &entry.variant().render(&frame));

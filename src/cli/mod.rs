@@ -4,12 +4,15 @@
 //! Results go to standard output, talk to standard error.
 
 mod aov;
+mod bench;
+mod compare;
 mod diff;
 mod drawing;
 mod explain;
 mod failure;
 mod info;
 mod list;
+mod measured;
 mod mesh_facts;
 mod output;
 mod progress;
@@ -49,6 +52,8 @@ enum Command {
     List(list::List),
     Explain(explain::Explain),
     Info(info::Info),
+    Compare(compare::Compare),
+    Bench(bench::Bench),
 }
 
 impl Cli {
@@ -70,6 +75,8 @@ impl Command {
             Command::List(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::Info(command) => command.run(talk),
+            Command::Compare(command) => command.run(talk),
+            Command::Bench(command) => command.run(talk),
         }
     }
 }

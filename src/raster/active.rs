@@ -112,7 +112,7 @@ impl<E: Copy> ActiveEdges<E> {
                 return false;
             }
             edge.crossing.advance();
-            edge.depth.at += edge.depth.step;
+            edge.depth.at += edge.depth.step; // 3.3
             A::advance(&mut edge.attribute);
             true
         });
@@ -162,7 +162,7 @@ where
         corner: edge.corner,
         end: first_centre(bottom.y),
         crossing: Crossing::new(place(top), place(bottom), row),
-        depth: Ramp { at: top.depth + rise * t0, step: rise * dt },
+        depth: Ramp { at: top.depth + rise * t0, step: rise * dt }, // 3.4
         attribute: A::edge(m, face, a, b, m.one(t0), m.one(dt)),
     }
 }

@@ -20,6 +20,7 @@ pub fn first_centre(at: SubPixel) -> i32 {
 ///
 /// ```text
 /// X = X0 + (Yc − Y0) · dX / dY,      dX = X1 − X0,  dY = Y1 − Y0 > 0        (L21 3.4: Δx = Δt (x_2 − x_1))
+/// X_next = X_current + dX / dY                                               (L21 3.2, 3.3)
 /// ```
 ///
 /// It is kept as `pixel − rest / denominator`, where `pixel` is the first one whose centre is not left of it and
@@ -50,8 +51,8 @@ impl Crossing {
         Crossing {
             pixel: pixel as i32,
             rest: pixel * denominator - numerator,
-            step_pixels: dx.div_euclid(dy) as i32,
-            step_rest: UNIT * dx.rem_euclid(dy),
+            step_pixels: dx.div_euclid(dy) as i32, // 3.2, 3.4: the whole pixels of Δx
+            step_rest: UNIT * dx.rem_euclid(dy),   // and the rest
             denominator,
         }
     }
@@ -71,7 +72,7 @@ impl Crossing {
     /// To the next scanline.
     #[inline(always)]
     pub fn advance(&mut self) {
-        self.pixel += self.step_pixels;
+        self.pixel += self.step_pixels; // 3.3
         self.rest -= self.step_rest;
         if self.rest < 0 {
             self.rest += self.denominator;

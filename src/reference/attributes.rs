@@ -26,7 +26,7 @@ fn lerp(a: DVec3, b: DVec3, t: f64) -> DVec3 {
 /// The angle φ is 2 atan2(|N₁−N₂|, |N₁+N₂|), as the inverse cosine of L21 loses half of the digits of a small one. Close
 /// vectors are interpolated linearly; between opposite ones stands `face`.
 fn slerp(a: DVec3, b: DVec3, t: f64, face: DVec3) -> DVec3 {
-    let phi = 2.0 * libm::atan2((a - b).length(), (a + b).length());
+    let phi = 2.0 * libm::atan2((a - b).length(), (a + b).length()); // φ
     if phi < STRAIGHT {
         lerp(a, b, t)
     } else if phi > OPPOSITE {

@@ -22,7 +22,7 @@ pub(crate) fn illuminate(lighting: &Lighting, n: DVec3) -> DVec3 {
         let l = wide(light.direction);
         let l_n = l.dot(n);
         if l_n > 0.0 {
-            let r = 2.0 * l_n * n - l;
+            let r = 2.0 * l_n * n - l; // R = 2 (L·N) N − L
             let highlight = libm::pow(r.dot(v).max(0.0), f64::from(lighting.shininess));
             intensity += wide(light.diffuse) * l_n + wide(light.specular) * highlight; // 2.1
         }

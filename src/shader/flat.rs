@@ -49,7 +49,7 @@ impl<const L: usize> Shader for Of<L> {
     }
     #[inline(always)]
     fn polygon<M: Machine>(c: &Illumination<M::One, L>, corners: &Corners<'_, M, Lerp<()>>) -> [M::One; 3] {
-        c.clamped(c.lit(corners.normal()))
+        c.clamped(c.lit(corners.normal())) // 2.1
     }
     #[inline(always)]
     fn walk<M: Machine>(

@@ -98,14 +98,14 @@ impl<N: Num, const L: usize> Illumination<N, L> {
     pub fn light_cosines(&self, n: [N; 3]) -> [N; L] {
         each(
             #[inline(always)]
-            |i| dot(self.light[i], n),
+            |i| dot(self.light[i], n), // J = L · N
         )
     }
 
     /// `K = V·N`.
     #[inline(always)]
     pub fn view_cosine(&self, n: [N; 3]) -> N {
-        dot(self.view, n)
+        dot(self.view, n) // K = V · N
     }
 
     /// `L·V` of light `i`, constant over the scene.
@@ -154,7 +154,7 @@ impl<N: Num, const L: usize> Illumination<N, L> {
                 let l = self.light[i];
                 let l_n = dot(l, n);
                 let twice = self.two * l_n;
-                let r = [twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]];
+                let r = [twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]]; // R = 2 (L·N) N − L
                 (l_n, dot(r, self.view))
             },
         )

@@ -65,6 +65,6 @@ impl<const L: usize> Shader for Of<L> {
     #[inline(always)]
     fn shade<F: Num>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
         let r = c.one() / dot(n, n).sqrt();
-        c.lit([n[0] * r, n[1] * r, n[2] * r])
+        c.lit([n[0] * r, n[1] * r, n[2] * r]) // N_unit = N / |N|, 2.1
     }
 }

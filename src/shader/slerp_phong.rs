@@ -53,9 +53,9 @@ impl<F: Num, const L: usize> Walk for Cosines<F, L> {
         let (from, to) = self.sines.next(); // 4.9–4.12
         let j = each(
             #[inline(always)]
-            |i| from * self.j[i][0] + to * self.j[i][1],
+            |i| from * self.j[i][0] + to * self.j[i][1], // 4.8, times L
         );
-        (j, from * self.k[0] + to * self.k[1])
+        (j, from * self.k[0] + to * self.k[1]) // 4.8, times V
     }
 }
 

@@ -198,7 +198,7 @@ impl<R: Real> Arc<R> {
         let (cos_half, sin_half) = (dot(sum, sum).sqrt(), dot(difference, difference).sqrt());
         // φ = cos⁻¹(N_1 · N_2) as printed loses half of its digits near 0 and near π; the half-angle form does not.
         let half = sin_half.atan2(cos_half);
-        let phi = half + half;
+        let phi = half + half; // φ
         let (a, b, phi, sin_phi) = if phi.value() > Self::LARGEST_ANGLE {
             let phi = m.one(Self::SMALLEST_ANGLE);
             (face, face, phi, phi)
@@ -207,10 +207,10 @@ impl<R: Real> Arc<R> {
             (a, b, phi, phi)
         } else {
             // sin φ = 2 sin(φ/2) cos(φ/2), and |b − a| = 2 sin(φ/2), |a + b| = 2 cos(φ/2) for unit vectors.
-            (a, b, phi, m.one(0.5) * sin_half * cos_half)
+            (a, b, phi, m.one(0.5) * sin_half * cos_half) // sin φ
         };
         let scale = m.one(1.0) / sin_phi;
-        Arc { from: a.times(scale), to: b.times(scale), phi, t0, dt }
+        Arc { from: a.times(scale), to: b.times(scale), phi, t0, dt } // 4.7
     }
 }
 

@@ -40,7 +40,7 @@ impl<W: Walk<Out = [F; 3]>, F: Num> Walk for Newton<W, F> {
     #[inline(always)]
     fn next(&mut self) -> (F, F) {
         let n = self.normal.next(); // 4.2
-        let squared = dot(n, n);
+        let squared = dot(n, n); // D = N · N
         let mut x = self.length;
         for _ in 0..self.steps {
             x = x - (x * x - squared) / (x + x); // 4.4 by Newton's method

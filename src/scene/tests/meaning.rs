@@ -33,7 +33,7 @@ fn defaults() {
     assert!(near(scene.lights[0].direction, DVec3::from_array(SceneFile::DEFAULT_LIGHT).normalize()));
     assert_eq!(scene.lights[0].colour, [1.0; 3]);
     assert_eq!(scene.objects[0].material, Some(Material::default()));
-    assert_eq!(scene.objects[0].normals, NormalSource::Given);
+    assert_eq!(scene.objects[0].normals, NormalSource::Averaged);
     assert!(near(scene.camera.view(), DVec3::from_array(SceneFile::DEFAULT_DIRECTION).normalize()));
     assert_eq!((scene.camera.target, scene.camera.up), (DVec3::ZERO, DVec3::Y));
     assert!(warnings.is_empty());

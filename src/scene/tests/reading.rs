@@ -46,7 +46,7 @@ fn what_is_not_toml_or_has_no_such_key() {
     check(
         "[[object]]\nmesh = \"a.obj\"\nnormals = «\"average\"»\n",
         "unknown word `average`",
-        "expected `given` or `averaged`",
+        "expected `averaged` or `given`",
         Some("did you mean `averaged`?"),
     );
 }

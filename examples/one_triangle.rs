@@ -1,0 +1,69 @@
+//! One triangle, from three positions to a picture, without any file: the way through the library.
+//!
+//! ```text
+//! cargo run --release --example one_triangle > triangle.ppm
+//! cargo run --release --example one_triangle slerp-phong > triangle.ppm
+//! ```
+//!
+//! Needs no feature of the crate: it also runs with `--no-default-features`.
+
+use fastphong::camera::{Camera, Projection};
+use fastphong::lighting::{Light, Material};
+use fastphong::mesh::vertex_normals::NormalSource;
+use fastphong::mesh::{GivenNormals, MeshBuilder};
+use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+use fastphong::shader::Variant;
+use glam::{DAffine3, DVec3, Vec3};
+use std::error::Error;
+use std::io::Write;
+use std::sync::Arc;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    // A mesh: positions, and polygons that name them, counter-clockwise seen from outside. Its normals lean outward, as
+    // if the triangle were a piece of a ball; without them they would be averaged (L21 3.1), here all the same.
+    let positions = vec![Vec3::new(-1.0, -0.8, 0.0), Vec3::new(1.0, -0.8, 0.0), Vec3::new(0.0, 0.9, 0.0)];
+    let leaning = positions.iter().map(|p| (*p + 1.2 * Vec3::Z).normalize()).collect();
+    let mut mesh = MeshBuilder::new(positions);
+    mesh.polygon(&[0, 1, 2]).normals(GivenNormals { values: leaning, corners: None });
+
+    // A scene: what there is to see, the light on it, and from where it is seen. `Scene::of_mesh` chooses all this for a
+    // mesh; here it is written out.
+    let scene = Scene {
+        width: 320,
+        height: 240,
+        background: [0.02, 0.02, 0.03],
+        camera: Camera {
+            eye: 4.0 * DVec3::Z,
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            projection: Projection::Orthographic { half_height: 1.1 },
+            near: 1.0,
+            far: 10.0,
+        },
+        ambient: [1.0; 3],
+        lights: vec![Light { direction: DVec3::new(0.3, 0.4, 1.0).normalize(), colour: [1.0; 3] }],
+        interpolation: Interpolation::Screen,
+        culling: Culling::Back,
+        depth_test: true,
+        encoding: Encoding::Srgb,
+        objects: vec![Object {
+            mesh: Arc::new(mesh.finish()?),
+            transform: DAffine3::IDENTITY,
+            material: Some(Material { shininess: 60.0, ..Material::default() }),
+            normals: NormalSource::Given,
+        }],
+    };
+
+    // A frame: projected, clipped, checked. Everything that can go wrong has gone wrong before this line.
+    let frame = scene.frame()?;
+
+    // A picture, by the method that the first argument names.
+    let method = std::env::args().nth(1).unwrap_or_else(|| "naive-phong".into());
+    let picture = Variant::parse(&method)?.render(&frame);
+
+    // A file: portable pixmap is a header and the bytes. With the feature `io`, `image_file` writes PNG as well.
+    let mut file = format!("P6\n{} {}\n255\n", picture.width(), picture.height()).into_bytes();
+    file.extend(picture.texels().iter().flat_map(|[r, g, b, _]| [*r, *g, *b]));
+    std::io::stdout().write_all(&file)?;
+    Ok(())
+}

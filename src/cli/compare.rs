@@ -1,0 +1,37 @@
+//! `fastphong compare`: error and speed of every method on one scene, as a table.
+
+use super::measured::{TimingFlags, command_line};
+use super::scene_flags::SceneFlags;
+use super::talk::{Talk, json_to_stdout, to_stdout};
+use super::{Failure, Outcome};
+use fastphong::bench::Machine;
+use fastphong::comparison::{TableKind, table, to_json};
+
+/// Compare methods on one scene: error against the reference, time, ratios
+#[derive(clap::Args, Debug)]
+pub struct Compare {
+    /// A scene file, a mesh file, builtin:NAME?key=value, or the name of a shipped scene
+    input: String,
+    #[command(flatten)]
+    timing: TimingFlags,
+    /// Print all as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    scene: SceneFlags,
+}
+
+impl Compare {
+    /// Compares, times, and prints the table.
+    pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
+        let comparisons = self.timing.compare(&[&self.input], &self.scene, *talk)?;
+        if self.json {
+            json_to_stdout(&to_json(&comparisons, &Machine::this(), &command_line()))?;
+        } else {
+            for comparison in &comparisons {
+                to_stdout(table(comparison, TableKind::Compare).as_bytes())?;
+            }
+        }
+        Ok(Outcome::Done)
+    }
+}

@@ -1,0 +1,273 @@
+//! How many operations each method takes, counted by hand from the lecture's formulas, against the counting machine.
+//!
+//! The hand count is written as the formulas are: so many dot products, so many reflections. Material: shininess 32.
+
+use fastphong::number::Counts;
+use fastphong::shader::{Entry, METHODS, OperationCounts, Variant};
+
+/// Additions, multiplications, divisions, roots, comparisons, trigonometric functions.
+#[derive(Clone, Copy)]
+struct Ops([u32; 6]);
+
+impl std::ops::Add for Ops {
+    type Output = Ops;
+    fn add(self, other: Ops) -> Ops {
+        Ops(std::array::from_fn(|i| self.0[i] + other.0[i]))
+    }
+}
+
+impl std::ops::Mul<Ops> for u32 {
+    type Output = Ops;
+    fn mul(self, ops: Ops) -> Ops {
+        Ops(ops.0.map(|n| self * n))
+    }
+}
+
+impl PartialEq<Ops> for Counts {
+    fn eq(&self, other: &Ops) -> bool {
+        let found = [
+            self.additions,
+            self.multiplications,
+            self.divisions,
+            self.roots,
+            self.comparisons,
+            self.trigonometric,
+            self.powers,
+        ];
+        let [a, m, d, r, c, t] = other.0;
+        found == [a, m, d, r, c, t, 0]
+    }
+}
+
+const NONE: Ops = Ops([0; 6]);
+const ADD: Ops = Ops([1, 0, 0, 0, 0, 0]);
+const MULTIPLY: Ops = Ops([0, 1, 0, 0, 0, 0]);
+const DIVIDE: Ops = Ops([0, 0, 1, 0, 0, 0]);
+const ROOT: Ops = Ops([0, 0, 0, 1, 0, 0]);
+const COMPARE: Ops = Ops([0, 0, 0, 0, 1, 0]);
+const TRIGONOMETRIC: Ops = Ops([0, 0, 0, 0, 0, 1]);
+
+/// A dot product of three components.
+const DOT: Ops = Ops([2, 3, 0, 0, 0, 0]);
+
+/// The terms of one light (2.1) once L·N and R·V are there: both clamped at 0, R·V to the power 32 by five squarings,
+/// the highlight dropped behind the surface; then for each channel two products and two sums.
+fn light() -> Ops {
+    3 * COMPARE + 5 * MULTIPLY + 3 * (2 * MULTIPLY + 2 * ADD)
+}
+
+/// One light from a unit normal: L·N, then R = 2 (L·N) N − L, then R·V.
+fn lit_from_normal() -> Ops {
+    let reflect = MULTIPLY + 3 * (MULTIPLY + ADD);
+    DOT + reflect + DOT + light()
+}
+
+/// A colour clamped to 0..=1: two comparisons a channel.
+fn clamp() -> Ops {
+    3 * 2 * COMPARE
+}
+
+/// The set-up of one linearly interpolated number: (I_2 − I_1), times t0 and added to I_1, times Δt (3.5).
+fn ramp() -> Ops {
+    ADD + MULTIPLY + ADD + MULTIPLY
+}
+
+/// The set-up of a great circle: both chords and their lengths, twice their inverse tangent for the angle, the sine from
+/// the chords, one division, and both ends scaled (4.7).
+fn arc() -> Ops {
+    let chords = 3 * ADD + 3 * ADD + DOT + ROOT + DOT + ROOT;
+    let angle = TRIGONOMETRIC + ADD;
+    let sine = 2 * MULTIPLY;
+    chords + angle + sine + DIVIDE + 2 * (3 * MULTIPLY)
+}
+
+/// The start of the sines: the angles t0 φ, φ − t0 φ and Δt φ, and sine and cosine of each.
+fn sines() -> Ops {
+    3 * MULTIPLY + ADD + 3 * TRIGONOMETRIC
+}
+
+/// A step of the four sines and cosines (4.9–4.12), as the lecture counts it: four additions, eight multiplications.
+fn rotation() -> Ops {
+    4 * ADD + 8 * MULTIPLY
+}
+
+/// A normal between two others by the weights of (4.8).
+fn weighted_normal() -> Ops {
+    3 * (2 * MULTIPLY + ADD)
+}
+
+struct ByHand {
+    vertex: Ops,
+    polygon: Ops,
+    edge: Ops,
+    edge_step: Ops,
+    span: Ops,
+    walk: Ops,
+    shade: Ops,
+}
+
+/// The count of a method with its default parameters.
+fn by_hand(method: &str, lights: u32) -> ByHand {
+    let lit = lights * lit_from_normal();
+    match method {
+        // 2: one colour a polygon.
+        "flat" => ByHand {
+            vertex: NONE,
+            polygon: lit + clamp(),
+            edge: NONE,
+            edge_step: NONE,
+            span: NONE,
+            walk: NONE,
+            shade: NONE,
+        },
+        // 3: three channels from clamped vertex colours.
+        "gouraud" => ByHand {
+            vertex: lit + clamp(),
+            polygon: NONE,
+            edge: 3 * ramp(),
+            edge_step: 3 * ADD,
+            span: 3 * ramp(),
+            walk: 3 * ADD,
+            shade: NONE,
+        },
+        // 4.1: three coordinates; then |N|, its inverse, three products, and everything of 2.1.
+        "naive-phong" => ByHand {
+            vertex: NONE,
+            polygon: NONE,
+            edge: 3 * ramp(),
+            edge_step: 3 * ADD,
+            span: 3 * ramp(),
+            walk: 3 * ADD,
+            shade: DOT + ROOT + DIVIDE + 3 * MULTIPLY + lit,
+        },
+        // 4.2, 4.3: J of each light, K and three coordinates. A step of Newton's method has x², minus d², x + x, a
+        // quotient and a difference. A pixel needs 1/d and 2K/D once, then J/d and 2JK/D − L·V for each light.
+        "fast-phong" => {
+            let numbers = lights + 4;
+            let newton = MULTIPLY + ADD + ADD + DIVIDE + ADD;
+            ByHand {
+                vertex: (lights + 1) * DOT,
+                polygon: NONE,
+                edge: numbers * ramp(),
+                edge_step: numbers * ADD,
+                span: numbers * ramp() + DOT + ROOT,
+                walk: numbers * ADD + DOT + 2 * newton,
+                shade: DIVIDE + MULTIPLY + DIVIDE + lights * (MULTIPLY + MULTIPLY + ADD + light()),
+            }
+        }
+        // 4.4: normals along edges; on a span J of each light and K, at both ends and then by their weights. A pixel
+        // needs 2K once, then 2JK − L·V for each light.
+        "slerp-phong" => ByHand {
+            vertex: NONE,
+            polygon: NONE,
+            edge: arc() + sines(),
+            edge_step: rotation(),
+            span: 2 * weighted_normal() + arc() + sines() + 2 * (lights + 1) * DOT,
+            walk: rotation() + (lights + 1) * (2 * MULTIPLY + ADD),
+            shade: MULTIPLY + lights * (MULTIPLY + ADD + light()),
+        },
+        // 4.4, steps i–iv: normals along edges and spans, then everything of 2.1.
+        "slerp-phong-vector" => ByHand {
+            vertex: NONE,
+            polygon: NONE,
+            edge: arc() + sines(),
+            edge_step: rotation(),
+            span: 2 * weighted_normal() + arc() + sines(),
+            walk: rotation() + weighted_normal(),
+            shade: lit,
+        },
+        _ => panic!("`{method}` is in METHODS and has no count by hand here"),
+    }
+}
+
+#[test]
+fn every_method_takes_what_was_counted_by_hand() {
+    for entry in METHODS {
+        for lights in [1, 4] {
+            let (found, hand) = (entry.variant().operations(lights), by_hand(entry.info.name, lights as u32));
+            let rates = [
+                ("vertex", found.vertex, hand.vertex),
+                ("polygon", found.polygon, hand.polygon),
+                ("edge", found.edge, hand.edge),
+                ("edge step", found.edge_step, hand.edge_step),
+                ("span", found.span, hand.span),
+                ("walk", found.walk, hand.walk),
+                ("shade", found.shade, hand.shade),
+            ];
+            for (rate, found, hand) in rates {
+                let Ops(numbers) = hand;
+                assert!(
+                    found == hand,
+                    "{} with {lights} lights, {rate}: {found:?}, by hand {numbers:?}",
+                    entry.info.name
+                );
+            }
+        }
+    }
+}
+
+fn operations(variant: &str, lights: usize) -> OperationCounts {
+    Variant::parse(variant).expect("a method of the table").operations(lights)
+}
+
+/// L21 3: "we can update I_next by a single addition per pixel", here of each of three channels, whatever the lights.
+#[test]
+fn gouraud_is_one_addition_a_channel() {
+    for lights in [1, 4] {
+        let counts = operations("gouraud", lights);
+        assert!(counts.walk == 3 * ADD && counts.edge_step == 3 * ADD && counts.shade == NONE);
+    }
+}
+
+/// L21 4.1: "we can update N_next by three additions (one for each coordinate) per pixel"; renormalising and 2.1 come
+/// on top of that.
+#[test]
+fn naive_phong_steps_by_three_additions() {
+    for lights in [1, 4] {
+        let counts = operations("naive-phong", lights);
+        assert!(counts.walk == 3 * ADD && counts.edge_step == 3 * ADD);
+        assert_eq!((counts.shade.roots, counts.shade.divisions), (1, 1));
+    }
+}
+
+/// L21 4.2–4.3: no root a pixel; but m steps of Newton's method are m divisions, and J/d and 2JK/D one each.
+#[test]
+fn fast_phong_trades_the_root_for_divisions() {
+    for steps in 1..=8 {
+        let counts = operations(&format!("fast-phong:steps={steps}"), 1);
+        assert_eq!(counts.walk.roots + counts.shade.roots, 0);
+        assert_eq!(counts.walk.divisions + counts.shade.divisions, steps + 2);
+        assert_eq!(counts.span.roots, 1, "the first pixel of a span has a true root");
+    }
+}
+
+/// L21 4.4: "all the necessary sines and cosines incrementally with just four additions/subtractions and eight
+/// multiplications. No trigonometric evaluations are necessary, nor are any square roots required." The lecture counts
+/// the sines only: the weighted sums are on top.
+#[test]
+fn slerp_steps_by_four_additions_and_eight_multiplications() {
+    for lights in [1, 4] {
+        let (scalar, vector) = (operations("slerp-phong", lights), operations("slerp-phong-vector", lights));
+        assert!(scalar.edge_step == rotation() && vector.edge_step == rotation());
+        assert!(scalar.walk == rotation() + (lights as u32 + 1) * (2 * MULTIPLY + ADD));
+        assert!(vector.walk == rotation() + weighted_normal());
+        for counts in [scalar, vector] {
+            let pixel = [counts.walk, counts.shade];
+            assert!(pixel.iter().all(|c| c.roots + c.divisions + c.trigonometric == 0));
+        }
+    }
+}
+
+/// Four lights cost at most four times as much as one, and what does not depend on lights costs the same.
+#[test]
+fn lights_are_paid_for_where_they_are_lit() {
+    let pixel = |entry: &'static Entry, lights| {
+        let counts = entry.variant().operations(lights);
+        counts.walk.multiplications + counts.shade.multiplications
+    };
+    for entry in METHODS {
+        let (one, four) = (pixel(entry, 1), pixel(entry, 4));
+        assert!(one <= four && four <= 4 * one, "{}: {one}, {four}", entry.info.name);
+    }
+    assert!(METHODS.iter().any(|entry| pixel(entry, 4) > pixel(entry, 1)), "some method is lit at pixels");
+}

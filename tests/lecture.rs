@@ -1,0 +1,227 @@
+//! What the lecture prints against what the methods draw: its formulas evaluated in `f64` at the pixel centres of one
+//! span, and what it says of triangles, squares and edges.
+
+use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::lighting::{Light, Lighting, Material};
+use fastphong::picture::LinearPicture;
+use fastphong::shader::{Entry, METHODS, Variant};
+use glam::{DVec3, Vec3};
+
+/// The width of the pictures here.
+const WIDTH: u32 = 64;
+
+/// The exponent n of the specular term.
+const SHININESS: i32 = 20;
+
+const LIGHT: DVec3 = DVec3::new(0.36, 0.48, 0.8);
+const VIEW: DVec3 = DVec3::Z;
+const AMBIENT: f64 = 0.1;
+const DIFFUSE: f64 = 0.4;
+const SPECULAR: f64 = 0.5;
+
+/// How far a method in `f32` may be from its formula on a span of [`WIDTH`] pixels and a few rows.
+///
+/// Each addition of a walk is off by 2⁻²⁴ at most, so after 64 pixels and 4 rows J, K and each coordinate of N are off by
+/// e = 68 · 2⁻²⁴ = 4.1e-6. In 2JK/D, with D over ½ here, J and K bring 2 · 2e each and D brings 2 · 2 · √3 e, together
+/// below 15 e; the power multiplies that by n k_s = 10, and the diffuse term adds less than e: 151 e.
+const TOLERANCE: f64 = 151.0 * 68.0 / (1 << 24) as f64;
+
+fn lighting() -> Lighting {
+    let material = Material {
+        ambient: [AMBIENT as f32; 3],
+        diffuse: [DIFFUSE as f32; 3],
+        specular: [SPECULAR as f32; 3],
+        shininess: SHININESS as f32,
+    };
+    Lighting::new(&material, [1.0; 3], &[Light { direction: LIGHT, colour: [1.0; 3] }], VIEW)
+}
+
+fn frame_of(polygons: &[&[((f64, f64), DVec3)]]) -> Frame {
+    let mut builder = FrameBuilder::new(WIDTH, WIDTH);
+    let material = builder.lighting(lighting());
+    for (number, corners) in polygons.iter().enumerate() {
+        let vertex = |&((x, y), normal): &((f64, f64), DVec3)| Vertex {
+            x: SubPixel::from_num(x),
+            y: SubPixel::from_num(y),
+            depth: 0.5,
+            inv_w: 1.0,
+            normal: normal.as_vec3().to_array(),
+            material,
+        };
+        let numbers: Vec<u32> = corners.iter().map(|corner| builder.vertex(vertex(corner))).collect();
+        builder.polygon(&numbers, Vec3::Z.to_array(), number as u32);
+    }
+    builder.finish().expect("all corners are on the picture")
+}
+
+/// The unit normal that leans so many degrees to the right and so many upward.
+fn leaning(right: f64, up: f64) -> DVec3 {
+    let (x, y) = (right.to_radians().tan(), up.to_radians().tan());
+    DVec3::new(x, y, 1.0).normalize()
+}
+
+/// Four rows over the whole picture, with one normal at the left and one at the right: t = (column + ½) / WIDTH.
+fn strip(left: DVec3, right: DVec3) -> Frame {
+    let w = f64::from(WIDTH);
+    frame_of(&[&[((0.0, 0.0), left), ((w, 0.0), right), ((w, 4.0), right), ((0.0, 4.0), left)]])
+}
+
+/// (2.1) with the clamps, from L·N and R·V.
+fn intensity(l_n: f64, r_v: f64) -> f64 {
+    let specular = if l_n > 0.0 { SPECULAR * r_v.max(0.0).powi(SHININESS) } else { 0.0 };
+    AMBIENT + DIFFUSE * l_n.max(0.0) + specular
+}
+
+/// (2.1) as it is printed, from a unit normal.
+fn lit(n: DVec3) -> f64 {
+    let r = 2.0 * LIGHT.dot(n) * n - LIGHT;
+    intensity(LIGHT.dot(n), r.dot(VIEW))
+}
+
+/// (4.7) as it is printed.
+fn slerp(n1: DVec3, n2: DVec3, t: f64) -> DVec3 {
+    let phi = n1.dot(n2).acos();
+    ((1.0 - t) * phi).sin() / phi.sin() * n1 + (t * phi).sin() / phi.sin() * n2
+}
+
+#[track_caller]
+fn check(variant: &str, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
+    for (n1, n2) in [
+        (leaning(-20.0, 10.0), leaning(35.0, -5.0)),
+        (leaning(0.0, 0.0), leaning(3.0, 40.0)),
+        (leaning(-60.0, 10.0), leaning(5.0, 20.0)),
+    ] {
+        let picture = Variant::parse(variant).unwrap().render_linear(&strip(n1, n2));
+        for row in 0..4 {
+            for column in 0..WIDTH as usize {
+                let t = (column as f64 + 0.5) / f64::from(WIDTH);
+                let (found, expected) = (f64::from(picture.get(column, row)[0]), formula(n1, n2, t).min(1.0));
+                assert!(
+                    (found - expected).abs() < TOLERANCE,
+                    "{variant} at {column}, {row}: {found} instead of {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// (3.5), (3.6): intensities by (2.1) at the ends, linear between them.
+#[test]
+fn gouraud_interpolates_intensities() {
+    check("gouraud", |n1, n2, t| (1.0 - t) * lit(n1).min(1.0) + t * lit(n2).min(1.0));
+}
+
+/// (4.1), (4.2): normals linear, renormalised, (2.1) at every pixel.
+#[test]
+fn naive_phong_interpolates_normals() {
+    check("naive-phong", |n1, n2, t| lit(((1.0 - t) * n1 + t * n2).normalize()));
+}
+
+/// (4.3), (4.4), (4.6): J and K linear, d = |N|, D = N · N. Three steps of Newton's method leave less than rounding:
+/// from pixel to pixel d changes by less than 3 %, and e → e²/2 twice gives 1e-7.
+#[test]
+fn fast_phong_is_equation_4_6() {
+    check("fast-phong:steps=3", |n1, n2, t| {
+        let linear = |from: f64, to: f64| (1.0 - t) * from + t * to;
+        let j = linear(LIGHT.dot(n1), LIGHT.dot(n2));
+        let k = linear(VIEW.dot(n1), VIEW.dot(n2));
+        let d_squared = ((1.0 - t) * n1 + t * n2).length_squared();
+        intensity(j / d_squared.sqrt(), 2.0 * j * k / d_squared - LIGHT.dot(VIEW))
+    });
+}
+
+/// (4.7), (4.8), then (4.5): J and K along the great circle.
+#[test]
+fn slerp_phong_is_equation_4_5_along_the_great_circle() {
+    check("slerp-phong", |n1, n2, t| {
+        let n = slerp(n1, n2, t);
+        let (j, k) = (LIGHT.dot(n), VIEW.dot(n));
+        intensity(j, 2.0 * j * k - LIGHT.dot(VIEW))
+    });
+}
+
+/// (4.7), (4.8), then (2.1), without renormalising: steps i–iv of section 4.4.
+#[test]
+fn slerp_phong_vector_is_equation_2_1_along_the_great_circle() {
+    check("slerp-phong-vector", |n1, n2, t| lit(slerp(n1, n2, t)));
+}
+
+/// The lecture's summary of naive Phong shading feeds the unit normal back into the sum. That is another picture: over
+/// the 65° of the third pair above it is 48 grey levels off at the right end, which the method here must not be.
+#[test]
+fn the_summary_of_naive_phong_is_not_section_4_1() {
+    let (n1, n2) = (leaning(-60.0, 10.0), leaning(5.0, 20.0));
+    let step = (n2 - n1) / f64::from(WIDTH);
+    let mut n = (n1 + 0.5 * step).normalize();
+    for _ in 1..WIDTH {
+        n = (n + step).normalize();
+    }
+    let t = 1.0 - 0.5 / f64::from(WIDTH);
+    let section = ((1.0 - t) * n1 + t * n2).normalize();
+    assert!((lit(n) - lit(section)).abs() > 100.0 * TOLERANCE, "a test of nothing: {} {}", lit(n), lit(section));
+    let picture = Variant::parse("naive-phong").unwrap().render_linear(&strip(n1, n2));
+    let last = f64::from(picture.get(WIDTH as usize - 1, 0)[0]);
+    assert!((last - lit(section)).abs() < TOLERANCE);
+}
+
+/// Corners of a square that stands on one of them, turned clockwise by quarter turns, with these normals in order: top,
+/// right, bottom, left. No pixel centre lies on its edges or diagonals.
+fn square(turns: usize, normals: [DVec3; 4]) -> [((f64, f64), DVec3); 4] {
+    let (middle, reach) = (f64::from(WIDTH) / 2.0, 24.25);
+    let (low, high) = (middle - reach, middle + reach);
+    let places = [(middle, low), (high, middle), (middle, high), (low, middle)];
+    std::array::from_fn(|i| (places[(i + turns) % 4], normals[i]))
+}
+
+/// The picture turned back by a quarter turn: what was drawn in the top row stands in the left column, upward.
+fn turned_back(picture: &LinearPicture) -> LinearPicture {
+    let n = picture.width();
+    let texels = (0..n * n).map(|i| picture.get(n - 1 - i / n, i % n)).collect();
+    LinearPicture::from_texels(n, n, texels).expect("as many texels as before")
+}
+
+fn largest_difference(a: &LinearPicture, b: &LinearPicture) -> f64 {
+    let difference = |(x, y): (&[f32; 4], &[f32; 4])| f64::from((x[0] - y[0]).abs());
+    a.texels().iter().zip(b.texels()).map(difference).fold(0.0, f64::max)
+}
+
+/// L21 3, Figure 5: a square with one corner apart is shaded differently when it is turned by 90°; cut into triangles it
+/// is not, as interpolation on triangles is barycentric (Figure 6). Slerp is not affine, so even triangles turn with it.
+#[test]
+fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
+    let normals = [leaning(0.0, 0.0), leaning(-50.0, 0.0), leaning(0.0, 30.0), leaning(20.0, -20.0)];
+    let turned_difference = |entry: &'static Entry, triangles: bool| {
+        let picture = |turns: usize| {
+            let [a, b, c, d] = square(turns, normals);
+            let frame = if triangles { frame_of(&[&[a, b, c], &[a, c, d]]) } else { frame_of(&[&[a, b, c, d]]) };
+            entry.variant().render_linear(&frame)
+        };
+        largest_difference(&picture(0), &turned_back(&picture(1)))
+    };
+    for entry in METHODS {
+        let (square, triangles) = (turned_difference(entry, false), turned_difference(entry, true));
+        match entry.info.name {
+            "flat" => assert_eq!((square, triangles), (0.0, 0.0)),
+            "slerp-phong" | "slerp-phong-vector" => assert!(square > 0.01 && triangles > 0.001, "{square} {triangles}"),
+            name => {
+                assert!(square > 0.01, "{name}: {square}");
+                // Both pictures are within the tolerance of the same formula; default steps of Newton's method leave
+                // e²/2 = 3e-4 of a first step of 2.5 % and then 5e-8.
+                assert!(triangles < 2.0 * TOLERANCE, "{name}: {triangles}");
+            }
+        }
+    }
+}
+
+/// L21 3: different ways to cut a square into triangles give different pictures.
+#[test]
+fn the_picture_depends_on_the_diagonal() {
+    let normals = [leaning(0.0, 0.0), leaning(-50.0, 0.0), leaning(0.0, 30.0), leaning(20.0, -20.0)];
+    let [a, b, c, d] = square(0, normals);
+    let one = frame_of(&[&[a, b, c], &[a, c, d]]);
+    let other = frame_of(&[&[a, b, d], &[b, c, d]]);
+    for entry in METHODS.iter().filter(|entry| entry.info.name != "flat") {
+        let draw = |frame: &Frame| entry.variant().render_linear(frame);
+        assert!(largest_difference(&draw(&one), &draw(&other)) > 0.01, "{}", entry.info.name);
+    }
+}

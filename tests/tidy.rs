@@ -1,0 +1,388 @@
+//! Keeps the documentation and the source true to each other.
+
+use fastphong::number::Counts;
+use fastphong::shader::{Entry, METHODS};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Files under `src` that may be longer than [`MOST_LINES`], and why.
+const LONG_FILES: &[(&str, &str)] = &[];
+
+/// Beyond this a file asks to be split by concept.
+const MOST_LINES: usize = 400;
+
+/// Names of modules that say nothing of what is in them.
+const ATTICS: [&str; 3] = ["utils", "common", "helpers"];
+
+/// The equations of a section of the lecture that has numbered ones: section, how many.
+const NUMBERED: [(u32, u32); 4] = [(1, 1), (2, 1), (3, 6), (4, 12)];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+#[track_caller]
+fn read(path: impl AsRef<Path>) -> String {
+    let path = path.as_ref();
+    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// All files under `folder` with this ending, as paths from the root.
+fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![root().join(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).into_iter().flatten() {
+            let path = entry.expect("a folder of the repository can be read").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == ending) {
+                found.push(path.strip_prefix(root()).expect("under the root").to_owned());
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// The documents that people read.
+fn documents() -> Vec<PathBuf> {
+    let mut all = files("docs", "md");
+    all.extend(["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "scenes/README.md"].map(PathBuf::from));
+    all
+}
+
+/// The texts between backticks, line by line; blocks between fences are left out.
+fn quoted(text: &str) -> Vec<&str> {
+    let mut fenced = false;
+    let mut found = Vec::new();
+    for line in text.lines() {
+        if line.trim_start().starts_with("```") {
+            fenced = !fenced;
+        } else if !fenced {
+            found.extend(line.split('`').skip(1).step_by(2));
+        }
+    }
+    found
+}
+
+/// The rows of all tables of a document, as cells; `\|` is a bar within a cell.
+fn rows(text: &str) -> Vec<Vec<String>> {
+    let cells = |line: &str| {
+        let line = line.replace("\\|", "\u{0}");
+        let inner = line.trim().trim_matches('|');
+        inner.split('|').map(|cell| cell.trim().replace('\u{0}', "|")).collect()
+    };
+    text.lines().filter(|line| line.starts_with('|') && !line.starts_with("|---")).map(cells).collect()
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// Whether `source` defines the function or type `name`.
+fn defines(source: &str, name: &str) -> bool {
+    ["fn ", "struct ", "enum ", "trait ", "const ", "static ", "type "].iter().any(|keyword| {
+        let definition = format!("{keyword}{name}");
+        source.match_indices(&definition).any(|(at, _)| !source[at + definition.len()..].starts_with(is_word))
+    })
+}
+
+/// A cell such as "`file`: `item`, `item`; `file`: `item`".
+fn places(cell: &str) -> Vec<(String, Vec<String>)> {
+    let place = |part: &str| {
+        let (file, items) = part.split_once(':').unwrap_or_else(|| panic!("no item in `{part}`"));
+        (file.trim().trim_matches('`').into(), quoted(items).into_iter().map(String::from).collect())
+    };
+    cell.split(';').map(place).collect()
+}
+
+/// The numbers that an equation comment gives: those of "3.5, 4.1" and of the range "4.9–4.12".
+fn numbers(comment: &str) -> Vec<(u32, u32)> {
+    let number = |text: &str| {
+        let (section, equation) = text.trim_matches(|c: char| !c.is_ascii_digit()).split_once('.')?;
+        Some((section.parse().ok()?, equation.parse().ok()?))
+    };
+    let mut found = Vec::new();
+    for word in comment.split([' ', ',']) {
+        match word.split_once('–').and_then(|(from, to)| Some((number(from)?, number(to)?))) {
+            Some((from, to)) => found.extend((from.1..=to.1).map(|equation| (from.0, equation))),
+            None => found.extend(number(word)),
+        }
+    }
+    found
+}
+
+/// The comments at the ends of lines of code, of the code before the tests.
+fn line_comments(source: &str) -> Vec<&str> {
+    let code = source.split("#[cfg(test)]\nmod tests {").next().unwrap_or(source);
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    lines.filter_map(|line| Some(line.split_once("// ")?.1)).collect()
+}
+
+#[test]
+fn every_equation_leads_to_its_line_and_its_test() {
+    let table = read("docs/equations.md");
+    let table: Vec<_> = rows(&table).into_iter().filter(|row| row.len() == 5 && row[0] != "key").collect();
+    let mut seen = BTreeSet::new();
+    for row in &table {
+        let [key, _, _, code, tests] = &row[..] else { unreachable!("five cells") };
+        let number = numbers(key).first().copied().filter(|_| !key.contains('`'));
+        seen.extend(number);
+        for (file, items) in places(code) {
+            let source = read(&file);
+            assert!(!items.is_empty(), "{key}: no item of {file} is named");
+            for item in items {
+                assert!(defines(&source, &item), "{key}: {file} has no `{item}`");
+            }
+            let has_line = line_comments(&source).iter().any(|comment| match number {
+                Some(number) => numbers(comment).contains(&number),
+                None => comment.contains(key.trim_matches('`')),
+            });
+            assert!(has_line, "{key}: no line of {file} ends in it");
+        }
+        for (file, names) in places(tests) {
+            let source = read(&file);
+            for name in names {
+                assert!(source.contains(&format!("fn {name}()")), "{key}: {file} has no test `{name}`");
+            }
+        }
+    }
+    let all: BTreeSet<_> = NUMBERED.iter().flat_map(|&(section, n)| (1..=n).map(move |e| (section, e))).collect();
+    assert_eq!(seen, all, "the numbered equations of docs/equations.md are not those of the lecture");
+}
+
+#[test]
+fn every_numbered_line_stands_in_the_table() {
+    let table = read("docs/equations.md");
+    let table = rows(&table);
+    for file in files("src", "rs") {
+        let source = read(&file);
+        for comment in line_comments(&source) {
+            if !comment.starts_with(|c: char| c.is_ascii_digit()) {
+                continue;
+            }
+            for (section, equation) in numbers(comment) {
+                let key = format!("{section}.{equation}");
+                let named = table.iter().any(|row| row[0] == key && row[3].contains(&*file.to_string_lossy()));
+                assert!(named, "{}: `// {comment}` is not in docs/equations.md under {key}", file.display());
+            }
+        }
+    }
+}
+
+/// A method's section of `docs/methods.md`.
+fn section<'a>(methods: &'a str, name: &str) -> &'a str {
+    let heading = format!("\n## `{name}`");
+    let start = methods.find(&heading).unwrap_or_else(|| panic!("docs/methods.md has no section {heading:?}"));
+    let rest = &methods[start + heading.len()..];
+    &rest[..rest.find("\n## ").unwrap_or(rest.len())]
+}
+
+/// The operations of a method with one light and with four, as the table of `docs/methods.md`: one number where both are
+/// the same, rates without operations left out.
+fn operations(entry: &'static Entry) -> String {
+    let (one, four) = (entry.variant().operations(1), entry.variant().operations(4));
+    let cells = |a: Counts, b: Counts| {
+        let kinds: [fn(&Counts) -> u32; 7] = [
+            |c| c.additions,
+            |c| c.multiplications,
+            |c| c.divisions,
+            |c| c.roots,
+            |c| c.comparisons,
+            |c| c.trigonometric,
+            |c| c.powers,
+        ];
+        assert_eq!(kinds[6](&a) + kinds[6](&b), 0, "the table has no column for powers");
+        let cell = |kind: &fn(&Counts) -> u32| match (kind(&a), kind(&b)) {
+            (0, 0) => " |".to_string(),
+            (a, b) if a == b => format!(" {a} |"),
+            (a, b) => format!(" {a} / {b} |"),
+        };
+        kinds[..6].iter().map(cell).collect::<String>()
+    };
+    let rates = [
+        ("vertex", one.vertex, four.vertex),
+        ("polygon", one.polygon, four.polygon),
+        ("edge", one.edge, four.edge),
+        ("edge and scanline", one.edge_step, four.edge_step),
+        ("span", one.span, four.span),
+        ("pixel: walk", one.walk, four.walk),
+        ("pixel: shade", one.shade, four.shade),
+    ];
+    let mut table = String::from("| once a | + − | × | ÷ | √ | compare | sin, atan |\n|---|---|---|---|---|---|---|\n");
+    for (rate, one, four) in rates {
+        if (one, four) != Default::default() {
+            table += &format!("| {rate} |{}\n", cells(one, four));
+        }
+    }
+    table
+}
+
+#[test]
+fn every_method_is_described_with_what_it_costs() {
+    let methods = read("docs/methods.md");
+    for entry in METHODS {
+        let text = section(&methods, entry.info.name);
+        let table = operations(entry);
+        assert!(text.contains(&table), "docs/methods.md, `{}`: expected\n{table}", entry.info.name);
+        for part in ["Formula", "Source", "Where it fails", "Perspective", "Degenerate cases"] {
+            assert!(text.contains(&format!("**{part}.**")), "docs/methods.md, `{}`: no {part}", entry.info.name);
+        }
+        for parameter in entry.info.parameters {
+            let named = format!("`{}`", parameter.name);
+            assert!(text.contains(&named), "docs/methods.md, `{}`: no {named}", entry.info.name);
+        }
+    }
+    let headings = methods.lines().filter_map(|line| line.strip_prefix("## `")?.strip_suffix('`'));
+    for name in headings {
+        assert!(Entry::named(name).is_some(), "docs/methods.md describes `{name}`, which does not exist");
+    }
+}
+
+/// Whether a quoted text is meant as a path of the repository.
+fn is_path(text: &str) -> bool {
+    let plain = !text.contains([' ', '*', '<', '$', '…', ':', '(', '{']) && !text.contains("NAME");
+    let folder = ["src", "tests", "docs", "examples", "benches", "scenes", ".ci"];
+    let ending = [".md", ".rs", ".toml", ".obj"].iter().any(|e| text.ends_with(e));
+    plain
+        && text.split_once('/').is_some_and(|(first, rest)| folder.contains(&first) && (ending || !rest.contains('=')))
+}
+
+#[test]
+fn every_file_that_is_named_exists() {
+    let mut count = 0;
+    for document in documents() {
+        let text = read(&document);
+        for name in quoted(&text).into_iter().filter(|name| is_path(name)) {
+            assert!(root().join(name).exists(), "{}: `{name}` does not exist", document.display());
+            count += 1;
+        }
+        for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let file = target.split('#').next().unwrap_or_default();
+            if file.is_empty() || file.contains("://") {
+                continue;
+            }
+            let folder = document.parent().unwrap_or(Path::new(""));
+            assert!(root().join(folder).join(file).exists(), "{}: link to {file}", document.display());
+            count += 1;
+        }
+    }
+    assert!(count > 50, "only {count} files are named: are they looked for in the right way?");
+}
+
+/// The other way round: what stands in `src` stands in the code map.
+#[test]
+fn every_module_stands_in_the_code_map() {
+    let map = read("docs/architecture.md");
+    let named = quoted(&map);
+    for entry in fs::read_dir(root().join("src")).expect("src can be read") {
+        let entry = entry.expect("src can be read");
+        let mut name = format!("src/{}", entry.file_name().to_string_lossy());
+        if entry.path().is_dir() {
+            name.push('/');
+        }
+        assert!(named.contains(&&*name), "docs/architecture.md does not name `{name}`");
+    }
+}
+
+#[test]
+fn source_files_are_short_and_keep_the_rules() {
+    let mut too_long = Vec::new();
+    for folder in ["src", "tests", "examples", "benches"] {
+        for file in files(folder, "rs") {
+            let source = read(&file);
+            let name = file.to_string_lossy();
+            let lines = source.lines().count();
+            let allowed = LONG_FILES.iter().any(|(long, why)| *long == name && !why.is_empty());
+            if folder == "src" && lines > MOST_LINES && !allowed {
+                too_long.push(format!("{name} has {lines} lines"));
+            }
+            // Written in two parts, so that this file keeps the rule as well.
+            for (head, tail) in
+                [("todo", "!("), ("unimplemented", "!("), ("unsafe", " {"), ("unsafe", " fn"), ("dbg", "!(")]
+            {
+                let word = format!("{head}{tail}");
+                assert!(!source.contains(&word), "{name} has {word}");
+            }
+            for attic in ATTICS {
+                let named = file.file_stem().is_some_and(|s| s == attic) || file.iter().any(|part| part == attic);
+                assert!(!named, "{name}: `{attic}` does not say what is in it");
+            }
+        }
+    }
+    assert!(too_long.is_empty(), "over {MOST_LINES} lines, to be split by concept: {too_long:?}");
+    for (file, _) in LONG_FILES {
+        assert!(read(file).lines().count() > MOST_LINES, "{file} is short now: take it off the list");
+    }
+    let manifest = read("Cargo.toml");
+    assert!(manifest.contains("unsafe_code = \"forbid\""), "the compiler no longer forbids unsafe code");
+}
+
+/// The lines of the fenced shell blocks of a document, comments left out.
+fn commands(text: &str) -> Vec<String> {
+    let mut in_shell = false;
+    let mut found = Vec::new();
+    for line in text.lines() {
+        match line.trim().strip_prefix("```") {
+            Some(language) => in_shell = !in_shell && language == "sh",
+            None if in_shell => {
+                let command = line.split(" #").next().unwrap_or_default().trim();
+                found.extend((!command.is_empty()).then(|| command.to_string()));
+            }
+            None => (),
+        }
+    }
+    found
+}
+
+#[test]
+fn commands_in_the_documents_exist() {
+    let mut checked = 0;
+    for document in ["README.md", "CONTRIBUTING.md"] {
+        for command in commands(&read(document)) {
+            checked += 1;
+            let words: Vec<&str> = command.split(' ').collect();
+            let after = |word: &str| words.iter().position(|w| *w == word).and_then(|i| words.get(i + 1));
+            if let Some(example) = after("--example") {
+                assert!(root().join(format!("examples/{example}.rs")).exists(), "{document}: {command}");
+            } else if let Some(test) = after("--test") {
+                let file = root().join(format!("tests/{test}.rs"));
+                assert!(
+                    file.exists() || root().join(format!("tests/{test}/main.rs")).exists(),
+                    "{document}: {command}"
+                );
+            } else if let Some(start) = words.iter().position(|w| *w == "--" || *w == "fastphong") {
+                let is_ours = words[start] == "fastphong" || words.starts_with(&["cargo", "run"]);
+                if is_ours && words.get(1) != Some(&"install") {
+                    check_usage(document, &command, &words[start + 1..]);
+                }
+            } else if words[0].starts_with("./") || words[0].starts_with(".ci") {
+                assert!(root().join(words[0]).exists(), "{document}: {command}");
+            }
+        }
+    }
+    assert!(checked > 8, "only {checked} commands were found");
+}
+
+/// Asks the program itself whether it knows a sub-command and its flags.
+#[track_caller]
+fn check_usage(document: &str, command: &str, words: &[&str]) {
+    let Some(program) = option_env!("CARGO_BIN_EXE_fastphong") else { return };
+    let Some(sub_command) = words.first() else { panic!("{document}: {command}: no sub-command") };
+    let help = Command::new(program).args([sub_command, "--help"]).output().expect("the program runs");
+    assert!(help.status.success(), "{document}: {command}: no sub-command {sub_command}");
+    let help = String::from_utf8_lossy(&help.stdout).into_owned();
+    for flag in words.iter().filter(|word| word.starts_with('-') && word.len() > 1) {
+        let flag = flag.split('=').next().unwrap_or_default();
+        let known =
+            help.match_indices(flag).any(|(at, _)| !help[at + flag.len()..].starts_with(|c| is_word(c) || c == '-'));
+        assert!(known, "{document}: {command}: {sub_command} has no {flag}");
+    }
+    for method in words.windows(2).filter(|pair| pair[0] == "--method").map(|pair| pair[1]) {
+        let known = method == "reference" || fastphong::shader::Variant::parse(method).is_ok();
+        assert!(known, "{document}: {command}: no method {method}");
+    }
+}
