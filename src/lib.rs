@@ -75,6 +75,8 @@ pub mod picture;
 mod projection;
 pub mod raster;
 pub mod reference;
+#[cfg(feature = "cli")]
+pub mod report;
 pub mod scene;
 pub mod shader;
 pub mod suggest;

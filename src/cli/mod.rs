@@ -18,6 +18,7 @@ mod output;
 mod progress;
 mod reference_check;
 mod render;
+mod report;
 mod scene_flags;
 mod table;
 pub mod talk;
@@ -46,6 +47,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 a comparison failed, 2 wrong usa
 #[derive(clap::Subcommand, Debug)]
 enum Command {
     Render(render::Render),
+    Report(report::Report),
     Diff(diff::Diff),
     List(list::List),
     Explain(explain::Explain),
@@ -68,6 +70,7 @@ impl Command {
     fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         match self {
             Command::Render(command) => command.run(talk),
+            Command::Report(command) => command.run(talk),
             Command::Diff(command) => command.run(talk),
             Command::List(command) => command.run(),
             Command::Explain(command) => command.run(),

@@ -48,15 +48,17 @@
 mod document;
 mod pictures;
 mod speed;
-mod table;
+pub(crate) mod table;
 #[cfg(test)]
 mod tests;
+mod triangulation;
 
 pub use document::{
     ComparisonData, DifferenceData, Document, DocumentError, RatioData, RowData, SCHEMA, SpeedData, StatsData, to_json,
 };
 pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
+pub use triangulation::{Triangulation, triangulation};
 
 use crate::bench::Limits;
 use crate::frame::{Frame, FrameStats};

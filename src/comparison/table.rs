@@ -151,11 +151,11 @@ fn speed(row: &Row, text: impl Fn(&Speed) -> String) -> String {
     optional(row.speed.as_ref(), text)
 }
 
-fn levels(error: f64) -> String {
+pub(crate) fn levels(error: f64) -> String {
     if error == 0.0 { "0".to_string() } else { significant(255.0 * error) }
 }
 
-fn signed_levels(error: f64) -> String {
+pub(crate) fn signed_levels(error: f64) -> String {
     // What rounds to zero has no sign.
     let text = format!("{:+.3}", 255.0 * error);
     if text == "-0.000" { "+0.000".to_string() } else { text }
@@ -165,7 +165,7 @@ fn own(row: &Row) -> String {
     format!("{}{}", if row.is_within_bound() { "" } else { "!" }, levels(row.own.max))
 }
 
-fn decibels(difference: &Difference) -> String {
+pub(crate) fn decibels(difference: &Difference) -> String {
     if difference.psnr.is_finite() { format!("{:.1}", difference.psnr) } else { "equal".to_string() }
 }
 
@@ -175,16 +175,16 @@ fn time(speed: &Speed) -> String {
     format!("{} ± {:.digits$}", milliseconds(speed.timing.median_ns), half_range / 1e6)
 }
 
-fn milliseconds(ns: f64) -> String {
+pub(crate) fn milliseconds(ns: f64) -> String {
     significant(ns / 1e6)
 }
 
 /// Three significant digits, but never in powers of ten, and at most six decimals.
-fn significant(value: f64) -> String {
+pub(crate) fn significant(value: f64) -> String {
     format!("{value:.*}", decimals(value))
 }
 
-fn decimals(value: f64) -> usize {
+pub(crate) fn decimals(value: f64) -> usize {
     (0..6).find(|&digits| value >= 100.0 / libm::pow(10.0, digits as f64)).unwrap_or(6)
 }
 

@@ -1,0 +1,50 @@
+//! The measured data, as they stand in the page.
+
+use super::Report;
+use super::section::TriangulationData;
+use crate::bench::Machine;
+use crate::comparison::{ComparisonData, SCHEMA, WHAT_IS_COMPARED, WHAT_IS_TIMED};
+use alloc::string::String;
+use alloc::vec::Vec;
+use serde::Serialize;
+
+/// [`crate::comparison::Document`] with more fields, which its readers pass over.
+#[derive(Serialize)]
+struct Data<'a> {
+    schema: &'a str,
+    command_line: &'a [String],
+    machine: &'a Machine,
+    timed: &'a str,
+    compared: &'a str,
+    date: Option<&'a str>,
+    comparisons: Vec<SceneData<'a>>,
+}
+
+#[derive(Serialize)]
+struct SceneData<'a> {
+    title: &'a str,
+    description: &'a str,
+    #[serde(flatten)]
+    comparison: &'a ComparisonData,
+    triangulation: Option<TriangulationData>,
+}
+
+/// All of `report` but its pictures.
+pub(super) fn json(report: &Report) -> String {
+    let comparisons = report.sections.iter().map(|section| SceneData {
+        title: &section.caption.title,
+        description: &section.caption.description,
+        comparison: &section.data,
+        triangulation: section.triangulation,
+    });
+    let data = Data {
+        schema: SCHEMA,
+        command_line: &report.command_line,
+        machine: &report.machine,
+        timed: WHAT_IS_TIMED,
+        compared: WHAT_IS_COMPARED,
+        date: report.date.as_deref(),
+        comparisons: comparisons.collect(),
+    };
+    serde_json::to_string(&data).expect("numbers, texts and lists of them")
+}

@@ -1,0 +1,87 @@
+//! The report: every method on every scene, in pictures and numbers, as one page that needs nothing else.
+//!
+//! Data becomes HTML here, and nothing is computed from polygons: a [`Section`] takes a [`crate::comparison::Comparison`],
+//! a [`Report`] takes sections. Sentences choose their words by what was measured; the page holds no verdict of its own.
+//!
+//! ```
+//! use fastphong::bench::Machine;
+//! use fastphong::comparison::{Input, Options, compare, triangulation};
+//! use fastphong::mesh::builtin::builtin;
+//! use fastphong::report::{Caption, Report, Section};
+//! use fastphong::scene::Scene;
+//! use fastphong::shader::METHODS;
+//!
+//! let mut scene = Scene::of_mesh(builtin("sphere?rings=8&segments=16")?);
+//! (scene.width, scene.height) = (48, 36);
+//! let frame = scene.frame()?;
+//! let variants: Vec<_> = METHODS.iter().map(|entry| entry.variant()).collect();
+//! let input = Input { name: "sphere".into(), frame: &frame };
+//! let comparison = compare(&input, &variants, &Options { timing: None }, &mut |_, _| {});
+//! let triangles = triangulation(&frame, &comparison.reference);
+//!
+//! let caption = Caption { title: "Sphere".into(), description: "Eight rings.".into() };
+//! let section = Section::new(caption, &comparison, triangles.as_ref())?;
+//! let report = Report {
+//!     sections: vec![section],
+//!     machine: Machine::this(),
+//!     command_line: vec!["fastphong".into(), "report".into()],
+//!     date: None,
+//! };
+//! assert!(report.html().starts_with("<!DOCTYPE html>"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod charts;
+mod date;
+mod document;
+mod encode;
+mod html;
+mod markdown;
+mod operations;
+mod page;
+mod scene;
+mod section;
+mod sentences;
+mod summary;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+pub use date::utc_date;
+pub use markdown::{Image, Markdown};
+pub use section::{Caption, MAP_SCALE, Section, TriangulationData};
+
+use crate::bench::Machine;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+/// Scenes, and what they were measured on.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The scenes, in the order of the page.
+    pub sections: Vec<Section>,
+    /// What the times are of.
+    pub machine: Machine,
+    /// What was typed, program first.
+    pub command_line: Vec<String>,
+    /// The day, as [`utc_date`] writes it.
+    pub date: Option<String>,
+}
+
+impl Report {
+    /// The page: one file that loads nothing, from the network or elsewhere.
+    pub fn html(&self) -> String {
+        page::page(self)
+    }
+
+    /// The same in short for the front page of a repository: text, and picture files that stand in the folder `images`
+    /// beside it.
+    pub fn markdown(&self, images: &str) -> Markdown {
+        markdown::markdown(self, images)
+    }
+
+    /// The measured data as JSON of schema [`crate::comparison::SCHEMA`], with what the report adds to it.
+    pub fn json(&self) -> String {
+        document::json(self)
+    }
+}
