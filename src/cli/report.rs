@@ -1,17 +1,20 @@
 //! `fastphong report`: every method on every scene, as one page.
 
+use super::measured::{TimingFlags, command_line, named_or_shipped};
 use super::progress::Progress;
+use super::scene_flags::SceneFlags;
 use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
-use fastphong::bench::{Limits, Machine};
-use fastphong::comparison::{Input, Options, compare, triangulation};
+use fastphong::bench::Machine;
+use fastphong::comparison::{Input, compare, triangulation};
 use fastphong::image_file::write_file;
-use fastphong::input::{self, SCENES};
+use fastphong::input;
 use fastphong::report::{Caption, Report as Page, Section, utc_date};
 use fastphong::scene::file::SceneFile;
-use fastphong::shader::{METHODS, Variant};
+use fastphong::scene::resolve::Resolved;
+use fastphong::scene::value::Located;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
+use std::time::SystemTime;
 
 /// Compare methods on scenes, and show pictures, errors and times on one page
 #[derive(clap::Args, Debug)]
@@ -19,41 +22,16 @@ pub struct Report {
     /// Scene files, mesh files, builtin:NAME?key=value, or names of shipped scenes [default: all shipped scenes]
     #[arg(value_name = "INPUT")]
     inputs: Vec<String>,
-    /// Methods between commas, with parameters as in `fast-phong:steps=1`, or `all`; naive-phong is always among them
-    #[arg(short, long, value_name = "METHODS", default_value = "all", value_parser = methods)]
-    methods: Methods,
+    #[command(flatten)]
+    timing: TimingFlags,
     /// Where the page goes; its folder is made if there is none
     #[arg(short, long, value_name = "FILE", default_value = "report/index.html")]
     output: PathBuf,
     /// Write README.md and its pictures beside the page as well
     #[arg(long)]
     markdown: bool,
-    /// Seconds of timing a scene, at least five rounds of all methods
-    #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, allow_hyphen_values = true)]
-    time_budget: Duration,
-}
-
-/// The methods to compare.
-#[derive(Clone, Debug)]
-struct Methods(Vec<Variant>);
-
-fn methods(text: &str) -> Result<Methods, String> {
-    if text == "all" {
-        return Ok(Methods(METHODS.iter().map(|entry| entry.variant()).collect()));
-    }
-    let mut variants: Vec<Variant> = Vec::new();
-    for name in text.split(',') {
-        let variant = Variant::parse(name.trim()).map_err(|error| error.to_string())?;
-        if variants.iter().all(|other| other.to_string() != variant.to_string()) {
-            variants.push(variant);
-        }
-    }
-    Ok(Methods(variants))
-}
-
-fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    seconds.ok_or_else(|| "expected seconds: a number, 0 or more".to_owned())
+    #[command(flatten)]
+    scene: SceneFlags,
 }
 
 /// The folder of the small pictures, beside the text that shows them.
@@ -63,12 +41,9 @@ impl Report {
     /// Compares, times, and writes the page.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         let talk = *talk;
-        let names: Vec<&str> = match &self.inputs[..] {
-            [] => SCENES.iter().map(|scene| scene.name).collect(),
-            inputs => inputs.iter().map(String::as_str).collect(),
-        };
+        let names = named_or_shipped(&self.inputs);
         // What can fail at once does so before the first minute is spent.
-        let files = names.iter().map(|name| Ok((*name, input::load(name)?))).collect::<Result<Vec<_>, Failure>>()?;
+        let files = names.iter().map(|name| self.scene.load(name)).collect::<Result<Vec<_>, Failure>>()?;
         let folder = self.folder()?;
         let machine = Machine::this();
         if machine.profile != "release" {
@@ -76,12 +51,13 @@ impl Report {
         }
         let progress = Progress::silent_between_moves(talk);
         let mut sections = Vec::with_capacity(files.len());
-        for (number, (name, file)) in files.iter().enumerate() {
+        for (number, (name, file)) in names.iter().zip(&files).enumerate() {
             let told = |part: f32, what: &str| {
                 progress.at((number as f32 + part) / files.len() as f32, &format!("{name}: {what}"));
             };
             told(0.0, "loading");
-            sections.push(self.section(name, file, &|warning| progress.aside(|| talk.warning(warning)), &told)?);
+            let warn = |resolved: &Resolved| progress.aside(|| self.scene.warn(resolved, talk));
+            sections.push(self.section(name, file, &warn, &told)?);
         }
         progress.at(1.0, "writing");
         let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).ok();
@@ -110,21 +86,20 @@ impl Report {
         &self,
         name: &str,
         file: &SceneFile,
-        warn: &dyn Fn(&str),
+        warn: &dyn Fn(&Resolved),
         told: &dyn Fn(f32, &str),
     ) -> Result<Section, Failure> {
         let resolved = input::resolve(file)?;
-        resolved.warnings.iter().for_each(|warning| warn(&format!("{name}: {warning}")));
+        warn(&resolved);
         let frame = resolved.scene.frame()?;
         drop(resolved);
-        let limits = Limits { time_budget: self.time_budget, warm_up_rounds: 1, ..Limits::default() };
-        let options = Options { timing: Some(limits) };
         let input = Input { name: name.to_owned(), frame: &frame };
         // Comparing is most of the work; pictures are encoded in the rest.
-        let comparison = compare(&input, &self.methods.0, &options, &mut |part, what| told(0.9 * part, what));
+        let comparison =
+            compare(&input, &self.timing.methods.0, &self.timing.options(), &mut |part, what| told(0.9 * part, what));
         told(0.9, "pictures");
         let triangles = triangulation(&frame, &comparison.reference);
-        let text = |text: &Option<fastphong::scene::value::Located<String>>| text.as_ref().map(|t| t.value.clone());
+        let text = |text: &Option<Located<String>>| text.as_ref().map(|t| t.value.clone());
         let caption = Caption {
             title: text(&file.title).unwrap_or_else(|| name.to_owned()),
             description: text(&file.description).unwrap_or_default(),
@@ -150,10 +125,4 @@ impl Report {
         }
         Ok(written)
     }
-}
-
-/// What was typed, with the program by its name and not by its place.
-fn command_line() -> Vec<String> {
-    let typed = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
-    std::iter::once("fastphong".to_owned()).chain(typed).collect()
 }

@@ -165,7 +165,13 @@ mod tests {
 
     /// `colours` different colours, in no order that a filter could guess.
     fn colourful(colours: usize) -> Picture8 {
-        let texel = |i: usize| [(i % colours) as u8, ((i % colours) >> 8) as u8, (i * 7 % 3) as u8 / 3, 255];
+        // Two channels tell colours apart, the third is scattered by a multiplier of Knuth's (2³² divided by the golden
+        // ratio).
+        let texel = |i: usize| {
+            let colour = i % colours;
+            let scattered = (colour as u32).wrapping_mul(2_654_435_769) >> 24;
+            [colour as u8, (colour >> 8) as u8, scattered as u8, 255]
+        };
         Picture8::from_texels(40, 30, (0..1200).map(texel).collect()).unwrap()
     }
 

@@ -35,7 +35,8 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     let mut images = Vec::new();
     let mut text = String::from("# Shading methods compared\n\n");
     text += &format!("{}\n\n", escape(&opening(&report.sections, &report.machine).join(" ")));
-    text += &format!("Made by `{}`", command(&report.command_line).replace('`', "'"));
+    let is_unfit = |c: char| c == '`' || c.is_control();
+    text += &format!("Made by `{}`", command(&report.command_line).replace(is_unfit, "\u{FFFD}"));
     if let Some(date) = &report.date {
         text += &format!(" on {date}");
     }

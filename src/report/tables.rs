@@ -67,9 +67,7 @@ const COLUMNS: &[Column] = &[
         "speed to barycentric",
         "ratio, 95 %",
         "over 1: faster than the barycentric renderer with the same method, or naive Phong where it lacks it",
-        |r| {
-    speed(r, |s| ratio(s.ratio_to_barycentric))
-        },
+        |r| speed(r, |s| ratio(s.ratio_to_barycentric)),
     ),
 ];
 

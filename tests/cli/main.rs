@@ -6,6 +6,7 @@ mod input;
 mod output;
 mod reference;
 mod render;
+mod report;
 mod tables;
 
 use std::path::{Path, PathBuf};
