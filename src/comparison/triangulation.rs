@@ -62,6 +62,15 @@ mod tests {
     }
 
     #[test]
+    fn the_picture_is_the_phong_reference_of_the_triangles() {
+        let mut scene = Scene::of_mesh(builtin("sphere?rings=4&segments=8").unwrap());
+        (scene.width, scene.height) = (64, 48);
+        let frame = scene.frame().unwrap();
+        let cut = triangulation(&frame, &reference::render(&frame, Model::Phong).to_linear()).unwrap();
+        assert_eq!(cut.picture, reference::render(&triangulated(&frame).frame, Model::Phong).to_linear());
+    }
+
+    #[test]
     fn a_flat_face_with_equal_normals_stays_as_it_is() {
         let mut scene = Scene::of_mesh(builtin("prism").unwrap());
         (scene.width, scene.height) = (64, 48);
