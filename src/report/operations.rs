@@ -7,8 +7,11 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+/// What a rate is called, and its operations.
+type Rate = (&'static str, fn(&OperationCounts) -> Counts);
+
 /// The rates at which operations are carried out, in the order of the columns.
-pub(super) const RATES: [(&str, fn(&OperationCounts) -> Counts); 7] = [
+pub(super) const RATES: [Rate; 7] = [
     ("vertex", |c| c.vertex),
     ("polygon", |c| c.polygon),
     ("edge", |c| c.edge),

@@ -134,6 +134,17 @@ fn the_page_has_a_section_a_scene_and_a_row_and_a_figure_a_method() {
     assert!(html.contains("What sphere tests."));
 }
 
+/// Fails unless all rows of each table of a text in Markdown have as many cells.
+fn assert_tables_are_even(markdown: &str) {
+    let cells = |line: &str| line.replace("\\\\", "").replace("\\|", "").matches('|').count();
+    let tables: Vec<&str> = markdown.split("\n\n").filter(|part| part.starts_with("| ")).collect();
+    assert!(tables.len() >= 4);
+    for table in tables {
+        let columns: Vec<usize> = table.lines().map(cells).collect();
+        assert!(columns.iter().all(|n| *n == columns[0]), "{table}");
+    }
+}
+
 #[test]
 fn hostile_names_are_text() {
     let hostile =
@@ -154,9 +165,7 @@ fn hostile_names_are_text() {
     // What stands between backticks is shown as it is.
     let unescaped = markdown.text.replace("\\`", "");
     assert!(unescaped.split('`').step_by(2).all(|text| !text.contains("<script") && !text.contains("<img")));
-    for line in markdown.text.lines().filter(|line| line.starts_with('|')) {
-        assert!(line.ends_with('|'), "a cell went out of its table: {line}");
-    }
+    assert_tables_are_even(&markdown.text);
     for image in &markdown.images {
         assert!(image.name.chars().all(|c| c.is_ascii_alphanumeric() || "-.".contains(c)), "{}", image.name);
     }
@@ -306,11 +315,7 @@ fn the_markdown_shows_the_methods_of_the_project_and_names_its_pictures() {
     for entry in METHODS {
         assert!(markdown.text.contains(&format!("| {} | ", entry.info.name)), "{}", entry.info.name);
     }
-    let rows = |line: &str| line.matches('|').count() - line.matches("\\|").count();
-    for table in markdown.text.split("\n\n").filter(|part| part.starts_with('|')) {
-        let columns: Vec<usize> = table.lines().map(rows).collect();
-        assert!(columns.iter().all(|n| *n == columns[0]), "{table}");
-    }
+    assert_tables_are_even(&markdown.text);
 }
 
 #[test]
