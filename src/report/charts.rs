@@ -143,6 +143,11 @@ pub(super) fn scatter(title: &str, [x_name, y_name]: [&str; 2], points: &[Point]
         let room = Rectangle { left: left + 2.0, right: WIDTH - 2.0, top: 2.0, bottom: bottom - 2.0 };
         let text = if point.error > 0.0 { point.label.clone() } else { format!("{} (0)", point.label) };
         let label = placed([x, y], LETTER * text.chars().count() as f64, &room, &taken);
+        // A label that found no room beside its point is tied to it.
+        let [near_x, near_y] = [x.clamp(label.left, label.right), y.clamp(label.top, label.bottom)];
+        if (near_x - x).abs().max((near_y - y).abs()) > 10.0 {
+            svg += &format!("<path class=\"lead\" d=\"M{x:.1} {y:.1}L{near_x:.1} {near_y:.1}\"/>");
+        }
         svg += &format!(
             "<text class=\"name\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
             (label.left + label.right) / 2.0,
