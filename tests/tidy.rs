@@ -354,6 +354,8 @@ fn commands_in_the_documents_exist() {
                     file.exists() || root().join(format!("tests/{test}/main.rs")).exists(),
                     "{document}: {command}"
                 );
+            } else if let Some(bench) = after("--bench") {
+                assert!(root().join(format!("benches/{bench}.rs")).exists(), "{document}: {command}");
             } else if let Some(start) = words.iter().position(|w| *w == "--" || *w == "fastphong") {
                 let is_ours = words[start] == "fastphong" || words.starts_with(&["cargo", "run"]);
                 if is_ours && words.get(1) != Some(&"install") {
@@ -381,8 +383,21 @@ fn check_usage(document: &str, command: &str, words: &[&str]) {
             help.match_indices(flag).any(|(at, _)| !help[at + flag.len()..].starts_with(|c| is_word(c) || c == '-'));
         assert!(known, "{document}: {command}: {sub_command} has no {flag}");
     }
-    for method in words.windows(2).filter(|pair| pair[0] == "--method").map(|pair| pair[1]) {
+    let after = |flag: &str| words.windows(2).find(|pair| pair[0] == flag).map(|pair| pair[1]);
+    let methods = [after("--method"), after("--methods")];
+    for method in methods.into_iter().flatten().flat_map(|list| list.split(',')) {
         let known = method == "reference" || fastphong::shader::Variant::parse(method).is_ok();
         assert!(known, "{document}: {command}: no method {method}");
+    }
+    let input = words.get(1).filter(|word| !word.starts_with('-'));
+    match (*sub_command, input) {
+        ("render" | "compare" | "bench" | "report" | "info", Some(input)) if !input.contains([':', '.']) => {
+            assert!(root().join(format!("scenes/{input}.toml")).exists(), "{document}: {command}: no scene {input}");
+        }
+        ("list" | "explain", _) => {
+            let done = Command::new(program).args(words).output().expect("the program runs");
+            assert!(done.status.success(), "{document}: {command} fails");
+        }
+        _ => (),
     }
 }
