@@ -163,6 +163,26 @@ fn the_barycentric_renderer_covers_the_same_pixels() {
     assert!(more > 0, "on the grid of pixel centres closed edges draw more");
 }
 
+/// Strictly less depth wins: of two equal polygons the first is seen, by every engine; without depth the last.
+#[test]
+fn at_equal_depth_the_first_polygon_is_seen() {
+    let corner = |x, y, depth| Corner { x: x * 256, y: y * 256, depth, intensity: 0.5 };
+    let triangle = vec![corner(3, 2, 0.2), corner(44, 9, 0.7), corner(17, 38, 0.4)];
+    let flat = Variant::parse("flat").expect("a method");
+    for (depth_test, seen) in [(true, 0), (false, 1)] {
+        let frame = frame(48, 40, depth_test, &[triangle.clone(), triangle.clone()]);
+        let numbers = [
+            raster::polygon_numbers(&frame),
+            raster::barycentric_polygon_numbers(&frame, Edges::TopLeft),
+            reference::visibility(&frame).polygons,
+        ];
+        assert!(flat.render(&frame).texels().iter().any(|t| t[3] > 0));
+        for number in numbers.iter().flat_map(|picture| picture.texels()) {
+            assert!([seen, NOTHING].contains(number), "depth test {depth_test}: polygon {number} is seen");
+        }
+    }
+}
+
 /// With depth, the engine and the reference differ only where two surfaces meet within the rounding of depth.
 #[test]
 fn visible_polygons_differ_only_where_surfaces_meet() {
