@@ -143,3 +143,30 @@ fn line_direction(runs: &[Vec<Corner>]) -> glam::DVec3 {
     let differences = ends.map(|end| flat(end.position) - origin);
     differences.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).unwrap_or(glam::DVec3::X)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_random::Random;
+
+    /// Two polygons go along their common edge in opposite directions, and must be cut at the same place to the last bit.
+    #[test]
+    fn a_cut_does_not_depend_on_the_direction() {
+        let mut random = Random::new(13);
+        let plane = Plane { normal: DVec4::new(0.3, -0.2, 1.0, 0.1), in_front: false };
+        let mut cuts = 0;
+        while cuts < 1000 {
+            let mut corner = |vertex| {
+                let mut number = || f64::from(random.signed()) * 7.3;
+                Corner { position: DVec4::new(number(), number(), number(), number()), vertex }
+            };
+            let (p, q) = (corner(0), corner(1));
+            if plane.normal.dot(p.position) * plane.normal.dot(q.position) >= 0.0 {
+                continue;
+            }
+            let (there, back) = (Cut::new(&plane, p, q), Cut::new(&plane, q, p));
+            assert_eq!((there.position, there.t, there.a.vertex), (back.position, back.t, back.a.vertex));
+            cuts += 1;
+        }
+    }
+}

@@ -86,6 +86,19 @@ fn any_number_of_lights() {
     assert!(scene.frame().is_err(), "one light more than there may be");
 }
 
+/// A light behind the sphere: where L·N ≤ 0, R·V may still be over 0, and there must be no highlight (trap T9).
+#[test]
+fn a_light_behind_makes_no_highlight() {
+    let behind = |scene: &mut Scene| scene.lights[0].direction = -scene.camera.view();
+    let frame = sphere(behind);
+    for entry in METHODS {
+        for texel in entry.variant().render_linear(&frame).texels().iter().filter(|t| t[3] > 0.0) {
+            // Polygons at the rim, and normals at it, may face the light a little: less than a tenth of diffuse light.
+            assert!(texel[0] < Material::default().ambient[0] + 0.1, "{}: {texel:?}", entry.info.name);
+        }
+    }
+}
+
 /// No lights: ambient light only, the same from every method.
 #[test]
 fn no_lights_means_ambient_only() {
