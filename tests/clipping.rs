@@ -140,6 +140,31 @@ fn clipped_neighbours_leave_no_hole_and_no_overlap() {
     }
 }
 
+/// Attributes that are linear on the screen stay what they were when the far plane cuts a triangle: what is left has the
+/// colours of the whole.
+#[test]
+fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
+    let corners = [Vec3::new(-2.0, 0.0, -3.0), Vec3::new(2.0, 0.0, -3.0), Vec3::new(0.5, 0.0, -60.0)];
+    let mut builder = MeshBuilder::new(corners.to_vec());
+    builder.polygon(&[0, 1, 2]).normals(GivenNormals { values: [0.2, 0.5, 1.0].map(normal).to_vec(), corners: None });
+    let mesh = builder.finish().expect("a mesh");
+    let draw = |far: f64| {
+        let mut scene = scene(mesh.clone(), Camera { far, ..above_ground(0.1) });
+        scene.interpolation = Interpolation::Screen;
+        let frame = scene.frame().expect("a frame");
+        (frame.stats().clipped, Variant::parse("gouraud").expect("a method").render_linear(&frame))
+    };
+    let ((uncut, whole), (cut, part)) = (draw(100.0), draw(20.0));
+    assert_eq!((uncut, cut), (0, 1));
+    let mut compared = 0;
+    for (a, b) in whole.texels().iter().zip(part.texels()).filter(|(_, b)| b[3] > 0.0) {
+        // The new corners are snapped to 1/256 pixel, half of that off; intensities change by 0.8 over some 20 rows.
+        assert!((a[0] - b[0]).abs() < 0.8 / 20.0 / 256.0 + 1e-5, "{a:?} became {b:?}");
+        compared += 1;
+    }
+    assert!(compared > 300 && whole.texels().iter().filter(|t| t[3] > 0.0).count() > compared, "{compared} pixels");
+}
+
 /// A concave comb whose teeth are cut off by the near plane falls into pieces that do not touch each other.
 #[test]
 fn a_comb_is_cut_into_its_teeth() {
