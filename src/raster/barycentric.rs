@@ -61,8 +61,6 @@ pub(crate) fn draw<S: Shader, M: Machine>(
 ) {
     const { assert!(M::WIDTH == 1, "this renderer goes pixel by pixel") };
     let setup = SetUp::<S, M>::new(m, frame, parameters);
-    let consts: alloc::vec::Vec<S::Consts<M::F>> =
-        frame.lightings().iter().map(|l| S::consts(l, parameters, |x| m.splat(m.one(x)))).collect();
     let mut depth_buffer = vec![f32::INFINITY; frame.width() * frame.height()];
     for (number, polygon) in frame.polygons().iter().enumerate() {
         let &[a, mut b, mut c] = frame.corners(polygon) else { continue };
@@ -108,7 +106,7 @@ pub(crate) fn draw<S: Shader, M: Machine>(
                     attribute: S::Attribute::barycentric(m, each(|i| m.one(weights[i])), attributes),
                 };
                 let mut walk = S::walk(m, &setup.consts[material], &setup.polygons[number], &start);
-                let rgb = S::shade(&consts[material], walk.next());
+                let rgb = S::shade(&setup.pixel_consts[material], walk.next());
                 target.store(column, row, &[each(|i| m.first(rgb[i]))]);
             }
         }

@@ -41,8 +41,6 @@ pub(super) fn scan<M: Machine, A: Attribute<M::One>>(
 pub(crate) fn draw<S: Shader, M: Machine>(m: M, frame: &Frame, parameters: &[u32], target: &mut dyn Target) {
     const { assert!(M::WIDTH == 1, "this engine walks pixel by pixel") };
     let setup = SetUp::<S, M>::new(m, frame, parameters);
-    let consts: alloc::vec::Vec<S::Consts<M::F>> =
-        frame.lightings().iter().map(|l| S::consts(l, parameters, |x| m.splat(m.one(x)))).collect();
     let mut colours = vec![[0.0f32; 3]; frame.width()];
     scan(m, frame, &setup.attributes, |row, line, edges| {
         line.runs(|span, pixels| {
@@ -59,7 +57,7 @@ pub(crate) fn draw<S: Shader, M: Machine>(m: M, frame: &Frame, parameters: &[u32
                 attribute: S::Attribute::span(m, face, left, right, m.one(t0), m.one(span.dt)),
             };
             let mut walk = S::walk(m, &setup.consts[material], &setup.polygons[span.polygon as usize], &start);
-            let consts = &consts[material];
+            let consts = &setup.pixel_consts[material];
             let run = &mut colours[..pixels.len()];
             for colour in run.iter_mut() {
                 let rgb = S::shade(consts, walk.next());

@@ -10,6 +10,8 @@ use alloc::vec::Vec;
 /// A shader's constants by material, attributes by vertex and values by polygon.
 pub(super) struct SetUp<S: Shader, M: Machine> {
     pub consts: Vec<S::Consts<M::One>>,
+    /// The same constants for the pixel loop.
+    pub pixel_consts: Vec<S::Consts<M::F>>,
     pub attributes: Vec<S::Attribute<M::One>>,
     pub polygons: Vec<S::Polygon<M::One>>,
 }
@@ -17,13 +19,14 @@ pub(super) struct SetUp<S: Shader, M: Machine> {
 impl<S: Shader, M: Machine> SetUp<S, M> {
     pub fn new(m: M, frame: &Frame, parameters: &[u32]) -> Self {
         let consts: Vec<_> = frame.lightings().iter().map(|l| S::consts(l, parameters, |x| m.one(x))).collect();
+        let pixel_consts = frame.lightings().iter().map(|l| S::consts(l, parameters, |x| m.splat(m.one(x)))).collect();
         let attributes = attributes::<S, M>(m, frame, &consts);
         let polygons = frame.polygons().iter().map(|polygon| {
             let corners = Corners { machine: m, frame, polygon, attributes: &attributes };
             S::polygon(&consts[polygon.material as usize], &corners)
         });
         let polygons = polygons.collect();
-        SetUp { consts, attributes, polygons }
+        SetUp { consts, pixel_consts, attributes, polygons }
     }
 }
 
