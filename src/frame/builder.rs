@@ -1,0 +1,162 @@
+//! Making a frame, and checking it once.
+
+use super::{ClipCorner, Frame, FrameError, FrameStats, Polygon, SubPixel, Vertex};
+use crate::lighting::{Lighting, Rgb};
+use crate::scene::{Encoding, Interpolation, Scene};
+use alloc::vec::Vec;
+
+/// Collects vertices and polygons, then checks them once, so that what reads a frame need not.
+#[derive(Clone, Debug)]
+pub struct FrameBuilder {
+    frame: Frame,
+}
+
+impl FrameBuilder {
+    /// An empty frame of `width` × `height` pixels, black, with depth test, linear on the screen.
+    pub fn new(width: u32, height: u32) -> Self {
+        FrameBuilder {
+            frame: Frame {
+                width,
+                height,
+                background: [0.0; 3],
+                interpolation: Interpolation::Screen,
+                depth_test: true,
+                encoding: Encoding::Linear,
+                vertices: Vec::new(),
+                clip_corners: Vec::new(),
+                corners: Vec::new(),
+                polygons: Vec::new(),
+                lightings: Vec::new(),
+                stats: FrameStats::default(),
+            },
+        }
+    }
+
+    /// Sets the colour where nothing is drawn.
+    pub fn background(&mut self, colour: Rgb) -> &mut Self {
+        self.frame.background = colour;
+        self
+    }
+
+    /// Sets how attributes vary over the screen.
+    pub fn interpolation(&mut self, interpolation: Interpolation) -> &mut Self {
+        self.frame.interpolation = interpolation;
+        self
+    }
+
+    /// Sets whether nearer polygons hide farther ones.
+    pub fn depth_test(&mut self, on: bool) -> &mut Self {
+        self.frame.depth_test = on;
+        self
+    }
+
+    /// Sets how values are stored in eight bits.
+    pub fn encoding(&mut self, encoding: Encoding) -> &mut Self {
+        self.frame.encoding = encoding;
+        self
+    }
+
+    /// Sets what became of the scene's polygons.
+    pub fn stats(&mut self, stats: FrameStats) -> &mut Self {
+        self.frame.stats = stats;
+        self
+    }
+
+    /// Adds a material with the light on it; returns its number.
+    pub fn lighting(&mut self, lighting: Lighting) -> u32 {
+        self.frame.lightings.push(lighting);
+        (self.frame.lightings.len() - 1) as u32
+    }
+
+    /// Adds a vertex; returns its number.
+    pub fn vertex(&mut self, vertex: Vertex) -> u32 {
+        self.frame.vertices.push(vertex);
+        (self.frame.vertices.len() - 1) as u32
+    }
+
+    /// The vertex of a number that [`FrameBuilder::vertex`] returned.
+    pub fn vertex_at(&self, index: u32) -> &Vertex {
+        &self.frame.vertices[index as usize]
+    }
+
+    /// Says that a vertex lies between two others; vertices must be named in ascending order.
+    pub fn clip_corner(&mut self, corner: ClipCorner) -> &mut Self {
+        self.frame.clip_corners.push(corner);
+        self
+    }
+
+    /// Adds a polygon: vertex numbers of its corners, its unit normal, its number in the scene. It has the material of
+    /// its first corner.
+    pub fn polygon(&mut self, corners: &[u32], normal: [f32; 3], source: u32) -> &mut Self {
+        let frame = &mut self.frame;
+        let material = corners.first().and_then(|&v| frame.vertices.get(v as usize)).map_or(u32::MAX, |v| v.material);
+        let (first, count) = (frame.corners.len() as u32, corners.len() as u32);
+        frame.polygons.push(Polygon { first, count, material, source, normal });
+        frame.corners.extend_from_slice(corners);
+        self
+    }
+
+    /// The frame.
+    ///
+    /// # Errors
+    /// [`FrameError`] when a size, a number of lights, a coordinate or an index is outside its range.
+    pub fn finish(self) -> Result<Frame, FrameError> {
+        let frame = self.frame;
+        let side = 1..=Scene::MAX_SIDE;
+        if !side.contains(&frame.width) || !side.contains(&frame.height) {
+            return Err(FrameError::Size { width: frame.width, height: frame.height });
+        }
+        if frame.corners.len() > u32::MAX as usize || frame.vertices.len() > u32::MAX as usize {
+            return Err(FrameError::TooLarge);
+        }
+        let lights = frame.light_count();
+        for lighting in &frame.lightings {
+            if lighting.lights.len() != lights || lights > Scene::MAX_LIGHTS {
+                return Err(FrameError::Lights { found: lighting.lights.len() });
+            }
+        }
+        if let Some(index) = frame.vertices.iter().position(|v| !frame.vertex_is_valid(v)) {
+            return Err(FrameError::Vertex { index });
+        }
+        if let Some(index) = frame.polygons.iter().position(|p| !frame.polygon_is_valid(p)) {
+            return Err(FrameError::Polygon { index });
+        }
+        let mut previous = None;
+        for (index, corner) in frame.clip_corners.iter().enumerate() {
+            let valid = corner.a < corner.vertex
+                && corner.b < corner.vertex
+                && (corner.vertex as usize) < frame.vertices.len()
+                && previous.is_none_or(|p| p < corner.vertex)
+                && (0.0..=1.0).contains(&corner.t);
+            if !valid {
+                return Err(FrameError::Polygon { index });
+            }
+            previous = Some(corner.vertex);
+        }
+        Ok(frame)
+    }
+}
+
+impl Frame {
+    fn vertex_is_valid(&self, v: &Vertex) -> bool {
+        let guard = SubPixel::from_num(Frame::GUARD);
+        let inside = |c: SubPixel| -guard <= c && c <= guard;
+        inside(v.x)
+            && inside(v.y)
+            && v.depth.is_finite()
+            && v.inv_w.is_finite()
+            && v.inv_w > 0.0
+            && v.normal.iter().all(|n| n.is_finite())
+            && (v.material as usize) < self.lightings.len()
+    }
+
+    fn polygon_is_valid(&self, polygon: &Polygon) -> bool {
+        polygon.count >= 3
+            && (polygon.material as usize) < self.lightings.len()
+            && polygon.normal.iter().all(|n| n.is_finite())
+            && self
+                .corners(polygon)
+                .iter()
+                .all(|&v| self.vertices.get(v as usize).is_some_and(|vertex| vertex.material == polygon.material))
+    }
+}

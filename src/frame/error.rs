@@ -1,0 +1,65 @@
+//! Why a frame could not be made.
+
+use super::Frame;
+use crate::scene::Scene;
+use core::fmt;
+
+/// Why a frame could not be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameError {
+    /// A side of the picture is 0 or over [`Scene::MAX_SIDE`].
+    Size {
+        /// Pixels a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// More lights than [`Scene::MAX_LIGHTS`], or not as many on every material.
+    Lights {
+        /// How many.
+        found: usize,
+    },
+    /// More corners or vertices than 32-bit numbers can name.
+    TooLarge,
+    /// A camera that gives no finite picture: eye at the target, up along the view, planes in the wrong order.
+    Camera,
+    /// A vertex is outside the guard band, or a number of it is not finite, or its weight is not positive.
+    Vertex {
+        /// Its number.
+        index: usize,
+    },
+    /// A polygon or clip corner names something that does not exist, or a polygon has fewer than three corners.
+    Polygon {
+        /// Its number.
+        index: usize,
+    },
+}
+
+impl fmt::Display for FrameError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            FrameError::Size { width, height } => {
+                write!(f, "the picture size {width}x{height} is outside 1x1 to {0}x{0}", Scene::MAX_SIDE)
+            }
+            FrameError::Lights { found } => write!(
+                f,
+                "{found} lights, where at most {} are possible, the same on every material",
+                Scene::MAX_LIGHTS
+            ),
+            FrameError::TooLarge => write!(f, "the scene has more corners than 32-bit numbers can name"),
+            FrameError::Camera => write!(
+                f,
+                "the camera gives no picture: the eye must differ from the target, up must not be along the view, and \
+                 near must be less than far (and over 0 under perspective)"
+            ),
+            FrameError::Vertex { index } => {
+                write!(f, "vertex {index} is outside the guard band of {} pixels or not finite", Frame::GUARD)
+            }
+            FrameError::Polygon { index } => {
+                write!(f, "polygon {index} has fewer than three corners or names something that does not exist")
+            }
+        }
+    }
+}
+
+impl core::error::Error for FrameError {}

@@ -1,0 +1,184 @@
+//! A frame: projected polygons and the light on them. The waist of the house.
+//!
+//! Left of it stand files, matrices and failure; right of it arithmetic that cannot fail and does not know where
+//! polygons come from. The shading methods, the barycentric renderer and the `f64` reference all take the same frame,
+//! so what differs between their pictures is shading and not geometry.
+
+mod builder;
+mod error;
+
+pub use builder::FrameBuilder;
+pub use error::FrameError;
+
+use crate::lighting::{Lighting, Rgb};
+use crate::scene::{Encoding, Interpolation, Scene};
+use alloc::vec::Vec;
+
+/// A coordinate on the picture in pixels, snapped to 1/256: x to the right, y downward, (0, 0) the outer corner of the
+/// first pixel, so that pixel centres lie at ½.
+pub type SubPixel = fixed::types::I24F8;
+
+/// A projected vertex: where it stands, and what the shading methods need to know of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Column of the picture, at most [`Frame::GUARD`] pixels from 0.
+    pub x: SubPixel,
+    /// Row of the picture, downward, at most [`Frame::GUARD`] pixels from 0.
+    pub y: SubPixel,
+    /// z/w: linear on the screen, 0 at the near plane, 1 at the far plane.
+    pub depth: f32,
+    /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation.
+    pub inv_w: f32,
+    /// Unit vertex normal in world space (L21 3.1); ignored at a [`ClipCorner`].
+    pub normal: [f32; 3],
+    /// Its entry in [`Frame::lightings`].
+    pub material: u32,
+}
+
+/// A vertex that clipping made: its attributes lie between those of two others and are never lit again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClipCorner {
+    /// The vertex that this describes.
+    pub vertex: u32,
+    /// Where `t` = 0; a smaller number than `vertex`. No polygon need use it, and then its place on the picture means
+    /// nothing: it may lie behind the eye.
+    pub a: u32,
+    /// Where `t` = 1; likewise.
+    pub b: u32,
+    /// How far from `a` to `b`, 0..=1.
+    pub t: f32,
+    /// Unit normal of the polygon that was clipped.
+    pub face: [f32; 3],
+}
+
+/// A projected polygon: three corners or more, of any shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polygon {
+    /// Where its corners begin in the list of all corners.
+    pub first: u32,
+    /// How many corners it has.
+    pub count: u32,
+    /// Its entry in [`Frame::lightings`]; its vertices have the same.
+    pub material: u32,
+    /// Its number in the scene, counted over all objects (pieces of one clipped polygon share it).
+    pub source: u32,
+    /// Unit normal by Newell's formula in world space (L21 1.1).
+    pub normal: [f32; 3],
+}
+
+/// What became of the scene's polygons on their way into the frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrameStats {
+    /// Polygons of the scene.
+    pub polygons: usize,
+    /// Left out because they are seen from the culled side.
+    pub culled: usize,
+    /// Left out because they have no area, in space or on the picture.
+    pub zero_area: usize,
+    /// Left out because they lie outside the view.
+    pub outside: usize,
+    /// Cut by the near plane, the far plane or the guard band.
+    pub clipped: usize,
+}
+
+/// Projected polygons in drawing order, and the light on them.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    width: u32,
+    height: u32,
+    background: Rgb,
+    interpolation: Interpolation,
+    depth_test: bool,
+    encoding: Encoding,
+    vertices: Vec<Vertex>,
+    clip_corners: Vec<ClipCorner>,
+    corners: Vec<u32>,
+    polygons: Vec<Polygon>,
+    lightings: Vec<Lighting>,
+    stats: FrameStats,
+}
+
+impl Frame {
+    /// No coordinate of a vertex is farther than this from 0, in pixels: twice the largest picture, which leaves room
+    /// for the exact products of the edge walk in 64 bits (2²⁴ · 2²⁴ · 2).
+    pub const GUARD: i32 = 2 * Scene::MAX_SIDE as i32;
+
+    /// Pixels a row.
+    pub fn width(&self) -> usize {
+        self.width as usize
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height as usize
+    }
+
+    /// Colour where nothing is drawn.
+    pub fn background(&self) -> Rgb {
+        self.background
+    }
+
+    /// How attributes vary over the screen.
+    pub fn interpolation(&self) -> Interpolation {
+        self.interpolation
+    }
+
+    /// Whether nearer polygons hide farther ones (strictly less depth wins); without it, later ones hide earlier ones.
+    pub fn depth_test(&self) -> bool {
+        self.depth_test
+    }
+
+    /// How values are stored in eight bits.
+    pub fn encoding(&self) -> Encoding {
+        self.encoding
+    }
+
+    /// All vertices.
+    pub fn vertices(&self) -> &[Vertex] {
+        &self.vertices
+    }
+
+    /// The vertices that clipping made, in ascending order of their number.
+    pub fn clip_corners(&self) -> &[ClipCorner] {
+        &self.clip_corners
+    }
+
+    /// All polygons, in drawing order.
+    pub fn polygons(&self) -> &[Polygon] {
+        &self.polygons
+    }
+
+    /// The vertex numbers of a polygon's corners, in order.
+    pub fn corners(&self, polygon: &Polygon) -> &[u32] {
+        &self.corners[polygon.first as usize..][..polygon.count as usize]
+    }
+
+    /// The light on each material; all have the same number of lights.
+    pub fn lightings(&self) -> &[Lighting] {
+        &self.lightings
+    }
+
+    /// How many lights there are.
+    pub fn light_count(&self) -> usize {
+        self.lightings.first().map_or(0, |l| l.lights.len())
+    }
+
+    /// What became of the scene's polygons on their way here.
+    pub fn stats(&self) -> FrameStats {
+        self.stats
+    }
+
+    /// The same frame with other polygons over the same vertices: `pieces` gives the corner lists that replace each
+    /// polygon.
+    pub(crate) fn with_pieces(&self, mut pieces: impl FnMut(&Polygon, &mut dyn FnMut(&[u32]))) -> Frame {
+        let mut corners = Vec::new();
+        let mut polygons = Vec::new();
+        for polygon in &self.polygons {
+            pieces(polygon, &mut |piece| {
+                polygons.push(Polygon { first: corners.len() as u32, count: piece.len() as u32, ..*polygon });
+                corners.extend_from_slice(piece);
+            });
+        }
+        Frame { corners, polygons, ..self.clone() }
+    }
+}
