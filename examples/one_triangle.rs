@@ -11,7 +11,7 @@ use fastphong::camera::{Camera, Projection};
 use fastphong::lighting::{Light, Material};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, MeshBuilder};
-use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+use fastphong::scene::{Encoding, Object, Scene};
 use fastphong::shader::Variant;
 use glam::{DAffine3, DVec3, Vec3};
 use std::error::Error;
@@ -28,23 +28,19 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // A scene: what there is to see, the light on it, and from where it is seen. `Scene::of_mesh` chooses all this for a
     // mesh; here it is written out.
+    let camera = Camera {
+        eye: 4.0 * DVec3::Z,
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection: Projection::Orthographic { half_height: 1.1 },
+        near: 1.0,
+        far: 10.0,
+    };
     let scene = Scene {
         width: 320,
         height: 240,
         background: [0.02, 0.02, 0.03],
-        camera: Camera {
-            eye: 4.0 * DVec3::Z,
-            target: DVec3::ZERO,
-            up: DVec3::Y,
-            projection: Projection::Orthographic { half_height: 1.1 },
-            near: 1.0,
-            far: 10.0,
-        },
-        ambient: [1.0; 3],
-        lights: vec![Light { direction: DVec3::new(0.3, 0.4, 1.0).normalize(), colour: [1.0; 3] }],
-        interpolation: Interpolation::Screen,
-        culling: Culling::Back,
-        depth_test: true,
+        lights: vec![Light::directional(DVec3::new(0.3, 0.4, 1.0).normalize(), [1.0; 3])],
         encoding: Encoding::Srgb,
         objects: vec![Object {
             mesh: Arc::new(mesh.finish()?),
@@ -52,6 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             material: Some(Material { shininess: 60.0, ..Material::default() }),
             normals: NormalSource::Given,
         }],
+        ..Scene::new(camera)
     };
 
     // A frame: projected, clipped, checked. Everything that can go wrong has gone wrong before this line.

@@ -15,11 +15,11 @@ use fastphong::mesh::builtin::builtin;
 use fastphong::number::{Machine, Num, Real, dot, each};
 use fastphong::reference::Model;
 use fastphong::scene::Scene;
-use fastphong::shader::illumination::Illumination;
+use fastphong::shader::local::{Far, Lights, Near};
 use fastphong::shader::{
-    Corners, Entry, Info, Method, Parameter, Perspective, Roundings, Shader, SpanOf, Stepped, Variant,
+    Corner, Corners, Entry, Info, Local, Method, Parameter, Perspective, Roundings, Shader, SpanOf, Stepped, Variant,
 };
-use fastphong::walk::{Lerp, Linear};
+use fastphong::walk::{Constant, Lerp, Linear};
 use std::error::Error;
 use std::io::Write;
 
@@ -45,19 +45,23 @@ impl Method for Toon {
         fails: "edges of bands are not smoothed",
         parameters: &[Parameter { name: "bands", meaning: "bands of light", default: 3, least: 1, most: 8 }],
         perspective: Perspective::Free,
+        local: Local::PerPolygon,
         barycentric: true,
     };
     // Normals are normalised at each pixel, so a weight of perspective interpolation cancels: one shader does for both.
-    type Screen<const L: usize> = Of<L>;
-    type Perspective<const L: usize> = Of<L>;
+    type Screen<const L: usize> = Of<Far, L>;
+    type Perspective<const L: usize> = Of<Far, L>;
+    // Lights and eye at positions are seen from the middle of each polygon: the same text, over other lights.
+    type Local<const L: usize> = Of<Near, L>;
+    type LocalPerspective<const L: usize> = Of<Near, L>;
 }
 
-/// Cel shading with `L` lights.
-struct Of<const L: usize>;
+/// Cel shading with `L` lights: `Far` ones, or `Near` ones.
+struct Of<P, const L: usize>(P);
 
 #[derive(Clone, Copy)]
-struct Consts<N, const L: usize> {
-    light: Illumination<N, L>,
+struct Consts<N, C> {
+    light: C,
     bands: u32,
     width: N,
     half_width: N,
@@ -65,37 +69,49 @@ struct Consts<N, const L: usize> {
     zero: N,
 }
 
-impl<const L: usize> Shader for Of<L> {
-    type Consts<N: Num> = Consts<N, L>;
+impl<P: Lights, const L: usize> Shader for Of<P, L> {
+    type Consts<N: Num> = Consts<N, P::Of<N, L>>;
     type Attribute<R: Real> = Lerp<[R; 3]>; // along edges: the normal, linearly
-    type Polygon<R: Real> = ();
-    type Walk<M: Machine> = [Linear<M::F>; 3]; // along a run: three additions
-    type Pixel<F: Num> = [F; 3];
+    type Polygon<R: Real> = P::There<R, L>;
+    type Walk<M: Machine> = ([Linear<M::F>; 3], Constant<P::There<M::F, L>>); // along a run: three additions
+    type Pixel<F: Num> = ([F; 3], P::There<F, L>);
 
-    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> Consts<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> Self::Consts<N> {
         let (bands, width) = (parameters[0], 1.0 / parameters[0] as f32);
-        let light = Illumination::new(lighting, &of);
+        let light = P::new(lighting, &of);
         Consts { light, bands, width: of(width), half_width: of(width / 2.0), edge: of(0.9), zero: of(0.0) }
     }
     #[inline(always)]
-    fn vertex<R: Real>(_: &Consts<R, L>, normal: [R; 3]) -> Lerp<[R; 3]> {
-        Lerp(normal)
+    fn vertex<M: Machine>(_: &Self::Consts<M::One>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
+        Lerp(corner.normal())
     }
     #[inline(always)]
-    fn polygon<M: Machine>(_: &Consts<M::One, L>, _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}
+    fn polygon<M: Machine>(
+        c: &Self::Consts<M::One>,
+        corners: &Corners<'_, M, Lerp<[M::One; 3]>>,
+    ) -> P::There<M::One, L> {
+        P::there(&c.light, || corners.mean_position())
+    }
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &Consts<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
-        each(
+    fn walk<M: Machine>(
+        m: M,
+        _: &Self::Consts<M::One>,
+        there: &P::There<M::One, L>,
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
+        let normal = each(
             #[inline(always)]
             |i| Linear::new(m, span.attribute.at[i], span.attribute.step[i]),
-        )
+        );
+        (normal, Constant(P::splat(m, there)))
     }
     #[inline(always)]
-    fn shade<F: Num>(c: &Consts<F, L>, n: [F; 3]) -> [F; 3] {
-        let light = &c.light;
+    fn shade<F: Num>(c: &Self::Consts<F>, (n, there): Self::Pixel<F>) -> [F; 3] {
+        let (light, seen) = (P::model(&c.light), P::seen(&c.light, &there));
         let r = light.one() / dot(n, n).sqrt();
         let n = [n[0] * r, n[1] * r, n[2] * r];
-        let (j, k) = (light.light_cosines(n), light.view_cosine(n));
+        let (j, k) = (seen.light_cosines(n), seen.view_cosine(n));
+        let hard = |highlight: F| light.one().gate(highlight - c.edge);
         // `colour` sums (2.1) over the lights; which cosines it is given is the method's own affair.
         light.colour(
             #[inline(always)]
@@ -105,8 +121,14 @@ impl<const L: usize> Shader for Of<L> {
                     level = level + c.width.gate(j[i] - threshold);
                     threshold = threshold + c.width;
                 }
-                (level, light.one().gate(light.two() * j[i] * k - light.light_view(i) - c.edge))
+                level
             },
+            #[inline(always)]
+            |i| hard(light.two() * j[i] * k - seen.scalars.light_view[i]),
+            #[inline(always)]
+            |i| hard((j[i] + k) * seen.scalars.half[i]),
+            #[inline(always)]
+            |i| seen.scalars.strength(i),
         )
     }
 }

@@ -2,14 +2,14 @@
 
 use crate::clip::{Corner, Cut, Plane, clip};
 use crate::frame::{ClipCorner, Frame, FrameBuilder, FrameError, FrameStats, SubPixel, Vertex};
-use crate::lighting::{Lighting, Material};
+use crate::lighting::{self, Light, Lighting, Material};
 use crate::mesh::PolygonMesh;
 use crate::mesh::newell::{polygon_normal, unit_normal};
 use crate::mesh::vertex_normals::{VertexNormals, vertex_normals};
 use crate::scene::{Culling, Interpolation, Object, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
-use glam::{DMat3, DMat4, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
 
 impl Scene {
     /// The scene as its camera sees it: projected polygons and the light on them.
@@ -31,6 +31,29 @@ impl Scene {
             projection.object(object)?;
         }
         projection.finish()
+    }
+}
+
+impl Scene {
+    /// The lights, their positions as seen from the eye, as [`Frame::position`] gives those of vertices.
+    fn lights_from_eye(&self) -> Vec<Light> {
+        let from_eye = |light: &Light| match light.place {
+            lighting::Place::Infinite(_) => *light,
+            lighting::Place::Local(p) => Light { place: lighting::Place::Local(p - self.camera.eye), ..*light },
+        };
+        self.lights.iter().map(from_eye).collect()
+    }
+
+    /// What falls on `material`; `lights` as [`Scene::lights_from_eye`] gives them.
+    fn lighting(&self, material: &Material, lights: &[Light], view: DVec3) -> Lighting {
+        let far = Lighting::new(material, self.ambient, lights, view);
+        Lighting {
+            shininess: self.specular.exponent(far.shininess, self.shininess_for),
+            specular: self.specular,
+            gate: self.gate,
+            view: if self.local_viewer { lighting::Place::Local([0.0; 3]) } else { far.view },
+            ..far
+        }
     }
 }
 
@@ -64,6 +87,7 @@ struct Projected<'a> {
     mesh: &'a PolygonMesh,
     normals: VertexNormals,
     places: Vec<Place>,
+    transform: DAffine3,
     normal_matrix: DMat3,
     mirrored: bool,
     /// Material of the frame by material of the mesh; the last is for polygons without one.
@@ -144,15 +168,17 @@ impl<'a> Projection<'a> {
         let normal_matrix = DMat3::from_cols(y.cross(z) * sign, z.cross(x) * sign, x.cross(y) * sign);
         let own = object.material.as_ref();
         let view = self.scene.camera.view();
+        let lights = self.scene.lights_from_eye();
         let default = Material::default();
         let materials = mesh.materials().iter().chain([&default]).map(|material| {
             let material = own.unwrap_or(material);
-            self.builder.lighting(Lighting::new(material, self.scene.ambient, &self.scene.lights, view))
+            self.builder.lighting(self.scene.lighting(material, &lights, view))
         });
         Projected {
             materials: materials.collect(),
             normals: vertex_normals(mesh, object.normals),
             places,
+            transform: object.transform,
             normal_matrix,
             mirrored: determinant < 0.0,
             first_vertex: vec![NO_VERTEX; mesh.positions().len()],
@@ -230,6 +256,8 @@ impl<'a> Projection<'a> {
         let direction = projected.normal_matrix * projected.normals.values[normal as usize].as_dvec3();
         let vertex = self.projected_vertex(clip, direction.normalize_or(DVec3::Z), material);
         let number = self.add(projected, vertex, normal, projected.first_vertex[position]);
+        let in_world = projected.transform.transform_point3(projected.mesh.positions()[position].as_dvec3());
+        self.builder.position(number, (in_world - self.scene.camera.eye).as_vec3().to_array());
         projected.first_vertex[position] = number - projected.base;
         number
     }
@@ -274,11 +302,12 @@ impl<'a> Projection<'a> {
 
     /// Adds what of a polygon is inside all planes.
     fn clipped(&mut self, projected: &mut Projected<'_>, corners: &[usize], material: u32, face: [f32; 3]) {
-        let whole = corners.iter().map(|&corner| {
+        let corners = corners.iter().map(|&corner| {
             let vertex = self.vertex(projected, corner, material);
             Corner { position: projected.places[projected.mesh.corners()[corner] as usize].clip, vertex }
         });
-        let mut pieces = vec![whole.collect::<Vec<_>>()];
+        let mut pieces = vec![corners.collect::<Vec<_>>()];
+        let whole: Vec<u32> = pieces[0].iter().map(|c| c.vertex).collect();
         for plane in self.planes {
             let mut inside = Vec::new();
             for piece in &pieces {
@@ -291,6 +320,7 @@ impl<'a> Projection<'a> {
             let area = doubled_area(piece.iter().map(|c| self.snap(c.position)));
             if self.is_drawn(area) {
                 let vertices: Vec<u32> = piece.iter().map(|c| c.vertex).collect();
+                self.builder.mean_of(&whole);
                 self.builder.polygon(&vertices, face, self.polygon_count);
             }
         }

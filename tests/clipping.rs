@@ -8,7 +8,7 @@ use fastphong::lighting::{Light, Material};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
 use fastphong::raster;
-use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+use fastphong::scene::{Culling, Interpolation, Object, Scene};
 use fastphong::shader::{METHODS, Variant};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -18,20 +18,17 @@ fn scene(mesh: PolygonMesh, camera: Camera) -> Scene {
     Scene {
         width: 80,
         height: 60,
-        background: [0.0; 3],
-        camera,
         ambient: [0.0; 3],
-        lights: vec![Light { direction: DVec3::Z, colour: [1.0; 3] }],
+        lights: vec![Light::directional(DVec3::Z, [1.0; 3])],
         interpolation: Interpolation::Perspective,
         culling: Culling::None,
-        depth_test: true,
-        encoding: Encoding::Linear,
         objects: vec![Object {
             mesh: Arc::new(mesh),
             transform: DAffine3::IDENTITY,
             material: Some(material),
             normals: NormalSource::Given,
         }],
+        ..Scene::new(camera)
     }
 }
 

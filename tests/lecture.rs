@@ -33,7 +33,7 @@ fn lighting() -> Lighting {
         specular: [SPECULAR as f32; 3],
         shininess: SHININESS as f32,
     };
-    Lighting::new(&material, [1.0; 3], &[Light { direction: LIGHT, colour: [1.0; 3] }], VIEW)
+    Lighting::new(&material, [1.0; 3], &[Light::directional(LIGHT, [1.0; 3])], VIEW)
 }
 
 fn frame_of(polygons: &[&[((f64, f64), DVec3)]]) -> Frame {

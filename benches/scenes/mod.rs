@@ -5,7 +5,7 @@ use fastphong::camera_fit::Fit;
 use fastphong::lighting::Light;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+use fastphong::scene::{Object, Scene};
 use glam::{DAffine3, DVec3};
 
 /// Name and mesh of each scene.
@@ -20,26 +20,17 @@ pub const SCENES: &[(&str, &str)] = &[
 /// that they differ over every polygon, the prism's as well.
 pub fn scene(mesh: &str) -> Scene {
     let mesh = builtin(mesh).expect("a built-in mesh");
-    let (width, height) = (640, 480);
     let direction = DVec3::new(0.3, 0.5, 1.0);
     let fit = Fit { direction, up: DVec3::Y, fraction: 0.9, fovy: None, aspect: 640.0 / 480.0 };
     let camera = Camera::fit(mesh.positions().iter().map(|p| p.as_dvec3()), &fit).expect("a mesh with vertices");
     Scene {
-        width,
-        height,
-        background: [0.0; 3],
-        camera,
-        ambient: [1.0; 3],
-        lights: vec![Light { direction: DVec3::new(1.0, 1.0, 2.0).normalize(), colour: [1.0; 3] }],
-        interpolation: Interpolation::Screen,
-        culling: Culling::Back,
-        depth_test: true,
-        encoding: Encoding::Linear,
+        lights: vec![Light::directional(DVec3::new(1.0, 1.0, 2.0).normalize(), [1.0; 3])],
         objects: vec![Object {
             mesh: mesh.into(),
             transform: DAffine3::IDENTITY,
             material: None,
             normals: NormalSource::Averaged,
         }],
+        ..Scene::new(camera)
     }
 }

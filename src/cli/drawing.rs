@@ -25,8 +25,15 @@ pub enum Method {
 }
 
 /// Models by their names on the command line.
-pub const MODELS: [(&str, Model); 4] =
-    [("flat", Model::Flat), ("gouraud", Model::Gouraud), ("phong", Model::Phong), ("slerp", Model::Slerp)];
+pub const MODELS: [(&str, Model); 7] = [
+    ("flat", Model::Flat),
+    ("flat-average", Model::FlatAverage),
+    ("gouraud", Model::Gouraud),
+    ("gouraud-separate", Model::GouraudSeparate),
+    ("phong", Model::Phong),
+    ("phong-constant", Model::PhongConstant),
+    ("slerp", Model::Slerp),
+];
 
 /// The name of a model.
 pub fn model_name(model: Model) -> &'static str {

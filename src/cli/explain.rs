@@ -75,6 +75,7 @@ impl Explain {
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
+        section("lights at positions", &wrapped(info.local.sentence(), 2));
         let engines = if info.barycentric { "scanline, barycentric" } else { "scanline" };
         section("engines", &format!("  {engines}\n"));
         let parameters = info.parameters.iter().zip(self.method.parameters());

@@ -64,6 +64,7 @@ fn methods() -> String {
         let info = entry.info;
         text += &format!("{}\n    {}\n", info.name, info.title);
         text += &format!("    perspective: {}\n", info.perspective.sentence());
+        text += &format!("    positions: {}\n", info.local.sentence());
         text += &format!("    {}\n", exactness(info));
         let engines = if info.barycentric { "scanline, barycentric" } else { "scanline" };
         text += &format!("    engines: {engines}\n");
@@ -90,7 +91,9 @@ pub fn exactness(info: &Info) -> String {
 fn stepped(of: Stepped) -> &'static str {
     match of {
         Stepped::Colours => "colours",
+        Stepped::Sums => "unclamped colours",
         Stepped::Cosines => "cosines",
+        Stepped::Products => "scalar products",
     }
 }
 
@@ -106,6 +109,7 @@ pub fn method_json(info: &Info) -> Value {
         "model": model_name(info.model),
         "roundings": { "start": start, "step": step, "of": stepped(of) },
         "perspective": info.perspective.sentence(),
+        "local": info.local.sentence(),
         "barycentric": info.barycentric,
         "parameters": parameters,
     })

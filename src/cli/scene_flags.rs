@@ -4,7 +4,8 @@ use super::Failure;
 use super::talk::Talk;
 use super::values::{self, Normals};
 use fastphong::input;
-use fastphong::scene::file::{CameraSection, ImageSection, LightSection, MaterialSection, SceneFile};
+use fastphong::lighting::{SpecularGate, SpecularModel};
+use fastphong::scene::file::{CameraSection, ImageSection, LightSection, MaterialSection, SceneFile, ViewerChoice};
 use fastphong::scene::resolve::Resolved;
 use fastphong::scene::value::{Located, OneOrThree};
 use fastphong::scene::{Culling, Encoding, Interpolation};
@@ -46,8 +47,14 @@ pub struct SceneFlags {
     /// A light from this direction, instead of those of the scene; can be given several times
     #[arg(long, value_name = "X,Y,Z[,I|,R,G,B]", value_parser = values::light, allow_hyphen_values = true)]
     light: Vec<LightSection>,
+    /// A light at this position, likewise
+    #[arg(long, value_name = "X,Y,Z[,I|,R,G,B]", value_parser = values::light_at, allow_hyphen_values = true)]
+    light_at: Vec<LightSection>,
+    /// Attenuation 1 / (1 + k d²) of the lights given by --light-at
+    #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "light_at")]
+    attenuation: Option<f64>,
     /// No lights: ambient light only
-    #[arg(long, conflicts_with = "light")]
+    #[arg(long, conflicts_with_all = ["light", "light_at"])]
     no_lights: bool,
     /// Ambient intensity
     #[arg(long, value_name = "I|R,G,B", value_parser = values::one_or_three, allow_hyphen_values = true)]
@@ -70,6 +77,18 @@ pub struct SceneFlags {
     /// How attributes vary: linearly on the screen, as in the lecture, or linearly in space
     #[arg(long, value_name = "HOW", value_parser = values::word::<Interpolation>())]
     interpolation: Option<Interpolation>,
+    /// Where the eye is for the highlights: at infinity, as in the lecture, or where the camera is
+    #[arg(long, value_name = "WHERE", value_parser = values::word::<ViewerChoice>())]
+    viewer: Option<ViewerChoice>,
+    /// The cosine of the highlights: phong (R.V) or blinn (N.H)
+    #[arg(long, value_name = "MODEL", value_parser = values::word::<SpecularModel>())]
+    specular: Option<SpecularModel>,
+    /// The cosine that exponents are meant for; they are converted if it is not that of --specular
+    #[arg(long, value_name = "MODEL", value_parser = values::word::<SpecularModel>())]
+    shininess_for: Option<SpecularModel>,
+    /// What becomes of highlights where the light is behind the surface
+    #[arg(long, value_name = "HOW", value_parser = values::word::<SpecularGate>())]
+    specular_gate: Option<SpecularGate>,
     /// How values are stored in 8 bits
     #[arg(long, value_name = "HOW", value_parser = values::word::<Encoding>())]
     encoding: Option<Encoding>,
@@ -151,8 +170,16 @@ impl SceneFlags {
         over.interpolation = flag(self.interpolation, "--interpolation");
         over.cull = flag(self.cull, "--cull");
         over.depth_test = self.no_depth.then(|| Located::flag(false, "--no-depth"));
-        if self.no_lights || !self.light.is_empty() {
-            over.light = Some(self.light.clone());
+        over.viewer = flag(self.viewer, "--viewer");
+        over.specular = flag(self.specular, "--specular");
+        over.shininess_for = flag(self.shininess_for, "--shininess-for");
+        over.specular_gate = flag(self.specular_gate, "--specular-gate");
+        if self.no_lights || !self.light.is_empty() || !self.light_at.is_empty() {
+            let attenuated = |light: &LightSection| LightSection {
+                attenuation: flag(self.attenuation, "--attenuation"),
+                ..light.clone()
+            };
+            over.light = Some(self.light.iter().cloned().chain(self.light_at.iter().map(attenuated)).collect());
         }
         over
     }

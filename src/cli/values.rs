@@ -39,17 +39,26 @@ pub fn size(text: &str) -> Result<[i64; 2], String> {
 
 /// `x,y,z` with an intensity or a colour after it.
 pub fn light(text: &str) -> Result<LightSection, String> {
+    light_of(text, "--light", LightSection::toward)
+        .ok_or_else(|| "expected a direction x,y,z, with an intensity or a colour r,g,b after it".to_owned())
+}
+
+/// The same for a light at a position.
+pub fn light_at(text: &str) -> Result<LightSection, String> {
+    light_of(text, "--light-at", LightSection::at)
+        .ok_or_else(|| "expected a position x,y,z, with an intensity or a colour r,g,b after it".to_owned())
+}
+
+fn light_of(text: &str, flag: &str, light: fn(Located<[f64; 3]>) -> LightSection) -> Option<LightSection> {
     let numbers = list(text).unwrap_or_default();
-    let at = |[x, y, z]: [f64; 3]| LightSection::toward(Located::flag([x, y, z], "--light"));
+    let at = |[x, y, z]: [f64; 3]| light(Located::flag([x, y, z], flag));
     match numbers[..] {
-        [x, y, z] => Ok(at([x, y, z])),
-        [x, y, z, intensity] => {
-            Ok(LightSection { intensity: Some(Located::flag(intensity, "--light")), ..at([x, y, z]) })
-        }
+        [x, y, z] => Some(at([x, y, z])),
+        [x, y, z, intensity] => Some(LightSection { intensity: Some(Located::flag(intensity, flag)), ..at([x, y, z]) }),
         [x, y, z, r, g, b] => {
-            Ok(LightSection { colour: Some(Located::flag(OneOrThree([r, g, b]), "--light")), ..at([x, y, z]) })
+            Some(LightSection { colour: Some(Located::flag(OneOrThree([r, g, b]), flag)), ..at([x, y, z]) })
         }
-        _ => Err("expected a direction x,y,z, with an intensity or a colour r,g,b after it".to_owned()),
+        _ => None,
     }
 }
 

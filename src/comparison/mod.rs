@@ -19,20 +19,14 @@
 //! let scene = Scene {
 //!     width: 48,
 //!     height: 48,
-//!     background: [0.0; 3],
-//!     camera: Camera::fit(points, &fit).ok_or("the mesh is empty")?,
-//!     ambient: [1.0; 3],
-//!     lights: vec![Light { direction: DVec3::new(1.0, 1.0, 2.0).normalize(), colour: [1.0; 3] }],
-//!     interpolation: Interpolation::Screen,
-//!     culling: Culling::Back,
-//!     depth_test: true,
-//!     encoding: Encoding::Linear,
+//!     lights: vec![Light::directional(DVec3::new(1.0, 1.0, 2.0).normalize(), [1.0; 3])],
 //!     objects: vec![Object {
 //!         mesh: mesh.into(),
 //!         transform: DAffine3::IDENTITY,
 //!         material: None,
 //!         normals: NormalSource::Averaged,
 //!     }],
+//!     ..Scene::new(Camera::fit(points, &fit).ok_or("the mesh is empty")?)
 //! };
 //! let frame = scene.frame()?;
 //!

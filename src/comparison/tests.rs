@@ -6,7 +6,7 @@ use crate::frame::{FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Light, Lighting, Material};
 use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
-use crate::scene::{Culling, Object, Scene};
+use crate::scene::{Object, Scene};
 use alloc::vec;
 use core::time::Duration;
 use glam::{DAffine3, DVec3};
@@ -21,19 +21,14 @@ fn frame_of(mesh: &str) -> Frame {
         width: 48,
         height: 36,
         background: [0.1, 0.2, 0.3],
-        camera,
-        ambient: [1.0; 3],
-        lights: vec![Light { direction: DVec3::new(1.0, 1.0, 2.0).normalize(), colour: [1.0; 3] }],
-        interpolation: Interpolation::Screen,
-        culling: Culling::Back,
-        depth_test: true,
-        encoding: Encoding::Linear,
+        lights: vec![Light::directional(DVec3::new(1.0, 1.0, 2.0).normalize(), [1.0; 3])],
         objects: vec![Object {
             mesh: mesh.into(),
             transform: DAffine3::IDENTITY,
             material: None,
             normals: NormalSource::Averaged,
         }],
+        ..Scene::new(camera)
     };
     scene.frame().unwrap()
 }
@@ -86,7 +81,7 @@ fn numbers_of_the_frame_are_those_of_a_hand_count() {
     // with x + y < 4, where x and y are counted from its corner in halves: 3 + 2 + 1 of whole ones and 4 on the
     // hypotenuse, which the top-left rule does not count.
     let mut builder = FrameBuilder::new(10, 8);
-    let light = Light { direction: DVec3::Z, colour: [1.0; 3] };
+    let light = Light::directional(DVec3::Z, [1.0; 3]);
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z));
     let mut polygon = |places: &[(i32, i32)], depth| {
         let corners: Vec<u32> = places

@@ -1,6 +1,6 @@
 //! Making a frame, and checking it once.
 
-use super::{ClipCorner, Frame, FrameError, FrameStats, Polygon, SubPixel, Vertex};
+use super::{ClipCorner, Frame, FrameError, FrameStats, Mean, Polygon, SubPixel, Vertex};
 use crate::lighting::{Lighting, Rgb};
 use crate::scene::{Encoding, Interpolation, Scene};
 use alloc::vec::Vec;
@@ -23,6 +23,9 @@ impl FrameBuilder {
                 depth_test: true,
                 encoding: Encoding::Linear,
                 vertices: Vec::new(),
+                positions: Vec::new(),
+                colours: Vec::new(),
+                means: Vec::new(),
                 clip_corners: Vec::new(),
                 corners: Vec::new(),
                 polygons: Vec::new(),
@@ -74,6 +77,41 @@ impl FrameBuilder {
         (self.frame.vertices.len() - 1) as u32
     }
 
+    /// Says where a vertex is: needed where a light or the eye is at a position. See [`Frame::position`].
+    ///
+    /// # Panics
+    /// When there is no such vertex.
+    pub fn position(&mut self, vertex: u32, position: [f32; 3]) -> &mut Self {
+        let frame = &mut self.frame;
+        frame.positions.resize(frame.vertices.len(), [0.0; 3]);
+        frame.positions[vertex as usize] = position;
+        self
+    }
+
+    /// Says which colour a vertex has. See [`Frame::colour`].
+    ///
+    /// # Panics
+    /// When there is no such vertex.
+    pub fn colour(&mut self, vertex: u32, colour: [f32; 3]) -> &mut Self {
+        let frame = &mut self.frame;
+        frame.colours.resize(frame.vertices.len(), [1.0; 3]);
+        frame.colours[vertex as usize] = colour;
+        self
+    }
+
+    /// Says what the mean of the corners of the polygon that comes next is, where it has not all of them; `corners` are
+    /// the vertices that it had.
+    pub fn mean_of(&mut self, corners: &[u32]) -> &mut Self {
+        let mean = self.frame.mean_of(corners);
+        self.mean(mean)
+    }
+
+    /// Says what the mean of the corners of the polygon that comes next is.
+    pub fn mean(&mut self, mean: Mean) -> &mut Self {
+        self.frame.means.push((self.frame.corners.len() as u32, mean));
+        self
+    }
+
     /// The vertex of a number that [`FrameBuilder::vertex`] returned.
     pub fn vertex_at(&self, index: u32) -> &Vertex {
         &self.frame.vertices[index as usize]
@@ -114,6 +152,10 @@ impl FrameBuilder {
             if lighting.lights.len() != lights || lights > Scene::MAX_LIGHTS {
                 return Err(FrameError::Lights { found: lighting.lights.len() });
             }
+        }
+        let finite = |all: &[[f32; 3]]| all.iter().position(|v| !v.iter().all(|c| c.is_finite()));
+        if let Some(index) = finite(&frame.positions).or_else(|| finite(&frame.colours)) {
+            return Err(FrameError::Vertex { index });
         }
         if let Some(index) = frame.vertices.iter().position(|v| !frame.vertex_is_valid(v)) {
             return Err(FrameError::Vertex { index });

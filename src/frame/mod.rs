@@ -81,6 +81,15 @@ pub struct FrameStats {
     pub clipped: usize,
 }
 
+/// The mean of a polygon's corners: where a method that lights a whole polygon at once takes light and viewer from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mean {
+    /// The mean of the corners' positions.
+    pub position: [f32; 3],
+    /// The mean of the corners' normals; not a unit vector.
+    pub normal: [f32; 3],
+}
+
 /// Projected polygons in drawing order, and the light on them.
 #[derive(Clone, Debug)]
 pub struct Frame {
@@ -91,6 +100,11 @@ pub struct Frame {
     depth_test: bool,
     encoding: Encoding,
     vertices: Vec<Vertex>,
+    /// One a vertex, or none at all; likewise colours.
+    positions: Vec<[f32; 3]>,
+    colours: Vec<[f32; 3]>,
+    /// Of polygons whose corners are not those of the scene's polygon, in ascending order of their number.
+    means: Vec<(u32, Mean)>,
     clip_corners: Vec<ClipCorner>,
     corners: Vec<u32>,
     polygons: Vec<Polygon>,
@@ -138,6 +152,49 @@ impl Frame {
         &self.vertices
     }
 
+    /// Where a vertex is, in world units along the axes of the world, from the eye: so that what is near the eye, where
+    /// precision matters, has small coordinates. 0 where the frame was given no positions. At a clip corner it means
+    /// nothing, like the normal.
+    #[inline(always)]
+    pub fn position(&self, vertex: u32) -> [f32; 3] {
+        self.positions.get(vertex as usize).copied().unwrap_or([0.0; 3])
+    }
+
+    /// The colour of a vertex, linear; white where the frame was given no colours. At a clip corner it means nothing.
+    #[inline(always)]
+    pub fn colour(&self, vertex: u32) -> [f32; 3] {
+        self.colours.get(vertex as usize).copied().unwrap_or([1.0; 3])
+    }
+
+    /// The mean of a polygon's corners, as they were before it was clipped or cut into triangles.
+    pub fn mean(&self, polygon: &Polygon) -> Mean {
+        // Corner lists follow one another, so the first corner tells polygons apart.
+        let place = self.means.binary_search_by_key(&polygon.first, |&(first, _)| first);
+        match place {
+            Ok(place) => self.means[place].1,
+            Err(_) => self.mean_of(self.corners(polygon)),
+        }
+    }
+
+    fn mean_of(&self, corners: &[u32]) -> Mean {
+        let share = 1.0 / corners.len() as f64;
+        let mut sum = [[0.0f64; 3]; 2];
+        for &corner in corners {
+            for (sum, v) in sum.iter_mut().zip([self.position(corner), self.vertices[corner as usize].normal]) {
+                for (sum, c) in sum.iter_mut().zip(v) {
+                    *sum += share * f64::from(c);
+                }
+            }
+        }
+        let [position, normal] = sum.map(|v| v.map(|c| c as f32));
+        Mean { position, normal }
+    }
+
+    /// Whether the vectors toward a light or toward the eye differ from point to point.
+    pub fn is_local(&self) -> bool {
+        self.lightings.iter().any(Lighting::is_local)
+    }
+
     /// The vertices that clipping made, in ascending order of their number.
     pub fn clip_corners(&self) -> &[ClipCorner] {
         &self.clip_corners
@@ -173,12 +230,18 @@ impl Frame {
     pub(crate) fn with_pieces(&self, mut pieces: impl FnMut(&Polygon, &mut dyn FnMut(&[u32]))) -> Frame {
         let mut corners = Vec::new();
         let mut polygons = Vec::new();
+        let mut means = Vec::new();
         for polygon in &self.polygons {
+            let mean = self.mean(polygon);
+            let is_whole = self.means.binary_search_by_key(&polygon.first, |&(first, _)| first).is_err();
             pieces(polygon, &mut |piece| {
+                if !is_whole || piece.len() != polygon.count as usize {
+                    means.push((corners.len() as u32, mean));
+                }
                 polygons.push(Polygon { first: corners.len() as u32, count: piece.len() as u32, ..*polygon });
                 corners.extend_from_slice(piece);
             });
         }
-        Frame { corners, polygons, ..self.clone() }
+        Frame { corners, polygons, means, ..self.clone() }
     }
 }

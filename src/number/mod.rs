@@ -52,8 +52,18 @@ pub trait Machine: Copy {
 
     /// A number of the set-up.
     fn one(self, x: f32) -> Self::One;
+    /// Three numbers of the set-up.
+    #[inline(always)]
+    fn three(self, v: [f32; 3]) -> [Self::One; 3] {
+        [self.one(v[0]), self.one(v[1]), self.one(v[2])]
+    }
     /// The same number for every pixel.
     fn splat(self, x: Self::One) -> Self::F;
+    /// Three such numbers.
+    #[inline(always)]
+    fn splat3(self, v: [Self::One; 3]) -> [Self::F; 3] {
+        [self.splat(v[0]), self.splat(v[1]), self.splat(v[2])]
+    }
     /// `at + k step` for pixel k of the group.
     fn ramp(self, at: Self::One, step: Self::One) -> Self::F;
     /// `WIDTH step`: from one group to the next.

@@ -6,7 +6,7 @@ use crate::frame::Frame;
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, Scalar, dot, each};
 use crate::picture::{LinearPicture, Picture};
-use crate::shader::{Corners, Shader, SpanOf};
+use crate::shader::{Corner, Corners, Shader, SpanOf};
 use crate::walk::{Lerp, Linear};
 use alloc::vec;
 use core::ops::Range;
@@ -67,8 +67,8 @@ impl Shader for Normals {
         [of(1.0), of(0.5)]
     }
     #[inline(always)]
-    fn vertex<R: Real>(_: &[R; 2], normal: [R; 3]) -> Lerp<[R; 3]> {
-        Lerp(normal)
+    fn vertex<M: Machine>(_: &[M::One; 2], corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
+        Lerp(corner.normal())
     }
     #[inline(always)]
     fn polygon<M: Machine>(_: &[M::One; 2], _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}

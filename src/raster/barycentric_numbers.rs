@@ -7,7 +7,7 @@ use crate::frame::Frame;
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, Scalar};
 use crate::picture::Picture;
-use crate::shader::{Corners, Shader, SpanOf};
+use crate::shader::{Corner, Corners, Shader, SpanOf};
 use crate::walk::{Constant, Lerp};
 
 /// The number of the polygon that the barycentric renderer shows at each pixel, an index into [`Frame::polygons`], or
@@ -51,7 +51,7 @@ impl Shader for FirstCorner {
         of(0.0)
     }
     #[inline(always)]
-    fn vertex<R: Real>(_: &R, _: [R; 3]) -> Lerp<()> {
+    fn vertex<M: Machine>(_: &M::One, _: &Corner<'_, M>) -> Lerp<()> {
         Lerp(())
     }
     #[inline(always)]

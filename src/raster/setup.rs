@@ -3,7 +3,7 @@
 use crate::frame::Frame;
 use crate::number::Machine;
 use crate::scene::Interpolation;
-use crate::shader::{Corners, Shader};
+use crate::shader::{Corner, Corners, Shader};
 use crate::walk::Attribute;
 use alloc::vec::Vec;
 
@@ -33,12 +33,12 @@ impl<S: Shader, M: Machine> SetUp<S, M> {
 /// Vertices are lit; clip corners lie between two of them and are not lit again; then all are weighted by 1/w where
 /// attributes are linear in space.
 fn attributes<S: Shader, M: Machine>(m: M, frame: &Frame, consts: &[S::Consts<M::One>]) -> Vec<S::Attribute<M::One>> {
-    let three = |v: [f32; 3]| v.map(|c| m.one(c));
     let vertices = frame.vertices();
-    let mut all: Vec<_> = vertices.iter().map(|v| S::vertex(&consts[v.material as usize], three(v.normal))).collect();
+    let corners = (0..).zip(vertices).map(|(vertex, v)| (v.material, Corner { machine: m, frame, vertex }));
+    let mut all: Vec<_> = corners.map(|(material, corner)| S::vertex(&consts[material as usize], &corner)).collect();
     for corner in frame.clip_corners() {
         let (a, b) = (all[corner.a as usize], all[corner.b as usize]);
-        let edge = S::Attribute::edge(m, three(corner.face), a, b, m.one(corner.t), m.one(0.0));
+        let edge = S::Attribute::edge(m, m.three(corner.face), a, b, m.one(corner.t), m.one(0.0));
         all[corner.vertex as usize] = S::Attribute::at(&edge);
     }
     if frame.interpolation() == Interpolation::Perspective {

@@ -2,7 +2,7 @@
 
 use super::Model;
 use super::coverage::{Crossing, Scanline, SpanPlace, Weights};
-use super::illumination::{illuminate, wide};
+use super::illumination::{illuminate, sum, wide};
 use crate::frame::{ClipCorner, Frame, Polygon, Vertex};
 use crate::scene::Interpolation;
 use alloc::vec::Vec;
@@ -48,6 +48,8 @@ pub(crate) struct VertexAttributes<'a> {
     model: Model,
     /// Colours (Gouraud) or normals (Phong, slerp); none for flat shading.
     values: Vec<DVec3>,
+    /// Positions, where each pixel sees light and eye from its own.
+    positions: Vec<DVec3>,
 }
 
 impl<'a> VertexAttributes<'a> {
@@ -56,45 +58,72 @@ impl<'a> VertexAttributes<'a> {
     /// A vertex that clipping made lies between two others, which may be such vertices too: it has what the model would
     /// show there, and is not lit by a normal of its own.
     pub fn new(frame: &'a Frame, model: Model) -> Self {
-        let normal = |v: &Vertex| wide(v.normal);
-        let colour = |v: &Vertex| illuminate(&frame.lightings()[v.material as usize], wide(v.normal));
-        let mut values: Vec<DVec3> = match model {
-            Model::Flat => Vec::new(),
-            Model::Gouraud => frame.vertices().iter().map(colour).collect(),
-            Model::Phong | Model::Slerp => frame.vertices().iter().map(normal).collect(),
+        let position = |number: u32| wide(frame.position(number));
+        let normal = |_: u32, v: &Vertex| wide(v.normal);
+        let unclamped =
+            |number: u32, v: &Vertex| sum(&frame.lightings()[v.material as usize], wide(v.normal), position(number));
+        let colour = |number: u32, v: &Vertex| unclamped(number, v).clamp(DVec3::ZERO, DVec3::ONE);
+        let all = |of: &dyn Fn(u32, &Vertex) -> DVec3| -> Vec<DVec3> {
+            (0..).zip(frame.vertices()).map(|(number, v)| of(number, v)).collect()
         };
-        if !values.is_empty() {
-            for &ClipCorner { vertex, a, b, t, face } in frame.clip_corners() {
-                let (a, b, t) = (values[a as usize], values[b as usize], f64::from(t));
-                values[vertex as usize] =
-                    if model == Model::Slerp { slerp(a, b, t, wide(face)) } else { lerp(a, b, t) };
+        let mut values: Vec<DVec3> = match model {
+            Model::Flat | Model::FlatAverage => Vec::new(),
+            Model::Gouraud => all(&colour),
+            Model::GouraudSeparate => all(&unclamped),
+            Model::Phong | Model::PhongConstant | Model::Slerp => all(&normal),
+        };
+        let is_followed = model == Model::Phong && frame.is_local();
+        let mut positions = if is_followed { all(&|number, _| position(number)) } else { Vec::new() };
+        for &ClipCorner { vertex, a, b, t, face } in frame.clip_corners() {
+            let (to, a, b, t) = (vertex as usize, a as usize, b as usize, f64::from(t));
+            if !values.is_empty() {
+                let (a, b) = (values[a], values[b]);
+                values[to] = if model == Model::Slerp { slerp(a, b, t, wide(face)) } else { lerp(a, b, t) };
+            }
+            if is_followed {
+                positions[to] = lerp(positions[a], positions[b], t);
             }
         }
-        VertexAttributes { frame, model, values }
+        VertexAttributes { frame, model, values, positions }
     }
 
     /// The colour of the pixel `x` on a scanline of `polygon`; `None` where the polygon does not cover it.
     pub fn colour(&self, polygon: &Polygon, scanline: &Scanline, x: usize) -> Option<DVec3> {
         let lighting = &self.frame.lightings()[polygon.material as usize];
+        let mean = || self.frame.mean(polygon);
+        let at_mean = |n: DVec3| illuminate(lighting, n, wide(mean().position));
         Some(match self.model {
             Model::Flat => {
                 scanline.edges(x)?;
-                illuminate(lighting, wide(polygon.normal))
+                at_mean(wide(polygon.normal))
             }
-            Model::Gouraud => self.interpolated(&scanline.weights(x)?),
-            Model::Phong => illuminate(lighting, unit(self.interpolated(&scanline.weights(x)?))),
-            Model::Slerp => illuminate(lighting, self.slerped(&scanline.place(x)?, wide(polygon.normal))),
+            Model::FlatAverage => {
+                scanline.edges(x)?;
+                at_mean(unit(wide(mean().normal)))
+            }
+            Model::Gouraud => self.interpolated(&self.values, &scanline.weights(x)?),
+            Model::GouraudSeparate => {
+                self.interpolated(&self.values, &scanline.weights(x)?).clamp(DVec3::ZERO, DVec3::ONE)
+            }
+            Model::Phong => {
+                let weights = scanline.weights(x)?;
+                let position =
+                    if self.positions.is_empty() { DVec3::ZERO } else { self.interpolated(&self.positions, &weights) };
+                illuminate(lighting, unit(self.interpolated(&self.values, &weights)), position)
+            }
+            Model::PhongConstant => at_mean(unit(self.interpolated(&self.values, &scanline.weights(x)?))),
+            Model::Slerp => at_mean(self.slerped(&scanline.place(x)?, wide(polygon.normal))),
         })
     }
 
     /// The blend of the corners' values: linear on the screen, or in space, where value/w and 1/w are linear on the
     /// screen (perspective interpolation).
-    fn interpolated(&self, weights: &Weights) -> DVec3 {
+    fn interpolated(&self, values: &[DVec3], weights: &Weights) -> DVec3 {
         match self.frame.interpolation() {
-            Interpolation::Screen => weights.sum(|v| self.values[v]),
+            Interpolation::Screen => weights.sum(|v| values[v]),
             Interpolation::Perspective => {
                 let inv_w = |v: usize| f64::from(self.frame.vertices()[v].inv_w);
-                weights.sum(|v| self.values[v] * inv_w(v)) / weights.sum(inv_w)
+                weights.sum(|v| values[v] * inv_w(v)) / weights.sum(inv_w)
             }
         }
     }

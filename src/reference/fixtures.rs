@@ -2,16 +2,16 @@
 
 use super::coverage::{Scanline, bounding_box};
 use crate::frame::{ClipCorner, Frame, FrameBuilder, SubPixel, Vertex};
-use crate::lighting::{LightTerm, Lighting};
+use crate::lighting::{Light, Lighting, Material};
 use crate::picture::Picture;
 use alloc::string::String;
-use alloc::vec;
 use alloc::vec::Vec;
+use glam::DVec3;
 
 /// A light along z that shows the z of a unit normal as a grey: no ambient, no specular light.
 pub(crate) fn z_light() -> Lighting {
-    let light = LightTerm { direction: [0.0, 0.0, 1.0], diffuse: [1.0; 3], specular: [0.0; 3] };
-    Lighting { ambient: [0.0; 3], lights: vec![light], view: [0.0, 0.0, 1.0], shininess: 1.0 }
+    let material = Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 };
+    Lighting::new(&material, [0.0; 3], &[Light::directional(DVec3::Z, [1.0; 3])], DVec3::Z)
 }
 
 /// A vertex at a place of the picture, of the first material.

@@ -1,6 +1,6 @@
 //! The illumination model (L21 2.1), as it is printed, with the clamps that it leaves out.
 
-use crate::lighting::Lighting;
+use crate::lighting::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
 use glam::DVec3;
 
 /// A direction or colour of the frame in double precision.
@@ -8,26 +8,65 @@ pub(crate) fn wide(v: [f32; 3]) -> DVec3 {
     DVec3::from_array(v.map(f64::from))
 }
 
-/// The colour of a surface with the unit normal `n` under all lights, 0..=1:
-/// ```text
-/// I = I_a k_a + Σ (I_p k_d (L·N) + I_p k_s (R·V)ⁿ)      (L21 2.1)
-/// R = 2 (L·N) N − L
-/// ```
-/// A light behind the surface (L·N ≤ 0) adds nothing, no highlight either; R·V counts from 0 up; the sum is clamped once,
-/// at the end. 0⁰ is 1. The zero vector has no direction: ambient light only.
-pub(crate) fn illuminate(lighting: &Lighting, n: DVec3) -> DVec3 {
-    let v = wide(lighting.view);
-    let mut intensity = wide(lighting.ambient);
-    for light in &lighting.lights {
-        let l = wide(light.direction);
-        let l_n = l.dot(n);
-        if l_n > 0.0 {
-            let r = 2.0 * l_n * n - l; // R = 2 (L·N) N − L
-            let highlight = libm::pow(r.dot(v).max(0.0), f64::from(lighting.shininess));
-            intensity += wide(light.diffuse) * l_n + wide(light.specular) * highlight; // 2.1
+/// The unit vector from `from` to `place`, and the distance; zero where they are one point.
+fn toward(place: Place<[f32; 3]>, from: DVec3) -> (DVec3, f64) {
+    match place {
+        Place::Infinite(direction) => (wide(direction), f64::INFINITY),
+        Place::Local(position) => {
+            let vector = wide(position) - from;
+            (vector.normalize_or_zero(), vector.length())
         }
     }
-    intensity.clamp(DVec3::ZERO, DVec3::ONE)
+}
+
+/// What is left of a light at the distance `r`:
+/// ```text
+/// 1 / (1 + k r²)      (CS171 2, Attenuation)        1 / r²,  1 / r      (L5, Light Falloff)
+/// ```
+/// Distances below 1e-15 count as that.
+fn strength(falloff: Falloff, r: f64) -> f64 {
+    let r = r.max(1e-15);
+    match falloff {
+        Falloff::None => 1.0,
+        Falloff::Attenuation(k) => 1.0 / (1.0 + f64::from(k) * r * r),
+        Falloff::InverseSquare => 1.0 / (r * r),
+        Falloff::Inverse => 1.0 / r,
+    }
+}
+
+/// The colour of a surface with the unit normal `n` at the point `p` under all lights, not clamped:
+/// ```text
+/// I = I_a k_a + Σ (I_p k_d (L·N) + I_p k_s (R·V)ⁿ)      (L21 2.1)
+/// R = 2 (L·N) N − L                                     or N·H, H = (L + V) / |L + V|      (CS171 2)
+/// ```
+/// A light behind the surface (L·N ≤ 0) adds nothing, no highlight either unless the scene asks for it; R·V and N·H count
+/// from 0 up. 0⁰ is 1. The zero vector has no direction: ambient light only.
+pub(crate) fn sum(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
+    let (v, _) = toward(lighting.view, p);
+    let mut intensity = wide(lighting.ambient);
+    for light in &lighting.lights {
+        let (l, r) = toward(light.place, p);
+        let l_n = l.dot(n);
+        let cosine = match lighting.specular {
+            SpecularModel::Phong => (2.0 * l_n * n - l).dot(v), // R = 2 (L·N) N − L
+            SpecularModel::Blinn => n.dot((l + v).normalize_or_zero()), // h = (e + l) / |e + l|
+        };
+        let highlight = libm::pow(cosine.max(0.0), f64::from(lighting.shininess));
+        let highlight = match lighting.gate {
+            SpecularGate::Gated if l_n > 0.0 => highlight,
+            SpecularGate::Gated => 0.0,
+            SpecularGate::Ungated => highlight,
+            SpecularGate::Weighted => highlight * l_n.max(0.0),
+        };
+        let falloff = if light.place.is_local() { strength(light.falloff, r) } else { 1.0 };
+        intensity += (wide(light.diffuse) * l_n.max(0.0) + wide(light.specular) * highlight) * falloff; // 2.1
+    }
+    intensity
+}
+
+/// The same clamped to 0..=1, once, at the end.
+pub(crate) fn illuminate(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
+    sum(lighting, n, p).clamp(DVec3::ZERO, DVec3::ONE)
 }
 
 #[cfg(test)]
@@ -40,68 +79,83 @@ mod tests {
     const Z: [f32; 3] = [0.0, 0.0, 1.0];
 
     fn lighting(lights: Vec<LightTerm>, view: [f32; 3], shininess: f32) -> Lighting {
-        Lighting { ambient: [0.125, 0.0, 0.25], lights, view, shininess }
+        Lighting {
+            ambient: [0.125, 0.0, 0.25],
+            lights,
+            view: Place::Infinite(view),
+            shininess,
+            specular: SpecularModel::Phong,
+            gate: SpecularGate::Gated,
+        }
     }
 
     fn white(direction: [f32; 3], diffuse: f32, specular: f32) -> LightTerm {
-        LightTerm { direction, diffuse: [diffuse; 3], specular: [specular; 3] }
+        LightTerm {
+            place: Place::Infinite(direction),
+            diffuse: [diffuse; 3],
+            specular: [specular; 3],
+            falloff: Falloff::None,
+        }
     }
 
     #[test]
     fn light_from_the_front_adds_both_terms_per_channel() {
-        let light = LightTerm { direction: Z, diffuse: [0.5, 0.25, 0.0], specular: [0.0, 0.5, 0.5] };
+        let light = LightTerm { diffuse: [0.5, 0.25, 0.0], specular: [0.0, 0.5, 0.5], ..white(Z, 0.0, 0.0) };
         // L = V = N: L·N = R·V = 1.
-        assert_eq!(illuminate(&lighting(vec![light], Z, 7.0), DVec3::Z), DVec3::new(0.625, 0.75, 0.75));
+        assert_eq!(illuminate(&lighting(vec![light], Z, 7.0), DVec3::Z, DVec3::ZERO), DVec3::new(0.625, 0.75, 0.75));
     }
 
     #[test]
     fn the_highlight_is_a_power_of_the_reflected_ray() {
         // L = (0.6, 0, 0.8) about N = z gives R = (−0.6, 0, 0.8): R·V = 0.8 for V = z, cubed 0.512. L·N = 0.8.
-        let i = illuminate(&lighting(vec![white([0.6, 0.0, 0.8], 0.25, 0.5)], Z, 3.0), DVec3::Z).y;
+        let i = illuminate(&lighting(vec![white([0.6, 0.0, 0.8], 0.25, 0.5)], Z, 3.0), DVec3::Z, DVec3::ZERO).y;
         // 0.8 and 0.6 are rounded to f32, 2⁻²⁵ each: (0.25 + 3 · 0.64 · 0.5) · 2⁻²⁵ < 2⁻²⁴.
         assert!((i - (0.2 + 0.256)).abs() < 6e-8, "{i}");
         // Seen along L, R·V = 0.64 − 0.36 = 0.28.
         let along = lighting(vec![white([0.6, 0.0, 0.8], 0.0, 1.0)], [0.6, 0.0, 0.8], 1.0);
         // R·V moves by 2 · (0.6 + 0.8) · 2⁻²⁵ and l_n, which is in it twice, by as much again: below 2⁻²².
-        assert!((illuminate(&along, DVec3::Z).y - 0.28).abs() < 2.4e-7);
+        assert!((illuminate(&along, DVec3::Z, DVec3::ZERO).y - 0.28).abs() < 2.4e-7);
     }
 
     #[test]
     fn a_light_behind_the_surface_leaves_ambient_light() {
         let ambient = DVec3::new(0.125, 0.0, 0.25);
-        assert_eq!(illuminate(&lighting(vec![white([0.0, 0.0, -1.0], 1.0, 0.0)], Z, 2.0), DVec3::Z), ambient);
+        assert_eq!(
+            illuminate(&lighting(vec![white([0.0, 0.0, -1.0], 1.0, 0.0)], Z, 2.0), DVec3::Z, DVec3::ZERO),
+            ambient
+        );
         // R·V = 1 here: a specular term without gate would light the back.
         let back = lighting(vec![white([0.0, 0.0, -1.0], 0.0, 1.0)], [0.0, 0.0, -1.0], 2.0);
-        assert_eq!(illuminate(&back, DVec3::Z), ambient);
+        assert_eq!(illuminate(&back, DVec3::Z, DVec3::ZERO), ambient);
         // A grazing light, L·N = 0, is behind: n = 0 would add k_s.
         let grazing = lighting(vec![white([1.0, 0.0, 0.0], 1.0, 1.0)], Z, 0.0);
-        assert_eq!(illuminate(&grazing, DVec3::Z), ambient);
+        assert_eq!(illuminate(&grazing, DVec3::Z, DVec3::ZERO), ambient);
     }
 
     #[test]
     fn the_far_side_of_the_highlight_is_dark_even_for_even_exponents() {
         // R = z, V = −z: R·V = −1, squared 1.
-        let i = illuminate(&lighting(vec![white(Z, 0.0, 1.0)], [0.0, 0.0, -1.0], 2.0), DVec3::Z);
+        let i = illuminate(&lighting(vec![white(Z, 0.0, 1.0)], [0.0, 0.0, -1.0], 2.0), DVec3::Z, DVec3::ZERO);
         assert_eq!(i, DVec3::new(0.125, 0.0, 0.25));
     }
 
     #[test]
     fn zero_to_the_power_of_zero_is_one() {
-        let i = illuminate(&lighting(vec![white(Z, 0.0, 0.5)], [0.0, 0.0, -1.0], 0.0), DVec3::Z);
+        let i = illuminate(&lighting(vec![white(Z, 0.0, 0.5)], [0.0, 0.0, -1.0], 0.0), DVec3::Z, DVec3::ZERO);
         assert_eq!(i, DVec3::new(0.625, 0.5, 0.75));
     }
 
     #[test]
     fn lights_are_summed_then_clamped() {
         let two = lighting(vec![white(Z, 0.25, 0.0), white(Z, 0.5, 0.0)], Z, 1.0);
-        assert_eq!(illuminate(&two, DVec3::Z), DVec3::new(0.875, 0.75, 1.0));
+        assert_eq!(illuminate(&two, DVec3::Z, DVec3::ZERO), DVec3::new(0.875, 0.75, 1.0));
         let bright = lighting(vec![white(Z, 0.75, 0.0), white(Z, 0.75, 0.0)], Z, 1.0);
-        assert_eq!(illuminate(&bright, DVec3::Z), DVec3::ONE);
+        assert_eq!(illuminate(&bright, DVec3::Z, DVec3::ZERO), DVec3::ONE);
     }
 
     #[test]
     fn no_direction_no_light() {
-        let i = illuminate(&lighting(vec![white(Z, 1.0, 1.0)], Z, 0.0), DVec3::ZERO);
+        let i = illuminate(&lighting(vec![white(Z, 1.0, 1.0)], Z, 0.0), DVec3::ZERO, DVec3::ZERO);
         assert_eq!(i, DVec3::new(0.125, 0.0, 0.25));
     }
 }

@@ -32,16 +32,25 @@ use coverage::Scanline;
 /// What varies over a polygon, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
-    /// One colour a polygon, lit by its own normal (L21 2).
+    /// One colour a polygon, lit by its own normal (L21 2). Light and eye at positions are seen from the mean of its corners.
     Flat,
+    /// One colour a polygon, lit by the normalised mean of its vertex normals (CS171 3, Algorithm 6).
+    FlatAverage,
     /// Colours: each vertex is lit by its own normal and clamped to 0..=1; then colours are interpolated linearly
     /// (L21 3).
     Gouraud,
+    /// Colours, not clamped at the vertices, but at each pixel: what is left when diffuse and specular light are
+    /// interpolated apart and summed.
+    GouraudSeparate,
     /// Normals, linearly and not normalised on the edges; normalised and lit at each pixel (L21 4.1). Where the
     /// interpolated normal vanishes it has no direction, and only ambient light is left.
     Phong,
+    /// As [`Model::Phong`], with the vectors toward light and eye constant over each polygon, as the lecture assumes
+    /// (L21 1): those of the mean of its corners. With light and eye at infinity it is the same.
+    PhongConstant,
     /// Normals, along great circles: first along the two edges, then along the span between them (L21 4.4), triangles
-    /// too; lit at each pixel, not normalised again. It does not know of depth:
+    /// too; lit at each pixel, not normalised again; light and eye as in
+    /// [`Model::PhongConstant`]. It does not know of depth:
     /// [`Interpolation::Perspective`](crate::scene::Interpolation::Perspective) changes nothing.
     ///
     /// Less than 1e-3 apart, normals are interpolated linearly; more than 179° apart they name no great circle, and the
@@ -51,7 +60,15 @@ pub enum Model {
 
 impl Model {
     /// All models, in the order of the lecture.
-    pub const ALL: [Model; 4] = [Model::Flat, Model::Gouraud, Model::Phong, Model::Slerp];
+    pub const ALL: [Model; 7] = [
+        Model::Flat,
+        Model::FlatAverage,
+        Model::Gouraud,
+        Model::GouraudSeparate,
+        Model::Phong,
+        Model::PhongConstant,
+        Model::Slerp,
+    ];
 }
 
 /// A picture of the reference, and what it knows of each pixel.

@@ -3,10 +3,12 @@
 //! What is read here is not yet checked: [`SceneFile::resolve`] does that, for values from files and from command-line
 //! flags alike.
 
+pub use super::lights::{FalloffChoice, LightSection, ViewerChoice};
+
 use super::diagnostics::{SceneError, SourceText};
 use super::value::{Choice, Located, OneOrThree, Origin, shortest};
 use super::{Culling, Encoding, Interpolation, Scene};
-use crate::lighting::Material;
+use crate::lighting::{Material, SpecularGate, SpecularModel};
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::ser::{Serialize, Serializer};
 use std::fmt;
@@ -35,6 +37,20 @@ pub struct SceneFile {
     /// `"screen"` (the lecture's, default) or `"perspective"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Located<Interpolation>>,
+    /// Where the eye is for the highlights: `"infinite"`, at infinity along the line of sight (the lecture's, default), or
+    /// `"local"`, where the camera is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub viewer: Option<Located<ViewerChoice>>,
+    /// The cosine of the highlights: `"phong"` (R·V, the lecture's, default) or `"blinn"` (N·H).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub specular: Option<Located<SpecularModel>>,
+    /// The cosine that `shininess` is meant for, `"phong"` or `"blinn"`: where it is not that of `specular`, exponents
+    /// are converted, four times as large for N·H. Default: that of `specular`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shininess_for: Option<Located<SpecularModel>>,
+    /// Highlights where the light is behind the surface: `"gated"` (none, default), `"ungated"`, or `"weighted"` by L·N.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub specular_gate: Option<Located<SpecularGate>>,
     /// Which polygons are left out: `"back"` (default), `"front"` or `"none"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cull: Option<Located<Culling>>,
@@ -50,7 +66,7 @@ pub struct SceneFile {
     /// The material of all that has none of its own.
     #[serde(default, skip_serializing_if = "MaterialSection::is_empty")]
     pub material: MaterialSection,
-    /// Directional lights. Default: one white light from the upper right; `light = []` means ambient light only.
+    /// Lights. Default: one white light from the upper right; `light = []` means ambient light only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub light: Option<Vec<LightSection>>,
     /// What is drawn, in this order; at least one.
@@ -155,27 +171,6 @@ section! {
         ks: OneOrThree,
         /// The exponent `n`, 0 or more.
         shininess: f64,
-    }
-}
-
-/// `[[light]]`: a directional light.
-#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct LightSection {
-    /// Toward the light, in world space; any length but 0.
-    pub direction: Located<[f64; 3]>,
-    /// Intensity of each channel, 0 or more: one number or red, green, blue. Default: 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub colour: Option<Located<OneOrThree>>,
-    /// A factor on the colour, 0 or more. Default: 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub intensity: Option<Located<f64>>,
-}
-
-impl LightSection {
-    /// A white light of intensity 1.
-    pub fn toward(direction: impl Into<Located<[f64; 3]>>) -> Self {
-        LightSection { direction: direction.into(), colour: None, intensity: None }
     }
 }
 

@@ -6,6 +6,8 @@ mod check;
 pub mod diagnostics;
 #[cfg(feature = "io")]
 pub mod file;
+#[cfg(feature = "io")]
+mod lights;
 mod of_mesh;
 #[cfg(feature = "io")]
 mod overlay;
@@ -17,7 +19,7 @@ pub mod value;
 mod viewpoint;
 
 use crate::camera::Camera;
-use crate::lighting::{Light, Material, Rgb};
+use crate::lighting::{Light, Material, Rgb, SpecularGate, SpecularModel};
 use crate::mesh::PolygonMesh;
 use crate::mesh::vertex_normals::NormalSource;
 use alloc::sync::Arc;
@@ -89,8 +91,17 @@ pub struct Scene {
     pub camera: Camera,
     /// Ambient intensity `I_a` of each channel.
     pub ambient: Rgb,
-    /// Directional lights; none means ambient light only.
+    /// Lights; none means ambient light only.
     pub lights: Vec<Light>,
+    /// Whether the eye is where the camera is, as each point sees it; without it, it is at infinity along the line of
+    /// sight, as the lecture assumes (L21 1).
+    pub local_viewer: bool,
+    /// The cosine that is raised to the exponents.
+    pub specular: SpecularModel,
+    /// The model that the materials' exponents are meant for; they are converted where it is not [`Scene::specular`].
+    pub shininess_for: SpecularModel,
+    /// What becomes of highlights where the light is behind the surface.
+    pub gate: SpecularGate,
     /// How attributes vary over the screen.
     pub interpolation: Interpolation,
     /// Which sides are left out.
@@ -104,6 +115,28 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Nothing, seen by `camera` on 640 × 480 texels under white ambient light; everything else as in a scene file that
+    /// says nothing, but without its light. For `Scene { objects, ..Scene::new(camera) }`.
+    pub fn new(camera: Camera) -> Scene {
+        Scene {
+            width: 640,
+            height: 480,
+            background: [0.0; 3],
+            camera,
+            ambient: [1.0; 3],
+            lights: Vec::new(),
+            local_viewer: false,
+            specular: SpecularModel::Phong,
+            shininess_for: SpecularModel::Phong,
+            gate: SpecularGate::Gated,
+            interpolation: Interpolation::Screen,
+            culling: Culling::Back,
+            depth_test: true,
+            encoding: Encoding::Linear,
+            objects: Vec::new(),
+        }
+    }
+
     /// The longest side of a picture: 16,384 texels, as far as a 16-bit texel coordinate with two guard bits goes.
     pub const MAX_SIDE: u32 = 16_384;
     /// The most lights a scene may have.

@@ -1,6 +1,6 @@
 //! The scene that a mesh alone gets.
 
-use super::{Culling, Encoding, Interpolation, Object, Scene};
+use super::{Object, Scene};
 use crate::camera::{Camera, Projection};
 use crate::camera_fit::Fit;
 use crate::lighting::{Light, Material};
@@ -58,20 +58,14 @@ impl Scene {
         Scene {
             width,
             height,
-            background: [0.0; 3],
-            camera,
-            ambient: [1.0; 3],
-            lights: vec![Light { direction: unit(Scene::DEFAULT_LIGHT), colour: [1.0; 3] }],
-            interpolation: Interpolation::default(),
-            culling: Culling::default(),
-            depth_test: true,
-            encoding: Encoding::default(),
+            lights: vec![Light::directional(unit(Scene::DEFAULT_LIGHT), [1.0; 3])],
             objects: vec![Object {
                 mesh: Arc::new(mesh),
                 transform: DAffine3::IDENTITY,
                 material: own,
                 normals: NormalSource::Averaged,
             }],
+            ..Scene::new(camera)
         }
     }
 }

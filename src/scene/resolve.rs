@@ -2,7 +2,7 @@
 
 use super::check::{Check, is_coordinate, is_position};
 use super::diagnostics::SceneError;
-use super::file::{LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile};
+use super::file::{LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice};
 use super::value::{Located, OneOrThree, Origin};
 use super::viewpoint::Viewpoint;
 use super::{MAX_COORDINATE, Object, Scene};
@@ -57,6 +57,10 @@ impl SceneFile {
         let points: Vec<DVec3> = objects.iter().flat_map(world_points).collect();
         let aspect = f64::from(width) / f64::from(height);
         let camera = viewpoint.camera(points.iter().copied(), aspect, &check, &mut warnings)?;
+        for section in self.light.iter().flatten() {
+            section.check_distance(&points, &check)?;
+        }
+        let specular = self.specular.as_ref().map_or_else(Default::default, |given| given.value);
         let scene = Scene {
             width,
             height,
@@ -64,6 +68,10 @@ impl SceneFile {
             camera,
             ambient,
             lights,
+            local_viewer: self.viewer.as_ref().is_some_and(|given| given.value == ViewerChoice::Local),
+            specular,
+            shininess_for: self.shininess_for.as_ref().map_or(specular, |given| given.value),
+            gate: self.specular_gate.as_ref().map_or_else(Default::default, |given| given.value),
             interpolation: self.interpolation.as_ref().map_or_else(Default::default, |given| given.value),
             culling: self.cull.as_ref().map_or_else(Default::default, |given| given.value),
             depth_test: self.depth_test.as_ref().is_none_or(|given| given.value),
@@ -79,9 +87,10 @@ impl SceneFile {
         if let Some(over) = sections.get(Scene::MAX_LIGHTS) {
             let problem = format!("is of light number {}", Scene::MAX_LIGHTS + 1);
             let expected = format!("expected {} lights at most", Scene::MAX_LIGHTS);
-            return Err(check.error(&over.direction.origin, "light.direction", &problem, expected));
+            let at = over.direction.as_ref().or(over.position.as_ref()).map(|given| &given.origin);
+            return Err(check.error(at.unwrap_or(&Origin::Program), "light", &problem, expected));
         }
-        sections.iter().map(|section| light(section, check)).collect()
+        sections.iter().map(|section| section.resolve(check)).collect()
     }
 
     fn objects(
@@ -161,26 +170,6 @@ fn channels(
     default: Rgb,
 ) -> Result<Rgb, SceneError> {
     given.as_ref().map_or(Ok(default), |given| check.channels(given, key, most))
-}
-
-fn light(section: &LightSection, check: &Check) -> Result<Light, SceneError> {
-    let direction = check.direction(&section.direction, "light.direction")?;
-    let colour = channels(check, &section.colour, "light.colour", f64::INFINITY, [1.0; 3])?;
-    let intensity = match &section.intensity {
-        Some(given) => check.not_negative(given, "light.intensity")?,
-        None => 1.0,
-    };
-    let colour = colour.map(|channel| (f64::from(channel) * intensity) as f32);
-    if let (Some(given), false) = (&section.intensity, colour.iter().all(|channel| channel.is_finite())) {
-        let problem = format!("is {intensity}");
-        return Err(check.error(
-            &given.origin,
-            "light.intensity",
-            &problem,
-            "expected a finite product with the colour",
-        ));
-    }
-    Ok(Light { direction, colour })
 }
 
 /// The coefficients given in `section`, those of `default` where none are.

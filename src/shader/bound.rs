@@ -1,7 +1,9 @@
 //! How far a method may be from its closed form: counted in roundings, not guessed.
 
-use super::Info;
+use super::spread::Spread;
+use super::{Info, Perspective};
 use crate::frame::{Frame, Polygon};
+use crate::lighting::{Lighting, SpecularModel};
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
 const ROUNDING: f64 = 1.0 / (1u64 << 24) as f64;
@@ -21,10 +23,14 @@ pub struct Roundings {
 /// What a method steps along edges and spans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stepped {
-    /// Colours: what they are off by is what the picture is off by.
+    /// Colours of at most 1: what they are off by is what the picture is off by.
     Colours,
+    /// Colours that are clamped later: off by as much as all light together is over 1.
+    Sums,
     /// Normals or cosines: the illumination model comes after, and multiplies what they are off by.
     Cosines,
+    /// Products of two vectors that grow linearly: likewise.
+    Products,
 }
 
 impl Info {
@@ -32,27 +38,72 @@ impl Info {
     /// form ([`Info::model`]), in a linear channel of 0..=1.
     ///
     /// With s steps from a corner to a pixel, a cosine is off by `e = (start + step · s) · 2⁻²⁴`. The diffuse term passes
-    /// that on times `I_p k_d`; `R·V = 2 (L·N)(N·V) − L·V` is off by up to 4 e, and the power multiplies that by n.
+    /// that on times `I_p k_d`; `R·V = 2 (L·N)(N·V) − L·V` is off by up to 4 e, and the power multiplies that by n. Of
+    /// `N·H = (L·N + V·N) / h`, h = |L + V|, the sum is off by 2 e and h by e/h, so that it is off by `2 e/h + e/h²`, which
+    /// is below 4 e while h is over 0.8.
+    ///
+    /// A vector toward a place is rounded at its longest and divided by its length where it is shortest: with [`Spread`] σ
+    /// between the two its direction is off by σ times as much, and its square by σ². A falloff of at most its strength
+    /// where the light is nearest multiplies colours and their errors, and is off by as much as the square itself.
     ///
     /// Errors of the method itself, Newton's on short spans with large angles among them, are not rounding: where the
     /// difference is over this bound, the report says so.
     pub fn bound(&self, frame: &Frame) -> f64 {
         let steps = frame.polygons().iter().map(|p| longest_walk(frame, p)).max().unwrap_or(0) as f64;
-        let gain = frame.lightings().iter().map(|lighting| {
-            let channel = |c: usize| {
-                let term = |l: &crate::lighting::LightTerm| {
-                    f64::from(l.diffuse[c]) + 4.0 * f64::from(lighting.shininess.max(1.0)) * f64::from(l.specular[c])
-                };
-                lighting.lights.iter().map(term).sum::<f64>()
-            };
-            channel(0).max(channel(1)).max(channel(2)).max(1.0)
-        });
-        let gain = gain.fold(1.0, f64::max);
+        let spread = Spread::of(frame);
+        let gains = (0..).zip(frame.lightings()).map(|(material, lighting)| Gain::of(&spread, material, lighting));
+        let gain = gains.fold(Gain { cosine: 1.0, sum: 1.0 }, Gain::max);
         let Roundings { start, step, of } = self.roundings;
+        // What is rounded where the weight of perspective is largest counts for more where it is smallest.
+        let weights = match self.perspective {
+            Perspective::Free | Perspective::Divides => spread.weights,
+            Perspective::Unaffected | Perspective::ScreenOnly => 1.0,
+        };
+        let rounding = ROUNDING * weights;
+        // What starts a colour is lit from vectors to places, too.
+        let (toward, square) = (spread.vectors, spread.vectors * spread.vectors);
         match of {
-            Stepped::Colours => ROUNDING * (start * gain + step * steps),
-            Stepped::Cosines => ROUNDING * (start + step * steps) * gain,
+            Stepped::Colours => rounding * (start * gain.cosine * toward + step * steps),
+            Stepped::Sums => rounding * (start * gain.cosine * toward + step * steps * gain.sum),
+            Stepped::Cosines => rounding * (start + step * steps) * gain.cosine * toward,
+            // Squares of weighted vectors have the squares of the weights.
+            Stepped::Products => rounding * weights * (start + step * steps) * gain.cosine * square,
         }
+    }
+}
+
+/// By how much the illumination model multiplies an error of a cosine, and the most that it adds up to.
+#[derive(Clone, Copy)]
+struct Gain {
+    cosine: f64,
+    sum: f64,
+}
+
+impl Gain {
+    fn of(spread: &Spread, material: u32, lighting: &Lighting) -> Gain {
+        let strength = |i: usize| spread.strength(material, i);
+        let half = spread.half(material);
+        let highlight = match lighting.specular {
+            SpecularModel::Phong => 4.0,
+            SpecularModel::Blinn => 2.0 / half + 1.0 / (half * half),
+        };
+        // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
+        let falls = if lighting.is_attenuated() { 2.0 } else { 0.0 };
+        let channel = |c: usize| {
+            let lights = lighting.lights.iter().enumerate();
+            let terms = lights.map(|(i, l)| {
+                let (d, s) = (strength(i) * f64::from(l.diffuse[c]), strength(i) * f64::from(l.specular[c]));
+                let cosine = d + highlight * f64::from(lighting.shininess.max(1.0)) * s + falls * (d + s);
+                Gain { cosine, sum: d + s }
+            });
+            let none = Gain { cosine: 0.0, sum: f64::from(lighting.ambient[c]) };
+            terms.fold(none, |a, b| Gain { cosine: a.cosine + b.cosine, sum: a.sum + b.sum })
+        };
+        channel(0).max(channel(1)).max(channel(2))
+    }
+
+    fn max(self, other: Gain) -> Gain {
+        Gain { cosine: self.cosine.max(other.cosine), sum: self.sum.max(other.sum) }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::dispatch::{Job, dispatch_sample};
 use super::span::SpanBench;
-use super::{Corners, Method, Shader, Span};
+use super::{Corner, Corners, Method, Shader, Span};
 use crate::frame::Frame;
-use crate::number::{Counter, Counting, Counts, Machine, each};
+use crate::number::{Counter, Counting, Counts, Machine};
 use crate::walk::{Attribute, Walk};
 
 /// The operations of one method at each rate, for a material of shininess 32 (five multiplications a light).
@@ -26,7 +26,7 @@ pub struct OperationCounts {
     pub shade: Counts,
 }
 
-pub(super) fn count<D: Method>(parameters: &[u32], lights: usize) -> OperationCounts {
+pub(super) fn count<D: Method>(parameters: &[u32], bench: &SpanBench) -> OperationCounts {
     struct Count<'a>(&'a [u32], &'a Frame);
     impl Job for Count<'_> {
         type Out = OperationCounts;
@@ -34,8 +34,7 @@ pub(super) fn count<D: Method>(parameters: &[u32], lights: usize) -> OperationCo
             run::<S>(self.0, self.1)
         }
     }
-    let bench = SpanBench::new(20.0, lights);
-    dispatch_sample::<D, _>(lights, Count(parameters, bench.frame()))
+    dispatch_sample::<D, _>(bench.frame(), Count(parameters, bench.frame()))
 }
 
 fn run<S: Shader>(parameters: &[u32], frame: &Frame) -> OperationCounts {
@@ -51,11 +50,11 @@ fn run<S: Shader>(parameters: &[u32], frame: &Frame) -> OperationCounts {
         lap
     };
     let consts = S::consts(&frame.lightings()[0], parameters, one);
-    let normals: [_; 3] = each(|i| frame.vertices()[i].normal.map(one));
+    let vertex = |vertex| S::vertex(&consts, &Corner { machine: m, frame, vertex });
     lap();
-    let first = S::vertex(&consts, normals[0]);
-    let vertex = lap();
-    let attributes = [first, S::vertex(&consts, normals[1]), S::vertex(&consts, normals[2])];
+    let first = vertex(0);
+    let at_vertex = lap();
+    let attributes = [first, vertex(1), vertex(2)];
     let polygon = &frame.polygons()[0];
     let corners = Corners { machine: m, frame, polygon, attributes: &attributes };
     lap();
@@ -77,5 +76,5 @@ fn run<S: Shader>(parameters: &[u32], frame: &Frame) -> OperationCounts {
     let walk = lap();
     S::shade(&consts, pixel);
     let shade = lap();
-    OperationCounts { vertex, polygon: polygon_counts, edge, edge_step, span, walk, shade }
+    OperationCounts { vertex: at_vertex, polygon: polygon_counts, edge, edge_step, span, walk, shade }
 }

@@ -1,6 +1,7 @@
 //! From a method and a frame to a shader type: the crossing from run time to compile time, once a picture.
 
 use super::{Method, Shader};
+use crate::frame::Frame;
 use crate::scene::{Interpolation, Scene};
 
 /// Something to be done with a shader type.
@@ -14,7 +15,11 @@ pub(super) trait Job {
 /// Does `job` with the method's shader for at least `lights` lights: one to four, then 8, then 64.
 ///
 /// A shader for more lights than there are treats the others as dark, which costs time and changes no picture.
-pub(super) fn dispatch<D: Method, J: Job>(lights: usize, interpolation: Interpolation, job: J) -> J::Out {
+///
+/// Where something is at a position, the square roots of each light are most of a pixel, and there are shaders for one,
+/// two, four and 64 only: three families of five more sizes would make the program half as large again.
+pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
+    let lights = frame.light_count();
     macro_rules! by_lights {
         ($shader:ident) => {
             match lights {
@@ -27,14 +32,35 @@ pub(super) fn dispatch<D: Method, J: Job>(lights: usize, interpolation: Interpol
             }
         };
     }
-    match interpolation {
-        Interpolation::Screen => by_lights!(Screen),
-        Interpolation::Perspective => by_lights!(Perspective),
+    macro_rules! local {
+        ($shader:ident) => {
+            match lights {
+                0 | 1 => job.run::<D::$shader<1>>(),
+                2 => job.run::<D::$shader<2>>(),
+                3..=4 => job.run::<D::$shader<4>>(),
+                _ => job.run::<D::$shader<{ Scene::MAX_LIGHTS }>>(),
+            }
+        };
+    }
+    match (frame.interpolation(), frame.is_local()) {
+        (Interpolation::Screen, false) => by_lights!(Screen),
+        (Interpolation::Perspective, false) => by_lights!(Perspective),
+        (Interpolation::Screen, true) => local!(Local),
+        (Interpolation::Perspective, true) => local!(LocalPerspective),
     }
 }
 
-/// Does `job` with the method's shader for one light or for four: for measurements of spans and counts of operations,
-/// which need no picture, every further number of lights would only be code.
-pub(super) fn dispatch_sample<D: Method, J: Job>(lights: usize, job: J) -> J::Out {
-    if lights <= 1 { job.run::<D::Screen<1>>() } else { job.run::<D::Screen<4>>() }
+/// Does `job` with the method's shader for one light or for four, two as well where they are at positions: for
+/// measurements of spans and counts of operations, which need no picture, every further number of lights would only be
+/// code.
+pub(super) fn dispatch_sample<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
+    match (frame.is_local(), frame.interpolation(), frame.light_count()) {
+        (false, _, 0 | 1) => job.run::<D::Screen<1>>(),
+        (false, _, _) => job.run::<D::Screen<4>>(),
+        (true, Interpolation::Screen, 0 | 1) => job.run::<D::Local<1>>(),
+        (true, Interpolation::Screen, 2) => job.run::<D::Local<2>>(),
+        (true, Interpolation::Screen, _) => job.run::<D::Local<4>>(),
+        (true, Interpolation::Perspective, 0 | 1) => job.run::<D::LocalPerspective<1>>(),
+        (true, Interpolation::Perspective, _) => job.run::<D::LocalPerspective<4>>(),
+    }
 }

@@ -1,11 +1,12 @@
 //! Fast Phong shading: scalars instead of vectors, Newton's root instead of a true one (L21 4.2–4.3).
 
-use super::illumination::Illumination;
-use super::{Corners, Info, Method, Parameter, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::illumination::{Illumination, Seen, SeenScalars};
+use super::local::{Lights, Local as LocalLight, Near as NearLights};
+use super::{Corner, Corners, Info, Local, Method, Parameter, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
-use crate::walk::{Lerp, Linear, Newton};
+use crate::walk::{Constant, Lerp, Linear, Newton};
 
 /// Fast Phong shading as the lecture prints it: `J = L·N` for each light, `K = V·N` and N by additions, `D = N·N`, and
 /// `d = √D` by Newton's method from the previous pixel's (L21 4.2–4.3).
@@ -22,7 +23,7 @@ impl Method for FastPhong {
         formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  D = N.N;  d = sqrt(D) by Newton from the \
                   previous pixel\nI = Ia ka + Ip kd J/d + Ip ks (2 J K / D - L.V)^n",
         source: "L21 4.2, 4.3, eq 4.3-4.6",
-        model: Model::Phong,
+        model: Model::PhongConstant,
         roundings: Roundings { start: 4.0, step: 1.4, of: Stepped::Cosines },
         derivation: "each step rounds J and K by half of 2^-24, and the three components of N, so d = |N|, by 0.87 * 2^-24: \
                      J/d is off by 1.4, and 2 J K / D by 2 (0.5 + 0.5 + 2 * 0.87) = 5.5, which is 4 * 1.4",
@@ -36,10 +37,13 @@ impl Method for FastPhong {
             most: 8,
         }],
         perspective: Perspective::Free,
+        local: Local::PerPolygon,
         barycentric: false,
     };
     type Screen<const L: usize> = Of<L>;
     type Perspective<const L: usize> = Of<L>;
+    type Local<const L: usize> = Near<L>;
+    type LocalPerspective<const L: usize> = Near<L>;
 }
 
 /// Fast Phong shading with `L` lights.
@@ -67,8 +71,9 @@ impl<const L: usize> Shader for Of<L> {
         Consts { light: Illumination::new(lighting, of), steps: parameters[0] }
     }
     #[inline(always)]
-    fn vertex<R: Real>(c: &Consts<R, L>, normal: [R; 3]) -> Lerp<Jkn<R, L>> {
-        Lerp((c.light.light_cosines(normal), c.light.view_cosine(normal), normal))
+    fn vertex<M: Machine>(c: &Consts<M::One, L>, corner: &Corner<'_, M>) -> Lerp<Jkn<M::One, L>> {
+        let (normal, seen) = (corner.normal(), c.light.far());
+        Lerp((seen.light_cosines(normal), seen.view_cosine(normal), normal))
     }
     #[inline(always)]
     fn polygon<M: Machine>(_: &Consts<M::One, L>, _: &Corners<'_, M, Self::Attribute<M::One>>) {}
@@ -87,11 +92,87 @@ impl<const L: usize> Shader for Of<L> {
     }
     #[inline(always)]
     fn shade<F: Num>(c: &Consts<F, L>, (j, k, (d, squared)): Self::Pixel<F>) -> [F; 3] {
-        let light = &c.light;
-        let (over_d, twice_k) = (light.one() / d, light.two() * k / squared);
-        light.colour(
+        colour(&c.light, j, k, d, squared, &c.light.far().scalars)
+    }
+}
+
+/// The colour of a pixel from J, K, d and D.
+#[inline(always)]
+fn colour<F: Num, const L: usize>(
+    light: &Illumination<F, L>,
+    j: [F; L],
+    k: F,
+    d: F,
+    squared: F,
+    seen: &SeenScalars<F, L>,
+) -> [F; 3] {
+    let (over_d, twice_k) = (light.one() / d, light.two() * k / squared);
+    light.colour(
+        #[inline(always)]
+        |i| j[i] * over_d,
+        #[inline(always)]
+        |i| twice_k * j[i] - seen.light_view[i], // 4.6
+        #[inline(always)]
+        |i| (j[i] + k) * over_d * seen.half[i], // N·H = (L·N + V·N) / |L + V|
+        #[inline(always)]
+        |i| seen.strength(i),
+    )
+}
+
+/// Fast Phong shading with `L` lights, some of them or the eye at positions: as the lecture assumes, L and V are constant
+/// along each polygon (L21 1), those of the mean of its corners.
+#[derive(Debug)]
+pub struct Near<const L: usize>;
+
+/// The light, and how many steps of Newton's method a pixel takes.
+#[derive(Clone, Copy, Debug)]
+pub struct NearConsts<N, const L: usize> {
+    light: LocalLight<N, L>,
+    steps: u32,
+}
+
+impl<const L: usize> Shader for Near<L> {
+    type Consts<N: Num> = NearConsts<N, L>;
+    type Attribute<R: Real> = Lerp<[R; 3]>;
+    type Polygon<R: Real> = Seen<R, L>;
+    type Walk<M: Machine> =
+        ([Linear<M::F>; L], Linear<M::F>, Newton<[Linear<M::F>; 3], M::F>, Constant<SeenScalars<M::F, L>>);
+    type Pixel<F: Num> = ([F; L], F, (F, F), SeenScalars<F, L>);
+
+    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> NearConsts<N, L> {
+        NearConsts { light: LocalLight::new(lighting, of), steps: parameters[0] }
+    }
+    #[inline(always)]
+    fn vertex<M: Machine>(_: &NearConsts<M::One, L>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
+        Lerp(corner.normal())
+    }
+    #[inline(always)]
+    fn polygon<M: Machine>(c: &NearConsts<M::One, L>, corners: &Corners<'_, M, Lerp<[M::One; 3]>>) -> Seen<M::One, L> {
+        c.light.seen_from(corners.mean_position())
+    }
+    #[inline(always)]
+    fn walk<M: Machine>(
+        m: M,
+        c: &NearConsts<M::One, L>,
+        seen: &Seen<M::One, L>,
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
+        let (n, dn) = (span.attribute.at, span.attribute.step);
+        let normal = each(
             #[inline(always)]
-            |i| (j[i] * over_d, twice_k * j[i] - light.light_view(i)), // 4.6
-        )
+            |i| Linear::new(m, n[i], dn[i]), // 4.2
+        );
+        let (j, dj) = (seen.light_cosines(n), seen.light_cosines(dn));
+        let light = each(
+            #[inline(always)]
+            |i| Linear::new(m, j[i], dj[i]), // 4.3
+        );
+        let view = Linear::new(m, seen.view_cosine(n), seen.view_cosine(dn));
+        let scalars = NearLights::splat(m, seen).scalars;
+        (light, view, Newton::new(m, normal, n, c.steps), Constant(scalars))
+    }
+    #[inline(always)]
+    fn shade<F: Num>(c: &NearConsts<F, L>, (j, k, (d, squared), seen): Self::Pixel<F>) -> [F; 3] {
+        colour(&c.light.model, j, k, d, squared, &seen)
     }
 }

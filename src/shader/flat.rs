@@ -1,13 +1,15 @@
 //! Flat shading: one colour a polygon (L21 2).
 
-use super::illumination::Illumination;
-use super::{Corners, Info, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::local::{Far, Lights, Near};
+use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real};
 use crate::reference::Model;
 use crate::walk::{Constant, Lerp};
 
 /// Flat (uniform) shading: the polygon's own normal, lit once (L21 2.1).
+///
+/// Light and eye at positions are seen from the mean of the polygon's corners.
 #[derive(Debug)]
 pub struct Flat;
 
@@ -23,45 +25,44 @@ impl Method for Flat {
         fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",
         parameters: &[],
         perspective: Perspective::Unaffected,
+        local: Local::PerPolygon,
         barycentric: true,
     };
-    type Screen<const L: usize> = Of<L>;
-    type Perspective<const L: usize> = Of<L>;
+    type Screen<const L: usize> = Of<Far, L>;
+    type Perspective<const L: usize> = Of<Far, L>;
+    type Local<const L: usize> = Of<Near, L>;
+    type LocalPerspective<const L: usize> = Of<Near, L>;
 }
 
 /// Flat shading with `L` lights.
 #[derive(Debug)]
-pub struct Of<const L: usize>;
+pub struct Of<P, const L: usize>(P);
 
-impl<const L: usize> Shader for Of<L> {
-    type Consts<N: Num> = Illumination<N, L>;
+impl<P: Lights, const L: usize> Shader for Of<P, L> {
+    type Consts<N: Num> = P::Of<N, L>;
     type Attribute<R: Real> = Lerp<()>;
     type Polygon<R: Real> = [R; 3];
     type Walk<M: Machine> = Constant<[M::F; 3]>;
     type Pixel<F: Num> = [F; 3];
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Illumination<N, L> {
-        Illumination::new(lighting, of)
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> P::Of<N, L> {
+        P::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<R: Real>(_: &Illumination<R, L>, _: [R; 3]) -> Lerp<()> {
+    fn vertex<M: Machine>(_: &P::Of<M::One, L>, _: &Corner<'_, M>) -> Lerp<()> {
         Lerp(())
     }
     #[inline(always)]
-    fn polygon<M: Machine>(c: &Illumination<M::One, L>, corners: &Corners<'_, M, Lerp<()>>) -> [M::One; 3] {
-        c.clamped(c.lit(corners.normal())) // 2.1
+    fn polygon<M: Machine>(c: &P::Of<M::One, L>, corners: &Corners<'_, M, Lerp<()>>) -> [M::One; 3] {
+        let (model, there) = (P::model(c), P::there(c, || corners.mean_position()));
+        model.clamped(model.lit(corners.normal(), P::seen(c, &there))) // 2.1
     }
     #[inline(always)]
-    fn walk<M: Machine>(
-        m: M,
-        _: &Illumination<M::One, L>,
-        colour: &[M::One; 3],
-        _: &SpanOf<Self, M::One>,
-    ) -> Self::Walk<M> {
-        Constant([m.splat(colour[0]), m.splat(colour[1]), m.splat(colour[2])])
+    fn walk<M: Machine>(m: M, _: &P::Of<M::One, L>, colour: &[M::One; 3], _: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+        Constant(m.splat3(*colour))
     }
     #[inline(always)]
-    fn shade<F: Num>(_: &Illumination<F, L>, colour: [F; 3]) -> [F; 3] {
+    fn shade<F: Num>(_: &P::Of<F, L>, colour: [F; 3]) -> [F; 3] {
         colour
     }
 }

@@ -1,7 +1,7 @@
 //! Gouraud shading: vertex colours, interpolated linearly (L21 3).
 
-use super::illumination::Illumination;
-use super::{Corners, Info, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::local::{Far, Lights, Near};
+use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -26,34 +26,44 @@ impl Method for Gouraud {
         fails: "highlights inside a polygon are lost or smeared; the slope of the intensity still jumps at edges",
         parameters: &[],
         perspective: Perspective::Divides,
+        local: Local::PerVertex,
         barycentric: true,
     };
-    type Screen<const L: usize> = Of<L>;
-    type Perspective<const L: usize> = Weighted<L>;
+    type Screen<const L: usize> = Of<Far, L>;
+    type Perspective<const L: usize> = Weighted<Far, L>;
+    type Local<const L: usize> = Of<Near, L>;
+    type LocalPerspective<const L: usize> = Weighted<Near, L>;
+}
+
+/// The clamped colour of a vertex.
+#[inline(always)]
+fn colour<P: Lights, M: Machine, const L: usize>(c: &P::Of<M::One, L>, corner: &Corner<'_, M>) -> [M::One; 3] {
+    let (model, there) = (P::model(c), P::there(c, || corner.position()));
+    model.clamped(model.lit(corner.normal(), P::seen(c, &there))) // 2.1
 }
 
 /// Gouraud shading with `L` lights, linear on the screen.
 #[derive(Debug)]
-pub struct Of<const L: usize>;
+pub struct Of<P, const L: usize>(P);
 
-impl<const L: usize> Shader for Of<L> {
-    type Consts<N: Num> = Illumination<N, L>;
+impl<P: Lights, const L: usize> Shader for Of<P, L> {
+    type Consts<N: Num> = P::Of<N, L>;
     type Attribute<R: Real> = Lerp<[R; 3]>;
     type Polygon<R: Real> = ();
     type Walk<M: Machine> = [Linear<M::F>; 3];
     type Pixel<F: Num> = [F; 3];
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Illumination<N, L> {
-        Illumination::new(lighting, of)
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> P::Of<N, L> {
+        P::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<R: Real>(c: &Illumination<R, L>, normal: [R; 3]) -> Lerp<[R; 3]> {
-        Lerp(c.clamped(c.lit(normal)))
+    fn vertex<M: Machine>(c: &P::Of<M::One, L>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
+        Lerp(colour::<P, M, L>(c, corner))
     }
     #[inline(always)]
-    fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}
+    fn polygon<M: Machine>(_: &P::Of<M::One, L>, _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &Illumination<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(m: M, _: &P::Of<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
         let (at, step) = (span.attribute.at, span.attribute.step);
         each(
             #[inline(always)]
@@ -61,33 +71,33 @@ impl<const L: usize> Shader for Of<L> {
         )
     }
     #[inline(always)]
-    fn shade<F: Num>(_: &Illumination<F, L>, colour: [F; 3]) -> [F; 3] {
+    fn shade<F: Num>(_: &P::Of<F, L>, colour: [F; 3]) -> [F; 3] {
         colour
     }
 }
 
 /// Gouraud shading with `L` lights, linear in space: `I/w` and `1/w` are interpolated and divided.
 #[derive(Debug)]
-pub struct Weighted<const L: usize>;
+pub struct Weighted<P, const L: usize>(P);
 
-impl<const L: usize> Shader for Weighted<L> {
-    type Consts<N: Num> = Illumination<N, L>;
+impl<P: Lights, const L: usize> Shader for Weighted<P, L> {
+    type Consts<N: Num> = P::Of<N, L>;
     type Attribute<R: Real> = Lerp<([R; 3], R)>;
     type Polygon<R: Real> = ();
     type Walk<M: Machine> = ([Linear<M::F>; 3], Linear<M::F>);
     type Pixel<F: Num> = ([F; 3], F);
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Illumination<N, L> {
-        Illumination::new(lighting, of)
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> P::Of<N, L> {
+        P::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<R: Real>(c: &Illumination<R, L>, normal: [R; 3]) -> Lerp<([R; 3], R)> {
-        Lerp((c.clamped(c.lit(normal)), c.one()))
+    fn vertex<M: Machine>(c: &P::Of<M::One, L>, corner: &Corner<'_, M>) -> Lerp<([M::One; 3], M::One)> {
+        Lerp((colour::<P, M, L>(c, corner), P::model(c).one()))
     }
     #[inline(always)]
-    fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, Lerp<([M::One; 3], M::One)>>) {}
+    fn polygon<M: Machine>(_: &P::Of<M::One, L>, _: &Corners<'_, M, Lerp<([M::One; 3], M::One)>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &Illumination<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(m: M, _: &P::Of<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
         let (at, step) = (span.attribute.at, span.attribute.step);
         let colour = each(
             #[inline(always)]
@@ -96,8 +106,8 @@ impl<const L: usize> Shader for Weighted<L> {
         (colour, Linear::new(m, at.1, step.1))
     }
     #[inline(always)]
-    fn shade<F: Num>(c: &Illumination<F, L>, (colour, weight): Self::Pixel<F>) -> [F; 3] {
-        let w = c.one() / weight;
+    fn shade<F: Num>(c: &P::Of<F, L>, (colour, weight): Self::Pixel<F>) -> [F; 3] {
+        let w = P::model(c).one() / weight;
         [colour[0] * w, colour[1] * w, colour[2] * w]
     }
 }

@@ -1,7 +1,7 @@
 //! The illumination model, once for all methods (L21 2.1), with the clamps that the lecture omits.
 
-use crate::lighting::Lighting;
-use crate::number::{Num, dot, each};
+use crate::lighting::{Lighting, Place, SpecularGate, SpecularModel};
+use crate::number::{Machine, Num, Real, dot, each};
 
 /// The exponent `n` of the specular term, as it is best computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,51 +46,41 @@ impl Power {
     }
 }
 
-/// The constants of the illumination model for `L` lights on one material.
-///
-/// ```text
-/// I = I_a k_a + Σ I_p k_d max(0, L·N) + Σ I_p k_s max(0, R·V)^n  where L·N > 0       (L21 2.1, with clamps)
-/// R = 2 (L·N) N − L
-/// ```
-///
-/// Three things that the lecture leaves open are settled here, for every method and for the reference:
-/// - `L·N` and `R·V` are clamped at 0 *before* the power (an even power of a negative number would light the far side);
-/// - there is no specular light where `L·N ≤ 0` (a light behind the surface has no highlight on it);
-/// - all lights are summed, then the sum is clamped to 0..=1 once.
-///
-/// A normal that vanishes has no direction: its cosines are 0/0, the clamps turn them into 0, and ambient light remains.
+/// Light and viewer as one point sees them: unit vectors, and what the model needs of them.
 #[derive(Clone, Copy, Debug)]
-pub struct Illumination<N, const L: usize> {
-    ambient: [N; 3],
-    diffuse: [[N; 3]; L],
-    specular: [[N; 3]; L],
-    light: [[N; 3]; L],
-    view: [N; 3],
-    light_view: [N; L],
-    power: Power,
-    zero: N,
-    one: N,
-    two: N,
+pub struct Seen<N, const L: usize> {
+    /// The unit vector `L` toward each light.
+    pub light: [[N; 3]; L],
+    /// The unit vector `V` toward the eye.
+    pub view: [N; 3],
+    /// What of them a method needs that has L·N and V·N already.
+    pub scalars: SeenScalars<N, L>,
 }
 
-impl<N: Num, const L: usize> Illumination<N, L> {
-    /// The constants for `lighting`, made by `of`. With fewer than `L` lights the others are dark.
-    pub fn new(lighting: &Lighting, of: impl Fn(f32) -> N) -> Self {
-        let three = |v: [f32; 3]| [of(v[0]), of(v[1]), of(v[2])];
-        let light = |i: usize| lighting.lights.get(i);
-        let direction = |i: usize| light(i).map_or(lighting.view, |l| l.direction);
-        Illumination {
-            ambient: three(lighting.ambient),
-            diffuse: each(|i| three(light(i).map_or([0.0; 3], |l| l.diffuse))),
-            specular: each(|i| three(light(i).map_or([0.0; 3], |l| l.specular))),
-            light: each(|i| three(direction(i))),
-            view: three(lighting.view),
-            light_view: each(|i| of(dot(direction(i), lighting.view))),
-            power: Power::new(lighting.shininess),
-            zero: of(0.0),
-            one: of(1.0),
-            two: of(2.0),
-        }
+/// The part of [`Seen`] that is no vector.
+#[derive(Clone, Copy, Debug)]
+pub struct SeenScalars<N, const L: usize> {
+    /// `L·V` of each light.
+    pub light_view: [N; L],
+    /// `1 / |L + V|` of each light.
+    pub half: [N; L],
+    /// How strong each light is; `None` where none grows weaker with its distance.
+    pub strength: Option<[N; L]>,
+}
+
+impl<N: Num, const L: usize> Seen<N, L> {
+    /// From unit vectors; `one` and `two` are these numbers.
+    #[inline(always)]
+    pub(super) fn new(light: [[N; 3]; L], view: [N; 3], strength: Option<[N; L]>, one: N, two: N) -> Self {
+        let light_view: [N; L] = each(
+            #[inline(always)]
+            |i| dot(light[i], view),
+        );
+        let half = each(
+            #[inline(always)]
+            |i| one / (two + two * light_view[i]).sqrt(), // |l + v|² = 2 + 2 l·v for unit vectors
+        );
+        Seen { light, view, scalars: SeenScalars { light_view, half, strength } }
     }
 
     /// `J = L·N` of every light.
@@ -107,11 +97,116 @@ impl<N: Num, const L: usize> Illumination<N, L> {
     pub fn view_cosine(&self, n: [N; 3]) -> N {
         dot(self.view, n) // K = V · N
     }
+}
 
-    /// `L·V` of light `i`, constant over the scene.
+impl<N: Num, const L: usize> Seen<N, L> {
+    /// The same in the numbers of the pixel loop.
     #[inline(always)]
-    pub fn light_view(&self, i: usize) -> N {
-        self.light_view[i]
+    pub(super) fn splat<M: Machine<One = N>>(&self, m: M) -> Seen<M::F, L>
+    where
+        N: Real,
+    {
+        let all = |v: [N; L]| {
+            each(
+                #[inline(always)]
+                |i| m.splat(v[i]),
+            )
+        };
+        let SeenScalars { light_view, half, strength } = self.scalars;
+        Seen {
+            light: each(
+                #[inline(always)]
+                |i| m.splat3(self.light[i]),
+            ),
+            view: m.splat3(self.view),
+            scalars: SeenScalars { light_view: all(light_view), half: all(half), strength: strength.map(all) },
+        }
+    }
+}
+
+impl<N: Copy, const L: usize> SeenScalars<N, L> {
+    /// The strength of light `i`; `None` is full strength.
+    #[inline(always)]
+    pub fn strength(&self, i: usize) -> Option<N> {
+        self.strength.as_ref().map(
+            #[inline(always)]
+            |all| all[i],
+        )
+    }
+}
+
+/// The constants of the illumination model for `L` lights on one material.
+///
+/// ```text
+/// I = I_a k_a + Σ I_p k_d max(0, L·N) + Σ I_p k_s max(0, R·V)^n  where L·N > 0       (L21 2.1, with clamps)
+/// R = 2 (L·N) N − L
+/// ```
+///
+/// Things that the lecture leaves open are settled here, for every method and for the reference:
+/// - `L·N` and `R·V` are clamped at 0 *before* the power (an even power of a negative number would light the far side);
+/// - there is no specular light where `L·N ≤ 0` (a light behind the surface has no highlight on it), unless the scene
+///   asks for one of the other two forms of [`SpecularGate`];
+/// - all lights are summed, then the sum is clamped to 0..=1 once;
+/// - with [`SpecularModel::Blinn`] the cosine is `N·H`, `H = (L + V) / |L + V|` (CS171 2); where light and eye are
+///   opposite, H has no direction, and there is no highlight;
+/// - a light that grows weaker does so in both terms, and ambient light does not (CS171 2, Attenuation).
+///
+/// A normal that vanishes has no direction: its cosines are 0/0, the clamps turn them into 0, and ambient light remains.
+#[derive(Clone, Copy, Debug)]
+pub struct Illumination<N, const L: usize> {
+    ambient: [N; 3],
+    diffuse: [[N; 3]; L],
+    specular: [[N; 3]; L],
+    far: Seen<N, L>,
+    power: Power,
+    model: SpecularModel,
+    gate: SpecularGate,
+    zero: N,
+    one: N,
+    two: N,
+}
+
+impl<N: Num, const L: usize> Illumination<N, L> {
+    /// The constants for `lighting`, made by `of`. With fewer than `L` lights the others are dark. What is at a position
+    /// is not seen by this part: [`super::local::Local`] knows where it is.
+    pub fn new(lighting: &Lighting, of: impl Fn(f32) -> N) -> Self {
+        let three = |v: [f32; 3]| [of(v[0]), of(v[1]), of(v[2])];
+        let light = |i: usize| lighting.lights.get(i);
+        let infinite = |place: Place<[f32; 3]>| match place {
+            Place::Infinite(direction) => direction,
+            Place::Local(_) => [0.0, 0.0, 1.0],
+        };
+        let view = infinite(lighting.view);
+        let direction = |i: usize| light(i).map_or(view, |l| infinite(l.place));
+        // In plain numbers and from these, so that counting and wide machines get the same constants.
+        let light_view = |i: usize| dot(direction(i), view);
+        let half = |i: usize| 1.0 / libm::sqrtf(2.0 + 2.0 * light_view(i));
+        Illumination {
+            ambient: three(lighting.ambient),
+            diffuse: each(|i| three(light(i).map_or([0.0; 3], |l| l.diffuse))),
+            specular: each(|i| three(light(i).map_or([0.0; 3], |l| l.specular))),
+            far: Seen {
+                light: each(|i| three(direction(i))),
+                view: three(view),
+                scalars: SeenScalars {
+                    light_view: each(|i| of(light_view(i))),
+                    half: each(|i| of(half(i))),
+                    strength: None,
+                },
+            },
+            power: Power::new(lighting.shininess),
+            model: lighting.specular,
+            gate: lighting.gate,
+            zero: of(0.0),
+            one: of(1.0),
+            two: of(2.0),
+        }
+    }
+
+    /// Light and viewer at infinity, as every point sees them.
+    #[inline(always)]
+    pub fn far(&self) -> &Seen<N, L> {
+        &self.far
     }
 
     /// The number 1.
@@ -126,15 +221,59 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         self.two
     }
 
-    /// The sum over all lights, not yet clamped, from (L·N, R·V) of each.
+    /// The sum over all lights, not yet clamped, from L·N of each, from R·V or N·H of each, whichever the scene asks for,
+    /// and from their strengths (`None` is full strength).
     #[inline(always)]
-    pub fn colour(&self, cosines: impl Fn(usize) -> (N, N)) -> [N; 3] {
+    pub fn colour(
+        &self,
+        l_n: impl Fn(usize) -> N,
+        r_v: impl Fn(usize) -> N,
+        n_h: impl Fn(usize) -> N,
+        strength: impl Fn(usize) -> Option<N>,
+    ) -> [N; 3] {
+        match self.model {
+            SpecularModel::Phong => self.sum(l_n, r_v, strength),
+            SpecularModel::Blinn => self.sum(l_n, n_h, strength),
+        }
+    }
+
+    /// The same from cosines between unit vectors: L·N of each light and V·N.
+    #[inline(always)]
+    pub fn colour_of_cosines(&self, l_n: [N; L], v_n: N, seen: &SeenScalars<N, L>) -> [N; 3] {
+        let twice = self.two * v_n;
+        self.colour(
+            #[inline(always)]
+            |i| l_n[i],
+            #[inline(always)]
+            |i| twice * l_n[i] - seen.light_view[i], // 4.5
+            #[inline(always)]
+            |i| (l_n[i] + v_n) * seen.half[i], // N·H
+            #[inline(always)]
+            |i| seen.strength(i),
+        )
+    }
+
+    #[inline(always)]
+    fn sum(
+        &self,
+        l_n: impl Fn(usize) -> N,
+        highlight: impl Fn(usize) -> N,
+        strength: impl Fn(usize) -> Option<N>,
+    ) -> [N; 3] {
         let mut sum = self.ambient;
         let mut i = 0;
         while i < L {
-            let (l_n, r_v) = cosines(i);
-            let d = l_n.max(self.zero);
-            let s = self.power.of(r_v.max(self.zero), self.one).gate(l_n);
+            let l_n = l_n(i);
+            let mut d = l_n.max(self.zero);
+            let mut s = self.power.of(highlight(i).max(self.zero), self.one);
+            s = match self.gate {
+                SpecularGate::Gated => s.gate(l_n),
+                SpecularGate::Ungated => s,
+                SpecularGate::Weighted => s * d,
+            };
+            if let Some(strength) = strength(i) {
+                (d, s) = (d * strength, s * strength);
+            }
             let mut channel = 0;
             while channel < 3 {
                 sum[channel] = sum[channel] + self.diffuse[i][channel] * d + self.specular[i][channel] * s; // 2.1
@@ -145,18 +284,28 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         sum
     }
 
-    /// The colour of a surface with unit normal `n`, with R built as the lecture prints it; not yet clamped.
+    /// The colour of a surface with unit normal `n` that sees light and viewer as `seen`, with R built as the lecture
+    /// prints it; not yet clamped.
     #[inline(always)]
-    pub fn lit(&self, n: [N; 3]) -> [N; 3] {
+    pub fn lit(&self, n: [N; 3], seen: &Seen<N, L>) -> [N; 3] {
         self.colour(
             #[inline(always)]
+            |i| dot(seen.light[i], n),
+            #[inline(always)]
             |i| {
-                let l = self.light[i];
-                let l_n = dot(l, n);
-                let twice = self.two * l_n;
+                let l = seen.light[i];
+                let twice = self.two * dot(l, n);
                 let r = [twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]]; // R = 2 (L·N) N − L
-                (l_n, dot(r, self.view))
+                dot(r, seen.view)
             },
+            #[inline(always)]
+            |i| {
+                let (l, v, half) = (seen.light[i], seen.view, seen.scalars.half[i]);
+                let h = [(l[0] + v[0]) * half, (l[1] + v[1]) * half, (l[2] + v[2]) * half]; // h = (e + l) / |e + l|
+                dot(n, h)
+            },
+            #[inline(always)]
+            |i| seen.scalars.strength(i),
         )
     }
 

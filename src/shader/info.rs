@@ -43,6 +43,28 @@ impl Perspective {
     }
 }
 
+/// What a method does where a light or the eye is at a position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Local {
+    /// The vectors to them are constant along a polygon, as the lecture assumes (L21 1): those of its mean corner.
+    PerPolygon,
+    /// Each vertex has its own.
+    PerVertex,
+    /// Each pixel has its own.
+    PerPixel,
+}
+
+impl Local {
+    /// One sentence for people.
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Local::PerPolygon => "lights and eye at positions are seen from the mean of each polygon's corners",
+            Local::PerVertex => "lights and eye at positions are seen from each vertex",
+            Local::PerPixel => "lights and eye at positions are seen from each pixel",
+        }
+    }
+}
+
 /// What is said about a method.
 #[derive(Clone, Copy, Debug)]
 pub struct Info {
@@ -66,6 +88,8 @@ pub struct Info {
     pub parameters: &'static [Parameter],
     /// What perspective interpolation does to it.
     pub perspective: Perspective,
+    /// What it does where a light or the eye is at a position.
+    pub local: Local,
     /// Whether the barycentric renderer has it.
     pub barycentric: bool,
 }

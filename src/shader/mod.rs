@@ -10,23 +10,31 @@ mod count;
 mod dispatch;
 mod info;
 mod span;
+mod spread;
 mod table;
 
 pub mod illumination;
+pub mod local;
 
+mod duff_phong;
 mod fast_phong;
 mod flat;
+mod flat_average;
 mod gouraud;
+mod gouraud_separate;
 mod naive_phong;
 mod slerp_phong;
 mod slerp_phong_vector;
 
 pub use bound::{Roundings, Stepped};
 pub use count::OperationCounts;
+pub use duff_phong::DuffPhong;
 pub use fast_phong::FastPhong;
 pub use flat::Flat;
+pub use flat_average::FlatAverage;
 pub use gouraud::Gouraud;
-pub use info::{Info, Parameter, Perspective};
+pub use gouraud_separate::GouraudSeparate;
+pub use info::{Info, Local, Parameter, Perspective};
 pub use naive_phong::NaivePhong;
 pub use slerp_phong::SlerpPhong;
 pub use slerp_phong_vector::SlerpPhongVector;
@@ -37,6 +45,34 @@ use crate::frame::{Frame, Polygon};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real};
 use crate::walk::{Attribute, Walk};
+
+/// One vertex, for what a shader computes once a vertex: nothing of it is read unless asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Corner<'a, M> {
+    pub(crate) machine: M,
+    pub(crate) frame: &'a Frame,
+    pub(crate) vertex: u32,
+}
+
+impl<M: Machine> Corner<'_, M> {
+    /// The unit vertex normal in world space (L21 3.1).
+    #[inline(always)]
+    pub fn normal(&self) -> [M::One; 3] {
+        self.machine.three(self.frame.vertices()[self.vertex as usize].normal)
+    }
+
+    /// Where it is: see [`Frame::position`].
+    #[inline(always)]
+    pub fn position(&self) -> [M::One; 3] {
+        self.machine.three(self.frame.position(self.vertex))
+    }
+
+    /// Its colour: see [`Frame::colour`].
+    #[inline(always)]
+    pub fn colour(&self) -> [M::One; 3] {
+        self.machine.three(self.frame.colour(self.vertex))
+    }
+}
 
 /// The corners of one polygon, for what a shader computes once a polygon.
 #[derive(Debug)]
@@ -51,7 +87,19 @@ impl<M: Machine, A: Copy> Corners<'_, M, A> {
     /// The unit normal by Newell's formula (L21 1.1).
     #[inline(always)]
     pub fn normal(&self) -> [M::One; 3] {
-        self.polygon.normal.map(|n| self.machine.one(n))
+        self.machine.three(self.polygon.normal)
+    }
+
+    /// The mean position of the corners, before clipping: see [`Frame::mean`].
+    #[inline(always)]
+    pub fn mean_position(&self) -> [M::One; 3] {
+        self.machine.three(self.frame.mean(self.polygon).position)
+    }
+
+    /// The mean of the vertex normals, before clipping and not normalised.
+    #[inline(always)]
+    pub fn mean_normal(&self) -> [M::One; 3] {
+        self.machine.three(self.frame.mean(self.polygon).normal)
     }
 
     /// How many corners there are, three or more.
@@ -103,8 +151,8 @@ pub trait Shader: 'static {
 
     /// Constants from the light on one material; `parameters` are in the order of [`Info::parameters`].
     fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> Self::Consts<N>;
-    /// Once a vertex, from its unit normal.
-    fn vertex<R: Real>(c: &Self::Consts<R>, normal: [R; 3]) -> Self::Attribute<R>;
+    /// Once a vertex.
+    fn vertex<M: Machine>(c: &Self::Consts<M::One>, corner: &Corner<'_, M>) -> Self::Attribute<M::One>;
     /// Once a polygon.
     fn polygon<M: Machine>(
         c: &Self::Consts<M::One>,
@@ -131,4 +179,8 @@ pub trait Method: 'static {
     type Screen<const L: usize>: Shader;
     /// Its shader when attributes are linear in space: they come weighted by 1/w.
     type Perspective<const L: usize>: Shader;
+    /// Its shader when a light or the eye is at a position, attributes linear on the screen.
+    type Local<const L: usize>: Shader;
+    /// Likewise, attributes linear in space.
+    type LocalPerspective<const L: usize>: Shader;
 }

@@ -1,17 +1,19 @@
 //! Naive Phong shading: normals, interpolated and renormalised at every pixel (L21 4.1).
 
-use super::illumination::Illumination;
-use super::{Corners, Info, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::illumination::{Illumination, Seen};
+use super::local::Local as LocalLight;
+use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, dot, each};
 use crate::reference::Model;
-use crate::walk::{Lerp, Linear};
+use crate::walk::{Lerp, Linear, Ramp};
 
 /// Naive Phong shading: N by three additions a pixel, then a root, a division and eq 2.1 (L21 4.1–4.2).
 ///
 /// The interpolated normal and the unit normal are two variables, as in section 4.1. The lecture's summary feeds the
 /// unit normal back into the sum (`N_next = (N + ΔN)/|N + ΔN|`), which is not linear interpolation and never arrives at
-/// N_2. Normals on edges are not renormalised: on triangles the picture would then depend on how they lie.
+/// N_2. Where a light or the eye is at a position, positions are interpolated beside the normals, and the vectors to
+/// each of them are normalised at each pixel too (CS171 3, Algorithm 7). Normals on edges are not renormalised: on triangles the picture would then depend on how they lie.
 #[derive(Debug)]
 pub struct NaivePhong;
 
@@ -28,10 +30,13 @@ impl Method for NaivePhong {
         fails: "where normals cancel inside a span; the slope of the intensity still jumps at edges (Duff 1979)",
         parameters: &[],
         perspective: Perspective::Free,
+        local: Local::PerPixel,
         barycentric: true,
     };
     type Screen<const L: usize> = Of<L>;
     type Perspective<const L: usize> = Of<L>;
+    type Local<const L: usize> = Near<false, L>;
+    type LocalPerspective<const L: usize> = Near<true, L>;
 }
 
 /// Naive Phong shading with `L` lights.
@@ -49,8 +54,8 @@ impl<const L: usize> Shader for Of<L> {
         Illumination::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<R: Real>(_: &Illumination<R, L>, normal: [R; 3]) -> Lerp<[R; 3]> {
-        Lerp(normal)
+    fn vertex<M: Machine>(_: &Illumination<M::One, L>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
+        Lerp(corner.normal())
     }
     #[inline(always)]
     fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}
@@ -65,6 +70,73 @@ impl<const L: usize> Shader for Of<L> {
     #[inline(always)]
     fn shade<F: Num>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
         let r = c.one() / dot(n, n).sqrt();
-        c.lit([n[0] * r, n[1] * r, n[2] * r]) // N_unit = N / |N|, 2.1
+        c.lit([n[0] * r, n[1] * r, n[2] * r], c.far()) // N_unit = N / |N|, 2.1
+    }
+}
+
+/// Naive Phong shading with `L` lights, some of them or the eye at positions; linear in space (`SPACE`) or on the screen.
+#[derive(Debug)]
+pub struct Near<const SPACE: bool, const L: usize>;
+
+/// Normal, position, and the weight of perspective interpolation.
+pub(super) type Point<R> = ([R; 3], [R; 3], R);
+
+/// The attribute of methods that follow normals and positions.
+#[inline(always)]
+pub(super) fn point<M: Machine>(m: M, corner: &Corner<'_, M>) -> Lerp<Point<M::One>> {
+    Lerp((corner.normal(), corner.position(), m.one(1.0)))
+}
+
+#[inline(always)]
+fn linear<M: Machine>(m: M, at: [M::One; 3], step: [M::One; 3]) -> [Linear<M::F>; 3] {
+    each(
+        #[inline(always)]
+        |i| Linear::new(m, at[i], step[i]), // 4.1, 4.2
+    )
+}
+
+impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
+    type Consts<N: Num> = LocalLight<N, L>;
+    type Attribute<R: Real> = Lerp<Point<R>>;
+    type Polygon<R: Real> = ();
+    type Walk<M: Machine> = ([Linear<M::F>; 3], [Linear<M::F>; 3], Option<Linear<M::F>>);
+    type Pixel<F: Num> = ([F; 3], [F; 3], Option<F>);
+
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> LocalLight<N, L> {
+        LocalLight::new(lighting, of)
+    }
+    #[inline(always)]
+    fn vertex<M: Machine>(_: &LocalLight<M::One, L>, corner: &Corner<'_, M>) -> Lerp<Point<M::One>> {
+        point(corner.machine, corner)
+    }
+    #[inline(always)]
+    fn polygon<M: Machine>(_: &LocalLight<M::One, L>, _: &Corners<'_, M, Lerp<Point<M::One>>>) {}
+    #[inline(always)]
+    fn walk<M: Machine>(m: M, _: &LocalLight<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+        let Ramp { at: (n, p, w), step: (dn, dp, dw) } = span.attribute;
+        (linear(m, n, dn), linear(m, p, dp), if SPACE { Some(Linear::new(m, w, dw)) } else { None })
+    }
+    #[inline(always)]
+    fn shade<F: Num>(c: &LocalLight<F, L>, (n, p, inv_w): Self::Pixel<F>) -> [F; 3] {
+        let (one, two) = (c.model.one(), c.model.two());
+        let unit = |v: [F; 3], square: F| {
+            let r = one / square.sqrt();
+            [v[0] * r, v[1] * r, v[2] * r]
+        };
+        let inv_w_square = inv_w.map(|w| w * w);
+        let mut strength = [one; L];
+        let light = each(
+            #[inline(always)]
+            |i| {
+                let l = c.toward_light(i, p, inv_w);
+                let square = dot(l, l);
+                strength[i] = c.strength(i, square, inv_w_square).unwrap_or(one);
+                unit(l, square)
+            },
+        );
+        let v = c.toward_eye(p, inv_w);
+        let strength = if c.is_attenuated() { Some(strength) } else { None };
+        let seen = Seen::new(light, unit(v, dot(v, v)), strength, one, two);
+        c.model.lit(unit(n, dot(n, n)), &seen) // 2.1
     }
 }

@@ -1,11 +1,11 @@
 //! Slerp Phong shading with scalars: `J` and `K` by incremental sines and cosines (L21 4.4, summary c).
 
-use super::illumination::Illumination;
-use super::{Corners, Info, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::local::{Far, Lights, Near};
+use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
-use crate::walk::{Sines, UnitNormal, Walk};
+use crate::walk::{Constant, Sines, UnitNormal, Walk};
 
 /// Slerp Phong shading, scalar form: unit normals walk great circles along the edges; along a span only `J = L·N` and
 /// `K = V·N` are formed, from sines stepped by (4.9)–(4.12). No root and no division a pixel.
@@ -27,15 +27,18 @@ impl Method for SlerpPhong {
                 division each; on triangles the picture depends on how they lie; opposite normals have no great circle",
         parameters: &[],
         perspective: Perspective::ScreenOnly,
+        local: Local::PerPolygon,
         barycentric: false,
     };
-    type Screen<const L: usize> = Of<L>;
-    type Perspective<const L: usize> = Of<L>;
+    type Screen<const L: usize> = Of<Far, L>;
+    type Perspective<const L: usize> = Of<Far, L>;
+    type Local<const L: usize> = Of<Near, L>;
+    type LocalPerspective<const L: usize> = Of<Near, L>;
 }
 
 /// Slerp Phong shading with `L` lights.
 #[derive(Debug)]
-pub struct Of<const L: usize>;
+pub struct Of<P, const L: usize>(P);
 
 /// `J` of each light and `K` along a great circle: the ends, divided by sin φ, and the weights between them.
 #[derive(Clone, Copy, Debug)]
@@ -59,41 +62,45 @@ impl<F: Num, const L: usize> Walk for Cosines<F, L> {
     }
 }
 
-impl<const L: usize> Shader for Of<L> {
-    type Consts<N: Num> = Illumination<N, L>;
+impl<P: Lights, const L: usize> Shader for Of<P, L> {
+    type Consts<N: Num> = P::Of<N, L>;
     type Attribute<R: Real> = UnitNormal<R>;
-    type Polygon<R: Real> = ();
-    type Walk<M: Machine> = Cosines<M::F, L>;
-    type Pixel<F: Num> = ([F; L], F);
+    type Polygon<R: Real> = P::There<R, L>;
+    type Walk<M: Machine> = (Cosines<M::F, L>, Constant<P::There<M::F, L>>);
+    type Pixel<F: Num> = (([F; L], F), P::There<F, L>);
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Illumination<N, L> {
-        Illumination::new(lighting, of)
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> P::Of<N, L> {
+        P::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<R: Real>(_: &Illumination<R, L>, normal: [R; 3]) -> UnitNormal<R> {
-        UnitNormal(normal)
+    fn vertex<M: Machine>(_: &P::Of<M::One, L>, corner: &Corner<'_, M>) -> UnitNormal<M::One> {
+        UnitNormal(corner.normal())
     }
     #[inline(always)]
-    fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, UnitNormal<M::One>>) {}
+    fn polygon<M: Machine>(c: &P::Of<M::One, L>, corners: &Corners<'_, M, UnitNormal<M::One>>) -> P::There<M::One, L> {
+        P::there(c, || corners.mean_position())
+    }
     #[inline(always)]
-    fn walk<M: Machine>(m: M, c: &Illumination<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
-        let arc = &span.attribute;
-        let (from, to) = (c.light_cosines(arc.from), c.light_cosines(arc.to));
-        Cosines {
+    fn walk<M: Machine>(
+        m: M,
+        c: &P::Of<M::One, L>,
+        there: &P::There<M::One, L>,
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
+        let (arc, seen) = (&span.attribute, P::seen(c, there));
+        let (from, to) = (seen.light_cosines(arc.from), seen.light_cosines(arc.to));
+        let cosines = Cosines {
             sines: Sines::new(m, arc.phi, arc.t0, arc.dt),
             j: each(
                 #[inline(always)]
                 |i| [m.splat(from[i]), m.splat(to[i])],
             ),
-            k: [m.splat(c.view_cosine(arc.from)), m.splat(c.view_cosine(arc.to))],
-        }
+            k: [m.splat(seen.view_cosine(arc.from)), m.splat(seen.view_cosine(arc.to))],
+        };
+        (cosines, Constant(P::splat(m, there)))
     }
     #[inline(always)]
-    fn shade<F: Num>(c: &Illumination<F, L>, (j, k): Self::Pixel<F>) -> [F; 3] {
-        let twice_k = c.two() * k;
-        c.colour(
-            #[inline(always)]
-            |i| (j[i], twice_k * j[i] - c.light_view(i)), // 4.5
-        )
+    fn shade<F: Num>(c: &P::Of<F, L>, ((j, k), there): Self::Pixel<F>) -> [F; 3] {
+        P::model(c).colour_of_cosines(j, k, &P::seen(c, &there).scalars) // 4.5
     }
 }

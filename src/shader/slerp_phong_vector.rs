@@ -1,11 +1,11 @@
 //! Slerp Phong shading with vectors: unit normals by incremental sines and cosines (L21 4.4, steps i–iv).
 
-use super::illumination::Illumination;
-use super::{Corners, Info, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::local::{Far, Lights, Near};
+use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
-use crate::walk::{Sines, UnitNormal, Walk};
+use crate::walk::{Constant, Sines, UnitNormal, Walk};
 
 /// Slerp Phong shading, vector form: unit normals walk great circles along edges *and* along spans, then eq 2.1 at
 /// every pixel, without renormalising (L21 4.4, steps i–iv).
@@ -24,15 +24,18 @@ impl Method for SlerpPhongVector {
         fails: "as slerp-phong, at a higher price a pixel",
         parameters: &[],
         perspective: Perspective::ScreenOnly,
+        local: Local::PerPolygon,
         barycentric: false,
     };
-    type Screen<const L: usize> = Of<L>;
-    type Perspective<const L: usize> = Of<L>;
+    type Screen<const L: usize> = Of<Far, L>;
+    type Perspective<const L: usize> = Of<Far, L>;
+    type Local<const L: usize> = Of<Near, L>;
+    type LocalPerspective<const L: usize> = Of<Near, L>;
 }
 
 /// Slerp Phong shading with `L` lights and vectors.
 #[derive(Debug)]
-pub struct Of<const L: usize>;
+pub struct Of<P, const L: usize>(P);
 
 /// A unit normal along a great circle: the ends, divided by sin φ, and the weights between them.
 #[derive(Clone, Copy, Debug)]
@@ -55,30 +58,38 @@ impl<F: Num> Walk for Normals<F> {
     }
 }
 
-impl<const L: usize> Shader for Of<L> {
-    type Consts<N: Num> = Illumination<N, L>;
+impl<P: Lights, const L: usize> Shader for Of<P, L> {
+    type Consts<N: Num> = P::Of<N, L>;
     type Attribute<R: Real> = UnitNormal<R>;
-    type Polygon<R: Real> = ();
-    type Walk<M: Machine> = Normals<M::F>;
-    type Pixel<F: Num> = [F; 3];
+    type Polygon<R: Real> = P::There<R, L>;
+    type Walk<M: Machine> = (Normals<M::F>, Constant<P::There<M::F, L>>);
+    type Pixel<F: Num> = ([F; 3], P::There<F, L>);
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Illumination<N, L> {
-        Illumination::new(lighting, of)
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> P::Of<N, L> {
+        P::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<R: Real>(_: &Illumination<R, L>, normal: [R; 3]) -> UnitNormal<R> {
-        UnitNormal(normal)
+    fn vertex<M: Machine>(_: &P::Of<M::One, L>, corner: &Corner<'_, M>) -> UnitNormal<M::One> {
+        UnitNormal(corner.normal())
     }
     #[inline(always)]
-    fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, UnitNormal<M::One>>) {}
+    fn polygon<M: Machine>(c: &P::Of<M::One, L>, corners: &Corners<'_, M, UnitNormal<M::One>>) -> P::There<M::One, L> {
+        P::there(c, || corners.mean_position())
+    }
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &Illumination<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(
+        m: M,
+        _: &P::Of<M::One, L>,
+        there: &P::There<M::One, L>,
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
         let arc = &span.attribute;
-        let splat = |v: [M::One; 3]| [m.splat(v[0]), m.splat(v[1]), m.splat(v[2])];
-        Normals { sines: Sines::new(m, arc.phi, arc.t0, arc.dt), from: splat(arc.from), to: splat(arc.to) }
+        let sines = Sines::new(m, arc.phi, arc.t0, arc.dt);
+        let normals = Normals { sines, from: m.splat3(arc.from), to: m.splat3(arc.to) };
+        (normals, Constant(P::splat(m, there)))
     }
     #[inline(always)]
-    fn shade<F: Num>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
-        c.lit(n)
+    fn shade<F: Num>(c: &P::Of<F, L>, (n, there): Self::Pixel<F>) -> [F; 3] {
+        P::model(c).lit(n, P::seen(c, &there)) // 2.1
     }
 }

@@ -1,10 +1,11 @@
 //! One span on its own: what benches measure to tell set-up from pixels.
 
 use super::dispatch::{Job, dispatch_sample};
-use super::{Corners, Method, Shader, Span};
+use super::{Corner, Corners, Method, Shader, Span};
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
-use crate::lighting::{Light, Lighting, Material};
+use crate::lighting::{Falloff, Light, Lighting, Material, Place};
 use crate::number::{Machine, Scalar, each};
+use crate::scene::Interpolation;
 use crate::walk::{Attribute, Walk};
 use glam::DVec3;
 
@@ -23,25 +24,49 @@ impl SpanBench {
             .map(|i| {
                 let angle = i as f64;
                 let direction = DVec3::new(0.5 * libm::cos(angle), 0.5 * libm::sin(angle), 1.0).normalize();
-                Light { direction, colour: [0.9, 0.8, 0.7] }
+                Light::directional(direction, [0.9, 0.8, 0.7])
             })
             .collect();
-        let half = degrees.to_radians() / 2.0;
-        let (sin, cos) = libm::sincosf(half);
-        let mut builder = FrameBuilder::new(1, 1);
-        let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &lights, view));
-        for (x, y, normal) in [(0, 0, [-sin, 0.0, cos]), (1, 0, [sin, 0.0, cos]), (0, 1, [0.0, sin, cos])] {
-            let (x, y) = (SubPixel::from_num(x), SubPixel::from_num(y));
-            builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal, material });
+        let lighting = Lighting::new(&Material::default(), [1.0; 3], &lights, view);
+        SpanBench { frame: span(degrees, lighting).finish().expect("one triangle, in range") }
+    }
+
+    /// The same span with the lights and the eye at positions a few of its lengths away; lights grow weaker by
+    /// `falloff`, and the attributes vary on the screen or in space.
+    pub fn local(degrees: f32, lights: usize, falloff: Falloff, interpolation: Interpolation) -> Self {
+        let count = lights.max(1);
+        let light = |i: usize| {
+            let angle = i as f64;
+            let position = DVec3::new(2.0 * libm::cos(angle), 2.0 * libm::sin(angle), 5.0);
+            Light { falloff, ..Light::positional(position, [0.9, 0.8, 0.7]) }
+        };
+        let lights: alloc::vec::Vec<Light> = (0..count).map(light).collect();
+        let lighting = Lighting::new(&Material::default(), [1.0; 3], &lights, DVec3::Z);
+        let mut builder = span(degrees, Lighting { view: Place::Local([0.0, 0.0, 8.0]), ..lighting });
+        for (vertex, x, y) in [(0, 0.0, 0.0), (1, 1.0, 0.0), (2, 0.0, 1.0)] {
+            builder.position(vertex, [x, y, 0.0]);
         }
-        builder.polygon(&[0, 1, 2], [0.0, 0.0, 1.0], 0);
-        let frame = builder.finish().expect("one triangle, in range");
-        SpanBench { frame }
+        builder.interpolation(interpolation);
+        SpanBench { frame: builder.finish().expect("one triangle, in range") }
     }
 
     pub(super) fn frame(&self) -> &Frame {
         &self.frame
     }
+}
+
+/// A triangle whose first two corners are the ends of the span.
+fn span(degrees: f32, lighting: Lighting) -> FrameBuilder {
+    let half = degrees.to_radians() / 2.0;
+    let (sin, cos) = libm::sincosf(half);
+    let mut builder = FrameBuilder::new(1, 1);
+    let material = builder.lighting(lighting);
+    for (x, y, normal) in [(0, 0, [-sin, 0.0, cos]), (1, 0, [sin, 0.0, cos]), (0, 1, [0.0, sin, cos])] {
+        let (x, y) = (SubPixel::from_num(x), SubPixel::from_num(y));
+        builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal, material });
+    }
+    builder.polygon(&[0, 1, 2], [0.0, 0.0, 1.0], 0);
+    builder
 }
 
 /// Shades the span into `out`: vertices and span set-up as the engine does them, then every pixel.
@@ -53,7 +78,7 @@ pub(super) fn shade<D: Method>(parameters: &[u32], bench: &SpanBench, out: &mut 
             run::<S, Scalar>(Scalar, self.0, self.1, self.2);
         }
     }
-    dispatch_sample::<D, _>(bench.frame.light_count(), Shade(parameters, &bench.frame, out));
+    dispatch_sample::<D, _>(&bench.frame, Shade(parameters, &bench.frame, out));
 }
 
 #[inline(always)]
@@ -63,7 +88,7 @@ fn run<S: Shader, M: Machine>(m: M, parameters: &[u32], frame: &Frame, out: &mut
     let consts = S::consts(lighting, parameters, one);
     let wide = S::consts(lighting, parameters, |x| m.splat(m.one(x)));
     let polygon = &frame.polygons()[0];
-    let corner: [_; 3] = each(|i| S::vertex(&consts, frame.vertices()[i].normal.map(one)));
+    let corner: [_; 3] = each(|i| S::vertex(&consts, &Corner { machine: m, frame, vertex: i as u32 }));
     let corners = Corners { machine: m, frame, polygon, attributes: &corner };
     let over_polygon = S::polygon(&consts, &corners);
     let dt = 1.0 / out.len() as f32;

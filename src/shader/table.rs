@@ -3,7 +3,10 @@
 use super::count::{self, OperationCounts};
 use super::dispatch::{Job, dispatch};
 use super::span::{self, SpanBench};
-use super::{FastPhong, Flat, Gouraud, Info, Method, NaivePhong, Shader, SlerpPhong, SlerpPhongVector};
+use super::{
+    DuffPhong, FastPhong, Flat, FlatAverage, Gouraud, GouraudSeparate, Info, Method, NaivePhong, Shader, SlerpPhong,
+    SlerpPhongVector,
+};
 use crate::frame::Frame;
 use crate::number::Scalar;
 use crate::picture::{LinearPicture, Picture8};
@@ -17,9 +20,12 @@ use core::fmt;
 /// All shading methods. A method is one file beside this one, and one line here.
 pub static METHODS: &[Entry] = &[
     Entry::of::<Flat>(),
+    Entry::of::<FlatAverage>(),
     Entry::of::<Gouraud>(),
+    Entry::of::<GouraudSeparate>(),
     Entry::of::<NaivePhong>(),
     Entry::of::<FastPhong>(),
+    Entry::of::<DuffPhong>(),
     Entry::of::<SlerpPhong>(),
     Entry::of::<SlerpPhongVector>(),
 ];
@@ -33,7 +39,7 @@ pub struct Entry {
     pub info: &'static Info,
     draw: fn(&Frame, &[u32], &mut dyn Target),
     draw_barycentric: Option<DrawBarycentric>,
-    count: fn(&[u32], usize) -> OperationCounts,
+    count: fn(&[u32], &SpanBench) -> OperationCounts,
     span: fn(&[u32], &SpanBench, &mut [[f32; 3]]),
 }
 
@@ -74,7 +80,7 @@ fn draw<D: Method>(frame: &Frame, parameters: &[u32], target: &mut dyn Target) {
             scanline::draw::<S, Scalar>(Scalar, self.0, self.1, self.2);
         }
     }
-    dispatch::<D, _>(frame.light_count(), frame.interpolation(), Draw(frame, parameters, target));
+    dispatch::<D, _>(frame, Draw(frame, parameters, target));
 }
 
 fn draw_barycentric<D: Method>(frame: &Frame, parameters: &[u32], edges: Edges, target: &mut dyn Target) {
@@ -85,7 +91,7 @@ fn draw_barycentric<D: Method>(frame: &Frame, parameters: &[u32], edges: Edges, 
             barycentric::draw::<S, Scalar>(Scalar, self.0, self.1, self.2, self.3);
         }
     }
-    dispatch::<D, _>(frame.light_count(), frame.interpolation(), Draw(frame, parameters, edges, target));
+    dispatch::<D, _>(frame, Draw(frame, parameters, edges, target));
 }
 
 /// A method with values for its parameters: what the lecture calls a variant, as in `fast-phong:steps=1`.
@@ -205,7 +211,12 @@ impl Variant {
     /// How many operations of each kind it takes with one light (`lights` ≤ 1) or four, counted by running it on
     /// numbers that count.
     pub fn operations(&self, lights: usize) -> OperationCounts {
-        (self.entry.count)(&self.parameters, lights)
+        self.operations_on(&SpanBench::new(20.0, lights))
+    }
+
+    /// How many operations of each kind it takes on a span.
+    pub fn operations_on(&self, bench: &SpanBench) -> OperationCounts {
+        (self.entry.count)(&self.parameters, bench)
     }
 
     /// Shades one span into `out`: the set-up and as many pixels as `out` has.

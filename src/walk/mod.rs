@@ -7,11 +7,13 @@
 mod attribute;
 mod linear;
 mod newton;
+mod quadratic;
 mod sines;
 
 pub use attribute::{Affine, Arc, Attribute, Lerp, Ramp, UnitNormal};
 pub use linear::{Constant, Linear};
 pub use newton::Newton;
+pub use quadratic::Quadratic;
 pub use sines::Sines;
 
 use crate::number::each;
@@ -51,6 +53,28 @@ impl<A: Walk, B: Walk, C: Walk> Walk for (A, B, C) {
     #[inline(always)]
     fn next(&mut self) -> Self::Out {
         (self.0.next(), self.1.next(), self.2.next())
+    }
+}
+
+impl<A: Walk, B: Walk, C: Walk, D: Walk> Walk for (A, B, C, D) {
+    type Out = (A::Out, B::Out, C::Out, D::Out);
+
+    #[inline(always)]
+    fn next(&mut self) -> Self::Out {
+        (self.0.next(), self.1.next(), self.2.next(), self.3.next())
+    }
+}
+
+/// A walk that is needed or not, which is known before the first pixel.
+impl<W: Walk> Walk for Option<W> {
+    type Out = Option<W::Out>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Self::Out {
+        match self {
+            Some(walk) => Some(walk.next()),
+            None => None,
+        }
     }
 }
 

@@ -2,11 +2,12 @@
 #![allow(dead_code)] // each test file uses its own part
 
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
-use fastphong::lighting::{LightTerm, Lighting};
+use fastphong::lighting::{Light, Lighting, Material};
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::obj::load_obj;
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
+use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -63,8 +64,8 @@ pub fn scene(path: &Path, size: Option<(i64, i64)>) -> Scene {
 
 /// A light from straight ahead: the diffuse term of a normal (√(1−i²), 0, i) is i, and there is nothing else.
 pub fn plain_lighting() -> Lighting {
-    let light = LightTerm { direction: [0.0, 0.0, 1.0], diffuse: [1.0; 3], specular: [0.0; 3] };
-    Lighting { ambient: [0.0; 3], lights: vec![light], view: [0.0, 0.0, 1.0], shininess: 1.0 }
+    let material = Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 };
+    Lighting::new(&material, [0.0; 3], &[Light::directional(DVec3::Z, [1.0; 3])], DVec3::Z)
 }
 
 /// A normal whose colour under [`plain_lighting`] is `intensity`.

@@ -1,6 +1,6 @@
 use super::{cube, cubes, resolve, with_object};
 use crate::camera::Projection;
-use crate::lighting::Material;
+use crate::lighting::{Light, Material, Place};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{MeshBuilder, PolygonMesh};
 use crate::scene::file::SceneFile;
@@ -30,7 +30,8 @@ fn defaults() {
     assert_eq!((scene.interpolation, scene.culling), (Interpolation::Screen, Culling::Back));
     assert_eq!(scene.encoding, Encoding::Linear);
     assert_eq!(scene.lights.len(), 1);
-    assert!(near(scene.lights[0].direction, DVec3::from_array(SceneFile::DEFAULT_LIGHT).normalize()));
+    let Place::Infinite(direction) = scene.lights[0].place else { panic!("{:?}", scene.lights) };
+    assert!(near(direction, DVec3::from_array(SceneFile::DEFAULT_LIGHT).normalize()));
     assert_eq!(scene.lights[0].colour, [1.0; 3]);
     assert_eq!(scene.objects[0].material, Some(Material::default()));
     assert_eq!(scene.objects[0].normals, NormalSource::Averaged);
@@ -151,9 +152,10 @@ fn lights() {
     let text =
         "[[light]]\ndirection = [0, 0, 4]\n[[light]]\ndirection = [3, 4, 0]\ncolour = [1, 0.5, 0]\nintensity = 0.5\n";
     let lights = resolve(&with_object(text)).scene.lights;
-    assert_eq!((lights[0].direction, lights[0].colour), (DVec3::Z, [1.0; 3]));
+    assert_eq!(lights[0], Light::directional(DVec3::Z, [1.0; 3]));
     assert_eq!(lights[1].colour, [0.5, 0.25, 0.0]);
-    assert!(near(lights[1].direction, DVec3::new(0.6, 0.8, 0.0)));
+    let Place::Infinite(direction) = lights[1].place else { panic!("{lights:?}") };
+    assert!(near(direction, DVec3::new(0.6, 0.8, 0.0)));
     assert!(resolve(&with_object("light = []")).scene.lights.is_empty());
 }
 

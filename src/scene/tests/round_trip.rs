@@ -1,8 +1,9 @@
+use crate::lighting::{SpecularGate, SpecularModel};
 use crate::scene::file::{
-    CameraSection, ImageSection, LightSection, MaterialSection, NormalChoice, ObjectSection, RotationSection,
-    Rotations, SceneFile,
+    CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, NormalChoice, ObjectSection,
+    RotationSection, Rotations, SceneFile, ViewerChoice,
 };
-use crate::scene::value::{Located, OneOrThree};
+use crate::scene::value::{Choice, Located, OneOrThree};
 use crate::scene::{Culling, Encoding, Interpolation};
 use std::format;
 use std::string::String;
@@ -60,8 +61,14 @@ impl Random {
     }
 
     fn light(&mut self) -> LightSection {
-        let direction = self.triple().into();
-        LightSection { direction, colour: self.maybe(Self::one_or_three), intensity: self.maybe(Self::number) }
+        LightSection {
+            direction: self.maybe(Self::triple),
+            position: self.maybe(Self::triple),
+            colour: self.maybe(Self::one_or_three),
+            intensity: self.maybe(Self::number),
+            attenuation: self.maybe(Self::number),
+            falloff: self.maybe(|r| r.choice(FalloffChoice::MEANINGS)),
+        }
     }
 
     fn object(&mut self) -> ObjectSection {
@@ -85,6 +92,10 @@ impl Random {
             title: self.maybe(Self::text),
             description: self.maybe(Self::text),
             ambient: self.maybe(Self::one_or_three),
+            viewer: self.maybe(|r| r.choice(ViewerChoice::MEANINGS)),
+            specular: self.maybe(|r| r.choice(SpecularModel::MEANINGS)),
+            shininess_for: self.maybe(|r| r.choice(SpecularModel::MEANINGS)),
+            specular_gate: self.maybe(|r| r.choice(SpecularGate::MEANINGS)),
             interpolation: self.maybe(|r| r.choice(&[Interpolation::Screen, Interpolation::Perspective])),
             cull: self.maybe(|r| r.choice(&[Culling::Back, Culling::Front, Culling::None])),
             depth_test: self.maybe(|r| r.choice(&[true, false])),

@@ -1,0 +1,155 @@
+//! How much the vectors toward lights and eye vary over the polygons of a frame: what bounds of rounding errors need.
+
+use crate::frame::{Frame, Polygon};
+use crate::lighting::{Falloff, Lighting, Place};
+use alloc::vec;
+use alloc::vec::Vec;
+use glam::DVec3;
+
+/// How unequal vectors toward places are.
+///
+/// A polygon, whatever of it is seen, lies in the smallest ball around the middle of its corners that holds them. From
+/// points of a ball of radius ρ at the distance r a place is between r − ρ and r + ρ away, in directions within
+/// sin⁻¹(ρ/r) of that from its middle.
+pub(super) struct Spread {
+    /// The longest over the shortest, the coordinates that they are differences of counted as long: 1 or more.
+    pub vectors: f64,
+    /// The largest weight of perspective over the smallest in one polygon.
+    pub weights: f64,
+    /// The greatest strength of each light on each material.
+    strengths: Vec<Vec<f64>>,
+    /// The least |L + V| of unit vectors on each material.
+    halves: Vec<f64>,
+}
+
+impl Spread {
+    pub fn of(frame: &Frame) -> Spread {
+        let lightings = frame.lightings();
+        let mut spread = Spread {
+            vectors: 1.0,
+            weights: 1.0,
+            strengths: lightings.iter().map(of_infinite).collect(),
+            halves: vec![2.0; lightings.len()],
+        };
+        let is_local = frame.is_local();
+        for polygon in frame.polygons() {
+            let weights = frame.corners(polygon).iter().map(|&v| f64::from(frame.vertices()[v as usize].inv_w));
+            let (least, most) = weights.fold((f64::INFINITY, 0.0), |(low, high), w| (w.min(low), w.max(high)));
+            spread.weights = f64::max(spread.weights, most / least);
+            if is_local {
+                spread.add(frame, polygon, &Ball::around(frame, polygon));
+            }
+        }
+        for (half, lighting) in spread.halves.iter_mut().zip(lightings) {
+            if let Place::Infinite(view) = lighting.view {
+                for light in &lighting.lights {
+                    if let Place::Infinite(direction) = light.place {
+                        *half = half.min((wide(direction) + wide(view)).length());
+                    }
+                }
+            }
+            // Below this the bound is over 1 whatever the light: no bound at all.
+            *half = half.max(1e-9);
+        }
+        spread
+    }
+
+    pub fn strength(&self, material: u32, light: usize) -> f64 {
+        self.strengths[material as usize][light]
+    }
+
+    pub fn half(&self, material: u32) -> f64 {
+        self.halves[material as usize]
+    }
+
+    fn add(&mut self, frame: &Frame, polygon: &Polygon, ball: &Ball) {
+        let material = polygon.material as usize;
+        let lighting = &frame.lightings()[material];
+        let view = ball.sees(lighting.view);
+        self.vectors = self.vectors.max(view.spread);
+        for (i, light) in lighting.lights.iter().enumerate() {
+            let sight = ball.sees(light.place);
+            self.vectors = self.vectors.max(sight.spread);
+            let strength = match light.falloff {
+                _ if !light.place.is_local() => 1.0,
+                Falloff::None => 1.0,
+                Falloff::Attenuation(k) => 1.0 / (1.0 + f64::from(k) * sight.nearest * sight.nearest),
+                Falloff::InverseSquare => 1.0 / (sight.nearest * sight.nearest),
+                Falloff::Inverse => 1.0 / sight.nearest,
+            };
+            let greatest = &mut self.strengths[material][i];
+            *greatest = greatest.max(strength);
+            // |l + v| = 2 cos(θ/2) for unit vectors at the angle θ.
+            let between = libm::acos(sight.direction.dot(view.direction).clamp(-1.0, 1.0)) + sight.angle + view.angle;
+            let half = 2.0 * libm::cos(between.min(core::f64::consts::PI) / 2.0);
+            self.halves[material] = self.halves[material].min(half);
+        }
+    }
+}
+
+/// Lights at infinity have their full strength; of others it is not known yet.
+fn of_infinite(lighting: &Lighting) -> Vec<f64> {
+    lighting.lights.iter().map(|light| if light.place.is_local() { 0.0 } else { 1.0 }).collect()
+}
+
+fn wide(v: [f32; 3]) -> DVec3 {
+    DVec3::from_array(v.map(f64::from))
+}
+
+/// A ball that holds a polygon.
+struct Ball {
+    middle: DVec3,
+    radius: f64,
+    /// The largest distance of a corner from the origin: as long as what is subtracted.
+    reach: f64,
+}
+
+/// A place as the points of a ball see it.
+struct Sight {
+    spread: f64,
+    nearest: f64,
+    /// From the middle of the ball.
+    direction: DVec3,
+    /// By how much directions from other points differ at most.
+    angle: f64,
+}
+
+impl Ball {
+    fn around(frame: &Frame, polygon: &Polygon) -> Ball {
+        let mut ends: Vec<u32> = frame.corners(polygon).to_vec();
+        // What clipping made lies between its ends, which lie between theirs.
+        while let Some(i) = ends.iter().position(|&v| clip_corner(frame, v).is_some()) {
+            if let Some((a, b)) = clip_corner(frame, ends[i]) {
+                ends[i] = a;
+                ends.push(b);
+            }
+        }
+        let points = || ends.iter().map(|&v| wide(frame.position(v)));
+        let middle = points().sum::<DVec3>() / ends.len() as f64;
+        let most = |of: &dyn Fn(DVec3) -> f64| points().map(of).fold(0.0, f64::max);
+        Ball { middle, radius: most(&|p| p.distance(middle)), reach: most(&|p| p.length()) }
+    }
+
+    fn sees(&self, place: Place<[f32; 3]>) -> Sight {
+        let position = match place {
+            Place::Infinite(direction) => {
+                return Sight { spread: 1.0, nearest: f64::INFINITY, direction: wide(direction), angle: 0.0 };
+            }
+            Place::Local(position) => wide(position),
+        };
+        let toward = position - self.middle;
+        let far = toward.length();
+        // Inside the ball no bound is known: the smallest distance that the methods tell from 0.
+        let nearest = (far - self.radius).max(1e-15);
+        let longest = (far + self.radius).max(position.length() + self.reach);
+        let angle = libm::asin((self.radius / far.max(1e-15)).min(1.0));
+        Sight { spread: longest / nearest, nearest, direction: toward.normalize_or_zero(), angle }
+    }
+}
+
+/// The ends of the edge on which clipping made a vertex.
+fn clip_corner(frame: &Frame, vertex: u32) -> Option<(u32, u32)> {
+    let all = frame.clip_corners();
+    let place = all.binary_search_by_key(&vertex, |corner| corner.vertex).ok()?;
+    Some((all[place].a, all[place].b))
+}

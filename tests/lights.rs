@@ -1,0 +1,202 @@
+//! Lights and a viewer at positions, falloffs, both highlights and all gates: every method against the reference.
+
+use fastphong::camera::Projection;
+use fastphong::frame::Frame;
+use fastphong::lighting::{Falloff, Light, SpecularGate, SpecularModel};
+use fastphong::mesh::builtin::builtin;
+use fastphong::metrics::compare;
+use fastphong::picture::LinearPicture;
+use fastphong::reference::{self, Model};
+use fastphong::scene::{Interpolation, Scene};
+use fastphong::shader::{METHODS, SpanBench, Variant};
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// A sphere of n-gons from near by, with a light at infinity and two at places; nothing of it is clipped.
+fn scene(change: impl FnOnce(&mut Scene)) -> Scene {
+    let mut scene = Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
+    (scene.width, scene.height) = (80, 60);
+    scene.camera.projection = Projection::Perspective { fovy: 60.0 };
+    scene.camera.eye = scene.camera.target + scene.camera.view() * 2.5;
+    (scene.camera.near, scene.camera.far) = (0.5, 5.0);
+    let eye = scene.camera.eye;
+    scene.lights = vec![
+        Light::directional(DVec3::new(0.6, 0.0, 0.8), [0.3, 0.2, 0.1]),
+        Light::positional(eye + DVec3::new(2.0, 1.5, 0.5), [0.5, 0.4, 0.6]),
+        Light::positional(eye * 0.8 + DVec3::new(-1.0, 0.5, 0.0), [0.2, 0.4, 0.3]),
+    ];
+    scene.local_viewer = true;
+    change(&mut scene);
+    scene
+}
+
+fn frame(change: impl FnOnce(&mut Scene)) -> Frame {
+    scene(change).frame().expect("a frame")
+}
+
+fn most(a: &LinearPicture, b: &LinearPicture) -> f64 {
+    let difference = compare(a, b).expect("equal sizes");
+    assert_eq!((difference.coverage_mismatches, difference.not_finite), (0, 0));
+    difference.max
+}
+
+const FALLOFFS: [Falloff; 4] = [Falloff::None, Falloff::Attenuation(0.2), Falloff::InverseSquare, Falloff::Inverse];
+
+/// Every falloff, highlight, gate and interpolation, near plane through the sphere or not: within the bound of each method.
+#[test]
+fn every_mode_is_the_references() {
+    let mut nearest: BTreeMap<&str, f64> = BTreeMap::new();
+    let mut failures = Vec::new();
+    for (i, falloff) in FALLOFFS.into_iter().enumerate() {
+        for specular in [SpecularModel::Phong, SpecularModel::Blinn] {
+            for gate in [SpecularGate::Gated, SpecularGate::Ungated, SpecularGate::Weighted] {
+                for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
+                    let frame = frame(|scene| {
+                        scene.lights.iter_mut().for_each(|light| light.falloff = falloff);
+                        (scene.specular, scene.gate, scene.interpolation) = (specular, gate, interpolation);
+                        // With one falloff light and eye are far from the pixels that the near plane leaves.
+                        scene.camera.near = if i == 1 { 1.55 } else { 0.5 };
+                    });
+                    assert_eq!(frame.stats().clipped > 0, i == 1);
+                    for entry in METHODS {
+                        let truth = reference::render(&frame, entry.info.model).to_linear();
+                        let error = most(&truth, &entry.variant().render_linear(&frame));
+                        let bound = entry.info.bound(&frame);
+                        assert!(bound < 2.0 / 255.0, "{}: a bound of {bound:.2e} could hide a fault", entry.info.name);
+                        let share = nearest.entry(entry.info.name).or_insert(0.0);
+                        *share = share.max(error / bound);
+                        if error > bound {
+                            let mode = format!("{falloff:?} {specular:?} {gate:?} {interpolation:?}");
+                            failures.push(format!("{} {mode}: {error:.2e} over {bound:.2e}", entry.info.name));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    println!("{nearest:?}");
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    // The bounds take the worst polygon, light and weight together, which never meet: far from sharp, but still below what
+    // can be seen.
+    for (name, share) in nearest {
+        assert!(share > 0.0005, "{name}: its bound is two thousand times its largest error");
+    }
+}
+
+/// What differs between the modes is not rounding: each change of a mode changes the reference's picture by more than two
+/// grey levels.
+#[test]
+fn every_mode_changes_the_picture() {
+    let render = |change: &dyn Fn(&mut Scene)| reference::render(&frame(change), Model::Phong).to_linear();
+    let plain = render(&|_| ());
+    let changes: [(&str, &dyn Fn(&mut Scene)); 8] = [
+        ("attenuation", &|s| s.lights[1].falloff = Falloff::Attenuation(0.2)),
+        ("inverse square", &|s| s.lights[1].falloff = Falloff::InverseSquare),
+        ("inverse", &|s| s.lights[1].falloff = Falloff::Inverse),
+        ("infinite viewer", &|s| s.local_viewer = false),
+        ("Blinn", &|s| s.specular = SpecularModel::Blinn),
+        ("ungated", &|s| s.gate = SpecularGate::Ungated),
+        ("weighted", &|s| s.gate = SpecularGate::Weighted),
+        ("at infinity", &|s| s.lights[1] = Light::directional(DVec3::new(0.6, 0.5, 0.6).normalize(), [0.5, 0.4, 0.6])),
+    ];
+    for (name, change) in changes {
+        let change_here = |scene: &mut Scene| {
+            // A light behind the rim, where gates matter.
+            scene.lights[0] = Light::directional(-scene.camera.view(), [0.6; 3]);
+            change(scene);
+        };
+        let base = render(&|scene| scene.lights[0] = Light::directional(-scene.camera.view(), [0.6; 3]));
+        let difference = most(&base, &render(&change_here)).max(most(&plain, &render(change)).min(0.0));
+        assert!(difference > 2.0 / 255.0, "{name}: {difference}");
+    }
+}
+
+/// The six quadratics and naive Phong are one picture; the lecture's form, constant along each polygon, is another.
+#[test]
+fn what_constant_vectors_lose() {
+    let frame = frame(|_| ());
+    let render = |name: &str| Variant::parse(name).expect("a method").render_linear(&frame);
+    let naive = render("naive-phong");
+    let exact = most(&naive, &render("duff-phong"));
+    let bounds = ["naive-phong", "duff-phong"].map(|name| Variant::parse(name).expect("a method").info().bound(&frame));
+    assert!(exact <= bounds[0] + bounds[1], "{exact} over {bounds:?}");
+    let constant = most(&naive, &render("fast-phong"));
+    assert!(constant > 4.0 / 255.0, "constant vectors lose {constant}");
+}
+
+/// Twelve additions a pixel for one light and six for each further one; two for the attenuation under perspective.
+#[test]
+fn the_six_products_take_two_additions_each() {
+    let duff = Variant::parse("duff-phong").expect("a method");
+    let additions = |lights, falloff, interpolation| {
+        let walk = duff.operations_on(&SpanBench::local(20.0, lights, falloff, interpolation)).walk;
+        assert_eq!((walk.multiplications, walk.divisions, walk.roots), (0, 0, 0), "additions only");
+        walk.additions
+    };
+    let (none, attenuated) = (Falloff::None, Falloff::Attenuation(0.5));
+    assert_eq!(additions(1, none, Interpolation::Screen), 12);
+    assert_eq!(additions(2, none, Interpolation::Screen), 18);
+    assert_eq!(additions(4, none, Interpolation::Screen), 30);
+    assert_eq!(additions(1, none, Interpolation::Perspective), 12);
+    assert_eq!(additions(1, attenuated, Interpolation::Screen), 12);
+    assert_eq!(additions(1, attenuated, Interpolation::Perspective), 14);
+}
+
+/// Far away a light at a position is a light at infinity, for every method.
+#[test]
+fn a_light_far_away_is_one_at_infinity() {
+    let direction = DVec3::new(0.36, 0.48, 0.8);
+    let far = frame(|s| {
+        s.local_viewer = false;
+        s.lights = vec![Light::positional(direction * 1e6, [1.0; 3])];
+    });
+    let infinite = frame(|s| {
+        s.local_viewer = false;
+        s.lights = vec![Light::directional(direction, [1.0; 3])];
+    });
+    for entry in METHODS {
+        // Vectors to the light differ by the angle 2.5 / 1e6 (eye and sphere are within 2.5 of the origin), which the
+        // model multiplies like any error of a cosine: 4 n k_s + k_d = 52.
+        let bound = 52.0 * 2.5e-6 + entry.info.bound(&far) + entry.info.bound(&infinite);
+        let error = most(&entry.variant().render_linear(&far), &entry.variant().render_linear(&infinite));
+        assert!(error <= bound, "{}: {error} over {bound}", entry.info.name);
+    }
+}
+
+/// An exponent for R·V and four times as much for N·H give highlights alike: light and eye at infinity, in one plane.
+#[test]
+fn converted_exponents_give_the_same_highlight() {
+    let picture = |specular, shininess_for| {
+        let frame = frame(|s| {
+            s.local_viewer = false;
+            s.lights = vec![Light::directional(s.camera.view(), [1.0; 3])];
+            (s.specular, s.shininess_for) = (specular, shininess_for);
+        });
+        reference::render(&frame, Model::Phong).to_linear()
+    };
+    let phong = picture(SpecularModel::Phong, SpecularModel::Phong);
+    let converted = most(&phong, &picture(SpecularModel::Blinn, SpecularModel::Phong));
+    let same_exponent = most(&phong, &picture(SpecularModel::Blinn, SpecularModel::Blinn));
+    // cos^n 2a and cos^4n a agree to second order: for n = 32 they are at most 0.0043 apart, at a = 10.1°. k_s is 0.4, and
+    // rounding to f32 is far below the rest.
+    assert!(converted <= 0.4 * 0.0044, "{converted}");
+    assert!(same_exponent > 10.0 * converted, "{same_exponent} against {converted}");
+}
+
+/// A light inside the sphere, an eye inside it, a light in the plane of a polygon: finite pictures, the reference's.
+#[test]
+fn unlucky_places_make_no_artefacts() {
+    let inside = frame(|s| {
+        s.lights =
+            vec![Light { falloff: Falloff::InverseSquare, ..Light::positional(DVec3::new(0.1, 0.2, 0.05), [0.5; 3]) }];
+        s.culling = fastphong::scene::Culling::None;
+        s.camera.eye = DVec3::new(0.0, 0.1, 0.3);
+        s.camera.target = DVec3::new(0.0, 0.0, -1.0);
+        (s.camera.near, s.camera.far) = (0.01, 3.0);
+    });
+    for entry in METHODS {
+        for texel in entry.variant().render_linear(&inside).texels() {
+            assert!(texel.iter().all(|c| (0.0..=1.0).contains(c)), "{}: {texel:?}", entry.info.name);
+        }
+    }
+}
