@@ -62,6 +62,8 @@ mod clip;
 #[cfg(feature = "cli")]
 pub mod comparison;
 pub mod encoding;
+#[cfg(feature = "cli")]
+pub mod figures;
 pub mod frame;
 #[cfg(feature = "io")]
 pub mod image_file;
