@@ -74,7 +74,7 @@ impl Grey {
             specular: [self.specular; 3],
             shininess: self.shininess,
         };
-        Lighting::new(&material, [1.0; 3], &[Light { direction: self.light.normalize(), colour: [1.0; 3] }], DVec3::Z)
+        Lighting::new(&material, [1.0; 3], &[Light::directional(self.light.normalize(), [1.0; 3])], DVec3::Z)
     }
 }
 
