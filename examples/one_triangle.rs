@@ -11,7 +11,7 @@ use fastphong::camera::{Camera, Projection};
 use fastphong::lighting::{Light, Material};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, MeshBuilder};
-use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+use fastphong::scene::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 use fastphong::shader::Variant;
 use glam::{DAffine3, DVec3, Vec3};
 use std::error::Error;
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         lights: vec![Light { direction: DVec3::new(0.3, 0.4, 1.0).normalize(), colour: [1.0; 3] }],
         interpolation: Interpolation::Screen,
         culling: Culling::Back,
-        depth_test: true,
+        hidden_surfaces: HiddenSurfaces::default(),
         encoding: Encoding::Srgb,
         objects: vec![Object {
             mesh: Arc::new(mesh.finish()?),

@@ -8,7 +8,7 @@ use fastphong::lighting::{Light, Material};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
 use fastphong::raster;
-use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+use fastphong::scene::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 use fastphong::shader::{METHODS, Variant};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -24,7 +24,7 @@ fn scene(mesh: PolygonMesh, camera: Camera) -> Scene {
         lights: vec![Light { direction: DVec3::Z, colour: [1.0; 3] }],
         interpolation: Interpolation::Perspective,
         culling: Culling::None,
-        depth_test: true,
+        hidden_surfaces: HiddenSurfaces::default(),
         encoding: Encoding::Linear,
         objects: vec![Object {
             mesh: Arc::new(mesh),

@@ -5,7 +5,7 @@ use fastphong::camera_fit::Fit;
 use fastphong::lighting::Light;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+use fastphong::scene::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 use glam::{DAffine3, DVec3};
 
 /// Name and mesh of each scene.
@@ -33,7 +33,7 @@ pub fn scene(mesh: &str) -> Scene {
         lights: vec![Light { direction: DVec3::new(1.0, 1.0, 2.0).normalize(), colour: [1.0; 3] }],
         interpolation: Interpolation::Screen,
         culling: Culling::Back,
-        depth_test: true,
+        hidden_surfaces: HiddenSurfaces::default(),
         encoding: Encoding::Linear,
         objects: vec![Object {
             mesh: mesh.into(),

@@ -9,7 +9,7 @@
 //! use fastphong::lighting::Light;
 //! use fastphong::mesh::builtin::builtin;
 //! use fastphong::mesh::vertex_normals::NormalSource;
-//! use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+//! use fastphong::scene::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 //! use fastphong::shader::Variant;
 //! use glam::{DAffine3, DVec3};
 //!
@@ -25,7 +25,7 @@
 //!     lights: vec![Light { direction: DVec3::new(1.0, 1.0, 2.0).normalize(), colour: [1.0; 3] }],
 //!     interpolation: Interpolation::Screen,
 //!     culling: Culling::Back,
-//!     depth_test: true,
+//!     hidden_surfaces: HiddenSurfaces::default(),
 //!     encoding: Encoding::Linear,
 //!     objects: vec![Object {
 //!         mesh: mesh.into(),

@@ -6,7 +6,7 @@ use crate::frame::{FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Light, Lighting, Material};
 use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
-use crate::scene::{Culling, Object, Scene};
+use crate::scene::{Culling, HiddenSurfaces, Object, Scene};
 use alloc::vec;
 use core::time::Duration;
 use glam::{DAffine3, DVec3};
@@ -26,7 +26,7 @@ fn frame_of(mesh: &str) -> Frame {
         lights: vec![Light { direction: DVec3::new(1.0, 1.0, 2.0).normalize(), colour: [1.0; 3] }],
         interpolation: Interpolation::Screen,
         culling: Culling::Back,
-        depth_test: true,
+        hidden_surfaces: HiddenSurfaces::default(),
         encoding: Encoding::Linear,
         objects: vec![Object {
             mesh: mesh.into(),

@@ -1,6 +1,6 @@
 //! The scene that a mesh alone gets.
 
-use super::{Culling, Encoding, Interpolation, Object, Scene};
+use super::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 use crate::camera::{Camera, Projection};
 use crate::camera_fit::Fit;
 use crate::lighting::{Light, Material};
@@ -64,7 +64,7 @@ impl Scene {
             lights: vec![Light { direction: unit(Scene::DEFAULT_LIGHT), colour: [1.0; 3] }],
             interpolation: Interpolation::default(),
             culling: Culling::default(),
-            depth_test: true,
+            hidden_surfaces: HiddenSurfaces::default(),
             encoding: Encoding::default(),
             objects: vec![Object {
                 mesh: Arc::new(mesh),

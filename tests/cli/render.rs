@@ -121,7 +121,7 @@ fn flags_change_the_picture() {
     ] {
         assert!(sphere(flags) != plain, "{flags}");
     }
-    assert!(sphere("--cull none --no-depth") != sphere("--cull none"));
+    assert!(sphere("--cull none --visibility draw-order") != sphere("--cull none"));
     assert!(rendered("perspective --size 64x48") != rendered("perspective --size 64x48 --interpolation screen"));
     assert!(sphere("--normals averaged") == plain);
 }
