@@ -2,7 +2,11 @@
 //!
 //! Sorting takes O(n log n), and the sorted frame is then drawn without looking at depth. The key is one number a polygon:
 //! the depth z/w of its corners, their mean or that of the farthest one. One number cannot order all scenes, and for some
-//! no order is right at all (L5: *Can have unresolvable depth order*).
+//! no order is right at all (L5: *Can have unresolvable depth order*): [`conflicts`] finds both.
+
+mod conflicts;
+
+pub use conflicts::{Conflicts, conflicts};
 
 use crate::frame::{Frame, Polygon};
 use crate::scene::PainterKey;
