@@ -52,6 +52,7 @@ macro_rules! shipped {
 pub static SCENES: &[ShippedScene] = shipped![
     "coarse-sphere" "fine-sphere" "teapot" "knot-100k" "million" "sharp-highlight" "four-lights" "polygons" "vase"
     "football" "perspective" "figure5" "ellipsoid" "mirrored" "corrugated" "terrain"
+    "cyclic-triangles" "interpenetration" "z-fighting"
 ];
 
 /// The files that shipped scenes refer to.

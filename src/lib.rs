@@ -73,6 +73,7 @@ pub mod lighting;
 pub mod mesh;
 pub mod metrics;
 pub mod number;
+pub mod painter;
 pub mod picture;
 mod projection;
 pub mod raster;

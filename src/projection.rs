@@ -6,7 +6,7 @@ use crate::lighting::{self, Light, Lighting, Material};
 use crate::mesh::PolygonMesh;
 use crate::mesh::newell::{polygon_normal, unit_normal};
 use crate::mesh::vertex_normals::{VertexNormals, vertex_normals};
-use crate::scene::{Culling, Interpolation, Object, Scene};
+use crate::scene::{Culling, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Object, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
@@ -80,6 +80,8 @@ struct Projection<'a> {
     stats: FrameStats,
     vertex_count: u32,
     polygon_count: u32,
+    /// Whether anything is to be interpolated with 1/w.
+    needs_inv_w: bool,
 }
 
 /// One object's mesh in clip space, and the frame's vertices that were made of it.
@@ -113,7 +115,8 @@ impl<'a> Projection<'a> {
         builder
             .background(scene.background)
             .interpolation(scene.interpolation)
-            .depth_test(scene.depth_test)
+            .hidden_surfaces(scene.hidden_surfaces)
+            .depth_range(scene.camera.near_to_far())
             .encoding(scene.encoding);
         // On the picture the guard band reaches one longest side beyond its edges: x/w within ±reach.
         let reach = |side: u32| 1.0 + 2.0 * f64::from(Scene::MAX_SIDE) / f64::from(side);
@@ -129,7 +132,10 @@ impl<'a> Projection<'a> {
             guard(w_y - y),
         ];
         let stats = FrameStats::default();
-        Ok(Projection { scene, clip_matrix, planes, builder, stats, vertex_count: 0, polygon_count: 0 })
+        let per_sample = |buffer: DepthBuffer| buffer.source == DepthSource::PerSample;
+        let needs_inv_w = scene.interpolation == Interpolation::Perspective
+            || matches!(scene.hidden_surfaces, HiddenSurfaces::ZBuffer(buffer) if per_sample(buffer));
+        Ok(Projection { scene, clip_matrix, planes, builder, stats, vertex_count: 0, polygon_count: 0, needs_inv_w })
     }
 
     fn finish(mut self) -> Result<Frame, FrameError> {
@@ -276,10 +282,7 @@ impl<'a> Projection<'a> {
             return Vertex { x: SubPixel::ZERO, y: SubPixel::ZERO, depth: 0.0, inv_w: 1.0, normal, material };
         }
         let [x, y] = self.snap(clip);
-        let inv_w = match self.scene.interpolation {
-            Interpolation::Screen => 1.0,
-            Interpolation::Perspective => self.weight(clip.w),
-        };
+        let inv_w = if self.needs_inv_w { self.weight(clip.w) } else { 1.0 };
         Vertex { x, y, depth: (clip.z / clip.w) as f32, inv_w, normal, material }
     }
 

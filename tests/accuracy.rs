@@ -108,7 +108,10 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
 /// The same frame without specular light.
 fn matte(frame: &Frame) -> Frame {
     let mut builder = FrameBuilder::new(frame.width() as u32, frame.height() as u32);
-    builder.interpolation(frame.interpolation()).depth_test(frame.depth_test());
+    builder
+        .interpolation(frame.interpolation())
+        .hidden_surfaces(frame.hidden_surfaces())
+        .depth_range(frame.depth_range());
     for lighting in frame.lightings() {
         let mut lighting = lighting.clone();
         lighting.lights.iter_mut().for_each(|light| light.specular = [0.0; 3]);

@@ -12,6 +12,8 @@ use super::{Failure, Outcome, values};
 use fastphong::frame::{Frame, FrameStats};
 use fastphong::image_file::Format;
 use fastphong::input;
+use fastphong::painter::{Conflicts, conflicts};
+use fastphong::scene::HiddenSurfaces;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -95,6 +97,14 @@ impl Render {
             talk.detail(stats_text(&frame).trim_end());
             Ok(())
         })?;
+        if talk != Talk::Quiet && matches!(frame.hidden_surfaces(), HiddenSurfaces::Painter(_)) {
+            progress.at(0.4, "looking for conflicts of the painter");
+            let conflicts = conflicts(&frame);
+            progress.aside(|| match painter_text(&conflicts) {
+                Some(text) => talk.warning(&text),
+                None => talk.detail("the painter draws every pair of polygons in the right order"),
+            });
+        }
         progress.at(0.5, "shading");
         let drawing = progress.aside(|| Drawing::new(frame, self.content(), talk))?;
         if let Some(output) = &output {
@@ -172,6 +182,26 @@ fn warn_of_polygons_without_area(stats: FrameStats, talk: Talk) {
             grouped(stats.polygons)
         )),
     }
+}
+
+/// What the painter's algorithm draws wrongly, if anything.
+fn painter_text(conflicts: &Conflicts) -> Option<String> {
+    let counted = |n: usize, one: &str, more: &str| format!("{} {}", grouped(n), if n == 1 { one } else { more });
+    if conflicts.wrong.is_empty() {
+        // A cycle has a pair in the wrong order, whatever the order.
+        return None;
+    }
+    let wrong = counted(conflicts.wrong.len(), "pair is drawn", "pairs are drawn");
+    if conflicts.cycles.is_empty() {
+        return Some(format!("{wrong} in the wrong order by the painter's key, though an order exists that is right"));
+    }
+    let in_cycles = counted(conflicts.cycles.iter().map(Vec::len).sum(), "polygon", "polygons");
+    let cycles = counted(conflicts.cycles.len(), "cycle", "cycles");
+    let cutting = match conflicts.interpenetrating {
+        0 => String::new(),
+        n => format!(", {} each other", counted(n, "pair cuts", "pairs cut")),
+    };
+    Some(format!("{in_cycles} in {cycles}: no order draws them right; {wrong} in the wrong order{cutting}"))
 }
 
 fn stats_text(frame: &Frame) -> String {

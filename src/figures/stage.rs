@@ -5,7 +5,7 @@ use crate::encoding::store;
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Light, Lighting, Material};
 use crate::picture::{LinearPicture, Picture8};
-use crate::scene::Encoding;
+use crate::scene::{Encoding, HiddenSurfaces};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -84,7 +84,7 @@ impl Grey {
 /// If a coordinate is beyond the guard band, or the size is not one.
 pub(super) fn frame([width, height]: [u32; 2], grey: &Grey, polygons: &[Facet]) -> Result<Frame, FigureError> {
     let mut builder = FrameBuilder::new(width, height);
-    builder.depth_test(false);
+    builder.hidden_surfaces(HiddenSurfaces::DrawOrder);
     let material = builder.lighting(grey.lighting());
     for (number, facet) in polygons.iter().enumerate() {
         let vertex = |corner: &Corner| Vertex {

@@ -1,8 +1,9 @@
 //! Making a frame, and checking it once.
 
-use super::{ClipCorner, Frame, FrameError, FrameStats, Mean, Polygon, SubPixel, Vertex};
+use super::{ClipCorner, DepthRange, Frame, FrameError, FrameStats, Mean, Polygon, SubPixel, Vertex};
 use crate::lighting::{Lighting, Rgb};
-use crate::scene::{Encoding, Interpolation, Scene};
+use crate::painter::back_to_front;
+use crate::scene::{Encoding, HiddenSurfaces, Interpolation, Scene};
 use alloc::vec::Vec;
 
 /// Collects vertices and polygons, then checks them once, so that what reads a frame need not.
@@ -12,7 +13,7 @@ pub struct FrameBuilder {
 }
 
 impl FrameBuilder {
-    /// An empty frame of `width` × `height` pixels, black, with depth test, linear on the screen.
+    /// An empty frame of `width` × `height` pixels, black, with a depth buffer of floats, linear on the screen.
     pub fn new(width: u32, height: u32) -> Self {
         FrameBuilder {
             frame: Frame {
@@ -20,7 +21,8 @@ impl FrameBuilder {
                 height,
                 background: [0.0; 3],
                 interpolation: Interpolation::Screen,
-                depth_test: true,
+                hidden_surfaces: HiddenSurfaces::default(),
+                depth_range: DepthRange::default(),
                 encoding: Encoding::Linear,
                 vertices: Vec::new(),
                 positions: Vec::new(),
@@ -47,9 +49,15 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets whether nearer polygons hide farther ones.
-    pub fn depth_test(&mut self, on: bool) -> &mut Self {
-        self.frame.depth_test = on;
+    /// Sets how hidden surfaces are found.
+    pub fn hidden_surfaces(&mut self, how: HiddenSurfaces) -> &mut Self {
+        self.frame.hidden_surfaces = how;
+        self
+    }
+
+    /// Sets the distances at which depth is 0 and 1; by default the distance is the depth.
+    pub fn depth_range(&mut self, range: DepthRange) -> &mut Self {
+        self.frame.depth_range = range;
         self
     }
 
@@ -134,7 +142,7 @@ impl FrameBuilder {
         self
     }
 
-    /// The frame.
+    /// The frame; under the painter's algorithm its polygons are sorted from back to front.
     ///
     /// # Errors
     /// [`FrameError`] when a size, a number of lights, a coordinate or an index is outside its range.
@@ -143,6 +151,9 @@ impl FrameBuilder {
         let side = 1..=Scene::MAX_SIDE;
         if !side.contains(&frame.width) || !side.contains(&frame.height) {
             return Err(FrameError::Size { width: frame.width, height: frame.height });
+        }
+        if !frame.depth_range.is_valid() {
+            return Err(FrameError::Camera);
         }
         if frame.corners.len() > u32::MAX as usize || frame.vertices.len() > u32::MAX as usize {
             return Err(FrameError::TooLarge);
@@ -175,7 +186,13 @@ impl FrameBuilder {
             }
             previous = Some(corner.vertex);
         }
-        Ok(frame)
+        match frame.hidden_surfaces {
+            HiddenSurfaces::Painter(key) => {
+                let order = back_to_front(&frame, key);
+                Ok(frame.in_order(&order))
+            }
+            HiddenSurfaces::ZBuffer(_) | HiddenSurfaces::DrawOrder => Ok(frame),
+        }
     }
 }
 

@@ -5,13 +5,15 @@
 //! so what differs between their pictures is shading and not geometry.
 
 mod builder;
+mod depth_range;
 mod error;
 
 pub use builder::FrameBuilder;
+pub use depth_range::DepthRange;
 pub use error::FrameError;
 
 use crate::lighting::{Lighting, Rgb};
-use crate::scene::{Encoding, Interpolation, Scene};
+use crate::scene::{Encoding, HiddenSurfaces, Interpolation, Scene};
 use alloc::vec::Vec;
 
 /// A coordinate on the picture in pixels, snapped to 1/256: x to the right, y downward, (0, 0) the outer corner of the
@@ -27,7 +29,8 @@ pub struct Vertex {
     pub y: SubPixel,
     /// z/w: linear on the screen, 0 at the near plane, 1 at the far plane.
     pub depth: f32,
-    /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation.
+    /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation, and what
+    /// depth is computed from at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)).
     pub inv_w: f32,
     /// Unit vertex normal in world space (L21 3.1); ignored at a [`ClipCorner`].
     pub normal: [f32; 3],
@@ -97,7 +100,8 @@ pub struct Frame {
     height: u32,
     background: Rgb,
     interpolation: Interpolation,
-    depth_test: bool,
+    hidden_surfaces: HiddenSurfaces,
+    depth_range: DepthRange,
     encoding: Encoding,
     vertices: Vec<Vertex>,
     /// One a vertex, or none at all; likewise colours.
@@ -137,9 +141,19 @@ impl Frame {
         self.interpolation
     }
 
+    /// How hidden surfaces are found.
+    pub fn hidden_surfaces(&self) -> HiddenSurfaces {
+        self.hidden_surfaces
+    }
+
     /// Whether nearer polygons hide farther ones (strictly less depth wins); without it, later ones hide earlier ones.
     pub fn depth_test(&self) -> bool {
-        self.depth_test
+        matches!(self.hidden_surfaces, HiddenSurfaces::ZBuffer(_))
+    }
+
+    /// The distances at which depth is 0 and 1: what depth computed at each sample needs to know.
+    pub fn depth_range(&self) -> DepthRange {
+        self.depth_range
     }
 
     /// How values are stored in eight bits.
@@ -223,6 +237,20 @@ impl Frame {
     /// What became of the scene's polygons on their way here.
     pub fn stats(&self) -> FrameStats {
         self.stats
+    }
+
+    /// The same frame with its polygons in another order: `order` has the number of each once.
+    pub(crate) fn in_order(self, order: &[u32]) -> Frame {
+        // The corners move with their polygons, so that polygons take theirs one after the other.
+        let mut corners = Vec::with_capacity(self.corners.len());
+        let polygons = order.iter().map(|&number| {
+            let polygon = &self.polygons[number as usize];
+            let first = corners.len() as u32;
+            corners.extend_from_slice(self.corners(polygon));
+            Polygon { first, ..*polygon }
+        });
+        let polygons = polygons.collect();
+        Frame { corners, polygons, ..self }
     }
 
     /// The same frame with other polygons over the same vertices: `pieces` gives the corner lists that replace each

@@ -25,11 +25,15 @@ pub fn polygon_numbers(frame: &Frame) -> Picture<u32> {
     picture
 }
 
-/// Depth at each pixel, 0 at the near plane, 1 at the far plane; infinite where nothing is seen.
+/// Depth at each pixel as it is compared, 0 at the near plane, 1 at the far plane; infinite where nothing is seen.
 pub fn depth(frame: &Frame) -> Picture<f32> {
     let mut picture = Picture::new(frame.width(), frame.height(), f32::INFINITY);
     let attributes = vec![Lerp(()); frame.vertices().len()];
-    scan(Scalar, frame, &attributes, |row, line, _| picture.row_mut(row).copy_from_slice(line.depth()));
+    scan(Scalar, frame, &attributes, |row, line, _| {
+        for (texel, depth) in picture.row_mut(row).iter_mut().zip(line.depth()) {
+            *texel = depth;
+        }
+    });
     picture
 }
 

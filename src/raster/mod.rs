@@ -12,6 +12,7 @@ mod active;
 mod aov;
 pub mod barycentric;
 mod barycentric_numbers;
+mod depth;
 mod edge;
 mod edge_table;
 pub mod scanline;

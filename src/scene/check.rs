@@ -2,7 +2,7 @@
 
 use super::diagnostics::{SceneError, SourceText};
 use super::value::{Located, OneOrThree, Origin};
-use super::{MAX_COORDINATE, Scene};
+use super::{DepthBits, MAX_COORDINATE, Scene};
 use crate::lighting::Rgb;
 use glam::DVec3;
 use std::format;
@@ -127,6 +127,18 @@ impl<'a> Check<'a> {
                 let expected = format!("expected 1 to {}", Scene::MAX_SIDE);
                 Err(self.error(&given.origin, key, &format!("is {}", given.value), expected))
             }
+        }
+    }
+}
+
+impl Check<'_> {
+    /// The bits of the depth buffer.
+    pub fn depth_bits(&self, given: &Located<i64>) -> Result<DepthBits, SceneError> {
+        match given.value {
+            16 => Ok(DepthBits::Sixteen),
+            24 => Ok(DepthBits::TwentyFour),
+            32 => Ok(DepthBits::ThirtyTwo),
+            bits => Err(self.error(&given.origin, "depth_bits", &format!("is {bits}"), "expected 16, 24 or 32")),
         }
     }
 }

@@ -3,9 +3,12 @@
 #[cfg(feature = "io")]
 mod check;
 #[cfg(feature = "io")]
+mod choices;
+#[cfg(feature = "io")]
 pub mod diagnostics;
 #[cfg(feature = "io")]
 pub mod file;
+mod hidden_surfaces;
 #[cfg(feature = "io")]
 mod lights;
 mod of_mesh;
@@ -17,6 +20,8 @@ pub mod resolve;
 pub mod value;
 #[cfg(feature = "io")]
 mod viewpoint;
+
+pub use hidden_surfaces::{DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey};
 
 use crate::camera::Camera;
 use crate::lighting::{Light, Material, Rgb, SpecularGate, SpecularModel};
@@ -106,8 +111,8 @@ pub struct Scene {
     pub interpolation: Interpolation,
     /// Which sides are left out.
     pub culling: Culling,
-    /// Whether nearer polygons hide farther ones; without it, later ones hide earlier ones.
-    pub depth_test: bool,
+    /// How polygons that are hidden by others are kept out of the picture.
+    pub hidden_surfaces: HiddenSurfaces,
     /// How values are stored in eight bits.
     pub encoding: Encoding,
     /// What is drawn, in this order.
@@ -131,7 +136,7 @@ impl Scene {
             gate: SpecularGate::Gated,
             interpolation: Interpolation::Screen,
             culling: Culling::Back,
-            depth_test: true,
+            hidden_surfaces: HiddenSurfaces::default(),
             encoding: Encoding::Linear,
             objects: Vec::new(),
         }

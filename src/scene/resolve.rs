@@ -2,10 +2,12 @@
 
 use super::check::{Check, is_coordinate, is_position};
 use super::diagnostics::SceneError;
-use super::file::{LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice};
-use super::value::{Located, OneOrThree, Origin};
+use super::file::{
+    LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice, VisibilityChoice,
+};
+use super::value::{Choice, Located, OneOrThree, Origin};
 use super::viewpoint::Viewpoint;
-use super::{MAX_COORDINATE, Object, Scene};
+use super::{DepthBuffer, HiddenSurfaces, MAX_COORDINATE, Object, Scene};
 use crate::lighting::{Light, Material, Rgb};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{MeshBuilder, PolygonMesh};
@@ -53,6 +55,7 @@ impl SceneFile {
         let lights = self.lights(&check)?;
         let viewpoint = Viewpoint::new(&self.camera, &check)?;
         let mut warnings = Vec::new();
+        let hidden_surfaces = self.hidden_surfaces(&check, &mut warnings)?;
         let objects = self.objects(&check, load_mesh, &mut warnings)?;
         let points: Vec<DVec3> = objects.iter().flat_map(world_points).collect();
         let aspect = f64::from(width) / f64::from(height);
@@ -74,11 +77,37 @@ impl SceneFile {
             gate: self.specular_gate.as_ref().map_or_else(Default::default, |given| given.value),
             interpolation: self.interpolation.as_ref().map_or_else(Default::default, |given| given.value),
             culling: self.cull.as_ref().map_or_else(Default::default, |given| given.value),
-            depth_test: self.depth_test.as_ref().is_none_or(|given| given.value),
+            hidden_surfaces,
             encoding: self.image.encoding.as_ref().map_or_else(Default::default, |given| given.value),
             objects,
         };
         Ok(Resolved { scene, warnings })
+    }
+
+    /// How hidden surfaces are found; a key that means nothing under the way chosen is worth a warning.
+    fn hidden_surfaces(&self, check: &Check, warnings: &mut Vec<String>) -> Result<HiddenSurfaces, SceneError> {
+        let bits = self.depth_bits.as_ref().map_or(Ok(Default::default()), |given| check.depth_bits(given))?;
+        let source = self.depth.as_ref().map_or_else(Default::default, |given| given.value);
+        let key = self.painter_key.as_ref().map_or_else(Default::default, |given| given.value);
+        let choice = self.visibility.as_ref().map_or(VisibilityChoice::ZBuffer, |given| given.value);
+        let has_z_buffer = choice == VisibilityChoice::ZBuffer;
+        let idle = [
+            ("depth_bits", self.depth_bits.is_some() && !has_z_buffer, VisibilityChoice::ZBuffer),
+            ("depth", self.depth.is_some() && !has_z_buffer, VisibilityChoice::ZBuffer),
+            (
+                "painter_key",
+                self.painter_key.is_some() && choice != VisibilityChoice::Painter,
+                VisibilityChoice::Painter,
+            ),
+        ];
+        for (key, _, needs) in idle.into_iter().filter(|(_, is_idle, _)| *is_idle) {
+            warnings.push(format!("`{key}` means nothing without visibility = \"{}\"", needs.word()));
+        }
+        Ok(match choice {
+            VisibilityChoice::ZBuffer => HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }),
+            VisibilityChoice::Painter => HiddenSurfaces::Painter(key),
+            VisibilityChoice::DrawOrder => HiddenSurfaces::DrawOrder,
+        })
     }
 
     fn lights(&self, check: &Check) -> Result<Vec<Light>, SceneError> {

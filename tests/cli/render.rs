@@ -121,7 +121,14 @@ fn flags_change_the_picture() {
     ] {
         assert!(sphere(flags) != plain, "{flags}");
     }
-    assert!(sphere("--cull none --no-depth") != sphere("--cull none"));
+    let cut = |flags: &str| rendered(&format!("interpenetration {flags}"));
+    for flags in ["--visibility draw-order", "--visibility painter"] {
+        assert!(cut(flags) != cut(""), "{flags}");
+    }
+    assert!(cut("--visibility painter --painter-key farthest") != cut("--visibility painter"));
+    assert!(cut("--visibility z-buffer --depth-bits 32 --depth interpolated") == cut(""));
+    assert!(rendered("z-fighting --depth-bits 24") != rendered("z-fighting"));
+    assert!(rendered("z-fighting --depth per-sample") != rendered("z-fighting"));
     assert!(rendered("perspective --size 64x48") != rendered("perspective --size 64x48 --interpolation screen"));
     assert!(sphere("--normals averaged") == plain);
 }
@@ -311,4 +318,18 @@ fn flags_that_make_no_sense_are_refused_by_name() {
     folder.run("render").refused(&["<INPUT>"]);
     folder.run("rendr builtin:cube").refused(&["unrecognized subcommand 'rendr'", "render"]);
     folder.run("render builtin:cube -v -q -o out.png").refused(&["cannot be used with"]);
+}
+
+/// The painter says what it draws wrongly, on standard error, unless it is to be quiet.
+#[test]
+fn the_painter_says_what_it_draws_wrongly() {
+    let folder = Folder::new();
+    let said = |input: &str| folder.run(&format!("render {input} --visibility painter -o out.png")).done().err;
+    let ring = said("cyclic-triangles");
+    assert!(ring.contains("warning: 3 polygons in 1 cycle: no order draws them right; "), "{ring}");
+    let cut = said("interpenetration");
+    assert!(cut.contains("3 polygons in 1 cycle") && cut.contains(", 3 pairs cut each other"), "{cut}");
+    assert!(!said("builtin:cube").contains("warning") && !said("interpenetration --quiet").contains("warning"));
+    let refused = folder.run("render teapot --depth-bits 20 -o out.png");
+    assert!(refused.err.contains("`--depth-bits` is 20: expected 16, 24 or 32"), "{}", refused.err);
 }

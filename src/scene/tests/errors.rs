@@ -15,6 +15,8 @@ fn numbers_out_of_range() {
     check("[image]\nheight = «-3»\n", "`image.height` is -3", size, None);
     check("[image]\nbackground = «1.5»\n", "`image.background` is 1.5", "expected 0 to 1", None);
     check("[image]\nbackground = «[0, -1, 0]»\n", "`image.background` has green = -1", "expected 0 to 1", None);
+    check("depth_bits = «20»\n", "`depth_bits` is 20", "expected 16, 24 or 32", None);
+    check("depth_bits = «-16»\n", "`depth_bits` is -16", "expected 16, 24 or 32", None);
     check("ambient = «-1»\n", "`ambient` is -1", "expected 0 or more", None);
     check("ambient = «nan»\n", "`ambient` is NaN", "expected 0 or more", None);
     for key in ["ka", "kd", "ks"] {
