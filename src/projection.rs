@@ -114,6 +114,7 @@ impl<'a> Projection<'a> {
         let mut builder = FrameBuilder::new(scene.width, scene.height);
         builder
             .background(scene.background)
+            .eye(scene.camera.eye.to_array())
             .interpolation(scene.interpolation)
             .hidden_surfaces(scene.hidden_surfaces)
             .depth_range(scene.camera.near_to_far())
@@ -264,6 +265,9 @@ impl<'a> Projection<'a> {
         let number = self.add(projected, vertex, normal, projected.first_vertex[position]);
         let in_world = projected.transform.transform_point3(projected.mesh.positions()[position].as_dvec3());
         self.builder.position(number, (in_world - self.scene.camera.eye).as_vec3().to_array());
+        if let Some(colour) = projected.mesh.colours().get(position) {
+            self.builder.colour(number, colour.to_array());
+        }
         projected.first_vertex[position] = number - projected.base;
         number
     }
