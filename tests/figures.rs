@@ -78,3 +78,31 @@ fn exercises() {
         assert_eq!(agreement(&content, key), Agreement::Confirms, "{key}");
     }
 }
+
+#[test]
+fn newell() {
+    let content = made("newell");
+    // Corners are within 45 of the origin, rounded to f32: off by at most √3 · 2⁻¹⁹ = 3.3e-6 each. Newell's normal of
+    // polygons about 2 wide turns by at most twice that over their width, 1.9e-4 degrees, and the area changes by as much
+    // of itself; the reflex polygon is narrower, its arms 0.4 wide.
+    assert!(value(&content, "newell") < 0.001, "{}", value(&content, "newell"));
+    assert!(value(&content, "area") < 2.0 * 3.3e-6 / 0.4);
+    // The first edge, and the height of the first corner over the line, are no longer than the rounding.
+    for failing in ["two-edges-short", "two-edges-nearly-collinear", "two-edges-collinear"] {
+        assert!(value(&content, failing) > 1.0, "{failing}: {}", value(&content, failing));
+    }
+    assert!(value(&content, "two-edges-regular") < 0.001);
+    assert!(value(&content, "reflex") > 179.9, "it is the opposite normal");
+    assert_eq!(agreement(&content, "newell"), Agreement::Confirms);
+}
+
+#[test]
+fn frequency() {
+    let content = made("frequency");
+    assert_eq!(value(&content, "ordered"), 6.0);
+    assert!(value(&content, "coarsest") > 1.0);
+    assert_eq!(agreement(&content, "finest"), Agreement::Confirms);
+    // No vertex stands at the highlight, so that Gouraud shading cannot show it; an interpolated normal does.
+    let kept = ["highlight-vertex", "highlight-pixel"].map(|key| value(&content, key));
+    assert!(kept[0] < 0.9 && kept[1] > 0.95, "{kept:?}");
+}

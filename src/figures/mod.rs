@@ -18,6 +18,8 @@
 mod content;
 mod error;
 mod exercises;
+mod frequency;
+mod newell;
 mod stage;
 
 pub use content::{Agreement, Block, Content, Finding, Plot, Scale, Series, Shown};
@@ -30,7 +32,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 /// All figures, in the order of the lectures. A figure is one file beside this one, and one line here.
-pub static FIGURES: &[&Figure] = &[&exercises::FIGURE];
+pub static FIGURES: &[&Figure] = &[&newell::FIGURE, &frequency::FIGURE, &exercises::FIGURE];
 
 /// One thing that a lecture shows or says, to be made anew.
 #[derive(Debug)]
