@@ -78,3 +78,32 @@ fn exercises() {
         assert_eq!(agreement(&content, key), Agreement::Confirms, "{key}");
     }
 }
+
+#[test]
+fn square() {
+    let content = made("square");
+    for method in ["gouraud", "naive-phong", "fast-phong", "slerp-phong"] {
+        // The middle of the square lies on the diagonal between two white corners at 0°, and between a white and the
+        // black one at 90°. Half-way, Gouraud's intensity is ½, that of a normal at 45° is √½: the picture changes by half
+        // of white, or by 0.29 of it. Both ways to cut differ there in the same way. The pixels beside the diagonal are
+        // half a pixel away, which is less than 3 %.
+        let least = 255.0 * (if method == "gouraud" { 0.5 } else { 1.0 - 0.5f64.sqrt() } - 0.03);
+        for key in [format!("square-{method}"), format!("diagonals-{method}")] {
+            assert!((least..160.0).contains(&value(&content, &key)), "{key}: {}", value(&content, &key));
+        }
+        let triangles = value(&content, &format!("triangles-{method}"));
+        match method {
+            // T24: great circles are not barycentric.
+            "slerp-phong" => assert!(triangles > 1.0, "{triangles}"),
+            // Both orientations round an affine function, over 120 rows and 120 pixels: N, J and K are each off by
+            // 240 · 2⁻²⁴; a normal is not shorter than its z, 0.4 here, so that the intensity is off by √3 / 0.4 times that
+            // in each. Fast Phong adds e²/2 of the second step of Newton's, after a change of d by 2 % at most: 2e-8.
+            _ => assert!(triangles < 255.0 * 2.0 * 4.4 * 240.0 / f64::from(1 << 24), "{method}: {triangles}"),
+        }
+        let expected = if method == "slerp-phong" { Agreement::Contradicts } else { Agreement::Confirms };
+        assert_eq!(agreement(&content, &format!("triangles-{method}")), expected);
+    }
+    assert!(value(&content, "normals-square") > 10.0);
+    // As the intensities: 2 · 4.4 · 240 · 2⁻²⁴ = 1.26e-4 of a radian.
+    assert!(value(&content, "normals-triangles") < 1.26e-4f64.to_degrees());
+}

@@ -18,6 +18,7 @@
 mod content;
 mod error;
 mod exercises;
+mod square;
 mod stage;
 
 pub use content::{Agreement, Block, Content, Finding, Plot, Scale, Series, Shown};
@@ -30,7 +31,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 /// All figures, in the order of the lectures. A figure is one file beside this one, and one line here.
-pub static FIGURES: &[&Figure] = &[&exercises::FIGURE];
+pub static FIGURES: &[&Figure] = &[&square::FIGURE, &exercises::FIGURE];
 
 /// One thing that a lecture shows or says, to be made anew.
 #[derive(Debug)]
