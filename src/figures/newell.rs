@@ -170,7 +170,7 @@ fn failure(content: &mut Content, example: &Example, error: Option<f64>) {
 fn pictures(content: &mut Content) -> Result<(), FigureError> {
     // Far from the normal, so that a few degrees are seen.
     let light = DVec3::new(-0.6, 0.3, 0.7);
-    let grey = Grey { ambient: 0.08, diffuse: 1.6, ..Grey::dull(light) };
+    let grey = Grey { ambient: 0.08, diffuse: 0.9, ..Grey::dull(light) };
     let draw = |normal: &dyn Fn(&[Vec3]) -> DVec3| {
         let facets: Vec<Facet> = examples()
             .iter()

@@ -168,8 +168,8 @@ fn opposed(content: &mut Content) -> Result<(), FigureError> {
     let (sin, cos) = libm::sincos(DEGREES.to_radians() / 2.0);
     let [from, to] = [DVec3::new(-sin, 0.0, cos), DVec3::new(sin, 0.0, cos)];
     let corner = |x: f64, y: f64, normal| Corner::new([x, y], normal);
-    let strip = [corner(0.0, 0.0, from), corner(121.0, 0.0, to), corner(121.0, 16.0, to), corner(0.0, 16.0, from)];
-    let frame = frame([121, 16], &Grey::dull(DVec3::new(1.0, 0.0, 0.6)), &[Facet::new(strip)])?;
+    let strip = [corner(0.0, 0.0, from), corner(31.0, 0.0, to), corner(31.0, 6.0, to), corner(0.0, 6.0, from)];
+    let frame = frame([31, 6], &Grey::dull(DVec3::new(1.0, 0.0, 0.6)), &[Facet::new(strip)])?;
     let naive = Variant::parse("naive-phong")?.render_linear(&frame);
     let mut shown =
         Vec::from([Shown::new("naive Phong", "Almost opposed normals, shaded by naive Phong.", stored(&naive))]);
@@ -183,7 +183,7 @@ fn opposed(content: &mut Content) -> Result<(), FigureError> {
         shown.push(Shown::new(format!("fast Phong, {}", plural(steps)), alt, stored(&fast)));
     }
     content.text(format!(
-        "Where the normals at the ends are almost opposed ({DEGREES}° here, over 121 pixels, one of them in the middle), d falls to almost nothing in \
+        "Where the normals at the ends are almost opposed ({DEGREES}° here, over 31 pixels, one of them in the middle), d falls to almost nothing in \
          the middle and grows again by a large factor a pixel. A step from a guess that is far too small overshoots to \
          about d² / 2x, and the span is dark until the steps have come down again."
     ));
