@@ -1,11 +1,10 @@
-//! How often light is computed against how fine the mesh is: face, vertex and pixel over six spheres (L5).
+//! Shading frequency against mesh resolution: faces, vertices, pixels, on six spheres (L5).
 
 use super::stage::{stored, written};
 use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
-use crate::lighting::Material;
+use crate::frame::Frame;
 use crate::mesh::builtin::builtin;
-use crate::mesh::vertex_normals::NormalSource;
-use crate::metrics::compare_where;
+use crate::metrics::{Difference, compare_where};
 use crate::picture::LinearPicture;
 use crate::reference::{self, Model};
 use crate::scene::Scene;
@@ -16,152 +15,113 @@ use alloc::vec::Vec;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "frequency",
-    title: "Shading frequency against mesh resolution: face, vertex, pixel",
-    lecture: "L5, Shading Frequency; L21 3-4",
+    title: "Shading frequency and mesh resolution",
+    lecture: "L5, Shading frequency: triangle, vertex or pixel",
     make,
 };
 
-/// The frequencies of L5, and the methods that have them.
-const FREQUENCIES: [(&str, &str); 3] = [("face", "flat"), ("vertex", "gouraud"), ("pixel", "naive-phong")];
-/// Rings of the spheres; segments are twice as many.
-const RINGS: [u32; 6] = [3, 4, 6, 10, 18, 34];
-/// Rings of the sphere that stands for the smooth one: its polygons are smaller than a pixel.
-const FINEST: u32 = 120;
-/// Width and height of each picture.
-const SIDE: u32 = 88;
+/// Bands from pole to pole of the spheres; twice as many cells around.
+const RINGS: [u32; 6] = [4, 6, 10, 18, 34, 64];
+/// Of the sphere that is the truth.
+const FINEST: u32 = 200;
+/// Width and height of the pictures.
+const SIDE: u32 = 80;
+/// What is shaded once, by which method, and what its shading is called.
+const FREQUENCIES: [(&str, &str); 3] = [("flat", "face"), ("gouraud", "vertex"), ("naive-phong", "pixel")];
 
-/// A sphere with its own normals; all are as large on the picture.
-fn scene(rings: u32) -> Result<Scene, FigureError> {
-    let mut scene = Scene::of_mesh(builtin(&format!("sphere?rings={rings}&segments={}", 2 * rings))?);
+/// A sphere of so many rings, through one camera for all.
+fn sphere(rings: u32) -> Result<Frame, FigureError> {
+    let mesh = |rings: u32| builtin(&format!("sphere?rings={rings}&segments={}", 2 * rings));
+    let mut scene = Scene::of_mesh(mesh(FINEST)?);
     (scene.width, scene.height) = (SIDE, SIDE);
-    let material = Material { specular: [0.4; 3], shininess: 24.0, ..Material::default() };
-    for object in &mut scene.objects {
-        (object.normals, object.material) = (NormalSource::Given, Some(material));
+    if rings != FINEST {
+        scene.objects = Scene::of_mesh(mesh(rings)?).objects;
     }
-    Ok(scene)
-}
-
-/// One sphere: polygons drawn, and picture and RMS error at each frequency.
-struct Row {
-    polygons: usize,
-    pictures: Vec<LinearPicture>,
-    rms: Vec<f64>,
-}
-
-fn rows(truth: &LinearPicture) -> Result<Vec<Row>, FigureError> {
-    let mut rows = Vec::new();
-    for rings in RINGS {
-        let frame = scene(rings)?.frame()?;
-        let mut row = Row { polygons: frame.polygons().len(), pictures: Vec::new(), rms: Vec::new() };
-        for (_, method) in FREQUENCIES {
-            let picture = Variant::parse(method)?.render_linear(&frame);
-            let both = |x, y| picture.get(x, y)[3] > 0.0 && truth.get(x, y)[3] > 0.0;
-            let difference = compare_where(truth, &picture, both).expect("pictures of one size");
-            row.rms.push(255.0 * difference.rms);
-            row.pictures.push(picture);
-        }
-        rows.push(row);
-    }
-    Ok(rows)
-}
-
-/// The brightest green of a picture, which no part of it reaches by diffuse light.
-fn peak(picture: &LinearPicture) -> f64 {
-    picture.texels().iter().map(|texel| f64::from(texel[1])).fold(0.0, f64::max)
+    Ok(scene.frame()?)
 }
 
 fn make() -> Result<Content, FigureError> {
-    let truth = reference::render(&scene(FINEST)?.frame()?, Model::Phong).to_linear();
-    let rows = rows(&truth)?;
     let mut content = Content::default();
+    let truth = reference::render(&sphere(FINEST)?, Model::Phong).to_linear();
+    let frames = RINGS.iter().map(|&rings| sphere(rings)).collect::<Result<Vec<_>, _>>()?;
     content.text(format!(
-        "Six spheres with the normals of the true sphere, shaded once a face, once a vertex and once a pixel. Errors are \
-         root mean squares in grey levels against a sphere of {FINEST} rings shaded in double precision at each pixel, where \
-         both are seen."
+        "One sphere in six resolutions, shaded once a face, a vertex, and a pixel. Errors are against the Phong reference \
+         on {} polygons, over the pixels that both spheres cover.",
+        sphere(FINEST)?.polygons().len()
     ));
-    let mut shown = Vec::new();
-    for (f, (frequency, method)) in FREQUENCIES.into_iter().enumerate() {
-        for row in &rows {
-            let caption = format!("{frequency}, {}: {}", row.polygons, written(row.rms[f]));
-            let alt = format!("A sphere of which {} polygons are seen, by {method} shading.", row.polygons);
-            shown.push(Shown::new(caption, alt, stored(&row.pictures[f])));
+    let (mut shown, mut errors) = (Vec::new(), Vec::new());
+    for (method, frequency) in FREQUENCIES {
+        let variant = Variant::parse(method)?;
+        for (frame, rings) in frames.iter().zip(RINGS) {
+            let drawn = variant.render_linear(frame);
+            let polygons = 2 * rings * rings;
+            let alt = format!("A sphere of {polygons} polygons shaded once a {frequency}.");
+            shown.push(Shown::new(format!("{frequency}, {polygons} polygons"), alt, stored(&drawn)));
+            errors.push(inside(&truth, &drawn)?);
         }
     }
     content.pictures(RINGS.len(), shown);
-    content.plot(plot(&rows));
-    let cells = |row: &Row| {
-        let errors = row.rms.iter().map(|rms| written(*rms));
-        core::iter::once(row.polygons.to_string()).chain(errors).collect::<Vec<String>>()
-    };
-    content.table(&["polygons seen", "face", "vertex", "pixel"], rows.iter().map(cells).collect());
-    findings(&mut content, &rows, peak(&truth));
+    numbers(&mut content, &errors);
     Ok(content)
 }
 
-fn plot(rows: &[Row]) -> Plot {
-    let series = FREQUENCIES
-        .iter()
-        .enumerate()
-        .map(|(f, (name, _))| Series::new(*name, rows.iter().map(|row| (row.polygons as f64, row.rms[f]))));
-    Plot {
-        title: "RMS error against the number of polygons".into(),
-        x: ("polygons seen".into(), Scale::Log),
-        y: ("RMS error, grey levels".into(), Scale::Log),
-        series: series.collect(),
-        marks: Vec::new(),
-        caption: "The finer the mesh, the less it matters how often light is computed.".into(),
-    }
+/// The difference over the pixels that both pictures cover.
+fn inside(truth: &LinearPicture, drawn: &LinearPicture) -> Result<Difference, FigureError> {
+    Ok(compare_where(truth, drawn, |x, y| truth.get(x, y)[3] > 0.0 && drawn.get(x, y)[3] > 0.0)?)
 }
 
-fn findings(content: &mut Content, rows: &[Row], peak_of_truth: f64) {
-    let (first, last) = (&rows[0], &rows[rows.len() - 1]);
-    let gain = first.rms[0] / first.rms[2];
-    let orders = |row: &Row| row.rms[0] > row.rms[1] && row.rms[1] > row.rms[2];
-    let ordered = rows.iter().filter(|row| orders(row)).count();
+fn numbers(content: &mut Content, errors: &[Difference]) {
+    let of = |i: usize| &errors[i * RINGS.len()..][..RINGS.len()];
+    let polygons = RINGS.map(|rings| 2 * rings * rings);
+    let rows = FREQUENCIES.iter().enumerate().map(|(i, (_, frequency))| {
+        let cells = of(i).iter().map(|d| format!("{} / {}", written(255.0 * d.max), written(255.0 * d.rms)));
+        [frequency.to_string()].into_iter().chain(cells).collect()
+    });
+    let rows = rows.collect();
+    let heads = polygons.map(|n| n.to_string());
+    let mut head = Vec::from(["max / RMS in levels, by polygons"]);
+    head.extend(heads.iter().map(|text| &text[..]));
+    content.table(&head, rows);
+    let curve = |i: usize| {
+        let points = polygons.iter().zip(of(i)).map(|(n, d)| (f64::from(*n), 255.0 * d.rms));
+        Series::new(format!("once a {}", FREQUENCIES[i].1), points)
+    };
+    content.plot(Plot {
+        title: "RMS error over the number of polygons".into(),
+        x: ("polygons of the sphere".into(), Scale::Log),
+        y: ("RMS error, grey levels".into(), Scale::Log),
+        series: (0..FREQUENCIES.len()).map(curve).collect(),
+        marks: Vec::new(),
+        caption: "Finer meshes help every shading frequency; on the finest they are hard to tell apart.".to_string(),
+    });
+    for (i, (_, frequency)) in FREQUENCIES.iter().enumerate() {
+        for (end, place) in [("coarsest", 0), ("finest", RINGS.len() - 1)] {
+            let rms = 255.0 * of(i)[place].rms;
+            let before = (i > 0).then(|| 255.0 * of(i - 1)[place].rms);
+            let is_better = before.is_none_or(|before| rms < before);
+            content.found(Finding::new(
+                format!("{frequency}-{end}"),
+                format!("once a {frequency}, {} polygons: RMS error", polygons[place]),
+                (rms, "grey levels"),
+                if before.is_none() { Agreement::Adds } else { Agreement::if_holds(is_better) },
+                match before {
+                    None => String::from(if rms > 1.0 { "Visible facets." } else { "Facets can hardly be seen." }),
+                    Some(_) if is_better => format!("Less than once a {}.", FREQUENCIES[i - 1].1),
+                    Some(_) => format!("More than once a {}.", FREQUENCIES[i - 1].1),
+                },
+            ));
+        }
+    }
+    let (fine_faces, coarse_pixels) = (of(0)[RINGS.len() - 1].rms, of(2)[1].rms);
     content.found(Finding::new(
-        "ordered",
-        "spheres on which pixel is better than vertex is better than face",
-        (ordered as f64, "of 6"),
-        Agreement::if_holds(ordered == rows.len()),
-        if ordered == rows.len() {
-            "The more often light is computed, the better the picture, at every resolution."
-        } else {
-            "Not at every resolution is the picture better where light is computed more often."
-        },
-    ));
-    content.found(Finding::new(
-        "coarsest",
-        "error of face over error of pixel on the coarsest sphere",
-        (gain, ""),
+        "trade",
+        format!("faces of {} polygons by pixels of {}: ratio of RMS errors", polygons[RINGS.len() - 1], polygons[1]),
+        (fine_faces / coarse_pixels, ""),
         Agreement::Adds,
-        format!("On {} polygons it matters most.", first.polygons),
-    ));
-    let finest = last.rms[1];
-    content.found(Finding::new(
-        "finest",
-        "RMS error of vertex on the finest sphere",
-        (finest, "grey levels"),
-        Agreement::if_holds(finest < first.rms[2]),
-        if finest < first.rms[2] {
-            "A fine mesh lit at its vertices is better than a coarse one lit at every pixel."
+        if fine_faces > coarse_pixels {
+            "Even many faces, one colour each, are worse than few with interpolated normals."
         } else {
-            "Even on the finest mesh, light at vertices is worse than light at each pixel of the coarsest."
+            "Many faces make up for a low shading frequency."
         },
-    ));
-    let kept = |f: usize| peak(&first.pictures[f]) / peak_of_truth;
-    let blurs = kept(1) < 0.9 && kept(2) > 0.95;
-    content.found(Finding::new(
-        "highlight-vertex",
-        "brightest pixel of Gouraud on the coarsest sphere over that of the true one",
-        (kept(1), ""),
-        Agreement::if_holds(blurs),
-        if blurs { "Gouraud shading loses the highlight (L21 4)." } else { "Gouraud shading keeps the highlight." },
-    ));
-    content.found(Finding::new(
-        "highlight-pixel",
-        "the same for Phong",
-        (kept(2), ""),
-        Agreement::if_holds(kept(2) > 0.95),
-        if kept(2) > 0.95 { "Phong shading keeps it (L21 4)." } else { "Phong shading loses it too." },
     ));
 }

@@ -16,10 +16,17 @@
 //! ```
 
 mod content;
+mod duff;
 mod error;
 mod exercises;
+mod fast_vs_naive;
 mod frequency;
+mod mach_bands;
 mod newell;
+mod newton;
+mod profile;
+mod slerp;
+mod square;
 mod stage;
 
 pub use content::{Agreement, Block, Content, Finding, Plot, Scale, Series, Shown};
@@ -32,7 +39,17 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 /// All figures, in the order of the lectures. A figure is one file beside this one, and one line here.
-pub static FIGURES: &[&Figure] = &[&newell::FIGURE, &frequency::FIGURE, &exercises::FIGURE];
+pub static FIGURES: &[&Figure] = &[
+    &newell::FIGURE,
+    &mach_bands::FIGURE,
+    &square::FIGURE,
+    &duff::FIGURE,
+    &newton::FIGURE,
+    &slerp::FIGURE,
+    &fast_vs_naive::FIGURE,
+    &exercises::FIGURE,
+    &frequency::FIGURE,
+];
 
 /// One thing that a lecture shows or says, to be made anew.
 #[derive(Debug)]

@@ -106,6 +106,11 @@ pub(super) fn stored(picture: &LinearPicture) -> Picture8 {
     store(picture, Encoding::Linear)
 }
 
+/// The unit normal that leans so many degrees to the right and so many upward.
+pub(super) fn leaning(right: f64, up: f64) -> DVec3 {
+    DVec3::new(libm::tan(right.to_radians()), libm::tan(up.to_radians()), 1.0).normalize()
+}
+
 /// A number as it stands in a sentence: three significant digits, a power of ten if it is very small.
 pub(crate) fn written(value: f64) -> String {
     let size = value.abs();
