@@ -11,7 +11,7 @@ use fastphong::camera::{Camera, Projection};
 use fastphong::lighting::{Light, Material};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, MeshBuilder};
-use fastphong::scene::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
+use fastphong::scene::{Clipping, Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 use fastphong::shader::Variant;
 use glam::{DAffine3, DVec3, Vec3};
 use std::error::Error;
@@ -45,6 +45,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         interpolation: Interpolation::Screen,
         culling: Culling::Back,
         hidden_surfaces: HiddenSurfaces::default(),
+        clipping: Clipping::Planes,
+        two_sided: false,
+        samples: 1,
         encoding: Encoding::Srgb,
         objects: vec![Object {
             mesh: Arc::new(mesh.finish()?),

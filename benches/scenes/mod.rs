@@ -5,7 +5,7 @@ use fastphong::camera_fit::Fit;
 use fastphong::lighting::Light;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::scene::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
+use fastphong::scene::{Clipping, Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 use glam::{DAffine3, DVec3};
 
 /// Name and mesh of each scene.
@@ -34,6 +34,9 @@ pub fn scene(mesh: &str) -> Scene {
         interpolation: Interpolation::Screen,
         culling: Culling::Back,
         hidden_surfaces: HiddenSurfaces::default(),
+        clipping: Clipping::Planes,
+        two_sided: false,
+        samples: 1,
         encoding: Encoding::Linear,
         objects: vec![Object {
             mesh: mesh.into(),

@@ -9,7 +9,7 @@
 //! use fastphong::lighting::Light;
 //! use fastphong::mesh::builtin::builtin;
 //! use fastphong::mesh::vertex_normals::NormalSource;
-//! use fastphong::scene::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
+//! use fastphong::scene::{Clipping, Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 //! use fastphong::shader::Variant;
 //! use glam::{DAffine3, DVec3};
 //!
@@ -26,6 +26,9 @@
 //!     interpolation: Interpolation::Screen,
 //!     culling: Culling::Back,
 //!     hidden_surfaces: HiddenSurfaces::default(),
+//!     clipping: Clipping::Planes,
+//!     two_sided: false,
+//!     samples: 1,
 //!     encoding: Encoding::Linear,
 //!     objects: vec![Object {
 //!         mesh: mesh.into(),
@@ -255,8 +258,8 @@ pub fn compare(
     progress(1.0, "done");
     Comparison {
         name: input.name.clone(),
-        width: frame.width(),
-        height: frame.height(),
+        width: frame.picture_width(),
+        height: frame.picture_height(),
         interpolation: frame.interpolation(),
         encoding: frame.encoding(),
         lights: frame.light_count(),

@@ -6,7 +6,7 @@ use crate::frame::{FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Light, Lighting, Material};
 use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
-use crate::scene::{Culling, HiddenSurfaces, Object, Scene};
+use crate::scene::{Clipping, Culling, HiddenSurfaces, Object, Scene};
 use alloc::vec;
 use core::time::Duration;
 use glam::{DAffine3, DVec3};
@@ -27,6 +27,9 @@ fn frame_of(mesh: &str) -> Frame {
         interpolation: Interpolation::Screen,
         culling: Culling::Back,
         hidden_surfaces: HiddenSurfaces::default(),
+        clipping: Clipping::Planes,
+        two_sided: false,
+        samples: 1,
         encoding: Encoding::Linear,
         objects: vec![Object {
             mesh: mesh.into(),

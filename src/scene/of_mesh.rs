@@ -1,6 +1,6 @@
 //! The scene that a mesh alone gets.
 
-use super::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
+use super::{Clipping, Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 use crate::camera::{Camera, Projection};
 use crate::camera_fit::Fit;
 use crate::lighting::{Light, Material};
@@ -65,6 +65,9 @@ impl Scene {
             interpolation: Interpolation::default(),
             culling: Culling::default(),
             hidden_surfaces: HiddenSurfaces::default(),
+            clipping: Clipping::Planes,
+            two_sided: false,
+            samples: 1,
             encoding: Encoding::default(),
             objects: vec![Object {
                 mesh: Arc::new(mesh),
