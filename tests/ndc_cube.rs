@@ -116,10 +116,15 @@ fn through_the_plane_of_the_eye_the_test_is_wrong() {
 /// A corner in the plane of the eye has no place: the polygon is left out and counted.
 #[test]
 fn corners_without_a_place_are_counted() {
-    let mut scene = scene(&[ground(0.0, -10.0), ground(-2.0, -10.0)], 0.1, 100.0);
+    // In the plane; at the eye itself; before it on the line of sight, where column and row are those of the middle of the
+    // picture, but z/w is -1e5.
+    let [at_the_eye, before_it] =
+        [0.0, -1e-6].map(|z| [(0.0, 1.0, z), (1.0, 0.5, -3.0), (-1.0, 0.5, -3.0)].map(Vec3::from).to_vec());
+    let polygons = [ground(0.0, -10.0), at_the_eye, before_it, ground(-2.0, -10.0)];
+    let mut scene = scene(&polygons, 0.1, 100.0);
     scene.camera.target = DVec3::new(0.0, 1.0, -1.0);
     let frame = scene.frame().expect("a frame");
-    assert_eq!((frame.stats().unprojected, frame.polygons().len()), (1, 1));
+    assert_eq!((frame.stats().unprojected, frame.polygons().len()), (3, 1));
     scene.interpolation = Interpolation::Perspective;
     assert_eq!(scene.frame().expect_err("no frame"), FrameError::Unclipped);
 }

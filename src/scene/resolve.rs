@@ -5,7 +5,7 @@ use super::diagnostics::SceneError;
 use super::file::{LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, VisibilityChoice};
 use super::value::{Choice, Located, OneOrThree, Origin};
 use super::viewpoint::Viewpoint;
-use super::{Clipping, DepthBuffer, HiddenSurfaces, Interpolation, MAX_COORDINATE, Object, Scene};
+use super::{Clipping, Culling, DepthBuffer, HiddenSurfaces, Interpolation, MAX_COORDINATE, Object, Scene};
 use crate::lighting::{Light, Material, Rgb};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{MeshBuilder, PolygonMesh};
@@ -98,6 +98,12 @@ impl SceneFile {
                 VisibilityChoice::Painter,
             ),
         ];
+        if let (Some(Located { value: true, .. }), None | Some(Located { value: Culling::Back, .. })) =
+            (&self.two_sided, &self.cull)
+        {
+            warnings
+                .push("`two_sided` means nothing with cull = \"back\": what is seen from behind is left out".into());
+        }
         for (key, _, needs) in idle.into_iter().filter(|(_, is_idle, _)| *is_idle) {
             warnings.push(format!("`{key}` means nothing without visibility = \"{}\"", needs.word()));
         }

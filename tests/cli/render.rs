@@ -127,6 +127,8 @@ fn flags_change_the_picture() {
     }
     assert!(cut("--visibility painter --painter-key farthest") != cut("--visibility painter"));
     assert!(cut("--visibility z-buffer --depth-bits 32 --depth interpolated") == cut(""));
+    assert!(sphere("--cull front --two-sided") != sphere("--cull front") && sphere("--clipping planes") == plain);
+    assert!(rendered("z-fighting --near 21 --clipping ndc-cube") != rendered("z-fighting"));
     assert!(rendered("z-fighting --depth-bits 24") != rendered("z-fighting"));
     assert!(rendered("z-fighting --depth per-sample") != rendered("z-fighting"));
     assert!(rendered("perspective --size 64x48") != rendered("perspective --size 64x48 --interpolation screen"));
@@ -362,4 +364,17 @@ fn supersampled_pictures_have_the_size_of_the_scene() {
     }
     let refused = folder.run("render teapot --size 8000x10 --samples 4 -o out.png");
     assert!(refused.err.contains("`--samples` is 4: expected at most 16384 samples a side"), "{}", refused.err);
+}
+
+/// Without clipping, a polygon with a corner at the plane of the eye is left out, said and counted.
+#[test]
+fn polygons_without_a_place_are_told_of() {
+    let folder = Folder::new();
+    folder.write("ground.obj", "v -1 0 0\nv 1 0 0\nv 0 0 -5\nv -1 0 -2\nv 1 0 -2\nv 0 0 -5\nf 1 2 3\nf 4 5 6\n");
+    let flags = "--eye 0,1,0 --target 0,1,-1 --fovy 60 --near 0.1 --far 9 --cull none --stats -o out.png";
+    let ended = folder.run(&format!("render ground.obj {flags} --clipping ndc-cube")).done();
+    ended.says("warning: 1 polygon has a corner at the plane of the eye and is left out");
+    folder
+        .run("render perspective --clipping ndc-cube -o out.png")
+        .says("`--clipping` and `interpolation` exclude each other");
 }

@@ -67,7 +67,7 @@ fn the_rest_of_visibility() {
     let of = |text: &str| resolve(&with_object(text)).scene;
     let plain = of("");
     assert_eq!((plain.clipping, plain.two_sided, plain.samples), (Clipping::Planes, false, 1));
-    let other = of("clipping = 'ndc-cube'\ntwo_sided = true\n[image]\nsamples = 8\nwidth = 2048");
+    let other = of("clipping = 'ndc-cube'\ncull = 'none'\ntwo_sided = true\n[image]\nsamples = 8\nwidth = 2048");
     assert_eq!((other.clipping, other.two_sided, other.samples), (Clipping::NdcCube, true, 8));
     assert_eq!(of("clipping = 'planes'\ninterpolation = 'perspective'").clipping, Clipping::Planes);
 }
@@ -89,6 +89,7 @@ fn every_way_of_hiding_surfaces() {
         assert_eq!((scene.hidden_surfaces, warnings.len()), (expected, 0), "{text}");
     }
     for (text, warning) in [
+        ("two_sided = true", "`two_sided` means nothing with cull = \"back\": what is seen from behind is left out"),
         ("painter_key = 'mean'", "`painter_key` means nothing without visibility = \"painter\""),
         ("visibility = 'painter'\ndepth_bits = 16", "`depth_bits` means nothing without visibility = \"z-buffer\""),
         ("visibility = 'draw-order'\ndepth = 'per-sample'", "`depth` means nothing without visibility = \"z-buffer\""),
