@@ -132,6 +132,18 @@ mod tests {
     }
 
     #[test]
+    fn a_pixel_is_the_same_if_all_its_samples_are() {
+        let picture = Picture::new(2, 1, [0.0; 4]);
+        let samples = Picture::from_texels(4, 2, [1, 1, 2, 2, 1, 1, 2, 3].into()).unwrap();
+        for changed in 0..8 {
+            let mut other = samples.clone();
+            other.texels_mut()[changed] = 9;
+            let same = [0, 1].map(|x| same_polygons(&samples, &other, &picture, x, 0));
+            assert_eq!(same, [changed % 4 >= 2, changed % 4 < 2], "sample {changed}");
+        }
+    }
+
+    #[test]
     fn pixels_of_other_polygons_are_counted_and_not_compared() {
         let reference = Picture::new(2, 1, [0.5, 0.5, 0.5, 1.0]);
         let mut actual = reference.clone();

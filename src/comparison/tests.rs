@@ -13,6 +13,11 @@ use glam::{DAffine3, DVec3};
 
 /// A built-in mesh under one light, filling 48 × 36 pixels.
 fn frame_of(mesh: &str) -> Frame {
+    frame_with(mesh, 1)
+}
+
+/// The same with so many samples a pixel along each side.
+fn frame_with(mesh: &str, samples: u32) -> Frame {
     let mesh = builtin(mesh).unwrap();
     let direction = DVec3::new(0.3, 0.5, 1.0);
     let fit = Fit { direction, up: DVec3::Y, fraction: 0.9, fovy: None, aspect: 4.0 / 3.0 };
@@ -29,7 +34,7 @@ fn frame_of(mesh: &str) -> Frame {
         hidden_surfaces: HiddenSurfaces::default(),
         clipping: Clipping::Planes,
         two_sided: false,
-        samples: 1,
+        samples,
         encoding: Encoding::Linear,
         objects: vec![Object {
             mesh: mesh.into(),
@@ -69,6 +74,24 @@ fn every_method_has_its_row_and_the_barycentric_renderer_its_own() {
     assert!(comparison.rows.iter().all(|row| row.engine == Engine::Scanline && row.speed.is_none()));
     assert!(comparison.barycentric.iter().all(|row| row.engine == Engine::Barycentric));
     assert!(counterpart(&Variant::parse(BASELINE).unwrap()) == BASELINE, "what ratios fall back on exists");
+}
+
+/// Pictures of a supersampled frame have the size of its picture, and are compared where all samples show the same polygon.
+#[test]
+fn supersampled_frames_are_compared_pixel_by_pixel() {
+    let frame = frame_with("sphere?rings=6&segments=12", 2);
+    let comparison = errors_only(&frame, &all());
+    assert_eq!((comparison.width, comparison.height), (48, 36));
+    let partly = comparison.reference.texels().iter().filter(|t| t[3] > 0.0 && t[3] < 1.0).count();
+    let drawn = comparison.reference.texels().iter().filter(|t| t[3] > 0.0).count();
+    assert_eq!(comparison.covered_pixels, drawn);
+    assert!(partly > 20 && comparison.fragments > 2 * drawn && comparison.fragments <= 4 * drawn);
+    for row in comparison.all_rows() {
+        assert_eq!((row.picture.width(), row.linear.height()), (48, 36));
+        assert_eq!((row.other_polygon, row.own.coverage_mismatches), (0, 0), "{}", row.name());
+        // The mean is rounded once more than its samples, by 2^-25 at most.
+        assert!(row.own.max <= row.bound + 3e-8, "{}: {} over {}", row.name(), row.own.max, row.bound);
+    }
 }
 
 #[test]
