@@ -130,7 +130,9 @@ impl FrameBuilder {
             return Err(FrameError::Size { width: frame.width, height: frame.height });
         }
         let samples = frame.samples;
-        if ![1, 2, 4, 8].contains(&samples) || frame.width % samples != 0 || frame.height % samples != 0 {
+        if ![1, 2, 4, 8].contains(&samples)
+            || ![frame.width, frame.height].iter().all(|side| side.is_multiple_of(samples))
+        {
             return Err(FrameError::Samples { samples });
         }
         if frame.clipping == Clipping::NdcCube && frame.interpolation == Interpolation::Perspective {
