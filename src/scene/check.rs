@@ -132,6 +132,21 @@ impl<'a> Check<'a> {
 }
 
 impl Check<'_> {
+    /// Samples a pixel along each side of a picture of these sides.
+    pub fn samples(&self, given: &Located<i64>, key: &str, sides: [u32; 2]) -> Result<u32, SceneError> {
+        let problem = format!("is {}", given.value);
+        let Some(samples) = u32::try_from(given.value).ok().filter(|samples| [1, 2, 4, 8].contains(samples)) else {
+            return Err(self.error(&given.origin, key, &problem, "expected 1, 2, 4 or 8"));
+        };
+        let longest = sides[0].max(sides[1]);
+        if longest * samples > Scene::MAX_SIDE {
+            let expected =
+                format!("expected at most {} samples a side, and there are {longest} pixels", Scene::MAX_SIDE);
+            return Err(self.error(&given.origin, key, &problem, expected));
+        }
+        Ok(samples)
+    }
+
     /// The bits of the depth buffer.
     pub fn depth_bits(&self, given: &Located<i64>) -> Result<DepthBits, SceneError> {
         match given.value {

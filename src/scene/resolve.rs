@@ -7,7 +7,7 @@ use super::file::{
 };
 use super::value::{Choice, Located, OneOrThree, Origin};
 use super::viewpoint::Viewpoint;
-use super::{DepthBuffer, HiddenSurfaces, MAX_COORDINATE, Object, Scene};
+use super::{Clipping, Culling, DepthBuffer, HiddenSurfaces, Interpolation, MAX_COORDINATE, Object, Scene};
 use crate::lighting::{Light, Material, Rgb};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{MeshBuilder, PolygonMesh};
@@ -54,6 +54,11 @@ impl SceneFile {
         let ambient = channels(&check, &self.ambient, "ambient", f64::INFINITY, [1.0; 3])?;
         let lights = self.lights(&check)?;
         let viewpoint = Viewpoint::new(&self.camera, &check)?;
+        let samples = match &self.image.samples {
+            Some(given) => check.samples(given, "image.samples", [width, height])?,
+            None => 1,
+        };
+        let clipping = self.clipping(&check)?;
         let mut warnings = Vec::new();
         let hidden_surfaces = self.hidden_surfaces(&check, &mut warnings)?;
         let objects = self.objects(&check, load_mesh, &mut warnings)?;
@@ -78,6 +83,9 @@ impl SceneFile {
             interpolation: self.interpolation.as_ref().map_or_else(Default::default, |given| given.value),
             culling: self.cull.as_ref().map_or_else(Default::default, |given| given.value),
             hidden_surfaces,
+            clipping,
+            two_sided: self.two_sided.as_ref().is_some_and(|given| given.value),
+            samples,
             encoding: self.image.encoding.as_ref().map_or_else(Default::default, |given| given.value),
             objects,
         };
@@ -100,6 +108,12 @@ impl SceneFile {
                 VisibilityChoice::Painter,
             ),
         ];
+        if let (Some(Located { value: true, .. }), None | Some(Located { value: Culling::Back, .. })) =
+            (&self.two_sided, &self.cull)
+        {
+            warnings
+                .push("`two_sided` means nothing with cull = \"back\": what is seen from behind is left out".into());
+        }
         for (key, _, needs) in idle.into_iter().filter(|(_, is_idle, _)| *is_idle) {
             warnings.push(format!("`{key}` means nothing without visibility = \"{}\"", needs.word()));
         }
@@ -108,6 +122,19 @@ impl SceneFile {
             VisibilityChoice::Painter => HiddenSurfaces::Painter(key),
             VisibilityChoice::DrawOrder => HiddenSurfaces::DrawOrder,
         })
+    }
+
+    /// What keeps polygons within the view: CS171's test goes with its interpolation only.
+    fn clipping(&self, check: &Check) -> Result<Clipping, SceneError> {
+        let Some(given) = &self.clipping else { return Ok(Clipping::default()) };
+        match &self.interpolation {
+            Some(Located { value: Interpolation::Perspective, origin }) if given.value == Clipping::NdcCube => {
+                let why =
+                    "expected interpolation = \"screen\" with \"ndc-cube\": corners behind the eye have no weight";
+                Err(check.conflict("clipping", &given.origin, "interpolation", origin, why))
+            }
+            _ => Ok(given.value),
+        }
     }
 
     fn lights(&self, check: &Check) -> Result<Vec<Light>, SceneError> {

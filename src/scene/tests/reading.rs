@@ -9,7 +9,7 @@ fn what_is_not_toml_or_has_no_such_key() {
         "[«camra»]\nfit = 1\n",
         "unknown key `camra`",
         "expected one of `title`, `description`, `ambient`, `interpolation`, `cull`, `visibility`, \
-         `depth_bits`, `depth`, `painter_key`, `image`, `camera`, \
+         `depth_bits`, `depth`, `painter_key`, `clipping`, `two_sided`, `image`, `camera`, \
          `material`, `light`, `object`",
         Some("did you mean `camera`?"),
     );
@@ -17,7 +17,7 @@ fn what_is_not_toml_or_has_no_such_key() {
         "«depth_test» = false\n",
         "unknown key `depth_test`",
         "expected one of `title`, `description`, `ambient`, `interpolation`, `cull`, `visibility`, `depth_bits`, `depth`, \
-         `painter_key`, `image`, `camera`, `material`, `light`, `object`",
+         `painter_key`, `clipping`, `two_sided`, `image`, `camera`, `material`, `light`, `object`",
         Some("what hides a polygon is said by `visibility`"),
     );
     check(
@@ -51,6 +51,7 @@ fn what_is_not_toml_or_has_no_such_key() {
         Some("did you mean `z-buffer`?"),
     );
     check("depth = «\"w\"»\n", "unknown word `w`", "expected `interpolated` or `per-sample`", None);
+    check("clipping = «\"cube\"»\n", "unknown word `cube`", "expected `planes` or `ndc-cube`", None);
     check("painter_key = «\"nearest\"»\n", "unknown word `nearest`", "expected `mean` or `farthest`", None);
     check("interpolation = «\"space\"»\n", "unknown word `space`", "expected `screen` or `perspective`", None);
     check(
@@ -69,6 +70,7 @@ fn what_is_not_toml_or_has_no_such_key() {
 
 #[test]
 fn what_is_of_the_wrong_kind() {
+    check("two_sided = «\"yes\"»\n", "expected true or false", "found string \"yes\"", None);
     check("depth_bits = «\"many\"»\n", "expected a whole number", "found string \"many\"", None);
     check("[image]\nwidth = «640.5»\n", "expected a whole number", "found floating point `640.5`", None);
     check("[camera]\nfovy = «\"wide\"»\n", "expected a number", "found string \"wide\"", None);
