@@ -239,3 +239,38 @@ fn frequency() {
         assert!(coarse > 8.0 * fine, "{frequency}: {coarse} {fine}");
     }
 }
+
+#[test]
+fn painter() {
+    let content = made("painter");
+    for key in ["ring-wrong", "ring-best-order", "cutting-wrong"] {
+        assert!(value(&content, key) > 50.0, "{key}: {}", value(&content, key));
+    }
+    assert_eq!(value(&content, "ring-cycle"), 3.0);
+    // Three polygons, each of which meets the two others.
+    assert_eq!(value(&content, "cutting-pairs"), 3.0);
+    assert_eq!(value(&content, "order"), 0.0, "no two polygons have equal depth at a pixel");
+}
+
+#[test]
+fn depth() {
+    let content = made("depth");
+    assert!(value(&content, "fighting-16") > 100.0, "{}", value(&content, "fighting-16"));
+    assert_eq!(value(&content, "fighting-24"), 0.0);
+    assert_eq!(agreement(&content, "ways"), Agreement::Confirms);
+    assert!(value(&content, "ways") > 0.0, "two ways that are one way show nothing");
+    // z(2n) in 0..1 is f/(f − n) · (1 − n/2n) = f/(2 (f − n)), and f is 500 n.
+    assert!((value(&content, "half") - 0.5 * 500.0 / 499.0).abs() < 1e-12);
+    // z(f/2) = f/(f − n) (1 − 2n/f) = 498/499, and half-way is (f/2 − n)/(f − n) = 249/499; twice that in −1..1.
+    assert!((value(&content, "preserved") - 2.0 * 249.0 / 499.0).abs() < 1e-12);
+}
+
+#[test]
+fn supersampling() {
+    let content = made("supersampling");
+    // One sample gives 0 or 1 for shares that are spread between: an error of √(1/12) = 0.29 at least for evenly spread
+    // shares. With n × n the error is that of the edge within a row of samples, below 1/n of it.
+    assert!(value(&content, "share") > 8.0, "{}", value(&content, "share"));
+    assert_eq!(agreement(&content, "share"), Agreement::Confirms);
+    assert_eq!(value(&content, "linear"), 188.0, "the sRGB level of ½");
+}

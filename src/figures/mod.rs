@@ -16,6 +16,7 @@
 //! ```
 
 mod content;
+mod depth;
 mod duff;
 mod error;
 mod exercises;
@@ -24,10 +25,12 @@ mod frequency;
 mod mach_bands;
 mod newell;
 mod newton;
+mod painter;
 mod profile;
 mod slerp;
 mod square;
 mod stage;
+mod supersampling;
 
 pub use content::{Agreement, Block, Content, Finding, Plot, Scale, Series, Shown};
 pub use error::FigureError;
@@ -49,6 +52,9 @@ pub static FIGURES: &[&Figure] = &[
     &fast_vs_naive::FIGURE,
     &exercises::FIGURE,
     &frequency::FIGURE,
+    &painter::FIGURE,
+    &depth::FIGURE,
+    &supersampling::FIGURE,
 ];
 
 /// One thing that a lecture shows or says, to be made anew.

@@ -3,9 +3,10 @@
 use super::FigureError;
 use crate::encoding::store;
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use crate::input::{load, resolve};
 use crate::lighting::{Light, Lighting, Material};
 use crate::picture::{LinearPicture, Picture8};
-use crate::scene::{Encoding, HiddenSurfaces};
+use crate::scene::{Encoding, HiddenSurfaces, Scene};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -99,6 +100,22 @@ pub(super) fn frame([width, height]: [u32; 2], grey: &Grey, polygons: &[Facet]) 
         builder.polygon(&numbers, facet.normal.as_vec3().to_array(), number as u32);
     }
     Ok(builder.finish()?)
+}
+
+/// A shipped scene, on a picture of this size.
+///
+/// # Errors
+/// If there is no such scene.
+pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene, FigureError> {
+    let mut scene = resolve(&load(name)?)?.scene;
+    (scene.width, scene.height) = (width, height);
+    Ok(scene)
+}
+
+/// How many pixels of two pictures of one size differ by more than half a grey level.
+pub(super) fn differing(a: &LinearPicture, b: &LinearPicture) -> usize {
+    let differ = |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.5 / 255.0);
+    a.texels().iter().zip(b.texels()).filter(differ).count()
 }
 
 /// `picture` in eight bits, with no transfer function.
