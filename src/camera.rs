@@ -1,5 +1,6 @@
 //! The camera: from world space to clip space, and the one view vector of the scene.
 
+use crate::frame::DepthRange;
 use glam::{DMat4, DVec3, DVec4};
 
 /// How depth is folded onto the picture.
@@ -45,6 +46,15 @@ impl Camera {
         let forward = -self.view();
         let right = forward.cross(self.up).normalize();
         [right, right.cross(forward), forward]
+    }
+
+    /// The distances at which depth is 0 and 1.
+    pub fn near_to_far(&self) -> DepthRange {
+        let Camera { near, far, .. } = *self;
+        match self.projection {
+            Projection::Orthographic { .. } => DepthRange::Orthographic { near, far },
+            Projection::Perspective { .. } => DepthRange::Perspective { near, far },
+        }
     }
 
     /// World space to clip space: x and y in −w..=w from left to right and bottom to top, z in 0..=w from near to far.

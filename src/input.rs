@@ -51,8 +51,9 @@ macro_rules! shipped {
 /// The shipped scenes, in the order of `scenes/README.md`, which says what each of them tests.
 pub static SCENES: &[ShippedScene] = shipped![
     "coarse-sphere" "fine-sphere" "teapot" "knot-100k" "million" "sharp-highlight" "four-lights" "polygons" "vase"
-    "football" "perspective" "figure5" "ellipsoid" "mirrored" "corrugated" "terrain" "local-lights" "blinn"
-    "two-lights"
+    "football" "perspective" "figure5" "ellipsoid" "mirrored" "corrugated" "terrain"
+    "cyclic-triangles" "interpenetration" "z-fighting"
+    "local-lights" "blinn" "two-lights"
 ];
 
 /// The files that shipped scenes refer to.

@@ -62,6 +62,8 @@ mod clip;
 #[cfg(feature = "cli")]
 pub mod comparison;
 pub mod encoding;
+#[cfg(feature = "cli")]
+pub mod figures;
 pub mod frame;
 #[cfg(feature = "io")]
 pub mod image_file;
@@ -71,6 +73,7 @@ pub mod lighting;
 pub mod mesh;
 pub mod metrics;
 pub mod number;
+pub mod painter;
 pub mod picture;
 mod projection;
 pub mod raster;

@@ -6,6 +6,7 @@ use fastphong::frame::{Frame, FrameBuilder};
 use fastphong::metrics::compare_where;
 use fastphong::raster::{self, NOTHING};
 use fastphong::reference::{self, Model, ReferencePicture, Visibility};
+use fastphong::scene::{DepthBuffer, HiddenSurfaces};
 use fastphong::shader::{METHODS, Variant};
 use std::collections::BTreeMap;
 
@@ -101,14 +102,20 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
         }
         let drawn = scene.seen.texels().iter().filter(|&&p| p != NOTHING).count();
         println!("{}: {differing} of {drawn} pixels", scene.name);
-        assert!(differing * 10_000 <= drawn, "{}: {differing} of {drawn} pixels", scene.name);
+        // Few levels of depth are wide, and rounding decides where one ends: `tests/hidden_surfaces.rs` says where.
+        let fights = matches!(scene.frame.hidden_surfaces(), HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. })
+            if bits.most().is_some());
+        assert!(fights || differing * 10_000 <= drawn, "{}: {differing} of {drawn} pixels", scene.name);
     }
 }
 
 /// The same frame without specular light.
 fn matte(frame: &Frame) -> Frame {
     let mut builder = FrameBuilder::new(frame.width() as u32, frame.height() as u32);
-    builder.interpolation(frame.interpolation()).depth_test(frame.depth_test());
+    builder
+        .interpolation(frame.interpolation())
+        .hidden_surfaces(frame.hidden_surfaces())
+        .depth_range(frame.depth_range());
     for lighting in frame.lightings() {
         let mut lighting = lighting.clone();
         lighting.lights.iter_mut().for_each(|light| light.specular = [0.0; 3]);
@@ -128,7 +135,8 @@ fn matte(frame: &Frame) -> Frame {
 }
 
 /// Scenes that are meant to show no highlight: flat faces turned away from it, or a matte material.
-const WITHOUT_HIGHLIGHT: [&str; 3] = ["corrugated", "figure5", "polygons"];
+const WITHOUT_HIGHLIGHT: [&str; 6] =
+    ["corrugated", "cyclic-triangles", "figure5", "interpenetration", "polygons", "z-fighting"];
 
 /// A flipped winding once hid behind an ambient-only picture: every scene must show lit pixels, and highlights where it
 /// is meant to.

@@ -4,6 +4,7 @@ use super::drawing::model_name;
 use super::table::columns;
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
+use fastphong::figures::FIGURES;
 use fastphong::input::SCENES;
 use fastphong::mesh::builtin::{BUILTINS, Kind, Parameter};
 use fastphong::metrics::{Better, METRICS};
@@ -11,7 +12,7 @@ use fastphong::scene::file::SceneFile;
 use fastphong::shader::{Info, METHODS, Roundings, Stepped};
 use serde_json::{Value, json};
 
-/// List methods, meshes, scenes or metrics
+/// List methods, meshes, scenes, metrics or figures of the lectures
 #[derive(clap::Args, Debug)]
 pub struct List {
     /// What to list
@@ -32,6 +33,8 @@ enum Subject {
     Scenes,
     /// Measures of the difference of two pictures
     Metrics,
+    /// Figures of the lectures
+    Figures,
 }
 
 impl List {
@@ -43,6 +46,7 @@ impl List {
                 Subject::Meshes => meshes_json(),
                 Subject::Scenes => scenes_json()?,
                 Subject::Metrics => metrics_json(),
+                Subject::Figures => figures_json(),
             };
             json_to_stdout(&entries.into())?;
         } else {
@@ -51,6 +55,7 @@ impl List {
                 Subject::Meshes => meshes(),
                 Subject::Scenes => scenes()?,
                 Subject::Metrics => metrics(),
+                Subject::Figures => figures(),
             };
             to_stdout(text.as_bytes())?;
         }
@@ -212,4 +217,13 @@ fn metrics() -> String {
 fn metrics_json() -> Vec<Value> {
     let entry = |metric: &fastphong::metrics::MetricInfo| json!({ "name": metric.name, "unit": metric.unit, "better": better(metric.better), "meaning": metric.meaning });
     METRICS.iter().map(entry).collect()
+}
+
+fn figures() -> String {
+    FIGURES.iter().map(|figure| format!("{}\n    {}\n    {}\n", figure.name, figure.title, figure.lecture)).collect()
+}
+
+fn figures_json() -> Vec<Value> {
+    let entry = |figure: &&fastphong::figures::Figure| json!({ "name": figure.name, "title": figure.title, "lecture": figure.lecture });
+    FIGURES.iter().map(entry).collect()
 }

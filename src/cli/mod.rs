@@ -10,6 +10,7 @@ mod diff;
 mod drawing;
 mod explain;
 mod failure;
+mod figure;
 mod info;
 mod list;
 mod measured;
@@ -48,6 +49,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 a comparison failed, 2 wrong usa
 enum Command {
     Render(render::Render),
     Report(report::Report),
+    Figure(figure::DrawFigures),
     Diff(diff::Diff),
     List(list::List),
     Explain(explain::Explain),
@@ -71,6 +73,7 @@ impl Command {
         match self {
             Command::Render(command) => command.run(talk),
             Command::Report(command) => command.run(talk),
+            Command::Figure(command) => command.run(talk),
             Command::Diff(command) => command.run(talk),
             Command::List(command) => command.run(),
             Command::Explain(command) => command.run(),

@@ -1,5 +1,6 @@
 //! `fastphong report`: every method on every scene, as one page.
 
+use super::figure::{drawn, page_folder};
 use super::measured::{TimingFlags, command_line, named_or_shipped};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
@@ -7,6 +8,7 @@ use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
 use fastphong::bench::Machine;
 use fastphong::comparison::{Input, compare, triangulation};
+use fastphong::figures::{FIGURES, Figure};
 use fastphong::image_file::write_file;
 use fastphong::input;
 use fastphong::report::{Caption, Report as Page, Section, utc_date};
@@ -27,11 +29,35 @@ pub struct Report {
     /// Where the page goes; its folder is made if there is none
     #[arg(short, long, value_name = "FILE", default_value = "report/index.html")]
     output: PathBuf,
+    /// Figures of the lectures between commas, `all` or `none` [default: all with the shipped scenes, none with INPUT]
+    #[arg(long, value_name = "NAMES", value_parser = figures)]
+    figures: Option<Figures>,
     /// Write README.md and its pictures beside the page as well
     #[arg(long)]
     markdown: bool,
     #[command(flatten)]
     scene: SceneFlags,
+}
+
+/// The figures of the lectures to show.
+#[derive(Clone, Debug)]
+struct Figures(Vec<&'static Figure>);
+
+/// Figures between commas, each once, `all` or `none`.
+fn figures(text: &str) -> Result<Figures, String> {
+    match text {
+        "all" => return Ok(Figures(FIGURES.to_vec())),
+        "none" => return Ok(Figures(Vec::new())),
+        _ => {}
+    }
+    let mut figures: Vec<&'static Figure> = Vec::new();
+    for name in text.split(',') {
+        let figure = Figure::find(name.trim())?;
+        if figures.iter().all(|other| other.name != figure.name) {
+            figures.push(figure);
+        }
+    }
+    Ok(Figures(figures))
 }
 
 /// The folder of the small pictures, beside the text that shows them.
@@ -44,16 +70,21 @@ impl Report {
         let names = named_or_shipped(&self.inputs);
         // What can fail at once does so before the first minute is spent.
         let files = names.iter().map(|name| self.scene.load(name)).collect::<Result<Vec<_>, Failure>>()?;
-        let folder = self.folder()?;
+        let folder = page_folder(&self.output)?;
+        let figures = self.figures();
         let machine = Machine::this();
         if machine.profile != "release" {
             talk.warning("built without optimisation: the times say nothing (cargo build --release)");
         }
         let progress = Progress::silent_between_moves(talk);
+        // Figures take about as long as two scenes.
+        let scenes = files.len() as f32 + if figures.is_empty() { 0.0 } else { 2.0 };
+        let lecture = drawn(&figures, &|part, what| progress.at(part * (scenes - files.len() as f32) / scenes, what))?;
         let mut sections = Vec::with_capacity(files.len());
         for (number, (name, file)) in names.iter().zip(&files).enumerate() {
             let told = |part: f32, what: &str| {
-                progress.at((number as f32 + part) / files.len() as f32, &format!("{name}: {what}"));
+                let done = scenes - files.len() as f32 + number as f32 + part;
+                progress.at(done / scenes, &format!("{name}: {what}"));
             };
             told(0.0, "loading");
             let warn = |resolved: &Resolved| progress.aside(|| self.scene.warn(resolved, talk));
@@ -61,25 +92,21 @@ impl Report {
         }
         progress.at(1.0, "writing");
         let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).ok();
-        let page =
-            Page { sections, machine, command_line: command_line(), date: since_1970.map(|t| utc_date(t.as_secs())) };
+        let date = since_1970.map(|t| utc_date(t.as_secs()));
+        let page = Page { sections, lecture, machine, command_line: command_line(), date };
         let written = self.write(&page, &folder)?;
         drop(progress);
         to_stdout(written.as_bytes())?;
         Ok(Outcome::Done)
     }
 
-    /// The folder of the page, made if need be.
-    fn folder(&self) -> Result<PathBuf, Failure> {
-        let folder = self.output.parent().unwrap_or(Path::new("")).to_owned();
-        let refused = |reason: &str| Failure::from(format!("{}: cannot be written: {reason}", self.output.display()));
-        if self.output.file_name().is_none() || self.output.is_dir() {
-            return Err(refused("it is a folder: expected a file, such as report/index.html"));
+    /// The figures that were asked for.
+    fn figures(&self) -> Vec<&'static Figure> {
+        match &self.figures {
+            Some(figures) => figures.0.clone(),
+            None if self.inputs.is_empty() => FIGURES.to_vec(),
+            None => Vec::new(),
         }
-        if !folder.as_os_str().is_empty() {
-            std::fs::create_dir_all(&folder).map_err(|error| refused(&error.to_string()))?;
-        }
-        Ok(folder)
     }
 
     fn section(

@@ -5,10 +5,12 @@ use super::talk::Talk;
 use super::values::{self, Normals};
 use fastphong::input;
 use fastphong::lighting::{SpecularGate, SpecularModel};
-use fastphong::scene::file::{CameraSection, ImageSection, LightSection, MaterialSection, SceneFile, ViewerChoice};
+use fastphong::scene::file::{
+    CameraSection, ImageSection, LightSection, MaterialSection, SceneFile, ViewerChoice, VisibilityChoice,
+};
 use fastphong::scene::resolve::Resolved;
 use fastphong::scene::value::{Located, OneOrThree};
-use fastphong::scene::{Culling, Encoding, Interpolation};
+use fastphong::scene::{Clipping, Culling, DepthSource, Encoding, Interpolation, PainterKey};
 
 /// The picture and the scene.
 #[derive(clap::Args, Clone, Debug, Default)]
@@ -95,9 +97,27 @@ pub struct SceneFlags {
     /// Which polygons are left out
     #[arg(long, value_name = "SIDE", value_parser = values::word::<Culling>())]
     cull: Option<Culling>,
-    /// Later polygons hide earlier ones, whatever their depth
+    /// What hides a polygon: a nearer sample, or what is drawn later, sorted from back to front or not
+    #[arg(long, value_name = "HOW", value_parser = values::word::<VisibilityChoice>())]
+    visibility: Option<VisibilityChoice>,
+    /// Bits of the depth buffer: 16, 24 or 32
+    #[arg(long, value_name = "BITS", allow_hyphen_values = true)]
+    depth_bits: Option<i64>,
+    /// Where depth comes from: interpolated between corners, or computed from the distance at each sample
+    #[arg(long, value_name = "HOW", value_parser = values::word::<DepthSource>())]
+    depth: Option<DepthSource>,
+    /// By what the painter sorts: the mean depth of the corners or that of the farthest one
+    #[arg(long, value_name = "KEY", value_parser = values::word::<PainterKey>())]
+    painter_key: Option<PainterKey>,
+    /// What keeps polygons within the view: clipping by planes, or CS171's test of each pixel
+    #[arg(long, value_name = "HOW", value_parser = values::word::<Clipping>())]
+    clipping: Option<Clipping>,
+    /// Light polygons seen from behind with negated normals (with `--cull none`)
     #[arg(long)]
-    no_depth: bool,
+    two_sided: bool,
+    /// Supersampling: so many samples a pixel along each side, 1, 2, 4 or 8, hidden and shaded each on its own
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    samples: Option<i64>,
     /// Where vertex normals come from: `averaged`, `given`, or averaged up to an angle, `crease=30`
     #[arg(long, value_name = "SOURCE", value_parser = values::normals)]
     normals: Option<Normals>,
@@ -163,13 +183,19 @@ impl SceneFlags {
             height: flag(self.resolution.map(|sides| sides[1]), "--resolution"),
             background: flag(self.background, "--background"),
             encoding: flag(self.encoding, "--encoding"),
+            samples: flag(self.samples, "--samples"),
         };
         over.camera = self.camera();
         over.material = self.material();
         over.ambient = flag(self.ambient, "--ambient");
         over.interpolation = flag(self.interpolation, "--interpolation");
         over.cull = flag(self.cull, "--cull");
-        over.depth_test = self.no_depth.then(|| Located::flag(false, "--no-depth"));
+        over.visibility = flag(self.visibility, "--visibility");
+        over.depth_bits = flag(self.depth_bits, "--depth-bits");
+        over.depth = flag(self.depth, "--depth");
+        over.clipping = flag(self.clipping, "--clipping");
+        over.two_sided = self.two_sided.then(|| Located::flag(true, "--two-sided"));
+        over.painter_key = flag(self.painter_key, "--painter-key");
         over.viewer = flag(self.viewer, "--viewer");
         over.specular = flag(self.specular, "--specular");
         over.shininess_for = flag(self.shininess_for, "--shininess-for");

@@ -9,7 +9,7 @@
 //! use fastphong::lighting::Light;
 //! use fastphong::mesh::builtin::builtin;
 //! use fastphong::mesh::vertex_normals::NormalSource;
-//! use fastphong::scene::{Culling, Encoding, Interpolation, Object, Scene};
+//! use fastphong::scene::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
 //! use fastphong::shader::Variant;
 //! use glam::{DAffine3, DVec3};
 //!

@@ -1,8 +1,9 @@
 //! Making a frame, and checking it once.
 
-use super::{ClipCorner, Frame, FrameError, FrameStats, Mean, Polygon, SubPixel, Vertex};
+use super::{ClipCorner, DepthRange, Frame, FrameError, FrameStats, Mean, Polygon, SubPixel, Vertex};
 use crate::lighting::{Lighting, Rgb};
-use crate::scene::{Encoding, Interpolation, Scene};
+use crate::painter::back_to_front;
+use crate::scene::{Clipping, Encoding, HiddenSurfaces, Interpolation, Scene};
 use alloc::vec::Vec;
 
 /// Collects vertices and polygons, then checks them once, so that what reads a frame need not.
@@ -12,15 +13,18 @@ pub struct FrameBuilder {
 }
 
 impl FrameBuilder {
-    /// An empty frame of `width` × `height` pixels, black, with depth test, linear on the screen.
+    /// An empty frame of `width` × `height` samples, each of them a pixel, black, with a depth buffer of floats, linear on the screen.
     pub fn new(width: u32, height: u32) -> Self {
         FrameBuilder {
             frame: Frame {
                 width,
                 height,
+                samples: 1,
                 background: [0.0; 3],
                 interpolation: Interpolation::Screen,
-                depth_test: true,
+                hidden_surfaces: HiddenSurfaces::default(),
+                clipping: Clipping::Planes,
+                depth_range: DepthRange::default(),
                 encoding: Encoding::Linear,
                 vertices: Vec::new(),
                 positions: Vec::new(),
@@ -35,6 +39,13 @@ impl FrameBuilder {
         }
     }
 
+    /// Sets how many samples of the frame make a pixel along each side, 1 (as it is), 2, 4 or 8: a divisor of its width and
+    /// its height.
+    pub fn samples(&mut self, samples: u32) -> &mut Self {
+        self.frame.samples = samples;
+        self
+    }
+
     /// Sets the colour where nothing is drawn.
     pub fn background(&mut self, colour: Rgb) -> &mut Self {
         self.frame.background = colour;
@@ -47,9 +58,21 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets whether nearer polygons hide farther ones.
-    pub fn depth_test(&mut self, on: bool) -> &mut Self {
-        self.frame.depth_test = on;
+    /// Sets how hidden surfaces are found.
+    pub fn hidden_surfaces(&mut self, how: HiddenSurfaces) -> &mut Self {
+        self.frame.hidden_surfaces = how;
+        self
+    }
+
+    /// Sets what keeps polygons within the view: whether each sample is tested for its depth.
+    pub fn clipping(&mut self, clipping: Clipping) -> &mut Self {
+        self.frame.clipping = clipping;
+        self
+    }
+
+    /// Sets the distances at which depth is 0 and 1; by default the distance is the depth.
+    pub fn depth_range(&mut self, range: DepthRange) -> &mut Self {
+        self.frame.depth_range = range;
         self
     }
 
@@ -134,7 +157,7 @@ impl FrameBuilder {
         self
     }
 
-    /// The frame.
+    /// The frame; under the painter's algorithm its polygons are sorted from back to front.
     ///
     /// # Errors
     /// [`FrameError`] when a size, a number of lights, a coordinate or an index is outside its range.
@@ -143,6 +166,18 @@ impl FrameBuilder {
         let side = 1..=Scene::MAX_SIDE;
         if !side.contains(&frame.width) || !side.contains(&frame.height) {
             return Err(FrameError::Size { width: frame.width, height: frame.height });
+        }
+        let samples = frame.samples;
+        if ![1, 2, 4, 8].contains(&samples)
+            || ![frame.width, frame.height].iter().all(|side| side.is_multiple_of(samples))
+        {
+            return Err(FrameError::Samples { samples });
+        }
+        if frame.clipping == Clipping::NdcCube && frame.interpolation == Interpolation::Perspective {
+            return Err(FrameError::Unclipped);
+        }
+        if !frame.depth_range.is_valid() {
+            return Err(FrameError::Camera);
         }
         if frame.corners.len() > u32::MAX as usize || frame.vertices.len() > u32::MAX as usize {
             return Err(FrameError::TooLarge);
@@ -175,7 +210,13 @@ impl FrameBuilder {
             }
             previous = Some(corner.vertex);
         }
-        Ok(frame)
+        match frame.hidden_surfaces {
+            HiddenSurfaces::Painter(key) => {
+                let order = back_to_front(&frame, key);
+                Ok(frame.in_order(&order))
+            }
+            HiddenSurfaces::ZBuffer(_) | HiddenSurfaces::DrawOrder => Ok(frame),
+        }
     }
 }
 
@@ -187,7 +228,7 @@ impl Frame {
             && inside(v.y)
             && v.depth.is_finite()
             && v.inv_w.is_finite()
-            && v.inv_w > 0.0
+            && (v.inv_w > 0.0 || self.clipping == Clipping::NdcCube)
             && v.normal.iter().all(|n| n.is_finite())
             && (v.material as usize) < self.lightings.len()
     }

@@ -1,5 +1,6 @@
 //! The active edges: those that cross the current scanline, with what is walked along them.
 
+use super::depth::SampleDepth;
 use super::edge::{Crossing, first_centre};
 use super::edge_table::{EdgeTable, TableEdge};
 use crate::frame::{Frame, SubPixel, Vertex};
@@ -39,7 +40,7 @@ pub struct Span {
     pub t0: f32,
     /// Its step from pixel to pixel: `Δt = 1 / (x_2 − x_1)` (L21 3).
     pub dt: f32,
-    /// Depth at the centre of the first pixel.
+    /// What depth is made of ([`SampleDepth`]) at the centre of the first pixel.
     pub depth: f32,
     /// Its step from pixel to pixel.
     pub depth_step: f32,
@@ -48,13 +49,14 @@ pub struct Span {
 /// The edges that cross the current scanline, ordered by polygon and within a polygon from left to right.
 #[derive(Debug)]
 pub struct ActiveEdges<E> {
+    depth: SampleDepth,
     edges: Vec<ActiveEdge<E>>,
     merged: Vec<ActiveEdge<E>>,
 }
 
 impl<E: Copy> ActiveEdges<E> {
-    pub fn new() -> Self {
-        ActiveEdges { edges: Vec::new(), merged: Vec::new() }
+    pub fn new(depth: SampleDepth) -> Self {
+        ActiveEdges { depth, edges: Vec::new(), merged: Vec::new() }
     }
 
     /// The edges, in order.
@@ -79,7 +81,7 @@ impl<E: Copy> ActiveEdges<E> {
             while let Some(active) = old.next_if(|active| active.polygon <= edge.polygon) {
                 self.merged.push(*active);
             }
-            self.merged.push(start(m, frame, attributes, edge, row as i32));
+            self.merged.push(start(m, frame, &self.depth, attributes, edge, row as i32));
         }
         self.merged.extend(old);
         core::mem::swap(&mut self.edges, &mut self.merged);
@@ -141,7 +143,14 @@ fn before<E>(a: &ActiveEdge<E>, b: &ActiveEdge<E>) -> bool {
 
 /// An edge at scanline `row`, with the sub-pixel start: the parameter there is that of the scanline's centre.
 #[inline(always)]
-fn start<M, A>(m: M, frame: &Frame, attributes: &[A], edge: &TableEdge, row: i32) -> ActiveEdge<A::Edge>
+fn start<M, A>(
+    m: M,
+    frame: &Frame,
+    depth: &SampleDepth,
+    attributes: &[A],
+    edge: &TableEdge,
+    row: i32,
+) -> ActiveEdge<A::Edge>
 where
     M: Machine,
     A: Attribute<M::One>,
@@ -154,7 +163,8 @@ where
     let centre = SubPixel::from_num(row) + SubPixel::from_bits(1 << (SubPixel::FRAC_NBITS - 1));
     let t0 = (centre - top.y).to_bits() as f32 / height;
     let dt = (1 << SubPixel::FRAC_NBITS) as f32 / height; // Δt = 1 / (y_2 − y_1)
-    let rise = bottom.depth - top.depth;
+    let from = depth.of_corner(frame, top);
+    let rise = depth.of_corner(frame, bottom) - from;
     let face = frame.polygons()[edge.polygon as usize].normal.map(|n| m.one(n));
     let (a, b) = (attributes[edge.top as usize], attributes[edge.bottom as usize]);
     ActiveEdge {
@@ -162,7 +172,7 @@ where
         corner: edge.corner,
         end: first_centre(bottom.y),
         crossing: Crossing::new(place(top), place(bottom), row),
-        depth: Ramp { at: top.depth + rise * t0, step: rise * dt }, // 3.4
+        depth: Ramp { at: from + rise * t0, step: rise * dt }, // 3.4
         attribute: A::edge(m, face, a, b, m.one(t0), m.one(dt)),
     }
 }

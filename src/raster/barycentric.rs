@@ -4,6 +4,7 @@
 //! its barycentric coordinates, and attributes are interpolated and shaded there and then (CS171 1, Algorithms 1, 2).
 //! Shading is the methods' own text, so that what differs in speed is rasterization and interpolation.
 
+use super::depth::SampleDepth;
 use super::setup::SetUp;
 use super::target::Target;
 use crate::frame::{Frame, Vertex};
@@ -61,6 +62,7 @@ pub(crate) fn draw<S: Shader, M: Machine>(
 ) {
     const { assert!(M::WIDTH == 1, "this renderer goes pixel by pixel") };
     let setup = SetUp::<S, M>::new(m, frame, parameters);
+    let depth = SampleDepth::new(frame);
     let mut depth_buffer = vec![f32::INFINITY; frame.width() * frame.height()];
     for (number, polygon) in frame.polygons().iter().enumerate() {
         let &[a, mut b, mut c] = frame.corners(polygon) else { continue };
@@ -82,6 +84,7 @@ pub(crate) fn draw<S: Shader, M: Machine>(
         let least: [i64; 3] = each(|i| i64::from(edges == Edges::TopLeft && !functions[i].owns_its_pixels()));
         let scale = 1.0 / doubled_area.abs() as f32;
         let attributes: [_; 3] = each(|i| setup.attributes[[a, b, c][i] as usize]);
+        let depths = corners.map(|corner| depth.of_corner(frame, corner));
         let (x_range, y_range) = bounding_box(frame, &corners);
         let material = polygon.material as usize;
         for row in y_range {
@@ -94,12 +97,10 @@ pub(crate) fn draw<S: Shader, M: Machine>(
                 }
                 // α = f_bc(p) / f_bc(a), and likewise β and γ: f_bc(a) is the doubled area for all three.
                 let weights: [f32; 3] = each(|i| f[i] as f32 * scale);
-                let z = weights[0] * corners[0].depth + weights[1] * corners[1].depth + weights[2] * corners[2].depth;
+                let q = weights[0] * depths[0] + weights[1] * depths[1] + weights[2] * depths[2];
                 let nearest = &mut depth_buffer[row * frame.width() + column];
-                if frame.depth_test() && z >= *nearest {
-                    continue;
-                }
-                *nearest = z;
+                let Some(kept) = depth.seen(q, *nearest) else { continue };
+                *nearest = kept;
                 let start = Span {
                     x: m.one(column as f32 + 0.5),
                     y: m.one(row as f32 + 0.5),

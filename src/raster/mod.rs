@@ -12,10 +12,12 @@ mod active;
 mod aov;
 pub mod barycentric;
 mod barycentric_numbers;
+mod depth;
 mod edge;
 mod edge_table;
 pub mod scanline;
 mod setup;
+mod supersampling;
 mod target;
 mod visibility;
 
@@ -25,4 +27,5 @@ pub use barycentric_numbers::barycentric_polygon_numbers;
 pub use edge::Crossing;
 pub use visibility::NOTHING;
 
-pub(crate) use target::{Target, clear, linear_picture, picture8};
+pub(crate) use supersampling::{draw_anyhow, draw_rows};
+pub(crate) use target::{Target, Texel, clear, linear_picture, picture8};

@@ -4,6 +4,7 @@
 //! each visible run is then walked and shaded once, so that hidden pixels are never shaded.
 
 use super::active::{ActiveEdge, ActiveEdges};
+use super::depth::SampleDepth;
 use super::edge_table::EdgeTable;
 use super::setup::SetUp;
 use super::target::Target;
@@ -23,8 +24,9 @@ pub(super) fn scan<M: Machine, A: Attribute<M::One>>(
     mut visit: impl FnMut(usize, &VisibleLine, &[ActiveEdge<A::Edge>]),
 ) {
     let table = EdgeTable::new(frame);
-    let mut active = ActiveEdges::new();
-    let mut line = VisibleLine::new(frame.width(), frame.depth_test());
+    let depth = SampleDepth::new(frame);
+    let mut active = ActiveEdges::new(depth);
+    let mut line = VisibleLine::new(frame.width(), depth);
     for row in 0..frame.height() {
         active.advance::<M, A>(row);
         active.enter(m, frame, &table, attributes, row);

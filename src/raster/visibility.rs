@@ -1,12 +1,30 @@
 //! Which span is seen at each pixel of a scanline: a depth buffer of one line.
 
 use super::active::Span;
+use super::depth::SampleDepth;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
 /// The number of the span, or polygon, at a pixel where there is none.
 pub const NOTHING: u32 = u32::MAX;
+
+/// Walks along a span: where `sees` gives a depth to keep, the span number `number` is seen.
+#[inline(always)]
+fn walk<'a>(
+    span: &Span,
+    line: impl Iterator<Item = (&'a mut f32, &'a mut u32)>,
+    number: u32,
+    sees: impl Fn(f32, f32) -> Option<f32>,
+) {
+    let mut q = span.depth;
+    for (depth, seen) in line {
+        if let Some(kept) = sees(q, *depth) {
+            (*depth, *seen) = (kept, number);
+        }
+        q += span.depth_step;
+    }
+}
 
 /// The nearest span at each pixel of one scanline, and its depth.
 #[derive(Debug)]
@@ -15,17 +33,17 @@ pub struct VisibleLine {
     depth: Vec<f32>,
     seen: Vec<u32>,
     drawn: Range<usize>,
-    depth_test: bool,
+    rule: SampleDepth,
 }
 
 impl VisibleLine {
-    pub fn new(width: usize, depth_test: bool) -> Self {
+    pub fn new(width: usize, rule: SampleDepth) -> Self {
         VisibleLine {
             spans: Vec::new(),
             depth: vec![f32::INFINITY; width],
             seen: vec![NOTHING; width],
             drawn: 0..0,
-            depth_test,
+            rule,
         }
     }
 
@@ -46,28 +64,20 @@ impl VisibleLine {
         } else {
             self.drawn.start.min(pixels.start)..self.drawn.end.max(pixels.end)
         };
-        let mut z = span.depth;
         let line = self.depth[pixels.clone()].iter_mut().zip(&mut self.seen[pixels]);
-        if self.depth_test {
-            for (depth, seen) in line {
-                if z < *depth {
-                    *depth = z;
-                    *seen = number;
-                }
-                z += span.depth_step;
-            }
+        let rule = self.rule;
+        // The usual way has a loop of its own, in which nothing is left to be asked.
+        if rule.hides() && rule.is_plain() {
+            walk(&span, line, number, |q, depth| (q < depth).then_some(q));
         } else {
-            for (depth, seen) in line {
-                (*depth, *seen) = (z, number);
-                z += span.depth_step;
-            }
+            walk(&span, line, number, |q, depth| rule.seen(q, depth));
         }
         self.spans.push(span);
     }
 
-    /// Depth at each pixel; infinite where nothing was drawn.
-    pub fn depth(&self) -> &[f32] {
-        &self.depth
+    /// Depth at each pixel, as finely as it is kept; infinite where nothing was drawn.
+    pub fn depth(&self) -> impl Iterator<Item = f32> {
+        self.depth.iter().map(|kept| self.rule.shown(*kept))
     }
 
     /// The polygon seen at pixel `x`, or [`NOTHING`].

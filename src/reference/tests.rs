@@ -3,7 +3,7 @@
 use super::fixtures::{between, polygon_of, vertex, z_light};
 use super::{Model, ReferencePicture, Visibility, render, shade, visibility};
 use crate::frame::{Frame, FrameBuilder, Vertex};
-use crate::scene::Interpolation;
+use crate::scene::{HiddenSurfaces, Interpolation};
 
 /// Rounding of a normal's z to f32 at most (values up to 1: 2⁻²⁵), with room for the few roundings in f64 after it.
 const F32: f64 = 3.1e-8;
@@ -216,7 +216,7 @@ fn a_clip_corner_between_opposite_normals_has_the_face_that_was_clipped() {
 fn two_layers(depth_test: bool, first: (f32, f32), second: (f32, f32)) -> Frame {
     let mut builder = FrameBuilder::new(6, 6);
     builder.lighting(z_light());
-    builder.depth_test(depth_test);
+    builder.hidden_surfaces(if depth_test { HiddenSurfaces::default() } else { HiddenSurfaces::DrawOrder });
     for (source, (left, right)) in (0..).zip([first, second]) {
         let mut corners = square(4.0, [[0.0, 0.0, 1.0]; 4]);
         for (vertex, depth) in corners.iter_mut().zip([left, right, right, left]) {

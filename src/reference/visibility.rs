@@ -1,15 +1,16 @@
 //! Which polygon is seen at each pixel.
 
-use super::coverage::{Scanline, bounding_box};
-use crate::frame::Frame;
+use super::coverage::{Scanline, Weights, bounding_box};
+use crate::frame::{DepthRange, Frame};
 use crate::picture::Picture;
+use crate::scene::{Clipping, DepthBuffer, DepthSource, HiddenSurfaces};
 
-/// What is seen at each pixel of a frame, whatever its shading.
+/// What is seen at each sample of a frame, whatever its shading: at each pixel, but where it has several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visibility {
     /// The polygon seen: its place in [`Frame::polygons`], [`Visibility::NONE`] where there is none.
     pub polygons: Picture<u32>,
-    /// Its depth (z/w, linear on the screen); infinite where there is none.
+    /// Its depth as it is compared, 0 at the near plane, 1 at the far plane; infinite where there is none.
     pub depth: Picture<f64>,
     /// How much farther the next polygon behind it is: where this is within the rounding of depths, other arithmetic may
     /// see the other polygon. Infinite where no other covers the pixel, and where there is no depth test to decide.
@@ -36,6 +37,41 @@ impl Visibility {
     }
 }
 
+/// How a frame with a depth buffer fills it; the default one without.
+fn buffer(frame: &Frame) -> DepthBuffer {
+    match frame.hidden_surfaces() {
+        HiddenSurfaces::ZBuffer(buffer) => buffer,
+        HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => DepthBuffer::default(),
+    }
+}
+
+/// The depth of a sample that is made of a polygon's corners in these shares.
+fn depth(frame: &Frame, weights: &Weights) -> f64 {
+    let vertex = |v: usize| &frame.vertices()[v];
+    let interpolated = || weights.sum(|v| f64::from(vertex(v).depth));
+    match (buffer(frame).source, frame.depth_range()) {
+        (DepthSource::Interpolated, _) => interpolated(),
+        (DepthSource::PerSample, DepthRange::Perspective { near: n, far: f }) => {
+            // The eye looks along −z; 1/z is linear on the screen.
+            let z = -n / weights.sum(|v| f64::from(vertex(v).inv_w));
+            let ndc = (f + n) / (f - n) + (1.0 / z) * (2.0 * f * n) / (f - n); // L5
+            (ndc + 1.0) / 2.0
+        }
+        (DepthSource::PerSample, DepthRange::Orthographic { near: n, far: f }) => {
+            let distance = weights.sum(|v| n + f64::from(vertex(v).depth) * (f - n));
+            (distance - n) / (f - n)
+        }
+    }
+}
+
+/// What the depth buffer keeps of `depth`: all of it, or the nearest of 2ᵇ levels.
+fn kept(frame: &Frame, depth: f64) -> f64 {
+    match buffer(frame).bits.most() {
+        None => depth,
+        Some(most) => libm::floor(depth.clamp(0.0, 1.0) * f64::from(most) + 0.5) / f64::from(most),
+    }
+}
+
 /// What is seen of `frame`: of the polygons that cover a pixel centre the nearest one, of equally near ones the first; or
 /// without depth test the last one.
 pub fn visibility(frame: &Frame) -> Visibility {
@@ -53,8 +89,11 @@ pub fn visibility(frame: &Frame) -> Visibility {
             scanline.cut(corners, y);
             for x in columns.clone() {
                 if let Some(weights) = scanline.weights(x) {
-                    let depth = weights.sum(|v| f64::from(frame.vertices()[v].depth));
-                    visibility.add((x, y), number, depth, frame.depth_test());
+                    let z = depth(frame, &weights);
+                    if frame.clipping() == Clipping::NdcCube && !(0.0..=1.0).contains(&z) {
+                        continue;
+                    }
+                    visibility.add((x, y), number, kept(frame, z), frame.depth_test());
                 }
             }
         }

@@ -6,9 +6,9 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 /// Width of every chart in its own units; a unit is a pixel where the page is wide enough.
-const WIDTH: f64 = 560.0;
+pub(super) const WIDTH: f64 = 560.0;
 /// Mean width of a letter at the charts' 13 units, for labels that must not overlap.
-const LETTER: f64 = 7.2;
+pub(super) const LETTER: f64 = 7.2;
 
 /// A bar: a ratio with its interval.
 pub(super) struct Bar {
@@ -90,7 +90,7 @@ fn label(text: &str) -> String {
 }
 
 /// 1, 2 or 5 times a power of ten, so that `most` has about five steps of it.
-fn nice_step(most: f64) -> f64 {
+pub(super) fn nice_step(most: f64) -> f64 {
     let decade = libm::pow(10.0, libm::floor(libm::log10(most / 5.0)));
     [1.0, 2.0, 5.0].into_iter().map(|n| n * decade).find(|step| most / step <= 6.0).unwrap_or(10.0 * decade)
 }
@@ -175,7 +175,7 @@ fn front(points: &[Point]) -> Vec<usize> {
     order
 }
 
-fn open(class: &str, title: &str, height: f64) -> String {
+pub(super) fn open(class: &str, title: &str, height: f64) -> String {
     format!(
         "<svg class=\"chart {class}\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{}\">",
         escape(title)
@@ -214,7 +214,7 @@ impl Plot {
 }
 
 /// Small numbers as powers of ten, so that an axis has room for them.
-fn power(value: f64) -> String {
+pub(super) fn power(value: f64) -> String {
     if value >= 0.001 {
         return value.to_string();
     }
@@ -227,7 +227,7 @@ fn power(value: f64) -> String {
     }
 }
 
-fn superscript(digit: char) -> char {
+pub(super) fn superscript(digit: char) -> char {
     ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit.to_digit(10).unwrap_or(0) as usize]
 }
 

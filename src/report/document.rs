@@ -1,6 +1,7 @@
 //! The measured data, as they stand in the page.
 
 use super::Report;
+use super::lecture::{FigureData, data};
 use super::section::TriangulationData;
 use crate::bench::Machine;
 use crate::comparison::{ComparisonData, SCHEMA, WHAT_IS_COMPARED, WHAT_IS_TIMED};
@@ -18,6 +19,7 @@ struct Data<'a> {
     compared: &'a str,
     date: Option<&'a str>,
     comparisons: Vec<SceneData<'a>>,
+    figures: Vec<FigureData<'a>>,
 }
 
 #[derive(Serialize)]
@@ -37,7 +39,7 @@ pub(super) fn json(report: &Report) -> String {
         comparison: &section.data,
         triangulation: section.triangulation,
     });
-    let data = Data {
+    let all = Data {
         schema: SCHEMA,
         command_line: &report.command_line,
         machine: &report.machine,
@@ -45,6 +47,7 @@ pub(super) fn json(report: &Report) -> String {
         compared: WHAT_IS_COMPARED,
         date: report.date.as_deref(),
         comparisons: comparisons.collect(),
+        figures: data(&report.lecture),
     };
-    serde_json::to_string(&data).expect("numbers, texts and lists of them")
+    serde_json::to_string(&all).expect("numbers, texts and lists of them")
 }

@@ -23,6 +23,7 @@
 //! let section = Section::new(caption, &comparison, triangles.as_ref())?;
 //! let report = Report {
 //!     sections: vec![section],
+//!     lecture: vec![],
 //!     machine: Machine::this(),
 //!     command_line: vec!["fastphong".into(), "report".into()],
 //!     date: None,
@@ -36,9 +37,11 @@ mod date;
 mod document;
 mod encode;
 mod html;
+mod lecture;
 mod markdown;
 mod operations;
 mod page;
+mod plot;
 mod scene;
 mod section;
 mod sentences;
@@ -48,6 +51,7 @@ mod tables;
 mod tests;
 
 pub use date::utc_date;
+pub use lecture::{FIGURES_SCHEMA, LectureFigure, figures_page};
 pub use markdown::{Image, Markdown};
 pub use section::{Caption, MAP_SCALE, Section, TriangulationData};
 
@@ -60,6 +64,8 @@ use alloc::vec::Vec;
 pub struct Report {
     /// The scenes, in the order of the page.
     pub sections: Vec<Section>,
+    /// The lecture's figures, made anew; may be empty.
+    pub lecture: Vec<LectureFigure>,
     /// What the times are of.
     pub machine: Machine,
     /// What was typed, program first.

@@ -4,17 +4,17 @@ use super::charts::{Point, scatter};
 use super::html::{escape, escape_script, identifier};
 use super::sentences::{count, opening};
 use super::summary::overall;
-use super::{Report, Section, operations, scene, tables};
+use super::{Report, Section, lecture, operations, scene, tables};
 use crate::comparison::{WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-const STYLE: &str = include_str!("page/page.css");
+pub(super) const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 
 /// Nothing is loaded from anywhere, whatever a title may have smuggled in.
-const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \
+pub(super) const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \
                       base-uri 'none'; form-action 'none'";
 
 pub(super) fn page(report: &Report) -> String {
@@ -33,6 +33,9 @@ pub(super) fn page(report: &Report) -> String {
     html += &project(report, &ids);
     html += &operation_counts();
     html += &measurement(report);
+    if !report.lecture.is_empty() {
+        html += &lecture::section(&report.lecture, "h2");
+    }
     for (section, id) in scenes() {
         html += &scene::html(section, id, report);
         html.push('\n');
@@ -58,7 +61,10 @@ fn ids(sections: &[Section]) -> Vec<String> {
 }
 
 fn navigation(report: &Report, ids: &[String]) -> String {
-    let mut html = String::from("<nav aria-label=\"Scenes\"><ul>");
+    let mut html = String::from("<nav aria-label=\"Sections\"><ul>");
+    if !report.lecture.is_empty() {
+        html += &format!("<li><a href=\"#lecture\">{}</a></li>", lecture::TITLE);
+    }
     for (section, id) in report.sections.iter().zip(ids) {
         html += &format!("<li><a href=\"#{id}\">{}</a></li>", escape(&section.caption.title));
     }

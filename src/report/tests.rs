@@ -35,7 +35,7 @@ fn machine() -> Machine {
 
 fn report(sections: Vec<Section>) -> Report {
     let command_line = ["fastphong", "report", "a b"].map(String::from).to_vec();
-    Report { sections, machine: machine(), command_line, date: Some("2000-02-29".into()) }
+    Report { sections, lecture: vec![], machine: machine(), command_line, date: Some("2000-02-29".into()) }
 }
 
 /// Gives each row a time, in ms, and ratios to naive Phong whose intervals reach `spread` to both sides.

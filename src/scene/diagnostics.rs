@@ -155,6 +155,9 @@ impl SceneError {
             if let Some(word) = parts.0.strip_prefix(unknown).and_then(|rest| rest.strip_suffix('`')) {
                 let candidates = quoted(parts.1);
                 let error = SceneError::new(Some(source), origin, format!("{name} `{word}`"), parts.1);
+                if word == "depth_test" {
+                    return error.help("what hides a polygon is said by `visibility`");
+                }
                 return match suggest::nearest(word, candidates) {
                     Some(nearest) => error.help(format!("did you mean `{nearest}`?")),
                     None => error,

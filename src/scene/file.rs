@@ -3,10 +3,12 @@
 //! What is read here is not yet checked: [`SceneFile::resolve`] does that, for values from files and from command-line
 //! flags alike.
 
+pub use super::choices::{NormalChoice, VisibilityChoice};
 pub use super::lights::{FalloffChoice, LightSection, ViewerChoice};
 
 use super::diagnostics::{SceneError, SourceText};
-use super::value::{Choice, Located, OneOrThree, Origin, shortest};
+use super::hidden_surfaces::{Clipping, DepthSource, PainterKey};
+use super::value::{Located, OneOrThree, Origin, shortest};
 use super::{Culling, Encoding, Interpolation, Scene};
 use crate::lighting::{Material, SpecularGate, SpecularModel};
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -54,9 +56,24 @@ pub struct SceneFile {
     /// Which polygons are left out: `"back"` (default), `"front"` or `"none"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cull: Option<Located<Culling>>,
-    /// Whether nearer polygons hide farther ones. Default: true.
+    /// What hides a polygon: `"z-buffer"` (default), `"painter"` or `"draw-order"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub depth_test: Option<Located<bool>>,
+    pub visibility: Option<Located<VisibilityChoice>>,
+    /// Bits of the depth buffer: 16, 24 or 32 (default).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_bits: Option<Located<i64>>,
+    /// Where depth comes from: `"interpolated"` (default) or `"per-sample"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth: Option<Located<DepthSource>>,
+    /// By what the painter sorts: `"mean"` (default) or `"farthest"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub painter_key: Option<Located<PainterKey>>,
+    /// What keeps polygons within the view: `"planes"` (default) or `"ndc-cube"`, CS171's test of each pixel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clipping: Option<Located<Clipping>>,
+    /// Whether polygons seen from behind are lit with negated normals. Default: false.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub two_sided: Option<Located<bool>>,
     /// Size and encoding of the picture.
     #[serde(default, skip_serializing_if = "ImageSection::is_empty")]
     pub image: ImageSection,
@@ -125,6 +142,8 @@ section! {
         background: OneOrThree,
         /// How values are stored in eight bits: `"linear"` (default) or `"srgb"`.
         encoding: Encoding,
+        /// Samples a pixel along each side: 1 (default), 2, 4 or 8.
+        samples: i64,
     }
 }
 
@@ -218,35 +237,6 @@ impl ObjectSection {
             material: None,
         }
     }
-}
-
-/// Where vertex normals come from, but for `crease`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NormalChoice {
-    /// The normals of the mesh, averaged ones where it has none.
-    Given,
-    /// The normalised sum of the unit normals of the polygons around (L21 3.1).
-    Averaged,
-}
-
-impl Choice for NormalChoice {
-    const WORDS: &'static [&'static str] = &["averaged", "given"];
-    const MEANINGS: &'static [Self] = &[NormalChoice::Averaged, NormalChoice::Given];
-}
-
-impl Choice for Interpolation {
-    const WORDS: &'static [&'static str] = &["screen", "perspective"];
-    const MEANINGS: &'static [Self] = &[Interpolation::Screen, Interpolation::Perspective];
-}
-
-impl Choice for Culling {
-    const WORDS: &'static [&'static str] = &["back", "front", "none"];
-    const MEANINGS: &'static [Self] = &[Culling::Back, Culling::Front, Culling::None];
-}
-
-impl Choice for Encoding {
-    const WORDS: &'static [&'static str] = &["linear", "srgb"];
-    const MEANINGS: &'static [Self] = &[Encoding::Linear, Encoding::Srgb];
 }
 
 /// One rotation, counter-clockwise for who looks against the axis.

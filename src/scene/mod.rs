@@ -3,9 +3,12 @@
 #[cfg(feature = "io")]
 mod check;
 #[cfg(feature = "io")]
+mod choices;
+#[cfg(feature = "io")]
 pub mod diagnostics;
 #[cfg(feature = "io")]
 pub mod file;
+mod hidden_surfaces;
 #[cfg(feature = "io")]
 mod lights;
 mod of_mesh;
@@ -17,6 +20,8 @@ pub mod resolve;
 pub mod value;
 #[cfg(feature = "io")]
 mod viewpoint;
+
+pub use hidden_surfaces::{Clipping, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey};
 
 use crate::camera::Camera;
 use crate::lighting::{Light, Material, Rgb, SpecularGate, SpecularModel};
@@ -106,8 +111,15 @@ pub struct Scene {
     pub interpolation: Interpolation,
     /// Which sides are left out.
     pub culling: Culling,
-    /// Whether nearer polygons hide farther ones; without it, later ones hide earlier ones.
-    pub depth_test: bool,
+    /// How polygons that are hidden by others are kept out of the picture.
+    pub hidden_surfaces: HiddenSurfaces,
+    /// What keeps polygons within the view.
+    pub clipping: Clipping,
+    /// Whether polygons seen from behind, their corners clockwise on the screen, are lit with negated normals.
+    pub two_sided: bool,
+    /// Samples a pixel along each side, 1, 2, 4 or 8: `samples`² of them are hidden, lit and shaded each on its own, and
+    /// their mean in linear light is the pixel. `samples` times a side is at most [`Scene::MAX_SIDE`].
+    pub samples: u32,
     /// How values are stored in eight bits.
     pub encoding: Encoding,
     /// What is drawn, in this order.
@@ -131,7 +143,10 @@ impl Scene {
             gate: SpecularGate::Gated,
             interpolation: Interpolation::Screen,
             culling: Culling::Back,
-            depth_test: true,
+            hidden_surfaces: HiddenSurfaces::default(),
+            clipping: Clipping::Planes,
+            two_sided: false,
+            samples: 1,
             encoding: Encoding::Linear,
             objects: Vec::new(),
         }

@@ -12,12 +12,12 @@ pub(super) trait Job {
     fn run<S: Shader>(self) -> Self::Out;
 }
 
-/// Does `job` with the method's shader for at least `lights` lights: one to four, then 8, then 64.
+/// Does `job` with the method's shader for at least as many lights as `frame` has: 1, 2, 4, 8 or 64.
 ///
 /// A shader for more lights than there are treats the others as dark, which costs time and changes no picture.
 ///
-/// Where something is at a position, the square roots of each light are most of a pixel, and there are shaders for one,
-/// two, four and 64 only: three families of five more sizes would make the program half as large again.
+/// Where something is at a position there are 1, 4 and 64 only: every size more is compiled for all methods and engines,
+/// and takes as long again.
 pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
     let lights = frame.light_count();
     macro_rules! by_lights {
@@ -25,8 +25,7 @@ pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
             match lights {
                 0 | 1 => job.run::<D::$shader<1>>(),
                 2 => job.run::<D::$shader<2>>(),
-                3 => job.run::<D::$shader<3>>(),
-                4 => job.run::<D::$shader<4>>(),
+                3 | 4 => job.run::<D::$shader<4>>(),
                 5..=8 => job.run::<D::$shader<8>>(),
                 _ => job.run::<D::$shader<{ Scene::MAX_LIGHTS }>>(),
             }
@@ -36,8 +35,7 @@ pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
         ($shader:ident) => {
             match lights {
                 0 | 1 => job.run::<D::$shader<1>>(),
-                2 => job.run::<D::$shader<2>>(),
-                3..=4 => job.run::<D::$shader<4>>(),
+                2..=4 => job.run::<D::$shader<4>>(),
                 _ => job.run::<D::$shader<{ Scene::MAX_LIGHTS }>>(),
             }
         };

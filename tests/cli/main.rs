@@ -2,6 +2,7 @@
 #![cfg(feature = "cli")]
 
 mod diff;
+mod figure;
 mod input;
 mod output;
 mod reference;

@@ -138,7 +138,16 @@ fn flags_change_the_picture() {
     ] {
         assert!(sphere(&format!("{near} {flags}")) != lit, "{flags}");
     }
-    assert!(sphere("--cull none --no-depth") != sphere("--cull none"));
+    let cut = |flags: &str| rendered(&format!("interpenetration {flags}"));
+    for flags in ["--visibility draw-order", "--visibility painter"] {
+        assert!(cut(flags) != cut(""), "{flags}");
+    }
+    assert!(cut("--visibility painter --painter-key farthest") != cut("--visibility painter"));
+    assert!(cut("--visibility z-buffer --depth-bits 32 --depth interpolated") == cut(""));
+    assert!(sphere("--cull front --two-sided") != sphere("--cull front") && sphere("--clipping planes") == plain);
+    assert!(rendered("z-fighting --near 21 --clipping ndc-cube") != rendered("z-fighting"));
+    assert!(rendered("z-fighting --depth-bits 24") != rendered("z-fighting"));
+    assert!(rendered("z-fighting --depth per-sample") != rendered("z-fighting"));
     assert!(rendered("perspective --size 64x48") != rendered("perspective --size 64x48 --interpolation screen"));
     assert!(sphere("--normals averaged") == plain);
 }
@@ -248,8 +257,15 @@ fn statistics_count_what_is_left_out() {
             Some((words.next()?, words.next()?))
         })
         .collect();
-    let expected =
-        [("polygons", "4"), ("culled", "1"), ("zero-area", "2"), ("outside", "0"), ("clipped", "0"), ("drawn", "1")];
+    let expected = [
+        ("polygons", "4"),
+        ("culled", "1"),
+        ("zero-area", "2"),
+        ("outside", "0"),
+        ("clipped", "0"),
+        ("unprojected", "0"),
+        ("drawn", "1"),
+    ];
     assert_eq!(counts, expected);
     ended.says("warning: 2 of 4 polygons have no area and are left out");
     assert_eq!(folder.names(), ["mesh.obj"], "statistics alone draw nothing");
@@ -346,4 +362,54 @@ fn flags_that_make_no_sense_are_refused_by_name() {
     folder.run("render").refused(&["<INPUT>"]);
     folder.run("rendr builtin:cube").refused(&["unrecognized subcommand 'rendr'", "render"]);
     folder.run("render builtin:cube -v -q -o out.png").refused(&["cannot be used with"]);
+}
+
+/// The painter says what it draws wrongly, on standard error, unless it is to be quiet.
+#[test]
+fn the_painter_says_what_it_draws_wrongly() {
+    let folder = Folder::new();
+    let said = |input: &str| folder.run(&format!("render {input} --visibility painter -o out.png")).done().err;
+    let ring = said("cyclic-triangles");
+    assert!(ring.contains("warning: 3 polygons in 1 cycle: no order draws them right; "), "{ring}");
+    let cut = said("interpenetration");
+    assert!(cut.contains("3 polygons in 1 cycle") && cut.contains(", 3 pairs cut each other"), "{cut}");
+    assert!(!said("builtin:cube").contains("warning") && !said("interpenetration --quiet").contains("warning"));
+    let refused = folder.run("render teapot --depth-bits 20 -o out.png");
+    assert!(refused.err.contains("`--depth-bits` is 20: expected 16, 24 or 32"), "{}", refused.err);
+}
+
+/// Supersampling keeps the picture's size; a picture of depths is one of single samples.
+#[test]
+fn supersampled_pictures_have_the_size_of_the_scene() {
+    let plain = sphere("");
+    let smooth = sphere("--samples 4");
+    assert_eq!((smooth.width(), smooth.height()), (plain.width(), plain.height()));
+    let partly = |picture: &Picture8| picture.texels().iter().filter(|t| t[3] > 0 && t[3] < 255).count();
+    assert!(partly(&smooth) > 50 && partly(&plain) == 0);
+    assert!(sphere("--samples 4 -m reference") != sphere("-m reference"));
+    assert!(sphere("--samples 1") == plain);
+    let folder = Folder::new();
+    for aov in ["depth", "normal", "polygon"] {
+        folder.run(&format!("render builtin:torus --size 64x48 --aov {aov} -o plain.png")).done();
+        folder
+            .run(&format!("render builtin:torus --size 64x48 --aov {aov} --samples 2 -o out.png"))
+            .done()
+            .says("--aov shows single samples");
+        assert!(picture(&folder.path("plain.png")) == picture(&folder.path("out.png")), "{aov}");
+    }
+    let refused = folder.run("render teapot --size 8000x10 --samples 4 -o out.png");
+    assert!(refused.err.contains("`--samples` is 4: expected at most 16384 samples a side"), "{}", refused.err);
+}
+
+/// Without clipping, a polygon with a corner at the plane of the eye is left out, said and counted.
+#[test]
+fn polygons_without_a_place_are_told_of() {
+    let folder = Folder::new();
+    folder.write("ground.obj", "v -1 0 0\nv 1 0 0\nv 0 0 -5\nv -1 0 -2\nv 1 0 -2\nv 0 0 -5\nf 1 2 3\nf 4 5 6\n");
+    let flags = "--eye 0,1,0 --target 0,1,-1 --fovy 60 --near 0.1 --far 9 --cull none --stats -o out.png";
+    let ended = folder.run(&format!("render ground.obj {flags} --clipping ndc-cube")).done();
+    ended.says("warning: 1 polygon has a corner at the plane of the eye and is left out");
+    folder
+        .run("render perspective --clipping ndc-cube -o out.png")
+        .says("`--clipping` and `interpolation` exclude each other");
 }

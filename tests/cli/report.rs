@@ -22,6 +22,20 @@ fn the_page_is_written_and_its_path_printed() {
 }
 
 #[test]
+fn figures_of_the_lectures_stand_in_the_page_on_demand() {
+    let folder = Folder::new();
+    folder.run(&format!("report figure5 {QUICK} --methods flat --figures exercises,exercises")).done();
+    let html = String::from_utf8(folder.read("report/index.html")).unwrap();
+    assert_eq!(html.matches("<article id=\"figure-exercises\"").count(), 1);
+    assert!(html.contains("<a href=\"#lecture\">") && html.contains("\"key\":\"sine\""));
+    folder.run(&format!("report figure5 {QUICK} --methods flat")).done();
+    assert!(
+        !String::from_utf8(folder.read("report/index.html")).unwrap().contains("id=\"lecture\""),
+        "with INPUT: none"
+    );
+}
+
+#[test]
 fn the_markdown_and_its_pictures_stand_beside_the_page() {
     let folder = Folder::new();
     let ended = folder.run(&format!("report football {QUICK} --markdown -o out/page.html"));

@@ -1,6 +1,7 @@
 //! `fastphong list`, `explain`, `info`, help.
 
 use super::Folder;
+use fastphong::figures::FIGURES;
 use fastphong::input::SCENES;
 use fastphong::mesh::builtin::BUILTINS;
 use fastphong::metrics::METRICS;
@@ -13,11 +14,12 @@ fn lists_have_an_entry_for_everything_in_their_table() {
         match of {
             "methods" => METHODS.iter().map(|entry| entry.info.name.to_owned()).collect(),
             "meshes" => BUILTINS.iter().map(|shape| shape.name.to_owned()).collect(),
+            "figures" => FIGURES.iter().map(|figure| figure.name.to_owned()).collect(),
             "scenes" => SCENES.iter().map(|scene| scene.name.to_owned()).collect(),
             _ => METRICS.iter().map(|metric| metric.name.to_owned()).collect(),
         }
     };
-    for subject in ["methods", "meshes", "scenes", "metrics"] {
+    for subject in ["methods", "meshes", "scenes", "metrics", "figures"] {
         let text = folder.run(&format!("list {subject}")).done().out;
         let json = folder.run(&format!("list {subject} --json")).done().json();
         let entries = json.as_array().expect("a list");
@@ -38,7 +40,7 @@ fn lists_have_an_entry_for_everything_in_their_table() {
         assert!(shape.all_parameters().all(|p| meshes.contains(p.doc)), "{meshes}");
     }
     folder.run("list methods").done().prints("steps=1..8, default 2").prints("perspective-correct at no cost");
-    folder.run("list shaders").refused(&["methods, meshes, scenes, metrics"]);
+    folder.run("list shaders").refused(&["methods, meshes, scenes, metrics, figures"]);
 }
 
 #[test]
@@ -132,7 +134,7 @@ fn help_and_version_are_results() {
     let folder = Folder::new();
     folder.run("--version").done().prints(concat!("fastphong ", env!("CARGO_PKG_VERSION")));
     folder.run("--help").done().prints("Exit codes: 0 done, 1 a comparison failed, 2 wrong usage or input");
-    for command in ["render", "diff", "list", "explain", "info"] {
+    for command in ["render", "figure", "diff", "list", "explain", "info"] {
         folder.run("--help").done().prints(command);
         folder.run(&format!("{command} --help")).done().prints("Usage: fastphong");
     }

@@ -5,8 +5,8 @@ use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::lighting::{Light, Lighting, Material};
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::obj::load_obj;
-use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
+use fastphong::scene::{HiddenSurfaces, Scene};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -103,7 +103,7 @@ pub fn add(builder: &mut FrameBuilder, material: u32, source: u32, corners: &[Co
 /// A frame of polygons given by their corners.
 pub fn frame(width: u32, height: u32, depth_test: bool, polygons: &[Vec<Corner>]) -> Frame {
     let mut builder = FrameBuilder::new(width, height);
-    builder.depth_test(depth_test);
+    builder.hidden_surfaces(if depth_test { HiddenSurfaces::default() } else { HiddenSurfaces::DrawOrder });
     let material = builder.lighting(plain_lighting());
     for (number, corners) in polygons.iter().enumerate() {
         add(&mut builder, material, number as u32, corners);

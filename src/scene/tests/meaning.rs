@@ -6,7 +6,9 @@ use crate::mesh::{MeshBuilder, PolygonMesh};
 use crate::scene::file::SceneFile;
 use crate::scene::resolve::Resolved;
 use crate::scene::value::Located;
-use crate::scene::{Culling, Encoding, Interpolation, Object};
+use crate::scene::{
+    Clipping, Culling, DepthBits, DepthBuffer, DepthSource, Encoding, HiddenSurfaces, Interpolation, Object, PainterKey,
+};
 use glam::{DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
 use std::format;
@@ -26,7 +28,7 @@ fn near(a: DVec3, b: DVec3) -> bool {
 fn defaults() {
     let Resolved { scene, warnings } = resolve(&with_object(""));
     assert_eq!((scene.width, scene.height, scene.background), (640, 480, [0.0; 3]));
-    assert_eq!((scene.ambient, scene.depth_test), ([1.0; 3], true));
+    assert_eq!((scene.ambient, scene.hidden_surfaces), ([1.0; 3], HiddenSurfaces::default()));
     assert_eq!((scene.interpolation, scene.culling), (Interpolation::Screen, Culling::Back));
     assert_eq!(scene.encoding, Encoding::Linear);
     assert_eq!(scene.lights.len(), 1);
@@ -42,12 +44,15 @@ fn defaults() {
 
 #[test]
 fn every_choice() {
-    let text = "interpolation = 'perspective'\ncull = 'front'\ndepth_test = false\nambient = [0.5, 0, 1]\n\
+    let text = "interpolation = 'perspective'\ncull = 'front'\nvisibility = 'draw-order'\nambient = [0.5, 0, 1]\n\
                 [image]\nwidth = 16384\nheight = 1\nbackground = [0, 0.5, 1]\nencoding = 'srgb'\n";
     let scene = resolve(&with_object(text)).scene;
     assert_eq!((scene.width, scene.height, scene.background), (16384, 1, [0.0, 0.5, 1.0]));
     assert_eq!((scene.interpolation, scene.culling), (Interpolation::Perspective, Culling::Front));
-    assert_eq!((scene.encoding, scene.depth_test, scene.ambient), (Encoding::Srgb, false, [0.5, 0.0, 1.0]));
+    assert_eq!(
+        (scene.encoding, scene.hidden_surfaces, scene.ambient),
+        (Encoding::Srgb, HiddenSurfaces::DrawOrder, [0.5, 0.0, 1.0])
+    );
     assert_eq!(resolve(&with_object("cull = 'none'")).scene.culling, Culling::None);
     for (words, source) in [
         ("normals = 'given'", NormalSource::Given),
@@ -55,6 +60,42 @@ fn every_choice() {
         ("crease = 30", NormalSource::Crease(30.0)),
     ] {
         assert_eq!(resolve(&(with_object("") + words)).scene.objects[0].normals, source);
+    }
+}
+
+#[test]
+fn the_rest_of_visibility() {
+    let of = |text: &str| resolve(&with_object(text)).scene;
+    let plain = of("");
+    assert_eq!((plain.clipping, plain.two_sided, plain.samples), (Clipping::Planes, false, 1));
+    let other = of("clipping = 'ndc-cube'\ncull = 'none'\ntwo_sided = true\n[image]\nsamples = 8\nwidth = 2048");
+    assert_eq!((other.clipping, other.two_sided, other.samples), (Clipping::NdcCube, true, 8));
+    assert_eq!(of("clipping = 'planes'\ninterpolation = 'perspective'").clipping, Clipping::Planes);
+}
+
+/// Each way of hiding surfaces with its own settings; those of another way are named in a warning.
+#[test]
+fn every_way_of_hiding_surfaces() {
+    let of = |text: &str| resolve(&with_object(text));
+    let buffer = |bits, source| HiddenSurfaces::ZBuffer(DepthBuffer { bits, source });
+    for (text, expected) in [
+        ("visibility = 'z-buffer'", HiddenSurfaces::default()),
+        ("depth_bits = 16", buffer(DepthBits::Sixteen, DepthSource::Interpolated)),
+        ("depth_bits = 24\ndepth = 'per-sample'", buffer(DepthBits::TwentyFour, DepthSource::PerSample)),
+        ("depth_bits = 32\ndepth = 'interpolated'", HiddenSurfaces::default()),
+        ("visibility = 'painter'", HiddenSurfaces::Painter(PainterKey::Mean)),
+        ("visibility = 'painter'\npainter_key = 'farthest'", HiddenSurfaces::Painter(PainterKey::Farthest)),
+    ] {
+        let Resolved { scene, warnings } = of(text);
+        assert_eq!((scene.hidden_surfaces, warnings.len()), (expected, 0), "{text}");
+    }
+    for (text, warning) in [
+        ("two_sided = true", "`two_sided` means nothing with cull = \"back\": what is seen from behind is left out"),
+        ("painter_key = 'mean'", "`painter_key` means nothing without visibility = \"painter\""),
+        ("visibility = 'painter'\ndepth_bits = 16", "`depth_bits` means nothing without visibility = \"z-buffer\""),
+        ("visibility = 'draw-order'\ndepth = 'per-sample'", "`depth` means nothing without visibility = \"z-buffer\""),
+    ] {
+        assert_eq!(of(text).warnings, [warning]);
     }
 }
 
@@ -264,9 +305,9 @@ fn overlaid(below: &str, over: &str) -> crate::camera::Camera {
 fn flags_over_a_file() {
     let mut file =
         SceneFile::parse(&with_object("ambient = 0.5\ncull = 'none'\n[material]\nka = 1\nkd = 1"), "a").expect("valid");
-    let over = "ambient = 0.25\ndepth_test = false\n[material]\nkd = 0.5\n[[light]]\ndirection = [1, 0, 0]";
+    let over = "ambient = 0.25\nvisibility = 'draw-order'\n[material]\nkd = 0.5\n[[light]]\ndirection = [1, 0, 0]";
     file.overlay(SceneFile::parse(over, "b").expect("valid"));
-    let merged = "ambient = 0.25\ncull = 'none'\ndepth_test = false\n[material]\nka = 1\nkd = 0.5\n[[light]]\ndirection = [1, 0, 0]";
+    let merged = "ambient = 0.25\ncull = 'none'\nvisibility = 'draw-order'\n[material]\nka = 1\nkd = 0.5\n[[light]]\ndirection = [1, 0, 0]";
     assert_eq!(file, SceneFile::parse(&with_object(merged), "c").expect("valid"));
 
     // What both give is that of the flags; flags that say nothing change nothing.
@@ -274,9 +315,13 @@ fn flags_over_a_file() {
         let material = format!("ka = {n}\nkd = {n}\nks = {n}\nshininess = {n}");
         format!(
             "title = '{n}'\ndescription = '{n}'\nambient = {n}\ncull = '{cull}'\ninterpolation = '{space}'\n\
-             depth_test = {}\n[image]\nwidth = {n}\nheight = {n}\nbackground = {n}\nencoding = '{encoding}'\n\
+             visibility = '{}'\ndepth_bits = {n}\ndepth = '{}'\npainter_key = '{}'\nclipping = '{}'\ntwo_sided = {}\n[image]\nsamples = {n}\nwidth = {n}\nheight = {n}\nbackground = {n}\nencoding = '{encoding}'\n\
              [material]\n{material}\n[[light]]\ndirection = [{n}, 0, 0]\n[[object]]\nmesh = '{n}'",
-            n == 1
+            if n == 1 { "z-buffer" } else { "painter" },
+            if n == 1 { "interpolated" } else { "per-sample" },
+            if n == 1 { "mean" } else { "farthest" },
+            if n == 1 { "planes" } else { "ndc-cube" },
+            n == 1,
         )
     };
     let [below, over] = [all(1, "back", "screen", "linear"), all(2, "front", "perspective", "srgb")]

@@ -9,8 +9,17 @@ fn what_is_not_toml_or_has_no_such_key() {
         "[«camra»]\nfit = 1\n",
         "unknown key `camra`",
         "expected one of `title`, `description`, `ambient`, `interpolation`, `viewer`, `specular`, `shininess_for`, \
-         `specular_gate`, `cull`, `depth_test`, `image`, `camera`, `material`, `light`, `object`",
+         `specular_gate`, `cull`, `visibility`, `depth_bits`, `depth`, `painter_key`, `clipping`, `two_sided`, `image`, \
+         `camera`, `material`, `light`, `object`",
         Some("did you mean `camera`?"),
+    );
+    check(
+        "«depth_test» = false\n",
+        "unknown key `depth_test`",
+        "expected one of `title`, `description`, `ambient`, `interpolation`, `viewer`, `specular`, `shininess_for`, \
+         `specular_gate`, `cull`, `visibility`, `depth_bits`, `depth`, `painter_key`, `clipping`, `two_sided`, `image`, \
+         `camera`, `material`, `light`, `object`",
+        Some("what hides a polygon is said by `visibility`"),
     );
     check(
         "[material]\nka = 0.1\n«shinines» = 3\n",
@@ -36,6 +45,15 @@ fn what_is_not_toml_or_has_no_such_key() {
         "expected one of `back`, `front`, `none`",
         Some("did you mean `back`?"),
     );
+    check(
+        "visibility = «\"zbuffer\"»\n",
+        "unknown word `zbuffer`",
+        "expected one of `z-buffer`, `painter`, `draw-order`",
+        Some("did you mean `z-buffer`?"),
+    );
+    check("depth = «\"w\"»\n", "unknown word `w`", "expected `interpolated` or `per-sample`", None);
+    check("clipping = «\"cube\"»\n", "unknown word `cube`", "expected `planes` or `ndc-cube`", None);
+    check("painter_key = «\"nearest\"»\n", "unknown word `nearest`", "expected `mean` or `farthest`", None);
     check("interpolation = «\"space\"»\n", "unknown word `space`", "expected `screen` or `perspective`", None);
     check(
         "[image]\nencoding = «\"srbg\"»\n",
@@ -53,7 +71,8 @@ fn what_is_not_toml_or_has_no_such_key() {
 
 #[test]
 fn what_is_of_the_wrong_kind() {
-    check("depth_test = «\"yes\"»\n", "expected true or false", "found string \"yes\"", None);
+    check("two_sided = «\"yes\"»\n", "expected true or false", "found string \"yes\"", None);
+    check("depth_bits = «\"many\"»\n", "expected a whole number", "found string \"many\"", None);
     check("[image]\nwidth = «640.5»\n", "expected a whole number", "found floating point `640.5`", None);
     check("[camera]\nfovy = «\"wide\"»\n", "expected a number", "found string \"wide\"", None);
     check("[camera]\neye = «[1, 2]»\n", "expected three numbers [x, y, z]", "found a list of 2", None);

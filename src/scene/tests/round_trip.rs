@@ -1,10 +1,10 @@
 use crate::lighting::{SpecularGate, SpecularModel};
 use crate::scene::file::{
     CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, NormalChoice, ObjectSection,
-    RotationSection, Rotations, SceneFile, ViewerChoice,
+    RotationSection, Rotations, SceneFile, ViewerChoice, VisibilityChoice,
 };
 use crate::scene::value::{Choice, Located, OneOrThree};
-use crate::scene::{Culling, Encoding, Interpolation};
+use crate::scene::{Clipping, Culling, DepthSource, Encoding, Interpolation, PainterKey};
 use std::format;
 use std::string::String;
 
@@ -99,12 +99,18 @@ impl Random {
             specular_gate: self.maybe(|r| r.choice(SpecularGate::MEANINGS)),
             interpolation: self.maybe(|r| r.choice(&[Interpolation::Screen, Interpolation::Perspective])),
             cull: self.maybe(|r| r.choice(&[Culling::Back, Culling::Front, Culling::None])),
-            depth_test: self.maybe(|r| r.choice(&[true, false])),
+            visibility: self.maybe(|r| r.choice(VisibilityChoice::MEANINGS)),
+            clipping: self.maybe(|r| r.choice(Clipping::MEANINGS)),
+            two_sided: self.maybe(|r| r.choice(&[true, false])),
+            depth_bits: self.maybe(|r| r.next() as i64),
+            depth: self.maybe(|r| r.choice(DepthSource::MEANINGS)),
+            painter_key: self.maybe(|r| r.choice(PainterKey::MEANINGS)),
             image: ImageSection {
                 width: self.maybe(|r| r.next() as i64),
                 height: self.maybe(|r| r.next() as i64),
                 background: self.maybe(Self::one_or_three),
                 encoding: self.maybe(|r| r.choice(&[Encoding::Linear, Encoding::Srgb])),
+                samples: self.maybe(|r| r.next() as i64),
             },
             camera: CameraSection {
                 eye: self.maybe(Self::triple),

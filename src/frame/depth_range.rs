@@ -1,0 +1,43 @@
+//! What depth means: the distances between which it goes from 0 to 1.
+
+/// The distances along the line of sight at which depth is 0 and 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DepthRange {
+    /// Depth is linear in the distance d: z = (d − n) / (f − n).
+    Orthographic {
+        /// Where depth is 0.
+        near: f64,
+        /// Where depth is 1; over `near`.
+        far: f64,
+    },
+    /// Depth is linear in the reciprocal of the distance w: z = f/(f − n) · (1 − n/w).
+    Perspective {
+        /// Where depth is 0; over 0.
+        near: f64,
+        /// Where depth is 1; over `near`.
+        far: f64,
+    },
+}
+
+impl DepthRange {
+    /// Near and far.
+    pub fn ends(self) -> (f64, f64) {
+        match self {
+            DepthRange::Orthographic { near, far } | DepthRange::Perspective { near, far } => (near, far),
+        }
+    }
+
+    /// Whether near and far are finite numbers in order, over 0 under perspective.
+    pub(super) fn is_valid(self) -> bool {
+        let (near, far) = self.ends();
+        let least = if matches!(self, DepthRange::Perspective { .. }) { 0.0 } else { f64::NEG_INFINITY };
+        near > least && near < far && far.is_finite()
+    }
+}
+
+impl Default for DepthRange {
+    /// The distance is the depth.
+    fn default() -> Self {
+        DepthRange::Orthographic { near: 0.0, far: 1.0 }
+    }
+}

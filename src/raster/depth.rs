@@ -1,0 +1,132 @@
+//! Depth at a sample: from what is interpolated to what is compared.
+
+use crate::frame::{DepthRange, Frame, Vertex};
+use crate::scene::{Clipping, DepthBits, DepthSource, HiddenSurfaces};
+
+/// How depth is made of the values at the corners, and how it is kept.
+///
+/// ```text
+/// interpolated:              z = q,                       q = z/w at the corners
+/// per sample, perspective:   z = f/(f−n) · (1 − q),       q = n/w at the corners
+/// per sample, orthographic:  z = 1/(f−n) · (q − n),       q = the distance of the corners
+/// ```
+/// The second line is L5's z ↦ (f+n)/(f−n) + (1/z) · 2fn/(f−n) with z = −w, moved from −1..1 to 0..1.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleDepth {
+    quantity: Quantity,
+    origin: f32,
+    factor: f32,
+    most: Option<u32>,
+    hides: bool,
+    cube: bool,
+}
+
+/// What is interpolated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Quantity {
+    Depth,
+    InverseW,
+    Distance,
+}
+
+impl SampleDepth {
+    /// The depth of the samples of `frame`.
+    pub fn new(frame: &Frame) -> Self {
+        let buffer = match frame.hidden_surfaces() {
+            HiddenSurfaces::ZBuffer(buffer) => Some(buffer),
+            HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => None,
+        };
+        let (near, far) = frame.depth_range().ends();
+        let (quantity, origin, factor) = match (buffer.unwrap_or_default().source, frame.depth_range()) {
+            (DepthSource::Interpolated, _) => (Quantity::Depth, 0.0, 1.0),
+            (DepthSource::PerSample, DepthRange::Perspective { .. }) => (Quantity::InverseW, 1.0, -far / (far - near)),
+            (DepthSource::PerSample, DepthRange::Orthographic { .. }) => (Quantity::Distance, near, 1.0 / (far - near)),
+        };
+        SampleDepth {
+            quantity,
+            origin: origin as f32,
+            factor: factor as f32,
+            most: buffer.map_or(DepthBits::ThirtyTwo, |buffer| buffer.bits).most(),
+            hides: buffer.is_some(),
+            cube: frame.clipping() == Clipping::NdcCube,
+        }
+    }
+
+    /// Whether nearer samples hide farther ones.
+    pub fn hides(&self) -> bool {
+        self.hides
+    }
+
+    /// Whether what is interpolated is what is compared, and nothing else is asked.
+    pub fn is_plain(&self) -> bool {
+        self.quantity == Quantity::Depth && self.most.is_none() && !self.cube
+    }
+
+    /// What of a corner is interpolated.
+    #[inline(always)]
+    pub fn of_corner(&self, frame: &Frame, vertex: &Vertex) -> f32 {
+        match self.quantity {
+            Quantity::Depth => vertex.depth,
+            Quantity::InverseW => vertex.inv_w,
+            Quantity::Distance => {
+                let (near, far) = frame.depth_range().ends();
+                (near + f64::from(vertex.depth) * (far - near)) as f32
+            }
+        }
+    }
+
+    /// What is kept of a sample at which the interpolated value is `q`, if it is seen where `depth` was kept before.
+    #[inline(always)]
+    pub fn seen(&self, q: f32, depth: f32) -> Option<f32> {
+        let z = match self.quantity {
+            Quantity::Depth => q,
+            Quantity::InverseW | Quantity::Distance => (q - self.origin) * self.factor,
+        };
+        // CS171 3, Algorithm 5: whether the sample lies in the cube; as to x and y, the picture ends there.
+        let is_inside = !self.cube || (0.0..=1.0).contains(&z);
+        let kept = self.kept(z);
+        (is_inside && (!self.hides || kept < depth)).then_some(kept)
+    }
+
+    /// What the depth buffer keeps of `z`: the float itself, or a whole number of 0..=2ᵇ − 1, which an `f32` holds.
+    #[inline(always)]
+    fn kept(&self, z: f32) -> f32 {
+        match self.most {
+            None => z,
+            // The product has at most 48 bits: exact in f64, and the conversion clamps at both ends.
+            Some(most) => (((f64::from(z) * f64::from(most) + 0.5) as u32).min(most)) as f32,
+        }
+    }
+
+    /// The depth that `kept` stands for, 0..=1.
+    pub fn shown(&self, kept: f32) -> f32 {
+        match self.most {
+            Some(most) if kept.is_finite() => kept / most as f32,
+            _ => kept,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keeping(bits: DepthBits) -> SampleDepth {
+        SampleDepth { quantity: Quantity::Depth, origin: 0.0, factor: 1.0, most: bits.most(), hides: true, cube: false }
+    }
+
+    #[test]
+    fn what_is_kept_is_rounded_to_the_nearest_level() {
+        let sixteen = keeping(DepthBits::Sixteen);
+        assert_eq!([0.0, 0.5, 1.0].map(|z| sixteen.kept(z)), [0.0, 32768.0, 65535.0], "0.5 is 32767.5, and goes up");
+        assert_eq!([-1e-9, 1.000_001, -3.0, 9.0].map(|z| sixteen.kept(z)), [0.0, 65535.0, 0.0, 65535.0]);
+        // Every level of 24 bits is an f32, and is kept as itself; neighbouring floats below 1 are different levels.
+        let fine = keeping(DepthBits::TwentyFour);
+        for level in (0..1 << 24).step_by(9973).chain([(1 << 24) - 2, (1 << 24) - 1]) {
+            let z = (f64::from(level) / f64::from((1 << 24) - 1)) as f32;
+            assert_eq!(fine.kept(z), level as f32);
+        }
+        assert_eq!(keeping(DepthBits::ThirtyTwo).kept(1.5), 1.5);
+        assert_eq!([0.0, 65535.0, f32::INFINITY].map(|kept| sixteen.shown(kept)), [0.0, 1.0, f32::INFINITY]);
+    }
+}

@@ -1,0 +1,361 @@
+//! Which polygon is seen: depth buffers of all widths, both ways to depth, and the painter.
+
+mod support;
+
+use fastphong::camera::Projection;
+use fastphong::frame::{Frame, FrameBuilder};
+use fastphong::mesh::builtin::builtin;
+use fastphong::painter::conflicts;
+use fastphong::raster::{self, Edges, NOTHING};
+use fastphong::reference;
+use fastphong::scene::{Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Scene};
+use fastphong::triangulate::triangulated;
+use support::{Corner, Random, add, plain_lighting, random_polygon};
+
+fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
+    HiddenSurfaces::ZBuffer(DepthBuffer { bits, source })
+}
+
+/// A torus without culling, near a wide camera (or far from it), so that each pixel has up to four surfaces.
+fn torus(perspective: bool, hidden_surfaces: HiddenSurfaces) -> Frame {
+    let mut scene = Scene::of_mesh(builtin("torus?segments=48&sides=24").expect("a built-in mesh"));
+    (scene.width, scene.height, scene.culling) = (96, 72, Culling::None);
+    if perspective {
+        scene.camera.projection = Projection::Perspective { fovy: 60.0 };
+        scene.camera.eye = scene.camera.target + scene.camera.view() * 2.5;
+        (scene.camera.near, scene.camera.far) = (0.5, 5.0);
+    }
+    scene.hidden_surfaces = hidden_surfaces;
+    scene.frame().expect("a frame")
+}
+
+/// How often a depth of a picture of w × h pixels is rounded on its way to a sample: twice a step down an edge and along
+/// a span, and less than 32 times before the first step.
+fn roundings(frame: &Frame) -> f64 {
+    2.0 * (frame.width() + frame.height()) as f64 + 32.0
+}
+
+/// Half a unit in the last place of numbers up to 1.
+const ROUNDING: f64 = 1.0 / (1u64 << 25) as f64;
+
+/// Both ways to depth give one number, to within rounding, under both cameras; and each is the reference's.
+#[test]
+fn depth_per_sample_is_interpolated_depth() {
+    for perspective in [false, true] {
+        let [interpolated, per_sample] = [DepthSource::Interpolated, DepthSource::PerSample]
+            .map(|source| torus(perspective, buffer(DepthBits::ThirtyTwo, source)));
+        // Under perspective z = f/(f−n) (1 − n/w): rounding of n/w, which is at most 1, grows by f/(f−n). The distances of
+        // the orthographic camera are up to `far`, rounded in units as much larger, and divided by f − n.
+        let (near, far) = per_sample.depth_range().ends();
+        let gain = far / (far - near);
+        assert!(gain < 20.0, "{gain}");
+        let bound = (1.0 + gain) * roundings(&per_sample) * ROUNDING;
+        let (a, b) = (raster::depth(&interpolated), raster::depth(&per_sample));
+        let truth = [&interpolated, &per_sample].map(|frame| reference::visibility(frame).depth);
+        let mut differing = 0;
+        for (i, (a, b)) in a.texels().iter().zip(b.texels()).enumerate() {
+            assert_eq!(a.is_finite(), b.is_finite());
+            if a.is_finite() {
+                assert!(f64::from((a - b).abs()) <= bound, "{a} and {b} at pixel {i}");
+                differing += usize::from(a != b);
+                for (found, truth) in [(a, truth[0].texels()[i]), (b, truth[1].texels()[i])] {
+                    assert!((f64::from(*found) - truth).abs() <= bound, "{found} is not {truth} at pixel {i}");
+                }
+            }
+        }
+        assert!(differing > 100, "two ways, not one: {differing} pixels");
+    }
+}
+
+/// With every width of the buffer and both ways to depth, both engines and the reference see the same polygons, but where
+/// two surfaces are within rounding, or within the levels of the buffer, of each other.
+#[test]
+fn engines_and_reference_see_the_same_polygons() {
+    for perspective in [false, true] {
+        for bits in [DepthBits::Sixteen, DepthBits::TwentyFour, DepthBits::ThirtyTwo] {
+            for source in [DepthSource::Interpolated, DepthSource::PerSample] {
+                let frame = torus(perspective, buffer(bits, source));
+                let frame = triangulated(&frame).frame;
+                let (near, far) = frame.depth_range().ends();
+                let rounding = (1.0 + far / (far - near)) * roundings(&frame) * ROUNDING;
+                // A depth that is off by e < 1/(2ᵇ − 1) is kept as its own level or a neighbouring one.
+                let level = bits.most().map_or(0.0, |most| 1.0 / f64::from(most));
+                let margin = 2.0 * rounding.max(if level > 0.0 { rounding + level } else { 0.0 });
+                let truth = reference::visibility(&frame);
+                for seen in
+                    [raster::polygon_numbers(&frame), raster::barycentric_polygon_numbers(&frame, Edges::TopLeft)]
+                {
+                    let mut differing = 0;
+                    for (i, (seen, expected)) in seen.texels().iter().zip(truth.polygons.texels()).enumerate() {
+                        if seen != expected {
+                            let gap = truth.depth_gap.texels()[i];
+                            assert!(gap <= margin, "{bits:?} {source:?}: {gap} at pixel {i}");
+                            differing += 1;
+                        }
+                    }
+                    assert!(differing <= 20, "{bits:?} {source:?}: {differing} pixels");
+                }
+            }
+        }
+    }
+}
+
+/// Two large triangles, one a little nearer everywhere, far away under a perspective that spends its depths up close: with
+/// 16 bits both fall on the same level at many pixels, where the first one drawn is seen though it is the farther one.
+#[test]
+fn sixteen_bits_fight_where_more_do_not() {
+    let apart = 0.4 / 65535.0;
+    let layer = |depth: f32| -> Vec<Corner> {
+        [(2, 2, 0.0), (62, 3, 2e-3), (9, 46, 1e-3)]
+            .map(|(x, y, more)| Corner { x: x * 256, y: y * 256, depth: depth + more, intensity: 0.5 })
+            .to_vec()
+    };
+    let seen = |bits| {
+        let mut builder = FrameBuilder::new(64, 48);
+        builder.hidden_surfaces(buffer(bits, DepthSource::Interpolated));
+        let material = builder.lighting(plain_lighting());
+        add(&mut builder, material, 0, &layer(0.99));
+        add(&mut builder, material, 1, &layer((0.99 - apart) as f32));
+        let frame = builder.finish().expect("a frame");
+        let truth = reference::visibility(&frame).polygons;
+        let count = |picture: &fastphong::picture::Picture<u32>, number| {
+            picture.texels().iter().filter(|n| **n == number).count()
+        };
+        let ours = raster::polygon_numbers(&frame);
+        assert_eq!(count(&ours, NOTHING), count(&truth, NOTHING));
+        [&ours, &truth].map(|picture| (count(picture, 0), count(picture, 1)))
+    };
+    // Levels are 1 apart and the layers 0.4 of that: six pixels of ten show the wrong one, where rests are spread evenly
+    // over a level. Depth grows by 130 levels over the triangle, so that they are.
+    for (farther, nearer) in seen(DepthBits::Sixteen) {
+        let share = farther as f64 / (farther + nearer) as f64;
+        assert!((0.55..0.65).contains(&share), "{share}");
+    }
+    for bits in [DepthBits::TwentyFour, DepthBits::ThirtyTwo] {
+        // 102 levels of 24 bits lie between the layers; 256 roundings are at most 128 of them for each layer, but that
+        // needs all to go one way.
+        assert_eq!(seen(bits).map(|(farther, _)| farther), [0, 0], "{bits:?}");
+    }
+}
+
+/// Sorted from back to front, layers of constant depth look as they do with a depth buffer, in any order of drawing; the
+/// reference and both engines agree to the pixel, as nothing but the order counts.
+#[test]
+fn the_painter_sorts_layers_as_depth_does() {
+    let mut random = Random::new(31);
+    for round in 0..40 {
+        let count = 3 + round % 30;
+        let polygons: Vec<Vec<Corner>> = (0..count)
+            .map(|_| {
+                let depth = random.unit();
+                let corners = random_polygon(&mut random, 64, 48, 3);
+                corners.into_iter().map(|corner| Corner { depth, ..corner }).collect()
+            })
+            .collect();
+        let build = |how| {
+            let mut builder = FrameBuilder::new(64, 48);
+            builder.hidden_surfaces(how);
+            let material = builder.lighting(plain_lighting());
+            for (number, corners) in polygons.iter().enumerate() {
+                add(&mut builder, material, number as u32, corners);
+            }
+            builder.finish().expect("a frame")
+        };
+        let sources = |frame: &Frame| {
+            let source = |number: u32| frame.polygons().get(number as usize).map_or(NOTHING, |p| p.source);
+            let numbers = raster::polygon_numbers(frame);
+            assert_eq!(numbers, reference::visibility(frame).polygons, "round {round}");
+            assert_eq!(numbers, raster::barycentric_polygon_numbers(frame, Edges::TopLeft), "round {round}");
+            numbers.map(source)
+        };
+        let by_depth = sources(&build(HiddenSurfaces::default()));
+        for key in [PainterKey::Mean, PainterKey::Farthest] {
+            assert_eq!(sources(&build(HiddenSurfaces::Painter(key))), by_depth, "round {round}, {key:?}");
+        }
+    }
+}
+
+/// The key decides: a long polygon that is nearer by its mean and farther by its farthest corner; equal keys keep the
+/// order of drawing.
+#[test]
+fn the_painters_key_decides() {
+    let strip = |depths: [f32; 3]| -> Vec<Corner> {
+        let [a, b, c] = depths;
+        [(0, 0, a), (40, 0, b), (0, 40, c)]
+            .map(|(x, y, depth)| Corner { x: x * 256, y: y * 256, depth, intensity: 0.5 })
+            .to_vec()
+    };
+    let order = |first: [f32; 3], second: [f32; 3], key| {
+        let mut builder = FrameBuilder::new(48, 48);
+        builder.hidden_surfaces(HiddenSurfaces::Painter(key));
+        let material = builder.lighting(plain_lighting());
+        add(&mut builder, material, 0, &strip(first));
+        add(&mut builder, material, 1, &strip(second));
+        let frame = builder.finish().expect("a frame");
+        let polygons = frame.polygons();
+        [polygons[0].source, polygons[1].source]
+    };
+    let (long, level) = ([0.0, 0.1, 0.8], [0.5; 3]);
+    assert_eq!(order(long, level, PainterKey::Mean), [1, 0], "0.3 is nearer than 0.5");
+    assert_eq!(order(long, level, PainterKey::Farthest), [0, 1], "0.8 is farther than 0.5");
+    assert_eq!(order(level, long, PainterKey::Mean), [0, 1]);
+    for key in [PainterKey::Mean, PainterKey::Farthest] {
+        assert_eq!(order(level, level, key), [0, 1]);
+    }
+}
+
+/// What hides what, by looking at every pixel of every pair of polygons drawn alone.
+fn pairs_pixel_by_pixel(frame: &Frame, alone: impl Fn(usize) -> Frame) -> Vec<(u32, u32)> {
+    let depths: Vec<_> = (0..frame.polygons().len()).map(|i| reference::visibility(&alone(i)).depth).collect();
+    let hides = |a: usize, b: usize| {
+        let mut both =
+            depths[a].texels().iter().zip(depths[b].texels()).filter(|(a, b)| a.is_finite() && b.is_finite());
+        // Corners are rounded to f32: what differs by a unit in the last place of 1 may be equal.
+        both.any(|(a, b)| b - a > 1.0 / f64::from(1 << 24))
+    };
+    let count = depths.len();
+    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
+    pairs.filter(|&(a, b)| hides(a, b)).map(|(a, b)| (a as u32, b as u32)).collect()
+}
+
+/// The pairs that are drawn in the wrong order, found from the ends of overlapping spans, are those found pixel by pixel:
+/// concave polygons, and polygons that cross themselves and each other.
+#[test]
+fn wrong_pairs_are_those_of_the_pixels() {
+    let mut random = Random::new(41);
+    let (mut wrong, mut cutting) = (0, 0);
+    for round in 0..30 {
+        let polygons: Vec<_> = (0..12).map(|i| random_polygon(&mut random, 48, 40, 3 + (i + round) % 4)).collect();
+        let whole = support::frame(48, 40, false, &polygons);
+        let found = conflicts(&whole);
+        assert_eq!(found.wrong, pairs_pixel_by_pixel(&whole, |i| support::frame(48, 40, false, &polygons[i..=i])));
+        wrong += found.wrong.len();
+        cutting += found.interpenetrating;
+    }
+    assert!(wrong > 100 && cutting > 20, "{wrong} {cutting}");
+}
+
+/// A shipped scene at 160 × 120, with hidden surfaces found in this way.
+fn shipped(name: &str, how: HiddenSurfaces) -> Frame {
+    let (_, path) = support::shipped().into_iter().find(|(found, _)| found == name).expect("a shipped scene");
+    let mut scene = support::scene(&path, Some((160, 120)));
+    scene.hidden_surfaces = how;
+    scene.frame().expect("a frame")
+}
+
+/// How many pixels the painter shows another object at than a depth buffer does.
+fn painted_wrong(name: &str) -> usize {
+    let painted = shipped(name, HiddenSurfaces::Painter(PainterKey::Mean));
+    let seen = |frame: &Frame| {
+        let source = |number: u32| frame.polygons().get(number as usize).map_or(NOTHING, |polygon| polygon.source);
+        raster::polygon_numbers(frame).map(source)
+    };
+    let (painted, buffered) = (seen(&painted), seen(&shipped(name, HiddenSurfaces::default())));
+    painted.texels().iter().zip(buffered.texels()).filter(|(a, b)| a != b).count()
+}
+
+/// L5: *Can have unresolvable depth order*. The ring is one cycle of three, without polygons that cut each other, and both
+/// it and polygons that cut each other are drawn wrongly whatever the key; a mesh without either is drawn right.
+#[test]
+fn no_order_is_right_for_a_ring() {
+    for key in [PainterKey::Mean, PainterKey::Farthest] {
+        let ring = conflicts(&shipped("cyclic-triangles", HiddenSurfaces::Painter(key)));
+        assert_eq!((ring.cycles, ring.interpenetrating), (vec![vec![0, 1, 2]], 0));
+        assert!((1..=2).contains(&ring.wrong.len()), "a ring of three has one or two wrong pairs in any order");
+        let cut = conflicts(&shipped("interpenetration", HiddenSurfaces::Painter(key)));
+        assert_eq!((cut.cycles, cut.interpenetrating), (vec![vec![0, 1, 2]], 3));
+    }
+    assert!(painted_wrong("cyclic-triangles") > 100 && painted_wrong("interpenetration") > 100);
+    let torus = conflicts(&torus_of_front_faces());
+    assert_eq!(torus, Default::default(), "what is seen of a torus can be sorted");
+}
+
+fn torus_of_front_faces() -> Frame {
+    let mut scene = Scene::of_mesh(builtin("torus?segments=24&sides=12").expect("a built-in mesh"));
+    (scene.width, scene.height) = (96, 72);
+    scene.hidden_surfaces = HiddenSurfaces::Painter(PainterKey::Mean);
+    scene.frame().expect("a frame")
+}
+
+/// The shipped scene of z-fighting fights: with 16 bits the floor shows through a good part of the star, with 24 nowhere.
+#[test]
+fn the_scene_of_z_fighting_fights() {
+    let star = |bits| {
+        let frame = shipped("z-fighting", buffer(bits, DepthSource::Interpolated));
+        raster::polygon_numbers(&frame).texels().iter().filter(|n| **n == 1).count()
+    };
+    let (fighting, whole) = (star(DepthBits::Sixteen), star(DepthBits::TwentyFour));
+    assert!(fighting * 10 > whole && fighting * 10 < whole * 9, "{fighting} of {whole} pixels");
+    assert_eq!(whole, star(DepthBits::ThirtyTwo));
+}
+
+/// Where engines and reference see another polygon of that scene, the depth of one of the two lies so near the middle
+/// between two levels that rounding decides on the level.
+#[test]
+fn fighting_is_the_same_outside_of_a_margin() {
+    let (_, path) = support::shipped().into_iter().find(|(name, _)| name == "z-fighting").expect("a shipped scene");
+    let fighting = support::scene(&path, Some((48, 36)));
+    let frame = fighting.frame().expect("a frame");
+    let depths = [0, 1].map(|object| {
+        let mut alone = fighting.clone();
+        alone.objects = vec![fighting.objects[object].clone()];
+        alone.hidden_surfaces = HiddenSurfaces::default();
+        reference::visibility(&alone.frame().expect("a frame")).depth
+    });
+    // A step adds an increment to a depth of ½..1 and rounds it by 2^-25 at most; at most 48 + 36 steps lead to a sample,
+    // and less than 16 operations before them. The increments are off by 2^-24 of all that depth rises by, 0.02.
+    let margin = (48.0 + 36.0 + 16.0 + 2.0 * 0.02 * 84.0) * ROUNDING;
+    let all = depths[0].texels().iter().filter(|z| z.is_finite());
+    assert!(all.clone().all(|z| (0.97..0.999).contains(z)), "depth rises by less than 0.02 on either side");
+    let truth = reference::visibility(&frame).polygons;
+    let is_undecided = |x: usize, y: usize| {
+        depths.iter().any(|depth| {
+            let levels = depth.get(x, y) * 65535.0;
+            levels.is_finite() && (levels - levels.floor() - 0.5).abs() <= margin * 65535.0
+        })
+    };
+    let (mut differing, mut decided) = (0, [0; 2]);
+    for seen in [
+        raster::polygon_numbers(&frame),
+        raster::barycentric_polygon_numbers(&triangulated(&frame).frame, Edges::TopLeft),
+    ] {
+        let origins = triangulated(&frame).origins;
+        let is_scanline = seen == raster::polygon_numbers(&frame);
+        for (x, y) in (0..36).flat_map(|y| (0..48).map(move |x| (x, y))) {
+            let number = seen.get(x, y);
+            let shown = if is_scanline || number == NOTHING { number } else { origins[number as usize] };
+            if is_undecided(x, y) {
+                differing += usize::from(shown != truth.get(x, y));
+            } else {
+                assert_eq!(shown, truth.get(x, y), "at {x}, {y}");
+                if let Some(count) = decided.get_mut(shown as usize) {
+                    *count += 1;
+                }
+            }
+        }
+    }
+    assert!(decided[0] > 100 && decided[1] > 10, "both are seen where it is decided: {decided:?}, {differing} differ");
+}
+
+/// Under CS171's test of each sample two polygons may hide each other between the ends of their overlap, where one of them
+/// is outside the cube.
+#[test]
+fn conflicts_are_those_of_samples_in_the_cube() {
+    let mut builder = FrameBuilder::new(48, 48);
+    builder.clipping(Clipping::NdcCube).hidden_surfaces(HiddenSurfaces::DrawOrder);
+    let material = builder.lighting(plain_lighting());
+    let square = |left: f32, right: f32| {
+        [(4, 4, left), (44, 4, right), (44, 44, right), (4, 44, left)].map(|(x, y, depth)| Corner {
+            x: x * 256,
+            y: y * 256,
+            depth,
+            intensity: 0.5,
+        })
+    };
+    add(&mut builder, material, 0, &square(-0.2, 1.2));
+    add(&mut builder, material, 1, &square(0.3, 0.3));
+    // Outside the cube all over, nearer or not: it hides nothing.
+    add(&mut builder, material, 2, &square(1.5, 1.5));
+    let found = conflicts(&builder.finish().expect("a frame"));
+    assert_eq!((found.wrong, found.interpenetrating), (vec![(0, 1)], 1));
+}
