@@ -122,7 +122,8 @@ fn matte(frame: &Frame) -> Frame {
         builder.lighting(lighting);
     }
     for vertex in frame.vertices() {
-        builder.vertex(*vertex);
+        let number = builder.vertex(*vertex);
+        builder.position(number, frame.position(number));
     }
     for corner in frame.clip_corners() {
         builder.clip_corner(*corner);

@@ -28,6 +28,11 @@ impl<'a> Check<'a> {
         SceneError::new(self.source.clone(), origin.clone(), format!("`{name}` {problem}"), expected)
     }
 
+    /// An error about what no single value says; it points at `origin`.
+    pub fn error_at(&self, origin: &Origin, problem: &str, expected: &str) -> SceneError {
+        SceneError::new(self.source.clone(), origin.clone(), problem, expected)
+    }
+
     /// An error about the scene as a whole.
     pub fn scene_error(&self, problem: &str, expected: &str) -> SceneError {
         SceneError::new(self.source.clone(), Origin::Program, problem, expected)

@@ -141,12 +141,11 @@ impl SceneFile {
         let default = [LightSection::toward(Self::DEFAULT_LIGHT)];
         let sections = self.light.as_deref().unwrap_or(&default);
         if let Some(over) = sections.get(Scene::MAX_LIGHTS) {
-            let problem = format!("is of light number {}", Scene::MAX_LIGHTS + 1);
+            let problem = format!("light number {} is one too many", Scene::MAX_LIGHTS + 1);
             let expected = format!("expected {} lights at most", Scene::MAX_LIGHTS);
-            let at = over.direction.as_ref().or(over.position.as_ref()).map(|given| &given.origin);
-            return Err(check.error(at.unwrap_or(&Origin::Program), "light", &problem, expected));
+            return Err(check.error_at(&over.table.origin, &problem, &expected));
         }
-        sections.iter().map(|section| section.resolve(check)).collect()
+        (1..).zip(sections).map(|(number, section)| section.resolve(number, check)).collect()
     }
 
     fn objects(

@@ -70,7 +70,7 @@ fn engines_agree_and_say_what_they_do() {
         assert_eq!(folder.read(name), folder.read("a.png"), "{name}");
     }
     let refused = |method: &str| folder.run(&format!("render {SPHERE} -m {method} --engine barycentric -o out.png"));
-    let has = "expected one of flat, gouraud, naive-phong";
+    let has = "expected one of flat, flat-average, gouraud, gouraud-separate, naive-phong";
     refused("fast-phong").refused(&["the barycentric renderer does not have `fast-phong`", has]);
     refused("reference").refused(&["the barycentric renderer does not have `reference`", has]);
 }
@@ -120,6 +120,23 @@ fn flags_change_the_picture() {
         "--normals crease=1",
     ] {
         assert!(sphere(flags) != plain, "{flags}");
+    }
+    // What each changes about a light at a place that shines on the back of the sphere, too.
+    let near = "--fovy 40 --light-at 2,1,-0.5 --light-at 1,2,3,0.5";
+    let lit = sphere(near);
+    assert!(lit != sphere("--fovy 40 --light 2,1,-0.5 --light 1,2,3,0.5"));
+    for same in ["--attenuation 0", "--viewer infinite", "--specular phong", "--specular-gate gated"] {
+        assert!(sphere(&format!("{near} {same}")) == lit, "{same}");
+    }
+    for flags in [
+        "--attenuation 0.2",
+        "--viewer local",
+        "--specular blinn",
+        "--shininess-for blinn",
+        "--specular-gate ungated --shininess 2",
+        "--specular-gate weighted",
+    ] {
+        assert!(sphere(&format!("{near} {flags}")) != lit, "{flags}");
     }
     let cut = |flags: &str| rendered(&format!("interpenetration {flags}"));
     for flags in ["--visibility draw-order", "--visibility painter"] {
@@ -264,8 +281,9 @@ fn the_printed_scene_gives_the_same_picture() {
     std::fs::create_dir(folder.path("sub")).unwrap();
     folder.write("sub/mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder.write("sub/scene.toml", "ambient = 0.5\n[[object]]\nmesh = \"mesh.obj\"\ncrease = 20\n");
-    let flags =
-        "--size 64x48 --light 1,0,1,0.5 --light 0,1,1,1,0.5,0 --kd 0.1,0.2,0.3 --view -30,20 --normals averaged";
+    let flags = "--size 64x48 --light 1,0,1,0.5 --light-at 0,9,9,1,0.5,0 --attenuation 0.01 --viewer local \
+                 --specular blinn --shininess-for phong --specular-gate weighted --kd 0.1,0.2,0.3 --view -30,20 \
+                 --normals averaged";
     for input in ["builtin:gear?teeth=5", "vase", "perspective", "sub/scene.toml"] {
         let printed = folder.run(&format!("render {input} {flags} --print-scene")).done().out;
         folder.write("printed.toml", &printed);
@@ -309,6 +327,23 @@ fn flags_that_make_no_sense_are_refused_by_name() {
         ("--light 1,0,0,-1", &["`--light` is -1: expected 0 or more"]),
         ("--light 1,0", &["expected a direction x,y,z"]),
         ("--light 1,0,0 --no-lights", &["cannot be used with"]),
+        ("--light-at 0,0", &["expected a position x,y,z"]),
+        ("--light-at 0,0,NaN", &["`--light-at` has z = NaN: expected numbers between"]),
+        ("--light-at 0,0,5,-1", &["`--light-at` is -1: expected 0 or more"]),
+        ("--light-at 0,0,5 --no-lights", &["cannot be used with"]),
+        ("--light-at 1,1,1", &["`--light-at` is at a vertex, (1, 1, 1): expected a place off the vertices"]),
+        ("--light-at 0,0,5 --attenuation -2", &["`--attenuation` is -2: expected 0 or more"]),
+        ("--light-at 0,0,5 --attenuation NaN", &["`--attenuation` is NaN: expected 0 or more"]),
+        ("--attenuation 1", &["required arguments were not provided", "--light-at"]),
+        ("--light 1,0,0 --attenuation 1", &["required arguments were not provided", "--light-at"]),
+        ("--viewer lokal", &["invalid value 'lokal'", "infinite, local", "'local'"]),
+        ("--specular blin", &["phong, blinn", "'blinn'"]),
+        ("--shininess-for fong", &["phong, blinn", "'phong'"]),
+        ("--specular-gate open", &["gated, ungated, weighted"]),
+        ("--up 0,0,0", &["`--up` has no length"]),
+        ("--eye 0,0,5 --up 0,0,1", &["`--up` is parallel to the line of sight"]),
+        ("--fovy 0", &["`--fovy` is 0: expected degrees over 0 and under 180"]),
+        ("--near 3 --far 3", &["`--far` is 3: expected more than near = 3"]),
         ("--ks -1", &["`--ks` is -1: expected 0 or more"]),
         ("--kd 1,2", &["expected one number, or three r,g,b"]),
         ("--shininess -2", &["`--shininess` is -2: expected 0 or more"]),

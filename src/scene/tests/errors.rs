@@ -250,13 +250,13 @@ fn scenes_as_a_whole() {
     );
     let light = |i: usize| {
         if i == Scene::MAX_LIGHTS {
-            "[[light]]\ndirection = «[0, 0, 1]»\n"
+            "«[[light]]»\ndirection = [0, 0, 1]\n"
         } else {
             "[[light]]\ndirection = [0, 0, 1]\n"
         }
     };
     let lights: String = (0..=Scene::MAX_LIGHTS).map(light).collect();
-    check(&lights, "`light.direction` is of light number 65", "expected 64 lights at most", None);
+    check(&lights, "light number 65 is one too many", "expected 64 lights at most", None);
 }
 
 /// A mesh that cannot be loaded is pointed at; reasons of several lines stand below.

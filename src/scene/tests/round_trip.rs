@@ -62,6 +62,7 @@ impl Random {
 
     fn light(&mut self) -> LightSection {
         LightSection {
+            table: Located::default(),
             direction: self.maybe(Self::triple),
             position: self.maybe(Self::triple),
             colour: self.maybe(Self::one_or_three),
