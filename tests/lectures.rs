@@ -60,7 +60,9 @@ fn every_item_is_shown_by_a_test_or_a_figure_of_few_others() {
                 let source = read(&file);
                 assert!(!tests.is_empty(), "{number}: no test of {file} is named");
                 for test in tests {
-                    let at = source.find(&format!("fn {test}()")).unwrap_or_else(|| panic!("{number}: {file} has no `{test}`"));
+                    let at = source
+                        .find(&format!("fn {test}()"))
+                        .unwrap_or_else(|| panic!("{number}: {file} has no `{test}`"));
                     let before = source[..at].trim_end();
                     assert!(before.ends_with("#[test]"), "{number}: `{test}` of {file} is no test");
                     served.entry(format!("{file}: {test}")).or_default().push(number.clone());

@@ -74,9 +74,8 @@ impl Render {
         progress.at(0.0, "loading");
         let started = Instant::now();
         let mut resolved = input::resolve(&file)?;
-        if self.aov.is_some() && resolved.scene.samples > 1 {
+        if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
             // Depths, normals and polygon numbers have no mean that means anything.
-            resolved.scene.samples = 1;
             progress.aside(|| talk.note("--aov shows single samples: one a pixel, in its middle"));
         }
         progress.aside(|| {
@@ -104,12 +103,9 @@ impl Render {
             Ok(())
         })?;
         if talk != Talk::Quiet && matches!(frame.hidden_surfaces(), HiddenSurfaces::Painter(_)) {
-            progress.at(0.4, "looking for conflicts of the painter");
-            let conflicts = conflicts(&frame);
-            progress.aside(|| match painter_text(&conflicts) {
-                Some(text) => talk.warning(&text),
-                None => talk.detail("the painter draws every pair of polygons in the right order"),
-            });
+            progress.at(0.4, "looking for what the painter draws wrongly");
+            let found = conflicts(&frame);
+            progress.aside(|| tell_of_conflicts(&found, talk));
         }
         progress.at(0.5, "shading");
         let drawing = progress.aside(|| Drawing::new(frame, self.content(), talk))?;
@@ -197,6 +193,13 @@ fn warn_of_polygons_without_place(stats: FrameStats, talk: Talk) {
         n => format!("{} polygons have a corner at the plane of the eye and are left out", grouped(n)),
     };
     talk.warning(&format!("{left_out}: --clipping planes draws what is seen"));
+}
+
+fn tell_of_conflicts(found: &Conflicts, talk: Talk) {
+    match painter_text(found) {
+        Some(text) => talk.warning(&text),
+        None => talk.detail("the painter draws every pair of polygons in the right order"),
+    }
 }
 
 /// What the painter's algorithm draws wrongly, if anything.
