@@ -53,6 +53,7 @@ pub static SCENES: &[ShippedScene] = shipped![
     "coarse-sphere" "fine-sphere" "teapot" "knot-100k" "million" "sharp-highlight" "four-lights" "polygons" "vase"
     "football" "perspective" "figure5" "ellipsoid" "mirrored" "corrugated" "terrain"
     "cyclic-triangles" "interpenetration" "z-fighting"
+    "local-lights" "blinn" "two-lights"
 ];
 
 /// The files that shipped scenes refer to.

@@ -6,6 +6,7 @@ use fastphong::frame::{Frame, FrameBuilder};
 use fastphong::metrics::compare_where;
 use fastphong::raster::{self, NOTHING};
 use fastphong::reference::{self, Model, ReferencePicture, Visibility};
+use fastphong::scene::{DepthBuffer, HiddenSurfaces};
 use fastphong::shader::{METHODS, Variant};
 use std::collections::BTreeMap;
 
@@ -101,7 +102,10 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
         }
         let drawn = scene.seen.texels().iter().filter(|&&p| p != NOTHING).count();
         println!("{}: {differing} of {drawn} pixels", scene.name);
-        assert!(differing * 10_000 <= drawn, "{}: {differing} of {drawn} pixels", scene.name);
+        // Few levels of depth are wide, and rounding decides where one ends: `tests/hidden_surfaces.rs` says where.
+        let fights = matches!(scene.frame.hidden_surfaces(), HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. })
+            if bits.most().is_some());
+        assert!(fights || differing * 10_000 <= drawn, "{}: {differing} of {drawn} pixels", scene.name);
     }
 }
 
@@ -118,7 +122,8 @@ fn matte(frame: &Frame) -> Frame {
         builder.lighting(lighting);
     }
     for vertex in frame.vertices() {
-        builder.vertex(*vertex);
+        let number = builder.vertex(*vertex);
+        builder.position(number, frame.position(number));
     }
     for corner in frame.clip_corners() {
         builder.clip_corner(*corner);
@@ -130,7 +135,8 @@ fn matte(frame: &Frame) -> Frame {
 }
 
 /// Scenes that are meant to show no highlight: flat faces turned away from it, or a matte material.
-const WITHOUT_HIGHLIGHT: [&str; 3] = ["corrugated", "figure5", "polygons"];
+const WITHOUT_HIGHLIGHT: [&str; 6] =
+    ["corrugated", "cyclic-triangles", "figure5", "interpenetration", "polygons", "z-fighting"];
 
 /// A flipped winding once hid behind an ambient-only picture: every scene must show lit pixels, and highlights where it
 /// is meant to.

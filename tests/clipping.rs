@@ -215,3 +215,26 @@ fn odd_places_give_pictures() {
         }
     }
 }
+
+/// The eye inside a closed mesh: whatever it looks at, every pixel is covered exactly once, and nothing is seen with the
+/// side that it sees left out.
+#[test]
+fn inside_a_closed_mesh_every_pixel_is_covered_once() {
+    let mut clipped = 0;
+    for spec in ["sphere?rings=12&segments=24", "cube", "sphere?polygons=3000&triangles=true"] {
+        for (eye, direction) in [
+            (DVec3::ZERO, DVec3::new(0.1, 0.2, -1.0)),
+            (DVec3::new(0.3, -0.2, 0.1), DVec3::new(1.0, 0.0, 0.0)),
+            (DVec3::new(-0.1, 0.1, 0.3), DVec3::new(-0.5, -1.0, 0.4)),
+        ] {
+            let mesh = fastphong::mesh::builtin::builtin(spec).expect("a built-in mesh");
+            let mut scene = scene(mesh, Camera { eye, target: eye + direction, ..above_ground(1e-3) });
+            let frame = scene.frame().expect("a frame");
+            clipped += frame.stats().clipped;
+            assert!(covered_once(&frame).iter().all(|&c| c == 1), "{spec} from {eye} along {direction}");
+            scene.culling = Culling::Back;
+            assert!(covered_once(&scene.frame().expect("a frame")).iter().all(|&c| c == 0), "{spec}: only insides");
+        }
+    }
+    assert!(clipped > 0, "polygons that are seen reach behind the eye");
+}

@@ -120,6 +120,16 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: NONE,
             shade: NONE,
         },
+        // CS171, Algorithm 6: the mean normal made a unit vector, and one colour.
+        "flat-average" => ByHand {
+            vertex: NONE,
+            polygon: DOT + ROOT + DIVIDE + 3 * MULTIPLY + lit + clamp(),
+            edge: NONE,
+            edge_step: NONE,
+            span: NONE,
+            walk: NONE,
+            shade: NONE,
+        },
         // 3: three channels from clamped vertex colours.
         "gouraud" => ByHand {
             vertex: lit + clamp(),
@@ -129,6 +139,17 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             span: 3 * ramp(),
             walk: 3 * ADD,
             shade: NONE,
+        },
+        // 3 with two colours, each lit on its own and not clamped; a pixel adds them. The weight of perspective is carried
+        // along edges, too, where it stays 1.
+        "gouraud-separate" => ByHand {
+            vertex: 2 * lit,
+            polygon: NONE,
+            edge: 7 * ramp(),
+            edge_step: 7 * ADD,
+            span: 7 * ramp(),
+            walk: 6 * ADD,
+            shade: 3 * ADD,
         },
         // 4.1: three coordinates; then |N|, its inverse, three products, and everything of 2.1.
         "naive-phong" => ByHand {
@@ -153,6 +174,21 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 span: numbers * ramp() + DOT + ROOT,
                 walk: numbers * ADD + DOT + 2 * newton,
                 shade: DIVIDE + MULTIPLY + DIVIDE + lights * (MULTIPLY + MULTIPLY + ADD + light()),
+            }
+        }
+        // Duff 1979: J of each light, K and three coordinates along edges; on a span J and K by one addition each, D = N·N
+        // by two. D needs N·N, N·ΔN twice, ΔN·ΔN, and its first and second difference. A pixel needs 1/√D and K and J of
+        // each light times that, then 2K once and 2JK − L·V for each light.
+        "duff-phong" => {
+            let numbers = lights + 4;
+            ByHand {
+                vertex: (lights + 1) * DOT,
+                polygon: NONE,
+                edge: numbers * ramp(),
+                edge_step: numbers * ADD,
+                span: numbers * ramp() + 3 * DOT + ADD + 2 * ADD,
+                walk: (lights + 1) * ADD + 2 * ADD,
+                shade: ROOT + DIVIDE + (lights + 1) * MULTIPLY + MULTIPLY + lights * (MULTIPLY + ADD + light()),
             }
         }
         // 4.4: normals along edges; on a span J of each light and K, at both ends and then by their weights. A pixel
@@ -238,6 +274,17 @@ fn fast_phong_trades_the_root_for_divisions() {
         assert_eq!(counts.walk.roots + counts.shade.roots, 0);
         assert_eq!(counts.walk.divisions + counts.shade.divisions, steps + 2);
         assert_eq!(counts.span.roots, 1, "the first pixel of a span has a true root");
+    }
+}
+
+/// Duff 1979: the squared length of the normal takes two additions a pixel and no multiplication; one root and one
+/// division remain.
+#[test]
+fn duff_phong_steps_by_additions_only() {
+    for lights in [1, 4] {
+        let counts = operations("duff-phong", lights);
+        assert!(counts.walk == (lights as u32 + 3) * ADD);
+        assert_eq!((counts.shade.roots, counts.shade.divisions), (1, 1));
     }
 }
 

@@ -8,7 +8,8 @@ use fastphong::mesh::builtin::builtin;
 use fastphong::painter::conflicts;
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
-use fastphong::scene::{Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Scene};
+use fastphong::scene::{Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Scene};
+use fastphong::triangulate::triangulated;
 use support::{Corner, Random, add, plain_lighting, random_polygon};
 
 fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
@@ -74,7 +75,7 @@ fn engines_and_reference_see_the_same_polygons() {
         for bits in [DepthBits::Sixteen, DepthBits::TwentyFour, DepthBits::ThirtyTwo] {
             for source in [DepthSource::Interpolated, DepthSource::PerSample] {
                 let frame = torus(perspective, buffer(bits, source));
-                let frame = fastphong::triangulate::triangulated(&frame).frame;
+                let frame = triangulated(&frame).frame;
                 let (near, far) = frame.depth_range().ends();
                 let rounding = (1.0 + far / (far - near)) * roundings(&frame) * ROUNDING;
                 // A depth that is off by e < 1/(2ᵇ − 1) is kept as its own level or a neighbouring one.
@@ -286,4 +287,75 @@ fn the_scene_of_z_fighting_fights() {
     let (fighting, whole) = (star(DepthBits::Sixteen), star(DepthBits::TwentyFour));
     assert!(fighting * 10 > whole && fighting * 10 < whole * 9, "{fighting} of {whole} pixels");
     assert_eq!(whole, star(DepthBits::ThirtyTwo));
+}
+
+/// Where engines and reference see another polygon of that scene, the depth of one of the two lies so near the middle
+/// between two levels that rounding decides on the level.
+#[test]
+fn fighting_is_the_same_outside_of_a_margin() {
+    let (_, path) = support::shipped().into_iter().find(|(name, _)| name == "z-fighting").expect("a shipped scene");
+    let fighting = support::scene(&path, Some((48, 36)));
+    let frame = fighting.frame().expect("a frame");
+    let depths = [0, 1].map(|object| {
+        let mut alone = fighting.clone();
+        alone.objects = vec![fighting.objects[object].clone()];
+        alone.hidden_surfaces = HiddenSurfaces::default();
+        reference::visibility(&alone.frame().expect("a frame")).depth
+    });
+    // A step adds an increment to a depth of ½..1 and rounds it by 2^-25 at most; at most 48 + 36 steps lead to a sample,
+    // and less than 16 operations before them. The increments are off by 2^-24 of all that depth rises by, 0.02.
+    let margin = (48.0 + 36.0 + 16.0 + 2.0 * 0.02 * 84.0) * ROUNDING;
+    let all = depths[0].texels().iter().filter(|z| z.is_finite());
+    assert!(all.clone().all(|z| (0.97..0.999).contains(z)), "depth rises by less than 0.02 on either side");
+    let truth = reference::visibility(&frame).polygons;
+    let is_undecided = |x: usize, y: usize| {
+        depths.iter().any(|depth| {
+            let levels = depth.get(x, y) * 65535.0;
+            levels.is_finite() && (levels - levels.floor() - 0.5).abs() <= margin * 65535.0
+        })
+    };
+    let (mut differing, mut decided) = (0, [0; 2]);
+    for seen in [
+        raster::polygon_numbers(&frame),
+        raster::barycentric_polygon_numbers(&triangulated(&frame).frame, Edges::TopLeft),
+    ] {
+        let origins = triangulated(&frame).origins;
+        let is_scanline = seen == raster::polygon_numbers(&frame);
+        for (x, y) in (0..36).flat_map(|y| (0..48).map(move |x| (x, y))) {
+            let number = seen.get(x, y);
+            let shown = if is_scanline || number == NOTHING { number } else { origins[number as usize] };
+            if is_undecided(x, y) {
+                differing += usize::from(shown != truth.get(x, y));
+            } else {
+                assert_eq!(shown, truth.get(x, y), "at {x}, {y}");
+                if let Some(count) = decided.get_mut(shown as usize) {
+                    *count += 1;
+                }
+            }
+        }
+    }
+    assert!(decided[0] > 100 && decided[1] > 10, "both are seen where it is decided: {decided:?}, {differing} differ");
+}
+
+/// Under CS171's test of each sample two polygons may hide each other between the ends of their overlap, where one of them
+/// is outside the cube.
+#[test]
+fn conflicts_are_those_of_samples_in_the_cube() {
+    let mut builder = FrameBuilder::new(48, 48);
+    builder.clipping(Clipping::NdcCube).hidden_surfaces(HiddenSurfaces::DrawOrder);
+    let material = builder.lighting(plain_lighting());
+    let square = |left: f32, right: f32| {
+        [(4, 4, left), (44, 4, right), (44, 44, right), (4, 44, left)].map(|(x, y, depth)| Corner {
+            x: x * 256,
+            y: y * 256,
+            depth,
+            intensity: 0.5,
+        })
+    };
+    add(&mut builder, material, 0, &square(-0.2, 1.2));
+    add(&mut builder, material, 1, &square(0.3, 0.3));
+    // Outside the cube all over, nearer or not: it hides nothing.
+    add(&mut builder, material, 2, &square(1.5, 1.5));
+    let found = conflicts(&builder.finish().expect("a frame"));
+    assert_eq!((found.wrong, found.interpenetrating), (vec![(0, 1)], 1));
 }

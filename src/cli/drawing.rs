@@ -189,7 +189,7 @@ impl Drawing {
                 // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
                 let shading = cs171_shading(method).unwrap_or(Shading::Phong);
                 let reading = Reading { normalise: *normalise, cull: false, ..Reading::default() };
-                wide(&cs171::render(frame, shading, reading).colours, frame.encoding(), linear)
+                wide(&cs171::render(frame, shading, reading).filtered(frame.samples()), frame.encoding(), linear)
             }
             (Content::Shaded(Method::Variant(variant), engine), linear) => shaded(frame, variant, *engine, linear),
         }

@@ -6,8 +6,10 @@ use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
 use fastphong::input;
+use fastphong::lighting::Falloff;
 use fastphong::number::Counts;
-use fastphong::shader::{Info, OperationCounts, Variant};
+use fastphong::scene::Interpolation;
+use fastphong::shader::{Info, OperationCounts, SpanBench, Variant};
 use serde_json::{Map, Value, json};
 
 /// Explain a shading method: formula, source, cost, tolerance, where it fails
@@ -23,6 +25,9 @@ pub struct Explain {
 
 /// The numbers of lights that operations are counted for.
 const LIGHTS: [usize; 2] = [1, 4];
+
+/// The numbers of lights at positions that operations are counted for, the eye being at one, too.
+const LIGHTS_AT_POSITIONS: [usize; 2] = [1, 2];
 
 /// How often something is computed, and how to take it from the counts.
 type Rate = (&'static str, fn(&OperationCounts) -> Counts);
@@ -72,6 +77,10 @@ impl Explain {
             let title = format!("operations with {lights} light{}, as counted", if lights == 1 { "" } else { "s" });
             section(&title, &costs(&self.method.operations(lights)));
         }
+        for lights in LIGHTS_AT_POSITIONS {
+            let what = if lights == 1 { "light and eye" } else { "lights and eye" };
+            section(&format!("operations with {lights} {what} at positions, as counted"), &costs(&self.near(lights)));
+        }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
@@ -87,6 +96,12 @@ impl Explain {
         Ok(text)
     }
 
+    /// The operations with `lights` lights and the eye at positions, no falloff, attributes linear on the screen.
+    fn near(&self, lights: usize) -> OperationCounts {
+        // The angle of the span's normals is not counted: any will do.
+        self.method.operations_on(&SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen))
+    }
+
     fn tolerance(&self) -> Result<String, Failure> {
         let info = self.method.info();
         let levels = 255.0 * example_bound(info)?;
@@ -100,8 +115,9 @@ impl Explain {
     fn json(&self) -> Result<Value, Failure> {
         let info = self.method.info();
         let mut json = method_json(info);
-        let operations: Map<String, Value> =
-            LIGHTS.iter().map(|&lights| (lights.to_string(), costs_json(&self.method.operations(lights)))).collect();
+        let by_lights = |lights: &[usize], of: &dyn Fn(usize) -> OperationCounts| -> Value {
+            lights.iter().map(|&n| (n.to_string(), costs_json(&of(n)))).collect::<Map<String, Value>>().into()
+        };
         json["variant"] = self.method.to_string().into();
         json["values"] = self.method.parameters().into();
         json["formula"] = info.formula.into();
@@ -109,7 +125,8 @@ impl Explain {
         json["derivation"] = info.derivation.into();
         json["fails"] = info.fails.into();
         json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(info)? });
-        json["operations_by_lights"] = operations.into();
+        json["operations_by_lights"] = by_lights(&LIGHTS, &|lights| self.method.operations(lights));
+        json["operations_by_lights_at_positions"] = by_lights(&LIGHTS_AT_POSITIONS, &|lights| self.near(lights));
         Ok(json)
     }
 }

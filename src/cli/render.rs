@@ -78,7 +78,11 @@ impl Render {
         let progress = Progress::watched(talk);
         progress.at(0.0, "loading");
         let started = Instant::now();
-        let resolved = input::resolve(&file)?;
+        let mut resolved = input::resolve(&file)?;
+        if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
+            // Depths, normals and polygon numbers have no mean that means anything.
+            progress.aside(|| talk.note("--aov shows single samples: one a pixel, in its middle"));
+        }
         progress.aside(|| {
             self.scene.warn(&resolved, talk);
             talk.detail(&format!("loaded in {:.1} ms", milliseconds(started)));
@@ -96,6 +100,7 @@ impl Render {
         progress.aside(|| {
             talk.detail(&format!("projected in {:.1} ms", milliseconds(started)));
             warn_of_polygons_without_area(frame.stats(), talk);
+            warn_of_polygons_without_place(frame.stats(), talk);
             if self.stats {
                 return say(&stats_text(&frame));
             }
@@ -103,12 +108,9 @@ impl Render {
             Ok(())
         })?;
         if talk != Talk::Quiet && matches!(frame.hidden_surfaces(), HiddenSurfaces::Painter(_)) {
-            progress.at(0.4, "looking for conflicts of the painter");
-            let conflicts = conflicts(&frame);
-            progress.aside(|| match painter_text(&conflicts) {
-                Some(text) => talk.warning(&text),
-                None => talk.detail("the painter draws every pair of polygons in the right order"),
-            });
+            progress.at(0.4, "looking for what the painter draws wrongly");
+            let found = conflicts(&frame);
+            progress.aside(|| tell_of_conflicts(&found, talk));
         }
         progress.at(0.5, "shading");
         let drawing = progress.aside(|| Drawing::new(frame, self.content(), talk))?;
@@ -189,6 +191,22 @@ fn warn_of_polygons_without_area(stats: FrameStats, talk: Talk) {
     }
 }
 
+fn warn_of_polygons_without_place(stats: FrameStats, talk: Talk) {
+    let left_out = match stats.unprojected {
+        0 => return,
+        1 => "1 polygon has a corner at the plane of the eye and is left out".to_owned(),
+        n => format!("{} polygons have a corner at the plane of the eye and are left out", grouped(n)),
+    };
+    talk.warning(&format!("{left_out}: --clipping planes draws what is seen"));
+}
+
+fn tell_of_conflicts(found: &Conflicts, talk: Talk) {
+    match painter_text(found) {
+        Some(text) => talk.warning(&text),
+        None => talk.detail("the painter draws every pair of polygons in the right order"),
+    }
+}
+
 /// What the painter's algorithm draws wrongly, if anything.
 fn painter_text(conflicts: &Conflicts) -> Option<String> {
     let counted = |n: usize, one: &str, more: &str| format!("{} {}", grouped(n), if n == 1 { one } else { more });
@@ -217,6 +235,7 @@ fn stats_text(frame: &Frame) -> String {
         ("zero-area", stats.zero_area, "left out: no area, in space or on the picture"),
         ("outside", stats.outside, "left out: outside the view"),
         ("clipped", stats.clipped, "cut by the near plane, the far plane or the guard band"),
+        ("unprojected", stats.unprojected, "left out: a corner has no place on the picture (--clipping ndc-cube)"),
         ("drawn", frame.polygons().len(), "left, pieces of cut ones counted each"),
     ];
     columns(&rows.map(|(name, count, what)| vec![name.to_owned(), grouped(count), what.to_owned()]), false, &[1])

@@ -10,7 +10,7 @@ use fastphong::scene::file::{
 };
 use fastphong::scene::resolve::Resolved;
 use fastphong::scene::value::{Located, OneOrThree};
-use fastphong::scene::{Culling, DepthSource, Encoding, Interpolation, PainterKey};
+use fastphong::scene::{Clipping, Culling, DepthSource, Encoding, Interpolation, PainterKey};
 
 /// The picture and the scene.
 #[derive(clap::Args, Clone, Debug, Default)]
@@ -109,6 +109,15 @@ pub struct SceneFlags {
     /// By what the painter sorts: the mean depth of the corners or that of the farthest one
     #[arg(long, value_name = "KEY", value_parser = values::word::<PainterKey>())]
     painter_key: Option<PainterKey>,
+    /// What keeps polygons within the view: clipping by planes, or CS171's test of each pixel
+    #[arg(long, value_name = "HOW", value_parser = values::word::<Clipping>())]
+    clipping: Option<Clipping>,
+    /// Light polygons seen from behind with negated normals (with `--cull none`)
+    #[arg(long)]
+    two_sided: bool,
+    /// Supersampling: so many samples a pixel along each side, 1, 2, 4 or 8, hidden and shaded each on its own
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    samples: Option<i64>,
     /// Where vertex normals come from: `averaged`, `given`, or averaged up to an angle, `crease=30`
     #[arg(long, value_name = "SOURCE", value_parser = values::normals)]
     normals: Option<Normals>,
@@ -174,6 +183,7 @@ impl SceneFlags {
             height: flag(self.resolution.map(|sides| sides[1]), "--resolution"),
             background: flag(self.background, "--background"),
             encoding: flag(self.encoding, "--encoding"),
+            samples: flag(self.samples, "--samples"),
         };
         over.camera = self.camera();
         over.material = self.material();
@@ -183,6 +193,8 @@ impl SceneFlags {
         over.visibility = flag(self.visibility, "--visibility");
         over.depth_bits = flag(self.depth_bits, "--depth-bits");
         over.depth = flag(self.depth, "--depth");
+        over.clipping = flag(self.clipping, "--clipping");
+        over.two_sided = self.two_sided.then(|| Located::flag(true, "--two-sided"));
         over.painter_key = flag(self.painter_key, "--painter-key");
         over.viewer = flag(self.viewer, "--viewer");
         over.specular = flag(self.specular, "--specular");

@@ -64,6 +64,9 @@ pub struct StatsData {
     pub zero_area: usize,
     pub outside: usize,
     pub clipped: usize,
+    /// See [`FrameStats::unprojected`].
+    #[serde(default)]
+    pub unprojected: usize,
 }
 
 /// A [`Row`] without its pictures.
@@ -220,8 +223,8 @@ impl From<&Comparison> for ComparisonData {
 
 impl From<FrameStats> for StatsData {
     fn from(stats: FrameStats) -> Self {
-        let FrameStats { polygons, culled, zero_area, outside, clipped } = stats;
-        StatsData { polygons, culled, zero_area, outside, clipped }
+        let FrameStats { polygons, culled, zero_area, outside, clipped, unprojected } = stats;
+        StatsData { polygons, culled, zero_area, outside, clipped, unprojected }
     }
 }
 

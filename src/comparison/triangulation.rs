@@ -3,6 +3,7 @@
 //! Values interpolated along scanlines depend on the orientation of a polygon of four corners or more; on triangles they
 //! do not (L21 3, Figure 5). Cutting polygons into triangles therefore makes another picture, and this tells how other.
 
+use super::pictures::same_polygons;
 use crate::frame::Frame;
 use crate::metrics::{Difference, compare_where};
 use crate::picture::LinearPicture;
@@ -33,7 +34,7 @@ pub fn triangulation(frame: &Frame, reference: &LinearPicture) -> Option<Triangu
     let picture = reference::shade(&cut.frame, &visible, Model::Phong).to_linear();
     let origin = |triangle| cut.origins.get(triangle as usize).copied().unwrap_or(Visibility::NONE);
     let (seen, shown) = (reference::visibility(frame).polygons, visible.polygons.map(origin));
-    let difference = compare_where(reference, &picture, |x, y| seen.get(x, y) == shown.get(x, y));
+    let difference = compare_where(reference, &picture, |x, y| same_polygons(&seen, &shown, reference, x, y));
     let difference = difference.expect("pictures of one frame have one size");
     Some(Triangulation { triangles: cut.frame.polygons().len(), not_simple: cut.not_simple, difference, picture })
 }

@@ -132,6 +132,19 @@ impl Grid {
         [self.colours.width(), self.colours.height()]
     }
 
+    /// The mean of each `side` × `side` samples, alpha too.
+    pub fn filtered(&self, side: usize) -> Picture<[f64; 4]> {
+        let [width, height] = self.size().map(|count| count / side);
+        let mut picture = Picture::new(width, height, [0.0; 4]);
+        let share = 1.0 / (side * side) as f64;
+        for (x, y) in (0..height * side).flat_map(|y| (0..width * side).map(move |x| (x, y))) {
+            let sample = self.colours.get(x, y);
+            let texel = &mut picture.row_mut(y / side)[x / side];
+            *texel = core::array::from_fn(|c| texel[c] + share * sample[c]);
+        }
+        picture
+    }
+
     /// Fill(x, y, grid, color).
     fn fill(&mut self, x: usize, y: usize, colour: DVec3) {
         self.colours.row_mut(y)[x] = [colour.x, colour.y, colour.z, 1.0];

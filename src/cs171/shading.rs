@@ -5,6 +5,7 @@ use super::rasterize::{blend, raster_ndc_triangle, raster_visible_triangle};
 use super::{Corner, Grid, Reading, Shading, lighting, raster_colored_ndc_triangle};
 use crate::frame::{Frame, Vertex};
 use crate::lighting::Lighting;
+use crate::scene::Interpolation;
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -68,7 +69,7 @@ fn phong_colour(corners: &[Corner; 3], weights: Weights, light: &Lighting, readi
 /// Polygons of more than three corners are passed over: [`triangulated`](crate::triangulate::triangulated) cuts them. The
 /// average corner is that of the scene's polygon ([`Frame::mean`]). A corner that clipping made is not lit, but lies
 /// between two that are. A point on the near or far plane itself may be lost to rounding, as the cube is closed and tested
-/// in `f64`.
+/// in `f64`. Of a frame with several samples a pixel the grid is one of samples: [`Grid::filtered`].
 pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Grid {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let corners = corners(frame);
@@ -122,7 +123,10 @@ fn corners(frame: &Frame) -> Vec<Corner> {
             1.0 - 2.0 * v.y.to_num::<f64>() / size[1],
             2.0 * f64::from(v.depth) - 1.0,
         ),
-        inv_w: f64::from(v.inv_w),
+        inv_w: match frame.interpolation() {
+            Interpolation::Screen => 1.0,
+            Interpolation::Perspective => f64::from(v.inv_w),
+        },
     };
     let mut all: Vec<Corner> = (0..).zip(frame.vertices()).map(corner).collect();
     for cut in frame.clip_corners() {

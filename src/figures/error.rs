@@ -1,6 +1,7 @@
 //! Why a figure could not be made.
 
 use crate::frame::FrameError;
+use crate::input::InputError;
 use crate::mesh::MeshError;
 use crate::mesh::builtin::BuiltinError;
 use crate::metrics::SizeMismatch;
@@ -14,6 +15,8 @@ pub enum FigureError {
     Builtin(BuiltinError),
     /// A mesh is not one.
     Mesh(MeshError),
+    /// A shipped scene is not one.
+    Scene(InputError),
     /// A frame is not one.
     Frame(FrameError),
     /// A method has no such name or parameter.
@@ -27,6 +30,7 @@ impl fmt::Display for FigureError {
         match self {
             FigureError::Builtin(error) => error.fmt(f),
             FigureError::Mesh(error) => error.fmt(f),
+            FigureError::Scene(error) => error.fmt(f),
             FigureError::Frame(error) => error.fmt(f),
             FigureError::Method(error) => error.fmt(f),
             FigureError::Size(error) => error.fmt(f),
@@ -45,6 +49,12 @@ impl From<BuiltinError> for FigureError {
 impl From<MeshError> for FigureError {
     fn from(error: MeshError) -> Self {
         FigureError::Mesh(error)
+    }
+}
+
+impl From<InputError> for FigureError {
+    fn from(error: InputError) -> Self {
+        FigureError::Scene(error)
     }
 }
 

@@ -122,7 +122,7 @@ fn exponential(content: &mut Content) {
             })
             .collect();
         largest = errors.iter().copied().fold(largest, f64::max);
-        Series::new(format!("from 1 to e^-{fall}"), (0..PIXELS).step_by(8).map(|k| (k as f64, errors[k])))
+        Series::new(format!("from 1 to e^−{fall}"), (8..PIXELS).step_by(8).map(|k| (k as f64, errors[k])))
     });
     // Each of the products is rounded once, and the factor, rounded once, is in each of them.
     let bound = 2.0 * (PIXELS - 1) as f64 / (1 << 24) as f64;

@@ -16,9 +16,21 @@
 //! ```
 
 mod content;
+mod depth;
+mod duff;
 mod error;
 mod exercises;
+mod fast_vs_naive;
+mod frequency;
+mod mach_bands;
+mod newell;
+mod newton;
+mod painter;
+mod profile;
+mod slerp;
+mod square;
 mod stage;
+mod supersampling;
 
 pub use content::{Agreement, Block, Content, Finding, Plot, Scale, Series, Shown};
 pub use error::FigureError;
@@ -30,7 +42,20 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 /// All figures, in the order of the lectures. A figure is one file beside this one, and one line here.
-pub static FIGURES: &[&Figure] = &[&exercises::FIGURE];
+pub static FIGURES: &[&Figure] = &[
+    &newell::FIGURE,
+    &mach_bands::FIGURE,
+    &square::FIGURE,
+    &duff::FIGURE,
+    &newton::FIGURE,
+    &slerp::FIGURE,
+    &fast_vs_naive::FIGURE,
+    &exercises::FIGURE,
+    &frequency::FIGURE,
+    &painter::FIGURE,
+    &depth::FIGURE,
+    &supersampling::FIGURE,
+];
 
 /// One thing that a lecture shows or says, to be made anew.
 #[derive(Debug)]

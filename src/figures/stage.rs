@@ -3,9 +3,10 @@
 use super::FigureError;
 use crate::encoding::store;
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use crate::input::{load, resolve};
 use crate::lighting::{Light, Lighting, Material};
 use crate::picture::{LinearPicture, Picture8};
-use crate::scene::{Encoding, HiddenSurfaces};
+use crate::scene::{Encoding, HiddenSurfaces, Scene};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -101,9 +102,30 @@ pub(super) fn frame([width, height]: [u32; 2], grey: &Grey, polygons: &[Facet]) 
     Ok(builder.finish()?)
 }
 
+/// A shipped scene, on a picture of this size.
+///
+/// # Errors
+/// If there is no such scene.
+pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene, FigureError> {
+    let mut scene = resolve(&load(name)?)?.scene;
+    (scene.width, scene.height) = (width, height);
+    Ok(scene)
+}
+
+/// How many pixels of two pictures of one size differ by more than half a grey level.
+pub(super) fn differing(a: &LinearPicture, b: &LinearPicture) -> usize {
+    let differ = |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.5 / 255.0);
+    a.texels().iter().zip(b.texels()).filter(differ).count()
+}
+
 /// `picture` in eight bits, with no transfer function.
 pub(super) fn stored(picture: &LinearPicture) -> Picture8 {
     store(picture, Encoding::Linear)
+}
+
+/// The unit normal that leans so many degrees to the right and so many upward.
+pub(super) fn leaning(right: f64, up: f64) -> DVec3 {
+    DVec3::new(libm::tan(right.to_radians()), libm::tan(up.to_radians()), 1.0).normalize()
 }
 
 /// A number as it stands in a sentence: three significant digits, a power of ten if it is very small.

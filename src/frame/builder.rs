@@ -3,7 +3,7 @@
 use super::{ClipCorner, DepthRange, Frame, FrameError, FrameStats, Mean, Polygon, SubPixel, Vertex};
 use crate::lighting::{Lighting, Rgb};
 use crate::painter::back_to_front;
-use crate::scene::{Encoding, HiddenSurfaces, Interpolation, Scene};
+use crate::scene::{Clipping, Encoding, HiddenSurfaces, Interpolation, Scene};
 use alloc::vec::Vec;
 
 /// Collects vertices and polygons, then checks them once, so that what reads a frame need not.
@@ -13,15 +13,17 @@ pub struct FrameBuilder {
 }
 
 impl FrameBuilder {
-    /// An empty frame of `width` × `height` pixels, black, with a depth buffer of floats, linear on the screen.
+    /// An empty frame of `width` × `height` samples, each of them a pixel, black, with a depth buffer of floats, linear on the screen.
     pub fn new(width: u32, height: u32) -> Self {
         FrameBuilder {
             frame: Frame {
                 width,
                 height,
+                samples: 1,
                 background: [0.0; 3],
                 interpolation: Interpolation::Screen,
                 hidden_surfaces: HiddenSurfaces::default(),
+                clipping: Clipping::Planes,
                 depth_range: DepthRange::default(),
                 encoding: Encoding::Linear,
                 eye: [0.0; 3],
@@ -36,6 +38,13 @@ impl FrameBuilder {
                 stats: FrameStats::default(),
             },
         }
+    }
+
+    /// Sets how many samples of the frame make a pixel along each side, 1 (as it is), 2, 4 or 8: a divisor of its width and
+    /// its height.
+    pub fn samples(&mut self, samples: u32) -> &mut Self {
+        self.frame.samples = samples;
+        self
     }
 
     /// Sets the colour where nothing is drawn.
@@ -53,6 +62,12 @@ impl FrameBuilder {
     /// Sets how hidden surfaces are found.
     pub fn hidden_surfaces(&mut self, how: HiddenSurfaces) -> &mut Self {
         self.frame.hidden_surfaces = how;
+        self
+    }
+
+    /// Sets what keeps polygons within the view: whether each sample is tested for its depth.
+    pub fn clipping(&mut self, clipping: Clipping) -> &mut Self {
+        self.frame.clipping = clipping;
         self
     }
 
@@ -159,6 +174,15 @@ impl FrameBuilder {
         if !side.contains(&frame.width) || !side.contains(&frame.height) {
             return Err(FrameError::Size { width: frame.width, height: frame.height });
         }
+        let samples = frame.samples;
+        if ![1, 2, 4, 8].contains(&samples)
+            || ![frame.width, frame.height].iter().all(|side| side.is_multiple_of(samples))
+        {
+            return Err(FrameError::Samples { samples });
+        }
+        if frame.clipping == Clipping::NdcCube && frame.interpolation == Interpolation::Perspective {
+            return Err(FrameError::Unclipped);
+        }
         if !frame.depth_range.is_valid() || !frame.eye.iter().all(|c| c.is_finite()) {
             return Err(FrameError::Camera);
         }
@@ -211,7 +235,7 @@ impl Frame {
             && inside(v.y)
             && v.depth.is_finite()
             && v.inv_w.is_finite()
-            && v.inv_w > 0.0
+            && (v.inv_w > 0.0 || self.clipping == Clipping::NdcCube)
             && v.normal.iter().all(|n| n.is_finite())
             && (v.material as usize) < self.lightings.len()
     }

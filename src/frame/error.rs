@@ -14,6 +14,14 @@ pub enum FrameError {
         /// Rows.
         height: u32,
     },
+    /// Samples a pixel along each side that are not 1, 2, 4 or 8, or no divisor of the frame's width and height, or too many.
+    Samples {
+        /// How many.
+        samples: u32,
+    },
+    /// [`Clipping::NdcCube`](crate::scene::Clipping) with
+    /// [`Interpolation::Perspective`](crate::scene::Interpolation), for which corners behind the eye have no weight.
+    Unclipped,
     /// More lights than [`Scene::MAX_LIGHTS`], or not as many on every material.
     Lights {
         /// How many.
@@ -41,6 +49,16 @@ impl fmt::Display for FrameError {
             FrameError::Size { width, height } => {
                 write!(f, "the picture size {width}x{height} is outside 1x1 to {0}x{0}", Scene::MAX_SIDE)
             }
+            FrameError::Samples { samples } => write!(
+                f,
+                "{samples} samples a pixel along each side: expected 1, 2, 4 or 8, and at most {} along the picture's",
+                Scene::MAX_SIDE
+            ),
+            FrameError::Unclipped => write!(
+                f,
+                "polygons are not clipped, but tested against the cube at each sample: expected attributes that are linear \
+                 on the screen, as corners behind the eye have no weight"
+            ),
             FrameError::Lights { found } => write!(
                 f,
                 "{found} lights, where at most {} are possible, the same on every material",

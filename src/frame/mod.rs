@@ -13,10 +13,10 @@ pub use depth_range::DepthRange;
 pub use error::FrameError;
 
 use crate::lighting::{Lighting, Rgb};
-use crate::scene::{Encoding, HiddenSurfaces, Interpolation, Scene};
+use crate::scene::{Clipping, Encoding, HiddenSurfaces, Interpolation, Scene};
 use alloc::vec::Vec;
 
-/// A coordinate on the picture in pixels, snapped to 1/256: x to the right, y downward, (0, 0) the outer corner of the
+/// A coordinate on the picture in pixels (of a supersampled frame: in samples), snapped to 1/256: x to the right, y downward, (0, 0) the outer corner of the
 /// first pixel, so that pixel centres lie at ½.
 pub type SubPixel = fixed::types::I24F8;
 
@@ -27,10 +27,11 @@ pub struct Vertex {
     pub x: SubPixel,
     /// Row of the picture, downward, at most [`Frame::GUARD`] pixels from 0.
     pub y: SubPixel,
-    /// z/w: linear on the screen, 0 at the near plane, 1 at the far plane.
+    /// z/w: linear on the screen, 0 at the near plane, 1 at the far plane; outside that under [`Clipping::NdcCube`] only.
     pub depth: f32,
     /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation, and what
-    /// depth is computed from at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)).
+    /// depth is computed from at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)). Over 0, but under
+    /// [`Clipping::NdcCube`], where it is below 0 behind the eye.
     pub inv_w: f32,
     /// Unit vertex normal in world space (L21 3.1); ignored at a [`ClipCorner`].
     pub normal: [f32; 3],
@@ -82,6 +83,8 @@ pub struct FrameStats {
     pub outside: usize,
     /// Cut by the near plane, the far plane or the guard band.
     pub clipped: usize,
+    /// Left out because a corner has no place on the picture: under [`Clipping::NdcCube`] only.
+    pub unprojected: usize,
 }
 
 /// The mean of a polygon's corners: where a method that lights a whole polygon at once takes light and viewer from.
@@ -98,9 +101,11 @@ pub struct Mean {
 pub struct Frame {
     width: u32,
     height: u32,
+    samples: u32,
     background: Rgb,
     interpolation: Interpolation,
     hidden_surfaces: HiddenSurfaces,
+    clipping: Clipping,
     depth_range: DepthRange,
     encoding: Encoding,
     eye: [f64; 3],
@@ -122,14 +127,29 @@ impl Frame {
     /// for the exact products of the edge walk in 64 bits (2²⁴ · 2²⁴ · 2).
     pub const GUARD: i32 = 2 * Scene::MAX_SIDE as i32;
 
-    /// Pixels a row.
+    /// Samples a row: pixels a row, but where each has several. All coordinates of the frame count samples.
     pub fn width(&self) -> usize {
         self.width as usize
     }
 
-    /// Rows.
+    /// Rows of samples.
     pub fn height(&self) -> usize {
         self.height as usize
+    }
+
+    /// Samples a pixel along each side, 1, 2, 4 or 8.
+    pub fn samples(&self) -> usize {
+        self.samples as usize
+    }
+
+    /// Pixels a row of the picture.
+    pub fn picture_width(&self) -> usize {
+        (self.width / self.samples) as usize
+    }
+
+    /// Rows of the picture.
+    pub fn picture_height(&self) -> usize {
+        (self.height / self.samples) as usize
     }
 
     /// Colour where nothing is drawn.
@@ -145,6 +165,11 @@ impl Frame {
     /// How hidden surfaces are found.
     pub fn hidden_surfaces(&self) -> HiddenSurfaces {
         self.hidden_surfaces
+    }
+
+    /// What keeps polygons within the view: under [`Clipping::NdcCube`] samples are drawn where their depth is in 0..=1.
+    pub fn clipping(&self) -> Clipping {
+        self.clipping
     }
 
     /// Whether nearer polygons hide farther ones (strictly less depth wins); without it, later ones hide earlier ones.

@@ -3,6 +3,19 @@
 //! Sorting takes O(n log n), and the sorted frame is then drawn without looking at depth. The key is one number a polygon:
 //! the depth z/w of its corners, their mean or that of the farthest one. One number cannot order all scenes, and for some
 //! no order is right at all (L5: *Can have unresolvable depth order*): [`conflicts`] finds both.
+//!
+//! ```
+//! use fastphong::mesh::builtin::builtin;
+//! use fastphong::painter::conflicts;
+//! use fastphong::scene::{Culling, HiddenSurfaces, PainterKey, Scene};
+//!
+//! let mut scene = Scene::of_mesh(builtin("teapot").unwrap());
+//! scene.hidden_surfaces = HiddenSurfaces::Painter(PainterKey::Mean);
+//! scene.culling = Culling::None;
+//! // The handle and the spout of the teapot go through its side.
+//! let found = conflicts(&scene.frame().unwrap());
+//! assert!(found.interpenetrating > 0 && !found.cycles.is_empty());
+//! ```
 
 mod conflicts;
 

@@ -1,4 +1,7 @@
 //! What is seen besides colours: depth, normals, polygon numbers, and which pixels each polygon covers.
+//!
+//! A mean of depths or of polygon numbers means nothing: all these are of single samples, [`Frame::width`] ×
+//! [`Frame::height`] of them, and where a frame has several a pixel nothing here is filtered.
 
 use super::scanline::scan;
 use super::visibility::NOTHING;
@@ -52,7 +55,7 @@ pub fn coverage(frame: &Frame, mut visit: impl FnMut(u32, usize, Range<usize>)) 
 
 /// The unit normal at each pixel, in world space, as (N + 1)/2; alpha 0 where nothing is seen.
 pub fn normals(frame: &Frame) -> LinearPicture {
-    let mut picture = super::target::linear_picture(frame);
+    let mut picture = super::target::linear_samples(frame);
     super::scanline::draw::<Normals, Scalar>(Scalar, frame, &[], &mut picture);
     picture
 }

@@ -98,11 +98,8 @@ pub(crate) fn draw<S: Shader, M: Machine>(
                 // α = f_bc(p) / f_bc(a), and likewise β and γ: f_bc(a) is the doubled area for all three.
                 let weights: [f32; 3] = each(|i| f[i] as f32 * scale);
                 let q = weights[0] * depths[0] + weights[1] * depths[1] + weights[2] * depths[2];
-                let kept = depth.kept(depth.at(q));
                 let nearest = &mut depth_buffer[row * frame.width() + column];
-                if depth.hides() && kept >= *nearest {
-                    continue;
-                }
+                let Some(kept) = depth.seen(q, *nearest) else { continue };
                 *nearest = kept;
                 let start = Span {
                     x: m.one(column as f32 + 0.5),

@@ -1,7 +1,7 @@
 //! Depth at a sample: from what is interpolated to what is compared.
 
 use crate::frame::{DepthRange, Frame, Vertex};
-use crate::scene::{DepthBits, DepthSource, HiddenSurfaces};
+use crate::scene::{Clipping, DepthBits, DepthSource, HiddenSurfaces};
 
 /// How depth is made of the values at the corners, and how it is kept.
 ///
@@ -18,6 +18,7 @@ pub struct SampleDepth {
     factor: f32,
     most: Option<u32>,
     hides: bool,
+    cube: bool,
 }
 
 /// What is interpolated.
@@ -47,6 +48,7 @@ impl SampleDepth {
             factor: factor as f32,
             most: buffer.map_or(DepthBits::ThirtyTwo, |buffer| buffer.bits).most(),
             hides: buffer.is_some(),
+            cube: frame.clipping() == Clipping::NdcCube,
         }
     }
 
@@ -55,9 +57,9 @@ impl SampleDepth {
         self.hides
     }
 
-    /// Whether what is interpolated is what is compared.
+    /// Whether what is interpolated is what is compared, and nothing else is asked.
     pub fn is_plain(&self) -> bool {
-        self.quantity == Quantity::Depth && self.most.is_none()
+        self.quantity == Quantity::Depth && self.most.is_none() && !self.cube
     }
 
     /// What of a corner is interpolated.
@@ -73,18 +75,22 @@ impl SampleDepth {
         }
     }
 
-    /// The depth of a sample at which the interpolated value is `q`.
+    /// What is kept of a sample at which the interpolated value is `q`, if it is seen where `depth` was kept before.
     #[inline(always)]
-    pub fn at(&self, q: f32) -> f32 {
-        match self.quantity {
+    pub fn seen(&self, q: f32, depth: f32) -> Option<f32> {
+        let z = match self.quantity {
             Quantity::Depth => q,
             Quantity::InverseW | Quantity::Distance => (q - self.origin) * self.factor,
-        }
+        };
+        // CS171 3, Algorithm 5: whether the sample lies in the cube; as to x and y, the picture ends there.
+        let is_inside = !self.cube || (0.0..=1.0).contains(&z);
+        let kept = self.kept(z);
+        (is_inside && (!self.hides || kept < depth)).then_some(kept)
     }
 
     /// What the depth buffer keeps of `z`: the float itself, or a whole number of 0..=2ᵇ − 1, which an `f32` holds.
     #[inline(always)]
-    pub fn kept(&self, z: f32) -> f32 {
+    fn kept(&self, z: f32) -> f32 {
         match self.most {
             None => z,
             // The product has at most 48 bits: exact in f64, and the conversion clamps at both ends.
@@ -106,7 +112,7 @@ mod tests {
     use super::*;
 
     fn keeping(bits: DepthBits) -> SampleDepth {
-        SampleDepth { quantity: Quantity::Depth, origin: 0.0, factor: 1.0, most: bits.most(), hides: true }
+        SampleDepth { quantity: Quantity::Depth, origin: 0.0, factor: 1.0, most: bits.most(), hides: true, cube: false }
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 use super::barycentric::{self, Edges};
 use super::scanline;
+use super::supersampling::{draw_anyhow, draw_rows};
 use super::target::{Target, linear_picture};
 use crate::frame::Frame;
 use crate::lighting::{Lighting, Rgb};
@@ -28,9 +29,7 @@ pub fn barycentric_vertex_colours(frame: &Frame, edges: Edges) -> LinearPicture 
 }
 
 fn colours(frame: &Frame, edges: Option<Edges>) -> LinearPicture {
-    let mut picture = linear_picture(frame);
-    draw::<Colour>(frame, edges, &mut picture);
-    picture
+    shown(frame, edges, |target| draw::<Colour>(frame, edges, target))
 }
 
 /// A checkerboard on the world's x and z, the plane of a floor: alpha 0 where nothing is seen.
@@ -48,26 +47,34 @@ pub fn barycentric_checkerboard(frame: &Frame, edges: Edges, size: f64, colours:
 }
 
 fn board(frame: &Frame, edges: Option<Edges>, size: f64, colours: [Rgb; 2]) -> LinearPicture {
-    let mut squares = Squares { picture: linear_picture(frame), size, colours };
-    draw::<World>(frame, edges, &mut squares);
-    squares.picture
+    shown(frame, edges, |target| draw::<World>(frame, edges, &mut Squares { target, size, colours }))
 }
 
-/// Takes world coordinates and stores the colour of the square that they are in.
-struct Squares {
-    picture: LinearPicture,
+/// What `draw` gives, sample by sample, as a picture. The barycentric renderer comes back to samples that it drew.
+fn shown(frame: &Frame, edges: Option<Edges>, draw: impl FnOnce(&mut dyn Target)) -> LinearPicture {
+    let mut picture = linear_picture(frame);
+    match edges {
+        None => draw_rows(frame, &mut picture, draw),
+        Some(_) => draw_anyhow(frame, &mut picture, draw),
+    }
+    picture
+}
+
+/// Takes world coordinates and passes on the colour of the square that they are in.
+struct Squares<'a> {
+    target: &'a mut dyn Target,
     size: f64,
     colours: [Rgb; 2],
 }
 
-impl Target for Squares {
+impl Target for Squares<'_> {
     fn store(&mut self, x: usize, row: usize, places: &[[f32; 3]]) {
         for (column, [world_x, _, world_z]) in (x..).zip(places) {
             let square = |coordinate: f32| libm::floor(f64::from(coordinate) / self.size);
             // ⌊x/s⌋ + ⌊z/s⌋ is even where half of it is whole.
             let half = (square(*world_x) + square(*world_z)) / 2.0;
             let colour = self.colours[usize::from(half != libm::floor(half))]; // C(x, z)
-            self.picture.store(column, row, &[colour]);
+            self.target.store(column, row, &[colour]);
         }
     }
 }

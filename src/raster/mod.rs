@@ -18,6 +18,7 @@ mod edge_table;
 mod interpolated;
 pub mod scanline;
 mod setup;
+mod supersampling;
 mod target;
 mod visibility;
 
@@ -28,4 +29,5 @@ pub use edge::Crossing;
 pub use interpolated::{barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours};
 pub use visibility::NOTHING;
 
-pub(crate) use target::{Target, clear, linear_picture, picture8};
+pub(crate) use supersampling::{draw_anyhow, draw_rows};
+pub(crate) use target::{Target, Texel, clear, linear_picture, picture8};

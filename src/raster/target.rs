@@ -8,6 +8,8 @@ use crate::picture::{LinearPicture, Picture, Picture8};
 pub(crate) trait Texel: Copy {
     /// A drawn colour: clamped to 0..=1, opaque.
     fn drawn(rgb: [f32; 3]) -> Self;
+    /// A pixel that is partly covered: colour and alpha, all in 0..=1.
+    fn mixed(texel: [f32; 4]) -> Self;
     /// The background: clamped to 0..=1, transparent.
     fn background(rgb: [f32; 3]) -> Self;
 }
@@ -16,6 +18,9 @@ impl Texel for [u8; 4] {
     #[inline(always)]
     fn drawn([r, g, b]: [f32; 3]) -> Self {
         [quantise(r), quantise(g), quantise(b), 255]
+    }
+    fn mixed(texel: [f32; 4]) -> Self {
+        texel.map(quantise)
     }
     fn background(rgb: [f32; 3]) -> Self {
         let [r, g, b, _] = Self::drawn(rgb);
@@ -28,6 +33,9 @@ impl Texel for [f32; 4] {
     fn drawn([r, g, b]: [f32; 3]) -> Self {
         let clamp = |c: f32| c.clamp(0.0, 1.0);
         [clamp(r), clamp(g), clamp(b), 1.0]
+    }
+    fn mixed(texel: [f32; 4]) -> Self {
+        texel
     }
     fn background(rgb: [f32; 3]) -> Self {
         let [r, g, b, _] = Self::drawn(rgb);
@@ -52,15 +60,20 @@ impl<T: Texel> Target for Picture<T> {
 
 /// An empty stored picture for `frame`: its background, alpha 0.
 pub(crate) fn picture8(frame: &Frame) -> Picture8 {
-    Picture::new(frame.width(), frame.height(), Texel::background(frame.background()))
+    Picture::new(frame.picture_width(), frame.picture_height(), Texel::background(frame.background()))
 }
 
 /// An empty linear picture for `frame`: its background, alpha 0.
 pub(crate) fn linear_picture(frame: &Frame) -> LinearPicture {
+    Picture::new(frame.picture_width(), frame.picture_height(), Texel::background(frame.background()))
+}
+
+/// As [`linear_picture`], with a texel for each sample.
+pub(crate) fn linear_samples(frame: &Frame) -> LinearPicture {
     Picture::new(frame.width(), frame.height(), Texel::background(frame.background()))
 }
 
-/// Empties a stored picture of the frame's size.
+/// Empties a stored picture of the size of the frame's picture.
 pub(crate) fn clear(frame: &Frame, picture: &mut Picture8) {
     picture.texels_mut().fill(Texel::background(frame.background()));
 }

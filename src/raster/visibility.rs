@@ -67,13 +67,10 @@ impl VisibleLine {
         let line = self.depth[pixels.clone()].iter_mut().zip(&mut self.seen[pixels]);
         let rule = self.rule;
         // The usual way has a loop of its own, in which nothing is left to be asked.
-        match (rule.hides(), rule.is_plain()) {
-            (true, true) => walk(&span, line, number, |q, depth| (q < depth).then_some(q)),
-            (true, false) => walk(&span, line, number, |q, depth| {
-                let kept = rule.kept(rule.at(q));
-                (kept < depth).then_some(kept)
-            }),
-            (false, _) => walk(&span, line, number, |q, _| Some(q)),
+        if rule.hides() && rule.is_plain() {
+            walk(&span, line, number, |q, depth| (q < depth).then_some(q));
+        } else {
+            walk(&span, line, number, |q, depth| rule.seen(q, depth));
         }
         self.spans.push(span);
     }

@@ -74,13 +74,14 @@ impl Model {
 /// A picture of the reference, and what it knows of each pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferencePicture {
-    /// Linear red, green, blue in 0..=1; alpha is 1 where a polygon is seen. Elsewhere the background, with alpha 0.
+    /// Linear red, green, blue in 0..=1; alpha is 1 where a polygon is seen. Elsewhere the background, with alpha 0. Of a
+    /// frame with several samples a pixel each is seen and shaded on its own, and this is their mean.
     pub picture: Picture<[f64; 4]>,
-    /// See [`Visibility::polygons`].
+    /// See [`Visibility::polygons`]; of each sample.
     pub polygons: Picture<u32>,
-    /// See [`Visibility::depth`].
+    /// See [`Visibility::depth`]; of each sample.
     pub depth: Picture<f64>,
-    /// See [`Visibility::depth_gap`].
+    /// See [`Visibility::depth_gap`]; of each sample.
     pub depth_gap: Picture<f64>,
 }
 
@@ -94,6 +95,21 @@ impl ReferencePicture {
     pub fn to_picture8(&self) -> Picture8 {
         self.picture.map(|texel| texel.map(|c| libm::round(255.0 * c) as u8))
     }
+}
+
+/// The mean of each `side` × `side` texels, alpha too: a texel that nothing covers has the background's colour.
+fn filtered(samples: &Picture<[f64; 4]>, side: usize) -> Picture<[f64; 4]> {
+    let mut picture = Picture::new(samples.width() / side, samples.height() / side, [0.0; 4]);
+    for y in 0..picture.height() {
+        for (x, texel) in picture.row_mut(y).iter_mut().enumerate() {
+            let rows = (y * side..(y + 1) * side).map(|row| &samples.row(row)[x * side..(x + 1) * side]);
+            for sample in rows.flatten() {
+                *texel = core::array::from_fn(|c| texel[c] + sample[c]);
+            }
+            *texel = texel.map(|sum| sum / (side * side) as f64);
+        }
+    }
+    picture
 }
 
 /// The picture of `frame` under `model`.
@@ -125,7 +141,7 @@ pub fn shade(frame: &Frame, visibility: &Visibility, model: Model) -> ReferenceP
         }
     }
     ReferencePicture {
-        picture,
+        picture: if frame.samples() == 1 { picture } else { filtered(&picture, frame.samples()) },
         polygons: visibility.polygons.clone(),
         depth: visibility.depth.clone(),
         depth_gap: visibility.depth_gap.clone(),

@@ -3,9 +3,9 @@
 use super::coverage::{Scanline, Weights, bounding_box};
 use crate::frame::{DepthRange, Frame};
 use crate::picture::Picture;
-use crate::scene::{DepthBuffer, DepthSource, HiddenSurfaces};
+use crate::scene::{Clipping, DepthBuffer, DepthSource, HiddenSurfaces};
 
-/// What is seen at each pixel of a frame, whatever its shading.
+/// What is seen at each sample of a frame, whatever its shading: at each pixel, but where it has several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visibility {
     /// The polygon seen: its place in [`Frame::polygons`], [`Visibility::NONE`] where there is none.
@@ -89,7 +89,11 @@ pub fn visibility(frame: &Frame) -> Visibility {
             scanline.cut(corners, y);
             for x in columns.clone() {
                 if let Some(weights) = scanline.weights(x) {
-                    visibility.add((x, y), number, kept(frame, depth(frame, &weights)), frame.depth_test());
+                    let z = depth(frame, &weights);
+                    if frame.clipping() == Clipping::NdcCube && !(0.0..=1.0).contains(&z) {
+                        continue;
+                    }
+                    visibility.add((x, y), number, kept(frame, z), frame.depth_test());
                 }
             }
         }

@@ -23,7 +23,7 @@ pub(super) fn plot(plot: &Plot) -> String {
     let top = legend.height() + 8.0;
     let points =
         || plot.series.iter().flat_map(|series| &series.points).filter(|(x, y)| x.is_finite() && y.is_finite());
-    let x = Extent::over(points().map(|p| p.0), plot.x.1, [64.0, WIDTH - 16.0]);
+    let x = Extent::over(points().map(|p| p.0), plot.x.1, [64.0, WIDTH - 22.0]);
     let y = Extent::over(points().map(|p| p.1), plot.y.1, [top + HEIGHT - 44.0, top]);
     let ([left, right], [bottom, top]) = (x.place, y.place);
     let mut svg = open("curves", &plot.title, bottom + 44.0);

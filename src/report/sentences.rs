@@ -176,6 +176,7 @@ pub(super) fn facts(section: &Section) -> String {
         (d.stats.zero_area, "without area"),
         (d.stats.culled, "seen from the culled side"),
         (d.stats.outside, "outside the view"),
+        (d.stats.unprojected, "with a corner at the plane of the eye"),
     ];
     let left_out: Vec<String> =
         left_out.iter().filter(|(n, _)| *n > 0).map(|(n, why)| format!("{} {why}", grouped(*n))).collect();

@@ -21,7 +21,7 @@ fn compared(mesh: &str, name: &str) -> (Comparison, Section) {
         compare(&Input { name: name.into(), frame: &frame }, &variants, &Options { timing: None }, &mut |_, _| {});
     let triangles = triangulation(&frame, &comparison.reference);
     let caption = Caption { title: name.to_owned(), description: format!("What {name} tests.") };
-    let section = Section::new(caption, &comparison, triangles.as_ref()).unwrap();
+    let section = Section::new(caption, &comparison, triangles.as_ref(), Detail::Full).unwrap();
     (comparison, section)
 }
 
@@ -328,7 +328,7 @@ fn a_report_of_nothing_and_of_an_empty_frame_is_a_page() {
         &Options { timing: None },
         &mut |_, _| {},
     );
-    let section = Section::new(Caption::default(), &comparison, None).unwrap();
+    let section = Section::new(Caption::default(), &comparison, None, Detail::Full).unwrap();
     let html = report(vec![section.clone()]).html();
     assert_balanced(&html);
     assert!(html.contains("equal to the reference"));

@@ -2,7 +2,7 @@
 
 use super::diagnostics::{SceneError, SourceText};
 use super::value::{Located, OneOrThree, Origin};
-use super::{DepthBits, MAX_COORDINATE, Scene};
+use super::{MAX_COORDINATE, Scene};
 use crate::lighting::Rgb;
 use glam::DVec3;
 use std::format;
@@ -26,6 +26,11 @@ impl<'a> Check<'a> {
             Origin::File(_) | Origin::Program => key,
         };
         SceneError::new(self.source.clone(), origin.clone(), format!("`{name}` {problem}"), expected)
+    }
+
+    /// An error about what no single value says; it points at `origin`.
+    pub fn error_at(&self, origin: &Origin, problem: &str, expected: &str) -> SceneError {
+        SceneError::new(self.source.clone(), origin.clone(), problem, expected)
     }
 
     /// An error about the scene as a whole.
@@ -127,18 +132,6 @@ impl<'a> Check<'a> {
                 let expected = format!("expected 1 to {}", Scene::MAX_SIDE);
                 Err(self.error(&given.origin, key, &format!("is {}", given.value), expected))
             }
-        }
-    }
-}
-
-impl Check<'_> {
-    /// The bits of the depth buffer.
-    pub fn depth_bits(&self, given: &Located<i64>) -> Result<DepthBits, SceneError> {
-        match given.value {
-            16 => Ok(DepthBits::Sixteen),
-            24 => Ok(DepthBits::TwentyFour),
-            32 => Ok(DepthBits::ThirtyTwo),
-            bits => Err(self.error(&given.origin, "depth_bits", &format!("is {bits}"), "expected 16, 24 or 32")),
         }
     }
 }

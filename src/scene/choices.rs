@@ -1,6 +1,6 @@
 //! The words of scene files that stand for choices.
 
-use super::hidden_surfaces::{DepthSource, PainterKey};
+use super::hidden_surfaces::{Clipping, DepthSource, PainterKey};
 use super::value::Choice;
 use super::{Culling, Encoding, Interpolation};
 
@@ -38,6 +38,7 @@ words! {
     NormalChoice { "averaged" => Averaged, "given" => Given }
     VisibilityChoice { "z-buffer" => ZBuffer, "painter" => Painter, "draw-order" => DrawOrder }
     PainterKey { "mean" => Mean, "farthest" => Farthest }
+    Clipping { "planes" => Planes, "ndc-cube" => NdcCube }
     DepthSource { "interpolated" => Interpolated, "per-sample" => PerSample }
     Interpolation { "screen" => Screen, "perspective" => Perspective }
     Culling { "back" => Back, "front" => Front, "none" => None }

@@ -7,7 +7,7 @@ pub use super::choices::{NormalChoice, VisibilityChoice};
 pub use super::lights::{FalloffChoice, LightSection, ViewerChoice};
 
 use super::diagnostics::{SceneError, SourceText};
-use super::hidden_surfaces::{DepthSource, PainterKey};
+use super::hidden_surfaces::{Clipping, DepthSource, PainterKey};
 use super::value::{Located, OneOrThree, Origin, shortest};
 use super::{Culling, Encoding, Interpolation, Scene};
 use crate::lighting::{Material, SpecularGate, SpecularModel};
@@ -68,6 +68,12 @@ pub struct SceneFile {
     /// By what the painter sorts: `"mean"` (default) or `"farthest"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub painter_key: Option<Located<PainterKey>>,
+    /// What keeps polygons within the view: `"planes"` (default) or `"ndc-cube"`, CS171's test of each pixel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clipping: Option<Located<Clipping>>,
+    /// Whether polygons seen from behind are lit with negated normals. Default: false.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub two_sided: Option<Located<bool>>,
     /// Size and encoding of the picture.
     #[serde(default, skip_serializing_if = "ImageSection::is_empty")]
     pub image: ImageSection,
@@ -136,6 +142,8 @@ section! {
         background: OneOrThree,
         /// How values are stored in eight bits: `"linear"` (default) or `"srgb"`.
         encoding: Encoding,
+        /// Samples a pixel along each side: 1 (default), 2, 4 or 8.
+        samples: i64,
     }
 }
 

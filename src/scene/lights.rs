@@ -2,15 +2,20 @@
 
 use super::check::Check;
 use super::diagnostics::SceneError;
-use super::value::{Choice, Located, OneOrThree};
+use super::value::{Choice, Located, OneOrThree, Origin};
 use crate::lighting::{Falloff, Light, Place, SpecularGate, SpecularModel};
 use glam::DVec3;
+use serde::de::{Deserialize, Deserializer};
+use serde::ser::{Serialize, Serializer};
 use std::format;
 
 /// `[[light]]`: a light at infinity (`direction`) or at a place (`position`).
 #[derive(Clone, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, remote = "Self")]
 pub struct LightSection {
+    /// The table itself: where its header stands.
+    #[serde(skip)]
+    pub table: Located<()>,
     /// Toward the light, in world space; any length but 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<Located<[f64; 3]>>,
@@ -31,6 +36,26 @@ pub struct LightSection {
     pub falloff: Option<Located<FalloffChoice>>,
 }
 
+impl<'de> Deserialize<'de> for LightSection {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Keys(LightSection);
+        impl<'de> Deserialize<'de> for Keys {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                LightSection::deserialize(deserializer).map(Keys)
+            }
+        }
+        let table = toml::Spanned::<Keys>::deserialize(deserializer)?;
+        let origin = Origin::File(table.span());
+        Ok(LightSection { table: Located { value: (), origin }, ..table.into_inner().0 })
+    }
+}
+
+impl Serialize for LightSection {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        LightSection::serialize(self, serializer)
+    }
+}
+
 impl LightSection {
     /// A white light of intensity 1 at infinity.
     pub fn toward(direction: impl Into<Located<[f64; 3]>>) -> Self {
@@ -42,8 +67,8 @@ impl LightSection {
         LightSection { position: Some(position.into()), ..LightSection::default() }
     }
 
-    /// The light that this describes.
-    pub(super) fn resolve(&self, check: &Check) -> Result<Light, SceneError> {
+    /// The light that this describes, light number `number` of the scene, from 1.
+    pub(super) fn resolve(&self, number: usize, check: &Check) -> Result<Light, SceneError> {
         let place = match (&self.direction, &self.position) {
             (Some(direction), None) => Place::Infinite(check.direction(direction, "light.direction")?),
             (None, Some(position)) => Place::Local(check.point(position, "light.position")?),
@@ -53,8 +78,8 @@ impl LightSection {
                 return Err(check.conflict("light.position", at, "light.direction", other, why));
             }
             (None, None) => {
-                let expected = "expected `direction` or `position` in every [[light]]";
-                return Err(check.scene_error("a light is nowhere", expected));
+                let problem = format!("light number {number} has neither `direction` nor `position`");
+                return Err(check.error_at(&self.table.origin, &problem, "expected one of them in every [[light]]"));
             }
         };
         Ok(Light { place, colour: self.resolve_colour(check)?, falloff: self.resolve_falloff(check)? })

@@ -20,8 +20,10 @@ pub mod resolve;
 pub mod value;
 #[cfg(feature = "io")]
 mod viewpoint;
+#[cfg(feature = "io")]
+mod visibility;
 
-pub use hidden_surfaces::{DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey};
+pub use hidden_surfaces::{Clipping, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey};
 
 use crate::camera::Camera;
 use crate::lighting::{Light, Material, Rgb, SpecularGate, SpecularModel};
@@ -113,6 +115,13 @@ pub struct Scene {
     pub culling: Culling,
     /// How polygons that are hidden by others are kept out of the picture.
     pub hidden_surfaces: HiddenSurfaces,
+    /// What keeps polygons within the view.
+    pub clipping: Clipping,
+    /// Whether polygons seen from behind, their corners clockwise on the screen, are lit with negated normals.
+    pub two_sided: bool,
+    /// Samples a pixel along each side, 1, 2, 4 or 8: `samples`² of them are hidden, lit and shaded each on its own, and
+    /// their mean in linear light is the pixel. `samples` times a side is at most [`Scene::MAX_SIDE`].
+    pub samples: u32,
     /// How values are stored in eight bits.
     pub encoding: Encoding,
     /// What is drawn, in this order.
@@ -137,6 +146,9 @@ impl Scene {
             interpolation: Interpolation::Screen,
             culling: Culling::Back,
             hidden_surfaces: HiddenSurfaces::default(),
+            clipping: Clipping::Planes,
+            two_sided: false,
+            samples: 1,
             encoding: Encoding::Linear,
             objects: Vec::new(),
         }

@@ -22,6 +22,8 @@ impl SceneFile {
             visibility: over.visibility.or(below.visibility),
             depth_bits: over.depth_bits.or(below.depth_bits),
             depth: over.depth.or(below.depth),
+            clipping: over.clipping.or(below.clipping),
+            two_sided: over.two_sided.or(below.two_sided),
             painter_key: over.painter_key.or(below.painter_key),
             image: over.image.or(&below.image),
             camera: below.camera.overlay(over.camera),

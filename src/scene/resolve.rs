@@ -2,12 +2,10 @@
 
 use super::check::{Check, is_coordinate, is_position};
 use super::diagnostics::SceneError;
-use super::file::{
-    LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice, VisibilityChoice,
-};
-use super::value::{Choice, Located, OneOrThree, Origin};
+use super::file::{LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice};
+use super::value::{Located, OneOrThree, Origin};
 use super::viewpoint::Viewpoint;
-use super::{DepthBuffer, HiddenSurfaces, MAX_COORDINATE, Object, Scene};
+use super::{MAX_COORDINATE, Object, Scene};
 use crate::lighting::{Light, Material, Rgb};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{MeshBuilder, PolygonMesh};
@@ -54,6 +52,8 @@ impl SceneFile {
         let ambient = channels(&check, &self.ambient, "ambient", f64::INFINITY, [1.0; 3])?;
         let lights = self.lights(&check)?;
         let viewpoint = Viewpoint::new(&self.camera, &check)?;
+        let samples = self.samples([width, height], &check)?;
+        let clipping = self.clipping(&check)?;
         let mut warnings = Vec::new();
         let hidden_surfaces = self.hidden_surfaces(&check, &mut warnings)?;
         let objects = self.objects(&check, load_mesh, &mut warnings)?;
@@ -78,48 +78,24 @@ impl SceneFile {
             interpolation: self.interpolation.as_ref().map_or_else(Default::default, |given| given.value),
             culling: self.cull.as_ref().map_or_else(Default::default, |given| given.value),
             hidden_surfaces,
+            clipping,
+            two_sided: self.two_sided.as_ref().is_some_and(|given| given.value),
+            samples,
             encoding: self.image.encoding.as_ref().map_or_else(Default::default, |given| given.value),
             objects,
         };
         Ok(Resolved { scene, warnings })
     }
 
-    /// How hidden surfaces are found; a key that means nothing under the way chosen is worth a warning.
-    fn hidden_surfaces(&self, check: &Check, warnings: &mut Vec<String>) -> Result<HiddenSurfaces, SceneError> {
-        let bits = self.depth_bits.as_ref().map_or(Ok(Default::default()), |given| check.depth_bits(given))?;
-        let source = self.depth.as_ref().map_or_else(Default::default, |given| given.value);
-        let key = self.painter_key.as_ref().map_or_else(Default::default, |given| given.value);
-        let choice = self.visibility.as_ref().map_or(VisibilityChoice::ZBuffer, |given| given.value);
-        let has_z_buffer = choice == VisibilityChoice::ZBuffer;
-        let idle = [
-            ("depth_bits", self.depth_bits.is_some() && !has_z_buffer, VisibilityChoice::ZBuffer),
-            ("depth", self.depth.is_some() && !has_z_buffer, VisibilityChoice::ZBuffer),
-            (
-                "painter_key",
-                self.painter_key.is_some() && choice != VisibilityChoice::Painter,
-                VisibilityChoice::Painter,
-            ),
-        ];
-        for (key, _, needs) in idle.into_iter().filter(|(_, is_idle, _)| *is_idle) {
-            warnings.push(format!("`{key}` means nothing without visibility = \"{}\"", needs.word()));
-        }
-        Ok(match choice {
-            VisibilityChoice::ZBuffer => HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }),
-            VisibilityChoice::Painter => HiddenSurfaces::Painter(key),
-            VisibilityChoice::DrawOrder => HiddenSurfaces::DrawOrder,
-        })
-    }
-
     fn lights(&self, check: &Check) -> Result<Vec<Light>, SceneError> {
         let default = [LightSection::toward(Self::DEFAULT_LIGHT)];
         let sections = self.light.as_deref().unwrap_or(&default);
         if let Some(over) = sections.get(Scene::MAX_LIGHTS) {
-            let problem = format!("is of light number {}", Scene::MAX_LIGHTS + 1);
+            let problem = format!("light number {} is one too many", Scene::MAX_LIGHTS + 1);
             let expected = format!("expected {} lights at most", Scene::MAX_LIGHTS);
-            let at = over.direction.as_ref().or(over.position.as_ref()).map(|given| &given.origin);
-            return Err(check.error(at.unwrap_or(&Origin::Program), "light", &problem, expected));
+            return Err(check.error_at(&over.table.origin, &problem, &expected));
         }
-        sections.iter().map(|section| section.resolve(check)).collect()
+        (1..).zip(sections).map(|(number, section)| section.resolve(number, check)).collect()
     }
 
     fn objects(

@@ -21,7 +21,7 @@ pub enum Origin {
 }
 
 /// A value and where it was given. Two of them are equal when their values are.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Located<T> {
     /// The value, not yet checked.
     pub value: T,

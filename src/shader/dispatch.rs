@@ -12,12 +12,12 @@ pub(super) trait Job {
     fn run<S: Shader>(self) -> Self::Out;
 }
 
-/// Does `job` with the method's shader for at least `lights` lights: one to four, then 8, then 64.
+/// Does `job` with the method's shader for at least as many lights as `frame` has: 1, 2, 4, 8 or 64.
 ///
 /// A shader for more lights than there are treats the others as dark, which costs time and changes no picture.
 ///
-/// Where something is at a position, the square roots of each light are most of a pixel, and there are shaders for one,
-/// two, four and 64 only: three families of five more sizes would make the program half as large again.
+/// Where something is at a position there are 1, 4 and 64 only: every size more is compiled for all methods and engines,
+/// and takes as long again.
 pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
     let lights = frame.light_count();
     macro_rules! by_lights {
@@ -25,8 +25,7 @@ pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
             match lights {
                 0 | 1 => job.run::<D::$shader<1>>(),
                 2 => job.run::<D::$shader<2>>(),
-                3 => job.run::<D::$shader<3>>(),
-                4 => job.run::<D::$shader<4>>(),
+                3 | 4 => job.run::<D::$shader<4>>(),
                 5..=8 => job.run::<D::$shader<8>>(),
                 _ => job.run::<D::$shader<{ Scene::MAX_LIGHTS }>>(),
             }
@@ -36,8 +35,7 @@ pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
         ($shader:ident) => {
             match lights {
                 0 | 1 => job.run::<D::$shader<1>>(),
-                2 => job.run::<D::$shader<2>>(),
-                3..=4 => job.run::<D::$shader<4>>(),
+                2..=4 => job.run::<D::$shader<4>>(),
                 _ => job.run::<D::$shader<{ Scene::MAX_LIGHTS }>>(),
             }
         };
@@ -50,17 +48,23 @@ pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
     }
 }
 
-/// Does `job` with the method's shader for one light or for four, two as well where they are at positions: for
-/// measurements of spans and counts of operations, which need no picture, every further number of lights would only be
-/// code.
-pub(super) fn dispatch_sample<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
+/// Does `job` with the method's shader for one light or for four, where something is at a position for one or for two, in
+/// space for one: for counts of operations, which need no picture; every further number of lights would only be code.
+pub(super) fn dispatch_counts<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
     match (frame.is_local(), frame.interpolation(), frame.light_count()) {
         (false, _, 0 | 1) => job.run::<D::Screen<1>>(),
         (false, _, _) => job.run::<D::Screen<4>>(),
         (true, Interpolation::Screen, 0 | 1) => job.run::<D::Local<1>>(),
-        (true, Interpolation::Screen, 2) => job.run::<D::Local<2>>(),
-        (true, Interpolation::Screen, _) => job.run::<D::Local<4>>(),
-        (true, Interpolation::Perspective, 0 | 1) => job.run::<D::LocalPerspective<1>>(),
-        (true, Interpolation::Perspective, _) => job.run::<D::LocalPerspective<4>>(),
+        (true, Interpolation::Screen, _) => job.run::<D::Local<2>>(),
+        (true, Interpolation::Perspective, _) => job.run::<D::LocalPerspective<1>>(),
+    }
+}
+
+/// The same for measurements of spans: for one light or for four at infinity, for four at positions.
+pub(super) fn dispatch_span<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
+    match (frame.is_local(), frame.light_count()) {
+        (false, 0 | 1) => job.run::<D::Screen<1>>(),
+        (false, _) => job.run::<D::Screen<4>>(),
+        (true, _) => job.run::<D::LocalPerspective<4>>(),
     }
 }

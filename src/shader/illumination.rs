@@ -62,24 +62,28 @@ pub struct Seen<N, const L: usize> {
 pub struct SeenScalars<N, const L: usize> {
     /// `L·V` of each light.
     pub light_view: [N; L],
-    /// `1 / |L + V|` of each light.
+    /// `1 / |L + V|` of each light, where highlights need it: see [`Illumination::needs_half`].
     pub half: [N; L],
     /// How strong each light is; `None` where none grows weaker with its distance.
     pub strength: Option<[N; L]>,
 }
 
 impl<N: Num, const L: usize> Seen<N, L> {
-    /// From unit vectors; `one` and `two` are these numbers.
+    /// From unit vectors, for highlights of `model`.
     #[inline(always)]
-    pub(super) fn new(light: [[N; 3]; L], view: [N; 3], strength: Option<[N; L]>, one: N, two: N) -> Self {
+    pub(super) fn new(light: [[N; 3]; L], view: [N; 3], strength: Option<[N; L]>, model: &Illumination<N, L>) -> Self {
+        let (one, two) = (model.one, model.two);
         let light_view: [N; L] = each(
             #[inline(always)]
             |i| dot(light[i], view),
         );
-        let half = each(
-            #[inline(always)]
-            |i| one / (two + two * light_view[i]).sqrt(), // |l + v|² = 2 + 2 l·v for unit vectors
-        );
+        let half = match model.needs_half() {
+            true => each(
+                #[inline(always)]
+                |i| one / (two + two * light_view[i]).sqrt(), // |l + v|² = 2 + 2 l·v for unit vectors
+            ),
+            false => [one; L],
+        };
         Seen { light, view, scalars: SeenScalars { light_view, half, strength } }
     }
 
@@ -209,6 +213,12 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         &self.far
     }
 
+    /// Whether highlights need `1 / |L + V|`: those of N·H do. A root and a quotient a light are not computed in vain.
+    #[inline(always)]
+    pub fn needs_half(&self) -> bool {
+        self.model == SpecularModel::Blinn
+    }
+
     /// The number 1.
     #[inline(always)]
     pub fn one(&self) -> N {
@@ -288,13 +298,14 @@ impl<N: Num, const L: usize> Illumination<N, L> {
     /// prints it; not yet clamped.
     #[inline(always)]
     pub fn lit(&self, n: [N; 3], seen: &Seen<N, L>) -> [N; 3] {
+        let cosines = seen.light_cosines(n);
         self.colour(
             #[inline(always)]
-            |i| dot(seen.light[i], n),
+            |i| cosines[i],
             #[inline(always)]
             |i| {
                 let l = seen.light[i];
-                let twice = self.two * dot(l, n);
+                let twice = self.two * cosines[i];
                 let r = [twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]]; // R = 2 (L·N) N − L
                 dot(r, seen.view)
             },

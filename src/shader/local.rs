@@ -167,7 +167,7 @@ impl<N: Num, const L: usize> Local<N, L> {
     /// Light and viewer as the point at `position` sees them.
     #[inline(always)]
     pub fn seen_from(&self, position: [N; 3]) -> Seen<N, L> {
-        let (one, two) = (self.model.one(), self.model.two());
+        let one = self.model.one();
         let mut light = [position; L];
         let mut strength = [one; L];
         let mut i = 0;
@@ -180,7 +180,7 @@ impl<N: Num, const L: usize> Local<N, L> {
         }
         let v = self.toward_eye(position, None);
         let view = unit(v, one / dot(v, v).sqrt());
-        Seen::new(light, view, self.is_attenuated.then_some(strength), one, two)
+        Seen::new(light, view, self.is_attenuated.then_some(strength), &self.model)
     }
 }
 

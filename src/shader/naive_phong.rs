@@ -118,7 +118,7 @@ impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
     }
     #[inline(always)]
     fn shade<F: Num>(c: &LocalLight<F, L>, (n, p, inv_w): Self::Pixel<F>) -> [F; 3] {
-        let (one, two) = (c.model.one(), c.model.two());
+        let one = c.model.one();
         let unit = |v: [F; 3], square: F| {
             let r = one / square.sqrt();
             [v[0] * r, v[1] * r, v[2] * r]
@@ -136,7 +136,7 @@ impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
         );
         let v = c.toward_eye(p, inv_w);
         let strength = if c.is_attenuated() { Some(strength) } else { None };
-        let seen = Seen::new(light, unit(v, dot(v, v)), strength, one, two);
+        let seen = Seen::new(light, unit(v, dot(v, v)), strength, &c.model);
         c.model.lit(unit(n, dot(n, n)), &seen) // 2.1
     }
 }

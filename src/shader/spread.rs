@@ -10,7 +10,9 @@ use glam::DVec3;
 ///
 /// A polygon, whatever of it is seen, lies in the smallest ball around the middle of its corners that holds them. From
 /// points of a ball of radius ρ at the distance r a place is between r − ρ and r + ρ away, in directions within
-/// sin⁻¹(ρ/r) of that from its middle.
+/// sin⁻¹(ρ/r) of that from its middle. Nor is a place nearer than the least of its distances from the planes through the
+/// corners that are parallel to the polygon, if all are on one side of it: a linear function has its least value at a
+/// corner. So a light above the middle of a large polygon is as near as it is high.
 pub(super) struct Spread {
     /// The longest over the shortest, the coordinates that they are differences of counted as long: 1 or more.
     pub vectors: f64,
@@ -96,8 +98,10 @@ fn wide(v: [f32; 3]) -> DVec3 {
     DVec3::from_array(v.map(f64::from))
 }
 
-/// A ball that holds a polygon.
+/// A ball that holds a polygon, and its corners.
 struct Ball {
+    corners: Vec<DVec3>,
+    normal: DVec3,
     middle: DVec3,
     radius: f64,
     /// The largest distance of a corner from the origin: as long as what is subtracted.
@@ -124,10 +128,11 @@ impl Ball {
                 ends.push(b);
             }
         }
-        let points = || ends.iter().map(|&v| wide(frame.position(v)));
-        let middle = points().sum::<DVec3>() / ends.len() as f64;
-        let most = |of: &dyn Fn(DVec3) -> f64| points().map(of).fold(0.0, f64::max);
-        Ball { middle, radius: most(&|p| p.distance(middle)), reach: most(&|p| p.length()) }
+        let corners: Vec<DVec3> = ends.iter().map(|&v| wide(frame.position(v))).collect();
+        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+        let most = |of: &dyn Fn(DVec3) -> f64| corners.iter().map(|p| of(*p)).fold(0.0, f64::max);
+        let (radius, reach) = (most(&|p| p.distance(middle)), most(&|p| p.length()));
+        Ball { normal: wide(polygon.normal).normalize_or_zero(), middle, radius, reach, corners }
     }
 
     fn sees(&self, place: Place<[f32; 3]>) -> Sight {
@@ -140,7 +145,9 @@ impl Ball {
         let toward = position - self.middle;
         let far = toward.length();
         // Inside the ball no bound is known: the smallest distance that the methods tell from 0.
-        let nearest = (far - self.radius).max(1e-15);
+        let heights = || self.corners.iter().map(|p| (position - p).dot(self.normal));
+        let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        let nearest = (far - self.radius).max(low).max(-high).max(1e-15);
         let longest = (far + self.radius).max(position.length() + self.reach);
         let angle = libm::asin((self.radius / far.max(1e-15)).min(1.0));
         Sight { spread: longest / nearest, nearest, direction: toward.normalize_or_zero(), angle }

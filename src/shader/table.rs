@@ -7,10 +7,14 @@ use super::{
     DuffPhong, FastPhong, Flat, FlatAverage, Gouraud, GouraudSeparate, Info, Method, NaivePhong, Shader, SlerpPhong,
     SlerpPhongVector,
 };
+use crate::encoding::store;
 use crate::frame::Frame;
 use crate::number::Scalar;
+use crate::picture::Picture;
 use crate::picture::{LinearPicture, Picture8};
-use crate::raster::{Edges, Target, barycentric, clear, linear_picture, picture8, scanline};
+use crate::raster::{
+    Edges, Target, Texel, barycentric, clear, draw_anyhow, draw_rows, linear_picture, picture8, scanline,
+};
 use crate::scene::Encoding;
 use crate::suggest::nearest;
 use alloc::string::{String, ToString};
@@ -171,40 +175,53 @@ impl Variant {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn render(&self, frame: &Frame) -> Picture8 {
-        stored(frame, |target| (self.entry.draw)(frame, &self.parameters, target))
+        match frame.encoding() {
+            Encoding::Linear => self.rows(frame, picture8(frame)),
+            Encoding::Srgb => store(&self.render_linear(frame), Encoding::Srgb),
+        }
     }
 
-    /// Draws `frame` into `picture`, which is made anew unless it has the frame's size: for drawing many frames without
+    /// Draws `frame` into `picture`, which is made anew unless it has the size of the frame's picture: for drawing many frames without
     /// asking for memory each time.
     pub fn render_into(&self, frame: &Frame, picture: &mut Picture8) {
-        if (picture.width(), picture.height()) != (frame.width(), frame.height())
+        if (picture.width(), picture.height()) != (frame.picture_width(), frame.picture_height())
             || frame.encoding() != Encoding::Linear
         {
             *picture = self.render(frame);
             return;
         }
         clear(frame, picture);
-        (self.entry.draw)(frame, &self.parameters, picture);
+        draw_rows(frame, picture, |target| (self.entry.draw)(frame, &self.parameters, target));
     }
 
     /// Draws `frame` before rounding: linear channels, clamped to 0..=1.
     pub fn render_linear(&self, frame: &Frame) -> LinearPicture {
-        let mut picture = linear_picture(frame);
-        (self.entry.draw)(frame, &self.parameters, &mut picture);
+        self.rows(frame, linear_picture(frame))
+    }
+
+    /// Draws `frame` over an empty picture. Pictures are stored line by line as they are drawn.
+    fn rows<T: Texel>(&self, frame: &Frame, mut picture: Picture<T>) -> Picture<T> {
+        draw_rows(frame, &mut picture, |target| (self.entry.draw)(frame, &self.parameters, target));
         picture
     }
 
     /// Draws the triangles of `frame` with the barycentric renderer; `None` when it does not have this method.
     pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
-        let draw = self.entry.draw_barycentric?;
-        Some(stored(frame, |target| draw(frame, &self.parameters, edges, target)))
+        match frame.encoding() {
+            Encoding::Linear => self.triangles(frame, edges, picture8(frame)),
+            Encoding::Srgb => Some(store(&self.render_barycentric_linear(frame, edges)?, Encoding::Srgb)),
+        }
     }
 
     /// As [`Variant::render_barycentric`], before rounding.
     pub fn render_barycentric_linear(&self, frame: &Frame, edges: Edges) -> Option<LinearPicture> {
+        self.triangles(frame, edges, linear_picture(frame))
+    }
+
+    /// Draws the triangles of `frame` over an empty picture.
+    fn triangles<T: Texel>(&self, frame: &Frame, edges: Edges, mut picture: Picture<T>) -> Option<Picture<T>> {
         let draw = self.entry.draw_barycentric?;
-        let mut picture = linear_picture(frame);
-        draw(frame, &self.parameters, edges, &mut picture);
+        draw_anyhow(frame, &mut picture, |target| draw(frame, &self.parameters, edges, target));
         Some(picture)
     }
 
@@ -222,23 +239,6 @@ impl Variant {
     /// Shades one span into `out`: the set-up and as many pixels as `out` has.
     pub fn shade_span(&self, bench: &SpanBench, out: &mut [[f32; 3]]) {
         (self.entry.span)(&self.parameters, bench, out);
-    }
-}
-
-/// A stored picture, in the frame's encoding. Pictures without a transfer function are stored line by line as they are
-/// drawn; others are drawn in full precision first.
-fn stored(frame: &Frame, draw: impl FnOnce(&mut dyn Target)) -> Picture8 {
-    match frame.encoding() {
-        Encoding::Linear => {
-            let mut picture = picture8(frame);
-            draw(&mut picture);
-            picture
-        }
-        Encoding::Srgb => {
-            let mut picture = linear_picture(frame);
-            draw(&mut picture);
-            crate::encoding::store(&picture, Encoding::Srgb)
-        }
     }
 }
 

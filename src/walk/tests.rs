@@ -106,6 +106,96 @@ fn linear_follows_the_line() {
     }
 }
 
+/// A vector along a span: where it starts, and its step a pixel.
+type Line = ([f32; 3], [f32; 3]);
+
+/// The values of the dot product of `a` and `b` on both machines, what they should be, and what they may be off by.
+fn products(a: Line, b: Line, pixels: usize) -> [Vec<(f64, f64, f64)>; 2] {
+    let long = |v: [f32; 3]| v.map(f64::from);
+    let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f64>();
+    let length = |v: [f32; 3]| dot(long(v), long(v)).sqrt();
+    let at = |line: Line, k: f64| -> [f64; 3] { core::array::from_fn(|i| long(line.0)[i] + k * long(line.1)[i]) };
+    let truth: Vec<f64> = (0..=pixels).map(|k| dot(at(a, k as f64), at(b, k as f64))).collect();
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most, v| f64::max(most, v.abs()));
+    let most = largest(&mut truth.iter().copied());
+    let most_step = largest(&mut truth.windows(2).map(|pair| pair[1] - pair[0]));
+    let (cross, second) = (length(a.0) * length(b.1) + length(a.1) * length(b.0), 2.0 * length(a.1) * length(b.1));
+    // In half units: a dot product of three terms has three roundings of at most the product of the lengths, the first
+    // difference is two of them and at most three operations more, the second difference one. Each step then rounds the
+    // difference once and Q once, and Q gathers what its differences are off by.
+    let bound = |k: f64| {
+        let starts = 4.0 * length(a.0) * length(b.0) + 8.0 * k * cross + k * k / 2.0 * 8.0 * second;
+        HALF_ULP * (starts + (k + 2.0) * most + k * k / 2.0 * most_step)
+    };
+    let checked = |values: Vec<f64>| {
+        values.into_iter().zip(&truth).enumerate().map(|(k, (v, t))| (v, *t, bound(k as f64))).collect()
+    };
+    [
+        checked(scalar(Quadratic::product(Scalar, a.0, a.1, b.0, b.1), pixels)),
+        checked(wide(Quadratic::product(FourWide, a.0, a.1, b.0, b.1), pixels)),
+    ]
+}
+
+/// The line from `a` to `b` over `pixels` steps.
+fn line(a: [f32; 3], b: [f32; 3], pixels: usize) -> Line {
+    (a, core::array::from_fn(|i| (b[i] - a[i]) / pixels as f32))
+}
+
+/// Dot products of vectors that grow linearly, by additions only: normals, vectors to lights, both, over 1024 pixels.
+#[test]
+fn quadratic_follows_the_parabola() {
+    const PIXELS: usize = 1024;
+    let mut random = Random::new(11);
+    let mut tightest = 0.0f64;
+    for i in 0..100 {
+        let mut vector = |length: f32| random.unit().map(|x| x * length);
+        // Normals of length 1, vectors to a light some ten times as long, and one that stays as it is.
+        let n = line(vector(1.0), vector(1.0), PIXELS);
+        let l = line(vector(10.0), vector(13.0), PIXELS);
+        let still = (vector(1.0), [0.0; 3]);
+        for (a, b) in [(n, n), (l, l), (n, l), (n, still), (still, still)] {
+            for values in products(a, b, PIXELS) {
+                assert_eq!(values.len(), PIXELS);
+                for (k, (value, truth, bound)) in values.into_iter().enumerate() {
+                    let error = (value - truth).abs();
+                    assert!(error <= bound, "{i} at {k}: {value} is not {truth} within {bound:.1e}");
+                    tightest = tightest.max(error / bound);
+                }
+            }
+        }
+    }
+    assert!(tightest > 0.05, "the bound is twenty times the largest error: {tightest}");
+}
+
+/// What the documentation of [`Quadratic`] says of its drift: at most 3 k 2⁻²⁴ of its largest value, on normals that turn
+/// by up to 150 degrees, beside the roundings of its start.
+#[test]
+fn quadratic_drifts_by_three_roundings_a_step() {
+    for pixels in [64, 256, 1024] {
+        for degrees in [5.0f32, 30.0, 90.0, 150.0] {
+            let (sin, cos) = (degrees / 2.0).to_radians().sin_cos();
+            let n = line([-sin, 0.0, cos], [sin, 0.0, cos], pixels);
+            let values = products(n, n, pixels);
+            for (k, &(value, truth, _)) in values.iter().flat_map(|values| values.iter().enumerate()) {
+                let k = k as f64;
+                // The start: q by three roundings, and ΔQ by four of |ΔQ| ≤ 4 / n, k times.
+                let bound = HALF_ULP * (3.0 * k + 4.0 + 4.0 * k * 4.0 / pixels as f64);
+                assert!((value - truth).abs() <= bound, "{degrees} over {pixels} at {k}: {value} is not {truth}");
+            }
+        }
+    }
+}
+
+/// A square is the product of a vector with itself; where that vanishes inside a span, it touches zero and returns.
+#[test]
+fn quadratic_of_a_normal_that_vanishes() {
+    let (a, step) = ([-1.0f32, 0.0, 0.0], [1.0 / 32.0, 0.0, 0.0]);
+    let square = scalar(Quadratic::square(Scalar, a, step), 65);
+    assert_eq!((square[0], square[32], square[64]), (1.0, 0.0, 1.0));
+    assert_eq!(square, scalar(Quadratic::product(Scalar, a, step, a, step), 65));
+    assert_eq!(wide(Quadratic::square(FourWide, a, step), 64), square[..64]);
+}
+
 #[test]
 fn sines_follow_the_circle() {
     for degrees in [1.0f32, 10.0, 45.0, 90.0, 178.0] {

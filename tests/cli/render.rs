@@ -70,7 +70,7 @@ fn engines_agree_and_say_what_they_do() {
         assert_eq!(folder.read(name), folder.read("a.png"), "{name}");
     }
     let refused = |method: &str| folder.run(&format!("render {SPHERE} -m {method} --engine barycentric -o out.png"));
-    let has = "expected one of flat, gouraud, naive-phong";
+    let has = "expected one of flat, flat-average, gouraud, gouraud-separate, naive-phong";
     refused("fast-phong").refused(&["the barycentric renderer does not have `fast-phong`", has]);
     refused("reference").refused(&["the barycentric renderer does not have `reference`", has]);
 }
@@ -142,12 +142,31 @@ fn flags_change_the_picture() {
     ] {
         assert!(sphere(flags) != plain, "{flags}");
     }
+    // What each changes about a light at a place that shines on the back of the sphere, too.
+    let near = "--fovy 40 --light-at 2,1,-0.5 --light-at 1,2,3,0.5";
+    let lit = sphere(near);
+    assert!(lit != sphere("--fovy 40 --light 2,1,-0.5 --light 1,2,3,0.5"));
+    for same in ["--attenuation 0", "--viewer infinite", "--specular phong", "--specular-gate gated"] {
+        assert!(sphere(&format!("{near} {same}")) == lit, "{same}");
+    }
+    for flags in [
+        "--attenuation 0.2",
+        "--viewer local",
+        "--specular blinn",
+        "--shininess-for blinn",
+        "--specular-gate ungated --shininess 2",
+        "--specular-gate weighted",
+    ] {
+        assert!(sphere(&format!("{near} {flags}")) != lit, "{flags}");
+    }
     let cut = |flags: &str| rendered(&format!("interpenetration {flags}"));
     for flags in ["--visibility draw-order", "--visibility painter"] {
         assert!(cut(flags) != cut(""), "{flags}");
     }
     assert!(cut("--visibility painter --painter-key farthest") != cut("--visibility painter"));
     assert!(cut("--visibility z-buffer --depth-bits 32 --depth interpolated") == cut(""));
+    assert!(sphere("--cull front --two-sided") != sphere("--cull front") && sphere("--clipping planes") == plain);
+    assert!(rendered("z-fighting --near 21 --clipping ndc-cube") != rendered("z-fighting"));
     assert!(rendered("z-fighting --depth-bits 24") != rendered("z-fighting"));
     assert!(rendered("z-fighting --depth per-sample") != rendered("z-fighting"));
     assert!(rendered("perspective --size 64x48") != rendered("perspective --size 64x48 --interpolation screen"));
@@ -294,8 +313,15 @@ fn statistics_count_what_is_left_out() {
             Some((words.next()?, words.next()?))
         })
         .collect();
-    let expected =
-        [("polygons", "4"), ("culled", "1"), ("zero-area", "2"), ("outside", "0"), ("clipped", "0"), ("drawn", "1")];
+    let expected = [
+        ("polygons", "4"),
+        ("culled", "1"),
+        ("zero-area", "2"),
+        ("outside", "0"),
+        ("clipped", "0"),
+        ("unprojected", "0"),
+        ("drawn", "1"),
+    ];
     assert_eq!(counts, expected);
     ended.says("warning: 2 of 4 polygons have no area and are left out");
     assert_eq!(folder.names(), ["mesh.obj"], "statistics alone draw nothing");
@@ -311,8 +337,9 @@ fn the_printed_scene_gives_the_same_picture() {
     std::fs::create_dir(folder.path("sub")).unwrap();
     folder.write("sub/mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder.write("sub/scene.toml", "ambient = 0.5\n[[object]]\nmesh = \"mesh.obj\"\ncrease = 20\n");
-    let flags =
-        "--size 64x48 --light 1,0,1,0.5 --light 0,1,1,1,0.5,0 --kd 0.1,0.2,0.3 --view -30,20 --normals averaged";
+    let flags = "--size 64x48 --light 1,0,1,0.5 --light-at 0,9,9,1,0.5,0 --attenuation 0.01 --viewer local \
+                 --specular blinn --shininess-for phong --specular-gate weighted --kd 0.1,0.2,0.3 --view -30,20 \
+                 --normals averaged";
     for input in ["builtin:gear?teeth=5", "vase", "perspective", "sub/scene.toml"] {
         let printed = folder.run(&format!("render {input} {flags} --print-scene")).done().out;
         folder.write("printed.toml", &printed);
@@ -358,6 +385,23 @@ fn flags_that_make_no_sense_are_refused_by_name() {
         ("--light 1,0,0,-1", &["`--light` is -1: expected 0 or more"]),
         ("--light 1,0", &["expected a direction x,y,z"]),
         ("--light 1,0,0 --no-lights", &["cannot be used with"]),
+        ("--light-at 0,0", &["expected a position x,y,z"]),
+        ("--light-at 0,0,NaN", &["`--light-at` has z = NaN: expected numbers between"]),
+        ("--light-at 0,0,5,-1", &["`--light-at` is -1: expected 0 or more"]),
+        ("--light-at 0,0,5 --no-lights", &["cannot be used with"]),
+        ("--light-at 1,1,1", &["`--light-at` is at a vertex, (1, 1, 1): expected a place off the vertices"]),
+        ("--light-at 0,0,5 --attenuation -2", &["`--attenuation` is -2: expected 0 or more"]),
+        ("--light-at 0,0,5 --attenuation NaN", &["`--attenuation` is NaN: expected 0 or more"]),
+        ("--attenuation 1", &["required arguments were not provided", "--light-at"]),
+        ("--light 1,0,0 --attenuation 1", &["required arguments were not provided", "--light-at"]),
+        ("--viewer lokal", &["invalid value 'lokal'", "infinite, local", "'local'"]),
+        ("--specular blin", &["phong, blinn", "'blinn'"]),
+        ("--shininess-for fong", &["phong, blinn", "'phong'"]),
+        ("--specular-gate open", &["gated, ungated, weighted"]),
+        ("--up 0,0,0", &["`--up` has no length"]),
+        ("--eye 0,0,5 --up 0,0,1", &["`--up` is parallel to the line of sight"]),
+        ("--fovy 0", &["`--fovy` is 0: expected degrees over 0 and under 180"]),
+        ("--near 3 --far 3", &["`--far` is 3: expected more than near = 3"]),
         ("--ks -1", &["`--ks` is -1: expected 0 or more"]),
         ("--kd 1,2", &["expected one number, or three r,g,b"]),
         ("--shininess -2", &["`--shininess` is -2: expected 0 or more"]),
@@ -390,4 +434,40 @@ fn the_painter_says_what_it_draws_wrongly() {
     assert!(!said("builtin:cube").contains("warning") && !said("interpenetration --quiet").contains("warning"));
     let refused = folder.run("render teapot --depth-bits 20 -o out.png");
     assert!(refused.err.contains("`--depth-bits` is 20: expected 16, 24 or 32"), "{}", refused.err);
+}
+
+/// Supersampling keeps the picture's size; a picture of depths is one of single samples.
+#[test]
+fn supersampled_pictures_have_the_size_of_the_scene() {
+    let plain = sphere("");
+    let smooth = sphere("--samples 4");
+    assert_eq!((smooth.width(), smooth.height()), (plain.width(), plain.height()));
+    let partly = |picture: &Picture8| picture.texels().iter().filter(|t| t[3] > 0 && t[3] < 255).count();
+    assert!(partly(&smooth) > 50 && partly(&plain) == 0);
+    assert!(sphere("--samples 4 -m reference") != sphere("-m reference"));
+    assert!(sphere("--samples 1") == plain);
+    let folder = Folder::new();
+    for aov in ["depth", "normal", "polygon"] {
+        folder.run(&format!("render builtin:torus --size 64x48 --aov {aov} -o plain.png")).done();
+        folder
+            .run(&format!("render builtin:torus --size 64x48 --aov {aov} --samples 2 -o out.png"))
+            .done()
+            .says("--aov shows single samples");
+        assert!(picture(&folder.path("plain.png")) == picture(&folder.path("out.png")), "{aov}");
+    }
+    let refused = folder.run("render teapot --size 8000x10 --samples 4 -o out.png");
+    assert!(refused.err.contains("`--samples` is 4: expected at most 16384 samples a side"), "{}", refused.err);
+}
+
+/// Without clipping, a polygon with a corner at the plane of the eye is left out, said and counted.
+#[test]
+fn polygons_without_a_place_are_told_of() {
+    let folder = Folder::new();
+    folder.write("ground.obj", "v -1 0 0\nv 1 0 0\nv 0 0 -5\nv -1 0 -2\nv 1 0 -2\nv 0 0 -5\nf 1 2 3\nf 4 5 6\n");
+    let flags = "--eye 0,1,0 --target 0,1,-1 --fovy 60 --near 0.1 --far 9 --cull none --stats -o out.png";
+    let ended = folder.run(&format!("render ground.obj {flags} --clipping ndc-cube")).done();
+    ended.says("warning: 1 polygon has a corner at the plane of the eye and is left out");
+    folder
+        .run("render perspective --clipping ndc-cube -o out.png")
+        .says("`--clipping` and `interpolation` exclude each other");
 }

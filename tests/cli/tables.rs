@@ -67,6 +67,13 @@ fn every_method_is_explained() {
         json["operations_by_lights"]["1"]["pixel_walk"]["div"].as_i64().expect("a count")
     };
     assert_eq!(divisions("fast-phong:steps=2") - divisions("fast-phong:steps=1"), 1);
+    // Each method with lights at positions; the six products of Duff's forward differences by additions only.
+    for (lights, additions) in [("1", 12), ("2", 18)] {
+        let json = folder.run("explain duff-phong --json").done().json();
+        let walk = &json["operations_by_lights_at_positions"][lights]["pixel_walk"];
+        assert_eq!((&walk["add"], &walk["mul"]), (&additions.into(), &0.into()), "{lights} lights");
+    }
+    folder.run("explain duff-phong").done().prints("operations with 2 lights and eye at positions, as counted");
     folder.run("explain fast-fong").refused(&["did you mean `fast-phong`?"]);
 }
 

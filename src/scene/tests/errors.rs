@@ -15,6 +15,20 @@ fn numbers_out_of_range() {
     check("[image]\nheight = «-3»\n", "`image.height` is -3", size, None);
     check("[image]\nbackground = «1.5»\n", "`image.background` is 1.5", "expected 0 to 1", None);
     check("[image]\nbackground = «[0, -1, 0]»\n", "`image.background` has green = -1", "expected 0 to 1", None);
+    check("[image]\nsamples = «3»\n", "`image.samples` is 3", "expected 1, 2, 4 or 8", None);
+    check("[image]\nsamples = «-2»\n", "`image.samples` is -2", "expected 1, 2, 4 or 8", None);
+    check(
+        "[image]\nwidth = 4097\nsamples = «4»\n",
+        "`image.samples` is 4",
+        "expected at most 16384 samples a side, and there are 4097 pixels",
+        None,
+    );
+    check(
+        "clipping = «\"ndc-cube\"»\ninterpolation = \"perspective\"\n",
+        "`clipping` and `interpolation` exclude each other",
+        "expected interpolation = \"screen\" with \"ndc-cube\": corners behind the eye have no weight",
+        None,
+    );
     check("depth_bits = «20»\n", "`depth_bits` is 20", "expected 16, 24 or 32", None);
     check("depth_bits = «-16»\n", "`depth_bits` is -16", "expected 16, 24 or 32", None);
     check("ambient = «-1»\n", "`ambient` is -1", "expected 0 or more", None);
@@ -236,13 +250,13 @@ fn scenes_as_a_whole() {
     );
     let light = |i: usize| {
         if i == Scene::MAX_LIGHTS {
-            "[[light]]\ndirection = «[0, 0, 1]»\n"
+            "«[[light]]»\ndirection = [0, 0, 1]\n"
         } else {
             "[[light]]\ndirection = [0, 0, 1]\n"
         }
     };
     let lights: String = (0..=Scene::MAX_LIGHTS).map(light).collect();
-    check(&lights, "`light.direction` is of light number 65", "expected 64 lights at most", None);
+    check(&lights, "light number 65 is one too many", "expected 64 lights at most", None);
 }
 
 /// A mesh that cannot be loaded is pointed at; reasons of several lines stand below.

@@ -7,7 +7,7 @@ use crate::scene::file::SceneFile;
 use crate::scene::resolve::Resolved;
 use crate::scene::value::Located;
 use crate::scene::{
-    Culling, DepthBits, DepthBuffer, DepthSource, Encoding, HiddenSurfaces, Interpolation, Object, PainterKey,
+    Clipping, Culling, DepthBits, DepthBuffer, DepthSource, Encoding, HiddenSurfaces, Interpolation, Object, PainterKey,
 };
 use glam::{DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
@@ -63,6 +63,16 @@ fn every_choice() {
     }
 }
 
+#[test]
+fn the_rest_of_visibility() {
+    let of = |text: &str| resolve(&with_object(text)).scene;
+    let plain = of("");
+    assert_eq!((plain.clipping, plain.two_sided, plain.samples), (Clipping::Planes, false, 1));
+    let other = of("clipping = 'ndc-cube'\ncull = 'none'\ntwo_sided = true\n[image]\nsamples = 8\nwidth = 2048");
+    assert_eq!((other.clipping, other.two_sided, other.samples), (Clipping::NdcCube, true, 8));
+    assert_eq!(of("clipping = 'planes'\ninterpolation = 'perspective'").clipping, Clipping::Planes);
+}
+
 /// Each way of hiding surfaces with its own settings; those of another way are named in a warning.
 #[test]
 fn every_way_of_hiding_surfaces() {
@@ -80,6 +90,7 @@ fn every_way_of_hiding_surfaces() {
         assert_eq!((scene.hidden_surfaces, warnings.len()), (expected, 0), "{text}");
     }
     for (text, warning) in [
+        ("two_sided = true", "`two_sided` means nothing with cull = \"back\": what is seen from behind is left out"),
         ("painter_key = 'mean'", "`painter_key` means nothing without visibility = \"painter\""),
         ("visibility = 'painter'\ndepth_bits = 16", "`depth_bits` means nothing without visibility = \"z-buffer\""),
         ("visibility = 'draw-order'\ndepth = 'per-sample'", "`depth` means nothing without visibility = \"z-buffer\""),
@@ -304,11 +315,13 @@ fn flags_over_a_file() {
         let material = format!("ka = {n}\nkd = {n}\nks = {n}\nshininess = {n}");
         format!(
             "title = '{n}'\ndescription = '{n}'\nambient = {n}\ncull = '{cull}'\ninterpolation = '{space}'\n\
-             visibility = '{}'\ndepth_bits = {n}\ndepth = '{}'\npainter_key = '{}'\n[image]\nwidth = {n}\nheight = {n}\nbackground = {n}\nencoding = '{encoding}'\n\
+             visibility = '{}'\ndepth_bits = {n}\ndepth = '{}'\npainter_key = '{}'\nclipping = '{}'\ntwo_sided = {}\n[image]\nsamples = {n}\nwidth = {n}\nheight = {n}\nbackground = {n}\nencoding = '{encoding}'\n\
              [material]\n{material}\n[[light]]\ndirection = [{n}, 0, 0]\n[[object]]\nmesh = '{n}'",
             if n == 1 { "z-buffer" } else { "painter" },
             if n == 1 { "interpolated" } else { "per-sample" },
             if n == 1 { "mean" } else { "farthest" },
+            if n == 1 { "planes" } else { "ndc-cube" },
+            n == 1,
         )
     };
     let [below, over] = [all(1, "back", "screen", "linear"), all(2, "front", "perspective", "srgb")]

@@ -2,6 +2,7 @@
 
 mod errors;
 mod expect;
+mod light_errors;
 mod meaning;
 mod reading;
 mod round_trip;

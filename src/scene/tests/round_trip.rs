@@ -4,7 +4,7 @@ use crate::scene::file::{
     RotationSection, Rotations, SceneFile, ViewerChoice, VisibilityChoice,
 };
 use crate::scene::value::{Choice, Located, OneOrThree};
-use crate::scene::{Culling, DepthSource, Encoding, Interpolation, PainterKey};
+use crate::scene::{Clipping, Culling, DepthSource, Encoding, Interpolation, PainterKey};
 use std::format;
 use std::string::String;
 
@@ -62,6 +62,7 @@ impl Random {
 
     fn light(&mut self) -> LightSection {
         LightSection {
+            table: Located::default(),
             direction: self.maybe(Self::triple),
             position: self.maybe(Self::triple),
             colour: self.maybe(Self::one_or_three),
@@ -99,6 +100,8 @@ impl Random {
             interpolation: self.maybe(|r| r.choice(&[Interpolation::Screen, Interpolation::Perspective])),
             cull: self.maybe(|r| r.choice(&[Culling::Back, Culling::Front, Culling::None])),
             visibility: self.maybe(|r| r.choice(VisibilityChoice::MEANINGS)),
+            clipping: self.maybe(|r| r.choice(Clipping::MEANINGS)),
+            two_sided: self.maybe(|r| r.choice(&[true, false])),
             depth_bits: self.maybe(|r| r.next() as i64),
             depth: self.maybe(|r| r.choice(DepthSource::MEANINGS)),
             painter_key: self.maybe(|r| r.choice(PainterKey::MEANINGS)),
@@ -107,6 +110,7 @@ impl Random {
                 height: self.maybe(|r| r.next() as i64),
                 background: self.maybe(Self::one_or_three),
                 encoding: self.maybe(|r| r.choice(&[Encoding::Linear, Encoding::Srgb])),
+                samples: self.maybe(|r| r.next() as i64),
             },
             camera: CameraSection {
                 eye: self.maybe(Self::triple),

@@ -1,15 +1,19 @@
 //! From a scene to a frame: transformed, projected, culled, clipped and snapped.
 
+mod ndc_cube;
+mod side;
+
 use crate::clip::{Corner, Cut, Plane, clip};
 use crate::frame::{ClipCorner, Frame, FrameBuilder, FrameError, FrameStats, SubPixel, Vertex};
 use crate::lighting::{self, Light, Lighting, Material};
 use crate::mesh::PolygonMesh;
 use crate::mesh::newell::{polygon_normal, unit_normal};
 use crate::mesh::vertex_normals::{VertexNormals, vertex_normals};
-use crate::scene::{Culling, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Object, Scene};
+use crate::scene::{Clipping, Culling, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Object, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
+use side::{Side, eye_side};
 
 impl Scene {
     /// The scene as its camera sees it: projected polygons and the light on them.
@@ -73,6 +77,9 @@ struct Place {
 
 struct Projection<'a> {
     scene: &'a Scene,
+    /// Samples a row, and rows of them: what coordinates count.
+    width: u32,
+    height: u32,
     clip_matrix: DMat4,
     /// Near and far, then the four sides of the guard band.
     planes: [Plane; 6],
@@ -94,9 +101,10 @@ struct Projected<'a> {
     mirrored: bool,
     /// Material of the frame by material of the mesh; the last is for polygons without one.
     materials: Vec<u32>,
-    /// The first frame vertex at each position, and for each frame vertex of this object (its normal, the next one).
+    /// The first frame vertex at each position, and for each frame vertex of this object (its normal, its side, the next
+    /// one).
     first_vertex: Vec<u32>,
-    vertices: Vec<(u32, u32)>,
+    vertices: Vec<(u32, Side, u32)>,
     base: u32,
 }
 
@@ -106,23 +114,30 @@ impl<'a> Projection<'a> {
         if !sides.contains(&scene.width) || !sides.contains(&scene.height) {
             return Err(FrameError::Size { width: scene.width, height: scene.height });
         }
+        let samples = scene.samples;
+        let [width, height] = [scene.width, scene.height].map(|side| side.saturating_mul(samples));
+        if ![1, 2, 4, 8].contains(&samples) || !sides.contains(&width) || !sides.contains(&height) {
+            return Err(FrameError::Samples { samples });
+        }
         let clip_matrix = scene.camera.clip_matrix(f64::from(scene.width) / f64::from(scene.height));
         let ordered = scene.camera.near < scene.camera.far;
         if !clip_matrix.is_finite() || !scene.camera.view().is_finite() || !ordered {
             return Err(FrameError::Camera);
         }
-        let mut builder = FrameBuilder::new(scene.width, scene.height);
+        let mut builder = FrameBuilder::new(width, height);
         builder
+            .samples(samples)
             .background(scene.background)
             .eye(scene.camera.eye.to_array())
             .interpolation(scene.interpolation)
             .hidden_surfaces(scene.hidden_surfaces)
+            .clipping(scene.clipping)
             .depth_range(scene.camera.near_to_far())
             .encoding(scene.encoding);
         // On the picture the guard band reaches one longest side beyond its edges: x/w within ±reach.
         let reach = |side: u32| 1.0 + 2.0 * f64::from(Scene::MAX_SIDE) / f64::from(side);
         let (x, y) = (DVec4::X, DVec4::Y);
-        let (w_x, w_y) = (DVec4::W * reach(scene.width), DVec4::W * reach(scene.height));
+        let (w_x, w_y) = (DVec4::W * reach(width), DVec4::W * reach(height));
         let guard = |normal| Plane { normal, in_front: true };
         let planes = [
             Plane { normal: DVec4::Z, in_front: false },
@@ -136,7 +151,18 @@ impl<'a> Projection<'a> {
         let per_sample = |buffer: DepthBuffer| buffer.source == DepthSource::PerSample;
         let needs_inv_w = scene.interpolation == Interpolation::Perspective
             || matches!(scene.hidden_surfaces, HiddenSurfaces::ZBuffer(buffer) if per_sample(buffer));
-        Ok(Projection { scene, clip_matrix, planes, builder, stats, vertex_count: 0, polygon_count: 0, needs_inv_w })
+        Ok(Projection {
+            scene,
+            width,
+            height,
+            clip_matrix,
+            planes,
+            builder,
+            stats,
+            vertex_count: 0,
+            polygon_count: 0,
+            needs_inv_w,
+        })
     }
 
     fn finish(mut self) -> Result<Frame, FrameError> {
@@ -210,28 +236,42 @@ impl<'a> Projection<'a> {
             return;
         };
         let cut = corners.iter().map(place).any(|place| place.beyond_planes != 0);
-        let face = face.as_vec3().to_array();
+        if cut && self.scene.clipping == Clipping::NdcCube {
+            self.stats.unprojected += 1;
+            return;
+        }
         let material = projected.materials[mesh.polygon_material(polygon).unwrap_or(mesh.materials().len())];
         if cut {
             self.stats.clipped += 1;
-            self.clipped(projected, corners, material, face);
+            let side = self.side(eye_side(corners.iter().map(|corner| place(corner).clip)) < 0.0);
+            self.clipped(projected, corners, material, side, side.face(face));
             return;
         }
         let area = doubled_area(corners.iter().map(|corner| place(corner).snapped));
         if !self.is_drawn(area) {
             return;
         }
-        let vertices: Vec<u32> = corners.iter().map(|&corner| self.vertex(projected, corner, material)).collect();
-        self.builder.polygon(&vertices, face, self.polygon_count);
+        // y points downward on the picture: what runs clockwise there has an area over 0.
+        let side = self.side(area > 0);
+        let vertices: Vec<u32> = corners.iter().map(|&corner| self.vertex(projected, corner, material, side)).collect();
+        self.builder.polygon(&vertices, side.face(face), self.polygon_count);
     }
 
     fn place(&self, clip: DVec4) -> Place {
+        if self.scene.clipping == Clipping::NdcCube {
+            return self.place_unclipped(clip);
+        }
         let bits = |beyond: &[bool]| beyond.iter().rev().fold(0, |bits, &b| bits << 1 | u8::from(b));
         let DVec4 { x, y, z, w } = clip;
         let beyond_view = bits(&[x < -w, x > w, y < -w, y > w, z < 0.0, z > w]);
         let beyond_planes = bits(&self.planes.map(|plane| plane.normal.dot(clip) < 0.0));
         let snapped = if beyond_planes == 0 { self.snap(clip) } else { [SubPixel::ZERO; 2] };
         Place { clip, snapped, beyond_view, beyond_planes }
+    }
+
+    /// The side by which a polygon is lit.
+    fn side(&self, seen_from_behind: bool) -> Side {
+        if self.scene.two_sided && seen_from_behind { Side::Back } else { Side::Front }
     }
 
     /// Whether a polygon of this signed area on the picture is drawn; counts it if not.
@@ -246,23 +286,23 @@ impl<'a> Projection<'a> {
         !culled && area != 0
     }
 
-    /// The frame's vertex for a corner of the mesh: one for each position, normal and material.
-    fn vertex(&mut self, projected: &mut Projected<'_>, corner: usize, material: u32) -> u32 {
+    /// The frame's vertex for a corner of the mesh: one for each position, normal, material and side.
+    fn vertex(&mut self, projected: &mut Projected<'_>, corner: usize, material: u32, side: Side) -> u32 {
         let position = projected.mesh.corners()[corner] as usize;
         let normal = projected.normals.corners[corner];
         let mut candidate = projected.first_vertex[position];
         while candidate != NO_VERTEX {
-            let (its_normal, next) = projected.vertices[candidate as usize];
+            let (its_normal, its_side, next) = projected.vertices[candidate as usize];
             let number = projected.base + candidate;
-            if its_normal == normal && self.builder.vertex_at(number).material == material {
+            if (its_normal, its_side) == (normal, side) && self.builder.vertex_at(number).material == material {
                 return number;
             }
             candidate = next;
         }
         let clip = projected.places[position].clip;
         let direction = projected.normal_matrix * projected.normals.values[normal as usize].as_dvec3();
-        let vertex = self.projected_vertex(clip, direction.normalize_or(DVec3::Z), material);
-        let number = self.add(projected, vertex, normal, projected.first_vertex[position]);
+        let vertex = self.projected_vertex(clip, side.turn(direction.normalize_or(DVec3::Z)), material);
+        let number = self.add(projected, vertex, (normal, side, projected.first_vertex[position]));
         let in_world = projected.transform.transform_point3(projected.mesh.positions()[position].as_dvec3());
         self.builder.position(number, (in_world - self.scene.camera.eye).as_vec3().to_array());
         if let Some(colour) = projected.mesh.colours().get(position) {
@@ -272,9 +312,9 @@ impl<'a> Projection<'a> {
         number
     }
 
-    fn add(&mut self, projected: &mut Projected<'_>, vertex: Vertex, normal: u32, next: u32) -> u32 {
+    fn add(&mut self, projected: &mut Projected<'_>, vertex: Vertex, entry: (u32, Side, u32)) -> u32 {
         self.vertex_count += 1;
-        projected.vertices.push((normal, next));
+        projected.vertices.push(entry);
         self.builder.vertex(vertex)
     }
 
@@ -282,7 +322,8 @@ impl<'a> Projection<'a> {
     fn projected_vertex(&self, clip: DVec4, normal: DVec3, material: u32) -> Vertex {
         let normal = normal.as_vec3().to_array();
         let on_picture = self.planes.iter().all(|plane| plane.normal.dot(clip) >= -1e-9 * clip.abs().max_element());
-        if !on_picture || clip.w <= 0.0 {
+        let clipped = self.scene.clipping == Clipping::Planes;
+        if clipped && (!on_picture || clip.w <= 0.0) {
             return Vertex { x: SubPixel::ZERO, y: SubPixel::ZERO, depth: 0.0, inv_w: 1.0, normal, material };
         }
         let [x, y] = self.snap(clip);
@@ -300,17 +341,17 @@ impl<'a> Projection<'a> {
 
     /// Column and row, to the nearest 1/256 pixel.
     fn snap(&self, clip: DVec4) -> [SubPixel; 2] {
-        let column = (clip.x / clip.w * 0.5 + 0.5) * f64::from(self.scene.width);
-        let row = (0.5 - clip.y / clip.w * 0.5) * f64::from(self.scene.height);
+        let column = (clip.x / clip.w * 0.5 + 0.5) * f64::from(self.width);
+        let row = (0.5 - clip.y / clip.w * 0.5) * f64::from(self.height);
         // To the nearest, halves to even; positions inside the guard band are far from the ends of the type.
         let nearest = |pixels: f64| SubPixel::from_bits(libm::rint(pixels * 256.0) as i32);
         [nearest(column), nearest(row)]
     }
 
     /// Adds what of a polygon is inside all planes.
-    fn clipped(&mut self, projected: &mut Projected<'_>, corners: &[usize], material: u32, face: [f32; 3]) {
+    fn clipped(&mut self, projected: &mut Projected<'_>, corners: &[usize], material: u32, side: Side, face: [f32; 3]) {
         let corners = corners.iter().map(|&corner| {
-            let vertex = self.vertex(projected, corner, material);
+            let vertex = self.vertex(projected, corner, material, side);
             Corner { position: projected.places[projected.mesh.corners()[corner] as usize].clip, vertex }
         });
         let mut pieces = vec![corners.collect::<Vec<_>>()];
@@ -343,7 +384,7 @@ impl<'a> Projection<'a> {
         face: [f32; 3],
     ) -> u32 {
         let vertex = self.projected_vertex(cut.position, DVec3::Z, material);
-        let number = self.add(projected, vertex, u32::MAX, NO_VERTEX);
+        let number = self.add(projected, vertex, (u32::MAX, Side::Front, NO_VERTEX));
         // Attributes that are linear on the screen are divided there, where both ends have a place on it.
         let on_screen = self.scene.interpolation == Interpolation::Screen && plane.in_front;
         let t = if on_screen { cut.t_on_screen() } else { cut.t };

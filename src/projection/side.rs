@@ -1,0 +1,37 @@
+//! The side from which a polygon is seen, and lit by two-sided lighting.
+
+use glam::{DVec3, DVec4};
+
+/// The side by which a polygon is lit: by two-sided lighting, that from which it is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    /// That to which its normals point.
+    Front,
+    /// The other one: normals are negated.
+    Back,
+}
+
+impl Side {
+    /// A normal as light meets it on this side.
+    pub fn turn(self, normal: DVec3) -> DVec3 {
+        match self {
+            Side::Front => normal,
+            Side::Back => -normal,
+        }
+    }
+
+    /// The normal of the polygon itself.
+    pub fn face(self, normal: DVec3) -> [f32; 3] {
+        self.turn(normal).as_vec3().to_array()
+    }
+}
+
+/// On which side of a polygon the eye is, in front of it or behind: over 0 where its corners run counter-clockwise for the
+/// eye, wherever it is cut. Exact up to rounding for flat polygons, a compromise of the corners for others.
+pub(super) fn eye_side(corners: impl Iterator<Item = DVec4> + Clone) -> f64 {
+    // Without z, clip space is space seen from the eye, up to scales of its axes: Newell's normal against a corner.
+    let flat = |clip: DVec4| DVec3::new(clip.x, clip.y, clip.w);
+    let following = corners.clone().skip(1).chain(corners.clone().take(1));
+    let normal: DVec3 = corners.clone().zip(following).map(|(a, b)| flat(a).cross(flat(b))).sum();
+    normal.dot(corners.map(flat).sum())
+}

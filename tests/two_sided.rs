@@ -1,0 +1,122 @@
+//! Two-sided lighting: polygons seen from behind are lit with negated normals.
+
+mod support;
+
+use fastphong::camera::{Camera, Projection};
+use fastphong::frame::Frame;
+use fastphong::lighting::Light;
+use fastphong::mesh::builtin::builtin;
+use fastphong::mesh::{MeshBuilder, PolygonMesh};
+use fastphong::metrics::compare;
+use fastphong::reference;
+use fastphong::scene::{Culling, Scene};
+use fastphong::shader::{METHODS, Variant};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// The same surface with inside and outside exchanged.
+fn turned(mesh: &PolygonMesh) -> PolygonMesh {
+    let mut builder = MeshBuilder::new(mesh.positions().to_vec());
+    for polygon in mesh.polygons() {
+        let corners: Vec<u32> = polygon.iter().rev().copied().collect();
+        builder.polygon(&corners);
+    }
+    builder.finish().expect("a mesh")
+}
+
+fn scene(mesh: PolygonMesh) -> Scene {
+    let mut scene = Scene::of_mesh(mesh);
+    (scene.width, scene.height) = (96, 72);
+    (scene.culling, scene.two_sided) = (Culling::None, true);
+    scene
+}
+
+/// Front faces cut away, so that the inside of a torus is seen; or a ground seen from a point below it, which the near plane
+/// cuts.
+fn views(change: impl Fn(&mut Scene)) -> [Frame; 2] {
+    let mesh = |spec: &str| builtin(spec).expect("a built-in mesh");
+    let mut inside = scene(mesh("torus?segments=24&sides=12"));
+    inside.culling = Culling::Front;
+    let mut below = scene(mesh("polygon?sides=6"));
+    below.camera = Camera {
+        eye: DVec3::new(0.1, -0.2, -0.15),
+        target: DVec3::new(0.3, 0.8, 0.05),
+        up: DVec3::NEG_Z,
+        projection: Projection::Perspective { fovy: 70.0 },
+        near: 0.05,
+        far: 10.0,
+    };
+    below.lights[0] = Light::directional(DVec3::new(0.2, -0.5, -1.0).normalize(), below.lights[0].colour);
+    [inside, below].map(|mut scene| {
+        change(&mut scene);
+        scene.frame().expect("a frame")
+    })
+}
+
+fn exchange(scene: &mut Scene) {
+    scene.objects[0].mesh = Arc::new(turned(&scene.objects[0].mesh));
+    scene.culling = match scene.culling {
+        Culling::Front => Culling::Back,
+        other => other,
+    };
+}
+
+/// It does not matter which side of a surface is called its outside; without two-sided lighting it does.
+#[test]
+fn inside_and_outside_are_lit_alike() {
+    let pairs = views(|_| ()).into_iter().zip(views(exchange));
+    for (number, (ours, exchanged)) in pairs.enumerate() {
+        assert_eq!(number == 1, ours.stats().clipped > 0, "the second view is cut by the near plane");
+        for entry in METHODS {
+            let draw = |frame: &Frame| entry.variant().render_linear(frame);
+            let difference = compare(&draw(&ours), &draw(&exchanged)).expect("equal sizes");
+            // Newell's sum and the averages are taken in another order: normals differ by a rounding, as from the
+            // closed form, which each picture is within the bound of.
+            let bound = 2.0 * entry.info.bound(&ours);
+            assert!(difference.max <= bound, "{}, view {number}: {}", entry.info.name, difference.max);
+            assert_eq!(difference.coverage_mismatches, 0);
+        }
+    }
+    let one_sided = views(|scene| scene.two_sided = false);
+    for (two, one) in views(|_| ()).iter().zip(&one_sided) {
+        let [two, one] = [two, one].map(|frame| Variant::parse("naive-phong").expect("a method").render_linear(frame));
+        assert!(compare(&two, &one).expect("equal sizes").max > 0.2, "seen from behind, and lit from there or not");
+    }
+}
+
+/// All normals of polygons point to the eye, and a vertex on the silhouette, between a polygon seen from the front and one
+/// seen from behind, is there twice, with opposite normals.
+#[test]
+fn the_silhouette_has_two_normals() {
+    let mut sphere = scene(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
+    let view = sphere.camera.view();
+    let frame = sphere.frame().expect("a frame");
+    sphere.two_sided = false;
+    let plain = sphere.frame().expect("a frame");
+    let wide = |n: [f32; 3]| DVec3::from_array(n.map(f64::from));
+    assert!(frame.polygons().iter().all(|p| wide(p.normal).dot(view) > 0.0));
+    let behind = plain.polygons().iter().filter(|p| wide(p.normal).dot(view) < 0.0).count();
+    assert!(behind > 100 && behind < plain.polygons().len() - 100);
+    let twice = frame.vertices().len() - plain.vertices().len();
+    // Two vertices of each polygon edge on the silhouette; it goes once around the sphere, over 24 segments or so.
+    assert!((20..60).contains(&twice), "{twice}");
+    for polygon in frame.polygons() {
+        for &corner in frame.corners(polygon) {
+            // Corners of a polygon 15 degrees wide lean from it by less than twice that.
+            assert!(wide(frame.vertices()[corner as usize].normal).dot(wide(polygon.normal)) > 0.8);
+        }
+    }
+}
+
+/// Engines and reference agree without knowing of it.
+#[test]
+fn methods_are_within_their_bounds() {
+    for frame in views(|_| ()) {
+        for entry in METHODS {
+            let truth = reference::render(&frame, entry.info.model).to_linear();
+            let difference = compare(&truth, &entry.variant().render_linear(&frame)).expect("equal sizes");
+            let bound = entry.info.bound(&frame);
+            assert!(difference.max <= bound, "{}: {} over {bound}", entry.info.name, difference.max);
+        }
+    }
+}
