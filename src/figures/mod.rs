@@ -15,7 +15,9 @@
 //! # Ok::<(), fastphong::figures::FigureError>(())
 //! ```
 
+mod barycentric;
 mod content;
+mod cs171;
 mod depth;
 mod duff;
 mod error;
@@ -26,6 +28,7 @@ mod mach_bands;
 mod newell;
 mod newton;
 mod painter;
+mod perspective;
 mod profile;
 mod slerp;
 mod square;
@@ -55,6 +58,9 @@ pub static FIGURES: &[&Figure] = &[
     &painter::FIGURE,
     &depth::FIGURE,
     &supersampling::FIGURE,
+    &barycentric::FIGURE,
+    &cs171::FIGURE,
+    &perspective::FIGURE,
 ];
 
 /// One thing that a lecture shows or says, to be made anew.
