@@ -16,16 +16,24 @@
 //! # Ok::<(), fastphong::figures::FigureError>(())
 //! ```
 
+mod attenuation;
+mod constant_vectors;
 mod content;
 mod depth;
 mod duff;
 mod error;
 mod exercises;
+mod exponents;
 mod fast_vs_naive;
 mod frequency;
+mod gates;
+mod illumination;
+mod inverse_transpose;
+mod lit;
 mod mach_bands;
 mod newell;
 mod newton;
+mod normals;
 mod painter;
 mod profile;
 mod slerp;
@@ -53,6 +61,13 @@ pub static FIGURES: &[&Figure] = &[
     &fast_vs_naive::FIGURE,
     &exercises::FIGURE,
     &frequency::FIGURE,
+    &illumination::FIGURE,
+    &exponents::FIGURE,
+    &attenuation::FIGURE,
+    &constant_vectors::FIGURE,
+    &inverse_transpose::FIGURE,
+    &gates::FIGURE,
+    &normals::FIGURE,
     &painter::FIGURE,
     &depth::FIGURE,
     &supersampling::FIGURE,
