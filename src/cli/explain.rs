@@ -1,5 +1,6 @@
 //! `fastphong explain`: all that is said about one method, and what it costs.
 
+use super::drawing::engines;
 use super::list::{exactness, method_json};
 use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
@@ -84,8 +85,7 @@ impl Explain {
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
         section("lights at positions", &wrapped(info.local.sentence(), 2));
-        let engines = if info.barycentric { "scanline, barycentric" } else { "scanline" };
-        section("engines", &format!("  {engines}\n"));
+        section("engines", &format!("  {}\n", engines(info)));
         let parameters = info.parameters.iter().zip(self.method.parameters());
         let parameters: String = parameters
             .map(|(p, value)| {

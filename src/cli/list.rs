@@ -1,5 +1,6 @@
 //! `fastphong list`: what there is, each from its own table.
 
+use super::drawing::engines;
 use super::table::columns;
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
@@ -70,8 +71,7 @@ fn methods() -> String {
         text += &format!("    perspective: {}\n", info.perspective.sentence());
         text += &format!("    positions: {}\n", info.local.sentence());
         text += &format!("    {}\n", exactness(info));
-        let engines = if info.barycentric { "scanline, barycentric" } else { "scanline" };
-        text += &format!("    engines: {engines}\n");
+        text += &format!("    engines: {}\n", engines(info));
         for p in info.parameters {
             text += &format!("    {}={}..{}, default {}: {}\n", p.name, p.least, p.most, p.default, p.meaning);
         }

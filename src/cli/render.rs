@@ -32,12 +32,17 @@ pub struct Render {
     /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
     #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
     method: Method,
-    /// What finds the pixels: `scanline` (also called `span`), or `barycentric`, also with `:edges=top-left|closed`
+    /// What finds the pixels: `scanline` (also called `span`); `barycentric`, also with `:edges=top-left|closed`; or `cs171`,
+    /// CS171's algorithms as printed, closed edges, in f64, slow, for flat-average, gouraud and naive-phong, also with
+    /// `:normals=unit|as-printed`
     #[arg(long, default_value = "scanline", value_parser = drawing::engine)]
     engine: Engine,
     /// Show something else than colours
     #[arg(long, value_enum, conflicts_with_all = ["method", "engine"])]
     aov: Option<Aov>,
+    /// Side of a square of `--aov checkerboard`, in world units
+    #[arg(long, value_name = "UNITS", default_value = "1", value_parser = values::length, allow_hyphen_values = true, requires = "aov")]
+    square: f64,
     /// Print the scene, flags included, as a scene file
     #[arg(long)]
     print_scene: bool,
@@ -148,7 +153,7 @@ impl Render {
 
     fn content(&self) -> Content {
         match self.aov {
-            Some(aov) => Content::Aov(aov),
+            Some(aov) => Content::Aov(aov, self.square),
             None => Content::Shaded(self.method.clone(), self.engine),
         }
     }

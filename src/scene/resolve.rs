@@ -287,6 +287,7 @@ fn with_default_material(mesh: Arc<PolygonMesh>, default: Material) -> Arc<Polyg
     if let Some(normals) = mesh.given_normals() {
         builder.normals(normals.clone());
     }
+    builder.colours(mesh.colours().to_vec());
     builder.materials(materials, of_polygons);
     // Everything but the materials was checked when the mesh was made; were it refused, its own materials would stand.
     builder.finish().map_or(mesh, Arc::new)
