@@ -61,6 +61,7 @@ pub mod camera_fit;
 mod clip;
 #[cfg(feature = "cli")]
 pub mod comparison;
+pub mod cs171;
 pub mod encoding;
 #[cfg(feature = "cli")]
 pub mod figures;
@@ -74,6 +75,7 @@ pub mod mesh;
 pub mod metrics;
 pub mod number;
 pub mod painter;
+pub mod perspective;
 pub mod picture;
 mod projection;
 pub mod raster;

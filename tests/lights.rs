@@ -137,7 +137,6 @@ fn the_six_products_take_two_additions_each() {
     let (none, attenuated) = (Falloff::None, Falloff::Attenuation(0.5));
     assert_eq!(additions(1, none, Interpolation::Screen), 12);
     assert_eq!(additions(2, none, Interpolation::Screen), 18);
-    assert_eq!(additions(4, none, Interpolation::Screen), 30);
     assert_eq!(additions(1, none, Interpolation::Perspective), 12);
     assert_eq!(additions(1, attenuated, Interpolation::Screen), 12);
     assert_eq!(additions(1, attenuated, Interpolation::Perspective), 14);

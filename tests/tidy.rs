@@ -1,5 +1,8 @@
 //! Keeps the documentation and the source true to each other.
 
+mod documents;
+
+use documents::{defines, files, is_word, places, quoted, read, root, rows};
 use fastphong::number::Counts;
 use fastphong::shader::{Entry, METHODS};
 use std::collections::BTreeSet;
@@ -19,84 +22,11 @@ const ATTICS: [&str; 3] = ["utils", "common", "helpers"];
 /// The equations of a section of the lecture that has numbered ones: section, how many.
 const NUMBERED: [(u32, u32); 4] = [(1, 1), (2, 1), (3, 6), (4, 12)];
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-#[track_caller]
-fn read(path: impl AsRef<Path>) -> String {
-    let path = path.as_ref();
-    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// All files under `folder` with this ending, as paths from the root.
-fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    let mut folders = vec![root().join(folder)];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).into_iter().flatten() {
-            let path = entry.expect("a folder of the repository can be read").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|e| e == ending) {
-                found.push(path.strip_prefix(root()).expect("under the root").to_owned());
-            }
-        }
-    }
-    found.sort();
-    found
-}
-
 /// The documents that people read.
 fn documents() -> Vec<PathBuf> {
     let mut all = files("docs", "md");
     all.extend(["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "scenes/README.md"].map(PathBuf::from));
     all
-}
-
-/// The texts between backticks, line by line; blocks between fences are left out.
-fn quoted(text: &str) -> Vec<&str> {
-    let mut fenced = false;
-    let mut found = Vec::new();
-    for line in text.lines() {
-        if line.trim_start().starts_with("```") {
-            fenced = !fenced;
-        } else if !fenced {
-            found.extend(line.split('`').skip(1).step_by(2));
-        }
-    }
-    found
-}
-
-/// The rows of all tables of a document, as cells; `\|` is a bar within a cell.
-fn rows(text: &str) -> Vec<Vec<String>> {
-    let cells = |line: &str| {
-        let line = line.replace("\\|", "\u{0}");
-        let inner = line.trim().trim_matches('|');
-        inner.split('|').map(|cell| cell.trim().replace('\u{0}', "|")).collect()
-    };
-    text.lines().filter(|line| line.starts_with('|') && !line.starts_with("|---")).map(cells).collect()
-}
-
-fn is_word(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
-}
-
-/// Whether `source` defines the function or type `name`.
-fn defines(source: &str, name: &str) -> bool {
-    ["fn ", "struct ", "enum ", "trait ", "const ", "static ", "type "].iter().any(|keyword| {
-        let definition = format!("{keyword}{name}");
-        source.match_indices(&definition).any(|(at, _)| !source[at + definition.len()..].starts_with(is_word))
-    })
-}
-
-/// A cell such as "`file`: `item`, `item`; `file`: `item`".
-fn places(cell: &str) -> Vec<(String, Vec<String>)> {
-    let place = |part: &str| {
-        let (file, items) = part.split_once(':').unwrap_or_else(|| panic!("no item in `{part}`"));
-        (file.trim().trim_matches('`').into(), quoted(items).into_iter().map(String::from).collect())
-    };
-    cell.split(';').map(place).collect()
 }
 
 /// The numbers that an equation comment gives: those of "3.5, 4.1" and of the range "4.9–4.12".

@@ -1,6 +1,6 @@
 //! Pictures of what is known of each pixel besides its colour.
 
-use fastphong::encoding::quantise;
+use fastphong::encoding::{quantise, store};
 use fastphong::frame::Frame;
 use fastphong::picture::{LinearPicture, Picture8};
 use fastphong::raster;
@@ -14,13 +14,22 @@ pub enum Aov {
     Normal,
     /// Which polygon is seen, each in a colour of its own; in .pfm its number in the scene, -1 where none is
     Polygon,
+    /// Colours of vertices, interpolated; white where the mesh has none
+    Colours,
+    /// A checkerboard on the world's x and z, of `--square` world units
+    Checkerboard,
 }
 
+/// The colours of the checkerboard: linear.
+const BOARD: [[f32; 3]; 2] = [[0.9; 3], [0.1, 0.15, 0.35]];
+
 impl Aov {
-    /// As floats. Depth is infinite where nothing is seen.
-    pub fn linear(self, frame: &Frame) -> LinearPicture {
+    /// As floats. Depth is infinite where nothing is seen. `square` is the side of a square, in world units.
+    pub fn linear(self, frame: &Frame, square: f64) -> LinearPicture {
         let grey = |value: f32, seen: bool| [value, value, value, f32::from(u8::from(seen))];
         match self {
+            Aov::Colours => raster::vertex_colours(frame),
+            Aov::Checkerboard => raster::checkerboard(frame, square, BOARD),
             Aov::Normal => raster::normals(frame),
             Aov::Depth => raster::depth(frame).map(|depth| grey(depth, depth.is_finite())),
             Aov::Polygon => raster::polygon_numbers(frame).map(|number| match frame.polygons().get(number as usize) {
@@ -32,8 +41,9 @@ impl Aov {
     }
 
     /// In 8 bits, for eyes.
-    pub fn stored(self, frame: &Frame) -> Picture8 {
+    pub fn stored(self, frame: &Frame, square: f64) -> Picture8 {
         match self {
+            Aov::Colours | Aov::Checkerboard => store(&self.linear(frame, square), frame.encoding()),
             Aov::Normal => raster::normals(frame).map(|texel| texel.map(quantise)),
             Aov::Depth => {
                 let depth = raster::depth(frame);

@@ -2,13 +2,15 @@
 
 use super::talk::{Talk, grouped};
 use super::{Failure, aov::Aov};
+use fastphong::cs171::{self, Reading, Shading};
 use fastphong::encoding::store;
 use fastphong::frame::Frame;
 use fastphong::image_file::FilePicture;
+use fastphong::picture::Picture;
 use fastphong::raster::Edges;
 use fastphong::reference::{self, Model};
 use fastphong::scene::Encoding;
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shader::{Info, METHODS, Variant};
 use fastphong::suggest::nearest;
 use fastphong::triangulate::triangulated;
 
@@ -24,22 +26,6 @@ pub enum Method {
     Reference(Model),
 }
 
-/// Models by their names on the command line.
-pub const MODELS: [(&str, Model); 7] = [
-    ("flat", Model::Flat),
-    ("flat-average", Model::FlatAverage),
-    ("gouraud", Model::Gouraud),
-    ("gouraud-separate", Model::GouraudSeparate),
-    ("phong", Model::Phong),
-    ("phong-constant", Model::PhongConstant),
-    ("slerp", Model::Slerp),
-];
-
-/// The name of a model.
-pub fn model_name(model: Model) -> &'static str {
-    MODELS.iter().find(|(_, named)| *named == model).map_or("", |(name, _)| name)
-}
-
 /// `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
 pub fn method(text: &str) -> Result<Method, String> {
     let (name, rest) = text.split_once(':').unwrap_or((text, ""));
@@ -47,11 +33,11 @@ pub fn method(text: &str) -> Result<Method, String> {
         if rest.is_empty() {
             return Ok(Method::Reference(Model::Phong));
         }
-        let named = |model| MODELS.iter().find(|(name, _)| *name == model).map(|(_, model)| Method::Reference(*model));
-        return rest
-            .strip_prefix("model=")
-            .and_then(named)
-            .ok_or_else(|| format!("`{rest}`: expected model=flat, model=gouraud, model=phong or model=slerp"));
+        let named = |name: &str| Model::ALL.into_iter().find(|model| model.name() == name).map(Method::Reference);
+        return rest.strip_prefix("model=").and_then(named).ok_or_else(|| {
+            let models: Vec<String> = Model::ALL.iter().map(|model| format!("model={}", model.name())).collect();
+            format!("`{rest}`: expected one of {}", models.join(", "))
+        });
     }
     let is_method = METHODS.iter().any(|entry| entry.info.name == name);
     let means_method = nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some();
@@ -66,7 +52,7 @@ impl std::fmt::Display for Method {
         match self {
             Method::Variant(variant) => variant.fmt(f),
             Method::Reference(Model::Phong) => f.write_str(REFERENCE),
-            Method::Reference(model) => write!(f, "{REFERENCE}:model={}", model_name(*model)),
+            Method::Reference(model) => write!(f, "{REFERENCE}:model={}", model.name()),
         }
     }
 }
@@ -79,19 +65,45 @@ pub enum Engine {
     Scanline,
     /// Bounding boxes and edge functions.
     Barycentric(Edges),
+    /// CS171's algorithms as printed, in `f64`.
+    Cs171 {
+        /// Whether interpolated normals are made unit vectors, which the text leaves out.
+        normalise: bool,
+    },
 }
 
-/// `scanline`, `barycentric` or `barycentric:edges=top-left|closed`.
+/// The methods that CS171 has, by their names here.
+const CS171: [(&str, Shading); 3] =
+    [("flat-average", Shading::Flat), ("gouraud", Shading::Gouraud), ("naive-phong", Shading::Phong)];
+
+/// The engines that have a method.
+pub fn engines(info: &Info) -> String {
+    let mut all = vec!["scanline"];
+    all.extend(info.barycentric.then_some("barycentric"));
+    all.extend(CS171.iter().any(|(name, _)| *name == info.name).then_some("cs171"));
+    all.join(", ")
+}
+
+/// What CS171 calls a method, if it has it.
+fn cs171_shading(method: &Method) -> Option<Shading> {
+    let Method::Variant(variant) = method else { return None };
+    CS171.iter().find(|(name, _)| *name == variant.info().name).map(|(_, shading)| *shading)
+}
+
+/// `scanline`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or `cs171:normals=unit|as-printed`.
 pub fn engine(text: &str) -> Result<Engine, String> {
     match text {
         "scanline" | "span" => Ok(Engine::Scanline),
         "barycentric" | "barycentric:edges=top-left" => Ok(Engine::Barycentric(Edges::TopLeft)),
         "barycentric:edges=closed" => Ok(Engine::Barycentric(Edges::Closed)),
-        _ => Err(match (nearest(text, ["scanline", "barycentric"]), text.split_once(':')) {
+        "cs171" | "cs171:normals=unit" => Ok(Engine::Cs171 { normalise: true }),
+        "cs171:normals=as-printed" => Ok(Engine::Cs171 { normalise: false }),
+        _ => Err(match (nearest(text, ["scanline", "barycentric", "cs171"]), text.split_once(':')) {
             (Some(near), _) => format!("unknown engine: did you mean `{near}`?"),
             (None, Some(("barycentric", _))) => "expected edges=top-left or edges=closed".to_owned(),
+            (None, Some(("cs171", _))) => "expected normals=unit or normals=as-printed".to_owned(),
             (None, Some(("scanline" | "span", _))) => "the scanline engine has no parameters".to_owned(),
-            (None, _) => "expected `scanline` or `barycentric`".to_owned(),
+            (None, _) => "expected `scanline`, `barycentric` or `cs171`".to_owned(),
         }),
     }
 }
@@ -101,8 +113,8 @@ pub fn engine(text: &str) -> Result<Engine, String> {
 pub enum Content {
     /// Colours.
     Shaded(Method, Engine),
-    /// Something else that is known of each pixel.
-    Aov(Aov),
+    /// Something else that is known of each pixel; the side of a square of the checkerboard, in world units.
+    Aov(Aov, f64),
 }
 
 /// A frame, and what of it is put into a picture.
@@ -112,17 +124,23 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// Prepares `frame` for the engine: the barycentric renderer takes triangles.
+    /// Prepares `frame` for the engine: the barycentric renderer and CS171's algorithms take triangles.
     ///
     /// # Errors
     /// When the engine does not have the method.
     pub fn new(frame: Frame, content: Content, talk: Talk) -> Result<Drawing, Failure> {
-        let Content::Shaded(method, Engine::Barycentric(_)) = &content else { return Ok(Drawing { frame, content }) };
-        let has = METHODS.iter().filter(|entry| entry.info.barycentric).map(|entry| entry.info.name);
-        let known = matches!(method, Method::Variant(variant) if variant.info().barycentric);
+        let (engine, has) = match &content {
+            Content::Shaded(_, Engine::Barycentric(_)) => {
+                let has = METHODS.iter().filter(|entry| entry.info.barycentric).map(|entry| entry.info.name);
+                ("the barycentric renderer", has.collect::<Vec<_>>())
+            }
+            Content::Shaded(_, Engine::Cs171 { .. }) => ("CS171", CS171.map(|(name, _)| name).to_vec()),
+            _ => return Ok(Drawing { frame, content }),
+        };
+        let Content::Shaded(method, _) = &content else { return Ok(Drawing { frame, content }) };
+        let known = matches!(method, Method::Variant(variant) if has.contains(&variant.info().name));
         if !known {
-            let has = has.collect::<Vec<_>>().join(", ");
-            return Err(format!("the barycentric renderer does not have `{method}`: expected one of {has}").into());
+            return Err(format!("{engine} does not have `{method}`: expected one of {}", has.join(", ")).into());
         }
         let with_more_corners = frame.polygons().iter().filter(|polygon| polygon.count > 3).count();
         if with_more_corners == 0 {
@@ -131,7 +149,7 @@ impl Drawing {
         let cut = triangulated(&frame);
         let (of, into) = (grouped(with_more_corners), grouped(cut.frame.polygons().len()));
         talk.note(&format!(
-            "{of} polygons of more than three corners are cut into triangles for the barycentric renderer: {into} in all"
+            "{of} polygons of more than three corners are cut into triangles for {engine}: {into} in all"
         ));
         if cut.not_simple > 0 {
             talk.warning(&match cut.not_simple {
@@ -146,20 +164,29 @@ impl Drawing {
     pub fn picture(&self, linear: bool) -> FilePicture {
         let frame = &self.frame;
         match (&self.content, linear) {
-            (Content::Aov(aov), true) => FilePicture::linear(aov.linear(frame)),
-            (Content::Aov(aov), false) => FilePicture::stored(aov.stored(frame)),
-            (Content::Shaded(Method::Reference(model), _), true) => {
-                FilePicture::linear(reference::render(frame, *model).to_linear())
+            (Content::Aov(aov, square), true) => FilePicture::linear(aov.linear(frame, *square)),
+            (Content::Aov(aov, square), false) => FilePicture::stored(aov.stored(frame, *square)),
+            (Content::Shaded(Method::Reference(model), _), linear) => {
+                wide(&reference::render(frame, *model).picture, frame.encoding(), linear)
             }
-            (Content::Shaded(Method::Reference(model), _), false) => {
-                let picture = reference::render(frame, *model);
-                FilePicture::stored(match frame.encoding() {
-                    Encoding::Linear => picture.to_picture8(),
-                    Encoding::Srgb => store(&picture.to_linear(), Encoding::Srgb),
-                })
+            (Content::Shaded(method, Engine::Cs171 { normalise }), linear) => {
+                // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
+                let shading = cs171_shading(method).unwrap_or(Shading::Phong);
+                let reading = Reading { normalise: *normalise, cull: false, ..Reading::default() };
+                wide(&cs171::render(frame, shading, reading).filtered(frame.samples()), frame.encoding(), linear)
             }
             (Content::Shaded(Method::Variant(variant), engine), linear) => shaded(frame, variant, *engine, linear),
         }
+    }
+}
+
+/// A picture in `f64` as a file has it.
+fn wide(picture: &Picture<[f64; 4]>, encoding: Encoding, linear: bool) -> FilePicture {
+    let single = || picture.map(|texel| texel.map(|c| c as f32));
+    match (linear, encoding) {
+        (true, _) => FilePicture::linear(single()),
+        (false, Encoding::Linear) => FilePicture::stored(picture.map(|texel| texel.map(|c| (255.0 * c).round() as u8))),
+        (false, Encoding::Srgb) => FilePicture::stored(store(&single(), Encoding::Srgb)),
     }
 }
 

@@ -1,6 +1,6 @@
 //! `fastphong explain`: all that is said about one method, and what it costs.
 
-use super::drawing::model_name;
+use super::drawing::engines;
 use super::list::{exactness, method_json};
 use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
@@ -85,8 +85,7 @@ impl Explain {
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
         section("lights at positions", &wrapped(info.local.sentence(), 2));
-        let engines = if info.barycentric { "scanline, barycentric" } else { "scanline" };
-        section("engines", &format!("  {engines}\n"));
+        section("engines", &format!("  {}\n", engines(info)));
         let parameters = info.parameters.iter().zip(self.method.parameters());
         let parameters: String = parameters
             .map(|(p, value)| {
@@ -122,7 +121,7 @@ impl Explain {
         json["variant"] = self.method.to_string().into();
         json["values"] = self.method.parameters().into();
         json["formula"] = info.formula.into();
-        json["model"] = model_name(info.model).into();
+        json["model"] = info.model.name().into();
         json["derivation"] = info.derivation.into();
         json["fails"] = info.fails.into();
         json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(info)? });

@@ -1,6 +1,6 @@
 //! `fastphong list`: what there is, each from its own table.
 
-use super::drawing::model_name;
+use super::drawing::engines;
 use super::table::columns;
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
@@ -71,8 +71,7 @@ fn methods() -> String {
         text += &format!("    perspective: {}\n", info.perspective.sentence());
         text += &format!("    positions: {}\n", info.local.sentence());
         text += &format!("    {}\n", exactness(info));
-        let engines = if info.barycentric { "scanline, barycentric" } else { "scanline" };
-        text += &format!("    engines: {engines}\n");
+        text += &format!("    engines: {}\n", engines(info));
         for p in info.parameters {
             text += &format!("    {}={}..{}, default {}: {}\n", p.name, p.least, p.most, p.default, p.meaning);
         }
@@ -83,7 +82,7 @@ fn methods() -> String {
 /// How near a method is to its closed form, in a sentence.
 pub fn exactness(info: &Info) -> String {
     let Roundings { start, step, of } = info.roundings;
-    let model = model_name(info.model);
+    let model = info.model.name();
     match step {
         0.0 => format!("off its closed form, {model}, by {start} roundings of 2^-24 in its {}", stepped(of)),
         _ => format!(
@@ -111,7 +110,7 @@ pub fn method_json(info: &Info) -> Value {
         "name": info.name,
         "title": info.title,
         "source": info.source,
-        "model": model_name(info.model),
+        "model": info.model.name(),
         "roundings": { "start": start, "step": step, "of": stepped(of) },
         "perspective": info.perspective.sentence(),
         "local": info.local.sentence(),

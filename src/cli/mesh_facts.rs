@@ -133,5 +133,7 @@ fn bytes(mesh: &PolygonMesh) -> usize {
         materials => size_of_val::<[Material]>(materials) + mesh.polygon_count() * size_of::<u32>(),
     };
     let ends = mesh.polygon_count() * size_of::<u32>();
-    size_of::<PolygonMesh>() + size_of_val(mesh.positions()) + size_of_val(mesh.corners()) + ends + normals + materials
+    let colours = size_of_val(mesh.colours());
+    let places = size_of_val(mesh.positions()) + size_of_val(mesh.corners());
+    size_of::<PolygonMesh>() + places + ends + normals + colours + materials
 }

@@ -32,12 +32,17 @@ pub struct Render {
     /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
     #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
     method: Method,
-    /// What finds the pixels: `scanline` (also called `span`), or `barycentric`, also with `:edges=top-left|closed`
+    /// What finds the pixels: `scanline` (also called `span`); `barycentric`, also with `:edges=top-left|closed`; or `cs171`,
+    /// CS171's algorithms as printed, closed edges, in f64, slow, for flat-average, gouraud and naive-phong, also with
+    /// `:normals=unit|as-printed`
     #[arg(long, default_value = "scanline", value_parser = drawing::engine)]
     engine: Engine,
     /// Show something else than colours
     #[arg(long, value_enum, conflicts_with_all = ["method", "engine"])]
     aov: Option<Aov>,
+    /// Side of a square of `--aov checkerboard`, in world units
+    #[arg(long, value_name = "UNITS", default_value = "1", value_parser = values::length, allow_hyphen_values = true, requires = "aov")]
+    square: f64,
     /// Print the scene, flags included, as a scene file
     #[arg(long)]
     print_scene: bool,
@@ -74,9 +79,8 @@ impl Render {
         progress.at(0.0, "loading");
         let started = Instant::now();
         let mut resolved = input::resolve(&file)?;
-        if self.aov.is_some() && resolved.scene.samples > 1 {
+        if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
             // Depths, normals and polygon numbers have no mean that means anything.
-            resolved.scene.samples = 1;
             progress.aside(|| talk.note("--aov shows single samples: one a pixel, in its middle"));
         }
         progress.aside(|| {
@@ -104,12 +108,9 @@ impl Render {
             Ok(())
         })?;
         if talk != Talk::Quiet && matches!(frame.hidden_surfaces(), HiddenSurfaces::Painter(_)) {
-            progress.at(0.4, "looking for conflicts of the painter");
-            let conflicts = conflicts(&frame);
-            progress.aside(|| match painter_text(&conflicts) {
-                Some(text) => talk.warning(&text),
-                None => talk.detail("the painter draws every pair of polygons in the right order"),
-            });
+            progress.at(0.4, "looking for what the painter draws wrongly");
+            let found = conflicts(&frame);
+            progress.aside(|| tell_of_conflicts(&found, talk));
         }
         progress.at(0.5, "shading");
         let drawing = progress.aside(|| Drawing::new(frame, self.content(), talk))?;
@@ -152,7 +153,7 @@ impl Render {
 
     fn content(&self) -> Content {
         match self.aov {
-            Some(aov) => Content::Aov(aov),
+            Some(aov) => Content::Aov(aov, self.square),
             None => Content::Shaded(self.method.clone(), self.engine),
         }
     }
@@ -197,6 +198,13 @@ fn warn_of_polygons_without_place(stats: FrameStats, talk: Talk) {
         n => format!("{} polygons have a corner at the plane of the eye and are left out", grouped(n)),
     };
     talk.warning(&format!("{left_out}: --clipping planes draws what is seen"));
+}
+
+fn tell_of_conflicts(found: &Conflicts, talk: Talk) {
+    match painter_text(found) {
+        Some(text) => talk.warning(&text),
+        None => talk.detail("the painter draws every pair of polygons in the right order"),
+    }
 }
 
 /// What the painter's algorithm draws wrongly, if anything.

@@ -11,7 +11,7 @@ use fastphong::comparison::{Input, compare, triangulation};
 use fastphong::figures::{FIGURES, Figure};
 use fastphong::image_file::write_file;
 use fastphong::input;
-use fastphong::report::{Caption, Report as Page, Section, utc_date};
+use fastphong::report::{Caption, Detail, Report as Page, Section, utc_date};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::resolve::Resolved;
 use fastphong::scene::value::Located;
@@ -32,6 +32,9 @@ pub struct Report {
     /// Figures of the lectures between commas, `all` or `none` [default: all with the shipped scenes, none with INPUT]
     #[arg(long, value_name = "NAMES", value_parser = figures)]
     figures: Option<Figures>,
+    /// Difference maps of every pixel instead of squares of 2 x 2: a page of about twice the size
+    #[arg(long)]
+    full: bool,
     /// Write README.md and its pictures beside the page as well
     #[arg(long)]
     markdown: bool,
@@ -131,7 +134,9 @@ impl Report {
             title: text(&file.title).unwrap_or_else(|| name.to_owned()),
             description: text(&file.description).unwrap_or_default(),
         };
-        Section::new(caption, &comparison, triangles.as_ref()).map_err(|error| format!("{name}: {error}").into())
+        let detail = if self.full { Detail::Full } else { Detail::Blocks };
+        Section::new(caption, &comparison, triangles.as_ref(), detail)
+            .map_err(|error| format!("{name}: {error}").into())
     }
 
     /// Writes the page, and what goes beside it; the paths, a line each.

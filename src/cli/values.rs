@@ -90,6 +90,12 @@ pub fn scale(text: &str) -> Result<f32, String> {
     scale.ok_or_else(|| "expected grey levels: a number over 0".to_owned())
 }
 
+/// A length in world units: more than 0.
+pub fn length(text: &str) -> Result<f64, String> {
+    let length = text.parse().ok().filter(|length: &f64| *length > 0.0 && length.is_finite());
+    length.ok_or_else(|| "expected a length in world units: a number over 0".to_owned())
+}
+
 /// One of the words of a scene file.
 pub fn word<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(T::WORDS)

@@ -26,6 +26,7 @@ impl FrameBuilder {
                 clipping: Clipping::Planes,
                 depth_range: DepthRange::default(),
                 encoding: Encoding::Linear,
+                eye: [0.0; 3],
                 vertices: Vec::new(),
                 positions: Vec::new(),
                 colours: Vec::new(),
@@ -92,6 +93,12 @@ impl FrameBuilder {
     pub fn lighting(&mut self, lighting: Lighting) -> u32 {
         self.frame.lightings.push(lighting);
         (self.frame.lightings.len() - 1) as u32
+    }
+
+    /// Says where in the world the eye is. See [`Frame::eye`].
+    pub fn eye(&mut self, position: [f64; 3]) -> &mut Self {
+        self.frame.eye = position;
+        self
     }
 
     /// Adds a vertex; returns its number.
@@ -176,7 +183,7 @@ impl FrameBuilder {
         if frame.clipping == Clipping::NdcCube && frame.interpolation == Interpolation::Perspective {
             return Err(FrameError::Unclipped);
         }
-        if !frame.depth_range.is_valid() {
+        if !frame.depth_range.is_valid() || !frame.eye.iter().all(|c| c.is_finite()) {
             return Err(FrameError::Camera);
         }
         if frame.corners.len() > u32::MAX as usize || frame.vertices.len() > u32::MAX as usize {

@@ -108,6 +108,7 @@ pub struct Frame {
     clipping: Clipping,
     depth_range: DepthRange,
     encoding: Encoding,
+    eye: [f64; 3],
     vertices: Vec<Vertex>,
     /// One a vertex, or none at all; likewise colours.
     positions: Vec<[f32; 3]>,
@@ -184,6 +185,11 @@ impl Frame {
     /// How values are stored in eight bits.
     pub fn encoding(&self) -> Encoding {
         self.encoding
+    }
+
+    /// The position of the eye in the world: where [`Frame::position`] counts from. 0 where the frame was not told.
+    pub fn eye(&self) -> [f64; 3] {
+        self.eye
     }
 
     /// All vertices.

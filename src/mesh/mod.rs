@@ -31,6 +31,7 @@ pub struct PolygonMesh {
     corners: Vec<u32>,
     ends: Vec<u32>,
     given_normals: Option<GivenNormals>,
+    colours: Vec<Vec3>,
     materials: Vec<Material>,
     polygon_materials: Vec<u32>,
 }
@@ -77,6 +78,11 @@ impl PolygonMesh {
         self.given_normals.as_ref()
     }
 
+    /// The colour of each position, linear red, green, blue; empty where the mesh has no colours.
+    pub fn colours(&self) -> &[Vec3] {
+        &self.colours
+    }
+
     /// The materials that polygons refer to; may be empty.
     pub fn materials(&self) -> &[Material] {
         &self.materials
@@ -98,7 +104,7 @@ impl PolygonMesh {
 /// Why a mesh could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshError {
-    /// A position or normal holds a NaN or an infinity.
+    /// A position, normal or colour holds a NaN or an infinity.
     NotFinite {
         /// Its number, counted from 0.
         index: usize,
@@ -114,6 +120,13 @@ pub enum MeshError {
     TooFewCorners {
         /// The polygon, counted from 0.
         polygon: usize,
+    },
+    /// The colours are not one a position.
+    ColourCount {
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
     },
     /// More polygons than [`PolygonMesh::MAX_POLYGONS`] or more corners than [`PolygonMesh::MAX_CORNERS`].
     TooLarge,
@@ -140,6 +153,7 @@ impl fmt::Display for MeshError {
                 PolygonMesh::MAX_POLYGONS,
                 PolygonMesh::MAX_CORNERS
             ),
+            MeshError::ColourCount { found, expected } => write!(f, "{found} colours where {expected} were expected"),
             MeshError::NormalCount { found, expected } => write!(f, "{found} normals where {expected} were expected"),
         }
     }
@@ -162,6 +176,7 @@ impl MeshBuilder {
                 corners: Vec::new(),
                 ends: Vec::new(),
                 given_normals: None,
+                colours: Vec::new(),
                 materials: Vec::new(),
                 polygon_materials: Vec::new(),
             },
@@ -188,6 +203,12 @@ impl MeshBuilder {
         self
     }
 
+    /// Adds colours, one a position: linear red, green, blue.
+    pub fn colours(&mut self, colours: Vec<Vec3>) -> &mut Self {
+        self.mesh.colours = colours;
+        self
+    }
+
     /// Adds materials, and for each polygon the one it has (an index past the end means none).
     pub fn materials(&mut self, materials: Vec<Material>, of_polygons: Vec<u32>) -> &mut Self {
         self.mesh.materials = materials;
@@ -211,6 +232,10 @@ impl MeshBuilder {
                 return Err(MeshError::TooFewCorners { polygon });
             }
             check_indices(polygon, corners, mesh.positions.len())?;
+        }
+        check_finite(&mesh.colours)?;
+        if !mesh.colours.is_empty() && mesh.colours.len() != mesh.positions.len() {
+            return Err(MeshError::ColourCount { found: mesh.colours.len(), expected: mesh.positions.len() });
         }
         if let Some(normals) = &mesh.given_normals {
             check_finite(&normals.values)?;

@@ -33,11 +33,62 @@ pub fn difference_map<A: Texel, B: Texel>(
     actual: &Picture<B>,
     scale: f32,
 ) -> Result<Picture8, SizeMismatch> {
-    paint(reference, actual, |r, a| {
+    difference_map_of_blocks(reference, actual, scale, 1)
+}
+
+/// The same map in squares of `side` × `side` pixels, each of the colour of its largest difference: a file of a part of the
+/// size that hides no difference. A pixel that only one picture covers is the largest.
+///
+/// # Errors
+/// If the sizes differ.
+pub fn difference_map_of_blocks<A: Texel, B: Texel>(
+    reference: &Picture<A>,
+    actual: &Picture<B>,
+    scale: f32,
+    side: usize,
+) -> Result<Picture8, SizeMismatch> {
+    SizeMismatch::check(reference, actual)?;
+    let (width, height, side) = (reference.width(), reference.height(), side.max(1));
+    let error = |x: usize, y: usize| {
+        let (r, a) = (reference.get(x, y).levels(), actual.get(x, y).levels());
         let channels = channel_errors(r, a);
-        let error = channels.errors.into_iter().fold(0.0, f64::max);
-        absolute_colour(error, if channels.not_finite { f64::NAN } else { f64::from(scale) })
-    })
+        match channels.not_finite {
+            _ if r.alpha() != a.alpha() => Error::Coverage,
+            true => Error::Channels(f64::INFINITY),
+            false => Error::Channels(channels.errors.into_iter().fold(0.0, f64::max)),
+        }
+    };
+    let mut map = Picture8::new(width, height, EQUAL);
+    for (top, left) in (0..height).step_by(side).flat_map(|y| (0..width).step_by(side).map(move |x| (y, x))) {
+        let (rows, columns) = (top..height.min(top + side), left..width.min(left + side));
+        let errors = rows.clone().flat_map(|y| columns.clone().map(move |x| error(x, y)));
+        let colour = match errors.fold(Error::Channels(0.0), Error::larger) {
+            Error::Coverage => COVERAGE,
+            Error::Channels(error) => absolute_colour(error, f64::from(scale)),
+        };
+        for y in rows {
+            map.row_mut(y)[columns.clone()].fill(colour);
+        }
+    }
+    Ok(map)
+}
+
+/// What is wrong with a pixel.
+#[derive(Clone, Copy)]
+enum Error {
+    /// Only one picture covers it.
+    Coverage,
+    /// The largest error of its channels; infinite where one is not finite.
+    Channels(f64),
+}
+
+impl Error {
+    fn larger(self, other: Error) -> Error {
+        match (self, other) {
+            (Error::Channels(a), Error::Channels(b)) => Error::Channels(a.max(b)),
+            _ => Error::Coverage,
+        }
+    }
 }
 
 /// The difference of luminance of two pictures, with its sign: orange where `actual` is too bright, blue where it is too dark.
@@ -198,6 +249,22 @@ mod tests {
         assert_eq!(signed(105, 100, 4.0), BEYOND_DARKER);
         let (bright, dark) = (signed(100, 103, 4.0), signed(103, 100, 4.0));
         assert!(bright[0] > bright[2] && dark[2] > dark[0], "{bright:?} is orange, {dark:?} is blue");
+    }
+
+    #[test]
+    fn blocks_show_their_largest_difference() {
+        let mut actual = Picture8::new(3, 3, [0, 0, 0, 255]);
+        let reference = actual.clone();
+        actual.row_mut(1)[0] = [0, 4, 0, 255];
+        actual.row_mut(0)[1] = [2, 0, 0, 255];
+        actual.row_mut(2)[2] = [9, 0, 0, 0];
+        let single = difference_map(&reference, &actual, 8.0).unwrap();
+        let blocks = difference_map_of_blocks(&reference, &actual, 8.0, 2).unwrap();
+        // The block at the top left shows 4, the larger of 2 and 4; the one cut off at the corner its coverage.
+        for (x, y) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            assert_eq!(blocks.get(x, y), single.get(0, 1));
+        }
+        assert_eq!((blocks.get(2, 0), blocks.get(1, 2), blocks.get(2, 2)), (EQUAL, EQUAL, COVERAGE));
     }
 
     #[test]

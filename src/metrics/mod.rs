@@ -39,7 +39,8 @@ mod texel;
 
 pub use list::{Better, METRICS, MetricInfo};
 pub use map::{
-    BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, colour_bar, difference_map, signed_colour_bar, signed_difference_map,
+    BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, colour_bar, difference_map, difference_map_of_blocks, signed_colour_bar,
+    signed_difference_map,
 };
 pub use texel::{Levels, Texel};
 

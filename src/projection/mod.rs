@@ -128,6 +128,7 @@ impl<'a> Projection<'a> {
         builder
             .samples(samples)
             .background(scene.background)
+            .eye(scene.camera.eye.to_array())
             .interpolation(scene.interpolation)
             .hidden_surfaces(scene.hidden_surfaces)
             .clipping(scene.clipping)
@@ -304,6 +305,9 @@ impl<'a> Projection<'a> {
         let number = self.add(projected, vertex, (normal, side, projected.first_vertex[position]));
         let in_world = projected.transform.transform_point3(projected.mesh.positions()[position].as_dvec3());
         self.builder.position(number, (in_world - self.scene.camera.eye).as_vec3().to_array());
+        if let Some(colour) = projected.mesh.colours().get(position) {
+            self.builder.colour(number, colour.to_array());
+        }
         projected.first_vertex[position] = number - projected.base;
         number
     }

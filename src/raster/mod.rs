@@ -15,6 +15,7 @@ mod barycentric_numbers;
 mod depth;
 mod edge;
 mod edge_table;
+mod interpolated;
 pub mod scanline;
 mod setup;
 mod supersampling;
@@ -25,6 +26,7 @@ pub use aov::{coverage, depth, normals, polygon_numbers};
 pub use barycentric::Edges;
 pub use barycentric_numbers::barycentric_polygon_numbers;
 pub use edge::Crossing;
+pub use interpolated::{barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours};
 pub use visibility::NOTHING;
 
 pub(crate) use supersampling::{draw_anyhow, draw_rows};

@@ -7,7 +7,7 @@
 //! use fastphong::bench::Machine;
 //! use fastphong::comparison::{Input, Options, compare, triangulation};
 //! use fastphong::mesh::builtin::builtin;
-//! use fastphong::report::{Caption, Report, Section};
+//! use fastphong::report::{Caption, Detail, Report, Section};
 //! use fastphong::scene::Scene;
 //! use fastphong::shader::METHODS;
 //!
@@ -20,7 +20,7 @@
 //! let triangles = triangulation(&frame, &comparison.reference);
 //!
 //! let caption = Caption { title: "Sphere".into(), description: "Eight rings.".into() };
-//! let section = Section::new(caption, &comparison, triangles.as_ref())?;
+//! let section = Section::new(caption, &comparison, triangles.as_ref(), Detail::Full)?;
 //! let report = Report {
 //!     sections: vec![section],
 //!     lecture: vec![],
@@ -53,7 +53,7 @@ mod tests;
 pub use date::utc_date;
 pub use lecture::{FIGURES_SCHEMA, LectureFigure, figures_page};
 pub use markdown::{Image, Markdown};
-pub use section::{Caption, MAP_SCALE, Section, TriangulationData};
+pub use section::{Caption, Detail, MAP_SCALE, Section, TriangulationData};
 
 use crate::bench::Machine;
 use alloc::string::String;

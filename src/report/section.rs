@@ -4,7 +4,7 @@ use super::encode::{opaque, overlay, shrunk};
 use crate::comparison::{Comparison, ComparisonData, DifferenceData, Row, RowData, Triangulation};
 use crate::encoding::store;
 use crate::image_file::EncodeError;
-use crate::metrics::difference_map;
+use crate::metrics::difference_map_of_blocks;
 use crate::picture::{LinearPicture, Picture8};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -15,6 +15,26 @@ pub const MAP_SCALE: f32 = 16.0;
 
 /// Texels of a picture for each texel of its small copy, along each side.
 const SHRINKING: usize = 2;
+
+/// How much of its pictures a section keeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Detail {
+    /// Difference maps in squares of 2 × 2 pixels, each with its largest difference: a page of half the size.
+    #[default]
+    Blocks,
+    /// Difference maps of every pixel.
+    Full,
+}
+
+impl Detail {
+    /// The side of a difference map's squares.
+    fn block(self) -> usize {
+        match self {
+            Detail::Blocks => 2,
+            Detail::Full => 1,
+        }
+    }
+}
 
 /// What people call a scene.
 #[derive(Clone, Debug, Default)]
@@ -84,9 +104,10 @@ impl Section {
         caption: Caption,
         comparison: &Comparison,
         triangulation: Option<&Triangulation>,
+        detail: Detail,
     ) -> Result<Section, EncodeError> {
         let reference = store(&comparison.reference, comparison.encoding);
-        let base = Base { linear: &comparison.reference, stored: &reference };
+        let base = Base { linear: &comparison.reference, stored: &reference, block: detail.block() };
         let mut jobs: Vec<Job<'_>> = Vec::from([Job { kind: FigureKind::Reference, shot: None }]);
         for (number, Row { linear, picture, .. }) in comparison.rows.iter().enumerate() {
             jobs.push(Job { kind: FigureKind::Row(number), shot: Some((linear, picture)) });
@@ -129,6 +150,8 @@ pub(super) fn row_name(row: &RowData) -> String {
 struct Base<'a> {
     linear: &'a LinearPicture,
     stored: &'a Picture8,
+    /// The side of the squares of difference maps.
+    block: usize,
 }
 
 /// A figure to be made.
@@ -146,7 +169,8 @@ impl Job<'_> {
             let (picture, small) = (opaque(base.stored)?, small(base.stored)?);
             return Ok(Figure { kind, picture, is_overlay: false, map: None, small });
         };
-        let map = difference_map(base.linear, linear, MAP_SCALE).expect("pictures of one frame have one size");
+        let map = difference_map_of_blocks(base.linear, linear, MAP_SCALE, base.block);
+        let map = map.expect("pictures of one frame have one size");
         let (whole, over) = (opaque(stored)?, overlay(base.stored, stored)?);
         // To lay one over the other is worth a good part of the file only.
         let is_overlay = over.len() < whole.len() / 4 * 3;

@@ -2,7 +2,7 @@
 
 use super::diagnostics::{SceneError, SourceText};
 use super::value::{Located, OneOrThree, Origin};
-use super::{DepthBits, MAX_COORDINATE, Scene};
+use super::{MAX_COORDINATE, Scene};
 use crate::lighting::Rgb;
 use glam::DVec3;
 use std::format;
@@ -132,33 +132,6 @@ impl<'a> Check<'a> {
                 let expected = format!("expected 1 to {}", Scene::MAX_SIDE);
                 Err(self.error(&given.origin, key, &format!("is {}", given.value), expected))
             }
-        }
-    }
-}
-
-impl Check<'_> {
-    /// Samples a pixel along each side of a picture of these sides.
-    pub fn samples(&self, given: &Located<i64>, key: &str, sides: [u32; 2]) -> Result<u32, SceneError> {
-        let problem = format!("is {}", given.value);
-        let Some(samples) = u32::try_from(given.value).ok().filter(|samples| [1, 2, 4, 8].contains(samples)) else {
-            return Err(self.error(&given.origin, key, &problem, "expected 1, 2, 4 or 8"));
-        };
-        let longest = sides[0].max(sides[1]);
-        if longest * samples > Scene::MAX_SIDE {
-            let expected =
-                format!("expected at most {} samples a side, and there are {longest} pixels", Scene::MAX_SIDE);
-            return Err(self.error(&given.origin, key, &problem, expected));
-        }
-        Ok(samples)
-    }
-
-    /// The bits of the depth buffer.
-    pub fn depth_bits(&self, given: &Located<i64>) -> Result<DepthBits, SceneError> {
-        match given.value {
-            16 => Ok(DepthBits::Sixteen),
-            24 => Ok(DepthBits::TwentyFour),
-            32 => Ok(DepthBits::ThirtyTwo),
-            bits => Err(self.error(&given.origin, "depth_bits", &format!("is {bits}"), "expected 16, 24 or 32")),
         }
     }
 }

@@ -20,6 +20,8 @@ pub mod resolve;
 pub mod value;
 #[cfg(feature = "io")]
 mod viewpoint;
+#[cfg(feature = "io")]
+mod visibility;
 
 pub use hidden_surfaces::{Clipping, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey};
 

@@ -2,12 +2,10 @@
 
 use super::check::{Check, is_coordinate, is_position};
 use super::diagnostics::SceneError;
-use super::file::{
-    LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice, VisibilityChoice,
-};
-use super::value::{Choice, Located, OneOrThree, Origin};
+use super::file::{LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice};
+use super::value::{Located, OneOrThree, Origin};
 use super::viewpoint::Viewpoint;
-use super::{Clipping, Culling, DepthBuffer, HiddenSurfaces, Interpolation, MAX_COORDINATE, Object, Scene};
+use super::{MAX_COORDINATE, Object, Scene};
 use crate::lighting::{Light, Material, Rgb};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{MeshBuilder, PolygonMesh};
@@ -54,10 +52,7 @@ impl SceneFile {
         let ambient = channels(&check, &self.ambient, "ambient", f64::INFINITY, [1.0; 3])?;
         let lights = self.lights(&check)?;
         let viewpoint = Viewpoint::new(&self.camera, &check)?;
-        let samples = match &self.image.samples {
-            Some(given) => check.samples(given, "image.samples", [width, height])?,
-            None => 1,
-        };
+        let samples = self.samples([width, height], &check)?;
         let clipping = self.clipping(&check)?;
         let mut warnings = Vec::new();
         let hidden_surfaces = self.hidden_surfaces(&check, &mut warnings)?;
@@ -90,51 +85,6 @@ impl SceneFile {
             objects,
         };
         Ok(Resolved { scene, warnings })
-    }
-
-    /// How hidden surfaces are found; a key that means nothing under the way chosen is worth a warning.
-    fn hidden_surfaces(&self, check: &Check, warnings: &mut Vec<String>) -> Result<HiddenSurfaces, SceneError> {
-        let bits = self.depth_bits.as_ref().map_or(Ok(Default::default()), |given| check.depth_bits(given))?;
-        let source = self.depth.as_ref().map_or_else(Default::default, |given| given.value);
-        let key = self.painter_key.as_ref().map_or_else(Default::default, |given| given.value);
-        let choice = self.visibility.as_ref().map_or(VisibilityChoice::ZBuffer, |given| given.value);
-        let has_z_buffer = choice == VisibilityChoice::ZBuffer;
-        let idle = [
-            ("depth_bits", self.depth_bits.is_some() && !has_z_buffer, VisibilityChoice::ZBuffer),
-            ("depth", self.depth.is_some() && !has_z_buffer, VisibilityChoice::ZBuffer),
-            (
-                "painter_key",
-                self.painter_key.is_some() && choice != VisibilityChoice::Painter,
-                VisibilityChoice::Painter,
-            ),
-        ];
-        if let (Some(Located { value: true, .. }), None | Some(Located { value: Culling::Back, .. })) =
-            (&self.two_sided, &self.cull)
-        {
-            warnings
-                .push("`two_sided` means nothing with cull = \"back\": what is seen from behind is left out".into());
-        }
-        for (key, _, needs) in idle.into_iter().filter(|(_, is_idle, _)| *is_idle) {
-            warnings.push(format!("`{key}` means nothing without visibility = \"{}\"", needs.word()));
-        }
-        Ok(match choice {
-            VisibilityChoice::ZBuffer => HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }),
-            VisibilityChoice::Painter => HiddenSurfaces::Painter(key),
-            VisibilityChoice::DrawOrder => HiddenSurfaces::DrawOrder,
-        })
-    }
-
-    /// What keeps polygons within the view: CS171's test goes with its interpolation only.
-    fn clipping(&self, check: &Check) -> Result<Clipping, SceneError> {
-        let Some(given) = &self.clipping else { return Ok(Clipping::default()) };
-        match &self.interpolation {
-            Some(Located { value: Interpolation::Perspective, origin }) if given.value == Clipping::NdcCube => {
-                let why =
-                    "expected interpolation = \"screen\" with \"ndc-cube\": corners behind the eye have no weight";
-                Err(check.conflict("clipping", &given.origin, "interpolation", origin, why))
-            }
-            _ => Ok(given.value),
-        }
     }
 
     fn lights(&self, check: &Check) -> Result<Vec<Light>, SceneError> {
@@ -337,6 +287,7 @@ fn with_default_material(mesh: Arc<PolygonMesh>, default: Material) -> Arc<Polyg
     if let Some(normals) = mesh.given_normals() {
         builder.normals(normals.clone());
     }
+    builder.colours(mesh.colours().to_vec());
     builder.materials(materials, of_polygons);
     // Everything but the materials was checked when the mesh was made; were it refused, its own materials would stand.
     builder.finish().map_or(mesh, Arc::new)

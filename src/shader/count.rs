@@ -1,6 +1,6 @@
 //! How many operations a method takes, counted by running it on numbers that count.
 
-use super::dispatch::{Job, dispatch_sample};
+use super::dispatch::{Job, dispatch_counts};
 use super::span::SpanBench;
 use super::{Corner, Corners, Method, Shader, Span};
 use crate::frame::Frame;
@@ -34,7 +34,7 @@ pub(super) fn count<D: Method>(parameters: &[u32], bench: &SpanBench) -> Operati
             run::<S>(self.0, self.1)
         }
     }
-    dispatch_sample::<D, _>(bench.frame(), Count(parameters, bench.frame()))
+    dispatch_counts::<D, _>(bench.frame(), Count(parameters, bench.frame()))
 }
 
 fn run<S: Shader>(parameters: &[u32], frame: &Frame) -> OperationCounts {

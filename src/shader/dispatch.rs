@@ -48,17 +48,23 @@ pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
     }
 }
 
-/// Does `job` with the method's shader for one light or for four, two as well where they are at positions: for
-/// measurements of spans and counts of operations, which need no picture, every further number of lights would only be
-/// code.
-pub(super) fn dispatch_sample<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
+/// Does `job` with the method's shader for one light or for four, where something is at a position for one or for two, in
+/// space for one: for counts of operations, which need no picture; every further number of lights would only be code.
+pub(super) fn dispatch_counts<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
     match (frame.is_local(), frame.interpolation(), frame.light_count()) {
         (false, _, 0 | 1) => job.run::<D::Screen<1>>(),
         (false, _, _) => job.run::<D::Screen<4>>(),
         (true, Interpolation::Screen, 0 | 1) => job.run::<D::Local<1>>(),
-        (true, Interpolation::Screen, 2) => job.run::<D::Local<2>>(),
-        (true, Interpolation::Screen, _) => job.run::<D::Local<4>>(),
-        (true, Interpolation::Perspective, 0 | 1) => job.run::<D::LocalPerspective<1>>(),
-        (true, Interpolation::Perspective, _) => job.run::<D::LocalPerspective<4>>(),
+        (true, Interpolation::Screen, _) => job.run::<D::Local<2>>(),
+        (true, Interpolation::Perspective, _) => job.run::<D::LocalPerspective<1>>(),
+    }
+}
+
+/// The same for measurements of spans: for one light or for four at infinity, for four at positions.
+pub(super) fn dispatch_span<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
+    match (frame.is_local(), frame.light_count()) {
+        (false, 0 | 1) => job.run::<D::Screen<1>>(),
+        (false, _) => job.run::<D::Screen<4>>(),
+        (true, _) => job.run::<D::LocalPerspective<4>>(),
     }
 }

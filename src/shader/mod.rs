@@ -67,6 +67,13 @@ impl<M: Machine> Corner<'_, M> {
         self.machine.three(self.frame.position(self.vertex))
     }
 
+    /// Where it is in the world, rounded once.
+    #[inline(always)]
+    pub fn world(&self) -> [M::One; 3] {
+        let (eye, from_eye) = (self.frame.eye(), self.frame.position(self.vertex));
+        self.machine.three(core::array::from_fn(|i| (eye[i] + f64::from(from_eye[i])) as f32))
+    }
+
     /// Its colour: see [`Frame::colour`].
     #[inline(always)]
     pub fn colour(&self) -> [M::One; 3] {

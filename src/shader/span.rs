@@ -1,6 +1,6 @@
 //! One span on its own: what benches measure to tell set-up from pixels.
 
-use super::dispatch::{Job, dispatch_sample};
+use super::dispatch::{Job, dispatch_span};
 use super::{Corner, Corners, Method, Shader, Span};
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Falloff, Light, Lighting, Material, Place};
@@ -31,10 +31,10 @@ impl SpanBench {
         SpanBench { frame: span(degrees, lighting).finish().expect("one triangle, in range") }
     }
 
-    /// The same span with the lights and the eye at positions a few of its lengths away; lights grow weaker by
-    /// `falloff`, and the attributes vary on the screen or in space.
+    /// The same span with one light (`lights` ≤ 1) or two, and the eye, at positions a few of its lengths away; lights
+    /// grow weaker by `falloff`, and the attributes vary on the screen or, for one light, in space.
     pub fn local(degrees: f32, lights: usize, falloff: Falloff, interpolation: Interpolation) -> Self {
-        let count = lights.max(1);
+        let count = if interpolation == Interpolation::Perspective { 1 } else { lights.clamp(1, 2) };
         let light = |i: usize| {
             let angle = i as f64;
             let position = DVec3::new(2.0 * libm::cos(angle), 2.0 * libm::sin(angle), 5.0);
@@ -78,7 +78,7 @@ pub(super) fn shade<D: Method>(parameters: &[u32], bench: &SpanBench, out: &mut 
             run::<S, Scalar>(Scalar, self.0, self.1, self.2);
         }
     }
-    dispatch_sample::<D, _>(&bench.frame, Shade(parameters, &bench.frame, out));
+    dispatch_span::<D, _>(&bench.frame, Shade(parameters, &bench.frame, out));
 }
 
 #[inline(always)]

@@ -75,6 +75,27 @@ fn engines_agree_and_say_what_they_do() {
     refused("reference").refused(&["the barycentric renderer does not have `reference`", has]);
 }
 
+/// CS171's algorithms give the pictures of the methods that they are; with normals as printed another one.
+#[test]
+fn cs171_draws_what_the_engines_draw() {
+    let folder = Folder::new();
+    for method in ["flat-average", "gouraud", "naive-phong"] {
+        folder.run(&format!("render {SPHERE} -m {method} --engine barycentric -o a.png")).done();
+        // A channel may differ by the one level that rounding of an f32 turns.
+        let flags = "--engine cs171 --reference a.png --reference-threshold 1";
+        let done = folder.run(&format!("render {SPHERE} -m {method} {flags} -o b.png")).done();
+        done.says("16 polygons of more than three corners are cut into triangles for CS171");
+    }
+    folder.run(&format!("render {SPHERE} -m naive-phong --engine cs171:normals=unit -o c.png")).done();
+    folder.run(&format!("render {SPHERE} -m naive-phong --engine cs171:normals=as-printed -o d.png")).done();
+    assert_eq!(folder.read("b.png"), folder.read("c.png"));
+    assert_ne!(folder.read("c.png"), folder.read("d.png"));
+    let refused = |method: &str| folder.run(&format!("render {SPHERE} -m {method} --engine cs171 -o out.png"));
+    let has = "expected one of flat-average, gouraud, naive-phong";
+    refused("flat").refused(&["CS171 does not have `flat`", has]);
+    refused("reference").refused(&["CS171 does not have `reference`", has]);
+}
+
 #[test]
 fn polygons_that_cross_themselves_are_told_of() {
     let folder = Folder::new();
@@ -242,6 +263,41 @@ fn aovs_show_depth_normals_and_polygons() {
     folder.run(&format!("render {SPHERE} --aov depth -m flat -o out.png")).refused(&["cannot be used with"]);
 }
 
+/// A triangle with a red, a green and a blue corner; a square of four world units under the checkerboard.
+#[test]
+fn aovs_show_vertex_colours_and_a_checkerboard() {
+    let folder = Folder::new();
+    folder.write("rgb.obj", "v 0 0 0 1 0 0\nv 4 0 0 0 1 0\nv 0 4 0 0 0 1\nf 1 2 3\n");
+    let view = "--view 0,0 --size 40x40";
+    folder.run(&format!("render rgb.obj {view} --aov colours -o rgb.png")).done().says("40x40, colours");
+    let rgb = picture(&folder.path("rgb.png"));
+    // Weights sum to 1, and so do the colours: 255, give or take a half for each of three roundings.
+    let drawn: Vec<[u8; 4]> = rgb.texels().iter().copied().filter(|t| t[3] == 255).collect();
+    assert!(
+        drawn.len() > 200 && drawn.iter().all(|t| t[..3].iter().map(|&c| i32::from(c)).sum::<i32>().abs_diff(255) <= 1)
+    );
+    for channel in 0..3 {
+        assert!(drawn.iter().any(|t| t[channel] > 230), "a corner of channel {channel}");
+    }
+    folder.write("floor.obj", "v 0 0 0\nv 0 0 4\nv 4 0 4\nv 4 0 0\nf 1 2 3 4\n");
+    let view = "--view 0,90 --size 40x40";
+    for (square, squares) in [("1", 16), ("2", 4), ("8", 1)] {
+        folder.run(&format!("render floor.obj {view} --aov checkerboard --square {square} -o board.png")).done();
+        let board = picture(&folder.path("board.png"));
+        let (mut light, mut dark) = (0, 0);
+        for t in board.texels().iter().filter(|t| t[3] == 255) {
+            *(if t[0] > 128 { &mut light } else { &mut dark }) += 1;
+        }
+        // Half of the squares each, but of the one square.
+        assert!(light > 300 && (squares == 1) == (dark == 0), "{square}: {light}, {dark}");
+        assert!(squares == 1 || light * 10 < dark * 13 && dark * 10 < light * 13, "{square}: {light}, {dark}");
+    }
+    folder
+        .run("render floor.obj --aov checkerboard --square 0 -o out.png")
+        .refused(&["expected a length in world units"]);
+    folder.run("render floor.obj --square 2 -o out.png").refused(&["--aov"]);
+}
+
 #[test]
 fn statistics_count_what_is_left_out() {
     let folder = Folder::new();
@@ -310,6 +366,8 @@ fn flags_that_make_no_sense_are_refused_by_name() {
         ("-m flat:steps=1", &["method `flat` has no parameters"]),
         ("--engine barycentrik", &["did you mean `barycentric`?"]),
         ("--engine barycentric:edges=open", &["expected edges=top-left or edges=closed"]),
+        ("--engine cs172", &["did you mean `cs171`?"]),
+        ("--engine cs171:normals=raw", &["expected normals=unit or normals=as-printed"]),
         ("--size 0x0", &["`--resolution` is 0: expected 1 to 16384"]),
         ("--size 20000x10", &["`--resolution` is 20000: expected 1 to 16384"]),
         ("--size 64", &["expected WIDTHxHEIGHT"]),

@@ -1,6 +1,6 @@
 //! Wavefront OBJ files, with their MTL materials.
 //!
-//! Read are positions, normals, faces of any number of sides (concave ones too, never triangulated), `mtllib` and
+//! Read are positions, their colours (`v x y z r g b`), normals, faces of any number of sides (concave ones too, never triangulated), `mtllib` and
 //! `usemtl`. All objects and groups become one mesh that shares positions by their index in the file; positions that no
 //! face uses are dropped, the others keep the order in which faces first name them.
 //!
@@ -119,6 +119,9 @@ fn parse_limited(
             warnings.push(format!("{zeros} {have} length zero: averaged ones are used there"));
         }
         builder.normals(GivenNormals { values, corners: Some(parsed.normal_indices) });
+    }
+    if scan.has_colours() {
+        builder.colours(vectors(&parsed.vertex_color));
     }
     if !scan.material_names.is_empty() {
         let libraries = Libraries::load(&scan, &mut load_mtl, &mut warnings);

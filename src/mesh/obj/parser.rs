@@ -29,10 +29,12 @@ pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
     }
     let corners: usize = mesh.face_arities.iter().map(|&n| n as usize).sum();
     let normals_fit = !scan.has_normals() || mesh.normal_indices.len() == corners;
+    let colours_fit = !scan.has_colours() || mesh.vertex_color.len() == mesh.positions.len();
     if mesh.face_arities.len() != scan.polygons
         || corners != scan.corners
         || mesh.indices.len() != corners
         || !normals_fit
+        || !colours_fit
     {
         return Err(format!(
             "{} polygons with {corners} corners where {} with {} were given",

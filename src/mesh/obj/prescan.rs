@@ -76,7 +76,21 @@ pub(super) struct Prescan {
     small_faces: Tally,
     repeated_corners: Tally,
     weights: Tally,
+    colours: Colours,
     lost_texture_indices: Tally,
+}
+
+/// Which positions have a colour.
+#[derive(Default)]
+struct Colours {
+    /// Whether the first one has: then the parser is given a colour with each, white where there is none.
+    written: bool,
+    /// Positions with a colour.
+    count: usize,
+    /// Positions without one.
+    missing: Tally,
+    /// Colours over 1 or below 0.
+    out_of_range: Tally,
 }
 
 /// Which smoothing groups the faces are in.
@@ -116,6 +130,11 @@ impl Prescan {
         self.corners_with_normal > 0 && self.faces_without_normal.count == 0
     }
 
+    /// Whether every position has a colour: only then the colours of the file are used.
+    pub(super) fn has_colours(&self) -> bool {
+        self.colours.count > 0 && self.colours.missing.count == 0
+    }
+
     /// What was passed over or read in another way than it may be meant.
     pub(super) fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
@@ -126,6 +145,14 @@ impl Prescan {
         self.small_faces.warn("a face of fewer than three different corners is left out", w);
         self.repeated_corners.warn("a corner that repeats the one before it is left out", w);
         self.weights.warn("the weight w of a position is ignored", w);
+        if self.colours.count > 0 {
+            self.colours.missing.warn("a position has no colour: the colours of the others are not used", w);
+        }
+        if self.has_colours() {
+            self.colours
+                .out_of_range
+                .warn("the colour of a position is not within 0 to 1, and is shown as if it were", w);
+        }
         self.lost_texture_indices.warn("a texture coordinate that does not exist is ignored, as all of them are", w);
         if self.corners_with_normal > 0 {
             let what = "a face has corners without a normal: averaged normals are used for the whole mesh";
@@ -168,11 +195,12 @@ impl Prescan {
         Ok(())
     }
 
-    /// A position or a normal: three finite numbers; what follows (weight, colour) is checked and dropped.
+    /// A position or a normal: three finite numbers; a position may have a colour, three more. What else follows (a weight)
+    /// is checked and dropped.
     fn vector(&mut self, keyword: &'static str, line: usize, rest: &str) -> Result<(), ObjProblem> {
         let bad = |word: &str| ObjProblem::BadNumber { keyword, found: quote(word) };
         let mut found = 0;
-        let mut fourth = None;
+        let mut more = [0.0; 3];
         self.text.push_str(keyword);
         for word in without_comment(rest).split_ascii_whitespace() {
             let number: f32 = word.parse().map_err(|_| bad(word))?;
@@ -183,23 +211,44 @@ impl Prescan {
             if found <= 3 {
                 self.text.push(' ');
                 self.text.push_str(word);
-            } else if found == 4 {
-                fourth = Some(number);
+            } else if found <= 6 {
+                more[found - 4] = number;
             }
         }
-        self.text.push('\n');
         if found < 3 {
             return Err(ObjProblem::TooFewNumbers { keyword, found });
         }
         if keyword == "vn" {
+            self.text.push('\n');
             self.normals += 1;
             return Ok(());
         }
+        self.colour(line, (found == 6).then_some(more));
+        self.text.push('\n');
         self.positions += 1;
-        if found == 4 && fourth != Some(1.0) {
+        if found == 4 && more[0] != 1.0 {
             self.weights.add(line);
         }
         Ok(())
+    }
+
+    /// The colour of the position that was just read, if it has one.
+    fn colour(&mut self, line: usize, colour: Option<[f32; 3]>) {
+        let colours = &mut self.colours;
+        colours.written |= self.positions == 0 && colour.is_some();
+        match colour {
+            Some(colour) => {
+                colours.count += 1;
+                if !colour.iter().all(|c| (0.0..=1.0).contains(c)) {
+                    colours.out_of_range.add(line);
+                }
+            }
+            None => colours.missing.add(line),
+        }
+        if colours.written {
+            let [r, g, b] = colour.unwrap_or([1.0; 3]);
+            self.text.push_str(&format!(" {r} {g} {b}"));
+        }
     }
 
     fn face(&mut self, line: usize, rest: &str, corners: &mut Vec<Corner>, limits: Limits) -> Result<(), ObjProblem> {

@@ -74,7 +74,8 @@ fn weights_and_colours_do_not_move_positions() {
     // The parser divides by a fourth number and refuses a colour that not every position has.
     let loaded = parse("v 2 4 6 2 # w\nv 1 0 0 1 0.5 0.5\nv 1 1 0 1\nf 1 2 3\n").unwrap();
     assert_eq!(loaded.mesh.positions(), [Vec3::new(2.0, 4.0, 6.0), Vec3::X, Vec3::new(1.0, 1.0, 0.0)]);
-    assert_eq!(warning(&loaded), "the weight w of a position is ignored (line 1)");
+    let no_colours = "a position has no colour: the colours of the others are not used (2 times, first in line 1)";
+    assert_eq!(loaded.warnings, ["the weight w of a position is ignored (line 1)", no_colours]);
 }
 
 #[test]
@@ -186,4 +187,33 @@ fn shipped_meshes() {
         assert!(fans.sum::<f64>() > 0.0, "{name} is inside out");
         assert!(std::fs::metadata(&path).unwrap().len() <= 60_000, "{}", path.to_string_lossy().to_string());
     }
+}
+
+#[test]
+fn colours_follow_their_positions() {
+    // Position 1 is not used, and the others are named in another order than they are given.
+    let points = "v 9 9 9 0 0 0\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0 # green\nv 0 1 0 0 0.25 1\n";
+    let loaded = parse(&(points.to_string() + "f 4 2 3\n")).unwrap();
+    assert_eq!(loaded.mesh.colours(), [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]);
+    assert_eq!(loaded.warnings, Vec::<String>::new());
+    // Faces may stand before positions.
+    let loaded = parse(&("f 4 2 3\n".to_string() + points)).unwrap();
+    assert_eq!(loaded.mesh.colours(), [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]);
+}
+
+#[test]
+fn colours_are_used_if_all_positions_have_one() {
+    for (first, last, line) in [("v 0 0 0 1 0 0", "v 0 1 0", 3), ("v 0 0 0", "v 0 1 0 1 0 0", 1)] {
+        let loaded = parse(&format!("{first}\nv 1 0 0 0 1 0\n{last}\nf 1 2 3\n")).unwrap();
+        assert!(loaded.mesh.colours().is_empty());
+        let expected = format!("a position has no colour: the colours of the others are not used (line {line})");
+        assert_eq!(loaded.warnings, [expected]);
+    }
+    let loaded = parse("v 0 0 0 255 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 -1\nf 1 2 3\n").unwrap();
+    assert_eq!(loaded.mesh.colours()[0], Vec3::new(255.0, 0.0, 0.0));
+    assert_eq!(loaded.warnings.len(), 1);
+    assert!(loaded.warnings[0].contains("not within 0 to 1") && loaded.warnings[0].contains("2 times"));
+    // Four numbers are a weight, seven are a weight and a colour, which no program writes: both without a colour.
+    let loaded = parse("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1 0 0 1\nf 1 2 3\n").unwrap();
+    assert!(loaded.mesh.colours().is_empty());
 }

@@ -1,0 +1,176 @@
+//! Interpolated attributes as pictures: vertex colours and Lecture 5's checkerboard, wrong and right.
+
+mod support;
+
+use fastphong::camera::{Camera, Projection};
+use fastphong::frame::Frame;
+use fastphong::mesh::vertex_normals::NormalSource;
+use fastphong::mesh::{MeshBuilder, PolygonMesh};
+use fastphong::picture::LinearPicture;
+use fastphong::raster::{Edges, barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours};
+use fastphong::scene::{Culling, Interpolation, Object, Scene};
+use glam::{DAffine3, DVec3, Vec3};
+use std::sync::Arc;
+
+const WIDTH: usize = 96;
+const HEIGHT: usize = 72;
+
+fn camera() -> Camera {
+    Camera {
+        eye: DVec3::new(3.0, 2.0, 9.0),
+        target: DVec3::new(0.0, 0.0, 0.0),
+        up: DVec3::Y,
+        projection: Projection::Perspective { fovy: 50.0 },
+        near: 1.0,
+        far: 40.0,
+    }
+}
+
+fn seen(mesh: PolygonMesh, interpolation: Interpolation) -> Frame {
+    let object =
+        Object { mesh: Arc::new(mesh), transform: DAffine3::IDENTITY, material: None, normals: NormalSource::Averaged };
+    let scene = Scene {
+        width: WIDTH as u32,
+        height: HEIGHT as u32,
+        interpolation,
+        culling: Culling::None,
+        objects: vec![object],
+        ..Scene::new(camera())
+    };
+    scene.frame().expect("a frame")
+}
+
+/// A floor of two triangles over −4..4 in x and z, with a colour that is a linear function of x and z.
+fn floor(triangles: bool) -> PolygonMesh {
+    let corners = [(-4.0, -4.0), (-4.0, 4.0), (4.0, 4.0), (4.0, -4.0)];
+    let mut builder = MeshBuilder::new(corners.iter().map(|&(x, z)| Vec3::new(x, 0.0, z)).collect());
+    if triangles {
+        builder.polygon(&[0, 1, 2]).polygon(&[0, 2, 3]);
+    } else {
+        builder.polygon(&[0, 1, 2, 3]);
+    }
+    builder.colours(corners.iter().map(|&(x, z)| colour(f64::from(x), f64::from(z)).as_vec3()).collect());
+    builder.finish().expect("a mesh")
+}
+
+fn colour(x: f64, z: f64) -> DVec3 {
+    DVec3::new(0.5 + 0.1 * x, 0.5 - 0.1 * z, 0.25 + 0.02 * (x + z))
+}
+
+/// Where the ray of a pixel meets the floor, x and z, and how far it moves in half a sub-pixel.
+fn on_floor(column: usize, row: usize) -> Option<([f64; 2], f64)> {
+    let camera = camera();
+    let [right, up, forward] = camera.axes();
+    let scale = (25.0f64).to_radians().tan();
+    let at = |x: f64, y: f64| {
+        let ray = forward
+            + right * (2.0 * x / WIDTH as f64 - 1.0) * scale * WIDTH as f64 / HEIGHT as f64
+            + up * (1.0 - 2.0 * y / HEIGHT as f64) * scale;
+        let t = -camera.eye.y / ray.y;
+        let p = camera.eye + t * ray;
+        (t > 0.0 && p.x.abs().max(p.z.abs()) < 4.0).then_some([p.x, p.z])
+    };
+    let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
+    let here = at(x, y)?;
+    let moved = [at(x + 1.0, y)?, at(x, y + 1.0)?];
+    // Corners are snapped by half a sub-pixel each way, in x and in y.
+    Some((here, moved.iter().map(|p| (p[0] - here[0]).hypot(p[1] - here[1])).sum::<f64>() / 512.0))
+}
+
+/// How many pixels show another colour than the ray's, of those on the floor and not within `off` of a line of the board.
+fn wrong(picture: &LinearPicture) -> (usize, usize) {
+    let (mut wrong, mut all) = (0, 0);
+    for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
+        let Some(([wx, wz], off)) = on_floor(x, y) else { continue };
+        // Near the line an eight-millionth of the coordinates, as they are f32, is less than half a sub-pixel.
+        if [wx, wz].iter().any(|c| (c - c.round()).abs() < 2.0 * off) {
+            continue;
+        }
+        let expected = if (wx.floor() + wz.floor()).rem_euclid(2.0) == 0.0 { 1.0 } else { 0.0 };
+        wrong += usize::from(picture.get(x, y)[0] != expected);
+        all += 1;
+    }
+    (wrong, all)
+}
+
+const BOARD: [[f32; 3]; 2] = [[1.0; 3], [0.0; 3]];
+
+/// Lecture 5's board: right where interpolation is linear in space, in both engines; wrong where it is linear on the screen,
+/// and wrong in another way if the floor is cut into triangles.
+#[test]
+fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
+    let board = |triangles, interpolation| checkerboard(&seen(floor(triangles), interpolation), 1.0, BOARD);
+    for triangles in [false, true] {
+        let (off, all) = wrong(&board(triangles, Interpolation::Perspective));
+        assert!(off == 0 && all > 1000, "{off} of {all}");
+        let (off, all) = wrong(&board(triangles, Interpolation::Screen));
+        assert!(off * 5 > all, "{off} of {all} are wrong");
+    }
+    assert_ne!(board(false, Interpolation::Screen), board(true, Interpolation::Screen), "the diagonal shows");
+    let frame = seen(floor(true), Interpolation::Perspective);
+    let (off, all) = wrong(&barycentric_checkerboard(&frame, Edges::TopLeft, 1.0, BOARD));
+    assert!(off == 0 && all > 1000, "{off} of {all}");
+}
+
+/// The square of size s at the origin is c_1; it moves with the world, not with the eye.
+#[test]
+fn squares_have_their_size_and_place() {
+    let frame = seen(floor(false), Interpolation::Perspective);
+    for size in [0.5, 1.0, 3.0] {
+        let picture = checkerboard(&frame, size, BOARD);
+        let (mut wrong, mut all) = (0, 0);
+        for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
+            let Some(([wx, wz], off)) = on_floor(x, y) else { continue };
+            let (i, j) = (wx / size, wz / size);
+            if [i, j].iter().any(|c| (c - c.round()).abs() * size < 2.0 * off) {
+                continue;
+            }
+            let expected = if (i.floor() + j.floor()).rem_euclid(2.0) == 0.0 { 1.0 } else { 0.0 };
+            wrong += usize::from(picture.get(x, y)[0] != expected);
+            all += 1;
+        }
+        assert!(wrong == 0 && all > 800, "{size}: {wrong} of {all}");
+    }
+}
+
+/// Colours of vertices: in space those of the ray, in both engines.
+#[test]
+fn vertex_colours_are_linear_on_the_surface() {
+    let frame = seen(floor(true), Interpolation::Perspective);
+    for picture in [vertex_colours(&frame), barycentric_vertex_colours(&frame, Edges::TopLeft)] {
+        let mut compared = 0;
+        for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
+            let Some(([wx, wz], off)) = on_floor(x, y) else { continue };
+            let [r, g, b, alpha] = picture.get(x, y).map(f64::from);
+            assert_eq!(alpha, 1.0, "at {x}, {y}");
+            let error = (DVec3::new(r, g, b) - colour(wx, wz)).abs().max_element();
+            // Colours change by 0.1 a unit; the corners' snapping moves the surface by `off`; some 200 steps of an f32,
+            // each off by 2⁻²⁵, divided by a weight of at least 1/14.
+            assert!(error <= 0.1 * 2.0 * off + 2e-4, "{error} at {x}, {y}");
+            compared += 1;
+        }
+        assert!(compared > 1000);
+    }
+    let bent = vertex_colours(&seen(floor(true), Interpolation::Screen));
+    let straight = vertex_colours(&frame);
+    let most = bent.texels().iter().zip(straight.texels()).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
+    assert!(most > 0.05, "linear on the screen is another picture: {most}");
+}
+
+/// A mesh without colours is white; colours that are not one a position are refused.
+#[test]
+fn colours_are_one_a_position_or_none() {
+    let triangle = [Vec3::ZERO, Vec3::X, Vec3::Z];
+    let mut builder = MeshBuilder::new(triangle.to_vec());
+    builder.polygon(&[0, 2, 1]);
+    let picture = vertex_colours(&seen(builder.clone().finish().expect("a mesh"), Interpolation::Screen));
+    assert!(picture.texels().iter().any(|t| *t == [1.0; 4]));
+    assert!(picture.texels().iter().all(|t| *t == [1.0; 4] || t[3] == 0.0));
+    let refused = |colours: Vec<Vec3>| {
+        let mut builder = builder.clone();
+        builder.colours(colours);
+        builder.finish().expect_err("colours that do not fit").to_string()
+    };
+    assert_eq!(refused(vec![Vec3::ONE; 2]), "2 colours where 3 were expected");
+    assert_eq!(refused(vec![Vec3::ONE, Vec3::NAN, Vec3::ONE]), "vector 1 is not finite");
+}
