@@ -164,7 +164,7 @@ fn colours_are_one_a_position_or_none() {
     let mut builder = MeshBuilder::new(triangle.to_vec());
     builder.polygon(&[0, 2, 1]);
     let picture = vertex_colours(&seen(builder.clone().finish().expect("a mesh"), Interpolation::Screen));
-    assert!(picture.texels().iter().any(|t| *t == [1.0; 4]));
+    assert!(picture.texels().contains(&[1.0; 4]));
     assert!(picture.texels().iter().all(|t| *t == [1.0; 4] || t[3] == 0.0));
     let refused = |colours: Vec<Vec3>| {
         let mut builder = builder.clone();

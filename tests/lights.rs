@@ -89,7 +89,8 @@ fn every_mode_is_the_references() {
 fn every_mode_changes_the_picture() {
     let render = |change: &dyn Fn(&mut Scene)| reference::render(&frame(change), Model::Phong).to_linear();
     let plain = render(&|_| ());
-    let changes: [(&str, &dyn Fn(&mut Scene)); 8] = [
+    type Change<'a> = &'a dyn Fn(&mut Scene);
+    let changes: [(&str, Change); 8] = [
         ("attenuation", &|s| s.lights[1].falloff = Falloff::Attenuation(0.2)),
         ("inverse square", &|s| s.lights[1].falloff = Falloff::InverseSquare),
         ("inverse", &|s| s.lights[1].falloff = Falloff::Inverse),

@@ -26,22 +26,6 @@ pub enum Method {
     Reference(Model),
 }
 
-/// Models by their names on the command line.
-pub const MODELS: [(&str, Model); 7] = [
-    ("flat", Model::Flat),
-    ("flat-average", Model::FlatAverage),
-    ("gouraud", Model::Gouraud),
-    ("gouraud-separate", Model::GouraudSeparate),
-    ("phong", Model::Phong),
-    ("phong-constant", Model::PhongConstant),
-    ("slerp", Model::Slerp),
-];
-
-/// The name of a model.
-pub fn model_name(model: Model) -> &'static str {
-    MODELS.iter().find(|(_, named)| *named == model).map_or("", |(name, _)| name)
-}
-
 /// `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
 pub fn method(text: &str) -> Result<Method, String> {
     let (name, rest) = text.split_once(':').unwrap_or((text, ""));
@@ -49,11 +33,11 @@ pub fn method(text: &str) -> Result<Method, String> {
         if rest.is_empty() {
             return Ok(Method::Reference(Model::Phong));
         }
-        let named = |model| MODELS.iter().find(|(name, _)| *name == model).map(|(_, model)| Method::Reference(*model));
-        return rest
-            .strip_prefix("model=")
-            .and_then(named)
-            .ok_or_else(|| format!("`{rest}`: expected model=flat, model=gouraud, model=phong or model=slerp"));
+        let named = |name: &str| Model::ALL.into_iter().find(|model| model.name() == name).map(Method::Reference);
+        return rest.strip_prefix("model=").and_then(named).ok_or_else(|| {
+            let models: Vec<String> = Model::ALL.iter().map(|model| format!("model={}", model.name())).collect();
+            format!("`{rest}`: expected one of {}", models.join(", "))
+        });
     }
     let is_method = METHODS.iter().any(|entry| entry.info.name == name);
     let means_method = nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some();
@@ -68,7 +52,7 @@ impl std::fmt::Display for Method {
         match self {
             Method::Variant(variant) => variant.fmt(f),
             Method::Reference(Model::Phong) => f.write_str(REFERENCE),
-            Method::Reference(model) => write!(f, "{REFERENCE}:model={}", model_name(*model)),
+            Method::Reference(model) => write!(f, "{REFERENCE}:model={}", model.name()),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `fastphong explain`: all that is said about one method, and what it costs.
 
-use super::drawing::{engines, model_name};
+use super::drawing::engines;
 use super::list::{exactness, method_json};
 use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
@@ -121,7 +121,7 @@ impl Explain {
         json["variant"] = self.method.to_string().into();
         json["values"] = self.method.parameters().into();
         json["formula"] = info.formula.into();
-        json["model"] = model_name(info.model).into();
+        json["model"] = info.model.name().into();
         json["derivation"] = info.derivation.into();
         json["fails"] = info.fails.into();
         json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(info)? });

@@ -1,6 +1,6 @@
 //! `fastphong list`: what there is, each from its own table.
 
-use super::drawing::{engines, model_name};
+use super::drawing::engines;
 use super::table::columns;
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
@@ -82,7 +82,7 @@ fn methods() -> String {
 /// How near a method is to its closed form, in a sentence.
 pub fn exactness(info: &Info) -> String {
     let Roundings { start, step, of } = info.roundings;
-    let model = model_name(info.model);
+    let model = info.model.name();
     match step {
         0.0 => format!("off its closed form, {model}, by {start} roundings of 2^-24 in its {}", stepped(of)),
         _ => format!(
@@ -110,7 +110,7 @@ pub fn method_json(info: &Info) -> Value {
         "name": info.name,
         "title": info.title,
         "source": info.source,
-        "model": model_name(info.model),
+        "model": info.model.name(),
         "roundings": { "start": start, "step": step, "of": stepped(of) },
         "perspective": info.perspective.sentence(),
         "local": info.local.sentence(),

@@ -237,7 +237,7 @@ impl From<&Row> for RowData {
             method: info.name.to_string(),
             parameters: info.parameters.iter().map(|p| p.name.to_string()).zip(values.copied()).collect(),
             engine: row.engine.name().to_string(),
-            model: alloc::format!("{:?}", info.model).to_lowercase(),
+            model: info.model.name().into(),
             error: row.error.into(),
             own: row.own.into(),
             bound: row.bound,

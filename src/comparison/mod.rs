@@ -9,13 +9,14 @@
 //! use fastphong::lighting::Light;
 //! use fastphong::mesh::builtin::builtin;
 //! use fastphong::mesh::vertex_normals::NormalSource;
-//! use fastphong::scene::{Culling, Encoding, HiddenSurfaces, Interpolation, Object, Scene};
+//! use fastphong::scene::{Object, Scene};
 //! use fastphong::shader::Variant;
 //! use glam::{DAffine3, DVec3};
 //!
 //! let mesh = builtin("sphere?rings=8&segments=16")?;
 //! let fit = Fit { direction: DVec3::Z, up: DVec3::Y, fraction: 0.9, fovy: None, aspect: 1.0 };
 //! let points = mesh.positions().iter().map(|p| p.as_dvec3());
+//! let camera = Camera::fit(points, &fit).ok_or("the mesh is empty")?;
 //! let scene = Scene {
 //!     width: 48,
 //!     height: 48,
@@ -26,7 +27,7 @@
 //!         material: None,
 //!         normals: NormalSource::Averaged,
 //!     }],
-//!     ..Scene::new(Camera::fit(points, &fit).ok_or("the mesh is empty")?)
+//!     ..Scene::new(camera)
 //! };
 //! let frame = scene.frame()?;
 //!

@@ -207,7 +207,7 @@ fn documents_come_back_as_they_went() {
     assert_eq!(value, serde_json::from_str::<serde_json::Value>(&text).unwrap());
     let row = &value["comparisons"][0]["rows"][1];
     assert_eq!((row["variant"].as_str(), row["parameters"]["steps"].as_u64()), (Some("fast-phong:steps=3"), Some(3)));
-    assert_eq!((row["model"].as_str(), row["engine"].as_str()), (Some("phong"), Some("scanline")));
+    assert_eq!((row["model"].as_str(), row["engine"].as_str()), (Some("phong-constant"), Some("scanline")));
     assert!(row["speed"]["ratio_to_naive"]["tie"].is_boolean());
     assert!(row["error"]["psnr"].is_f64() && row["error"]["equal"] == false);
     assert!(row["speed"]["timing"]["samples_ns"].as_array().is_some_and(|s| s.len() == 5));

@@ -119,7 +119,7 @@ pub(super) fn raster_visible_triangle(
         let ndc = blend(weights, ndc);
         let buffer = &mut grid.buffer.row_mut(y)[x];
         let is_seen = match reading.ties {
-            Ties::Later => !(ndc.z > *buffer),
+            Ties::Later => ndc.z <= *buffer, // !(NDC.z > buffer(x, y)): no number is missing here
             Ties::Earlier => ndc.z < *buffer,
         };
         if is_in_cube(ndc) && is_seen {

@@ -92,9 +92,9 @@ fn meshes(content: &mut Content) -> Result<&'static str, FigureError> {
             "difference from naive Phong, levels",
             "polygons",
             &format!("{steps} steps: max"),
-            "RMS",
+            &format!("{steps} steps: RMS"),
             "1 step: max",
-            "RMS",
+            "1 step: RMS",
         ],
         rows,
     );
@@ -139,7 +139,10 @@ fn operations(content: &mut Content) -> Result<(), FigureError> {
          from the previous pixel (walk), and for the colour (shade). The power costs five multiplications in every method \
          but flat and Gouraud shading.",
     );
-    content.table(&["method", "walk: + −", "×", "÷", "√", "shade: + −", "×", "÷", "√"], rows);
+    content.table(
+        &["method", "walk: + −", "walk: ×", "walk: ÷", "walk: √", "shade: + −", "shade: ×", "shade: ÷", "shade: √"],
+        rows,
+    );
     let naive = Variant::parse("naive-phong")?.operations(1);
     let fast = Variant::parse("fast-phong")?.operations(1);
     let roots = |counts: &Counts| f64::from(counts.roots);

@@ -217,7 +217,14 @@ fn numbers(content: &mut Content) -> Result<(), FigureError> {
         ));
     }
     content.table(
-        &["largest difference in grey levels", "square, 45°", "90°", "triangles, 45°", "90°", "other diagonal"],
+        &[
+            "largest difference in grey levels",
+            "square, 45°",
+            "square, 90°",
+            "triangles, 45°",
+            "triangles, 90°",
+            "other diagonal",
+        ],
         rows,
     );
     content.text(

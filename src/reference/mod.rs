@@ -69,6 +69,19 @@ impl Model {
         Model::PhongConstant,
         Model::Slerp,
     ];
+
+    /// What it is called on the command line and in data.
+    pub fn name(self) -> &'static str {
+        match self {
+            Model::Flat => "flat",
+            Model::FlatAverage => "flat-average",
+            Model::Gouraud => "gouraud",
+            Model::GouraudSeparate => "gouraud-separate",
+            Model::Phong => "phong",
+            Model::PhongConstant => "phong-constant",
+            Model::Slerp => "slerp",
+        }
+    }
 }
 
 /// A picture of the reference, and what it knows of each pixel.

@@ -119,9 +119,10 @@ fn article(made: &LectureFigure) -> String {
 /// Pictures in a grid, their pixels as squares.
 fn pictures<'a>(columns: usize, shown: &[Shown], files: &mut impl Iterator<Item = &'a Vec<u8>>) -> String {
     let widest = shown.iter().map(|s| s.picture.width()).max().unwrap_or(1);
-    // As many page pixels a pixel as give a picture about this width, but whole ones: squares of one size.
-    let scale = (300 / widest.max(1)).max(1);
+    // As many page pixels a pixel as there is room for, but whole ones: squares of one size.
     let columns = columns.max(1);
+    let room = (720 / columns).max(300).min(1300 / columns);
+    let scale = (room / widest.max(1)).max(1);
     let mut html = format!("<div class=\"shown\" style=\"--columns:{columns};--widest:{}px\">", widest * scale);
     for (shown, png) in shown.iter().zip(files) {
         let (width, height) = (shown.picture.width(), shown.picture.height());

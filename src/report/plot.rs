@@ -95,7 +95,7 @@ fn curve(i: usize, series: &Series, x: &Extent, y: &Extent) -> String {
         last = Some(place);
     }
     let style = i % STYLES;
-    format!("<path class=\"curve s{style}\" d=\"{path}\"/>{marks}")
+    format!("<path class=\"curve s{style}\" fill=\"none\" d=\"{path}\"/>{marks}")
 }
 
 /// The mark of a point, whose shape tells its curve.
@@ -142,7 +142,7 @@ impl<'a> Legend<'a> {
         let mut svg = String::new();
         for &(i, series, left, line) in &self.entries {
             let middle = LINE * line as f64 + 10.0;
-            svg += &format!("<path class=\"curve s{}\" d=\"M{left:.1} {middle:.1}h36\"/>", i % STYLES);
+            svg += &format!("<path class=\"curve s{}\" fill=\"none\" d=\"M{left:.1} {middle:.1}h36\"/>", i % STYLES);
             if series.points.len() <= MARKED {
                 svg += &mark(i, left + 18.0, middle);
             }
@@ -280,7 +280,8 @@ mod tests {
             marks: vec![1.5],
             caption: String::new(),
         });
-        let path = drawn.split("<path class=\"curve s0\" d=\"").nth(1).unwrap().split('"').next().unwrap();
+        let path =
+            drawn.split("<path class=\"curve s0\" fill=\"none\" d=\"").nth(1).unwrap().split('"').next().unwrap();
         assert_eq!((path.matches('M').count(), path.matches('L').count()), (2, 1), "{path}");
         assert!(drawn.contains("<title>&lt;t&gt;</title>") && drawn.contains("a&lt;b") && drawn.contains("x &amp; y"));
         assert_eq!(drawn.matches("class=\"one\"").count(), 1);

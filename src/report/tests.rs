@@ -344,3 +344,43 @@ fn commands_can_be_typed_again() {
         ["1 pixel", "2 pixels", "1,234,567 pixels"]
     );
 }
+
+/// A figure of which every text is `text`, with one picture.
+fn lecture_figure(text: &str) -> LectureFigure {
+    use crate::figures::{Agreement, Content, FIGURES, Finding, Plot, Scale, Series, Shown};
+    let mut content = Content::default();
+    content.text(text);
+    content.pictures(2, vec![Shown::new(text, text, crate::picture::Picture8::new(4, 3, [9; 4]))]);
+    let axis = || (text.to_owned(), Scale::Linear);
+    let series = vec![Series::new(text, [(0.0, 1.0), (1.0, 2.0)])];
+    let plot = Plot { title: text.into(), x: axis(), y: axis(), series, marks: vec![], caption: text.into() };
+    content.plot(plot);
+    content.table(&[text], vec![vec![text.to_owned()]]);
+    content.found(Finding::new(text, text, (0.5, "levels"), Agreement::Contradicts, text));
+    LectureFigure::new(FIGURES[0], content).expect("a picture of twelve pixels")
+}
+
+#[test]
+fn figures_of_the_lecture_are_text_pictures_and_data() {
+    let hostile = "</script><script>alert(1)</script>\"><img src=http://evil.example/x onerror='alert(1)'>&amp;";
+    let figure = lecture_figure(hostile);
+    let name = figure.figure.name;
+    let alone = figures_page(core::slice::from_ref(&figure), &[hostile.to_owned()]);
+    let mut whole = report(vec![section(SPHERE, "sphere")]);
+    whole.lecture = vec![figure];
+    let whole = whole.html();
+    for html in [&alone, &whole] {
+        assert_balanced(html);
+        assert!(!html.contains("<img src=http") && html.contains("&lt;img src=http"));
+        assert_eq!(html.matches(&format!("<article id=\"figure-{name}\"")).count(), 1);
+        let data: serde_json::Value = serde_json::from_str(script_data(html)).expect("JSON");
+        let finding = &data["figures"][0]["findings"][0];
+        assert_eq!((finding["key"].as_str(), finding["value"].as_f64()), (Some(hostile), Some(0.5)));
+        assert_eq!(finding["agreement"], "contradicts");
+        assert!(html.contains("<td class=\"contradicts\">contradicts</td>"));
+    }
+    assert_eq!((alone.matches("<script").count(), whole.matches("<script").count()), (1, 2));
+    assert!(whole.contains("<a href=\"#lecture\">"));
+    // Pages without figures do not speak of them.
+    assert!(!report(vec![]).html().contains("lecture-title"));
+}

@@ -219,6 +219,12 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         self.model == SpecularModel::Blinn
     }
 
+    /// The number 0.
+    #[inline(always)]
+    pub fn zero(&self) -> N {
+        self.zero
+    }
+
     /// The number 1.
     #[inline(always)]
     pub fn one(&self) -> N {

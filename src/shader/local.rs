@@ -137,13 +137,13 @@ impl<N: Num, const L: usize> Local<N, L> {
     /// How the vector toward light `i` grows where the position grows by `step` and 1/w by `inv_w_step`.
     #[inline(always)]
     pub fn light_step(&self, i: usize, step: [N; 3], inv_w_step: Option<N>) -> [N; 3] {
-        toward_step(self.lights[i], step, inv_w_step)
+        toward_step(self.lights[i], step, inv_w_step, self.model.zero())
     }
 
     /// How the vector toward the eye grows, likewise.
     #[inline(always)]
     pub fn eye_step(&self, step: [N; 3], inv_w_step: Option<N>) -> [N; 3] {
-        toward_step(self.view, step, inv_w_step)
+        toward_step(self.view, step, inv_w_step, self.model.zero())
     }
 
     /// How strong light `i` is at the squared distance `square`; `None` is full strength. Where distances are divided by
@@ -200,10 +200,10 @@ fn toward<N: Num>(place: Place<[N; 3]>, from: [N; 3], inv_w: Option<N>) -> [N; 3
 }
 
 #[inline(always)]
-fn toward_step<N: Num>(place: Place<[N; 3]>, step: [N; 3], inv_w_step: Option<N>) -> [N; 3] {
+fn toward_step<N: Num>(place: Place<[N; 3]>, step: [N; 3], inv_w_step: Option<N>, zero: N) -> [N; 3] {
     match (place, inv_w_step) {
         (Place::Local(_), None) => [-step[0], -step[1], -step[2]],
-        (Place::Infinite(d), None) => [d[0] - d[0], d[1] - d[1], d[2] - d[2]],
+        (Place::Infinite(_), None) => [zero; 3],
         (_, Some(w)) => toward(place, step, Some(w)),
     }
 }

@@ -71,10 +71,10 @@ impl<W: Walk> Walk for Option<W> {
 
     #[inline(always)]
     fn next(&mut self) -> Self::Out {
-        match self {
-            Some(walk) => Some(walk.next()),
-            None => None,
-        }
+        self.as_mut().map(
+            #[inline(always)]
+            |walk| walk.next(),
+        )
     }
 }
 

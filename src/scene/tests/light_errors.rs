@@ -54,8 +54,7 @@ fn a_light_is_somewhere() {
         check(&format!("{AT}{TOWARD}«[[light]]»\n{key}\n"), &number(3), expected, None);
     }
     check("light = [{ direction = [0, 0, 1] }, «{ colour = 1 }»]\n", &number(2), expected, None);
-    let mut by_program = SceneFile::default();
-    by_program.light = Some(vec![LightSection::default()]);
+    let by_program = SceneFile { light: Some(vec![LightSection::default()]), ..SceneFile::default() };
     let error = by_program.resolve(cubes).expect_err("a light without a place");
     assert_eq!((error.message(), error.line_and_column()), (&*number(1), None));
 }

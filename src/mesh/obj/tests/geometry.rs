@@ -193,18 +193,18 @@ fn shipped_meshes() {
 fn colours_follow_their_positions() {
     // Position 1 is not used, and the others are named in another order than they are given.
     let points = "v 9 9 9 0 0 0\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0 # green\nv 0 1 0 0 0.25 1\n";
-    let loaded = parse(&(points.to_string() + "f 4 2 3\n")).unwrap();
+    let loaded = parse(points.to_string() + "f 4 2 3\n").unwrap();
     assert_eq!(loaded.mesh.colours(), [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]);
     assert_eq!(loaded.warnings, Vec::<String>::new());
     // Faces may stand before positions.
-    let loaded = parse(&("f 4 2 3\n".to_string() + points)).unwrap();
+    let loaded = parse("f 4 2 3\n".to_string() + points).unwrap();
     assert_eq!(loaded.mesh.colours(), [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]);
 }
 
 #[test]
 fn colours_are_used_if_all_positions_have_one() {
     for (first, last, line) in [("v 0 0 0 1 0 0", "v 0 1 0", 3), ("v 0 0 0", "v 0 1 0 1 0 0", 1)] {
-        let loaded = parse(&format!("{first}\nv 1 0 0 0 1 0\n{last}\nf 1 2 3\n")).unwrap();
+        let loaded = parse(format!("{first}\nv 1 0 0 0 1 0\n{last}\nf 1 2 3\n")).unwrap();
         assert!(loaded.mesh.colours().is_empty());
         let expected = format!("a position has no colour: the colours of the others are not used (line {line})");
         assert_eq!(loaded.warnings, [expected]);
