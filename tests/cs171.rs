@@ -331,6 +331,8 @@ fn triangles_without_area_draw_nothing() {
             full_shading(shading, &triangle, &plain(1.0), Reading::default(), &mut grid);
         }
         assert!(grid.colours.texels().iter().all(|t| *t == [0.0; 4]));
+        let places = triangle.map(|corner| ndc_to_screen(corner.ndc, [16, 16]));
+        raster_triangle(places, [16, 16], Inside::Closed, |x, y, _| panic!("{x}, {y} is filled"));
     }
 }
 

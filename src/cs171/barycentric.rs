@@ -34,8 +34,9 @@ pub fn weights([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     ]
 }
 
-/// γ as CS171 prints it, `f_ab(p) / f_ac(p)`: the quotient of two distances from p, which is no weight. At c, where γ is
-/// 1, it divides by zero; it is here to be looked at, and nothing else calls it.
+/// γ as CS171 prints it, `f_ab(p) / f_ac(p)`: the quotient of two distances from p, which is no weight. As f_ac(b) is
+/// −f_ab(c) it is −γ/β, below 0 all over the inside, so that only the edge ab would be filled. At c, where γ is 1, it
+/// divides by zero. It is here to be looked at, and nothing else calls it.
 pub fn printed_gamma([a, b, c]: [DVec2; 3], p: DVec2) -> f64 {
     f(a, b, p) / f(a, c, p)
 }
@@ -195,6 +196,11 @@ mod tests {
         let (mut sums_to_one, mut all) = (0, 0);
         triangles(4, |t, p| {
             let [alpha, beta, gamma] = weights(t, p);
+            if beta != 0.0 {
+                // Three rounded quotients and a product, of exact numbers.
+                let expected = -gamma / beta;
+                assert!((printed_gamma(t, p) - expected).abs() <= 2.0 * f64::EPSILON * expected.abs());
+            }
             let is_one = |gamma: f64| (alpha + beta + gamma - 1.0).abs() < 1e-9 * alpha.abs().max(beta.abs()).max(1.0);
             assert!(is_one(gamma));
             sums_to_one += usize::from(is_one(printed_gamma(t, p)));

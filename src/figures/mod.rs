@@ -17,8 +17,10 @@
 //! ```
 
 mod attenuation;
+mod barycentric;
 mod constant_vectors;
 mod content;
+mod cs171;
 mod depth;
 mod duff;
 mod error;
@@ -35,6 +37,7 @@ mod newell;
 mod newton;
 mod normals;
 mod painter;
+mod perspective;
 mod profile;
 mod slerp;
 mod square;
@@ -71,6 +74,9 @@ pub static FIGURES: &[&Figure] = &[
     &painter::FIGURE,
     &depth::FIGURE,
     &supersampling::FIGURE,
+    &barycentric::FIGURE,
+    &cs171::FIGURE,
+    &perspective::FIGURE,
 ];
 
 /// One thing that a lecture shows or says, to be made anew.
