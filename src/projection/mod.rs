@@ -1,11 +1,12 @@
 //! From a scene to a frame: transformed, projected, culled, clipped and snapped.
 
+mod light;
 mod ndc_cube;
 mod side;
 
 use crate::clip::{Corner, Cut, Plane, clip};
 use crate::frame::{ClipCorner, Frame, FrameBuilder, FrameError, FrameStats, SubPixel, Vertex};
-use crate::lighting::{self, Light, Lighting, Material};
+use crate::lighting::Material;
 use crate::mesh::PolygonMesh;
 use crate::mesh::newell::{polygon_normal, unit_normal};
 use crate::mesh::vertex_normals::{VertexNormals, vertex_normals};
@@ -35,29 +36,6 @@ impl Scene {
             projection.object(object)?;
         }
         projection.finish()
-    }
-}
-
-impl Scene {
-    /// The lights, their positions as seen from the eye, as [`Frame::position`] gives those of vertices.
-    fn lights_from_eye(&self) -> Vec<Light> {
-        let from_eye = |light: &Light| match light.place {
-            lighting::Place::Infinite(_) => *light,
-            lighting::Place::Local(p) => Light { place: lighting::Place::Local(p - self.camera.eye), ..*light },
-        };
-        self.lights.iter().map(from_eye).collect()
-    }
-
-    /// What falls on `material`; `lights` as [`Scene::lights_from_eye`] gives them.
-    fn lighting(&self, material: &Material, lights: &[Light], view: DVec3) -> Lighting {
-        let far = Lighting::new(material, self.ambient, lights, view);
-        Lighting {
-            shininess: self.specular.exponent(far.shininess, self.shininess_for),
-            specular: self.specular,
-            gate: self.gate,
-            view: if self.local_viewer { lighting::Place::Local([0.0; 3]) } else { far.view },
-            ..far
-        }
     }
 }
 

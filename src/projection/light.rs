@@ -1,0 +1,29 @@
+//! The light on a frame's materials.
+
+use crate::lighting::{Light, Lighting, Material, Place};
+use crate::scene::Scene;
+use alloc::vec::Vec;
+use glam::DVec3;
+
+impl Scene {
+    /// The lights, their positions as seen from the eye, as [`Frame::position`] gives those of vertices.
+    pub(super) fn lights_from_eye(&self) -> Vec<Light> {
+        let from_eye = |light: &Light| match light.place {
+            Place::Infinite(_) => *light,
+            Place::Local(p) => Light { place: Place::Local(p - self.camera.eye), ..*light },
+        };
+        self.lights.iter().map(from_eye).collect()
+    }
+
+    /// What falls on `material`; `lights` as [`Scene::lights_from_eye`] gives them.
+    pub(super) fn lighting(&self, material: &Material, lights: &[Light], view: DVec3) -> Lighting {
+        let far = Lighting::new(material, self.ambient, lights, view);
+        Lighting {
+            shininess: self.specular.exponent(far.shininess, self.shininess_for),
+            specular: self.specular,
+            gate: self.gate,
+            view: if self.local_viewer { Place::Local([0.0; 3]) } else { far.view },
+            ..far
+        }
+    }
+}
