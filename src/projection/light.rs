@@ -1,6 +1,6 @@
-//! The light of a scene as the frame has it: positions from the eye, the models that the scene asks for.
+//! The light on a frame's materials.
 
-use crate::lighting::{self, Light, Lighting, Material};
+use crate::lighting::{Light, Lighting, Material, Place};
 use crate::scene::Scene;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -9,8 +9,8 @@ impl Scene {
     /// The lights, their positions as seen from the eye, as [`Frame::position`] gives those of vertices.
     pub(super) fn lights_from_eye(&self) -> Vec<Light> {
         let from_eye = |light: &Light| match light.place {
-            lighting::Place::Infinite(_) => *light,
-            lighting::Place::Local(p) => Light { place: lighting::Place::Local(p - self.camera.eye), ..*light },
+            Place::Infinite(_) => *light,
+            Place::Local(p) => Light { place: Place::Local(p - self.camera.eye), ..*light },
         };
         self.lights.iter().map(from_eye).collect()
     }
@@ -22,7 +22,7 @@ impl Scene {
             shininess: self.specular.exponent(far.shininess, self.shininess_for),
             specular: self.specular,
             gate: self.gate,
-            view: if self.local_viewer { lighting::Place::Local([0.0; 3]) } else { far.view },
+            view: if self.local_viewer { Place::Local([0.0; 3]) } else { far.view },
             ..far
         }
     }

@@ -360,8 +360,8 @@ fn flags_that_make_no_sense_are_refused_by_name() {
     for (flags, parts) in [
         ("-m fast-fong", &["unknown method `fast-fong`: did you mean `fast-phong`?"][..]),
         ("-m refrence", &["did you mean `reference`?"]),
-        ("-m reference:model=fong", &["`model=fong`: expected model=flat"]),
-        ("-m reference:phong", &["`phong`: expected model=flat"]),
+        ("-m reference:model=fong", &["`model=fong`: expected one of model=flat"]),
+        ("-m reference:phong", &["`phong`: expected one of model=flat"]),
         ("-m fast-phong:steps=9", &["`steps=9`: expected a whole number from 1 to 8"]),
         ("-m flat:steps=1", &["method `flat` has no parameters"]),
         ("--engine barycentrik", &["did you mean `barycentric`?"]),
