@@ -410,8 +410,9 @@ fn cs171() {
 fn perspective() {
     let content = made("perspective");
     for key in ["wrong-screen", "wrong-screen-triangles"] {
-        // Half-way down the picture the floor is a fifth of its length too near: more than a square of its eight. What is a
-        // square off is wrong, what is two off is right again: of the middle half, at least a quarter is wrong.
+        // Half-way between the near rim, 2.5 away, and the far one, 10.5 away, β is 10.5 / 13 = 0.81 and the screen has ½: it
+        // is off by 2.5 of eight squares. From 0 at a rim to there the error passes ½ to 1½ squares, where most pixels are
+        // wrong, on at least a quarter of the way: more than an eighth of all.
         assert!(value(&content, key) > 12.5, "{key}: {}", value(&content, key));
         assert_eq!(agreement(&content, key), Agreement::Confirms, "{key}: the slide asks what is wrong");
     }
