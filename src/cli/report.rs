@@ -32,7 +32,7 @@ pub struct Report {
     /// Figures of the lectures between commas, `all` or `none` [default: all with the shipped scenes, none with INPUT]
     #[arg(long, value_name = "NAMES", value_parser = figures)]
     figures: Option<Figures>,
-    /// Difference maps of every pixel instead of squares of 2 x 2: a page of about twice the size
+    /// Difference maps of every pixel instead of squares of 4 x 4, and pictures that look like others too: a page of twice the size
     #[arg(long)]
     full: bool,
     /// Write README.md and its pictures beside the page as well

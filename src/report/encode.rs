@@ -83,8 +83,9 @@ fn smallest(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
     let channels = if is_opaque { 3 } else { 4 };
     let texels: Vec<u8> = picture.texels().iter().flat_map(|texel| &texel[..channels]).copied().collect();
     // Smooth shading is best guessed from its neighbours, flat areas and repeated colours are not.
-    attempts.push(Attempt { texels: texels.clone(), kind: kind(), filter: Filter::Adaptive });
-    attempts.push(Attempt { texels, kind: kind(), filter: Filter::NoFilter });
+    for filter in [Filter::Adaptive, Filter::Paeth, Filter::Avg, Filter::NoFilter] {
+        attempts.push(Attempt { texels: texels.clone(), kind: kind(), filter });
+    }
     let unfit = EncodeError { width: picture.width(), height: picture.height() };
     let files = attempts.iter().map(|attempt| attempt.encode(picture));
     let files = files.collect::<Result<Vec<_>, _>>().map_err(|_| unfit)?;

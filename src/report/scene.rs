@@ -67,7 +67,10 @@ fn figure_html(figure: &Figure, section: &Section) -> String {
     let (width, height) = (section.data.width, section.data.height);
     let scene = &section.caption.title;
     let name = figure_name(figure.kind, section);
-    let (caption, picture_alt, map_alt) = texts(figure.kind, section, &name, scene);
+    let (mut caption, picture_alt, map_alt) = texts(figure.kind, section, &name, scene);
+    for &number in &figure.also {
+        caption += &format!("; {} is nowhere more than one grey level from it", section.data.rows[number].variant);
+    }
     let class = if figure.is_overlay { " class=\"over\"" } else { "" };
     let size = format!("width=\"{width}\" height=\"{height}\" decoding=\"async\"");
     let mut html = format!("<figure data-name=\"{}\">", escape(&name));

@@ -19,10 +19,11 @@ const SHRINKING: usize = 2;
 /// How much of its pictures a section keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Detail {
-    /// Difference maps in squares of 2 × 2 pixels, each with its largest difference: a page of half the size.
+    /// Difference maps in squares of 4 × 4 pixels, each with its largest difference; of pictures that are nowhere more than
+    /// a grey level apart the first only: a page of half the size.
     #[default]
     Blocks,
-    /// Difference maps of every pixel.
+    /// Difference maps of every pixel, and every picture.
     Full,
 }
 
@@ -30,7 +31,7 @@ impl Detail {
     /// The side of a difference map's squares.
     fn block(self) -> usize {
         match self {
-            Detail::Blocks => 2,
+            Detail::Blocks => 4,
             Detail::Full => 1,
         }
     }
@@ -82,6 +83,8 @@ pub(super) struct Figure {
     pub map: Option<Vec<u8>>,
     /// The PNG file of the picture at half its size.
     pub small: Vec<u8>,
+    /// The rows whose pictures are left out, as they are nowhere more than a grey level from this one.
+    pub also: Vec<usize>,
 }
 
 /// What a figure shows.
@@ -109,18 +112,36 @@ impl Section {
         let reference = store(&comparison.reference, comparison.encoding);
         let base = Base { linear: &comparison.reference, stored: &reference, block: detail.block() };
         let mut jobs: Vec<Job<'_>> = Vec::from([Job { kind: FigureKind::Reference, shot: None }]);
+        // Rows with a picture of their own, and those without one beside the row that shows theirs.
+        let (mut shown, mut shown_by_others): (Vec<usize>, Vec<(usize, usize)>) = Default::default();
         for (number, Row { linear, picture, .. }) in comparison.rows.iter().enumerate() {
-            jobs.push(Job { kind: FigureKind::Row(number), shot: Some((linear, picture)) });
+            let is_like = |other: &Picture8| detail == Detail::Blocks && within_a_level(other, picture);
+            // What hardly differs from the reference is stored as that little.
+            let twin = shown.iter().find(|row| !is_like(&reference) && is_like(&comparison.rows[**row].picture));
+            match twin {
+                Some(twin) => shown_by_others.push((*twin, number)),
+                None => {
+                    shown.push(number);
+                    jobs.push(Job { kind: FigureKind::Row(number), shot: Some((linear, picture)) });
+                }
+            }
         }
         let triangles = triangulation.map(|t| (t, store(&t.picture, comparison.encoding)));
         if let Some((triangulation, stored)) = &triangles {
             jobs.push(Job { kind: FigureKind::Triangles, shot: Some((&triangulation.picture, stored)) });
         }
+        let mut figures = encoded(&base, &jobs)?;
+        for (twin, number) in shown_by_others {
+            let shows_it = |figure: &&mut Figure| figure.kind == FigureKind::Row(twin);
+            if let Some(figure) = figures.iter_mut().find(shows_it) {
+                figure.also.push(number);
+            }
+        }
         Ok(Section {
             caption,
             data: ComparisonData::from(comparison),
             triangulation: triangulation.map(TriangulationData::from),
-            figures: encoded(&base, &jobs)?,
+            figures,
         })
     }
 
@@ -146,6 +167,12 @@ pub(super) fn row_name(row: &RowData) -> String {
     if row.engine == "scanline" { row.variant.to_string() } else { alloc::format!("{}, {}", row.variant, row.engine) }
 }
 
+/// Whether no channel of two pictures of one size is more than a grey level apart.
+fn within_a_level(a: &Picture8, b: &Picture8) -> bool {
+    let is_near = |(a, b): (&[u8; 4], &[u8; 4])| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 1);
+    a.texels().iter().zip(b.texels()).all(is_near)
+}
+
 /// What pictures are compared with.
 struct Base<'a> {
     linear: &'a LinearPicture,
@@ -167,7 +194,7 @@ impl Job<'_> {
         let small = |picture| opaque(&shrunk(picture, SHRINKING));
         let Some((linear, stored)) = self.shot else {
             let (picture, small) = (opaque(base.stored)?, small(base.stored)?);
-            return Ok(Figure { kind, picture, is_overlay: false, map: None, small });
+            return Ok(Figure { kind, picture, is_overlay: false, map: None, small, also: Vec::new() });
         };
         let map = difference_map_of_blocks(base.linear, linear, MAP_SCALE, base.block);
         let map = map.expect("pictures of one frame have one size");
@@ -175,7 +202,7 @@ impl Job<'_> {
         // To lay one over the other is worth a good part of the file only.
         let is_overlay = over.len() < whole.len() / 4 * 3;
         let picture = if is_overlay { over } else { whole };
-        Ok(Figure { kind, picture, is_overlay, map: Some(opaque(&map)?), small: small(stored)? })
+        Ok(Figure { kind, picture, is_overlay, map: Some(opaque(&map)?), small: small(stored)?, also: Vec::new() })
     }
 }
 
