@@ -143,8 +143,8 @@ mod tests {
         assert!(mapped.windows(2).all(|pair| pair[0] < pair[1]), "farther stays farther");
         // Sums of two numbers up to 2.2, rounded thrice each.
         assert!((mapped[0] + 1.0).abs() <= 8.0 * HALF * 2.2 && (mapped[60] - 1.0).abs() <= 8.0 * HALF * 2.2);
-        // Preserved up to scale would put the middle of the depths in the middle: it is at 1.13/1.25.
-        assert!((frustum.ndc_depth(-4.25) - 0.882).abs() < 1e-3);
+        // Preserved up to scale would put the middle of the depths in the middle: it is at 17/15 − 16/15 · 4/17 = 15/17.
+        assert!((frustum.ndc_depth(-4.25) - 15.0 / 17.0).abs() <= 8.0 * HALF * 2.2);
         // Half of the cube is nearer than 2fn/(f + n) = 0.94.
         assert!(frustum.ndc_depth(-8.0 / 8.5).abs() <= 8.0 * HALF * 2.2);
     }

@@ -359,3 +359,24 @@ fn conflicts_are_those_of_samples_in_the_cube() {
     let found = conflicts(&builder.finish().expect("a frame"));
     assert_eq!((found.wrong, found.interpenetrating), (vec![(0, 1)], 1));
 }
+
+/// The painter moves polygons and keeps what is known of them: a clipped polygon's mean is that of the whole one.
+#[test]
+fn the_painter_keeps_the_means_of_clipped_polygons() {
+    let frame = |hidden_surfaces| {
+        let mut scene = Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
+        scene.camera.projection = Projection::Perspective { fovy: 60.0 };
+        scene.camera.eye = scene.camera.target + scene.camera.view() * 2.5;
+        (scene.camera.near, scene.camera.far) = (1.6, 5.0);
+        (scene.culling, scene.hidden_surfaces) = (Culling::None, hidden_surfaces);
+        scene.frame().expect("a frame")
+    };
+    let (drawn, painted) = (frame(HiddenSurfaces::DrawOrder), frame(HiddenSurfaces::Painter(PainterKey::Mean)));
+    assert!(drawn.stats().clipped > 10, "the near plane cuts it");
+    let moved = drawn.polygons().iter().zip(painted.polygons()).filter(|(a, b)| a.source != b.source).count();
+    assert!(moved > 100, "the painter sorts");
+    for polygon in painted.polygons() {
+        let same = drawn.polygons().iter().find(|other| other.source == polygon.source).expect("the same polygons");
+        assert_eq!(painted.mean(polygon), drawn.mean(same), "polygon {}", polygon.source);
+    }
+}

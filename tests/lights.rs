@@ -2,12 +2,12 @@
 
 use fastphong::camera::Projection;
 use fastphong::frame::Frame;
-use fastphong::lighting::{Falloff, Light, SpecularGate, SpecularModel};
+use fastphong::lighting::{Falloff, Light, Material, SpecularGate, SpecularModel};
 use fastphong::mesh::builtin::builtin;
 use fastphong::metrics::compare;
 use fastphong::picture::LinearPicture;
 use fastphong::reference::{self, Model};
-use fastphong::scene::{Interpolation, Scene};
+use fastphong::scene::{Culling, Interpolation, Scene};
 use fastphong::shader::{METHODS, SpanBench, Variant};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -40,6 +40,9 @@ fn most(a: &LinearPicture, b: &LinearPicture) -> f64 {
     difference.max
 }
 
+/// A change of a scene, with its name.
+type Change<'a> = (&'a str, &'a dyn Fn(&mut Scene));
+
 const FALLOFFS: [Falloff; 4] = [Falloff::None, Falloff::Attenuation(0.2), Falloff::InverseSquare, Falloff::Inverse];
 
 /// Every falloff, highlight, gate and interpolation, near plane through the sphere or not: within the bound of each method.
@@ -62,7 +65,7 @@ fn every_mode_is_the_references() {
                         let truth = reference::render(&frame, entry.info.model).to_linear();
                         let error = most(&truth, &entry.variant().render_linear(&frame));
                         let bound = entry.info.bound(&frame);
-                        assert!(bound < 2.0 / 255.0, "{}: a bound of {bound:.2e} could hide a fault", entry.info.name);
+                        assert!(bound < 3.0 / 255.0, "{}: a bound of {bound:.2e} could hide a fault", entry.info.name);
                         let share = nearest.entry(entry.info.name).or_insert(0.0);
                         *share = share.max(error / bound);
                         if error > bound {
@@ -88,9 +91,9 @@ fn every_mode_is_the_references() {
 #[test]
 fn every_mode_changes_the_picture() {
     let render = |change: &dyn Fn(&mut Scene)| reference::render(&frame(change), Model::Phong).to_linear();
-    let plain = render(&|_| ());
-    type Change<'a> = &'a dyn Fn(&mut Scene);
-    let changes: [(&str, Change); 8] = [
+    // A light behind the rim, where gates matter.
+    let base = render(&|scene| scene.lights[0] = Light::directional(-scene.camera.view(), [0.6; 3]));
+    let changes: [Change; 8] = [
         ("attenuation", &|s| s.lights[1].falloff = Falloff::Attenuation(0.2)),
         ("inverse square", &|s| s.lights[1].falloff = Falloff::InverseSquare),
         ("inverse", &|s| s.lights[1].falloff = Falloff::Inverse),
@@ -101,13 +104,11 @@ fn every_mode_changes_the_picture() {
         ("at infinity", &|s| s.lights[1] = Light::directional(DVec3::new(0.6, 0.5, 0.6).normalize(), [0.5, 0.4, 0.6])),
     ];
     for (name, change) in changes {
-        let change_here = |scene: &mut Scene| {
-            // A light behind the rim, where gates matter.
+        let changed = render(&|scene: &mut Scene| {
             scene.lights[0] = Light::directional(-scene.camera.view(), [0.6; 3]);
             change(scene);
-        };
-        let base = render(&|scene| scene.lights[0] = Light::directional(-scene.camera.view(), [0.6; 3]));
-        let difference = most(&base, &render(&change_here)).max(most(&plain, &render(change)).min(0.0));
+        });
+        let difference = most(&base, &changed);
         assert!(difference > 2.0 / 255.0, "{name}: {difference}");
     }
 }
@@ -183,20 +184,46 @@ fn converted_exponents_give_the_same_highlight() {
     assert!(same_exponent > 10.0 * converted, "{same_exponent} against {converted}");
 }
 
-/// A light inside the sphere, an eye inside it, a light in the plane of a polygon: finite pictures, the reference's.
+/// Light where it has no direction, or none halfway to the eye: numbers stay finite, channels without specular reflection
+/// stay without, and where the bound says anything the picture is the reference's.
 #[test]
 fn unlucky_places_make_no_artefacts() {
-    let inside = frame(|s| {
+    let eye_inside = |s: &mut Scene| {
         s.lights =
             vec![Light { falloff: Falloff::InverseSquare, ..Light::positional(DVec3::new(0.1, 0.2, 0.05), [0.5; 3]) }];
-        s.culling = fastphong::scene::Culling::None;
+        s.culling = Culling::None;
         s.camera.eye = DVec3::new(0.0, 0.1, 0.3);
         s.camera.target = DVec3::new(0.0, 0.0, -1.0);
         (s.camera.near, s.camera.far) = (0.01, 3.0);
-    });
-    for entry in METHODS {
-        for texel in entry.variant().render_linear(&inside).texels() {
-            assert!(texel.iter().all(|c| (0.0..=1.0).contains(c)), "{}: {texel:?}", entry.info.name);
+    };
+    // The plane of the polygon nearest to the eye, a little beyond one of its corners.
+    let in_the_plane = |s: &mut Scene| {
+        let mesh = &s.objects[0].mesh;
+        let corner = |i: usize| mesh.positions()[mesh.corners()[mesh.corner_range(100).start + i] as usize].as_dvec3();
+        let beyond = corner(0) + 0.4 * (corner(0) - corner(1));
+        s.lights = vec![Light { falloff: Falloff::Inverse, ..Light::positional(beyond, [0.5; 3]) }];
+    };
+    // Behind the sphere, on the line of sight to its middle: L and V are opposite there, and N·H is 0/0.
+    let opposite = |s: &mut Scene| {
+        s.culling = Culling::Front;
+        s.lights = vec![Light::positional(-s.camera.eye, [0.5; 3])];
+        (s.specular, s.gate) = (SpecularModel::Blinn, SpecularGate::Ungated);
+        s.objects[0].material = Some(Material { specular: [0.5, 0.0, 0.0], ..Material::default() });
+    };
+    let cases: [Change; 3] = [("eye inside", &eye_inside), ("in the plane", &in_the_plane), ("opposite", &opposite)];
+    for (name, case) in cases {
+        let frame = frame(case);
+        for entry in METHODS {
+            let picture = entry.variant().render_linear(&frame);
+            // `most` refuses what is not finite.
+            let error = most(&reference::render(&frame, entry.info.model).to_linear(), &picture);
+            let bound = entry.info.bound(&frame);
+            println!("{name}, {}: {error:.1e} of {bound:.1e}", entry.info.name);
+            assert!(bound >= 1.0 || error <= bound, "{name}, {}: {error} over {bound}", entry.info.name);
+            if name == "opposite" {
+                // Blue has no specular term: at most ambient and diffuse light, 0.06 + 0.5 · 0.3.
+                assert!(picture.texels().iter().all(|t| t[2] <= 0.22), "{}: a highlight without k_s", entry.info.name);
+            }
         }
     }
 }

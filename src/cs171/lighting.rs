@@ -30,7 +30,12 @@ pub fn lighting(p: DVec3, n: DVec3, light: &Lighting) -> DVec3 {
         let n_l = n.dot(l_direction);
         let diffuse = n_l.max(0.0);
         let cosine = match light.specular {
-            SpecularModel::Blinn => n.dot((e_direction + l_direction).normalize_or_zero()),
+            SpecularModel::Blinn => {
+                let sum = e_direction + l_direction;
+                // Opposite vectors have none halfway between them (trap T11).
+                let is_sum = sum.length_squared() > f64::from(SpecularModel::LEAST_SUM);
+                if is_sum { n.dot(sum.normalize()) } else { 0.0 }
+            }
             SpecularModel::Phong => e_direction.dot(2.0 * n_l * n - l_direction),
         };
         let power = libm::pow(cosine.max(0.0), f64::from(light.shininess));

@@ -132,8 +132,10 @@ impl Grid {
         [self.colours.width(), self.colours.height()]
     }
 
-    /// The mean of each `side` × `side` samples, alpha too.
+    /// The mean of each `side` × `side` samples, alpha too; 0 counts as 1, and samples beyond the last whole square are
+    /// left out.
     pub fn filtered(&self, side: usize) -> Picture<[f64; 4]> {
+        let side = side.max(1);
         let [width, height] = self.size().map(|count| count / side);
         let mut picture = Picture::new(width, height, [0.0; 4]);
         let share = 1.0 / (side * side) as f64;

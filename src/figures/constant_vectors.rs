@@ -40,7 +40,7 @@ fn make() -> Result<Content, FigureError> {
         [("constant along each polygon (fast-phong)", &fast), ("at each pixel (duff-phong)", &duff)]
             .map(|(caption, picture)| shown("A sphere with a light close to it, vectors", caption, picture))
             .into();
-    pictures.push(Shown::new("their difference, to 64 levels", "A map of the difference, which is large.", map));
+    pictures.push(Shown::new("their difference, to 64 levels", "A map of the difference.", map));
     content.pictures(3, pictures);
     errors(&mut content)?;
     products(&mut content, &near)?;

@@ -127,7 +127,12 @@ fn curve(content: &mut Content, scene: &Scene) {
         "part of the depth range used up at twice the near distance",
         (half, ""),
         Agreement::Adds,
-        format!("Of distances up to {}, those below {} take half of the levels.", written(far), written(2.0 * near)),
+        format!(
+            "Of distances up to {}, those below {} take {:.0} % of the levels.",
+            written(far),
+            written(2.0 * near),
+            100.0 * half
+        ),
     ));
     let monotone = (1..1000).all(|i| {
         let at = |i: u32| near + (far - near) * f64::from(i) / 1000.0;
@@ -138,8 +143,10 @@ fn curve(content: &mut Content, scene: &Scene) {
         "preserved",
         "how far half-way to the far plane is from half-way in depth, of 2",
         (moved, ""),
-        Agreement::Contradicts,
-        if monotone {
+        Agreement::if_holds(moved < 1e-3),
+        if moved < 1e-3 {
+            "Depth is preserved."
+        } else if monotone {
             "Depth keeps the order of distances and nothing else (\"preserved\", L5)."
         } else {
             "Depth does not even keep the order."

@@ -161,7 +161,7 @@ fn half_vector(content: &mut Content) -> Result<(), FigureError> {
         y: ("highlight".into(), Scale::Linear),
         series,
         marks: Vec::new(),
-        caption: "R·V and N·H with four times its exponent can hardly be told apart.".into(),
+        caption: "The curves of R·V, of N·H with its exponent, and of N·H with four times it.".into(),
     });
     let [phong, same, converted] = [widths[0], widths[1], widths[2]];
     // Half of the angle, so that the width doubles where cos^p is a Gauss curve.

@@ -146,7 +146,7 @@ fn cube(content: &mut Content) -> Result<(), FigureError> {
             Series::new("cosine", (0..=15).map(|i| (5.0 * f64::from(i), libm::cos((5.0 * f64::from(i)).to_radians())))),
         ],
         marks: Vec::new(),
-        caption: "The points lie on the curve.".into(),
+        caption: "Points are measured on the picture, the curve is the cosine.".into(),
     });
     let of = |degrees: f64| measured.iter().find(|m| m.0 == degrees).map_or(f64::NAN, |m| m.1);
     let ratio = of(60.0) / of(0.0);

@@ -160,9 +160,9 @@ fn filtering(content: &mut Content) -> Result<(), FigureError> {
         (level, "of 255"),
         Agreement::Adds,
         if is_linear {
-            "The mean is taken before encoding: half of the light is level 188, not the mean of the levels, 128."
+            format!("The mean is taken before encoding: half of the light is level {exact:.0}, not the mean of levels.")
         } else {
-            "The mean is not that of light."
+            format!("The mean is not that of light, which is level {exact:.0}.")
         },
     ));
     Ok(())

@@ -1,7 +1,7 @@
 //! Making a frame, and checking it once.
 
 use super::{ClipCorner, DepthRange, Frame, FrameError, FrameStats, Mean, Polygon, SubPixel, Vertex};
-use crate::lighting::{Lighting, Rgb};
+use crate::lighting::{Falloff, LightTerm, Lighting, Place, Rgb};
 use crate::painter::back_to_front;
 use crate::scene::{Clipping, Encoding, HiddenSurfaces, Interpolation, Scene};
 use alloc::vec::Vec;
@@ -130,7 +130,10 @@ impl FrameBuilder {
     }
 
     /// Says what the mean of the corners of the polygon that comes next is, where it has not all of them; `corners` are
-    /// the vertices that it had.
+    /// the vertices that it had, one at least.
+    ///
+    /// # Panics
+    /// When there is no such vertex.
     pub fn mean_of(&mut self, corners: &[u32]) -> &mut Self {
         let mean = self.frame.mean_of(corners);
         self.mean(mean)
@@ -195,6 +198,9 @@ impl FrameBuilder {
                 return Err(FrameError::Lights { found: lighting.lights.len() });
             }
         }
+        if let Some(index) = frame.lightings.iter().position(|lighting| !is_valid(lighting)) {
+            return Err(FrameError::Lighting { index });
+        }
         let finite = |all: &[[f32; 3]]| all.iter().position(|v| !v.iter().all(|c| c.is_finite()));
         if let Some(index) = finite(&frame.positions).or_else(|| finite(&frame.colours)) {
             return Err(FrameError::Vertex { index });
@@ -249,4 +255,21 @@ impl Frame {
                 .iter()
                 .all(|&v| self.vertices.get(v as usize).is_some_and(|vertex| vertex.material == polygon.material))
     }
+}
+
+/// Whether all numbers of the light on a material are finite, and none negative that must not be.
+fn is_valid(lighting: &Lighting) -> bool {
+    let finite = |v: [f32; 3]| v.iter().all(|c| c.is_finite());
+    let vector = |place: Place<[f32; 3]>| match place {
+        Place::Infinite(v) | Place::Local(v) => v,
+    };
+    let is_light = |light: &LightTerm| {
+        let falls = !matches!(light.falloff, Falloff::Attenuation(k) if !(k.is_finite() && k >= 0.0));
+        finite(vector(light.place)) && finite(light.diffuse) && finite(light.specular) && falls
+    };
+    finite(lighting.ambient)
+        && finite(vector(lighting.view))
+        && lighting.shininess.is_finite()
+        && lighting.shininess >= 0.0
+        && lighting.lights.iter().all(is_light)
 }

@@ -27,6 +27,11 @@ pub enum FrameError {
         /// How many.
         found: usize,
     },
+    /// A number of the light on a material is not finite, or an exponent or an attenuation is negative.
+    Lighting {
+        /// The number of the material.
+        index: usize,
+    },
     /// More corners or vertices than 32-bit numbers can name.
     TooLarge,
     /// A camera that gives no finite picture: eye at the target, up along the view, planes in the wrong order.
@@ -63,6 +68,10 @@ impl fmt::Display for FrameError {
                 f,
                 "{found} lights, where at most {} are possible, the same on every material",
                 Scene::MAX_LIGHTS
+            ),
+            FrameError::Lighting { index } => write!(
+                f,
+                "the light on material {index} has a number that is not finite, or a negative exponent or attenuation"
             ),
             FrameError::TooLarge => write!(f, "the scene has more corners than 32-bit numbers can name"),
             FrameError::Camera => write!(

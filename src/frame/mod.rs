@@ -274,14 +274,18 @@ impl Frame {
     pub(crate) fn in_order(self, order: &[u32]) -> Frame {
         // The corners move with their polygons, so that polygons take theirs one after the other.
         let mut corners = Vec::with_capacity(self.corners.len());
+        let mut means = Vec::with_capacity(self.means.len());
         let polygons = order.iter().map(|&number| {
             let polygon = &self.polygons[number as usize];
             let first = corners.len() as u32;
+            if let Ok(place) = self.means.binary_search_by_key(&polygon.first, |&(first, _)| first) {
+                means.push((first, self.means[place].1));
+            }
             corners.extend_from_slice(self.corners(polygon));
             Polygon { first, ..*polygon }
         });
         let polygons = polygons.collect();
-        Frame { corners, polygons, ..self }
+        Frame { corners, polygons, means, ..self }
     }
 
     /// The same frame with other polygons over the same vertices: `pieces` gives the corner lists that replace each

@@ -48,6 +48,8 @@ pub(crate) struct VertexAttributes<'a> {
     model: Model,
     /// Colours (Gouraud) or normals (Phong, slerp); none for flat shading.
     values: Vec<DVec3>,
+    /// Whether a light or the eye is at a position.
+    is_local: bool,
     /// Positions, where each pixel sees light and eye from its own.
     positions: Vec<DVec3>,
 }
@@ -72,7 +74,8 @@ impl<'a> VertexAttributes<'a> {
             Model::GouraudSeparate => all(&unclamped),
             Model::Phong | Model::PhongConstant | Model::Slerp => all(&normal),
         };
-        let is_followed = model == Model::Phong && frame.is_local();
+        let is_local = frame.is_local();
+        let is_followed = model == Model::Phong && is_local;
         let mut positions = if is_followed { all(&|number, _| position(number)) } else { Vec::new() };
         for &ClipCorner { vertex, a, b, t, face } in frame.clip_corners() {
             let (to, a, b, t) = (vertex as usize, a as usize, b as usize, f64::from(t));
@@ -84,14 +87,16 @@ impl<'a> VertexAttributes<'a> {
                 positions[to] = lerp(positions[a], positions[b], t);
             }
         }
-        VertexAttributes { frame, model, values, positions }
+        VertexAttributes { frame, model, values, is_local, positions }
     }
 
     /// The colour of the pixel `x` on a scanline of `polygon`; `None` where the polygon does not cover it.
     pub fn colour(&self, polygon: &Polygon, scanline: &Scanline, x: usize) -> Option<DVec3> {
         let lighting = &self.frame.lightings()[polygon.material as usize];
         let mean = || self.frame.mean(polygon);
-        let at_mean = |n: DVec3| illuminate(lighting, n, wide(mean().position));
+        // Where all is at infinity every point is as good as the mean.
+        let place = || if self.is_local { wide(mean().position) } else { DVec3::ZERO };
+        let at_mean = |n: DVec3| illuminate(lighting, n, place());
         Some(match self.model {
             Model::Flat => {
                 scanline.edges(x)?;

@@ -34,6 +34,13 @@ fn strength(falloff: Falloff, r: f64) -> f64 {
     }
 }
 
+/// The unit vector halfway between two others; zero where they are opposite to within [`SpecularModel::LEAST_SUM`].
+fn halfway(l: DVec3, v: DVec3) -> DVec3 {
+    let sum = l + v;
+    let is_sum = sum.length_squared() > f64::from(SpecularModel::LEAST_SUM);
+    if is_sum { sum / sum.length() } else { DVec3::ZERO }
+}
+
 /// The colour of a surface with the unit normal `n` at the point `p` under all lights, not clamped:
 /// ```text
 /// I = I_a k_a + Σ (I_p k_d (L·N) + I_p k_s (R·V)ⁿ)      (L21 2.1)
@@ -49,7 +56,7 @@ pub(crate) fn sum(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
         let l_n = l.dot(n);
         let cosine = match lighting.specular {
             SpecularModel::Phong => (2.0 * l_n * n - l).dot(v), // R = 2 (L·N) N − L
-            SpecularModel::Blinn => n.dot((l + v).normalize_or_zero()), // h = (e + l) / |e + l|
+            SpecularModel::Blinn => n.dot(halfway(l, v)),       // h = (e + l) / |e + l|
         };
         let highlight = libm::pow(cosine.max(0.0), f64::from(lighting.shininess));
         let highlight = match lighting.gate {

@@ -217,3 +217,30 @@ fn encoded(base: &Base<'_>, jobs: &[Job<'_>]) -> Result<Vec<Figure>, EncodeError
     });
     (0..jobs.len()).filter_map(|job| shares[job % threads].next()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::comparison::{Input, Options, compare};
+    use crate::mesh::builtin::builtin;
+    use crate::scene::Scene;
+    use crate::shader::Variant;
+
+    /// Vectors and scalars make one picture of slerp: the default page shows it once and knows whose it is.
+    #[test]
+    fn pictures_that_look_like_others_are_left_out_and_named() {
+        let mut scene = Scene::of_mesh(builtin("sphere?rings=3&segments=5").unwrap());
+        (scene.width, scene.height) = (40, 30);
+        let frame = scene.frame().unwrap();
+        let variants = ["slerp-phong", "slerp-phong-vector"].map(|name| Variant::parse(name).unwrap());
+        let input = Input { name: "sphere".into(), frame: &frame };
+        let comparison = compare(&input, &variants, &Options { timing: None }, &mut |_, _| {});
+        let rows = |detail| {
+            let section = Section::new(Caption::default(), &comparison, None, detail).unwrap();
+            (section.figures.len(), section.figures.last().map(|figure| figure.also.clone()))
+        };
+        // The reference, naive Phong, which is always among them, and one or two of slerp.
+        assert_eq!(rows(Detail::Blocks), (3, Some([2].into())));
+        assert_eq!(rows(Detail::Full), (4, Some([].into())));
+    }
+}

@@ -5,7 +5,7 @@ use crate::bench::{Machine, Ratio, Timing};
 use crate::comparison::{Comparison, Document, Input, Options, RatioData, RowData, SpeedData, compare, triangulation};
 use crate::mesh::builtin::builtin;
 use crate::scene::Scene;
-use crate::shader::{METHODS, Variant};
+use crate::shader::METHODS;
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::ToString;
@@ -300,25 +300,6 @@ fn figures_belong_to_their_rows() {
     assert_eq!(section.figures.len(), comparison.rows.len() + 2, "the reference and the triangles");
     let naive = METHODS.iter().position(|entry| entry.info.name == "naive-phong").unwrap();
     assert!(section.figures[1 + naive].is_overlay, "it hardly differs from the reference");
-}
-
-/// Vectors and scalars make one picture of slerp: the default page shows it once and says so.
-#[test]
-fn pictures_that_look_like_others_are_left_out_and_named() {
-    let mut scene = Scene::of_mesh(builtin(SPHERE).unwrap());
-    (scene.width, scene.height) = (40, 30);
-    let frame = scene.frame().unwrap();
-    let variants = ["slerp-phong", "slerp-phong-vector"].map(|name| Variant::parse(name).unwrap());
-    let input = Input { name: "sphere".into(), frame: &frame };
-    let comparison = compare(&input, &variants, &Options { timing: None }, &mut |_, _| {});
-    let rows = |detail| {
-        let section = Section::new(Caption::default(), &comparison, None, detail).unwrap();
-        let page = report(vec![section.clone()]).html();
-        (section.figures.len(), page.contains("slerp-phong-vector is nowhere more than one grey level from it"))
-    };
-    // The reference, naive Phong, which is always among them, and one or two of slerp.
-    assert_eq!(rows(Detail::Blocks), (3, true));
-    assert_eq!(rows(Detail::Full), (4, false));
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::spread::Spread;
 use super::{Info, Perspective};
 use crate::frame::{Frame, Polygon};
 use crate::lighting::{Lighting, SpecularModel};
+use crate::scene::Interpolation;
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
 const ROUNDING: f64 = 1.0 / (1u64 << 24) as f64;
@@ -40,7 +41,7 @@ impl Info {
     /// With s steps from a corner to a pixel, a cosine is off by `e = (start + step · s) · 2⁻²⁴`. The diffuse term passes
     /// that on times `I_p k_d`; `R·V = 2 (L·N)(N·V) − L·V` is off by up to 4 e, and the power multiplies that by n. Of
     /// `N·H = (L·N + V·N) / h`, h = |L + V|, the sum is off by 2 e and h by e/h, so that it is off by `2 e/h + e/h²`, which
-    /// is below 4 e while h is over 0.8.
+    /// is below 4 e while h is over 0.81.
     ///
     /// A vector toward a place is rounded at its longest and divided by its length where it is shortest: with [`Spread`] σ
     /// between the two its direction is off by σ times as much, and its square by σ². A falloff of at most its strength
@@ -56,8 +57,10 @@ impl Info {
         let Roundings { start, step, of } = self.roundings;
         // What is rounded where the weight of perspective is largest counts for more where it is smallest.
         let weights = match self.perspective {
-            Perspective::Free | Perspective::Divides => spread.weights,
-            Perspective::Unaffected | Perspective::ScreenOnly => 1.0,
+            Perspective::Free | Perspective::Divides if frame.interpolation() == Interpolation::Perspective => {
+                spread.weights
+            }
+            _ => 1.0,
         };
         let rounding = ROUNDING * weights;
         // What starts a colour is lit from vectors to places, too.
@@ -67,7 +70,11 @@ impl Info {
             Stepped::Sums => rounding * (start * gain.cosine * toward + step * steps * gain.sum),
             Stepped::Cosines => rounding * (start + step * steps) * gain.cosine * toward,
             // Squares of weighted vectors have the squares of the weights.
-            Stepped::Products => rounding * weights * (start + step * steps) * gain.cosine * square,
+            Stepped::Products => {
+                // With positions three products are stepped, where there was one product and one cosine.
+                let step = if frame.is_local() { 3.0 * step } else { step };
+                rounding * weights * (start + step * steps) * gain.cosine * square
+            }
         }
     }
 }

@@ -33,10 +33,11 @@ impl Method for DuffPhong {
                   I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "Duff 1979; with positions: L.L, V.V, L.N, N.V and L.V likewise",
         model: Model::Phong,
-        roundings: Roundings { start: 6.0, step: 2.5, of: Stepped::Products },
+        roundings: Roundings { start: 6.0, step: 2.0, of: Stepped::Products },
         derivation: "J, K and the first difference of D are each rounded by half of 2^-24 at each step, the latter then added up: D \
-                     is off by 3 a step and its root by half of that, beside the 0.5 of J or K; with positions the products are \
-                     of vectors whose lengths vary by the square of the bound's spread",
+                     is off by 3 a step and its root by half of that, 1.5, beside the 0.5 of J or K; with positions L.N is a \
+                     product too, off by 3, and divided by two roots: three times as much, and the lengths of the vectors vary \
+                     by the square of the bound's spread",
         fails: "where normals cancel inside a span, D is a small difference of large sums",
         parameters: &[],
         perspective: Perspective::Free,
@@ -131,9 +132,12 @@ impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
                 (Quadratic::square(m, l, dl), Quadratic::product(m, l, dl, n, dn), with_view)
             },
         );
-        let half = w * dw;
-        let weight =
-            if SPACE && c.is_attenuated() { Some(Quadratic::new(m, w * w, half + half, dw * dw)) } else { None };
+        let weight = if SPACE && c.is_attenuated() {
+            let half = w * dw;
+            Some(Quadratic::new(m, w * w, half + half, dw * dw))
+        } else {
+            None
+        };
         (shared, lights, weight)
     }
     #[inline(always)]
@@ -156,7 +160,7 @@ impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
             #[inline(always)]
             |i| two * l_n[i] * n_v - l_v(i), // 4.5
             #[inline(always)]
-            |i| (l_n[i] + n_v) / (two + two * l_v(i)).sqrt(), // N·H
+            |i| (l_n[i] + n_v) * c.model.over_sum(l_v(i)), // N·H
             #[inline(always)]
             |i| c.strength(i, lights[i].0, inv_w_square),
         )

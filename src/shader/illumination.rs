@@ -72,7 +72,6 @@ impl<N: Num, const L: usize> Seen<N, L> {
     /// From unit vectors, for highlights of `model`.
     #[inline(always)]
     pub(super) fn new(light: [[N; 3]; L], view: [N; 3], strength: Option<[N; L]>, model: &Illumination<N, L>) -> Self {
-        let (one, two) = (model.one, model.two);
         let light_view: [N; L] = each(
             #[inline(always)]
             |i| dot(light[i], view),
@@ -80,9 +79,9 @@ impl<N: Num, const L: usize> Seen<N, L> {
         let half = match model.needs_half() {
             true => each(
                 #[inline(always)]
-                |i| one / (two + two * light_view[i]).sqrt(), // |l + v|² = 2 + 2 l·v for unit vectors
+                |i| model.over_sum(light_view[i]),
             ),
-            false => [one; L],
+            false => [model.one; L],
         };
         Seen { light, view, scalars: SeenScalars { light_view, half, strength } }
     }
@@ -168,6 +167,8 @@ pub struct Illumination<N, const L: usize> {
     zero: N,
     one: N,
     two: N,
+    /// See [`SpecularModel::LEAST_SUM`].
+    least_sum: N,
 }
 
 impl<N: Num, const L: usize> Illumination<N, L> {
@@ -184,7 +185,10 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         let direction = |i: usize| light(i).map_or(view, |l| infinite(l.place));
         // In plain numbers and from these, so that counting and wide machines get the same constants.
         let light_view = |i: usize| dot(direction(i), view);
-        let half = |i: usize| 1.0 / libm::sqrtf(2.0 + 2.0 * light_view(i));
+        let half = |i: usize| match 2.0 + 2.0 * light_view(i) {
+            square if square > SpecularModel::LEAST_SUM => 1.0 / libm::sqrtf(square),
+            _ => 0.0,
+        };
         Illumination {
             ambient: three(lighting.ambient),
             diffuse: each(|i| three(light(i).map_or([0.0; 3], |l| l.diffuse))),
@@ -204,6 +208,7 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             zero: of(0.0),
             one: of(1.0),
             two: of(2.0),
+            least_sum: of(SpecularModel::LEAST_SUM),
         }
     }
 
@@ -235,6 +240,13 @@ impl<N: Num, const L: usize> Illumination<N, L> {
     #[inline(always)]
     pub fn two(&self) -> N {
         self.two
+    }
+
+    /// `1 / |L + V|` from L·V of unit vectors; 0 where light and eye are opposite.
+    #[inline(always)]
+    pub fn over_sum(&self, l_v: N) -> N {
+        let square = self.two + self.two * l_v; // |l + v|² = 2 + 2 l·v
+        (self.one / square.sqrt()).gate(square - self.least_sum)
     }
 
     /// The sum over all lights, not yet clamped, from L·N of each, from R·V or N·H of each, whichever the scene asks for,

@@ -149,7 +149,8 @@ impl Ball {
         let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         let nearest = (far - self.radius).max(low).max(-high).max(1e-15);
         let longest = (far + self.radius).max(position.length() + self.reach);
-        let angle = libm::asin((self.radius / far.max(1e-15)).min(1.0));
+        // From inside the ball it is seen in any direction.
+        let angle = if far > self.radius { libm::asin(self.radius / far) } else { core::f64::consts::PI };
         Sight { spread: longest / nearest, nearest, direction: toward.normalize_or_zero(), angle }
     }
 }

@@ -151,7 +151,7 @@ impl Prescan {
         if self.has_colours() {
             self.colours
                 .out_of_range
-                .warn("the colour of a position is not within 0 to 1, and is shown as if it were", w);
+                .warn("the colour of a position is not within 0 to 1: what is shown is clamped at each pixel", w);
         }
         self.lost_texture_indices.warn("a texture coordinate that does not exist is ignored, as all of them are", w);
         if self.corners_with_normal > 0 {
