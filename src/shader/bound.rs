@@ -43,7 +43,7 @@ impl Info {
     /// `N·H = (L·N + V·N) / h`, h = |L + V|, the sum is off by 2 e and h by e/h, so that it is off by `2 e/h + e/h²`, which
     /// is below 4 e while h is over 0.81.
     ///
-    /// A vector toward a place is rounded at its longest and divided by its length where it is shortest: with [`Spread`] σ
+    /// A vector toward a place is rounded at its longest and divided by its length where it is shortest: with a spread of σ
     /// between the two its direction is off by σ times as much, and its square by σ². A falloff of at most its strength
     /// where the light is nearest multiplies colours and their errors, and is off by as much as the square itself.
     ///
