@@ -207,3 +207,34 @@ fn toward_step<N: Num>(place: Place<[N; 3]>, step: [N; 3], inv_w_step: Option<N>
         (_, Some(w)) => toward(place, step, Some(w)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lighting::{Light, Material, SpecularGate, SpecularModel};
+    use glam::DVec3;
+
+    /// The light behind a point, on the line from the eye or nearly so: L·V is rounded to −1, and 1 / |L + V| to infinity.
+    #[test]
+    fn opposite_light_and_eye_have_no_highlight() {
+        let material = Material { ambient: [0.25; 3], diffuse: [0.0; 3], specular: [1.0; 3], shininess: 8.0 };
+        let light = Light::positional(DVec3::new(0.0, 0.0, -5.0), [1.0; 3]);
+        let lighting = Lighting {
+            view: Place::Local([0.0; 3]),
+            specular: SpecularModel::Blinn,
+            gate: SpecularGate::Ungated,
+            ..Lighting::new(&material, [1.0; 3], &[light], DVec3::Z)
+        };
+        let local = Local::<f32, 1>::new(&lighting, |x| x);
+        for i in 0..1000 {
+            // At (x, 0.3 x, −2) the light is seen under x/3 from the axis and the eye under x/2: |L + V| is below
+            // 1.05 · 5/6 x, and that below 2⁻¹⁰.
+            let x = i as f32 * 1e-6;
+            let seen = local.seen_from([x, 0.3 * x, -2.0]);
+            let n = [-0.6, 0.0, 0.8]; // on the side of L + V
+            assert_eq!(local.model.lit(n, &seen), [0.25; 3], "{x}");
+            let cosines = local.model.colour_of_cosines(seen.light_cosines(n), seen.view_cosine(n), &seen.scalars);
+            assert_eq!(cosines, [0.25; 3], "{x}");
+        }
+    }
+}
