@@ -6,7 +6,8 @@ use super::values::{self, Normals};
 use fastphong::input;
 use fastphong::lighting::{SpecularGate, SpecularModel};
 use fastphong::scene::file::{
-    CameraSection, ImageSection, LightSection, MaterialSection, SceneFile, ViewerChoice, VisibilityChoice,
+    CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, SceneFile, ViewerChoice,
+    VisibilityChoice,
 };
 use fastphong::scene::resolve::Resolved;
 use fastphong::scene::value::{Located, OneOrThree};
@@ -55,6 +56,9 @@ pub struct SceneFlags {
     /// Attenuation 1 / (1 + k d²) of the lights given by --light-at
     #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "light_at")]
     attenuation: Option<f64>,
+    /// How they grow weaker instead: 1 / r² or 1 / r
+    #[arg(long, value_name = "HOW", value_parser = values::word::<FalloffChoice>(), requires = "light_at")]
+    falloff: Option<FalloffChoice>,
     /// No lights: ambient light only
     #[arg(long, conflicts_with_all = ["light", "light_at"])]
     no_lights: bool,
@@ -203,6 +207,7 @@ impl SceneFlags {
         if self.no_lights || !self.light.is_empty() || !self.light_at.is_empty() {
             let attenuated = |light: &LightSection| LightSection {
                 attenuation: flag(self.attenuation, "--attenuation"),
+                falloff: flag(self.falloff, "--falloff"),
                 ..light.clone()
             };
             over.light = Some(self.light.iter().cloned().chain(self.light_at.iter().map(attenuated)).collect());

@@ -13,7 +13,8 @@ pub struct FrameBuilder {
 }
 
 impl FrameBuilder {
-    /// An empty frame of `width` × `height` samples, each of them a pixel, black, with a depth buffer of floats, linear on the screen.
+    /// An empty frame of `width` × `height` samples, each of them a pixel, black, with a depth buffer of floats, linear on
+    /// the screen.
     pub fn new(width: u32, height: u32) -> Self {
         FrameBuilder {
             frame: Frame {

@@ -16,8 +16,8 @@ use crate::lighting::{Lighting, Rgb};
 use crate::scene::{Clipping, Encoding, HiddenSurfaces, Interpolation, Scene};
 use alloc::vec::Vec;
 
-/// A coordinate on the picture in pixels (of a supersampled frame: in samples), snapped to 1/256: x to the right, y downward, (0, 0) the outer corner of the
-/// first pixel, so that pixel centres lie at ½.
+/// A coordinate on the picture in pixels (of a supersampled frame: in samples), snapped to 1/256: x to the right, y
+/// downward, (0, 0) the outer corner of the first pixel, so that pixel centres lie at ½.
 pub type SubPixel = fixed::types::I24F8;
 
 /// A projected vertex: where it stands, and what the shading methods need to know of it.

@@ -151,6 +151,8 @@ fn flags_change_the_picture() {
     }
     for flags in [
         "--attenuation 0.2",
+        "--falloff inverse",
+        "--falloff inverse-square",
         "--viewer local",
         "--specular blinn",
         "--shininess-for blinn",
@@ -393,6 +395,9 @@ fn flags_that_make_no_sense_are_refused_by_name() {
         ("--light-at 0,0,5 --attenuation -2", &["`--attenuation` is -2: expected 0 or more"]),
         ("--light-at 0,0,5 --attenuation NaN", &["`--attenuation` is NaN: expected 0 or more"]),
         ("--attenuation 1", &["required arguments were not provided", "--light-at"]),
+        ("--falloff inverse", &["required arguments were not provided", "--light-at"]),
+        ("--light-at 0,0,5 --falloff inverses", &["inverse-square"]),
+        ("--light-at 0,0,5 --falloff inverse --attenuation 1", &["exclude each other"]),
         ("--light 1,0,0 --attenuation 1", &["required arguments were not provided", "--light-at"]),
         ("--viewer lokal", &["invalid value 'lokal'", "infinite, local", "'local'"]),
         ("--specular blin", &["phong, blinn", "'blinn'"]),

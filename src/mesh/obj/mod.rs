@@ -1,6 +1,7 @@
 //! Wavefront OBJ files, with their MTL materials.
 //!
-//! Read are positions, their colours (`v x y z r g b`), normals, faces of any number of sides (concave ones too, never triangulated), `mtllib` and
+//! Read are positions, their colours (`v x y z r g b`), normals, faces of any number of sides (concave ones too, never
+//! triangulated), `mtllib` and
 //! `usemtl`. All objects and groups become one mesh that shares positions by their index in the file; positions that no
 //! face uses are dropped, the others keep the order in which faces first name them.
 //!
