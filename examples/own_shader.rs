@@ -76,9 +76,9 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
     type Walk<M: Machine> = ([Linear<M::F>; 3], Constant<P::There<M::F, L>>); // along a run: three additions
     type Pixel<F: Num> = ([F; 3], P::There<F, L>);
 
-    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> Self::Consts<N> {
+    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N> {
         let (bands, width) = (parameters[0], 1.0 / parameters[0] as f32);
-        let light = P::new(lighting, &of);
+        let light = P::new(lighting, of);
         Consts { light, bands, width: of(width), half_width: of(width / 2.0), edge: of(0.9), zero: of(0.0) }
     }
     #[inline(always)]

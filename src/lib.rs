@@ -75,6 +75,7 @@ pub mod mesh;
 pub mod metrics;
 pub mod number;
 pub mod painter;
+mod parallel;
 pub mod perspective;
 pub mod picture;
 mod projection;

@@ -4,7 +4,7 @@ use super::stage::{Corner, Facet, Grey, frame, stored, written};
 use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
 use crate::number::Scalar;
 use crate::shader::Variant;
-use crate::walk::{Linear, Newton, Walk};
+use crate::walk::{Newton, Walk};
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
@@ -29,8 +29,7 @@ fn errors(degrees: f64, steps: u32) -> Vec<f64> {
     let [from, to] = [DVec3::new(-sin, 0.0, cos), DVec3::new(sin, 0.0, cos)];
     let step = (to - from) / PIXELS as f64;
     let first = from + 0.5 * step;
-    let ramps = [0, 1, 2].map(|i| Linear::new(Scalar, first[i] as f32, step[i] as f32));
-    let mut walk = Newton::new(Scalar, ramps, first.as_vec3().to_array(), steps);
+    let mut walk = Newton::new(Scalar, first.as_vec3().to_array(), step.as_vec3().to_array(), steps);
     (0..PIXELS)
         .map(|k| {
             let exact = (first + k as f64 * step).length();

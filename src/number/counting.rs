@@ -1,8 +1,8 @@
 //! Numbers that count every operation on them: the machine that checks the papers' operation counts.
 
 use super::{Machine, Num, Real};
-use core::cell::Cell;
 use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::sync::atomic::{AtomicU32, Ordering};
 
 /// How many operations of each kind were carried out. Changes of sign and copies are not counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,18 +41,24 @@ impl Sub for Counts {
 
 /// Where the numbers of a [`Counting`] machine write down what is done with them.
 #[derive(Debug, Default)]
-pub struct Counter(Cell<Counts>);
+pub struct Counter([AtomicU32; 7]);
 
 impl Counter {
     /// What was counted so far.
     pub fn counts(&self) -> Counts {
-        self.0.get()
+        let [additions, multiplications, divisions, roots, comparisons, trigonometric, powers] =
+            [0, 1, 2, 3, 4, 5, 6].map(|kind: usize| self.0[kind].load(Ordering::Relaxed));
+        Counts { additions, multiplications, divisions, roots, comparisons, trigonometric, powers }
     }
 
     fn note(&self, add: impl FnOnce(&mut Counts)) {
-        let mut counts = self.0.get();
-        add(&mut counts);
-        self.0.set(counts);
+        let mut one = Counts::default();
+        add(&mut one);
+        let Counts { additions, multiplications, divisions, roots, comparisons, trigonometric, powers } = one;
+        let all = [additions, multiplications, divisions, roots, comparisons, trigonometric, powers];
+        for (sum, more) in self.0.iter().zip(all) {
+            sum.fetch_add(more, Ordering::Relaxed);
+        }
     }
 }
 
@@ -116,6 +122,10 @@ impl Neg for Counted<'_> {
 impl Num for Counted<'_> {
     fn sqrt(self) -> Self {
         self.with(Num::sqrt(self.value), |c| c.roots += 1)
+    }
+    fn over_sqrt(self) -> Self {
+        let root = self.with(Num::sqrt(self.value), |c| c.roots += 1);
+        root.with(1.0 / root.value, |c| c.divisions += 1)
     }
     fn max(self, other: Self) -> Self {
         self.with(Num::max(self.value, other.value), |c| c.comparisons += 1)

@@ -1,26 +1,54 @@
 //! Numbers, and the machines that make them.
 //!
 //! The methods are written once, over [`Num`]; which arithmetic they run on is decided by a [`Machine`]: [`Scalar`]
-//! makes plain `f32`, [`Counting`] makes numbers that count every operation. A machine has two kinds of numbers:
+//! makes plain `f32`, `wide::Wide` (feature `simd`) makes groups of eight, [`Counting`] makes numbers that count every
+//! operation. A machine has two kinds of numbers:
 //! `One` for set-up (vertices, polygons, edges, span starts) and `F` for the pixel loop, which on a wide machine holds
 //! [`Machine::WIDTH`] neighbouring pixels.
 //!
 //! Everything here is `#[inline(always)]`: a helper that is not inlined into the pixel loop costs a call a pixel.
 
 mod counting;
+mod lanes;
+mod level;
+mod planes;
+#[cfg(feature = "simd")]
+mod power;
 mod scalar;
+#[cfg(feature = "simd")]
+pub mod wide;
 
 pub use counting::{Counted, Counter, Counting, Counts};
+pub use lanes::Lanes;
+pub(crate) use lanes::{LanesJob, on_level};
+pub use level::{Level, LevelError};
+pub use planes::Planes;
+pub(crate) use planes::{get_each, put_each};
 pub use scalar::Scalar;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number: one pixel's or a group's. Carries no knowledge of how to be made.
 pub trait Num:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+    Copy
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
 {
     /// The square root.
     fn sqrt(self) -> Self;
+    /// 1 / √ of itself, over 0: by the processor's estimate and one step of Newton's where it has one (off by at most
+    /// 2⁻²² of the value, see [`wide`]), else by a root and a division.
+    fn over_sqrt(self) -> Self;
+    /// `self · factor + summand`, rounded once where the machine has one instruction for it, else twice.
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        self * factor + summand
+    }
     /// The larger of both; the other one where one is NaN.
     fn max(self, other: Self) -> Self;
     /// The smaller of both; the other one where one is NaN.
@@ -95,5 +123,5 @@ pub fn each<T: Copy, const L: usize>(mut f: impl FnMut(usize) -> T) -> [T; L] {
 /// The dot product.
 #[inline(always)]
 pub fn dot<N: Num>(a: [N; 3], b: [N; 3]) -> N {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    a[2].mul_add(b[2], a[1].mul_add(b[1], a[0] * b[0]))
 }

@@ -1,6 +1,7 @@
 //! Plain `f32`, one pixel at a time.
 
-use super::{Machine, Num, Real};
+use super::{Lanes, Machine, Num, Real};
+use crate::encoding::quantise;
 
 /// The scalar machine: `f32` throughout. Its pictures are the same bits on every platform.
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,6 +15,11 @@ impl Num for f32 {
         return f32::sqrt(self);
         #[cfg(not(feature = "std"))]
         return libm::sqrtf(self);
+    }
+
+    #[inline(always)]
+    fn over_sqrt(self) -> f32 {
+        1.0 / Num::sqrt(self)
     }
 
     #[inline(always)]
@@ -87,5 +93,65 @@ impl Machine for Scalar {
     #[inline(always)]
     fn first(self, x: f32) -> f32 {
         x
+    }
+}
+
+impl Lanes for Scalar {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
+    }
+
+    #[inline(always)]
+    fn load(self, from: &[f32]) -> f32 {
+        from[0]
+    }
+
+    #[inline(always)]
+    fn store(self, x: f32, to: &mut [f32]) {
+        to[0] = x;
+    }
+
+    #[inline(always)]
+    fn first_lanes(self, n: usize) -> bool {
+        n > 0
+    }
+
+    #[inline(always)]
+    fn less(self, a: f32, b: f32) -> bool {
+        a < b
+    }
+
+    #[inline(always)]
+    fn and(self, a: bool, b: bool) -> bool {
+        a & b
+    }
+
+    #[inline(always)]
+    fn any(self, mask: bool) -> bool {
+        mask
+    }
+
+    #[inline(always)]
+    fn blend(self, mask: bool, new: f32, old: f32) -> f32 {
+        if mask { new } else { old }
+    }
+
+    #[inline(always)]
+    fn inside(self, at: [i32; 3], step: [i32; 3]) -> u32 {
+        let mut inside = 0;
+        for k in 0..8 {
+            let signs = (at[0] + k * step[0]) | (at[1] + k * step[1]) | (at[2] + k * step[2]);
+            inside |= u32::from(signs >= 0) << k;
+        }
+        inside
+    }
+
+    #[inline(always)]
+    fn pack(self, rgb: [f32; 3], covered: bool, background: [u8; 4], to: &mut [[u8; 4]]) {
+        let [r, g, b] = rgb.map(quantise);
+        to[0] = if covered { [r, g, b, 255] } else { background };
     }
 }

@@ -15,7 +15,8 @@ pub struct ActiveEdge<E> {
     /// The polygon.
     pub polygon: u32,
     corner: u32,
-    end: i32,
+    /// The first scanline that it does not cross.
+    pub end: i32,
     /// Where it crosses this scanline.
     pub crossing: Crossing,
     depth: Ramp<f32>,
@@ -113,17 +114,25 @@ impl<E: Copy> ActiveEdges<E> {
             if edge.end <= row as i32 {
                 return false;
             }
-            edge.crossing.advance();
-            edge.depth.at += edge.depth.step; // 3.3
-            A::advance(&mut edge.attribute);
+            edge.advance::<M, A>();
             true
         });
     }
 }
 
+impl<E: Copy> ActiveEdge<E> {
+    /// To the next scanline.
+    #[inline(always)]
+    pub fn advance<M: Machine, A: Attribute<M::One, Edge = E>>(&mut self) {
+        self.crossing.advance();
+        self.depth.at += self.depth.step; // 3.3
+        A::advance(&mut self.attribute);
+    }
+}
+
 /// Insertion sort: crossings change places only where edges of one polygon cross each other. Ties keep the order of
 /// corners, so that the result does not depend on the past.
-fn order<E: Copy>(edges: &mut [ActiveEdge<E>]) {
+pub(super) fn order<E: Copy>(edges: &mut [ActiveEdge<E>]) {
     for i in 1..edges.len() {
         let mut at = i;
         while at > 0 && before(&edges[at], &edges[at - 1]) {
@@ -143,7 +152,7 @@ fn before<E>(a: &ActiveEdge<E>, b: &ActiveEdge<E>) -> bool {
 
 /// An edge at scanline `row`, with the sub-pixel start: the parameter there is that of the scanline's centre.
 #[inline(always)]
-fn start<M, A>(
+pub(super) fn start<M, A>(
     m: M,
     frame: &Frame,
     depth: &SampleDepth,
@@ -178,7 +187,7 @@ where
 }
 
 #[inline(always)]
-fn span<E>(left: &ActiveEdge<E>, right: &ActiveEdge<E>, number: u32, width: u32) -> Option<Span> {
+pub(super) fn span<E>(left: &ActiveEdge<E>, right: &ActiveEdge<E>, number: u32, width: u32) -> Option<Span> {
     let (from, to) = (left.crossing.pixel(), right.crossing.pixel());
     let (start, end) = (from.max(0), to.min(width as i32));
     if start >= end {

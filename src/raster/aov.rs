@@ -3,7 +3,7 @@
 //! A mean of depths or of polygon numbers means nothing: all these are of single samples, [`Frame::width`] ×
 //! [`Frame::height`] of them, and where a frame has several a pixel nothing here is filtered.
 
-use super::scanline::scan;
+use super::scanline::scan_all;
 use super::visibility::NOTHING;
 use crate::frame::Frame;
 use crate::lighting::Lighting;
@@ -20,7 +20,7 @@ use core::ops::Range;
 pub fn polygon_numbers(frame: &Frame) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
     let attributes = vec![Lerp(()); frame.vertices().len()];
-    scan(Scalar, frame, &attributes, |row, line, _| {
+    scan_all(Scalar, frame, &attributes, &mut |row, line, _| {
         for (x, texel) in picture.row_mut(row).iter_mut().enumerate() {
             *texel = line.polygon(x);
         }
@@ -32,7 +32,7 @@ pub fn polygon_numbers(frame: &Frame) -> Picture<u32> {
 pub fn depth(frame: &Frame) -> Picture<f32> {
     let mut picture = Picture::new(frame.width(), frame.height(), f32::INFINITY);
     let attributes = vec![Lerp(()); frame.vertices().len()];
-    scan(Scalar, frame, &attributes, |row, line, _| {
+    scan_all(Scalar, frame, &attributes, &mut |row, line, _| {
         for (texel, depth) in picture.row_mut(row).iter_mut().zip(line.depth()) {
             *texel = depth;
         }
@@ -46,7 +46,7 @@ pub fn depth(frame: &Frame) -> Picture<f32> {
 /// of the polygon's edges to its left.
 pub fn coverage(frame: &Frame, mut visit: impl FnMut(u32, usize, Range<usize>)) {
     let attributes = vec![Lerp(()); frame.vertices().len()];
-    scan(Scalar, frame, &attributes, |row, line, _| {
+    scan_all(Scalar, frame, &attributes, &mut |row, line, _| {
         for span in line.spans() {
             visit(span.polygon, row, span.start as usize..span.end as usize);
         }
@@ -70,7 +70,7 @@ impl Shader for Normals {
     type Walk<M: Machine> = [Linear<M::F>; 3];
     type Pixel<F: Num> = [F; 3];
 
-    fn consts<N: Num>(_: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> [N; 2] {
+    fn consts<N: Num>(_: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> [N; 2] {
         [of(1.0), of(0.5)]
     }
     #[inline(always)]

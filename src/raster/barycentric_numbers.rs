@@ -47,7 +47,7 @@ impl Shader for FirstCorner {
     type Walk<M: Machine> = Constant<[M::F; 3]>;
     type Pixel<F: Num> = [F; 3];
 
-    fn consts<N: Num>(_: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> N {
+    fn consts<N: Num>(_: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> N {
         of(0.0)
     }
     #[inline(always)]

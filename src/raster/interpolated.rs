@@ -125,7 +125,7 @@ impl<Q: Quantity> Shader for OnScreen<Q> {
     type Walk<M: Machine> = [Linear<M::F>; 3];
     type Pixel<F: Num> = [F; 3];
 
-    fn consts<N: Num>(_: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> N {
+    fn consts<N: Num>(_: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> N {
         of(1.0)
     }
     #[inline(always)]
@@ -157,7 +157,7 @@ impl<Q: Quantity> Shader for Weighted<Q> {
     type Walk<M: Machine> = ([Linear<M::F>; 3], Linear<M::F>);
     type Pixel<F: Num> = ([F; 3], F);
 
-    fn consts<N: Num>(_: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> N {
+    fn consts<N: Num>(_: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> N {
         of(1.0)
     }
     #[inline(always)]

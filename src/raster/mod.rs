@@ -10,14 +10,20 @@
 
 mod active;
 mod aov;
+mod bands;
 pub mod barycentric;
 mod barycentric_numbers;
+mod bins;
 mod depth;
 mod edge;
 mod edge_table;
+mod engine;
 mod interpolated;
+pub(crate) mod rows;
 pub mod scanline;
 mod setup;
+mod sink;
+pub(crate) mod spans;
 mod supersampling;
 mod target;
 mod visibility;
@@ -26,8 +32,10 @@ pub use aov::{coverage, depth, normals, polygon_numbers};
 pub use barycentric::Edges;
 pub use barycentric_numbers::barycentric_polygon_numbers;
 pub use edge::Crossing;
+pub use engine::{Engine, Plan, Renderer};
 pub use interpolated::{barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours};
 pub use visibility::NOTHING;
 
+pub(crate) use bands::{Bands, PictureBands, Scratch};
 pub(crate) use supersampling::{draw_anyhow, draw_rows};
 pub(crate) use target::{Target, Texel, clear, linear_picture, picture8};

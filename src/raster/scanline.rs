@@ -15,28 +15,43 @@ use crate::shader::{Shader, Span};
 use crate::walk::{Attribute, Walk};
 use alloc::vec;
 
-/// Goes down the picture with the attributes of all vertices, and gives every scanline on which anything is drawn: its
-/// number, what is seen on it, and the active edges that its spans refer to.
+/// Goes down the scanlines of an edge table with the attributes of all vertices, and gives every one on which anything is
+/// drawn: its number, what is seen on it, and the active edges that its spans refer to.
 pub(super) fn scan<M: Machine, A: Attribute<M::One>>(
     m: M,
     frame: &Frame,
+    table: &EdgeTable,
     attributes: &[A],
-    mut visit: impl FnMut(usize, &VisibleLine, &[ActiveEdge<A::Edge>]),
+    line: &mut VisibleLine,
+    visit: &mut Visit<'_, A::Edge>,
 ) {
-    let table = EdgeTable::new(frame);
-    let depth = SampleDepth::new(frame);
-    let mut active = ActiveEdges::new(depth);
-    let mut line = VisibleLine::new(frame.width(), depth);
-    for row in 0..frame.height() {
+    let mut active = ActiveEdges::new(SampleDepth::new(frame));
+    for row in table.rows() {
         active.advance::<M, A>(row);
-        active.enter(m, frame, &table, attributes, row);
+        active.enter(m, frame, table, attributes, row);
         if active.edges().is_empty() {
             continue;
         }
         line.clear();
         active.spans(frame.width() as u32, |span| line.draw(span));
-        visit(row, &line, active.edges());
+        visit(row, line, active.edges());
     }
+}
+
+/// Takes a scanline. Behind a pointer, so that the loops are compiled once for each kind of attribute and not for each
+/// shader.
+pub(super) type Visit<'a, E> = dyn FnMut(usize, &VisibleLine, &[ActiveEdge<E>]) + 'a;
+
+/// [`scan`] over the whole picture.
+pub(super) fn scan_all<M: Machine, A: Attribute<M::One>>(
+    m: M,
+    frame: &Frame,
+    attributes: &[A],
+    visit: &mut Visit<'_, A::Edge>,
+) {
+    let table = EdgeTable::of_all(frame);
+    let mut line = VisibleLine::new(frame.width(), SampleDepth::new(frame));
+    scan(m, frame, &table, attributes, &mut line, visit);
 }
 
 /// Draws `frame` with a shader into `target`.
@@ -44,7 +59,7 @@ pub(crate) fn draw<S: Shader, M: Machine>(m: M, frame: &Frame, parameters: &[u32
     const { assert!(M::WIDTH == 1, "this engine walks pixel by pixel") };
     let setup = SetUp::<S, M>::new(m, frame, parameters);
     let mut colours = vec![[0.0f32; 3]; frame.width()];
-    scan(m, frame, &setup.attributes, |row, line, edges| {
+    scan_all(m, frame, &setup.attributes, &mut |row, line, edges| {
         line.runs(|span, pixels| {
             let polygon = &frame.polygons()[span.polygon as usize];
             let material = polygon.material as usize;

@@ -18,8 +18,8 @@ pub(super) struct SetUp<S: Shader, M: Machine> {
 
 impl<S: Shader, M: Machine> SetUp<S, M> {
     pub fn new(m: M, frame: &Frame, parameters: &[u32]) -> Self {
-        let consts: Vec<_> = frame.lightings().iter().map(|l| S::consts(l, parameters, |x| m.one(x))).collect();
-        let pixel_consts = frame.lightings().iter().map(|l| S::consts(l, parameters, |x| m.splat(m.one(x)))).collect();
+        let consts: Vec<_> = frame.lightings().iter().map(|l| S::consts(l, parameters, &|x| m.one(x))).collect();
+        let pixel_consts = frame.lightings().iter().map(|l| S::consts(l, parameters, &|x| m.splat(m.one(x)))).collect();
         let attributes = attributes::<S, M>(m, frame, &consts);
         let polygons = frame.polygons().iter().map(|polygon| {
             let corners = Corners { machine: m, frame, polygon, attributes: &attributes };

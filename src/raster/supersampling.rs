@@ -13,7 +13,7 @@ use alloc::vec::Vec;
 struct BoxFilter<'a, T> {
     picture: &'a mut Picture<T>,
     samples: usize,
-    background: [f64; 3],
+    background: [f32; 3],
     /// The row of pixels that is being collected; those before it are finished.
     row: usize,
     /// Sum of the colours and number of the covered samples, by pixel.
@@ -23,23 +23,30 @@ struct BoxFilter<'a, T> {
 impl<'a, T: Texel> BoxFilter<'a, T> {
     fn new(frame: &Frame, picture: &'a mut Picture<T>) -> Self {
         let sums = vec![([0.0; 3], 0); picture.width()];
-        let background = frame.background().map(f64::from);
+        let background = frame.background();
         BoxFilter { picture, samples: frame.samples(), background, row: 0, sums }
     }
 
     /// Stores the row that was being collected.
     fn flush(&mut self) {
-        let all = (self.samples * self.samples) as f64;
         for (texel, (sum, covered)) in self.picture.row_mut(self.row).iter_mut().zip(&mut self.sums) {
             if *covered == 0 {
                 continue;
             }
-            let share = f64::from(*covered);
-            let mean = |c: usize| ((sum[c] + (all - share) * self.background[c]) / all) as f32;
-            *texel = T::mixed([mean(0), mean(1), mean(2), (share / all) as f32]);
+            *texel = mean(&(*sum, *covered), self.samples, self.background);
             (*sum, *covered) = ([0.0; 3], 0);
         }
     }
+}
+
+/// The texel of a pixel from the sum of its covered samples and their number, of `samples` × `samples` in all.
+pub(super) fn mean<T: Texel>((sum, covered): &([f64; 3], u32), samples: usize, background: [f32; 3]) -> T {
+    if *covered == 0 {
+        return T::background(background);
+    }
+    let (all, share) = ((samples * samples) as f64, f64::from(*covered));
+    let mean = |c: usize| ((sum[c] + (all - share) * f64::from(background[c])) / all) as f32;
+    T::mixed([mean(0), mean(1), mean(2), (share / all) as f32])
 }
 
 impl<T: Texel> Target for BoxFilter<'_, T> {

@@ -1,17 +1,22 @@
 //! Where finished runs of pixels go: a stored picture or a linear one.
 
+use super::sink::Pack;
 use crate::encoding::quantise;
 use crate::frame::Frame;
+use crate::number::{Level, on_level};
 use crate::picture::{LinearPicture, Picture, Picture8};
 
 /// A colour as it is stored.
-pub(crate) trait Texel: Copy {
+pub(crate) trait Texel: Copy + Send + Sync {
     /// A drawn colour: clamped to 0..=1, opaque.
     fn drawn(rgb: [f32; 3]) -> Self;
     /// A pixel that is partly covered: colour and alpha, all in 0..=1.
     fn mixed(texel: [f32; 4]) -> Self;
     /// The background: clamped to 0..=1, transparent.
     fn background(rgb: [f32; 3]) -> Self;
+    /// A row of drawn colours, and `background` where `depth` is infinite; all but `texels` have a group of values more
+    /// than there are texels.
+    fn pack(level: Level, background: Self, depth: &[f32], rgb: [&[f32]; 3], texels: &mut [Self]);
 }
 
 impl Texel for [u8; 4] {
@@ -25,6 +30,9 @@ impl Texel for [u8; 4] {
     fn background(rgb: [f32; 3]) -> Self {
         let [r, g, b, _] = Self::drawn(rgb);
         [r, g, b, 0]
+    }
+    fn pack(level: Level, background: Self, depth: &[f32], rgb: [&[f32]; 3], texels: &mut [Self]) {
+        on_level(level, Pack { background, depth, rgb, texels });
     }
 }
 
@@ -40,6 +48,11 @@ impl Texel for [f32; 4] {
     fn background(rgb: [f32; 3]) -> Self {
         let [r, g, b, _] = Self::drawn(rgb);
         [r, g, b, 0.0]
+    }
+    fn pack(_: Level, background: Self, depth: &[f32], [r, g, b]: [&[f32]; 3], texels: &mut [Self]) {
+        for (i, texel) in texels.iter_mut().enumerate() {
+            *texel = if depth[i] < f32::INFINITY { Self::drawn([r[i], g[i], b[i]]) } else { background };
+        }
     }
 }
 

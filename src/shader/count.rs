@@ -49,7 +49,7 @@ fn run<S: Shader>(parameters: &[u32], frame: &Frame) -> OperationCounts {
         last = now;
         lap
     };
-    let consts = S::consts(&frame.lightings()[0], parameters, one);
+    let consts = S::consts(&frame.lightings()[0], parameters, &one);
     let vertex = |vertex| S::vertex(&consts, &Corner { machine: m, frame, vertex });
     lap();
     let first = vertex(0);

@@ -48,6 +48,30 @@ pub(super) fn dispatch<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {
     }
 }
 
+/// The most lights that [`dispatch_wide`] has a shader for.
+pub(super) const MOST_LIGHTS: usize = 4;
+
+/// Does `job` with the method's shader for one light or for four, at positions or not; `None` if there are more. For engines
+/// that are compiled for several instruction sets, where every size more is compiled for each of them: with 64 lights the
+/// crate took five times as long to compile.
+pub(super) fn dispatch_wide<D: Method, J: Job>(frame: &Frame, job: J) -> Option<J::Out> {
+    macro_rules! by_lights {
+        ($shader:ident) => {
+            match frame.light_count() {
+                0 | 1 => Some(job.run::<D::$shader<1>>()),
+                2..=MOST_LIGHTS => Some(job.run::<D::$shader<MOST_LIGHTS>>()),
+                _ => None,
+            }
+        };
+    }
+    match (frame.interpolation(), frame.is_local()) {
+        (Interpolation::Screen, false) => by_lights!(Screen),
+        (Interpolation::Perspective, false) => by_lights!(Perspective),
+        (Interpolation::Screen, true) => by_lights!(Local),
+        (Interpolation::Perspective, true) => by_lights!(LocalPerspective),
+    }
+}
+
 /// Does `job` with the method's shader for one light or for four, where something is at a position for one or for two, in
 /// space for one: for counts of operations, which need no picture; every further number of lights would only be code.
 pub(super) fn dispatch_counts<D: Method, J: Job>(frame: &Frame, job: J) -> J::Out {

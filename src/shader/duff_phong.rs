@@ -44,27 +44,43 @@ impl Method for DuffPhong {
         local: Local::PerPixel,
         barycentric: false,
     };
-    type Screen<const L: usize> = Of<L>;
-    type Perspective<const L: usize> = Of<L>;
+    type Screen<const L: usize> = Of<RootAndQuotient, L>;
+    type Perspective<const L: usize> = Of<RootAndQuotient, L>;
     type Local<const L: usize> = Near<false, L>;
     type LocalPerspective<const L: usize> = Near<true, L>;
 }
 
+/// How 1/√D is computed.
+pub(super) trait OverRoot: 'static {
+    fn of<F: Num>(d: F, one: F) -> F;
+}
+
+/// By a root and a division.
+#[derive(Debug)]
+pub struct RootAndQuotient;
+
+impl OverRoot for RootAndQuotient {
+    #[inline(always)]
+    fn of<F: Num>(d: F, one: F) -> F {
+        one / d.sqrt()
+    }
+}
+
 /// Forward differences with `L` lights.
 #[derive(Debug)]
-pub struct Of<const L: usize>;
+pub struct Of<Q, const L: usize>(Q);
 
 /// J of each light, K, N.
 type Jkn<R, const L: usize> = ([R; L], R, [R; 3]);
 
-impl<const L: usize> Shader for Of<L> {
+impl<Q: OverRoot, const L: usize> Shader for Of<Q, L> {
     type Consts<N: Num> = Illumination<N, L>;
     type Attribute<R: Real> = Lerp<Jkn<R, L>>;
     type Polygon<R: Real> = ();
     type Walk<M: Machine> = ([Linear<M::F>; L], Linear<M::F>, Quadratic<M::F>);
     type Pixel<F: Num> = ([F; L], F, F);
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Illumination<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> Illumination<N, L> {
         Illumination::new(lighting, of)
     }
     #[inline(always)]
@@ -85,7 +101,7 @@ impl<const L: usize> Shader for Of<L> {
     }
     #[inline(always)]
     fn shade<F: Num>(c: &Illumination<F, L>, (j, k, d): Self::Pixel<F>) -> [F; 3] {
-        let r = c.one() / d.sqrt();
+        let r = Q::of(d, c.one());
         let cosines = each(
             #[inline(always)]
             |i| j[i] * r,
@@ -109,7 +125,7 @@ impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
     type Walk<M: Machine> = ([Quadratic<M::F>; 3], [OfLight<Quadratic<M::F>>; L], Option<Quadratic<M::F>>);
     type Pixel<F: Num> = ([F; 3], [OfLight<F>; L], Option<F>);
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> LocalLight<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> LocalLight<N, L> {
         LocalLight::new(lighting, of)
     }
     #[inline(always)]

@@ -64,10 +64,10 @@ impl<const L: usize> Shader for Of<L> {
     type Consts<N: Num> = Consts<N, L>;
     type Attribute<R: Real> = Lerp<Jkn<R, L>>;
     type Polygon<R: Real> = ();
-    type Walk<M: Machine> = ([Linear<M::F>; L], Linear<M::F>, Newton<[Linear<M::F>; 3], M::F>);
+    type Walk<M: Machine> = ([Linear<M::F>; L], Linear<M::F>, Newton<M::F>);
     type Pixel<F: Num> = ([F; L], F, (F, F));
 
-    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> Consts<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Consts<N, L> {
         Consts { light: Illumination::new(lighting, of), steps: parameters[0] }
     }
     #[inline(always)]
@@ -80,15 +80,11 @@ impl<const L: usize> Shader for Of<L> {
     #[inline(always)]
     fn walk<M: Machine>(m: M, c: &Consts<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
         let ((j, k, n), (dj, dk, dn)) = (span.attribute.at, span.attribute.step);
-        let normal = each(
-            #[inline(always)]
-            |i| Linear::new(m, n[i], dn[i]), // 4.2
-        );
         let light = each(
             #[inline(always)]
             |i| Linear::new(m, j[i], dj[i]), // 4.3
         );
-        (light, Linear::new(m, k, dk), Newton::new(m, normal, n, c.steps))
+        (light, Linear::new(m, k, dk), Newton::new(m, n, dn, c.steps))
     }
     #[inline(always)]
     fn shade<F: Num>(c: &Consts<F, L>, (j, k, (d, squared)): Self::Pixel<F>) -> [F; 3] {
@@ -135,11 +131,10 @@ impl<const L: usize> Shader for Near<L> {
     type Consts<N: Num> = NearConsts<N, L>;
     type Attribute<R: Real> = Lerp<[R; 3]>;
     type Polygon<R: Real> = Seen<R, L>;
-    type Walk<M: Machine> =
-        ([Linear<M::F>; L], Linear<M::F>, Newton<[Linear<M::F>; 3], M::F>, Constant<SeenScalars<M::F, L>>);
+    type Walk<M: Machine> = ([Linear<M::F>; L], Linear<M::F>, Newton<M::F>, Constant<SeenScalars<M::F, L>>);
     type Pixel<F: Num> = ([F; L], F, (F, F), SeenScalars<F, L>);
 
-    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> NearConsts<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> NearConsts<N, L> {
         NearConsts { light: LocalLight::new(lighting, of), steps: parameters[0] }
     }
     #[inline(always)]
@@ -158,10 +153,6 @@ impl<const L: usize> Shader for Near<L> {
         span: &SpanOf<Self, M::One>,
     ) -> Self::Walk<M> {
         let (n, dn) = (span.attribute.at, span.attribute.step);
-        let normal = each(
-            #[inline(always)]
-            |i| Linear::new(m, n[i], dn[i]), // 4.2
-        );
         let (j, dj) = (seen.light_cosines(n), seen.light_cosines(dn));
         let light = each(
             #[inline(always)]
@@ -169,7 +160,7 @@ impl<const L: usize> Shader for Near<L> {
         );
         let view = Linear::new(m, seen.view_cosine(n), seen.view_cosine(dn));
         let scalars = NearLights::splat(m, seen).scalars;
-        (light, view, Newton::new(m, normal, n, c.steps), Constant(scalars))
+        (light, view, Newton::new(m, n, dn, c.steps), Constant(scalars))
     }
     #[inline(always)]
     fn shade<F: Num>(c: &NearConsts<F, L>, (j, k, (d, squared), seen): Self::Pixel<F>) -> [F; 3] {

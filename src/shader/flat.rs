@@ -45,7 +45,7 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
     type Walk<M: Machine> = Constant<[M::F; 3]>;
     type Pixel<F: Num> = [F; 3];
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> P::Of<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> P::Of<N, L> {
         P::new(lighting, of)
     }
     #[inline(always)]

@@ -31,32 +31,32 @@ impl Method for GouraudSeparate {
         local: Local::PerVertex,
         barycentric: true,
     };
-    type Screen<const L: usize> = Of<Far, false, L>;
-    type Perspective<const L: usize> = Of<Far, true, L>;
-    type Local<const L: usize> = Of<Near, false, L>;
-    type LocalPerspective<const L: usize> = Of<Near, true, L>;
+    type Screen<const L: usize> = Of<Far, 0, L>;
+    type Perspective<const L: usize> = Of<Far, 1, L>;
+    type Local<const L: usize> = Of<Near, 0, L>;
+    type LocalPerspective<const L: usize> = Of<Near, 1, L>;
 }
 
-/// Gouraud shading with `L` lights and two colours, linear in space (`SPACE`) or on the screen.
+/// Gouraud shading with `L` lights and two colours, with `W` weights: linear in space (1) or on the screen (0).
 #[derive(Debug)]
-pub struct Of<P, const SPACE: bool, const L: usize>(P);
+pub struct Of<P, const W: usize, const L: usize>(P);
 
 /// Two colours and the weight of perspective interpolation.
 type Colours<R> = ([R; 3], [R; 3], R);
 
-impl<P: Lights, const SPACE: bool, const L: usize> Shader for Of<P, SPACE, L> {
+impl<P: Lights, const W: usize, const L: usize> Shader for Of<P, W, L> {
     /// The light without highlights, and the highlights alone.
     type Consts<N: Num> = [P::Of<N, L>; 2];
     type Attribute<R: Real> = Lerp<Colours<R>>;
     type Polygon<R: Real> = ();
-    type Walk<M: Machine> = ([Linear<M::F>; 3], [Linear<M::F>; 3], Option<Linear<M::F>>);
-    type Pixel<F: Num> = ([F; 3], [F; 3], Option<F>);
+    type Walk<M: Machine> = ([Linear<M::F>; 3], [Linear<M::F>; 3], [Linear<M::F>; W]);
+    type Pixel<F: Num> = ([F; 3], [F; 3], [F; W]);
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Self::Consts<N> {
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N> {
         let part = |change: fn(&mut LightTerm), ambient| {
             let mut part = Lighting { ambient, ..lighting.clone() };
             part.lights.iter_mut().for_each(change);
-            P::new(&part, &of)
+            P::new(&part, of)
         };
         [part(|l| l.specular = [0.0; 3], lighting.ambient), part(|l| l.diffuse = [0.0; 3], [0.0; 3])]
     }
@@ -78,7 +78,7 @@ impl<P: Lights, const SPACE: bool, const L: usize> Shader for Of<P, SPACE, L> {
                 |i| Linear::new(m, at[i], step[i]), // 3.5, 3.6
             )
         };
-        let weight = if SPACE { Some(Linear::new(m, at.2, step.2)) } else { None };
+        let weight = [Linear::new(m, at.2, step.2); W];
         (colour(at.0, step.0), colour(at.1, step.1), weight)
     }
     #[inline(always)]
@@ -88,8 +88,10 @@ impl<P: Lights, const SPACE: bool, const L: usize> Shader for Of<P, SPACE, L> {
             #[inline(always)]
             |i| diffuse[i] + specular[i],
         );
-        let Some(weight) = weight else { return sum };
-        let w = model.one() / weight;
+        if W == 0 {
+            return sum;
+        }
+        let w = model.one() / weight[0];
         [sum[0] * w, sum[1] * w, sum[2] * w]
     }
 }

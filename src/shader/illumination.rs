@@ -1,7 +1,7 @@
 //! The illumination model, once for all methods (L21 2.1), with the clamps that the lecture omits.
 
 use crate::lighting::{Lighting, Place, SpecularGate, SpecularModel};
-use crate::number::{Machine, Num, Real, dot, each};
+use crate::number::{Machine, Num, Planes, Real, dot, each};
 
 /// The exponent `n` of the specular term, as it is best computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,6 +127,16 @@ impl<N: Num, const L: usize> Seen<N, L> {
     }
 }
 
+/// Whether there are strengths is not known before the frame.
+impl<N: Num, const L: usize> Planes<N> for SeenScalars<N, L> {
+    const COUNT: Option<usize> = None;
+}
+
+/// As its scalars.
+impl<N: Num, const L: usize> Planes<N> for Seen<N, L> {
+    const COUNT: Option<usize> = None;
+}
+
 impl<N: Copy, const L: usize> SeenScalars<N, L> {
     /// The strength of light `i`; `None` is full strength.
     #[inline(always)]
@@ -174,7 +184,8 @@ pub struct Illumination<N, const L: usize> {
 impl<N: Num, const L: usize> Illumination<N, L> {
     /// The constants for `lighting`, made by `of`. With fewer than `L` lights the others are dark. What is at a position
     /// is not seen by this part: [`super::local::Local`] knows where it is.
-    pub fn new(lighting: &Lighting, of: impl Fn(f32) -> N) -> Self {
+    #[inline(never)] // compiled once, not once a shader
+    pub fn new(lighting: &Lighting, of: &dyn Fn(f32) -> N) -> Self {
         let three = |v: [f32; 3]| [of(v[0]), of(v[1]), of(v[2])];
         let light = |i: usize| lighting.lights.get(i);
         let infinite = |place: Place<[f32; 3]>| match place {
@@ -304,7 +315,8 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             }
             let mut channel = 0;
             while channel < 3 {
-                sum[channel] = sum[channel] + self.diffuse[i][channel] * d + self.specular[i][channel] * s; // 2.1
+                let diffuse = self.diffuse[i][channel].mul_add(d, sum[channel]);
+                sum[channel] = self.specular[i][channel].mul_add(s, diffuse); // 2.1
                 channel += 1;
             }
             i += 1;

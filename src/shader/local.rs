@@ -2,7 +2,7 @@
 
 use super::illumination::{Illumination, Seen};
 use crate::lighting::{Falloff, Lighting, Place};
-use crate::number::{Machine, Num, dot, each};
+use crate::number::{Machine, Num, Planes, dot, each};
 use core::fmt;
 
 /// Squared distances below this count as this: a light in the surface itself has no direction and no finite `1/r²`.
@@ -14,12 +14,12 @@ pub const LEAST_SQUARE: f32 = 1e-30;
 /// question where a point lies vanish.
 pub trait Lights: Copy + fmt::Debug + 'static {
     /// The constants for `L` lights.
-    type Of<N: Num, const L: usize>: Copy;
+    type Of<N: Num, const L: usize>: Copy + Send + Sync;
     /// What holds over one polygon, or at one vertex.
-    type There<N: Num, const L: usize>: Copy;
+    type There<N: Num, const L: usize>: Planes<N> + Send + Sync;
 
     /// The constants for `lighting`, made by `of`.
-    fn new<N: Num, const L: usize>(lighting: &Lighting, of: impl Fn(f32) -> N) -> Self::Of<N, L>;
+    fn new<N: Num, const L: usize>(lighting: &Lighting, of: &dyn Fn(f32) -> N) -> Self::Of<N, L>;
     /// The illumination model.
     fn model<N: Num, const L: usize>(c: &Self::Of<N, L>) -> &Illumination<N, L>;
     /// What holds at `position`.
@@ -38,7 +38,7 @@ impl Lights for Far {
     type Of<N: Num, const L: usize> = Illumination<N, L>;
     type There<N: Num, const L: usize> = ();
 
-    fn new<N: Num, const L: usize>(lighting: &Lighting, of: impl Fn(f32) -> N) -> Illumination<N, L> {
+    fn new<N: Num, const L: usize>(lighting: &Lighting, of: &dyn Fn(f32) -> N) -> Illumination<N, L> {
         Illumination::new(lighting, of)
     }
     #[inline(always)]
@@ -63,7 +63,7 @@ impl Lights for Near {
     type Of<N: Num, const L: usize> = Local<N, L>;
     type There<N: Num, const L: usize> = Seen<N, L>;
 
-    fn new<N: Num, const L: usize>(lighting: &Lighting, of: impl Fn(f32) -> N) -> Local<N, L> {
+    fn new<N: Num, const L: usize>(lighting: &Lighting, of: &dyn Fn(f32) -> N) -> Local<N, L> {
         Local::new(lighting, of)
     }
     #[inline(always)]
@@ -100,12 +100,13 @@ pub struct Local<N, const L: usize> {
 
 impl<N: Num, const L: usize> Local<N, L> {
     /// The constants for `lighting`, made by `of`. With fewer than `L` lights the others are dark.
-    pub fn new(lighting: &Lighting, of: impl Fn(f32) -> N) -> Self {
+    #[inline(never)] // compiled once, not once a shader
+    pub fn new(lighting: &Lighting, of: &dyn Fn(f32) -> N) -> Self {
         let three = |v: [f32; 3]| [of(v[0]), of(v[1]), of(v[2])];
         let light = |i: usize| lighting.lights.get(i);
         let falloff = |i: usize| light(i).filter(|l| l.place.is_local()).map_or(Falloff::None, |l| l.falloff);
         Local {
-            model: Illumination::new(lighting, &of),
+            model: Illumination::new(lighting, of),
             lights: each(|i| light(i).map_or(Place::Infinite([0.0, 0.0, 1.0]), |l| l.place).map(three)),
             falloffs: each(falloff),
             k: each(|i| of(if let Falloff::Attenuation(k) = falloff(i) { k } else { 0.0 })),
@@ -225,7 +226,7 @@ mod tests {
             gate: SpecularGate::Ungated,
             ..Lighting::new(&material, [1.0; 3], &[light], DVec3::Z)
         };
-        let local = Local::<f32, 1>::new(&lighting, |x| x);
+        let local = Local::<f32, 1>::new(&lighting, &|x| x);
         for i in 0..1000 {
             // At (x, 0.3 x, −2) the light is seen under x/3 from the axis and the eye under x/2: |L + V| is below
             // 1.05 · 5/6 x, and that below 2⁻¹⁰.

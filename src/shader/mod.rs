@@ -5,6 +5,7 @@
 //! function** of what the walk gives. [`METHODS`] lists all methods: what is in it is rendered, compared, timed,
 //! counted, tested and drawn; what is not does not exist.
 
+mod bands;
 mod bound;
 mod count;
 mod dispatch;
@@ -18,6 +19,7 @@ pub mod local;
 
 mod duff_phong;
 mod fast_phong;
+mod fast_phong_rsqrt;
 mod flat;
 mod flat_average;
 mod gouraud;
@@ -30,6 +32,7 @@ pub use bound::{Roundings, Stepped};
 pub use count::OperationCounts;
 pub use duff_phong::DuffPhong;
 pub use fast_phong::FastPhong;
+pub use fast_phong_rsqrt::FastPhongRsqrt;
 pub use flat::Flat;
 pub use flat_average::FlatAverage;
 pub use gouraud::Gouraud;
@@ -43,7 +46,7 @@ pub use table::{Entry, METHODS, MethodError, Variant};
 
 use crate::frame::{Frame, Polygon};
 use crate::lighting::Lighting;
-use crate::number::{Machine, Num, Real};
+use crate::number::{Machine, Num, Planes, Real};
 use crate::walk::{Attribute, Walk};
 
 /// One vertex, for what a shader computes once a vertex: nothing of it is read unless asked for.
@@ -146,18 +149,18 @@ pub type SpanOf<S, R> = Span<R, <<S as Shader>::Attribute<R> as Attribute<R>>::S
 /// Every function must be `#[inline(always)]`: one that is not costs a call a pixel.
 pub trait Shader: 'static {
     /// Lights, material and parameters, made once a material.
-    type Consts<N: Num>: Copy;
+    type Consts<N: Num>: Copy + Send + Sync;
     /// What is walked along edges.
     type Attribute<R: Real>: Attribute<R>;
     /// What holds over one polygon.
-    type Polygon<R: Real>: Copy;
+    type Polygon<R: Real>: Copy + Send + Sync;
     /// What is walked along one visible run of a span.
     type Walk<M: Machine>: Walk<Out = Self::Pixel<M::F>>;
     /// What the walk gives to each pixel: numbers, arrays and tuples of them.
-    type Pixel<F: Num>: Copy;
+    type Pixel<F: Num>: Planes<F>;
 
     /// Constants from the light on one material; `parameters` are in the order of [`Info::parameters`].
-    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: impl Fn(f32) -> N) -> Self::Consts<N>;
+    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N>;
     /// Once a vertex.
     fn vertex<M: Machine>(c: &Self::Consts<M::One>, corner: &Corner<'_, M>) -> Self::Attribute<M::One>;
     /// Once a polygon.

@@ -35,8 +35,8 @@ impl Method for NaivePhong {
     };
     type Screen<const L: usize> = Of<L>;
     type Perspective<const L: usize> = Of<L>;
-    type Local<const L: usize> = Near<false, L>;
-    type LocalPerspective<const L: usize> = Near<true, L>;
+    type Local<const L: usize> = Near<0, L>;
+    type LocalPerspective<const L: usize> = Near<1, L>;
 }
 
 /// Naive Phong shading with `L` lights.
@@ -50,7 +50,7 @@ impl<const L: usize> Shader for Of<L> {
     type Walk<M: Machine> = [Linear<M::F>; 3];
     type Pixel<F: Num> = [F; 3];
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> Illumination<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> Illumination<N, L> {
         Illumination::new(lighting, of)
     }
     #[inline(always)]
@@ -74,9 +74,10 @@ impl<const L: usize> Shader for Of<L> {
     }
 }
 
-/// Naive Phong shading with `L` lights, some of them or the eye at positions; linear in space (`SPACE`) or on the screen.
+/// Naive Phong shading with `L` lights, some of them or the eye at positions, with `W` weights: linear in space (1) or on
+/// the screen (0).
 #[derive(Debug)]
-pub struct Near<const SPACE: bool, const L: usize>;
+pub struct Near<const W: usize, const L: usize>;
 
 /// Normal, position, and the weight of perspective interpolation.
 pub(super) type Point<R> = ([R; 3], [R; 3], R);
@@ -95,14 +96,14 @@ fn linear<M: Machine>(m: M, at: [M::One; 3], step: [M::One; 3]) -> [Linear<M::F>
     )
 }
 
-impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
+impl<const W: usize, const L: usize> Shader for Near<W, L> {
     type Consts<N: Num> = LocalLight<N, L>;
     type Attribute<R: Real> = Lerp<Point<R>>;
     type Polygon<R: Real> = ();
-    type Walk<M: Machine> = ([Linear<M::F>; 3], [Linear<M::F>; 3], Option<Linear<M::F>>);
-    type Pixel<F: Num> = ([F; 3], [F; 3], Option<F>);
+    type Walk<M: Machine> = ([Linear<M::F>; 3], [Linear<M::F>; 3], [Linear<M::F>; W]);
+    type Pixel<F: Num> = ([F; 3], [F; 3], [F; W]);
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> LocalLight<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> LocalLight<N, L> {
         LocalLight::new(lighting, of)
     }
     #[inline(always)]
@@ -114,10 +115,11 @@ impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
     #[inline(always)]
     fn walk<M: Machine>(m: M, _: &LocalLight<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
         let Ramp { at: (n, p, w), step: (dn, dp, dw) } = span.attribute;
-        (linear(m, n, dn), linear(m, p, dp), if SPACE { Some(Linear::new(m, w, dw)) } else { None })
+        (linear(m, n, dn), linear(m, p, dp), [Linear::new(m, w, dw); W])
     }
     #[inline(always)]
-    fn shade<F: Num>(c: &LocalLight<F, L>, (n, p, inv_w): Self::Pixel<F>) -> [F; 3] {
+    fn shade<F: Num>(c: &LocalLight<F, L>, (n, p, weight): Self::Pixel<F>) -> [F; 3] {
+        let inv_w = if W == 1 { Some(weight[0]) } else { None };
         let one = c.model.one();
         let unit = |v: [F; 3], square: F| {
             let r = one / square.sqrt();

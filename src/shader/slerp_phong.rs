@@ -69,7 +69,7 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
     type Walk<M: Machine> = (Cosines<M::F, L>, Constant<P::There<M::F, L>>);
     type Pixel<F: Num> = (([F; L], F), P::There<F, L>);
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> P::Of<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> P::Of<N, L> {
         P::new(lighting, of)
     }
     #[inline(always)]

@@ -65,7 +65,7 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
     type Walk<M: Machine> = (Normals<M::F>, Constant<P::There<M::F, L>>);
     type Pixel<F: Num> = ([F; 3], P::There<F, L>);
 
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: impl Fn(f32) -> N) -> P::Of<N, L> {
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> P::Of<N, L> {
         P::new(lighting, of)
     }
     #[inline(always)]

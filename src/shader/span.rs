@@ -85,8 +85,8 @@ pub(super) fn shade<D: Method>(parameters: &[u32], bench: &SpanBench, out: &mut 
 fn run<S: Shader, M: Machine>(m: M, parameters: &[u32], frame: &Frame, out: &mut [[f32; 3]]) {
     let one = |x: f32| m.one(x);
     let lighting = &frame.lightings()[0];
-    let consts = S::consts(lighting, parameters, one);
-    let wide = S::consts(lighting, parameters, |x| m.splat(m.one(x)));
+    let consts = S::consts(lighting, parameters, &one);
+    let wide = S::consts(lighting, parameters, &|x| m.splat(m.one(x)));
     let polygon = &frame.polygons()[0];
     let corner: [_; 3] = each(|i| S::vertex(&consts, &Corner { machine: m, frame, vertex: i as u32 }));
     let corners = Corners { machine: m, frame, polygon, attributes: &corner };

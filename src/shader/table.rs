@@ -1,19 +1,21 @@
 //! The method table, and a method as a user names it.
 
+use super::bands;
 use super::count::{self, OperationCounts};
 use super::dispatch::{Job, dispatch};
 use super::span::{self, SpanBench};
 use super::{
-    DuffPhong, FastPhong, Flat, FlatAverage, Gouraud, GouraudSeparate, Info, Method, NaivePhong, Shader, SlerpPhong,
-    SlerpPhongVector,
+    DuffPhong, FastPhong, FastPhongRsqrt, Flat, FlatAverage, Gouraud, GouraudSeparate, Info, Method, NaivePhong,
+    Shader, SlerpPhong, SlerpPhongVector,
 };
 use crate::encoding::store;
 use crate::frame::Frame;
-use crate::number::Scalar;
+use crate::number::{Level, Scalar};
 use crate::picture::Picture;
 use crate::picture::{LinearPicture, Picture8};
 use crate::raster::{
-    Edges, Target, Texel, barycentric, clear, draw_anyhow, draw_rows, linear_picture, picture8, scanline,
+    Bands, Edges, Engine, PictureBands, Plan, Renderer, Target, Texel, barycentric, clear, draw_anyhow, draw_rows,
+    linear_picture, picture8, scanline,
 };
 use crate::scene::Encoding;
 use crate::suggest::nearest;
@@ -29,6 +31,7 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<GouraudSeparate>(),
     Entry::of::<NaivePhong>(),
     Entry::of::<FastPhong>(),
+    Entry::of::<FastPhongRsqrt>(),
     Entry::of::<DuffPhong>(),
     Entry::of::<SlerpPhong>(),
     Entry::of::<SlerpPhongVector>(),
@@ -42,6 +45,8 @@ pub struct Entry {
     /// What is said about it.
     pub info: &'static Info,
     draw: fn(&Frame, &[u32], &mut dyn Target),
+    can_draw: fn(Engine, &Frame) -> bool,
+    draw_bands: fn(Engine, &Frame, &[u32], Level, &mut dyn Bands),
     draw_barycentric: Option<DrawBarycentric>,
     count: fn(&[u32], &SpanBench) -> OperationCounts,
     span: fn(&[u32], &SpanBench, &mut [[f32; 3]]),
@@ -59,6 +64,8 @@ impl Entry {
         Entry {
             info: &D::INFO,
             draw: draw::<D>,
+            can_draw: bands::can_draw::<D>,
+            draw_bands: bands::draw::<D>,
             draw_barycentric: if D::INFO.barycentric { Some(draw_barycentric::<D>) } else { None },
             count: count::count::<D>,
             span: span::shade::<D>,
@@ -203,6 +210,58 @@ impl Variant {
     fn rows<T: Texel>(&self, frame: &Frame, mut picture: Picture<T>) -> Picture<T> {
         draw_rows(frame, &mut picture, |target| (self.entry.draw)(frame, &self.parameters, target));
         picture
+    }
+
+    /// How `renderer` draws `frame` with this method: as it says where that can be, else as near to it as can be, with the
+    /// reason.
+    pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
+        let level = if renderer.level.is_available() { renderer.level } else { Level::Scalar };
+        let plan = |engine, level, reason| Plan { engine, level, reason };
+        if renderer == Renderer::LECTURE {
+            return plan(Engine::Span, Level::Scalar, None);
+        }
+        if !(self.entry.can_draw)(Engine::Span, frame) {
+            return plan(Engine::Span, Level::Scalar, Some("more than four lights are shaded one pixel at a time"));
+        }
+        let can_row = (self.entry.can_draw)(Engine::Row, frame);
+        match renderer.engine {
+            Some(Engine::Span) => plan(Engine::Span, level, None),
+            _ if can_row => plan(Engine::Row, level, None),
+            asked => {
+                let reason = "the row engine keeps neither this depth nor what this method walks along a span";
+                plan(Engine::Span, level, asked.map(|_| reason))
+            }
+        }
+    }
+
+    /// Draws `frame` with an engine and an instruction set into `picture`, which is made anew unless it has the size of the
+    /// frame's picture.
+    pub fn render_with(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture8) {
+        if frame.encoding() != Encoding::Linear {
+            *picture = store(&self.render_linear_with(frame, renderer), frame.encoding());
+            return;
+        }
+        if (picture.width(), picture.height()) != (frame.picture_width(), frame.picture_height()) {
+            *picture = picture8(frame);
+        }
+        self.draw_with(frame, renderer, picture);
+    }
+
+    /// Draws `frame` with an engine and an instruction set, before rounding: linear channels, clamped to 0..=1.
+    pub fn render_linear_with(&self, frame: &Frame, renderer: Renderer) -> LinearPicture {
+        let mut picture = linear_picture(frame);
+        self.draw_with(frame, renderer, &mut picture);
+        picture
+    }
+
+    fn draw_with<T: Texel>(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture<T>) {
+        let Plan { engine, level, .. } = self.plan(frame, renderer);
+        if (engine, level) == (Engine::Span, Level::Scalar) {
+            picture.texels_mut().fill(T::background(frame.background()));
+            return draw_rows(frame, picture, |target| (self.entry.draw)(frame, &self.parameters, target));
+        }
+        let mut bands = PictureBands { frame, level, picture };
+        (self.entry.draw_bands)(engine, frame, &self.parameters, level, &mut bands);
     }
 
     /// Draws the triangles of `frame` with the barycentric renderer; `None` when it does not have this method.

@@ -2,12 +2,13 @@
 
 use super::Sines;
 use crate::number::{Machine, Real, dot, each};
+use core::convert::Infallible;
 
 /// A value at a corner, and how it varies along an edge and between two edges.
 ///
 /// `t0` and `dt` are the parameter at the first scanline (pixel) centre and its step; `face` is the unit normal of the
 /// polygon, for values that need a way out where interpolation is undefined.
-pub trait Attribute<R: Real>: Copy {
+pub trait Attribute<R: Real>: Copy + Send + Sync {
     /// Running state along an edge.
     type Edge: Copy;
     /// What a span shader starts from.
@@ -23,18 +24,33 @@ pub trait Attribute<R: Real>: Copy {
     fn span<M: Machine<One = R>>(m: M, face: [R; 3], left: Self, right: Self, t0: R, dt: R) -> Self::Span;
     /// Times the weight of perspective interpolation; attributes that cannot be weighted stay as they are.
     fn weighted(self, inv_w: R) -> Self;
+    /// What is the same at all pixels of a triangle: see [`Attribute::plane`].
+    type Plane: Copy;
+    /// Whether it is linear over triangles.
+    const IS_PLANAR: bool;
+
+    /// The attribute over a triangle, where it is linear there: `across` is how much the barycentric coordinates of the
+    /// second and the third corner grow from pixel to pixel. `None` where it is not linear.
+    fn plane(corners: [Self; 3], across: [R; 2]) -> Option<Self::Plane>;
+    /// A span that starts where the second and the third corner have the barycentric coordinates `w`.
+    fn on_row(plane: &Self::Plane, w: [R; 2]) -> Self::Span;
     /// A span of one pixel at barycentric coordinates `w`, for the barycentric renderer.
     fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Self::Span;
 }
 
 /// Values that can be added and scaled: numbers, arrays and tuples of them.
-pub trait Affine<R: Real>: Copy {
+pub trait Affine<R: Real>: Copy + Send + Sync {
     /// The sum.
     fn plus(self, other: Self) -> Self;
     /// The difference.
     fn minus(self, other: Self) -> Self;
     /// The multiple.
     fn times(self, factor: R) -> Self;
+    /// The multiple and a summand.
+    #[inline(always)]
+    fn times_plus(self, factor: R, summand: Self) -> Self {
+        self.times(factor).plus(summand)
+    }
 }
 
 impl<R: Real> Affine<R> for R {
@@ -115,6 +131,21 @@ pub struct Ramp<A> {
     pub step: A,
 }
 
+/// An affine value over a triangle: the one at its first corner, how far the others are from it, and its growth from pixel
+/// to pixel.
+///
+/// ```text
+/// A = A_a + β (A_b − A_a) + γ (A_c − A_a)
+/// ```
+/// β and γ come from exact integers and are in 0..=1 inside, so that nothing cancels, however thin the triangle is.
+#[derive(Clone, Copy, Debug)]
+pub struct Facet<A> {
+    origin: A,
+    to_b: A,
+    to_c: A,
+    step: A,
+}
+
 /// An attribute that is interpolated linearly.
 ///
 /// ```text
@@ -133,6 +164,8 @@ fn ramp<R: Real, A: Affine<R>>(a: A, b: A, t0: R, dt: R) -> Ramp<A> {
 impl<R: Real, A: Affine<R>> Attribute<R> for Lerp<A> {
     type Edge = Ramp<A>;
     type Span = Ramp<A>;
+    type Plane = Facet<A>;
+    const IS_PLANAR: bool = true;
 
     #[inline(always)]
     fn edge<M: Machine<One = R>>(_: M, _: [R; 3], a: Self, b: Self, t0: R, dt: R) -> Ramp<A> {
@@ -153,6 +186,16 @@ impl<R: Real, A: Affine<R>> Attribute<R> for Lerp<A> {
     #[inline(always)]
     fn weighted(self, inv_w: R) -> Self {
         Lerp(self.0.times(inv_w))
+    }
+    #[inline(always)]
+    fn plane([a, b, c]: [Self; 3], [db, dc]: [R; 2]) -> Option<Facet<A>> {
+        let (to_b, to_c) = (b.0.minus(a.0), c.0.minus(a.0));
+        Some(Facet { origin: a.0, to_b, to_c, step: to_c.times_plus(dc, to_b.times(db)) })
+    }
+    #[inline(always)]
+    fn on_row(facet: &Facet<A>, [b, c]: [R; 2]) -> Ramp<A> {
+        let at = facet.to_c.times_plus(c, facet.to_b.times_plus(b, facet.origin));
+        Ramp { at, step: facet.step }
     }
     #[inline(always)]
     fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Ramp<A> {
@@ -225,6 +268,8 @@ pub struct ArcWalk<R> {
 impl<R: Real> Attribute<R> for UnitNormal<R> {
     type Edge = ArcWalk<R>;
     type Span = Arc<R>;
+    type Plane = Infallible;
+    const IS_PLANAR: bool = false;
 
     #[inline(always)]
     fn edge<M: Machine<One = R>>(m: M, face: [R; 3], a: Self, b: Self, t0: R, dt: R) -> ArcWalk<R> {
@@ -248,6 +293,14 @@ impl<R: Real> Attribute<R> for UnitNormal<R> {
     fn weighted(self, _: R) -> Self {
         // The increments of a great circle are constant on the screen only: slerp stays screen-linear.
         self
+    }
+    #[inline(always)]
+    fn plane(_: [Self; 3], _: [R; 2]) -> Option<Infallible> {
+        None // great circles through three corners make no plane
+    }
+    #[inline(always)]
+    fn on_row(plane: &Infallible, _: [R; 2]) -> Arc<R> {
+        match *plane {}
     }
     #[inline(always)]
     fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Arc<R> {

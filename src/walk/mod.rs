@@ -10,7 +10,7 @@ mod newton;
 mod quadratic;
 mod sines;
 
-pub use attribute::{Affine, Arc, Attribute, Lerp, Ramp, UnitNormal};
+pub use attribute::{Affine, Arc, Attribute, Facet, Lerp, Ramp, UnitNormal};
 pub use linear::{Constant, Linear};
 pub use newton::Newton;
 pub use quadratic::Quadratic;

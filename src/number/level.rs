@@ -1,0 +1,125 @@
+//! Instruction sets: which one the pixel loops run on is chosen at run time.
+
+use crate::suggest::nearest;
+use alloc::string::{String, ToString};
+use core::fmt;
+use core::str::FromStr;
+
+/// An instruction set that pixel loops are compiled for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// One pixel at a time, in plain `f32`: the same bits on every platform.
+    #[default]
+    Scalar,
+    /// Eight pixels at a time in two registers of 128 bits (x86-64-v2).
+    Sse42,
+    /// Eight pixels at a time in one register of 256 bits, with fused multiplication and addition (x86-64-v3).
+    Avx2,
+    /// Eight pixels at a time in two registers of 128 bits, with fused multiplication and addition (64 bit ARM).
+    Neon,
+}
+
+impl Level {
+    /// All that there are, from the least to the most.
+    pub const ALL: [Level; 4] = [Level::Scalar, Level::Sse42, Level::Avx2, Level::Neon];
+
+    /// The best that this machine has.
+    pub fn best() -> Level {
+        Level::available().last().unwrap_or_default()
+    }
+
+    /// Those that this machine has, from the least to the most.
+    pub fn available() -> impl Iterator<Item = Level> {
+        Level::ALL.into_iter().filter(|level| level.is_available())
+    }
+
+    /// Whether this machine has it. Without the feature `simd` there is only [`Level::Scalar`].
+    pub fn is_available(self) -> bool {
+        match self {
+            Level::Scalar => true,
+            #[cfg(feature = "simd")]
+            _ => super::wide::is_available(self),
+            #[cfg(not(feature = "simd"))]
+            _ => false,
+        }
+    }
+
+    /// How many pixels are shaded at a time.
+    pub fn width(self) -> usize {
+        if self == Level::Scalar { 1 } else { 8 }
+    }
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Level::Scalar => "scalar",
+            Level::Sse42 => "sse4.2",
+            Level::Avx2 => "avx2",
+            Level::Neon => "neon",
+        }
+    }
+
+    /// What it is, in one sentence.
+    pub fn title(self) -> &'static str {
+        match self {
+            Level::Scalar => "one pixel at a time, the same bits on every platform",
+            Level::Sse42 => "eight pixels at a time in two registers (x86-64-v2)",
+            Level::Avx2 => "eight pixels at a time in one register, with fused multiply-add (x86-64-v3)",
+            Level::Neon => "eight pixels at a time in two registers, with fused multiply-add (64 bit ARM)",
+        }
+    }
+}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Level {
+    type Err = LevelError;
+
+    /// A level of this machine by its name, or the best one as `auto`.
+    fn from_str(name: &str) -> Result<Level, LevelError> {
+        if name == "auto" {
+            return Ok(Level::best());
+        }
+        match Level::ALL.into_iter().find(|level| level.name() == name) {
+            Some(level) if level.is_available() => Ok(level),
+            Some(level) => Err(LevelError::Unavailable { level }),
+            None => Err(LevelError::Unknown { name: name.to_string() }),
+        }
+    }
+}
+
+/// Why a name means no level of this machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LevelError {
+    /// There is no such level.
+    Unknown {
+        /// The name given.
+        name: String,
+    },
+    /// This machine does not have it.
+    Unavailable {
+        /// The level named.
+        level: Level,
+    },
+}
+
+impl fmt::Display for LevelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = || Level::ALL.into_iter().map(Level::name).chain(["auto"]);
+        match self {
+            LevelError::Unknown { name } => match nearest(name, names()) {
+                Some(near) => write!(f, "unknown instruction set `{name}`: did you mean `{near}`?")?,
+                None => write!(f, "unknown instruction set `{name}`")?,
+            },
+            LevelError::Unavailable { level } => write!(f, "this machine does not have `{level}`")?,
+        }
+        f.write_str(": expected `auto`")?;
+        Level::available().try_for_each(|level| write!(f, ", `{level}`"))
+    }
+}
+
+impl core::error::Error for LevelError {}

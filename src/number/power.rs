@@ -1,0 +1,49 @@
+//! Powers in lanes: xⁿ = 2^(n log₂ x), for exponents that are not whole.
+
+use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
+
+/// `x`, 0 or more, to the power `n`; 0 to a power over 0 is 0, anything to the power 0 is 1.
+///
+/// ```text
+/// x = 2^e m,  m in [√½, √2):   log₂ x = e + (2/ln 2) artanh s,   s = (m − 1)/(m + 1)
+/// 2^y = 2^⌊y⌉ 2^f,  f in −½..½
+/// ```
+/// artanh s = s + s³/3 + s⁵/5 + s⁷/7 + s⁹/9: with |s| ≤ 0.1716 the next term is below 4·10⁻¹⁰, and what is left is
+/// the rounding of e + …, at most 2⁻²⁴ |log₂ x|, which the exponent multiplies: the power is off by the factor
+/// 1 ± (n |log₂ x| + 3) 2⁻²³. Where it matters, xⁿ above 2⁻⁹, n |log₂ x| is below 9: 1.5·10⁻⁶.
+/// 2^f is its Taylor polynomial of degree 7, whose next term is below 6·10⁻⁹.
+#[inline(always)]
+pub(super) fn powf<S: Simd>(x: f32x8<S>, n: f32) -> f32x8<S> {
+    let simd = x.simd;
+    let of = |c: f32| f32x8::splat(simd, c);
+    let whole = |c: i32| i32x8::splat(simd, c);
+    let bits = |x: f32x8<S>| -> i32x8<S> { fearless_simd::Bytes::bitcast(x) };
+    let number = |x: i32x8<S>| -> f32x8<S> { fearless_simd::Bytes::bitcast(x) };
+    // The exponent that leaves m in [√½, √2): counted from the bits of √½.
+    let least = core::f32::consts::FRAC_1_SQRT_2.to_bits() as i32;
+    let above = bits(x) - whole(least);
+    let e = above >> 23;
+    let m = number((above & whole(0x007F_FFFF)) + whole(least));
+    let s = (m - 1.0) / (m + 1.0);
+    let z = s * s;
+    let mut series = of(1.0 / 9.0);
+    for term in [1.0 / 7.0, 1.0 / 5.0, 1.0 / 3.0, 1.0] {
+        series = SimdFloat::mul_add(series, z, of(term));
+    }
+    let exponent: f32x8<S> = fearless_simd::SimdCvtFloat::float_from(e);
+    let log = SimdFloat::mul_add(s * series, of(2.0 * core::f32::consts::LOG2_E), exponent);
+    // Below 2⁻¹²⁶ there are no normal numbers: what is smaller is so small that it is the same level.
+    let y = (log * n).max(of(-126.0)).min(of(127.0));
+    let nearest = y.round_ties_even();
+    let f = (y - nearest) * core::f32::consts::LN_2;
+    let mut power = of(1.0 / 5040.0);
+    for term in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+        power = SimdFloat::mul_add(power, f, of(term));
+    }
+    let shift: i32x8<S> = fearless_simd::SimdCvtTruncate::truncate_from(nearest);
+    let scaled = power * number((shift + whole(127)) << 23);
+    // log₂ 0 is −∞, which the bits of 0 do not say.
+    let positive = x.simd_gt(of(0.0));
+    let at_zero = if n == 0.0 { 1.0 } else { 0.0 };
+    simd.select_f32x8(positive, scaled, of(at_zero))
+}

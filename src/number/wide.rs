@@ -1,0 +1,225 @@
+//! Eight pixels at a time, on the instruction set that a token proves to be there.
+
+use super::{Lanes, Level, Machine, Num};
+use fearless_simd::{Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, i32x8, mask32x8};
+
+/// The machine of groups of eight neighbouring pixels; its set-up runs on plain `f32`.
+#[derive(Clone, Copy, Debug)]
+pub struct Wide<S>(pub S);
+
+/// Whether this machine has the instructions of `level`.
+pub(super) fn is_available(level: Level) -> bool {
+    let here = fearless_simd::Level::new();
+    match level {
+        Level::Scalar => true,
+        #[cfg(target_arch = "x86_64")]
+        Level::Sse42 => here.as_sse4_2().is_some(),
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2 => here.as_avx2().is_some(),
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon => here.as_neon().is_some(),
+        #[allow(unreachable_patterns)] // which ones are left depends on the platform
+        _ => {
+            let _ = here;
+            false
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+mod estimate {
+    use core::arch::x86_64::{__m256, _mm256_rsqrt_ps};
+
+    fearless_simd::kernel!(
+        /// 1/√x to 12 bits.
+        #[inline(always)]
+        pub fn over_sqrt(avx2: Avx2, x: __m256) -> __m256 {
+            let _ = avx2;
+            _mm256_rsqrt_ps(x)
+        }
+    );
+}
+
+impl<S: Simd> Num for f32x8<S> {
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        SimdFloat::sqrt(self)
+    }
+
+    /// ```text
+    /// y = y_0 (3 − x y_0²) / 2        Newton's method for y = 1/√x
+    /// ```
+    /// The estimate y_0 is off by at most e = 1.5 · 2⁻¹² (Intel's and AMD's manuals), which leaves 1.5 e² = 2 · 10⁻⁷, below
+    /// 2⁻²², and three roundings.
+    #[inline(always)]
+    fn over_sqrt(self) -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = self.simd.level().as_avx2() {
+            let y = Self::simd_from(self.simd, estimate::over_sqrt(avx2, self.into()));
+            let (half, three_halves) = (Self::splat(self.simd, 0.5), Self::splat(self.simd, 1.5));
+            return y * (three_halves - half * self * y * y);
+        }
+        Self::splat(self.simd, 1.0) / SimdFloat::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        SimdFloat::mul_add(self, factor, summand)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // x86 gives the second operand where one is NaN: what is asked for, wherever `other` is a number.
+        match cfg!(target_arch = "x86_64") {
+            true => SimdBase::max(self, other),
+            false => SimdBase::max_precise(self, other),
+        }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        match cfg!(target_arch = "x86_64") {
+            true => SimdBase::min(self, other),
+            false => SimdBase::min_precise(self, other),
+        }
+    }
+
+    #[inline(always)]
+    fn gate(self, condition: Self) -> Self {
+        let simd = self.simd;
+        let open = condition.simd_gt(Self::splat(simd, 0.0));
+        from_bits(bits(self) & simd.to_vector_mask32x8(open))
+    }
+
+    #[inline(always)]
+    fn powf(self, exponent: f32) -> Self {
+        super::power::powf(self, exponent)
+    }
+}
+
+/// The bits of eight numbers.
+#[inline(always)]
+fn bits<S: Simd>(x: f32x8<S>) -> i32x8<S> {
+    fearless_simd::Bytes::bitcast(x)
+}
+
+#[inline(always)]
+fn from_bits<S: Simd>(x: i32x8<S>) -> f32x8<S> {
+    fearless_simd::Bytes::bitcast(x)
+}
+
+const COUNTED: [f32; 8] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+const COUNTED_INTEGERS: [i32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+
+impl<S: Simd> Machine for Wide<S> {
+    type One = f32;
+    type F = f32x8<S>;
+    const WIDTH: usize = 8;
+
+    #[inline(always)]
+    fn one(self, x: f32) -> f32 {
+        x
+    }
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> f32x8<S> {
+        f32x8::splat(self.0, x)
+    }
+
+    #[inline(always)]
+    fn ramp(self, at: f32, step: f32) -> f32x8<S> {
+        let k = f32x8::simd_from(self.0, COUNTED);
+        SimdFloat::mul_add(k, self.splat(step), self.splat(at))
+    }
+
+    #[inline(always)]
+    fn stride(self, step: f32) -> f32x8<S> {
+        self.splat(8.0 * step)
+    }
+
+    #[inline(always)]
+    fn take(self, mut next: impl FnMut() -> f32) -> f32x8<S> {
+        let mut lanes = [0.0; 8];
+        for lane in &mut lanes {
+            *lane = next();
+        }
+        f32x8::simd_from(self.0, lanes)
+    }
+
+    #[inline(always)]
+    fn first(self, x: f32x8<S>) -> f32 {
+        x.as_slice()[0]
+    }
+}
+
+impl<S: Simd> Lanes for Wide<S> {
+    type Mask = mask32x8<S>;
+
+    #[inline(always)]
+    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
+        self.0.vectorize(work)
+    }
+
+    #[inline(always)]
+    fn load(self, from: &[f32]) -> f32x8<S> {
+        f32x8::from_slice(self.0, &from[..8])
+    }
+
+    #[inline(always)]
+    fn store(self, x: f32x8<S>, to: &mut [f32]) {
+        x.store_slice(&mut to[..8]);
+    }
+
+    #[inline(always)]
+    fn first_lanes(self, n: usize) -> mask32x8<S> {
+        i32x8::splat(self.0, n.min(8) as i32).simd_gt(i32x8::simd_from(self.0, COUNTED_INTEGERS))
+    }
+
+    #[inline(always)]
+    fn less(self, a: f32x8<S>, b: f32x8<S>) -> mask32x8<S> {
+        a.simd_lt(b)
+    }
+
+    #[inline(always)]
+    fn and(self, a: mask32x8<S>, b: mask32x8<S>) -> mask32x8<S> {
+        a & b
+    }
+
+    #[inline(always)]
+    fn any(self, mask: mask32x8<S>) -> bool {
+        mask.any_true()
+    }
+
+    /// By exclusive or: a select between what was loaded and what is stored becomes a masked store, which takes four times
+    /// as long (Zen 3).
+    #[inline(always)]
+    fn blend(self, mask: mask32x8<S>, new: f32x8<S>, old: f32x8<S>) -> f32x8<S> {
+        let (new, old) = (bits(new), bits(old));
+        from_bits(old ^ ((old ^ new) & mask.to_vector()))
+    }
+
+    #[inline(always)]
+    fn inside(self, at: [i32; 3], step: [i32; 3]) -> u32 {
+        let k = i32x8::simd_from(self.0, COUNTED_INTEGERS);
+        let line = |i: usize| i32x8::splat(self.0, at[i]) + k * i32x8::splat(self.0, step[i]);
+        let signs = line(0) | line(1) | line(2);
+        (signs.simd_ge(i32x8::splat(self.0, 0))).to_bitmask() as u32
+    }
+
+    #[inline(always)]
+    fn pack(self, rgb: [f32x8<S>; 3], covered: mask32x8<S>, background: [u8; 4], to: &mut [[u8; 4]]) {
+        let (zero, one, scale) = (self.splat(0.0), self.splat(1.0), self.splat(255.0));
+        // As `quantise`: adding 2²³ rounds, and the level stands in the lowest bits, below the bits of 2²³ itself.
+        let integers = self.splat(8_388_608.0);
+        let level = |c: f32x8<S>| bits(scale * Num::min(Num::max(c, zero), one) + integers);
+        let [r, g, b] = super::each(
+            #[inline(always)]
+            |i| level(rgb[i]),
+        );
+        let opaque = i32x8::splat(self.0, (0xFF00_0000u32 ^ 8_388_608f32.to_bits()) as i32);
+        let word = (r ^ opaque) | (g << 8) | (b << 16);
+        let empty = i32x8::splat(self.0, i32::from_le_bytes(background));
+        let word = empty ^ ((empty ^ word) & covered.to_vector());
+        fearless_simd::Bytes::to_bytes(word).store_slice(&mut to[..8].as_flattened_mut()[..32]);
+    }
+}
