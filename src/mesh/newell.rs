@@ -1,6 +1,8 @@
 //! Polygon normals by Newell's formula (L21 1.1), and when a polygon has none.
 
 use super::PolygonMesh;
+use crate::parallel::collect;
+use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
 /// The normal of a polygon by Newell's formula, taken about its first corner, in `f64`.
@@ -47,6 +49,11 @@ pub fn polygon_normal(mesh: &PolygonMesh, p: usize) -> DVec3 {
     if normal.length_squared() > bound.length_squared() { normal } else { DVec3::ZERO }
 }
 
+/// The normals of all polygons of a mesh, as [`polygon_normal`] gives them.
+pub fn polygon_normals(mesh: &PolygonMesh) -> Vec<DVec3> {
+    collect(mesh.polygon_count(), 4096, |p| polygon_normal(mesh, p))
+}
+
 /// The unit vector along `normal`, or `None` for zero (or a vector that is not finite).
 ///
 /// Cross products of `f32` vectors, and of their differences, are between 1e-90 and 1e77 long, so that the square
@@ -89,7 +96,6 @@ fn half_step(x: f32) -> f64 {
 mod tests {
     use super::*;
     use crate::mesh::MeshBuilder;
-    use alloc::vec::Vec;
 
     fn mesh_of(points: &[Vec3]) -> PolygonMesh {
         let mut builder = MeshBuilder::new(points.to_vec());
