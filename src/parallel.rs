@@ -50,6 +50,14 @@ pub(crate) fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnc
     (a(), b())
 }
 
+/// How many threads [`join`] may use.
+pub(crate) fn threads() -> usize {
+    #[cfg(feature = "threads")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "threads"))]
+    1
+}
+
 /// Gives `work` each `size` elements, the last time what is left, with the number of the first of them.
 pub(crate) fn for_each_chunk<P: Parts>(all: P, size: usize, work: &(impl Fn(usize, P) + Sync)) {
     from(0, all, size, work);

@@ -15,6 +15,7 @@ use glam::{DVec3, Vec3};
 /// the origin. Collinear corners add nothing. The result is zero when the polygon has no normal: fewer than three
 /// corners, all of them collinear, or lobes whose areas cancel. Rounded corners may leave a remainder instead:
 /// [`polygon_normal`] knows how large it can be.
+#[inline]
 pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let mut corners = corners.into_iter();
     let Some(origin) = corners.next() else { return DVec3::ZERO };
@@ -41,8 +42,16 @@ pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
 /// and alike along y and z. A sum no longer than that bound is what collinear points may leave, and counts as zero. The
 /// rounding of the sum itself in `f64` is smaller, 2⁻⁵³ against 2⁻²⁵, for any polygon below 2²⁶ corners.
 pub fn polygon_normal(mesh: &PolygonMesh, p: usize) -> DVec3 {
-    let positions = mesh.positions();
     let corners = mesh.polygon(p);
+    match <&[u32; 3]>::try_from(corners) {
+        // The same text with a known number of corners, which the compiler unrolls.
+        Ok(triangle) => normal_of(mesh.positions(), triangle),
+        Err(_) => normal_of(mesh.positions(), corners),
+    }
+}
+
+#[inline(always)]
+fn normal_of(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     let normal = newell(corners.iter().map(|&c| positions[c as usize].as_dvec3()));
     let bound = input_rounding(positions, corners);
     // Written so that a bound or a sum that is not a number counts as no normal.
@@ -64,6 +73,7 @@ pub fn unit_normal(normal: DVec3) -> Option<DVec3> {
 }
 
 /// How far rounding every corner to `f32` can have moved the sum of Newell's formula, along each axis.
+#[inline(always)]
 fn input_rounding(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     let corner = |k: usize| positions[corners[k] as usize];
     let (Some(last), true) = (corners.len().checked_sub(1), corners.len() >= 3) else { return DVec3::ZERO };

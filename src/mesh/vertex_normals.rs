@@ -1,8 +1,10 @@
 //! Vertex normals: averaged (L21 3.1), given, or averaged up to a crease.
 
 use super::newell::{polygon_normals, unit_normal};
+use super::vertex_sums::{Sum, sums};
 use super::weld::weld;
 use super::{GivenNormals, PolygonMesh};
+use crate::parallel::collect;
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
@@ -104,26 +106,11 @@ fn direction(sum: DVec3, count: u32) -> Option<DVec3> {
 
 fn averaged(mesh: &PolygonMesh, polygons: &[DVec3]) -> CornerNormals {
     let (vertex, count) = weld(mesh.positions());
-    let mut sums = vec![(DVec3::ZERO, 0u32); count];
-    // The polygon, counted from 1, that was added to a vertex last.
-    let mut latest = vec![0u32; count];
-    for (p, &normal) in polygons.iter().enumerate() {
-        let Some(normal) = unit_normal(normal) else { continue };
-        for &corner in mesh.polygon(p) {
-            let v = vertex[corner as usize] as usize;
-            if latest[v] != p as u32 + 1 {
-                latest[v] = p as u32 + 1;
-                sums[v].0 += normal; // 3.1
-                sums[v].1 += 1;
-            }
-        }
-    }
-    drop(latest);
-    // 3.1
-    let directions = sums.iter().map(|&(sum, count)| direction(sum, count));
+    let sums = sums(mesh, polygons, &vertex, count);
+    let mut values = collect(count, 4096, |v| direction(sums[v].normal, sums[v].count).unwrap_or(NO_NORMAL).as_vec3()); // 3.1
     // Where nothing was added every corner is one of a polygon without a normal, which has none of its own to take.
-    let vanishes: Vec<bool> = sums.iter().zip(directions.clone()).map(|(s, d)| s.1 > 0 && d.is_none()).collect();
-    let mut values: Vec<Vec3> = directions.map(|d| d.unwrap_or(NO_NORMAL).as_vec3()).collect();
+    let vanishes = |sum: &Sum| sum.count > 0 && direction(sum.normal, sum.count).is_none();
+    let vanishes = collect(count, 4096, |v| vanishes(&sums[v]));
     drop(sums);
     if !vanishes.contains(&true) {
         return CornerNormals::ByPosition { values, positions: vertex };

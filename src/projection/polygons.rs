@@ -159,14 +159,22 @@ impl Sight<'_> {
     /// Which of some polygons are outside the view, and which have a corner beyond a plane.
     fn beyond(&self, codes: &[Codes], first: usize, count: usize) -> (u64, u64) {
         let (mut outside, mut beyond) = (0, 0);
-        for bit in 0..count {
-            let (mut all, mut any) = (Codes::MAX, 0);
-            for &v in self.polygon(first + bit) {
-                all &= codes[v as usize];
-                any |= codes[v as usize];
-            }
+        let mut found = |bit: usize, all: Codes, any: Codes| {
             outside |= u64::from(all & !BEYOND_PLANES != 0) << bit;
             beyond |= u64::from(any & BEYOND_PLANES != 0) << bit;
+        };
+        if self.table.starts.is_empty() {
+            let corners = self.corners[3 * first..3 * (first + count)].as_chunks::<3>().0;
+            for (bit, triangle) in corners.iter().enumerate() {
+                let [a, b, c] = triangle.map(|v| codes[v as usize]);
+                found(bit, a & b & c, a | b | c);
+            }
+            return (outside, beyond);
+        }
+        for bit in 0..count {
+            let of_corners = self.polygon(first + bit).iter().map(|&v| codes[v as usize]);
+            let (all, any) = of_corners.fold((Codes::MAX, 0), |(all, any), code| (all & code, any | code));
+            found(bit, all, any);
         }
         (outside, beyond)
     }

@@ -1,9 +1,10 @@
 //! All vertices through the camera: blocks of them at once where nothing stands in the way.
 
-use super::view::{Codes, View};
+use super::view::{Codes, View, reach};
 use crate::camera::Projection;
 use crate::frame::{FrameError, Models, ScreenVertex, SubPixel};
 use crate::parallel::for_each_chunk;
+use crate::scene::Clipping;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use glam::{DMat4, DVec4};
 
@@ -61,6 +62,9 @@ struct Placing<'a> {
     /// Samples a row, and rows.
     size: [f64; 2],
     is_perspective: bool,
+    /// Whether polygons are cut by the guard band, and how far it reaches in x/w and y/w.
+    clips: bool,
+    guard: [f64; 2],
     /// The near distance.
     near: f64,
     /// Between them w is positive, and near/w far inside the range of an `f32`.
@@ -78,7 +82,9 @@ impl<'a> Placing<'a> {
             }
         };
         let size = [view.width, view.height].map(f64::from);
-        Placing { view, matrix, size, is_perspective, near, least_w, most_w }
+        let clips = view.scene.clipping == Clipping::Planes;
+        let guard = [view.width, view.height].map(reach);
+        Placing { view, matrix, size, is_perspective, clips, guard, near, least_w, most_w }
     }
 
     /// Places vertices from `first` on; whether any is beyond a plane, or the number of one that is nowhere.
@@ -94,11 +100,16 @@ impl<'a> Placing<'a> {
             let from = first + block * BLOCK;
             let [x, y, z] = [&models.x, &models.y, &models.z].map(|all| lanes(&all[from..from + out.len()]));
             let [c_x, c_y, c_z, c_w] = core::array::from_fn(|row| self.row(row, &x, &y, &z));
-            if self.all_inside(&c_x, &c_y, &c_z, &c_w) {
+            let is_inside = self.all_inside([1.0; 2], &c_x, &c_y, &c_z, &c_w);
+            if is_inside || (self.clips && self.all_inside(self.guard, &c_x, &c_y, &c_z, &c_w)) {
                 if self.is_perspective {
                     self.block::<true>(&c_x, &c_y, &c_z, &c_w, out);
                 } else {
                     self.block::<false>(&c_x, &c_y, &c_z, &c_w, out);
+                }
+                if !is_inside {
+                    is_any_beyond = true;
+                    sides(&c_x, &c_y, &c_w, codes);
                 }
                 continue;
             }
@@ -126,18 +137,21 @@ impl<'a> Placing<'a> {
         clip
     }
 
-    /// Whether all are inside the view: then they are inside every other plane too, and finite.
+    /// Whether all are between the near and the far plane, and x and y within `reach` times w: finite then, and inside
+    /// every plane that is as far out or farther.
     #[inline(always)]
-    fn all_inside(&self, x: &Lanes, y: &Lanes, z: &Lanes, w: &Lanes) -> bool {
+    fn all_inside(&self, reach: [f64; 2], x: &Lanes, y: &Lanes, z: &Lanes, w: &Lanes) -> bool {
         let mut inside = true;
         for i in 0..BLOCK {
-            inside &= (x[i].abs() <= w[i]) & (y[i].abs() <= w[i]) & (z[i] >= 0.0) & (z[i] <= w[i]);
+            // As the planes compute it: the sign of a difference is exact.
+            let [right, bottom] = reach.map(|reach| reach * w[i]);
+            inside &= (x[i].abs() <= right) & (y[i].abs() <= bottom) & (z[i] >= 0.0) & (z[i] <= w[i]);
             inside &= (w[i] >= self.least_w) & (w[i] <= self.most_w);
         }
         inside
     }
 
-    /// What [`View::vertex`] gives for vertices inside the view, to the bit. Orthographic ones have w = 1.
+    /// What [`View::vertex`] gives for vertices inside all planes, to the bit. Orthographic ones have w = 1.
     #[inline(always)]
     fn block<const PERSPECTIVE: bool>(&self, x: &Lanes, y: &Lanes, z: &Lanes, w: &Lanes, out: &mut [ScreenVertex]) {
         let over_w = |c: f64, w: f64| if PERSPECTIVE { c / w } else { c };
@@ -159,6 +173,17 @@ impl<'a> Placing<'a> {
             *vertex = ScreenVertex { x, y, depth: depths[i], inv_w: weights[i] };
         }
     }
+}
+
+/// The sides of the view that vertices between near and far plane are beyond, as [`View::codes`] has them.
+#[inline(always)]
+fn sides(x: &Lanes, y: &Lanes, w: &Lanes, codes: &mut [Codes]) {
+    let mut all = [0; BLOCK];
+    for i in 0..BLOCK {
+        let bit = |beyond: bool, bit: Codes| if beyond { 1 << bit } else { 0 };
+        all[i] = bit(x[i] < -w[i], 0) | bit(x[i] > w[i], 1) | bit(y[i] < -w[i], 2) | bit(y[i] > w[i], 3);
+    }
+    codes.copy_from_slice(&all[..codes.len()]);
 }
 
 /// A block's numbers; where there are fewer, the last one fills it.
