@@ -3,7 +3,7 @@
 use super::side::eye_side;
 use super::view::{BEYOND_PLANES, View};
 use crate::camera::{Camera, Projection};
-use crate::frame::{Frame, FrameError, FrameStats, Vertex};
+use crate::frame::{Frame, FrameError, FrameStats, Polygon, Vertex};
 use crate::input::{SCENES, resolve};
 use crate::mesh::newell::{polygon_normal, unit_normal};
 use crate::mesh::vertex_normals::vertex_normals;
@@ -11,7 +11,7 @@ use crate::scene::{Clipping, Culling, HiddenSurfaces, Interpolation, Object, Sce
 use alloc::collections::BTreeSet;
 use alloc::vec;
 use alloc::vec::Vec;
-use glam::{DMat3, DMat4, DVec3};
+use glam::{DMat3, DMat4, DVec3, DVec4};
 
 /// A corner with all that a frame says of it: vertex, position from the eye, colour.
 type PlainCorner = (Vertex, [f32; 3], [f32; 3]);
@@ -64,34 +64,11 @@ impl<'a> Plainly<'a> {
             }
             let position = |k: usize| mesh.positions()[mesh.corners()[k] as usize].as_dvec3();
             let clips: Vec<_> = places.iter().map(|&k| matrix * position(k).extend(1.0)).collect();
-            let codes: Vec<_> = clips.iter().map(|&clip| self.view.codes(clip)).collect();
-            if codes.iter().fold(u16::MAX, |all, c| all & c) & !BEYOND_PLANES != 0 {
-                self.stats.outside += 1;
-                continue;
-            }
-            let Some(face) = unit_normal(cofactors * polygon_normal(mesh, p)) else {
-                self.stats.zero_area += 1;
-                continue;
-            };
-            if codes.iter().any(|c| c & BEYOND_PLANES != 0) {
-                self.stats.clipped += 1;
-                self.cut.insert(source);
-                continue;
-            }
-            let area = self.doubled_area(&clips);
-            let culled = match self.scene.culling {
-                Culling::Back => area > 0,
-                Culling::Front => area < 0,
-                Culling::None => false,
-            };
-            self.stats.culled += usize::from(culled);
-            self.stats.zero_area += usize::from(area == 0);
-            if culled || area == 0 {
-                continue;
-            }
+            let face = unit_normal(cofactors * polygon_normal(mesh, p));
+            let (Some(area), Some(face)) = (self.area_of_drawn(source, &clips, face), face) else { continue };
             let sign = if self.scene.two_sided && area > 0 { -1.0 } else { 1.0 };
             let material = first_material + mesh.polygon_material(p).unwrap_or(mesh.materials().len()) as u32;
-            let corner = |(&k, &clip): (&usize, &glam::DVec4)| {
+            let corner = |(&k, &clip): (&usize, &DVec4)| {
                 let normal = normals.values[normals.corners[k] as usize].as_dvec3();
                 let normal = sign * (cofactors * normal).normalize_or(DVec3::Z);
                 let [x, y] = self.view.snap(clip);
@@ -108,7 +85,34 @@ impl<'a> Plainly<'a> {
         }
     }
 
-    fn doubled_area(&self, clips: &[glam::DVec4]) -> i128 {
+    /// Twice the area on the picture of a polygon that is drawn whole; counts what becomes of others.
+    fn area_of_drawn(&mut self, source: u32, clips: &[DVec4], face: Option<DVec3>) -> Option<i128> {
+        let codes: Vec<_> = clips.iter().map(|&clip| self.view.codes(clip)).collect();
+        if codes.iter().fold(u16::MAX, |all, c| all & c) & !BEYOND_PLANES != 0 {
+            self.stats.outside += 1;
+            return None;
+        }
+        if face.is_none() {
+            self.stats.zero_area += 1;
+            return None;
+        }
+        if codes.iter().any(|c| c & BEYOND_PLANES != 0) {
+            self.stats.clipped += 1;
+            self.cut.insert(source);
+            return None;
+        }
+        let area = self.doubled_area(clips);
+        let culled = match self.scene.culling {
+            Culling::Back => area > 0,
+            Culling::Front => area < 0,
+            Culling::None => false,
+        };
+        self.stats.culled += usize::from(culled);
+        self.stats.zero_area += usize::from(area == 0);
+        (!culled && area != 0).then_some(area)
+    }
+
+    fn doubled_area(&self, clips: &[DVec4]) -> i128 {
         let places: Vec<[i128; 2]> =
             clips.iter().map(|&clip| self.view.snap(clip).map(|c| i128::from(c.to_bits()))).collect();
         let next = |k: usize| places[(k + 1) % places.len()];
@@ -241,11 +245,16 @@ fn a_frame_used_again_is_sorted_again() {
     scene.hidden_surfaces = HiddenSurfaces::Painter(crate::scene::PainterKey::Mean);
     let mut prepared = scene.prepare().expect("a scene");
     let mut frame = prepared.frame().expect("a frame");
+    let depth = |frame: &Frame, polygon: &Polygon| {
+        let depths = frame.corners(polygon).iter().map(|&v| f64::from(frame.vertices()[v as usize].depth));
+        depths.sum::<f64>() / f64::from(polygon.count)
+    };
     let first = frame.polygons().to_vec();
     for camera in [Camera { eye: scene.camera.eye + scene.camera.up, ..scene.camera }, scene.camera] {
         prepared.set_camera(camera);
         prepared.frame_into(&mut frame).expect("a frame");
-        assert_same(&frame, &Scene { camera, ..scene.clone() }.frame().expect("a frame"), "painted");
+        assert!(frame.polygons().is_sorted_by(|a, b| depth(&frame, a) >= depth(&frame, b)));
+        assert!(!frame.polygons().is_sorted_by_key(|p| p.source), "the scene has no such order of its own");
     }
     assert_eq!(frame.polygons(), first);
 }
