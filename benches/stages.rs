@@ -48,12 +48,32 @@ fn stages(c: &mut Criterion) {
     }
 }
 
+/// Scenes of triangles, about half of them culled: from the scene to the frame. Set RAYON_NUM_THREADS for a number of
+/// threads.
+fn projection(c: &mut Criterion) {
+    for (name, mesh) in scenes::TRIANGLES {
+        let scene = scenes::scene(mesh);
+        let shape = &scene.objects[0].mesh;
+        let mut group = c.benchmark_group(format!("projection/{name}"));
+        group.sampling_mode(SamplingMode::Flat);
+        group.throughput(Throughput::Elements(shape.polygon_count() as u64));
+        group.bench_function("frame", |b| b.iter(|| black_box(&scene).frame()));
+        group.bench_function("prepare", |b| b.iter(|| black_box(&scene).prepare()));
+        let mut prepared = scene.prepare().expect("a valid scene");
+        let mut frame = prepared.frame().expect("a valid scene");
+        group.bench_function("frame_into", |b| b.iter(|| black_box(&prepared).frame_into(&mut frame)));
+        prepared.set_camera(scenes::camera(shape, Some(45.0)));
+        group.bench_function("frame_into/perspective", |b| b.iter(|| black_box(&prepared).frame_into(&mut frame)));
+        group.finish();
+    }
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(20)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_millis(1500));
-    targets = stages
+    targets = stages, projection
 }
 criterion_main!(benches);

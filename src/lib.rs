@@ -36,7 +36,7 @@
 //! | step | items |
 //! |---|---|
 //! | shapes | [`mesh::builtin::builtin`], `mesh::obj::load_obj`, [`mesh::MeshBuilder`], [`mesh::vertex_normals`] (L21 1.1, 3.1) |
-//! | scenes | [`scene::Scene::of_mesh`], [`scene::Scene::frame`], `scene::file::SceneFile`, `input::load` |
+//! | scenes | [`scene::Scene::of_mesh`], [`scene::Scene::frame`], [`projection::PreparedScene`] for many frames, `scene::file::SceneFile`, `input::load` |
 //! | the waist | [`frame::Frame`], and [`frame::FrameBuilder`] for polygons from elsewhere |
 //! | methods | [`shader::Variant::render`], [`shader::METHODS`]; [`shader::Method`] to add one from outside this crate |
 //! | loops | [`raster`]: scan lines as in the lecture, barycentric coordinates to compare with |
@@ -48,7 +48,8 @@
 //!
 //! Without features the crate is `no_std` (with `alloc`): no files, no clocks, and the same bits on every platform, as all
 //! functions beyond + − × ÷ and the root are from `libm`. `std` takes roots from the hardware. `io` reads and writes
-//! files: scenes (TOML), meshes (OBJ), pictures (PNG, PPM, PFM). `cli`, the default, is the command-line tool.
+//! files: scenes (TOML), meshes (OBJ), pictures (PNG, PPM, PFM). `threads` works on several threads, those of rayon's
+//! current pool, and changes no bit. `cli`, the default, is the command-line tool.
 #![no_std]
 extern crate alloc;
 #[cfg(any(feature = "std", test))]
@@ -78,7 +79,7 @@ pub mod painter;
 mod parallel;
 pub mod perspective;
 pub mod picture;
-mod projection;
+pub mod projection;
 pub mod raster;
 pub mod reference;
 #[cfg(feature = "cli")]

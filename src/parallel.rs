@@ -1,29 +1,105 @@
-//! Work that is cut into pieces: on as many threads as the current pool has, or one after the other.
+//! Work on parts of arrays, on the threads of rayon's current pool; without the feature `threads`, one part after the other.
+//!
+//! What is computed never depends on the number of threads: parts are cut by size alone, and each writes only what is its
+//! own.
 
-#[cfg(feature = "threads")]
-std::thread_local! {
-    /// What a thread keeps between pieces of work.
-    static KEPT: core::cell::RefCell<crate::raster::Scratch> = core::cell::RefCell::default();
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// Something that can be cut in two at a place: a slice, or several slices of equal lengths.
+pub(crate) trait Parts: Sized + Send {
+    /// How many elements there are.
+    fn len(&self) -> usize;
+    /// The first `at` elements, and the others.
+    fn split(self, at: usize) -> (Self, Self);
 }
 
-/// Does `work` on each chunk of `size` elements with its number.
-pub(crate) fn each_chunk<T: Send>(
-    all: &mut [T],
-    size: usize,
-    work: impl Fn(usize, &mut [T], &mut crate::raster::Scratch) + Sync,
-) {
-    #[cfg(feature = "threads")]
-    {
-        use rayon::prelude::*;
-        all.par_chunks_mut(size).enumerate().for_each(|(number, chunk)| {
-            KEPT.with_borrow_mut(|kept| work(number, chunk, kept));
-        });
+impl<T: Sync> Parts for &[T] {
+    fn len(&self) -> usize {
+        <[T]>::len(self)
     }
+    fn split(self, at: usize) -> (Self, Self) {
+        self.split_at(at)
+    }
+}
+
+impl<T: Send> Parts for &mut [T] {
+    fn len(&self) -> usize {
+        <[T]>::len(self)
+    }
+    fn split(self, at: usize) -> (Self, Self) {
+        self.split_at_mut(at)
+    }
+}
+
+impl<A: Parts, B: Parts> Parts for (A, B) {
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+    fn split(self, at: usize) -> (Self, Self) {
+        let (a, b) = (self.0.split(at), self.1.split(at));
+        ((a.0, b.0), (a.1, b.1))
+    }
+}
+
+/// Runs both, on two threads where there are some.
+pub(crate) fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    #[cfg(feature = "threads")]
+    return rayon::join(a, b);
     #[cfg(not(feature = "threads"))]
-    {
-        let mut kept = crate::raster::Scratch::default();
-        for (number, chunk) in all.chunks_mut(size).enumerate() {
-            work(number, chunk, &mut kept);
+    (a(), b())
+}
+
+/// How many threads [`join`] may use.
+pub(crate) fn threads() -> usize {
+    #[cfg(feature = "threads")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "threads"))]
+    1
+}
+
+/// Gives `work` each `size` elements, the last time what is left, with the number of the first of them.
+pub(crate) fn for_each_chunk<P: Parts>(all: P, size: usize, work: &(impl Fn(usize, P) + Sync)) {
+    from(0, all, size, work);
+}
+
+/// The values of `of` for 0 to `count` − 1.
+pub(crate) fn collect<T: Clone + Default + Send>(count: usize, chunk: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let mut all = vec![T::default(); count];
+    for_each_chunk(&mut all[..], chunk, &|first, part: &mut [T]| {
+        part.iter_mut().enumerate().for_each(|(i, value)| *value = of(first + i));
+    });
+    all
+}
+
+fn from<P: Parts>(first: usize, all: P, size: usize, work: &(impl Fn(usize, P) + Sync)) {
+    let chunks = all.len().div_ceil(size);
+    if chunks <= 1 {
+        if chunks == 1 {
+            work(first, all);
+        }
+        return;
+    }
+    let middle = chunks / 2 * size;
+    let (left, right) = all.split(middle);
+    join(|| from(first, left, size, work), || from(first + middle, right, size, work));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_element_is_met_once_in_chunks_of_the_size() {
+        for len in [0, 1, 6, 7, 8, 49, 50, 1000] {
+            let (mut firsts, mut sizes) = (vec![usize::MAX; len], vec![0u8; len]);
+            for_each_chunk((&mut firsts[..], &mut sizes[..]), 7, &|first, (firsts, sizes)| {
+                let size = firsts.len() as u8;
+                firsts.iter_mut().for_each(|f| *f = first);
+                sizes.iter_mut().for_each(|s| *s += size);
+            });
+            let expected: Vec<_> = (0..len).map(|i| (i / 7 * 7, (len - i / 7 * 7).min(7) as u8)).collect();
+            assert_eq!(firsts.into_iter().zip(sizes).collect::<Vec<_>>(), expected);
         }
     }
 }

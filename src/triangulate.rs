@@ -5,7 +5,7 @@
 //! centre, whatever is cut off. All that remains to be shown for "each pixel once" is that no two triangles overlap, and
 //! that is asked of the result.
 
-use crate::frame::{Frame, SubPixel, Vertex};
+use crate::frame::{Frame, ScreenVertex, SubPixel};
 use alloc::vec::Vec;
 
 /// A frame of triangles.
@@ -49,7 +49,7 @@ pub fn triangulated(frame: &Frame) -> Triangulated {
 /// Column and row in 1/256 pixel: at most 2²³ from 0 ([`Frame::GUARD`] pixels), so that twice an area is below 2⁵⁰.
 type Place = (i64, i64);
 
-fn place(vertex: &Vertex) -> Place {
+fn place(vertex: &ScreenVertex) -> Place {
     let bits = |c: SubPixel| i64::from(c.to_bits());
     (bits(vertex.x), bits(vertex.y))
 }

@@ -121,15 +121,15 @@ fn matte(frame: &Frame) -> Frame {
         lighting.lights.iter_mut().for_each(|light| light.specular = [0.0; 3]);
         builder.lighting(lighting);
     }
-    for vertex in frame.vertices() {
-        let number = builder.vertex(*vertex);
+    for number in 0..frame.vertices().len() as u32 {
+        builder.vertex(frame.vertex(number));
         builder.position(number, frame.position(number));
     }
     for corner in frame.clip_corners() {
         builder.clip_corner(*corner);
     }
     for polygon in frame.polygons() {
-        builder.polygon(frame.corners(polygon), polygon.normal, polygon.source);
+        builder.polygon(frame.corners(polygon), frame.polygon_normal(polygon), polygon.source);
     }
     builder.finish().expect("what was a frame is one")
 }

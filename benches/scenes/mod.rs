@@ -3,6 +3,7 @@
 use fastphong::camera::Camera;
 use fastphong::camera_fit::Fit;
 use fastphong::lighting::Light;
+use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::scene::{Object, Scene};
@@ -16,13 +17,26 @@ pub const SCENES: &[(&str, &str)] = &[
     ("prism", "prism"),
 ];
 
+/// Name and mesh of the scenes whose way into a frame is timed.
+#[allow(dead_code)] // not by every benchmark
+pub const TRIANGLES: &[(&str, &str)] = &[
+    ("sphere-5k", "sphere?polygons=5000&triangles=true"),
+    ("sphere-100k", "sphere?polygons=100000&triangles=true"),
+    ("sphere-1m", "sphere?polygons=1000000&triangles=true"),
+];
+
+/// A camera before and above a mesh that fills 90 % of the picture.
+pub fn camera(mesh: &PolygonMesh, fovy: Option<f64>) -> Camera {
+    let direction = DVec3::new(0.3, 0.5, 1.0);
+    let fit = Fit { direction, up: DVec3::Y, fraction: 0.9, fovy, aspect: 640.0 / 480.0 };
+    Camera::fit(mesh.positions().iter().map(|p| p.as_dvec3()), &fit).expect("a mesh with vertices")
+}
+
 /// A mesh that fills 90 % of 640 × 480 pixels, seen and lit from the front and from above. Vertex normals are averaged, so
 /// that they differ over every polygon, the prism's as well.
 pub fn scene(mesh: &str) -> Scene {
     let mesh = builtin(mesh).expect("a built-in mesh");
-    let direction = DVec3::new(0.3, 0.5, 1.0);
-    let fit = Fit { direction, up: DVec3::Y, fraction: 0.9, fovy: None, aspect: 640.0 / 480.0 };
-    let camera = Camera::fit(mesh.positions().iter().map(|p| p.as_dvec3()), &fit).expect("a mesh with vertices");
+    let camera = camera(&mesh, None);
     Scene {
         lights: vec![Light::directional(DVec3::new(1.0, 1.0, 2.0).normalize(), [1.0; 3])],
         objects: vec![Object {

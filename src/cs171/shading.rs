@@ -3,7 +3,7 @@
 use super::barycentric::Weights;
 use super::rasterize::{blend, raster_ndc_triangle, raster_visible_triangle};
 use super::{Corner, Grid, Reading, Shading, lighting, raster_colored_ndc_triangle};
-use crate::frame::{Frame, Vertex};
+use crate::frame::{Frame, ScreenVertex};
 use crate::lighting::Lighting;
 use crate::scene::Interpolation;
 use alloc::vec::Vec;
@@ -73,11 +73,11 @@ fn phong_colour(corners: &[Corner; 3], weights: Weights, light: &Lighting, readi
 pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Grid {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let corners = corners(frame);
-    let light = |v: &Vertex| &frame.lightings()[v.material as usize];
+    let light = |number: u32| &frame.lightings()[frame.material(number) as usize];
     let mut colours: Vec<DVec3> = match shading {
         Shading::Gouraud => {
-            let lit = corners.iter().zip(frame.vertices());
-            lit.map(|(corner, vertex)| lighting(corner.world, corner.normal, light(vertex))).collect()
+            let lit = (0..).zip(&corners);
+            lit.map(|(number, corner)| lighting(corner.world, corner.normal, light(number))).collect()
         }
         Shading::Flat | Shading::Phong => Vec::new(),
     };
@@ -115,9 +115,9 @@ pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Grid {
 fn corners(frame: &Frame) -> Vec<Corner> {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let size = [frame.width() as f64, frame.height() as f64];
-    let corner = |(number, v): (u32, &Vertex)| Corner {
+    let corner = |(number, v): (u32, &ScreenVertex)| Corner {
         world: wide(frame.position(number)),
-        normal: wide(v.normal),
+        normal: wide(frame.normal(number)),
         ndc: DVec3::new(
             2.0 * v.x.to_num::<f64>() / size[0] - 1.0,
             1.0 - 2.0 * v.y.to_num::<f64>() / size[1],

@@ -115,7 +115,7 @@ fn top(frame: &Frame, picture: &LinearPicture, degrees: f64) -> Option<f64> {
     let numbers = polygon_numbers(frame);
     let is_top = |number: u32| {
         let polygon = frame.polygons().get(number as usize);
-        polygon.is_some_and(|p| DVec3::from_array(p.normal.map(f64::from)).dot(up) > 0.999)
+        polygon.is_some_and(|p| DVec3::from_array(frame.polygon_normal(p).map(f64::from)).dot(up) > 0.999)
     };
     let place = numbers.texels().iter().position(|&number| is_top(number))?;
     Some(f64::from(picture.texels()[place][0]))

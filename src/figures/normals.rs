@@ -35,7 +35,7 @@ fn angles(spec: &str) -> Result<(f64, f64, usize), FigureError> {
         scene.culling = crate::scene::Culling::None;
         scene.objects.iter_mut().for_each(|object| object.normals = source);
         let frame = scene.frame()?;
-        let normal = |v: &u32| DVec3::from_array(frame.vertices()[*v as usize].normal.map(f64::from));
+        let normal = |v: &u32| DVec3::from_array(frame.normal(*v).map(f64::from));
         Ok(frame.polygons().iter().flat_map(|polygon| frame.corners(polygon)).map(normal).collect())
     };
     let (averaged, given) = (of(NormalSource::Averaged)?, of(NormalSource::Given)?);

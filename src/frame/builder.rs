@@ -1,9 +1,13 @@
 //! Making a frame, and checking it once.
 
-use super::{ClipCorner, DepthRange, Frame, FrameError, FrameStats, Mean, Polygon, SubPixel, Vertex};
+use super::{
+    ClipCorner, DepthRange, Frame, FrameError, FrameStats, Geometry, Mean, Polygon, ScreenVertex, SubPixel, Vertex,
+};
 use crate::lighting::{Falloff, LightTerm, Lighting, Place, Rgb};
 use crate::painter::back_to_front;
+use crate::projection::Scratch;
 use crate::scene::{Clipping, Encoding, HiddenSurfaces, Interpolation, Scene};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 /// Collects vertices and polygons, then checks them once, so that what reads a frame need not.
@@ -16,29 +20,7 @@ impl FrameBuilder {
     /// An empty frame of `width` × `height` samples, each of them a pixel, black, with a depth buffer of floats, linear on
     /// the screen.
     pub fn new(width: u32, height: u32) -> Self {
-        FrameBuilder {
-            frame: Frame {
-                width,
-                height,
-                samples: 1,
-                background: [0.0; 3],
-                interpolation: Interpolation::Screen,
-                hidden_surfaces: HiddenSurfaces::default(),
-                clipping: Clipping::Planes,
-                depth_range: DepthRange::default(),
-                encoding: Encoding::Linear,
-                eye: [0.0; 3],
-                vertices: Vec::new(),
-                positions: Vec::new(),
-                colours: Vec::new(),
-                means: Vec::new(),
-                clip_corners: Vec::new(),
-                corners: Vec::new(),
-                polygons: Vec::new(),
-                lightings: Vec::new(),
-                stats: FrameStats::default(),
-            },
-        }
+        FrameBuilder { frame: Frame::empty(width, height) }
     }
 
     /// Sets how many samples of the frame make a pixel along each side, 1 (as it is), 2, 4 or 8: a divisor of its width and
@@ -104,8 +86,17 @@ impl FrameBuilder {
 
     /// Adds a vertex; returns its number.
     pub fn vertex(&mut self, vertex: Vertex) -> u32 {
-        self.frame.vertices.push(vertex);
+        let Vertex { x, y, depth, inv_w, normal, material } = vertex;
+        self.frame.vertices.push(ScreenVertex { x, y, depth, inv_w });
+        let geometry = self.geometry();
+        geometry.normals.push(normal);
+        geometry.materials.push(material);
         (self.frame.vertices.len() - 1) as u32
+    }
+
+    /// The frame's geometry, which is shared with no other yet.
+    fn geometry(&mut self) -> &mut Geometry {
+        Arc::make_mut(&mut self.frame.geometry)
     }
 
     /// Says where a vertex is: needed where a light or the eye is at a position. See [`Frame::position`].
@@ -113,9 +104,9 @@ impl FrameBuilder {
     /// # Panics
     /// When there is no such vertex.
     pub fn position(&mut self, vertex: u32, position: [f32; 3]) -> &mut Self {
-        let frame = &mut self.frame;
-        frame.positions.resize(frame.vertices.len(), [0.0; 3]);
-        frame.positions[vertex as usize] = position;
+        let geometry = self.geometry();
+        geometry.positions.resize(geometry.normals.len(), [0.0; 3]);
+        geometry.positions[vertex as usize] = position;
         self
     }
 
@@ -124,9 +115,9 @@ impl FrameBuilder {
     /// # Panics
     /// When there is no such vertex.
     pub fn colour(&mut self, vertex: u32, colour: [f32; 3]) -> &mut Self {
-        let frame = &mut self.frame;
-        frame.colours.resize(frame.vertices.len(), [1.0; 3]);
-        frame.colours[vertex as usize] = colour;
+        let geometry = self.geometry();
+        geometry.colours.resize(geometry.normals.len(), [1.0; 3]);
+        geometry.colours[vertex as usize] = colour;
         self
     }
 
@@ -142,13 +133,8 @@ impl FrameBuilder {
 
     /// Says what the mean of the corners of the polygon that comes next is.
     pub fn mean(&mut self, mean: Mean) -> &mut Self {
-        self.frame.means.push((self.frame.corners.len() as u32, mean));
+        self.frame.means.push((self.frame.geometry.corners.len() as u32, mean));
         self
-    }
-
-    /// The vertex of a number that [`FrameBuilder::vertex`] returned.
-    pub fn vertex_at(&self, index: u32) -> &Vertex {
-        &self.frame.vertices[index as usize]
     }
 
     /// Says that a vertex lies between two others; vertices must be named in ascending order.
@@ -160,11 +146,12 @@ impl FrameBuilder {
     /// Adds a polygon: vertex numbers of its corners, its unit normal, its number in the scene. It has the material of
     /// its first corner.
     pub fn polygon(&mut self, corners: &[u32], normal: [f32; 3], source: u32) -> &mut Self {
-        let frame = &mut self.frame;
-        let material = corners.first().and_then(|&v| frame.vertices.get(v as usize)).map_or(u32::MAX, |v| v.material);
-        let (first, count) = (frame.corners.len() as u32, corners.len() as u32);
-        frame.polygons.push(Polygon { first, count, material, source, normal });
-        frame.corners.extend_from_slice(corners);
+        let geometry = self.geometry();
+        let material = corners.first().and_then(|&v| geometry.materials.get(v as usize)).map_or(u32::MAX, |m| *m);
+        let (first, count, face) = (geometry.corners.len() as u32, corners.len() as u32, geometry.faces.len() as u32);
+        geometry.faces.push(normal);
+        geometry.corners.extend_from_slice(corners);
+        self.frame.polygons.push(Polygon { first, count, material, source, face });
         self
     }
 
@@ -173,40 +160,21 @@ impl FrameBuilder {
     /// # Errors
     /// [`FrameError`] when a size, a number of lights, a coordinate or an index is outside its range.
     pub fn finish(self) -> Result<Frame, FrameError> {
-        let frame = self.frame;
-        let side = 1..=Scene::MAX_SIDE;
-        if !side.contains(&frame.width) || !side.contains(&frame.height) {
-            return Err(FrameError::Size { width: frame.width, height: frame.height });
-        }
-        let samples = frame.samples;
-        if ![1, 2, 4, 8].contains(&samples)
-            || ![frame.width, frame.height].iter().all(|side| side.is_multiple_of(samples))
+        let mut frame = self.frame;
+        frame.check_settings()?;
+        let geometry = &frame.geometry;
+        if geometry.corners.len() > u32::MAX as usize
+            || frame.vertices.len() > u32::MAX as usize
+            || frame.polygons.len() > Polygon::FLIPPED as usize
         {
-            return Err(FrameError::Samples { samples });
-        }
-        if frame.clipping == Clipping::NdcCube && frame.interpolation == Interpolation::Perspective {
-            return Err(FrameError::Unclipped);
-        }
-        if !frame.depth_range.is_valid() || !frame.eye.iter().all(|c| c.is_finite()) {
-            return Err(FrameError::Camera);
-        }
-        if frame.corners.len() > u32::MAX as usize || frame.vertices.len() > u32::MAX as usize {
             return Err(FrameError::TooLarge);
         }
-        let lights = frame.light_count();
-        for lighting in &frame.lightings {
-            if lighting.lights.len() != lights || lights > Scene::MAX_LIGHTS {
-                return Err(FrameError::Lights { found: lighting.lights.len() });
-            }
-        }
-        if let Some(index) = frame.lightings.iter().position(|lighting| !is_valid(lighting)) {
-            return Err(FrameError::Lighting { index });
-        }
+        frame.check_lightings()?;
         let finite = |all: &[[f32; 3]]| all.iter().position(|v| !v.iter().all(|c| c.is_finite()));
-        if let Some(index) = finite(&frame.positions).or_else(|| finite(&frame.colours)) {
+        if let Some(index) = finite(&geometry.positions).or_else(|| finite(&geometry.colours)) {
             return Err(FrameError::Vertex { index });
         }
-        if let Some(index) = frame.vertices.iter().position(|v| !frame.vertex_is_valid(v)) {
+        if let Some(index) = (0..frame.vertices.len()).find(|&v| !frame.vertex_is_valid(v)) {
             return Err(FrameError::Vertex { index });
         }
         if let Some(index) = frame.polygons.iter().position(|p| !frame.polygon_is_valid(p)) {
@@ -224,20 +192,83 @@ impl FrameBuilder {
             }
             previous = Some(corner.vertex);
         }
-        match frame.hidden_surfaces {
-            HiddenSurfaces::Painter(key) => {
-                let order = back_to_front(&frame, key);
-                Ok(frame.in_order(&order))
-            }
-            HiddenSurfaces::ZBuffer(_) | HiddenSurfaces::DrawOrder => Ok(frame),
-        }
+        frame.sort();
+        Ok(frame)
     }
 }
 
 impl Frame {
-    fn vertex_is_valid(&self, v: &Vertex) -> bool {
+    /// A frame in which nothing is.
+    pub(crate) fn empty(width: u32, height: u32) -> Frame {
+        Frame {
+            width,
+            height,
+            samples: 1,
+            background: [0.0; 3],
+            interpolation: Interpolation::Screen,
+            hidden_surfaces: HiddenSurfaces::default(),
+            clipping: Clipping::Planes,
+            depth_range: DepthRange::default(),
+            encoding: Encoding::Linear,
+            eye: [0.0; 3],
+            geometry: Arc::new(Geometry::default()),
+            vertices: Vec::new(),
+            cut_materials: Vec::new(),
+            means: Vec::new(),
+            clip_corners: Vec::new(),
+            cut_corners: Vec::new(),
+            polygons: Vec::new(),
+            lightings: Vec::new(),
+            stats: FrameStats::default(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// Whether size, samples, eye and depth make sense together.
+    pub(crate) fn check_settings(&self) -> Result<(), FrameError> {
+        let side = 1..=Scene::MAX_SIDE;
+        let &Frame { width, height, samples, .. } = self;
+        if !side.contains(&width) || !side.contains(&height) {
+            return Err(FrameError::Size { width, height });
+        }
+        if ![1, 2, 4, 8].contains(&samples) || ![width, height].iter().all(|side| side.is_multiple_of(samples)) {
+            return Err(FrameError::Samples { samples });
+        }
+        if self.clipping == Clipping::NdcCube && self.interpolation == Interpolation::Perspective {
+            return Err(FrameError::Unclipped);
+        }
+        if !self.depth_range.is_valid() || !self.eye.iter().all(|c| c.is_finite()) {
+            return Err(FrameError::Camera);
+        }
+        Ok(())
+    }
+
+    /// Whether every material has the same number of lights, and all numbers of them make sense.
+    pub(crate) fn check_lightings(&self) -> Result<(), FrameError> {
+        let lights = self.light_count();
+        for lighting in &self.lightings {
+            if lighting.lights.len() != lights || lights > Scene::MAX_LIGHTS {
+                return Err(FrameError::Lights { found: lighting.lights.len() });
+            }
+        }
+        match self.lightings.iter().position(|lighting| !is_valid(lighting)) {
+            Some(index) => Err(FrameError::Lighting { index }),
+            None => Ok(()),
+        }
+    }
+
+    /// Under the painter's algorithm, sorts the polygons from back to front.
+    pub(crate) fn sort(&mut self) {
+        if let HiddenSurfaces::Painter(key) = self.hidden_surfaces {
+            let order = back_to_front(self, key);
+            self.reorder(&order);
+        }
+    }
+
+    fn vertex_is_valid(&self, vertex: usize) -> bool {
         let guard = SubPixel::from_num(Frame::GUARD);
         let inside = |c: SubPixel| -guard <= c && c <= guard;
+        let v = self.vertex(vertex as u32);
         inside(v.x)
             && inside(v.y)
             && v.depth.is_finite()
@@ -250,11 +281,11 @@ impl Frame {
     fn polygon_is_valid(&self, polygon: &Polygon) -> bool {
         polygon.count >= 3
             && (polygon.material as usize) < self.lightings.len()
-            && polygon.normal.iter().all(|n| n.is_finite())
+            && self.polygon_normal(polygon).iter().all(|n| n.is_finite())
             && self
                 .corners(polygon)
                 .iter()
-                .all(|&v| self.vertices.get(v as usize).is_some_and(|vertex| vertex.material == polygon.material))
+                .all(|&v| (v as usize) < self.vertices.len() && self.material(v) == polygon.material)
     }
 }
 

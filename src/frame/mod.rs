@@ -6,120 +6,56 @@
 
 mod builder;
 mod depth_range;
+mod elements;
 mod error;
+mod geometry;
 
 pub use builder::FrameBuilder;
 pub use depth_range::DepthRange;
+pub use elements::{ClipCorner, FrameStats, Mean, Polygon, ScreenVertex, Vertex};
 pub use error::FrameError;
+pub(crate) use geometry::{Geometry, Models, PlacedModel};
 
 use crate::lighting::{Lighting, Rgb};
+use crate::projection::Scratch;
 use crate::scene::{Clipping, Encoding, HiddenSurfaces, Interpolation, Scene};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 /// A coordinate on the picture in pixels (of a supersampled frame: in samples), snapped to 1/256: x to the right, y
 /// downward, (0, 0) the outer corner of the first pixel, so that pixel centres lie at ½.
 pub type SubPixel = fixed::types::I24F8;
 
-/// A projected vertex: where it stands, and what the shading methods need to know of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertex {
-    /// Column of the picture, at most [`Frame::GUARD`] pixels from 0.
-    pub x: SubPixel,
-    /// Row of the picture, downward, at most [`Frame::GUARD`] pixels from 0.
-    pub y: SubPixel,
-    /// z/w: linear on the screen, 0 at the near plane, 1 at the far plane; outside that under [`Clipping::NdcCube`] only.
-    pub depth: f32,
-    /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation, and what
-    /// depth is computed from at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)). Over 0, but under
-    /// [`Clipping::NdcCube`], where it is below 0 behind the eye.
-    pub inv_w: f32,
-    /// Unit vertex normal in world space (L21 3.1); ignored at a [`ClipCorner`].
-    pub normal: [f32; 3],
-    /// Its entry in [`Frame::lightings`].
-    pub material: u32,
-}
-
-/// A vertex that clipping made: its attributes lie between those of two others and are never lit again.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClipCorner {
-    /// The vertex that this describes.
-    pub vertex: u32,
-    /// Where `t` = 0; a smaller number than `vertex`. No polygon need use it, and then its place on the picture means
-    /// nothing: it may lie behind the eye.
-    pub a: u32,
-    /// Where `t` = 1; likewise.
-    pub b: u32,
-    /// How far from `a` to `b`, 0..=1.
-    pub t: f32,
-    /// Unit normal of the polygon that was clipped.
-    pub face: [f32; 3],
-}
-
-/// A projected polygon: three corners or more, of any shape.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Polygon {
-    /// Where its corners begin in the list of all corners.
-    pub first: u32,
-    /// How many corners it has.
-    pub count: u32,
-    /// Its entry in [`Frame::lightings`]; its vertices have the same.
-    pub material: u32,
-    /// Its number in the scene, counted over all objects (pieces of one clipped polygon share it).
-    pub source: u32,
-    /// Unit normal by Newell's formula in world space (L21 1.1).
-    pub normal: [f32; 3],
-}
-
-/// What became of the scene's polygons on their way into the frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FrameStats {
-    /// Polygons of the scene.
-    pub polygons: usize,
-    /// Left out because they are seen from the culled side.
-    pub culled: usize,
-    /// Left out because they have no area, in space or on the picture.
-    pub zero_area: usize,
-    /// Left out because they lie outside the view.
-    pub outside: usize,
-    /// Cut by the near plane, the far plane or the guard band.
-    pub clipped: usize,
-    /// Left out because a corner has no place on the picture: under [`Clipping::NdcCube`] only.
-    pub unprojected: usize,
-}
-
-/// The mean of a polygon's corners: where a method that lights a whole polygon at once takes light and viewer from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mean {
-    /// The mean of the corners' positions.
-    pub position: [f32; 3],
-    /// The mean of the corners' normals; not a unit vector.
-    pub normal: [f32; 3],
-}
-
 /// Projected polygons in drawing order, and the light on them.
+///
+/// What does not depend on the camera (normals, materials, corner lists) is shared between the frames of one
+/// [`PreparedScene`](crate::projection::PreparedScene); a frame of its own are places, and what is seen.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    width: u32,
-    height: u32,
-    samples: u32,
-    background: Rgb,
-    interpolation: Interpolation,
-    hidden_surfaces: HiddenSurfaces,
-    clipping: Clipping,
-    depth_range: DepthRange,
-    encoding: Encoding,
-    eye: [f64; 3],
-    vertices: Vec<Vertex>,
-    /// One a vertex, or none at all; likewise colours.
-    positions: Vec<[f32; 3]>,
-    colours: Vec<[f32; 3]>,
-    /// Of polygons whose corners are not those of the scene's polygon, in ascending order of their number.
-    means: Vec<(u32, Mean)>,
-    clip_corners: Vec<ClipCorner>,
-    corners: Vec<u32>,
-    polygons: Vec<Polygon>,
-    lightings: Vec<Lighting>,
-    stats: FrameStats,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) samples: u32,
+    pub(crate) background: Rgb,
+    pub(crate) interpolation: Interpolation,
+    pub(crate) hidden_surfaces: HiddenSurfaces,
+    pub(crate) clipping: Clipping,
+    pub(crate) depth_range: DepthRange,
+    pub(crate) encoding: Encoding,
+    pub(crate) eye: [f64; 3],
+    pub(crate) geometry: Arc<Geometry>,
+    /// Those of the geometry, then those that clipping made.
+    pub(crate) vertices: Vec<ScreenVertex>,
+    /// Of the vertices past those of the geometry.
+    pub(crate) cut_materials: Vec<u32>,
+    /// Of polygons whose corners are not those of the scene's polygon, in ascending order of where their corners begin.
+    pub(crate) means: Vec<(u32, Mean)>,
+    pub(crate) clip_corners: Vec<ClipCorner>,
+    /// Corner lists that are not the geometry's; they are counted from where those end.
+    pub(crate) cut_corners: Vec<u32>,
+    pub(crate) polygons: Vec<Polygon>,
+    pub(crate) lightings: Vec<Lighting>,
+    pub(crate) stats: FrameStats,
+    pub(crate) scratch: Scratch,
 }
 
 impl Frame {
@@ -192,9 +128,34 @@ impl Frame {
         self.eye
     }
 
-    /// All vertices.
-    pub fn vertices(&self) -> &[Vertex] {
+    /// Where all vertices stand on the picture. Not all of them need be corners of a polygon; those without a place on the
+    /// picture (behind the eye, far outside the view) stand at 0, 0.
+    pub fn vertices(&self) -> &[ScreenVertex] {
         &self.vertices
+    }
+
+    /// Unit normal of a vertex in world space (L21 3.1). At a clip corner it means nothing.
+    #[inline(always)]
+    pub fn normal(&self, vertex: u32) -> [f32; 3] {
+        self.geometry.normal(vertex)
+    }
+
+    /// The material of a vertex: its entry in [`Frame::lightings`].
+    #[inline(always)]
+    pub fn material(&self, vertex: u32) -> u32 {
+        match self.geometry.material(vertex) {
+            Some(material) => material,
+            None => self.cut_materials[vertex as usize - self.geometry.vertex_count()],
+        }
+    }
+
+    /// All that is known of a vertex but position and colour, as [`FrameBuilder::vertex`] takes it.
+    ///
+    /// # Panics
+    /// When there is no such vertex.
+    pub fn vertex(&self, vertex: u32) -> Vertex {
+        let ScreenVertex { x, y, depth, inv_w } = self.vertices[vertex as usize];
+        Vertex { x, y, depth, inv_w, normal: self.normal(vertex), material: self.material(vertex) }
     }
 
     /// Where a vertex is, in world units along the axes of the world, from the eye: so that what is near the eye, where
@@ -202,18 +163,18 @@ impl Frame {
     /// nothing, like the normal.
     #[inline(always)]
     pub fn position(&self, vertex: u32) -> [f32; 3] {
-        self.positions.get(vertex as usize).copied().unwrap_or([0.0; 3])
+        self.geometry.position(vertex, self.eye)
     }
 
     /// The colour of a vertex, linear; white where the frame was given no colours. At a clip corner it means nothing.
     #[inline(always)]
     pub fn colour(&self, vertex: u32) -> [f32; 3] {
-        self.colours.get(vertex as usize).copied().unwrap_or([1.0; 3])
+        self.geometry.colour(vertex)
     }
 
     /// The mean of a polygon's corners, as they were before it was clipped or cut into triangles.
     pub fn mean(&self, polygon: &Polygon) -> Mean {
-        // Corner lists follow one another, so the first corner tells polygons apart.
+        // Corner lists do not overlap, so the first corner tells polygons apart.
         let place = self.means.binary_search_by_key(&polygon.first, |&(first, _)| first);
         match place {
             Ok(place) => self.means[place].1,
@@ -221,11 +182,11 @@ impl Frame {
         }
     }
 
-    fn mean_of(&self, corners: &[u32]) -> Mean {
+    pub(crate) fn mean_of(&self, corners: &[u32]) -> Mean {
         let share = 1.0 / corners.len() as f64;
         let mut sum = [[0.0f64; 3]; 2];
         for &corner in corners {
-            for (sum, v) in sum.iter_mut().zip([self.position(corner), self.vertices[corner as usize].normal]) {
+            for (sum, v) in sum.iter_mut().zip([self.position(corner), self.normal(corner)]) {
                 for (sum, c) in sum.iter_mut().zip(v) {
                     *sum += share * f64::from(c);
                 }
@@ -251,8 +212,21 @@ impl Frame {
     }
 
     /// The vertex numbers of a polygon's corners, in order.
+    #[inline]
     pub fn corners(&self, polygon: &Polygon) -> &[u32] {
-        &self.corners[polygon.first as usize..][..polygon.count as usize]
+        let (first, count) = (polygon.first as usize, polygon.count as usize);
+        let shared = &self.geometry.corners;
+        if first < shared.len() {
+            &shared[first..][..count]
+        } else {
+            &self.cut_corners[first - shared.len()..][..count]
+        }
+    }
+
+    /// Unit normal of a polygon by Newell's formula in world space (L21 1.1).
+    #[inline(always)]
+    pub fn polygon_normal(&self, polygon: &Polygon) -> [f32; 3] {
+        self.geometry.face(polygon.face)
     }
 
     /// The light on each material; all have the same number of lights.
@@ -270,41 +244,30 @@ impl Frame {
         self.stats
     }
 
-    /// The same frame with its polygons in another order: `order` has the number of each once.
-    pub(crate) fn in_order(self, order: &[u32]) -> Frame {
-        // The corners move with their polygons, so that polygons take theirs one after the other.
-        let mut corners = Vec::with_capacity(self.corners.len());
-        let mut means = Vec::with_capacity(self.means.len());
-        let polygons = order.iter().map(|&number| {
-            let polygon = &self.polygons[number as usize];
-            let first = corners.len() as u32;
-            if let Ok(place) = self.means.binary_search_by_key(&polygon.first, |&(first, _)| first) {
-                means.push((first, self.means[place].1));
-            }
-            corners.extend_from_slice(self.corners(polygon));
-            Polygon { first, ..*polygon }
-        });
-        let polygons = polygons.collect();
-        Frame { corners, polygons, means, ..self }
+    /// Puts the polygons into another order: `order` has the number of each once.
+    pub(crate) fn reorder(&mut self, order: &[u32]) {
+        self.polygons = order.iter().map(|&number| self.polygons[number as usize]).collect();
     }
 
     /// The same frame with other polygons over the same vertices: `pieces` gives the corner lists that replace each
     /// polygon.
     pub(crate) fn with_pieces(&self, mut pieces: impl FnMut(&Polygon, &mut dyn FnMut(&[u32]))) -> Frame {
-        let mut corners = Vec::new();
+        let shared = self.geometry.corners.len();
+        let mut cut_corners = Vec::new();
         let mut polygons = Vec::new();
         let mut means = Vec::new();
         for polygon in &self.polygons {
             let mean = self.mean(polygon);
             let is_whole = self.means.binary_search_by_key(&polygon.first, |&(first, _)| first).is_err();
             pieces(polygon, &mut |piece| {
+                let first = (shared + cut_corners.len()) as u32;
                 if !is_whole || piece.len() != polygon.count as usize {
-                    means.push((corners.len() as u32, mean));
+                    means.push((first, mean));
                 }
-                polygons.push(Polygon { first: corners.len() as u32, count: piece.len() as u32, ..*polygon });
-                corners.extend_from_slice(piece);
+                polygons.push(Polygon { first, count: piece.len() as u32, ..*polygon });
+                cut_corners.extend_from_slice(piece);
             });
         }
-        Frame { corners, polygons, means, ..self.clone() }
+        Frame { cut_corners, polygons, means, ..self.clone() }
     }
 }

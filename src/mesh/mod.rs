@@ -6,6 +6,7 @@ pub mod newell;
 pub mod obj;
 pub mod shapes;
 pub mod vertex_normals;
+mod vertex_sums;
 pub mod weld;
 
 use crate::lighting::Material;

@@ -1,6 +1,8 @@
 //! Polygon normals by Newell's formula (L21 1.1), and when a polygon has none.
 
 use super::PolygonMesh;
+use crate::parallel::collect;
+use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
 /// The normal of a polygon by Newell's formula, taken about its first corner, in `f64`.
@@ -13,6 +15,7 @@ use glam::{DVec3, Vec3};
 /// the origin. Collinear corners add nothing. The result is zero when the polygon has no normal: fewer than three
 /// corners, all of them collinear, or lobes whose areas cancel. Rounded corners may leave a remainder instead:
 /// [`polygon_normal`] knows how large it can be.
+#[inline]
 pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let mut corners = corners.into_iter();
     let Some(origin) = corners.next() else { return DVec3::ZERO };
@@ -39,12 +42,25 @@ pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
 /// and alike along y and z. A sum no longer than that bound is what collinear points may leave, and counts as zero. The
 /// rounding of the sum itself in `f64` is smaller, 2⁻⁵³ against 2⁻²⁵, for any polygon below 2²⁶ corners.
 pub fn polygon_normal(mesh: &PolygonMesh, p: usize) -> DVec3 {
-    let positions = mesh.positions();
     let corners = mesh.polygon(p);
+    match <&[u32; 3]>::try_from(corners) {
+        // The same text with a known number of corners, which the compiler unrolls.
+        Ok(triangle) => normal_of(mesh.positions(), triangle),
+        Err(_) => normal_of(mesh.positions(), corners),
+    }
+}
+
+#[inline(always)]
+fn normal_of(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     let normal = newell(corners.iter().map(|&c| positions[c as usize].as_dvec3()));
     let bound = input_rounding(positions, corners);
     // Written so that a bound or a sum that is not a number counts as no normal.
     if normal.length_squared() > bound.length_squared() { normal } else { DVec3::ZERO }
+}
+
+/// The normals of all polygons of a mesh, as [`polygon_normal`] gives them.
+pub fn polygon_normals(mesh: &PolygonMesh) -> Vec<DVec3> {
+    collect(mesh.polygon_count(), 4096, |p| polygon_normal(mesh, p))
 }
 
 /// The unit vector along `normal`, or `None` for zero (or a vector that is not finite).
@@ -57,6 +73,7 @@ pub fn unit_normal(normal: DVec3) -> Option<DVec3> {
 }
 
 /// How far rounding every corner to `f32` can have moved the sum of Newell's formula, along each axis.
+#[inline(always)]
 fn input_rounding(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     let corner = |k: usize| positions[corners[k] as usize];
     let (Some(last), true) = (corners.len().checked_sub(1), corners.len() >= 3) else { return DVec3::ZERO };
@@ -89,7 +106,6 @@ fn half_step(x: f32) -> f64 {
 mod tests {
     use super::*;
     use crate::mesh::MeshBuilder;
-    use alloc::vec::Vec;
 
     fn mesh_of(points: &[Vec3]) -> PolygonMesh {
         let mut builder = MeshBuilder::new(points.to_vec());

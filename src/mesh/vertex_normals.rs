@@ -1,8 +1,10 @@
 //! Vertex normals: averaged (L21 3.1), given, or averaged up to a crease.
 
-use super::newell::{polygon_normal, unit_normal};
+use super::newell::{polygon_normals, unit_normal};
+use super::vertex_sums::{Sum, sums};
 use super::weld::weld;
 use super::{GivenNormals, PolygonMesh};
+use crate::parallel::collect;
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
@@ -40,10 +42,55 @@ const NO_NORMAL: DVec3 = DVec3::Z;
 /// [`NormalSource::Crease`] compares every pair of polygons around a vertex; the others take time in proportion to the
 /// mesh.
 pub fn vertex_normals(mesh: &PolygonMesh, source: NormalSource) -> VertexNormals {
+    corner_normals(mesh, source, None).by_corner(mesh)
+}
+
+/// The unit normals at all corners of a mesh, said as shortly as they can be.
+pub(crate) enum CornerNormals {
+    /// All corners at a position have the same one.
+    ByPosition {
+        /// Unit vectors.
+        values: Vec<Vec3>,
+        /// The entry of `values` that each position has.
+        positions: Vec<u32>,
+    },
+    /// Corners at a position differ.
+    ByCorner(VertexNormals),
+}
+
+impl CornerNormals {
+    /// Corner by corner.
+    pub fn by_corner(self, mesh: &PolygonMesh) -> VertexNormals {
+        match self {
+            CornerNormals::ByCorner(normals) => normals,
+            CornerNormals::ByPosition { values, positions } => {
+                VertexNormals { values, corners: corners_of(mesh, &positions) }
+            }
+        }
+    }
+}
+
+/// What each corner has when each position has what `positions` says.
+fn corners_of(mesh: &PolygonMesh, positions: &[u32]) -> Vec<u32> {
+    mesh.corners().iter().map(|&c| positions[c as usize]).collect()
+}
+
+/// What [`vertex_normals`] gives, where the normals of all polygons may be known already.
+pub(crate) fn corner_normals(mesh: &PolygonMesh, source: NormalSource, polygons: Option<&[DVec3]>) -> CornerNormals {
+    let own;
+    let polygons = match (source, mesh.given_normals(), polygons) {
+        (_, _, Some(normals)) => normals,
+        // Needed only where the mesh leaves something out.
+        (NormalSource::Given, Some(given), None) if !given.values.contains(&Vec3::ZERO) => &[],
+        _ => {
+            own = polygon_normals(mesh);
+            &own
+        }
+    };
     match (source, mesh.given_normals()) {
-        (NormalSource::Given, Some(given)) => from_given(mesh, given),
-        (NormalSource::Crease(degrees), _) => creased(mesh, degrees),
-        _ => averaged(mesh),
+        (NormalSource::Given, Some(given)) => from_given(mesh, given, polygons),
+        (NormalSource::Crease(degrees), _) => CornerNormals::ByCorner(creased(mesh, degrees, polygons)),
+        _ => averaged(mesh, polygons),
     }
 }
 
@@ -57,53 +104,44 @@ fn direction(sum: DVec3, count: u32) -> Option<DVec3> {
     (length > count * (4.0 + count) * f64::EPSILON).then(|| sum / length)
 }
 
-fn averaged(mesh: &PolygonMesh) -> VertexNormals {
+fn averaged(mesh: &PolygonMesh, polygons: &[DVec3]) -> CornerNormals {
     let (vertex, count) = weld(mesh.positions());
-    let mut sums = vec![(DVec3::ZERO, 0u32); count];
-    // The polygon, counted from 1, that was added to a vertex last.
-    let mut latest = vec![0u32; count];
-    for p in 0..mesh.polygon_count() {
-        let Some(normal) = unit_normal(polygon_normal(mesh, p)) else { continue };
-        for &corner in mesh.polygon(p) {
-            let v = vertex[corner as usize] as usize;
-            if latest[v] != p as u32 + 1 {
-                latest[v] = p as u32 + 1;
-                sums[v].0 += normal; // 3.1
-                sums[v].1 += 1;
-            }
-        }
-    }
-    drop(latest);
-    // 3.1
-    let directions = sums.iter().map(|&(sum, count)| direction(sum, count));
-    let vanishes: Vec<bool> = directions.clone().map(|d| d.is_none()).collect();
-    let mut values: Vec<Vec3> = directions.map(|d| d.unwrap_or(NO_NORMAL).as_vec3()).collect();
+    let sums = sums(mesh, polygons, &vertex, count);
+    let mut values = collect(count, 4096, |v| direction(sums[v].normal, sums[v].count).unwrap_or(NO_NORMAL).as_vec3()); // 3.1
+    // Where nothing was added every corner is one of a polygon without a normal, which has none of its own to take.
+    let vanishes = |sum: &Sum| sum.count > 0 && direction(sum.normal, sum.count).is_none();
+    let vanishes = collect(count, 4096, |v| vanishes(&sums[v]));
     drop(sums);
-    let mut corners: Vec<u32> = mesh.corners().iter().map(|&c| vertex[c as usize]).collect();
-    if vanishes.contains(&true) {
-        for p in 0..mesh.polygon_count() {
-            let mut own = None;
-            for corner in &mut corners[mesh.corner_range(p)] {
-                if vanishes[*corner as usize] {
-                    *corner = *own.get_or_insert_with(|| {
-                        values.push(unit_normal(polygon_normal(mesh, p)).unwrap_or(NO_NORMAL).as_vec3());
-                        values.len() as u32 - 1
-                    });
-                }
+    if !vanishes.contains(&true) {
+        return CornerNormals::ByPosition { values, positions: vertex };
+    }
+    let mut corners = corners_of(mesh, &vertex);
+    for p in 0..mesh.polygon_count() {
+        let mut own = None;
+        for corner in &mut corners[mesh.corner_range(p)] {
+            if vanishes[*corner as usize] {
+                *corner = *own.get_or_insert_with(|| {
+                    values.push(unit_normal(polygons[p]).unwrap_or(NO_NORMAL).as_vec3());
+                    values.len() as u32 - 1
+                });
             }
         }
     }
-    VertexNormals { values, corners }
+    CornerNormals::ByCorner(VertexNormals { values, corners })
 }
 
-fn from_given(mesh: &PolygonMesh, given: &GivenNormals) -> VertexNormals {
+fn from_given(mesh: &PolygonMesh, given: &GivenNormals, polygons: &[DVec3]) -> CornerNormals {
     let corners = given.corners.as_deref().unwrap_or(mesh.corners());
     let missing = |n: u32| given.values[n as usize] == Vec3::ZERO;
     let mut values: Vec<Vec3> =
         given.values.iter().map(|n| unit_normal(n.as_dvec3()).unwrap_or(NO_NORMAL).as_vec3()).collect();
+    let is_any_missing = corners.iter().any(|&n| missing(n));
+    if given.corners.is_none() && !is_any_missing {
+        return CornerNormals::ByPosition { values, positions: (0..mesh.positions().len() as u32).collect() };
+    }
     let mut corners = corners.to_vec();
-    if corners.iter().any(|&n| missing(n)) {
-        let fallback = averaged(mesh);
+    if is_any_missing {
+        let fallback = averaged(mesh, polygons).by_corner(mesh);
         let offset = values.len() as u32;
         values.extend_from_slice(&fallback.values);
         for (corner, &other) in corners.iter_mut().zip(&fallback.corners) {
@@ -112,7 +150,7 @@ fn from_given(mesh: &PolygonMesh, given: &GivenNormals) -> VertexNormals {
             }
         }
     }
-    VertexNormals { values, corners }
+    CornerNormals::ByCorner(VertexNormals { values, corners })
 }
 
 /// The corners around each vertex: those of vertex `v` are `items[starts[v]..starts[v + 1]]`.
@@ -148,12 +186,12 @@ impl Fans {
     }
 }
 
-fn creased(mesh: &PolygonMesh, degrees: f64) -> VertexNormals {
+fn creased(mesh: &PolygonMesh, degrees: f64, polygons: &[DVec3]) -> VertexNormals {
     // A dot product of unit normals that are off by 4ε each is off by less than 16ε: a crease of exactly the angle of an
     // edge does not break it.
     let least_cosine = libm::cos(degrees.clamp(0.0, 180.0).to_radians()) - 16.0 * f64::EPSILON;
     let (vertex, count) = weld(mesh.positions());
-    let normals: Vec<Option<DVec3>> = (0..mesh.polygon_count()).map(|p| unit_normal(polygon_normal(mesh, p))).collect();
+    let normals: Vec<Option<DVec3>> = polygons.iter().map(|&normal| unit_normal(normal)).collect();
     let fans = Fans::new(mesh, &vertex, count);
     let mut values: Vec<Vec3> = Vec::with_capacity(count);
     let mut corners = vec![0u32; mesh.corners().len()];
@@ -189,6 +227,7 @@ fn creased(mesh: &PolygonMesh, degrees: f64) -> VertexNormals {
 mod tests {
     use super::*;
     use crate::mesh::MeshBuilder;
+    use crate::mesh::newell::polygon_normal;
 
     /// The cube from −1 to 1, six quads, outward.
     fn cube() -> PolygonMesh {

@@ -6,13 +6,61 @@ use glam::Vec3;
 
 /// For each position the number of its first equal among the different ones, and how many different ones there are.
 ///
-/// Positions are equal when their coordinates are, so that −0 is 0. Numbers go by first occurrence. Takes `n log n`
-/// comparisons whatever the positions are, and 16 bytes a position while it runs.
+/// Positions are equal when their coordinates are, so that −0 is 0. Numbers go by first occurrence. Takes a hash table's
+/// time, and `n log n` comparisons where positions were chosen to collide in it.
 pub fn weld(positions: &[Vec3]) -> (Vec<u32>, usize) {
-    // Adding 0.0 turns −0.0 into 0.0; the bits then are equal exactly when the numbers are.
-    let bits = |x: f32| (x + 0.0).to_bits();
+    by_hash(positions).unwrap_or_else(|| by_sorting(positions))
+}
+
+/// Equal exactly when the positions are: adding 0.0 turns −0.0 into 0.0.
+fn key(p: &Vec3) -> [u32; 3] {
+    [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits())
+}
+
+/// Looks each position up in a table of those before it; `None` where that takes more than a few steps a position.
+fn by_hash(positions: &[Vec3]) -> Option<(Vec<u32>, usize)> {
+    const NONE: u32 = u32::MAX;
+    // At most half full.
+    let bits = (2 * positions.len()).next_power_of_two().trailing_zeros().max(1);
+    let mask = (1usize << bits) - 1;
+    // The first position of each kind.
+    let mut table = vec![NONE; mask + 1];
+    let mut number = vec![0; positions.len()];
+    let (mut count, mut steps) = (0, 16 * positions.len() + 64);
+    for (i, position) in positions.iter().enumerate() {
+        let own = key(position);
+        let mut slot = (hash(own) >> (64 - bits)) as usize;
+        number[i] = loop {
+            steps = steps.checked_sub(1)?;
+            let first = table[slot];
+            if first == NONE {
+                table[slot] = i as u32;
+                count += 1;
+                break count as u32 - 1;
+            }
+            if key(&positions[first as usize]) == own {
+                break number[first as usize];
+            }
+            slot = (slot + 1) & mask;
+        };
+    }
+    Some((number, count))
+}
+
+/// The highest bits depend on all bits of all three.
+fn hash([x, y, z]: [u32; 3]) -> u64 {
+    const ODD: [u64; 2] = [0x9E37_79B9_7F4A_7C15, 0xD6E8_FEB8_6659_FD93];
+    let first = ((u64::from(x) << 32) | u64::from(y)).wrapping_mul(ODD[0]);
+    ((first ^ (first >> 32)).wrapping_add(u64::from(z))).wrapping_mul(ODD[1])
+}
+
+/// The same by sorting, 16 bytes a position.
+fn by_sorting(positions: &[Vec3]) -> (Vec<u32>, usize) {
     let mut sorted: Vec<[u32; 4]> = Vec::with_capacity(positions.len());
-    sorted.extend(positions.iter().enumerate().map(|(i, p)| [bits(p.x), bits(p.y), bits(p.z), i as u32]));
+    sorted.extend(positions.iter().enumerate().map(|(i, p)| {
+        let [x, y, z] = key(p);
+        [x, y, z, i as u32]
+    }));
     sorted.sort_unstable();
     // First the lowest index among equals, then the numbers in order of those.
     let mut number = vec![0; positions.len()];
@@ -45,5 +93,33 @@ mod tests {
         let p = [Vec3::Z, Vec3::new(0.0, 1.0, -0.0), Vec3::Z, Vec3::X, Vec3::new(-0.0, 1.0, 0.0), Vec3::Z];
         assert_eq!(weld(&p), (vec![0, 1, 0, 2, 1, 0], 3));
         assert_eq!(weld(&[]), (Vec::new(), 0));
+    }
+
+    #[test]
+    fn table_and_sorting_agree() {
+        let mut random = crate::test_random::Random::new(5);
+        for count in [1, 2, 10, 1000, 5000] {
+            // Few different coordinates, of either sign, zero among them.
+            let mut coordinate = || (random.signed() * 6.0) as i32 as f32 * random.signed().signum();
+            let all: Vec<Vec3> = (0..count).map(|_| Vec3::new(coordinate(), coordinate(), coordinate())).collect();
+            let by_hash = by_hash(&all).expect("no collisions were sought");
+            assert!(count < 1000 || by_hash.1 < count, "nothing to weld");
+            assert_eq!(by_hash, by_sorting(&all));
+        }
+    }
+
+    #[test]
+    fn positions_that_collide_are_sorted() {
+        let mut random = crate::test_random::Random::new(6);
+        let mut all = Vec::new();
+        while all.len() < 200 {
+            let position = Vec3::new(random.signed(), random.signed(), random.signed());
+            // The first slot of the 512 that two hundred positions get.
+            if hash(key(&position)) >> (64 - 9) == 0 {
+                all.push(position);
+            }
+        }
+        assert_eq!(by_hash(&all), None);
+        assert_eq!(weld(&all), by_sorting(&all));
     }
 }

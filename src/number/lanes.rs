@@ -8,6 +8,8 @@ use super::{Level, Machine, Scalar};
 pub trait Lanes: Machine<One = f32> + Send + Sync {
     /// A choice among the pixels of a group.
     type Mask: Copy;
+    /// Three integers at each of eight pixels.
+    type Edges: Copy;
 
     /// Does `work` with the instructions of this machine: what is inlined into it is compiled for them.
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T;
@@ -28,8 +30,12 @@ pub trait Lanes: Machine<One = f32> + Send + Sync {
     /// `new` where `mask` says so, else `old`.
     fn blend(self, mask: Self::Mask, new: Self::F, old: Self::F) -> Self::F;
 
-    /// Bit k: whether all three of `at + k step` are 0 or more, for eight k from 0 on, whatever the width.
-    fn inside(self, at: [i32; 3], step: [i32; 3]) -> u32;
+    /// Three linear functions at eight pixels from a first one on, whatever the width: `at + k step`.
+    fn edges(self, at: [i32; 3], step: [i32; 3]) -> Self::Edges;
+    /// The same functions where each has grown.
+    fn beside(self, edges: Self::Edges, growth: [i32; 3]) -> Self::Edges;
+    /// Bit k: whether all three are 0 or more at pixel k.
+    fn inside(self, edges: Self::Edges) -> u32;
 
     /// Stores the colours of a group as [`quantise`](crate::encoding::quantise) does, opaque where `covered`, and
     /// `background` elsewhere, over the first `WIDTH` texels of `to`.

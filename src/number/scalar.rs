@@ -1,6 +1,6 @@
 //! Plain `f32`, one pixel at a time.
 
-use super::{Lanes, Machine, Num, Real};
+use super::{Lanes, Machine, Num, Real, each};
 use crate::encoding::quantise;
 
 /// The scalar machine: `f32` throughout. Its pictures are the same bits on every platform.
@@ -98,6 +98,7 @@ impl Machine for Scalar {
 
 impl Lanes for Scalar {
     type Mask = bool;
+    type Edges = [[i32; 8]; 3];
 
     #[inline(always)]
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
@@ -140,11 +141,20 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    fn inside(self, at: [i32; 3], step: [i32; 3]) -> u32 {
+    fn edges(self, at: [i32; 3], step: [i32; 3]) -> [[i32; 8]; 3] {
+        each(|i| each(|k| at[i] + k as i32 * step[i]))
+    }
+
+    #[inline(always)]
+    fn beside(self, edges: [[i32; 8]; 3], growth: [i32; 3]) -> [[i32; 8]; 3] {
+        each(|i| each(|k| edges[i][k] + growth[i]))
+    }
+
+    #[inline(always)]
+    fn inside(self, edges: [[i32; 8]; 3]) -> u32 {
         let mut inside = 0;
         for k in 0..8 {
-            let signs = (at[0] + k * step[0]) | (at[1] + k * step[1]) | (at[2] + k * step[2]);
-            inside |= u32::from(signs >= 0) << k;
+            inside |= u32::from((edges[0][k] | edges[1][k] | edges[2][k]) >= 0) << k;
         }
         inside
     }

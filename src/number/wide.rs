@@ -154,6 +154,7 @@ impl<S: Simd> Machine for Wide<S> {
 
 impl<S: Simd> Lanes for Wide<S> {
     type Mask = mask32x8<S>;
+    type Edges = [i32x8<S>; 3];
 
     #[inline(always)]
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
@@ -199,11 +200,25 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 
     #[inline(always)]
-    fn inside(self, at: [i32; 3], step: [i32; 3]) -> u32 {
+    fn edges(self, at: [i32; 3], step: [i32; 3]) -> [i32x8<S>; 3] {
         let k = i32x8::simd_from(self.0, COUNTED_INTEGERS);
-        let line = |i: usize| i32x8::splat(self.0, at[i]) + k * i32x8::splat(self.0, step[i]);
-        let signs = line(0) | line(1) | line(2);
-        (signs.simd_ge(i32x8::splat(self.0, 0))).to_bitmask() as u32
+        super::each(
+            #[inline(always)]
+            |i| i32x8::splat(self.0, at[i]) + k * i32x8::splat(self.0, step[i]),
+        )
+    }
+
+    #[inline(always)]
+    fn beside(self, edges: [i32x8<S>; 3], growth: [i32; 3]) -> [i32x8<S>; 3] {
+        super::each(
+            #[inline(always)]
+            |i| edges[i] + i32x8::splat(self.0, growth[i]),
+        )
+    }
+
+    #[inline(always)]
+    fn inside(self, [a, b, c]: [i32x8<S>; 3]) -> u32 {
+        !((a | b | c).simd_lt(i32x8::splat(self.0, 0)).to_bitmask() as u32) & 0xFF
     }
 
     #[inline(always)]

@@ -12,17 +12,11 @@ pub(super) enum Side {
 }
 
 impl Side {
-    /// A normal as light meets it on this side.
-    pub fn turn(self, normal: DVec3) -> DVec3 {
-        match self {
-            Side::Front => normal,
-            Side::Back => -normal,
+    /// Makes of a normal the one that light meets on this side.
+    pub fn turn(self, normal: &mut [f32; 3]) {
+        if self == Side::Back {
+            *normal = normal.map(|n| -n);
         }
-    }
-
-    /// The normal of the polygon itself.
-    pub fn face(self, normal: DVec3) -> [f32; 3] {
-        self.turn(normal).as_vec3().to_array()
     }
 }
 

@@ -3,7 +3,7 @@
 use super::depth::SampleDepth;
 use super::edge::{Crossing, first_centre};
 use super::edge_table::{EdgeTable, TableEdge};
-use crate::frame::{Frame, SubPixel, Vertex};
+use crate::frame::{Frame, ScreenVertex, SubPixel};
 use crate::number::Machine;
 use crate::walk::{Attribute, Ramp};
 use alloc::vec::Vec;
@@ -166,7 +166,7 @@ where
 {
     let vertices = frame.vertices();
     let (top, bottom) = (&vertices[edge.top as usize], &vertices[edge.bottom as usize]);
-    let place = |v: &Vertex| [v.x, v.y];
+    let place = |v: &ScreenVertex| [v.x, v.y];
     // Exact: both differences have at most 24 bits.
     let height = (bottom.y - top.y).to_bits() as f32;
     let centre = SubPixel::from_num(row) + SubPixel::from_bits(1 << (SubPixel::FRAC_NBITS - 1));
@@ -174,7 +174,7 @@ where
     let dt = (1 << SubPixel::FRAC_NBITS) as f32 / height; // Δt = 1 / (y_2 − y_1)
     let from = depth.of_corner(frame, top);
     let rise = depth.of_corner(frame, bottom) - from;
-    let face = frame.polygons()[edge.polygon as usize].normal.map(|n| m.one(n));
+    let face = frame.polygon_normal(&frame.polygons()[edge.polygon as usize]).map(|n| m.one(n));
     let (a, b) = (attributes[edge.top as usize], attributes[edge.bottom as usize]);
     ActiveEdge {
         polygon: edge.polygon,

@@ -5,6 +5,7 @@ use super::sink::{Filtered, RowSink, Stored};
 use super::target::Texel;
 use crate::frame::Frame;
 use crate::number::Level;
+use crate::parallel::for_each_chunk;
 use crate::picture::Picture;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -40,13 +41,29 @@ impl<T: Texel> Bands for PictureBands<'_, T> {
         let (width, samples) = (frame.picture_width(), frame.samples());
         debug_assert!(height.is_multiple_of(samples));
         let background = T::background(frame.background());
-        let band = |number: usize, texels: &mut [T], scratch: &mut Scratch| {
+        let texels_a_band = height / samples * width;
+        for_each_chunk(self.picture.texels_mut(), texels_a_band, &|first, texels: &mut [T]| {
+            let number = first / texels_a_band;
             let rows = number * height..((number + 1) * height).min(frame.height());
-            match samples {
+            with_scratch(|scratch| match samples {
                 1 => draw(number, rows, scratch, &mut Stored { texels, width, background, level }),
                 _ => draw(number, rows, scratch, &mut Filtered::new(frame, texels)),
-            }
-        };
-        crate::parallel::each_chunk(self.picture.texels_mut(), height / samples * width, band);
+            });
+        });
     }
+}
+
+/// Gives `work` what this thread keeps from band to band.
+#[cfg(feature = "std")]
+fn with_scratch(work: impl FnOnce(&mut Scratch)) {
+    std::thread_local! {
+        static KEPT: core::cell::RefCell<Scratch> = core::cell::RefCell::default();
+    }
+    KEPT.with_borrow_mut(work);
+}
+
+/// Without the standard library nothing is kept.
+#[cfg(not(feature = "std"))]
+fn with_scratch(work: impl FnOnce(&mut Scratch)) {
+    work(&mut Scratch::default());
 }

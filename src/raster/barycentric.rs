@@ -7,7 +7,7 @@
 use super::depth::SampleDepth;
 use super::setup::SetUp;
 use super::target::Target;
-use crate::frame::{Frame, Vertex};
+use crate::frame::{Frame, ScreenVertex};
 use crate::number::{Machine, each};
 use crate::shader::{Shader, Span};
 use crate::walk::{Attribute, Walk};
@@ -35,8 +35,8 @@ struct EdgeFunction {
 }
 
 impl EdgeFunction {
-    fn new(i: &Vertex, j: &Vertex) -> Self {
-        let bits = |v: &Vertex| (i64::from(v.x.to_bits()), i64::from(v.y.to_bits()));
+    fn new(i: &ScreenVertex, j: &ScreenVertex) -> Self {
+        let bits = |v: &ScreenVertex| (i64::from(v.x.to_bits()), i64::from(v.y.to_bits()));
         let ((xi, yi), (xj, yj)) = (bits(i), bits(j));
         EdgeFunction { across: yi - yj, down: xj - xi, constant: xi * yj - xj * yi }
     }
@@ -115,13 +115,13 @@ pub(crate) fn draw<S: Shader, M: Machine>(
 }
 
 impl EdgeFunction {
-    fn at_vertex(&self, v: &Vertex) -> i64 {
+    fn at_vertex(&self, v: &ScreenVertex) -> i64 {
         self.at(i64::from(v.x.to_bits()), i64::from(v.y.to_bits()))
     }
 }
 
 /// The pixels whose centres may lie in a triangle: columns and rows.
-fn bounding_box(frame: &Frame, corners: &[&Vertex; 3]) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
+fn bounding_box(frame: &Frame, corners: &[&ScreenVertex; 3]) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
     let range = |coordinates: [i32; 3], limit: usize| {
         let (mut low, mut high) = (coordinates[0], coordinates[0]);
         for c in coordinates {

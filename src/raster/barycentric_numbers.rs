@@ -9,29 +9,33 @@ use crate::number::{Machine, Num, Real, Scalar};
 use crate::picture::Picture;
 use crate::shader::{Corner, Corners, Shader, SpanOf};
 use crate::walk::{Constant, Lerp};
+use alloc::vec::Vec;
 
 /// The number of the polygon that the barycentric renderer shows at each pixel, an index into [`Frame::polygons`], or
 /// [`NOTHING`].
 ///
 /// That of [`polygon_numbers`](super::polygon_numbers), but where depths agree to within rounding.
 pub fn barycentric_polygon_numbers(frame: &Frame, edges: Edges) -> Picture<u32> {
-    let mut target = Numbers { frame, picture: Picture::new(frame.width(), frame.height(), NOTHING) };
+    let mut by_first: Vec<_> = (0..).zip(frame.polygons()).map(|(number, polygon)| (polygon.first, number)).collect();
+    by_first.sort_unstable();
+    let mut target = Numbers { by_first, picture: Picture::new(frame.width(), frame.height(), NOTHING) };
     barycentric::draw::<FirstCorner, Scalar>(Scalar, frame, &[], edges, &mut target);
     target.picture
 }
 
 /// Takes the "colours" of [`FirstCorner`] for what they are.
-struct Numbers<'a> {
-    frame: &'a Frame,
+struct Numbers {
+    /// Where the corners of each polygon begin, which tells polygons apart, and its number; in ascending order.
+    by_first: Vec<(u32, u32)>,
     picture: Picture<u32>,
 }
 
-impl Target for Numbers<'_> {
+impl Target for Numbers {
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]) {
         for (texel, [high, low, _]) in self.picture.row_mut(row)[x..].iter_mut().zip(colours) {
             let first = ((*high as u32) << 16) | *low as u32;
-            // Polygons take their corners from the list of all corners one after the other.
-            *texel = self.frame.polygons().partition_point(|p| p.first < first) as u32;
+            let place = self.by_first.binary_search_by_key(&first, |entry| entry.0);
+            *texel = place.map_or(NOTHING, |place| self.by_first[place].1);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Depth at a sample: from what is interpolated to what is compared.
 
-use crate::frame::{DepthRange, Frame, Vertex};
+use crate::frame::{DepthRange, Frame, ScreenVertex};
 use crate::scene::{Clipping, DepthBits, DepthSource, HiddenSurfaces};
 
 /// How depth is made of the values at the corners, and how it is kept.
@@ -64,7 +64,7 @@ impl SampleDepth {
 
     /// What of a corner is interpolated.
     #[inline(always)]
-    pub fn of_corner(&self, frame: &Frame, vertex: &Vertex) -> f32 {
+    pub fn of_corner(&self, frame: &Frame, vertex: &ScreenVertex) -> f32 {
         match self.quantity {
             Quantity::Depth => vertex.depth,
             Quantity::InverseW => vertex.inv_w,

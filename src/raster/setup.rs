@@ -34,8 +34,8 @@ impl<S: Shader, M: Machine> SetUp<S, M> {
 /// attributes are linear in space.
 fn attributes<S: Shader, M: Machine>(m: M, frame: &Frame, consts: &[S::Consts<M::One>]) -> Vec<S::Attribute<M::One>> {
     let vertices = frame.vertices();
-    let corners = (0..).zip(vertices).map(|(vertex, v)| (v.material, Corner { machine: m, frame, vertex }));
-    let mut all: Vec<_> = corners.map(|(material, corner)| S::vertex(&consts[material as usize], &corner)).collect();
+    let corners = (0..vertices.len() as u32).map(|vertex| Corner { machine: m, frame, vertex });
+    let mut all: Vec<_> = corners.map(|c| S::vertex(&consts[frame.material(c.vertex) as usize], &c)).collect();
     for corner in frame.clip_corners() {
         let (a, b) = (all[corner.a as usize], all[corner.b as usize]);
         let edge = S::Attribute::edge(m, m.three(corner.face), a, b, m.one(corner.t), m.one(0.0));

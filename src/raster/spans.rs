@@ -83,7 +83,7 @@ fn shade_runs<S: Shader, M: Lanes>(
                     let start = Span {
                         x: pixels.start as f32 + 0.5,
                         y: row as f32 + 0.5,
-                        attribute: S::Attribute::span(Scalar, polygon.normal, left, right, t0, span.dt),
+                        attribute: S::Attribute::span(Scalar, frame.polygon_normal(polygon), left, right, t0, span.dt),
                     };
                     let over_polygon = &setup.polygons[span.polygon as usize];
                     let mut walk = S::walk(m, &setup.consts[material], over_polygon, &start);

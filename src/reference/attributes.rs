@@ -3,7 +3,7 @@
 use super::Model;
 use super::coverage::{Crossing, Scanline, SpanPlace, Weights};
 use super::illumination::{illuminate, sum, wide};
-use crate::frame::{ClipCorner, Frame, Polygon, Vertex};
+use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::scene::Interpolation;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -61,13 +61,11 @@ impl<'a> VertexAttributes<'a> {
     /// show there, and is not lit by a normal of its own.
     pub fn new(frame: &'a Frame, model: Model) -> Self {
         let position = |number: u32| wide(frame.position(number));
-        let normal = |_: u32, v: &Vertex| wide(v.normal);
+        let normal = |number: u32| wide(frame.normal(number));
         let unclamped =
-            |number: u32, v: &Vertex| sum(&frame.lightings()[v.material as usize], wide(v.normal), position(number));
-        let colour = |number: u32, v: &Vertex| unclamped(number, v).clamp(DVec3::ZERO, DVec3::ONE);
-        let all = |of: &dyn Fn(u32, &Vertex) -> DVec3| -> Vec<DVec3> {
-            (0..).zip(frame.vertices()).map(|(number, v)| of(number, v)).collect()
-        };
+            |number: u32| sum(&frame.lightings()[frame.material(number) as usize], normal(number), position(number));
+        let colour = |number: u32| unclamped(number).clamp(DVec3::ZERO, DVec3::ONE);
+        let all = |of: &dyn Fn(u32) -> DVec3| -> Vec<DVec3> { (0..frame.vertices().len() as u32).map(of).collect() };
         let mut values: Vec<DVec3> = match model {
             Model::Flat | Model::FlatAverage => Vec::new(),
             Model::Gouraud => all(&colour),
@@ -76,7 +74,7 @@ impl<'a> VertexAttributes<'a> {
         };
         let is_local = frame.is_local();
         let is_followed = model == Model::Phong && is_local;
-        let mut positions = if is_followed { all(&|number, _| position(number)) } else { Vec::new() };
+        let mut positions = if is_followed { all(&position) } else { Vec::new() };
         for &ClipCorner { vertex, a, b, t, face } in frame.clip_corners() {
             let (to, a, b, t) = (vertex as usize, a as usize, b as usize, f64::from(t));
             if !values.is_empty() {
@@ -100,7 +98,7 @@ impl<'a> VertexAttributes<'a> {
         Some(match self.model {
             Model::Flat => {
                 scanline.edges(x)?;
-                at_mean(wide(polygon.normal))
+                at_mean(wide(self.frame.polygon_normal(polygon)))
             }
             Model::FlatAverage => {
                 scanline.edges(x)?;
@@ -117,7 +115,7 @@ impl<'a> VertexAttributes<'a> {
                 illuminate(lighting, unit(self.interpolated(&self.values, &weights)), position)
             }
             Model::PhongConstant => at_mean(unit(self.interpolated(&self.values, &scanline.weights(x)?))),
-            Model::Slerp => at_mean(self.slerped(&scanline.place(x)?, wide(polygon.normal))),
+            Model::Slerp => at_mean(self.slerped(&scanline.place(x)?, wide(self.frame.polygon_normal(polygon)))),
         })
     }
 

@@ -116,7 +116,7 @@ impl Gain {
 
 /// The most steps from a corner to a pixel: down the rows of the polygon and across its columns, inside the picture.
 fn longest_walk(frame: &Frame, polygon: &Polygon) -> usize {
-    let extent = |coordinate: fn(&crate::frame::Vertex) -> crate::frame::SubPixel, limit: usize| {
+    let extent = |coordinate: fn(&crate::frame::ScreenVertex) -> crate::frame::SubPixel, limit: usize| {
         let all = frame.corners(polygon).iter().map(|&v| coordinate(&frame.vertices()[v as usize]).to_bits());
         let (low, high) = all.fold((i32::MAX, i32::MIN), |(low, high), c| (low.min(c), high.max(c)));
         ((high - low) as usize / 256 + 1).min(limit)

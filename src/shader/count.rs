@@ -60,7 +60,7 @@ fn run<S: Shader>(parameters: &[u32], frame: &Frame) -> OperationCounts {
     lap();
     let over_polygon = S::polygon(&consts, &corners);
     let polygon_counts = lap();
-    let (face, t0, dt) = (polygon.normal.map(one), one(0.01), one(0.02));
+    let (face, t0, dt) = (frame.polygon_normal(polygon).map(one), one(0.01), one(0.02));
     let mut left = S::Attribute::edge(m, face, attributes[0], attributes[2], t0, dt);
     let edge = lap();
     S::Attribute::advance(&mut left);

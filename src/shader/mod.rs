@@ -61,7 +61,7 @@ impl<M: Machine> Corner<'_, M> {
     /// The unit vertex normal in world space (L21 3.1).
     #[inline(always)]
     pub fn normal(&self) -> [M::One; 3] {
-        self.machine.three(self.frame.vertices()[self.vertex as usize].normal)
+        self.machine.three(self.frame.normal(self.vertex))
     }
 
     /// Where it is: see [`Frame::position`].
@@ -97,7 +97,7 @@ impl<M: Machine, A: Copy> Corners<'_, M, A> {
     /// The unit normal by Newell's formula (L21 1.1).
     #[inline(always)]
     pub fn normal(&self) -> [M::One; 3] {
-        self.machine.three(self.polygon.normal)
+        self.machine.three(self.frame.polygon_normal(self.polygon))
     }
 
     /// The mean position of the corners, before clipping: see [`Frame::mean`].

@@ -92,7 +92,7 @@ fn run<S: Shader, M: Machine>(m: M, parameters: &[u32], frame: &Frame, out: &mut
     let corners = Corners { machine: m, frame, polygon, attributes: &corner };
     let over_polygon = S::polygon(&consts, &corners);
     let dt = 1.0 / out.len() as f32;
-    let face = polygon.normal.map(one);
+    let face = frame.polygon_normal(polygon).map(one);
     let attribute = S::Attribute::span(m, face, corner[0], corner[1], m.one(0.5 * dt), m.one(dt));
     let start = Span { x: m.one(0.5), y: m.one(0.5), attribute };
     let mut walk = S::walk(m, &consts, &over_polygon, &start);

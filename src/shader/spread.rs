@@ -132,7 +132,7 @@ impl Ball {
         let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
         let most = |of: &dyn Fn(DVec3) -> f64| corners.iter().map(|p| of(*p)).fold(0.0, f64::max);
         let (radius, reach) = (most(&|p| p.distance(middle)), most(&|p| p.length()));
-        Ball { normal: wide(polygon.normal).normalize_or_zero(), middle, radius, reach, corners }
+        Ball { normal: wide(frame.polygon_normal(polygon)).normalize_or_zero(), middle, radius, reach, corners }
     }
 
     fn sees(&self, place: Place<[f32; 3]>) -> Sight {

@@ -1,7 +1,7 @@
 //! Which pixels triangles cover: by edge functions where they are small, by crossings where they are large, which is the same
 //! rule bit for bit. It does not know what is drawn.
 
-use crate::frame::{Frame, SubPixel, Vertex};
+use crate::frame::{Frame, ScreenVertex, SubPixel};
 use crate::number::{Lanes, each};
 use crate::raster::edge::{Crossing, first_centre};
 use alloc::vec::Vec;
@@ -15,7 +15,7 @@ const SMALL_HEIGHT: i32 = 64;
 const BATCH: usize = 64;
 
 /// The pixels of a triangle on one scanline.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Run {
     pub row: u32,
     pub start: u32,
@@ -40,16 +40,22 @@ pub(super) struct Covered {
 #[derive(Debug, Default)]
 pub(crate) struct Batch {
     pub(super) triangles: Vec<Covered>,
-    pub(super) runs: Vec<Run>,
+    runs: Vec<Run>,
+    count: usize,
 }
 
 impl Batch {
+    /// The runs of all triangles, one triangle's after the other's.
+    pub(super) fn runs(&self) -> &[Run] {
+        &self.runs[..self.count]
+    }
+
     /// Covers triangles from the front of `numbers` until there are enough, or there is a polygon of another shape; gives how
     /// many it took.
     #[inline(never)]
     pub fn fill<M: Lanes>(&mut self, m: M, frame: &Frame, numbers: &[u32], band: &Range<usize>) -> usize {
         self.triangles.clear();
-        self.runs.clear();
+        self.count = 0;
         m.vectorize(
             #[inline(always)]
             || {
@@ -69,7 +75,7 @@ impl Batch {
     fn cover<M: Lanes>(&mut self, m: M, frame: &Frame, number: u32, [a, b, c]: [u32; 3], band: &Range<usize>) {
         let vertices = frame.vertices();
         let corners = [a, b, c].map(|v| &vertices[v as usize]);
-        let place = |v: &Vertex| [v.x.to_bits(), v.y.to_bits()];
+        let place = |v: &ScreenVertex| [v.x.to_bits(), v.y.to_bits()];
         let [[xa, ya], [xb, yb], [xc, yc]] = corners.map(place);
         let columns = within(xa.min(xb).min(xc), xa.max(xb).max(xc), 0..frame.width());
         let rows = within(ya.min(yb).min(yc), ya.max(yb).max(yc), band.clone());
@@ -89,7 +95,11 @@ impl Batch {
         // From column to column the edge functions grow by the height of the edge, 256 sub-pixels at a time.
         let scale = 256.0 * over_area;
         let across = [(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale];
-        let before = self.runs.len();
+        let before = self.count;
+        let needed = before + rows.len();
+        if self.runs.len() < needed {
+            self.runs.resize(needed.next_power_of_two(), Run::default());
+        }
         let height = ya.max(yb).max(yc) - ya.min(yb).min(yc);
         // Corners outside the picture are far from its pixels.
         let is_whole = wide(xa.max(xb).max(xc)) - wide(xa.min(xb).min(xc)) <= wide(SMALL_WIDTH * 256);
@@ -98,7 +108,7 @@ impl Batch {
         } else {
             self.large(x, y, over_area, columns, rows);
         }
-        let runs = (self.runs.len() - before) as u32;
+        let runs = (self.count - before) as u32;
         if runs > 0 {
             self.triangles.push(Covered { number, corners, across, runs });
         }
@@ -125,25 +135,31 @@ impl Batch {
             // Right and bottom edges do not own the centres that lie on them.
             least[k] = i32::from(!(dy < 0 || (dy == 0 && dx > 0)));
         }
-        let width = columns.len();
-        let outside = !0u32 << width; // at most 25 columns
+        let (left, width) = (columns.start as u32, columns.len());
+        let within = !(!0u32 << width); // at most 25 columns
+        let mut lines = [m.edges(each(|i| at[i] - least[i]), step); 4];
+        let mut group = 1;
+        while 8 * group < width {
+            lines[group] = m.beside(lines[group - 1], each(|i| 8 * step[i]));
+            group += 1;
+        }
         for row in rows {
-            let mut inside = 0;
-            let mut group = 0;
-            while group < width {
-                let k = group as i32;
-                inside |= m.inside(each(|i| at[i] - least[i] + k * step[i]), step) << group;
-                group += 8;
+            let mut inside = m.inside(lines[0]);
+            lines[0] = m.beside(lines[0], down);
+            let mut group = 1;
+            while 8 * group < width {
+                inside |= m.inside(lines[group]) << (8 * group);
+                lines[group] = m.beside(lines[group], down);
+                group += 1;
             }
-            inside &= !outside;
-            if inside != 0 {
-                let first = inside.trailing_zeros();
-                let weight = |i: usize| (at[i] + first as i32 * step[i]) as f32 * over_area;
-                let weights = [weight(1), weight(2)];
-                let left = columns.start as u32;
-                let (start, end) = (left + first, left + 32 - inside.leading_zeros());
-                self.runs.push(Run { row: row as u32, start, end, weights });
-            }
+            inside &= within;
+            let first = inside.trailing_zeros();
+            let weight = |i: usize| (at[i] + first as i32 * step[i]) as f32 * over_area;
+            let weights = [weight(1), weight(2)];
+            // Written anyway, and kept where it is not empty: which rows are cannot be predicted.
+            let (start, end) = (left + first, left + 32 - inside.leading_zeros());
+            self.runs[self.count] = Run { row: row as u32, start, end, weights };
+            self.count += usize::from(inside != 0);
             at = each(|i| at[i] + down[i]);
         }
     }
@@ -173,7 +189,8 @@ impl Batch {
                 if start < end {
                     let weight = |i: usize, j: usize| function(i, j, start, row) as f32 * over_area;
                     let weights = [weight(2, 0), weight(0, 1)];
-                    self.runs.push(Run { row: row as u32, start: start as u32, end: end as u32, weights });
+                    self.runs[self.count] = Run { row: row as u32, start: start as u32, end: end as u32, weights };
+                    self.count += 1;
                 }
                 long.advance();
                 short.advance();

@@ -38,7 +38,7 @@ impl<E: Copy> Edges<E> {
         found: &mut Found<'_, A::Span>,
     ) {
         self.enter(frame, attributes, band, number);
-        let face = frame.polygons()[number as usize].normal;
+        let face = frame.polygon_normal(&frame.polygons()[number as usize]);
         let Some(mut row) = self.waiting.last().map(|(first, _)| *first) else { return };
         loop {
             while let Some((_, edge)) = self.waiting.pop_if(|(first, _)| *first <= row) {

@@ -34,7 +34,7 @@ impl<S: Shader, M: Lanes> Painter<'_, '_, S, M> {
             #[inline(always)]
             || {
                 let vertices = self.frame.vertices();
-                let mut runs = &batch.runs[..];
+                let mut runs = batch.runs();
                 for triangle in &batch.triangles {
                     let (own, rest) = runs.split_at(triangle.runs as usize);
                     runs = rest;

@@ -1,0 +1,102 @@
+//! What a frame consists of: vertices, polygons, and what became of the scene's polygons.
+
+#[allow(unused_imports)] // named by the documentation
+use super::Frame;
+use super::SubPixel;
+#[allow(unused_imports)] // named by the documentation
+use crate::scene::Clipping;
+
+/// A vertex as a frame is given it: where it stands, and what the shading methods need to know of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Column of the picture, at most [`Frame::GUARD`] pixels from 0.
+    pub x: SubPixel,
+    /// Row of the picture, downward, at most [`Frame::GUARD`] pixels from 0.
+    pub y: SubPixel,
+    /// z/w: linear on the screen, 0 at the near plane, 1 at the far plane; outside that under [`Clipping::NdcCube`] only.
+    pub depth: f32,
+    /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation, and what
+    /// depth is computed from at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)). Over 0, but under
+    /// [`Clipping::NdcCube`], where it is below 0 behind the eye.
+    pub inv_w: f32,
+    /// Unit vertex normal in world space (L21 3.1); ignored at a [`ClipCorner`].
+    pub normal: [f32; 3],
+    /// Its entry in [`Frame::lightings`].
+    pub material: u32,
+}
+
+/// Where a vertex stands on the picture: what rasterization reads, in 16 bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ScreenVertex {
+    /// Column of the picture, at most [`Frame::GUARD`] pixels from 0.
+    pub x: SubPixel,
+    /// Row of the picture, downward, at most [`Frame::GUARD`] pixels from 0.
+    pub y: SubPixel,
+    /// z/w: see [`Vertex::depth`].
+    pub depth: f32,
+    /// near/w: see [`Vertex::inv_w`].
+    pub inv_w: f32,
+}
+
+/// A vertex that clipping made: its attributes lie between those of two others and are never lit again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClipCorner {
+    /// The vertex that this describes.
+    pub vertex: u32,
+    /// Where `t` = 0; a smaller number than `vertex`. No polygon need use it, and then its place on the picture means
+    /// nothing: it may lie behind the eye.
+    pub a: u32,
+    /// Where `t` = 1; likewise.
+    pub b: u32,
+    /// How far from `a` to `b`, 0..=1.
+    pub t: f32,
+    /// Unit normal of the polygon that was clipped.
+    pub face: [f32; 3],
+}
+
+/// A projected polygon: three corners or more, of any shape.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Polygon {
+    /// Where its corners begin in the list of all corners.
+    pub first: u32,
+    /// How many corners it has.
+    pub count: u32,
+    /// Its entry in [`Frame::lightings`]; its vertices have the same.
+    pub material: u32,
+    /// Its number in the scene, counted over all objects (pieces of one clipped polygon share it).
+    pub source: u32,
+    /// The number of its normal in the frame's geometry, and [`Polygon::FLIPPED`] where it is negated: see
+    /// [`Frame::polygon_normal`].
+    pub(crate) face: u32,
+}
+
+impl Polygon {
+    /// Added to the number of a normal that is negated: the polygon is lit from behind.
+    pub(crate) const FLIPPED: u32 = 1 << 31;
+}
+
+/// What became of the scene's polygons on their way into the frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrameStats {
+    /// Polygons of the scene.
+    pub polygons: usize,
+    /// Left out because they are seen from the culled side.
+    pub culled: usize,
+    /// Left out because they have no area, in space or on the picture.
+    pub zero_area: usize,
+    /// Left out because they lie outside the view.
+    pub outside: usize,
+    /// Cut by the near plane, the far plane or the guard band.
+    pub clipped: usize,
+    /// Left out because a corner has no place on the picture: under [`Clipping::NdcCube`] only.
+    pub unprojected: usize,
+}
+
+/// The mean of a polygon's corners: where a method that lights a whole polygon at once takes light and viewer from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mean {
+    /// The mean of the corners' positions.
+    pub position: [f32; 3],
+    /// The mean of the corners' normals; not a unit vector.
+    pub normal: [f32; 3],
+}

@@ -1,0 +1,129 @@
+//! What of a frame does not depend on the camera: shared between all frames of one scene.
+
+use super::Polygon;
+use alloc::vec::Vec;
+use glam::{DAffine3, DVec3};
+
+/// Attributes of vertices, corner lists and normals of polygons.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Geometry {
+    /// Unit vertex normals in world space.
+    pub normals: Vec<[f32; 3]>,
+    /// The lighting of each vertex.
+    pub materials: Vec<u32>,
+    /// One a vertex, or none.
+    pub colours: Vec<[f32; 3]>,
+    /// Positions from the eye, one a vertex, or none: those of [`Geometry::models`] then.
+    pub positions: Vec<[f32; 3]>,
+    /// Positions of vertices in model space, one a vertex, or none.
+    pub models: Models,
+    /// Whether all vertices are there a second time, numbered after all others, with their normals negated.
+    pub two_sided: bool,
+    /// The corner lists of all polygons; where there are two sides, once more for the vertices of the second.
+    pub corners: Vec<u32>,
+    /// Unit normals of polygons in world space.
+    pub faces: Vec<[f32; 3]>,
+}
+
+/// Positions in model space, each coordinate in an array of its own, object after object.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Models {
+    pub x: Vec<f32>,
+    pub y: Vec<f32>,
+    pub z: Vec<f32>,
+    pub objects: Vec<PlacedModel>,
+}
+
+/// Where the vertices of an object are, and where it is in the world.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedModel {
+    /// Its first vertex, and the one after its last.
+    pub first: usize,
+    pub end: usize,
+    /// Model space to world space.
+    pub transform: DAffine3,
+    /// The largest magnitude of a coordinate along each axis of model space.
+    pub extent: DVec3,
+}
+
+impl Models {
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// The position of a vertex in model space.
+    #[inline(always)]
+    pub fn position(&self, vertex: usize) -> DVec3 {
+        DVec3::new(self.x[vertex].into(), self.y[vertex].into(), self.z[vertex].into())
+    }
+
+    /// The object that a vertex belongs to.
+    #[inline]
+    pub fn object_of(&self, vertex: usize) -> usize {
+        self.objects.partition_point(|object| object.end <= vertex)
+    }
+}
+
+impl Geometry {
+    /// How many vertices there are, on both sides together.
+    #[inline(always)]
+    pub fn vertex_count(&self) -> usize {
+        self.normals.len() * if self.two_sided { 2 } else { 1 }
+    }
+
+    #[inline(always)]
+    pub fn normal(&self, vertex: u32) -> [f32; 3] {
+        match self.normals.get(vertex as usize) {
+            Some(normal) => *normal,
+            None => self.front(vertex).map_or([0.0, 0.0, 1.0], |front| self.normals[front].map(|n| -n)),
+        }
+    }
+
+    /// `None` for vertices that are not of the geometry.
+    #[inline(always)]
+    pub fn material(&self, vertex: u32) -> Option<u32> {
+        match self.materials.get(vertex as usize) {
+            Some(material) => Some(*material),
+            None => self.front(vertex).map(|front| self.materials[front]),
+        }
+    }
+
+    #[inline(always)]
+    pub fn colour(&self, vertex: u32) -> [f32; 3] {
+        if self.colours.is_empty() {
+            return [1.0; 3];
+        }
+        let front = if (vertex as usize) < self.normals.len() { Some(vertex as usize) } else { self.front(vertex) };
+        front.and_then(|front| self.colours.get(front)).copied().unwrap_or([1.0; 3])
+    }
+
+    /// The position of a vertex as seen from the eye.
+    #[inline(always)]
+    pub fn position(&self, vertex: u32, eye: [f64; 3]) -> [f32; 3] {
+        match self.positions.get(vertex as usize) {
+            Some(position) => *position,
+            None => self.position_of_model(vertex, eye),
+        }
+    }
+
+    fn position_of_model(&self, vertex: u32, eye: [f64; 3]) -> [f32; 3] {
+        let vertex = vertex as usize;
+        let front = if vertex < self.models.len() { Some(vertex) } else { self.front(vertex as u32) };
+        let Some(front) = front.filter(|&front| front < self.models.len()) else { return [0.0; 3] };
+        let transform = &self.models.objects[self.models.object_of(front)].transform;
+        (transform.transform_point3(self.models.position(front)) - DVec3::from_array(eye)).as_vec3().to_array()
+    }
+
+    /// The vertex whose second side a number past the first sides names.
+    #[inline]
+    fn front(&self, vertex: u32) -> Option<usize> {
+        let front = (vertex as usize).checked_sub(self.normals.len())?;
+        (self.two_sided && front < self.normals.len()).then_some(front)
+    }
+
+    #[inline(always)]
+    pub fn face(&self, face: u32) -> [f32; 3] {
+        let normal = self.faces[(face & !Polygon::FLIPPED) as usize];
+        if face & Polygon::FLIPPED == 0 { normal } else { normal.map(|n| -n) }
+    }
+}
