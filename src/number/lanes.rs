@@ -5,7 +5,7 @@ use super::{Level, Machine, Scalar};
 /// A machine whose groups of pixels can be loaded, compared, masked and stored.
 ///
 /// Its set-up runs on plain `f32`. A mask says of each of the [`Machine::WIDTH`] pixels of a group whether it is meant.
-pub trait Lanes: Machine<One = f32> + Send + Sync {
+pub trait Lanes: Machine<One = f32> {
     /// A choice among the pixels of a group.
     type Mask: Copy;
     /// Three integers at each of eight pixels.
@@ -25,6 +25,8 @@ pub trait Lanes: Machine<One = f32> + Send + Sync {
     fn less(self, a: Self::F, b: Self::F) -> Self::Mask;
     /// Where both are.
     fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Whether all pixels are meant.
+    fn all(self, mask: Self::Mask) -> bool;
     /// Whether any pixel is meant.
     fn any(self, mask: Self::Mask) -> bool;
     /// `new` where `mask` says so, else `old`.

@@ -70,7 +70,7 @@ pub trait Real: Num {
 }
 
 /// An arithmetic: makes its numbers.
-pub trait Machine: Copy {
+pub trait Machine: Copy + Send + Sync {
     /// Numbers of the set-up.
     type One: Real;
     /// Numbers of the pixel loop.

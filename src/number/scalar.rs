@@ -131,6 +131,11 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
+    fn all(self, mask: bool) -> bool {
+        mask
+    }
+
+    #[inline(always)]
     fn any(self, mask: bool) -> bool {
         mask
     }

@@ -187,6 +187,11 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 
     #[inline(always)]
+    fn all(self, mask: mask32x8<S>) -> bool {
+        mask.all_true()
+    }
+
+    #[inline(always)]
     fn any(self, mask: mask32x8<S>) -> bool {
         mask.any_true()
     }

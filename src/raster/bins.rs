@@ -2,25 +2,56 @@
 
 use super::edge::first_centre;
 use crate::frame::{Frame, Polygon};
+use crate::parallel::collect;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
+
+/// Polygons that are sorted into bands together; chunks are sorted apart from one another.
+const CHUNK: usize = 1 << 13;
 
 /// Polygons by band of scanlines, each band's in drawing order. Those that cover no pixel centre by their bounding box are
 /// left out.
 #[derive(Debug)]
 pub(crate) struct Bins {
     height: usize,
+    chunks: Vec<Chunk>,
+}
+
+/// Polygons that follow one another, by band.
+#[derive(Clone, Debug, Default)]
+struct Chunk {
     starts: Vec<u32>,
     polygons: Vec<u32>,
 }
 
 impl Bins {
-    /// The polygons of `frame` in bands of `height` scanlines: a counting sort.
+    /// The polygons of `frame` in bands of `height` scanlines.
     pub fn new(frame: &Frame, height: usize) -> Self {
+        let chunks = frame.polygons().len().div_ceil(CHUNK);
+        Bins { height, chunks: collect(chunks, 1, |number| Chunk::new(frame, height, number * CHUNK)) }
+    }
+
+    /// Scanlines a band; the last one may have fewer.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The numbers of the polygons that may cover pixels of band `band`, ascending from list to list and within each.
+    pub fn band(&self, band: usize) -> impl Iterator<Item = &[u32]> {
+        self.chunks
+            .iter()
+            .map(move |chunk| &chunk.polygons[chunk.starts[band] as usize..chunk.starts[band + 1] as usize])
+    }
+}
+
+impl Chunk {
+    /// The polygons from number `first` on: a counting sort.
+    fn new(frame: &Frame, height: usize, first: usize) -> Self {
+        let all = &frame.polygons()[first..];
         let bands = frame.height().div_ceil(height);
         let mut starts = vec![0u32; bands + 1];
-        let ranges: Vec<Range<u32>> = frame.polygons().iter().map(|p| bands_of(frame, p, height)).collect();
+        let ranges: Vec<Range<u32>> = all[..CHUNK.min(all.len())].iter().map(|p| bands_of(frame, p, height)).collect();
         for range in &ranges {
             for band in range.clone() {
                 starts[band as usize + 1] += 1;
@@ -31,24 +62,14 @@ impl Bins {
         }
         let mut polygons = vec![0u32; starts[bands] as usize];
         let mut next = starts.clone();
-        for (number, range) in (0..).zip(ranges) {
+        for (number, range) in (first as u32..).zip(ranges) {
             for band in range {
                 let place = &mut next[band as usize];
                 polygons[*place as usize] = number;
                 *place += 1;
             }
         }
-        Bins { height, starts, polygons }
-    }
-
-    /// Scanlines a band; the last one may have fewer.
-    pub fn height(&self) -> usize {
-        self.height
-    }
-
-    /// The numbers of the polygons that may cover pixels of band `band`, ascending.
-    pub fn band(&self, band: usize) -> &[u32] {
-        &self.polygons[self.starts[band] as usize..self.starts[band + 1] as usize]
+        Chunk { starts, polygons }
     }
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     let depth = SampleDepth::new(frame);
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
         let first = rows.start;
-        let table = EdgeTable::new(frame, rows.clone(), bins.band(number));
+        let table = EdgeTable::new(frame, rows.clone(), || bins.band(number));
         let mut line = VisibleLine::new(frame.width(), depth);
         let mut next = first;
         scan(Scalar, frame, &table, &setup.attributes, &mut line, &mut |row, line, edges| {

@@ -40,8 +40,17 @@ pub(super) struct Covered {
 #[derive(Debug, Default)]
 pub(crate) struct Batch {
     pub(super) triangles: Vec<Covered>,
+    fetched: Vec<Fetched>,
     runs: Vec<Run>,
     count: usize,
+}
+
+/// A triangle as it is read: x and y of its corners in sub-pixels.
+#[derive(Clone, Copy, Debug)]
+struct Fetched {
+    number: u32,
+    corners: [u32; 3],
+    places: [[i32; 2]; 3],
 }
 
 impl Batch {
@@ -59,24 +68,33 @@ impl Batch {
         m.vectorize(
             #[inline(always)]
             || {
-                for (taken, &number) in numbers.iter().enumerate() {
-                    if self.triangles.len() == BATCH {
-                        return taken;
-                    }
-                    let [a, b, c] = *frame.corners(&frame.polygons()[number as usize]) else { return taken };
-                    self.cover(m, frame, number, [a, b, c], band);
+                self.fetch(frame, numbers);
+                for i in 0..self.fetched.len() {
+                    let fetched = self.fetched[i];
+                    self.cover(m, frame, fetched, band);
                 }
-                numbers.len()
+                self.fetched.len()
             },
         )
     }
 
+    /// Reads triangles in a loop of its own: nothing in it has to be guessed, so that the reads of many overlap. Their places
+    /// in memory are far from one another, and waiting for them took a third of the time.
     #[inline(always)]
-    fn cover<M: Lanes>(&mut self, m: M, frame: &Frame, number: u32, [a, b, c]: [u32; 3], band: &Range<usize>) {
-        let vertices = frame.vertices();
-        let corners = [a, b, c].map(|v| &vertices[v as usize]);
-        let place = |v: &ScreenVertex| [v.x.to_bits(), v.y.to_bits()];
-        let [[xa, ya], [xb, yb], [xc, yc]] = corners.map(place);
+    fn fetch(&mut self, frame: &Frame, numbers: &[u32]) {
+        let (polygons, vertices) = (frame.polygons(), frame.vertices());
+        self.fetched.clear();
+        for &number in numbers.iter().take(BATCH) {
+            let [a, b, c] = *frame.corners(&polygons[number as usize]) else { return };
+            let place = |v: &ScreenVertex| [v.x.to_bits(), v.y.to_bits()];
+            let places = [a, b, c].map(|v| place(&vertices[v as usize]));
+            self.fetched.push(Fetched { number, corners: [a, b, c], places });
+        }
+    }
+
+    #[inline(always)]
+    fn cover<M: Lanes>(&mut self, m: M, frame: &Frame, fetched: Fetched, band: &Range<usize>) {
+        let Fetched { number, corners: [a, b, c], places: [[xa, ya], [xb, yb], [xc, yc]] } = fetched;
         let columns = within(xa.min(xb).min(xc), xa.max(xb).max(xc), 0..frame.width());
         let rows = within(ya.min(yb).min(yc), ya.max(yb).max(yc), band.clone());
         if columns.is_empty() || rows.is_empty() {

@@ -29,8 +29,8 @@ use core::ops::Range;
 pub(crate) use cover::Batch;
 use span::Painter;
 
-/// The planes of a band take this many bytes at most, where its height can see to it: half of a common L2 cache.
-const BAND_BYTES: usize = 256 << 10;
+/// The planes of a band take this many bytes at most, where its height can see to it: a common L2 cache.
+const BAND_BYTES: usize = 512 << 10;
 
 /// Whether the engine can draw `frame` with shader `S`: its depth must be interpolated and kept as it is, and what its
 /// walk gives must be numbers.
@@ -74,19 +74,21 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
             rows: rows.clone(),
             hides: depth.hides(),
             notes_material: only.is_none(),
+            fetched: Vec::new(),
         };
         let mut edges = polygon::Edges::default();
-        let mut rest = bins.band(number);
-        while let Some((&next, others)) = rest.split_first() {
-            if is_planar && frame.polygons()[next as usize].count == 3 {
-                let taken = scratch.batch.fill(m, frame, rest, &rows);
-                painter.triangles(&scratch.batch);
-                rest = &rest[taken..];
-            } else {
-                edges.runs(frame, &setup.attributes, &rows, next, &mut |row, pixels, depth, attribute| {
-                    painter.run(next, row, pixels, depth, attribute);
-                });
-                rest = others;
+        for mut rest in bins.band(number) {
+            while let Some((&next, others)) = rest.split_first() {
+                if is_planar && frame.polygons()[next as usize].count == 3 {
+                    let taken = scratch.batch.fill(m, frame, rest, &rows);
+                    painter.triangles(&scratch.batch);
+                    rest = &rest[taken..];
+                } else {
+                    edges.runs(frame, &setup.attributes, &rows, next, &mut |row, pixels, depth, attribute| {
+                        painter.run(next, row, pixels, depth, attribute);
+                    });
+                    rest = others;
+                }
             }
         }
         shade_rows::<S, M>(m, &consts, only, &mut scratch.band, &mut scratch.line, rows, sink);

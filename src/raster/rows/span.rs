@@ -7,6 +7,7 @@ use crate::number::{Lanes, Planes, Scalar};
 use crate::raster::setup::SetUp;
 use crate::shader::{Shader, Span};
 use crate::walk::{Attribute, Walk};
+use alloc::vec::Vec;
 use core::ops::Range;
 
 /// What draws runs into one band.
@@ -21,6 +22,8 @@ pub(super) struct Painter<'a, 'b, S: Shader, M: Lanes> {
     pub hides: bool,
     /// Whether each pixel's material is noted, in a plane after the shader's.
     pub notes_material: bool,
+    /// Attributes and depths at the corners of a batch of triangles.
+    pub fetched: Vec<([S::Attribute<f32>; 3], [f32; 3])>,
 }
 
 /// The span of a shader's attribute in plain numbers.
@@ -34,14 +37,18 @@ impl<S: Shader, M: Lanes> Painter<'_, '_, S, M> {
             #[inline(always)]
             || {
                 let vertices = self.frame.vertices();
+                // Read in a loop of its own, as the batch was.
+                self.fetched.clear();
+                self.fetched.extend(batch.triangles.iter().map(|triangle| {
+                    let corners = triangle.corners.map(|v| v as usize);
+                    (corners.map(|v| self.setup.attributes[v]), corners.map(|v| vertices[v].depth))
+                }));
                 let mut runs = batch.runs();
-                for triangle in &batch.triangles {
+                for (i, triangle) in batch.triangles.iter().enumerate() {
                     let (own, rest) = runs.split_at(triangle.runs as usize);
                     runs = rest;
-                    let [a, b, c] = triangle.corners.map(|v| v as usize);
-                    let attributes = [a, b, c].map(|v| self.setup.attributes[v]);
+                    let (attributes, [z, zb, zc]) = self.fetched[i];
                     let Some(plane) = S::Attribute::plane(attributes, triangle.across) else { continue };
-                    let [z, zb, zc] = [a, b, c].map(|v| vertices[v].depth);
                     let (to_b, to_c) = (zb - z, zc - z);
                     let depth_step = to_b * triangle.across[0] + to_c * triangle.across[1];
                     for run in own {
@@ -81,7 +88,12 @@ impl<S: Shader, M: Lanes> Painter<'_, '_, S, M> {
             if self.hides {
                 mask = m.and(mask, m.less(z, m.load(line.depth(x))));
             }
-            if m.any(mask) {
+            if m.all(mask) {
+                line.put_all(m, x, z, pixel);
+                if self.notes_material {
+                    line.put_material(m, x, mask, material);
+                }
+            } else if m.any(mask) {
                 line.put(m, x, mask, z, pixel);
                 if self.notes_material {
                     line.put_material(m, x, mask, material);
