@@ -1,6 +1,6 @@
 //! A picture as bands of scanlines, which are drawn apart from one another.
 
-use super::rows::{Band, Batch};
+use super::rows::{Cover, Row};
 use super::sink::{Filtered, RowSink, Stored};
 use super::target::Texel;
 use crate::frame::Frame;
@@ -13,8 +13,8 @@ use core::ops::Range;
 /// Memory that a thread keeps from band to band.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    pub band: Band,
-    pub batch: Batch,
+    pub row: Row,
+    pub cover: Cover,
     /// The colours of a row, by channel.
     pub line: [Vec<f32>; 3],
 }

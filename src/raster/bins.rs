@@ -14,7 +14,6 @@ const CHUNK: usize = 1 << 13;
 /// left out.
 #[derive(Debug)]
 pub(crate) struct Bins {
-    height: usize,
     chunks: Vec<Chunk>,
 }
 
@@ -29,12 +28,7 @@ impl Bins {
     /// The polygons of `frame` in bands of `height` scanlines.
     pub fn new(frame: &Frame, height: usize) -> Self {
         let chunks = frame.polygons().len().div_ceil(CHUNK);
-        Bins { height, chunks: collect(chunks, 1, |number| Chunk::new(frame, height, number * CHUNK)) }
-    }
-
-    /// Scanlines a band; the last one may have fewer.
-    pub fn height(&self) -> usize {
-        self.height
+        Bins { chunks: collect(chunks, 1, |number| Chunk::new(frame, height, number * CHUNK)) }
     }
 
     /// The numbers of the polygons that may cover pixels of band `band`, ascending from list to list and within each.

@@ -1,4 +1,4 @@
-//! The memory of one band: depth, and what the walks gave to each pixel, plane by plane.
+//! The memory of one scanline: depth, and what the walks gave to each pixel, plane by plane.
 
 use crate::number::{Lanes, Planes, get_each, put_each};
 use alloc::vec::Vec;
@@ -7,49 +7,32 @@ use core::ops::Range;
 /// Values behind the end of a row, so that a group may reach over it.
 const PADDING: usize = 32;
 
-/// Depth and planes of a few scanlines. Rows of one scanline lie beside one another: what is drawn together is near.
+/// Depth and planes of a scanline: what is drawn together is near, in the L1 cache for a few planes.
 #[derive(Debug, Default)]
-pub(crate) struct Band {
-    stride: usize,
-    planes: usize,
-    values: Vec<f32>,
-    /// The pixels of each scanline between which anything was drawn.
-    drawn: Vec<Range<usize>>,
-}
-
-/// One scanline of a band.
-pub(crate) struct Row<'a> {
+pub(crate) struct Row {
     stride: usize,
     /// Depth, then the planes.
-    pub values: &'a mut [f32],
-    pub drawn: &'a mut Range<usize>,
+    values: Vec<f32>,
+    /// The pixels between which anything was drawn.
+    pub drawn: Range<usize>,
 }
 
-impl Band {
-    /// Makes room for `rows` scanlines of `width` pixels with `planes` planes, all of them empty.
-    pub fn prepare(&mut self, width: usize, rows: usize, planes: usize) {
+impl Row {
+    /// Makes room for `width` pixels with `planes` planes, all of them empty.
+    pub fn prepare(&mut self, width: usize, planes: usize) {
         let stride = (width + PADDING).next_multiple_of(16);
-        if (self.stride, self.planes) != (stride, planes) || self.drawn.len() < rows {
-            (self.stride, self.planes) = (stride, planes);
+        if self.stride != stride || self.values.len() != stride * (planes + 1) {
+            self.stride = stride;
             self.values.clear();
-            self.values.resize(stride * (planes + 1) * rows, f32::INFINITY);
-            self.drawn.clear();
-            self.drawn.resize(rows, 0..0);
+            self.values.resize(stride * (planes + 1), f32::INFINITY);
+            self.drawn = 0..0;
         }
     }
 
-    #[inline(always)]
-    pub fn row(&mut self, row: usize) -> Row<'_> {
-        let size = self.stride * (self.planes + 1);
-        Row { stride: self.stride, values: &mut self.values[row * size..][..size], drawn: &mut self.drawn[row] }
-    }
-}
-
-impl<'a> Row<'a> {
     /// Notes that the pixels `from..to` may be drawn.
     #[inline(always)]
     pub fn note(&mut self, from: usize, to: usize) {
-        *self.drawn = match Range::is_empty(self.drawn) {
+        self.drawn = match self.drawn.is_empty() {
             true => from..to,
             false => self.drawn.start.min(from)..self.drawn.end.max(to),
         };
@@ -120,6 +103,6 @@ impl<'a> Row<'a> {
     /// Empties it.
     pub fn clear(&mut self) {
         self.values[self.drawn.clone()].fill(f32::INFINITY);
-        *self.drawn = 0..0;
+        self.drawn = 0..0;
     }
 }

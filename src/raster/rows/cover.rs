@@ -14,14 +14,20 @@ const SMALL_HEIGHT: i32 = 64;
 /// This many triangles are covered before they are drawn.
 const BATCH: usize = 64;
 
-/// The pixels of a triangle on one scanline.
-#[derive(Clone, Copy, Debug, Default)]
+/// The pixels of a polygon on one scanline.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
-    pub row: u32,
-    pub start: u32,
-    pub end: u32,
-    /// The barycentric coordinates of the second and the third corner at the centre of the first pixel.
+    pub start: u16,
+    pub end: u16,
+    /// What they belong to: a triangle by its place in [`Cover::triangles`], or with [`Run::SPAN`] something else.
+    pub source: u32,
+    /// Of a triangle: the barycentric coordinates of the second and the third corner at the centre of the first pixel.
     pub weights: [f32; 2],
+}
+
+impl Run {
+    /// Set in the source of runs that are no triangle's.
+    pub const SPAN: u32 = 1 << 31;
 }
 
 /// A triangle that covers pixels.
@@ -32,17 +38,14 @@ pub(super) struct Covered {
     pub corners: [u32; 3],
     /// How much the barycentric coordinates of the second and the third corner grow from pixel to pixel.
     pub across: [f32; 2],
-    /// How many of the runs that follow are its own.
-    pub runs: u32,
 }
 
-/// Triangles and their pixels, until they are drawn.
+/// The triangles of a band, and the runs of each of its scanlines in drawing order.
 #[derive(Debug, Default)]
-pub(crate) struct Batch {
+pub(crate) struct Cover {
     pub(super) triangles: Vec<Covered>,
+    pub(super) runs: Vec<Vec<Run>>,
     fetched: Vec<Fetched>,
-    runs: Vec<Run>,
-    count: usize,
 }
 
 /// A triangle as it is read: x and y of its corners in sub-pixels.
@@ -53,18 +56,18 @@ struct Fetched {
     places: [[i32; 2]; 3],
 }
 
-impl Batch {
-    /// The runs of all triangles, one triangle's after the other's.
-    pub(super) fn runs(&self) -> &[Run] {
-        &self.runs[..self.count]
+impl Cover {
+    /// Empties it, for `rows` scanlines.
+    pub fn clear(&mut self, rows: usize) {
+        self.triangles.clear();
+        self.runs.resize_with(rows.max(self.runs.len()), Vec::new);
+        self.runs.iter_mut().for_each(Vec::clear);
     }
 
-    /// Covers triangles from the front of `numbers` until there are enough, or there is a polygon of another shape; gives how
-    /// many it took.
+    /// Adds triangles from the front of `numbers`, until there are enough to look at something else, or there is a polygon of
+    /// another shape; gives how many it took.
     #[inline(never)]
-    pub fn fill<M: Lanes>(&mut self, m: M, frame: &Frame, numbers: &[u32], band: &Range<usize>) -> usize {
-        self.triangles.clear();
-        self.count = 0;
+    pub fn add<M: Lanes>(&mut self, m: M, frame: &Frame, numbers: &[u32], band: &Range<usize>) -> usize {
         m.vectorize(
             #[inline(always)]
             || {
@@ -113,23 +116,15 @@ impl Batch {
         // From column to column the edge functions grow by the height of the edge, 256 sub-pixels at a time.
         let scale = 256.0 * over_area;
         let across = [(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale];
-        let before = self.count;
-        let needed = before + rows.len();
-        if self.runs.len() < needed {
-            self.runs.resize(needed.next_power_of_two(), Run::default());
-        }
         let height = ya.max(yb).max(yc) - ya.min(yb).min(yc);
         // Corners outside the picture are far from its pixels.
         let is_whole = wide(xa.max(xb).max(xc)) - wide(xa.min(xb).min(xc)) <= wide(SMALL_WIDTH * 256);
         if is_whole && height < SMALL_HEIGHT * 256 {
-            self.small(m, x, y, over_area, columns, rows);
+            self.small(m, [x, y], over_area, columns, rows, band.start as i32);
         } else {
-            self.large(x, y, over_area, columns, rows);
+            self.large([x, y], over_area, columns, rows, band.start as i32);
         }
-        let runs = (self.count - before) as u32;
-        if runs > 0 {
-            self.triangles.push(Covered { number, corners, across, runs });
-        }
+        self.triangles.push(Covered { number, corners, across });
     }
 
     /// Edge functions over the bounding box: f_ij > 0 inside, in sub-pixels², in 32 bits.
@@ -137,12 +132,13 @@ impl Batch {
     fn small<M: Lanes>(
         &mut self,
         m: M,
-        x: [i32; 3],
-        y: [i32; 3],
+        [x, y]: [[i32; 3]; 2],
         over_area: f32,
         columns: Range<i32>,
         rows: Range<i32>,
+        top: i32,
     ) {
+        let source = self.triangles.len() as u32;
         let (px, py) = (256 * columns.start + 128, 256 * rows.start + 128);
         let (mut at, mut step, mut down, mut least) = ([0; 3], [0; 3], [0; 3], [0; 3]);
         for k in 0..3 {
@@ -171,20 +167,21 @@ impl Batch {
                 group += 1;
             }
             inside &= within;
-            let first = inside.trailing_zeros();
-            let weight = |i: usize| (at[i] + first as i32 * step[i]) as f32 * over_area;
-            let weights = [weight(1), weight(2)];
-            // Written anyway, and kept where it is not empty: which rows are cannot be predicted.
-            let (start, end) = (left + first, left + 32 - inside.leading_zeros());
-            self.runs[self.count] = Run { row: row as u32, start, end, weights };
-            self.count += usize::from(inside != 0);
+            if inside != 0 {
+                let first = inside.trailing_zeros();
+                let weight = |i: usize| (at[i] + first as i32 * step[i]) as f32 * over_area;
+                let weights = [weight(1), weight(2)];
+                let (start, end) = ((left + first) as u16, (left + 32 - inside.leading_zeros()) as u16);
+                self.runs[(row - top) as usize].push(Run { start, end, source, weights });
+            }
             at = each(|i| at[i] + down[i]);
         }
     }
 
     /// Crossings of the edges with the scanlines, in exact integers.
     #[inline(always)]
-    fn large(&mut self, x: [i32; 3], y: [i32; 3], over_area: f32, columns: Range<i32>, rows: Range<i32>) {
+    fn large(&mut self, [x, y]: [[i32; 3]; 2], over_area: f32, columns: Range<i32>, rows: Range<i32>, first_row: i32) {
+        let source = self.triangles.len() as u32;
         // From the top corner two edges go down; the third one follows one of them.
         let mut order = [0usize, 1, 2];
         order.sort_unstable_by_key(|&i| y[i]);
@@ -207,8 +204,8 @@ impl Batch {
                 if start < end {
                     let weight = |i: usize, j: usize| function(i, j, start, row) as f32 * over_area;
                     let weights = [weight(2, 0), weight(0, 1)];
-                    self.runs[self.count] = Run { row: row as u32, start: start as u32, end: end as u32, weights };
-                    self.count += 1;
+                    let (start, end) = (start as u16, end as u16);
+                    self.runs[(row - first_row) as usize].push(Run { start, end, source, weights });
                 }
                 long.advance();
                 short.advance();

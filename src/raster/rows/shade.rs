@@ -13,7 +13,7 @@ pub(super) fn row<S: Shader, M: Lanes>(
     m: M,
     consts: &[S::Consts<M::F>],
     only: Option<u32>,
-    row: &Row<'_>,
+    row: &Row,
     line: &mut [Vec<f32>; 3],
 ) {
     let drawn = row.drawn.clone();
@@ -43,7 +43,7 @@ pub(super) fn row<S: Shader, M: Lanes>(
 fn run<S: Shader, M: Lanes>(
     m: M,
     consts: &S::Consts<M::F>,
-    row: &Row<'_>,
+    row: &Row,
     pixels: Range<usize>,
     [red, green, blue]: &mut [Vec<f32>; 3],
 ) {

@@ -1,103 +1,116 @@
-//! Runs of pixels into a band: what a walk gives is written into the planes wherever it is nearer than what was drawn before.
+//! Runs of pixels into a row: what a walk gives is written into the planes wherever it is nearer than what was drawn before.
 
-use super::band::Band;
-use super::cover::Batch;
+use super::band::Row;
+use super::cover::{Covered, Run};
 use crate::frame::Frame;
 use crate::number::{Lanes, Planes, Scalar};
 use crate::raster::setup::SetUp;
 use crate::shader::{Shader, Span};
 use crate::walk::{Attribute, Walk};
 use alloc::vec::Vec;
-use core::ops::Range;
-
-/// What draws runs into one band.
-pub(super) struct Painter<'a, 'b, S: Shader, M: Lanes> {
-    pub m: M,
-    pub frame: &'a Frame,
-    pub setup: &'a SetUp<S, Scalar>,
-    pub band: &'b mut Band,
-    /// The scanlines of the band.
-    pub rows: Range<usize>,
-    /// Whether nearer polygons hide farther ones.
-    pub hides: bool,
-    /// Whether each pixel's material is noted, in a plane after the shader's.
-    pub notes_material: bool,
-    /// Attributes and depths at the corners of a batch of triangles.
-    pub fetched: Vec<([S::Attribute<f32>; 3], [f32; 3])>,
-}
 
 /// The span of a shader's attribute in plain numbers.
 pub(super) type SpanIn<S> = <<S as Shader>::Attribute<f32> as Attribute<f32>>::Span;
 
-impl<S: Shader, M: Lanes> Painter<'_, '_, S, M> {
-    /// Draws the triangles of a batch, whose attributes are linear over each of them.
-    #[inline(never)]
-    pub fn triangles(&mut self, batch: &Batch) {
-        self.m.vectorize(
-            #[inline(always)]
-            || {
-                let vertices = self.frame.vertices();
-                // Read in a loop of its own, as the batch was.
-                self.fetched.clear();
-                self.fetched.extend(batch.triangles.iter().map(|triangle| {
-                    let corners = triangle.corners.map(|v| v as usize);
-                    (corners.map(|v| self.setup.attributes[v]), corners.map(|v| vertices[v].depth))
-                }));
-                let mut runs = batch.runs();
-                for (i, triangle) in batch.triangles.iter().enumerate() {
-                    let (own, rest) = runs.split_at(triangle.runs as usize);
-                    runs = rest;
-                    let (attributes, [z, zb, zc]) = self.fetched[i];
-                    let Some(plane) = S::Attribute::plane(attributes, triangle.across) else { continue };
-                    let (to_b, to_c) = (zb - z, zc - z);
-                    let depth_step = to_b * triangle.across[0] + to_c * triangle.across[1];
-                    for run in own {
-                        let depth = z + to_b * run.weights[0] + to_c * run.weights[1];
-                        let attribute = S::Attribute::on_row(&plane, run.weights);
-                        let pixels = run.start as usize..run.end as usize;
-                        self.put(triangle.number, run.row as usize, pixels, [depth, depth_step], attribute);
-                    }
-                }
-            },
-        );
-    }
+type PlaneOf<S> = <<S as Shader>::Attribute<f32> as Attribute<f32>>::Plane;
 
-    /// Draws the run over `pixels` of scanline `row`; `depth` is that at its first pixel and its growth.
-    #[inline(never)]
-    pub fn run(&mut self, number: u32, row: usize, pixels: Range<usize>, depth: [f32; 2], attribute: SpanIn<S>) {
-        self.m.vectorize(
-            #[inline(always)]
-            || self.put(number, row, pixels, depth, attribute),
-        );
-    }
+/// What the runs of a band belong to.
+pub(super) struct Sources<S: Shader> {
+    triangles: Vec<Triangle<S>>,
+    /// Runs of other polygons: polygon, depth at the first pixel and its growth, attribute.
+    pub spans: Vec<(u32, [f32; 2], SpanIn<S>)>,
+}
 
+/// A triangle over which depth and attribute are linear.
+struct Triangle<S: Shader> {
+    number: u32,
+    depth: f32,
+    depth_to: [f32; 2],
+    depth_step: f32,
+    plane: PlaneOf<S>,
+}
+
+impl<S: Shader> Default for Sources<S> {
+    fn default() -> Self {
+        Sources { triangles: Vec::new(), spans: Vec::new() }
+    }
+}
+
+impl<S: Shader> Sources<S> {
+    /// Adds triangles, whose attributes are linear.
+    pub fn add(&mut self, frame: &Frame, setup: &SetUp<S, Scalar>, triangles: &[Covered]) {
+        let vertices = frame.vertices();
+        self.triangles.extend(triangles.iter().filter_map(|triangle| {
+            let corners = triangle.corners.map(|v| v as usize);
+            let plane = S::Attribute::plane(corners.map(|v| setup.attributes[v]), triangle.across)?;
+            let [depth, b, c] = corners.map(|v| vertices[v].depth);
+            let depth_to = [b - depth, c - depth];
+            let depth_step = depth_to[0] * triangle.across[0] + depth_to[1] * triangle.across[1];
+            Some(Triangle { number: triangle.number, depth, depth_to, depth_step, plane })
+        }));
+    }
+}
+
+/// What draws the runs of a scanline.
+pub(super) struct Painter<'a, S: Shader> {
+    pub frame: &'a Frame,
+    pub setup: &'a SetUp<S, Scalar>,
+    pub sources: &'a Sources<S>,
+    /// Whether nearer polygons hide farther ones.
+    pub hides: bool,
+    /// Whether each pixel's material is noted, in a plane after the shader's.
+    pub notes_material: bool,
+}
+
+impl<S: Shader> Painter<'_, S> {
+    /// Draws the runs of scanline `y`.
     #[inline(always)]
-    fn put(&mut self, number: u32, row: usize, pixels: Range<usize>, depth: [f32; 2], attribute: SpanIn<S>) {
-        let m = self.m;
+    pub fn runs<M: Lanes>(&self, m: M, y: usize, runs: &[Run], row: &mut Row) {
+        for run in runs {
+            let (number, depth, attribute) = if run.source & Run::SPAN == 0 {
+                let triangle = &self.sources.triangles[run.source as usize];
+                let [b, c] = run.weights;
+                let depth = triangle.depth + b * triangle.depth_to[0] + c * triangle.depth_to[1];
+                let attribute = S::Attribute::on_row(&triangle.plane, run.weights);
+                (triangle.number, [depth, triangle.depth_step], attribute)
+            } else {
+                self.sources.spans[(run.source ^ Run::SPAN) as usize]
+            };
+            self.run(m, y, (run, number), depth, attribute, row);
+        }
+    }
+
+    /// Draws one run; `depth` is that at its first pixel and its growth.
+    #[inline(always)]
+    fn run<M: Lanes>(
+        &self,
+        m: M,
+        y: usize,
+        (run, number): (&Run, u32),
+        depth: [f32; 2],
+        attribute: SpanIn<S>,
+        row: &mut Row,
+    ) {
         let material = self.frame.polygons()[number as usize].material;
         let (consts, polygon) = (&self.setup.consts[material as usize], &self.setup.polygons[number as usize]);
-        let start = Span { x: pixels.start as f32 + 0.5, y: row as f32 + 0.5, attribute };
+        let start = Span { x: f32::from(run.start) + 0.5, y: y as f32 + 0.5, attribute };
         let mut walk = S::walk(m, consts, polygon, &start);
         let (mut z, step) = (m.ramp(depth[0], depth[1]), m.stride(depth[1]));
-        let mut line = self.band.row(row - self.rows.start);
-        line.note(pixels.start, pixels.end);
-        let mut x = pixels.start;
-        while x < pixels.end {
+        let (mut x, end) = (usize::from(run.start), usize::from(run.end));
+        row.note(x, end);
+        while x < end {
             let pixel = walk.next();
-            let mut mask = m.first_lanes(pixels.end - x);
+            let mut mask = m.first_lanes(end - x);
             if self.hides {
-                mask = m.and(mask, m.less(z, m.load(line.depth(x))));
+                mask = m.and(mask, m.less(z, m.load(row.depth(x))));
             }
             if m.all(mask) {
-                line.put_all(m, x, z, pixel);
-                if self.notes_material {
-                    line.put_material(m, x, mask, material);
-                }
+                row.put_all(m, x, z, pixel);
             } else if m.any(mask) {
-                line.put(m, x, mask, z, pixel);
-                if self.notes_material {
-                    line.put_material(m, x, mask, material);
-                }
+                row.put(m, x, mask, z, pixel);
+            }
+            if self.notes_material {
+                row.put_material(m, x, mask, material);
             }
             z = z + step;
             x += M::WIDTH;
@@ -113,5 +126,5 @@ pub(super) const fn planes<S: Shader, M: Lanes>() -> Option<usize> {
     }
 }
 
-/// More planes than this and a band of four scanlines is no longer near.
+/// With more planes than this a row is no longer near.
 const MOST_PLANES: usize = 16;
