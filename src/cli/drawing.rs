@@ -9,7 +9,7 @@ use fastphong::frame::Frame;
 use fastphong::image_file::FilePicture;
 use fastphong::number::Level;
 use fastphong::picture::{Picture, Picture8};
-use fastphong::raster::{self, Edges, Plan, Renderer};
+use fastphong::raster::{self, Edges, Renderer};
 use fastphong::reference::{self, Model};
 use fastphong::scene::Encoding;
 use fastphong::shader::{METHODS, Variant};
@@ -117,7 +117,12 @@ impl Drawing {
             Content::Shaded(Method::Variant(variant), Engine::Scanlines(asked), simd) => {
                 let plan = variant.plan(&self.frame, Renderer { engine: *asked, level: simd.level() });
                 let text = line(&format!("the {} engine", plan.engine), plan.level.name(), plan.threads());
-                let reason = plan.reason.or_else(|| why_not_rows(variant, &self.frame, plan));
+                // Where the choice was left, why it is not rows, which are taken where they can be.
+                let by_rows = Renderer { engine: Some(raster::Engine::Row), level: plan.level };
+                let reason = plan.reason.or_else(|| match asked {
+                    None => variant.plan(&self.frame, by_rows).reason,
+                    Some(_) => None,
+                });
                 let is_other = asked.is_some_and(|asked| asked != plan.engine)
                     || matches!(simd, Simd::Level(level) if *level != plan.level);
                 (text, plan.threads(), reason.map(|reason| (reason, is_other)))
@@ -156,12 +161,6 @@ impl Drawing {
             },
         }
     }
-}
-
-/// Why `plan`, which was left to choose, is not by rows.
-fn why_not_rows(variant: &Variant, frame: &Frame, plan: Plan) -> Option<&'static str> {
-    let by_rows = Renderer { engine: Some(raster::Engine::Row), level: plan.level };
-    if plan.is_lectures_own() { None } else { variant.plan(frame, by_rows).reason }
 }
 
 /// Refuses an instruction set for what shades one pixel at a time.

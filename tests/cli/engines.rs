@@ -137,6 +137,9 @@ fn another_engine_than_asked_for_is_told_with_the_reason() {
         run(&format!("{flags} --verbose")).says(&format!(": {reason}"));
         run(&format!("{flags} --engine row")).says("drawn by the span engine, ").says(reason);
         assert_eq!(run(&format!("{flags} --engine row --quiet")).err, "");
+        run(&format!("{flags} --simd scalar --verbose"))
+            .says(&format!("drawn by the span engine, scalar, 1 thread: {reason}"));
+        assert!(!run(&format!("{flags} --engine span --verbose")).err.contains(reason), "{flags}: as asked for");
     }
     let five = "--light 1,0,1 --light 0,1,1 --light -1,0,1 --light 0,-1,1 --light 0,0,1";
     let reason = "drawn by the span engine, scalar, 1 thread: more than four lights are shaded one pixel at a time";
