@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct Machine {
     /// Name of the processor as the system gives it; `unknown` if it does not.
     pub cpu: String,
-    /// Logical processors that this program may use; the renderers use one.
+    /// Logical processors that this program may use.
     pub cores: usize,
     /// Operating system.
     pub os: String,

@@ -1,6 +1,7 @@
 //! `fastphong compare`: error and speed of every method on one scene, as a table.
 
-use super::measured::{TimingFlags, command_line};
+use super::engines::LectureFlags;
+use super::measured::{How, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
 use super::talk::{Talk, json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
@@ -14,6 +15,8 @@ pub struct Compare {
     input: String,
     #[command(flatten)]
     timing: TimingFlags,
+    #[command(flatten)]
+    drawn: LectureFlags,
     /// Print all as JSON
     #[arg(long)]
     json: bool,
@@ -24,7 +27,8 @@ pub struct Compare {
 impl Compare {
     /// Compares, times, and prints the table.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        let comparisons = self.timing.compare(&[&self.input], &self.scene, *talk)?;
+        let how = How { renderers: &[self.drawn.renderer()], threads: &self.drawn.threads };
+        let comparisons = self.timing.compare(&[&self.input], &self.scene, how, *talk)?;
         if self.json {
             json_to_stdout(&to_json(&comparisons, &Machine::this(), &command_line()))?;
         } else {

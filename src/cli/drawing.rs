@@ -1,16 +1,18 @@
 //! How a frame becomes a picture: which method, which engine.
 
+use super::engines::{ENGINES, Engine, Simd, cs171_shading};
 use super::talk::{Talk, grouped};
 use super::{Failure, aov::Aov};
 use fastphong::cs171::{self, Reading, Shading};
 use fastphong::encoding::store;
 use fastphong::frame::Frame;
 use fastphong::image_file::FilePicture;
-use fastphong::picture::Picture;
-use fastphong::raster::Edges;
+use fastphong::number::Level;
+use fastphong::picture::{Picture, Picture8};
+use fastphong::raster::{self, Edges, Renderer};
 use fastphong::reference::{self, Model};
 use fastphong::scene::Encoding;
-use fastphong::shader::{Info, METHODS, Variant};
+use fastphong::shader::{METHODS, Variant};
 use fastphong::suggest::nearest;
 use fastphong::triangulate::triangulated;
 
@@ -57,62 +59,11 @@ impl std::fmt::Display for Method {
     }
 }
 
-/// What finds the pixels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Engine {
-    /// Edge table and spans, as in the lecture.
-    #[default]
-    Scanline,
-    /// Bounding boxes and edge functions.
-    Barycentric(Edges),
-    /// CS171's algorithms as printed, in `f64`.
-    Cs171 {
-        /// Whether interpolated normals are made unit vectors, which the text leaves out.
-        normalise: bool,
-    },
-}
-
-/// The methods that CS171 has, by their names here.
-const CS171: [(&str, Shading); 3] =
-    [("flat-average", Shading::Flat), ("gouraud", Shading::Gouraud), ("naive-phong", Shading::Phong)];
-
-/// The engines that have a method.
-pub fn engines(info: &Info) -> String {
-    let mut all = vec!["scanline"];
-    all.extend(info.barycentric.then_some("barycentric"));
-    all.extend(CS171.iter().any(|(name, _)| *name == info.name).then_some("cs171"));
-    all.join(", ")
-}
-
-/// What CS171 calls a method, if it has it.
-fn cs171_shading(method: &Method) -> Option<Shading> {
-    let Method::Variant(variant) = method else { return None };
-    CS171.iter().find(|(name, _)| *name == variant.info().name).map(|(_, shading)| *shading)
-}
-
-/// `scanline`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or `cs171:normals=unit|as-printed`.
-pub fn engine(text: &str) -> Result<Engine, String> {
-    match text {
-        "scanline" | "span" => Ok(Engine::Scanline),
-        "barycentric" | "barycentric:edges=top-left" => Ok(Engine::Barycentric(Edges::TopLeft)),
-        "barycentric:edges=closed" => Ok(Engine::Barycentric(Edges::Closed)),
-        "cs171" | "cs171:normals=unit" => Ok(Engine::Cs171 { normalise: true }),
-        "cs171:normals=as-printed" => Ok(Engine::Cs171 { normalise: false }),
-        _ => Err(match (nearest(text, ["scanline", "barycentric", "cs171"]), text.split_once(':')) {
-            (Some(near), _) => format!("unknown engine: did you mean `{near}`?"),
-            (None, Some(("barycentric", _))) => "expected edges=top-left or edges=closed".to_owned(),
-            (None, Some(("cs171", _))) => "expected normals=unit or normals=as-printed".to_owned(),
-            (None, Some(("scanline" | "span", _))) => "the scanline engine has no parameters".to_owned(),
-            (None, _) => "expected `scanline`, `barycentric` or `cs171`".to_owned(),
-        }),
-    }
-}
-
 /// What of a frame is put into a picture.
 #[derive(Clone, Debug)]
 pub enum Content {
     /// Colours.
-    Shaded(Method, Engine),
+    Shaded(Method, Engine, Simd),
     /// Something else that is known of each pixel; the side of a square of the checkerboard, in world units.
     Aov(Aov, f64),
 }
@@ -127,37 +78,64 @@ impl Drawing {
     /// Prepares `frame` for the engine: the barycentric renderer and CS171's algorithms take triangles.
     ///
     /// # Errors
-    /// When the engine does not have the method.
+    /// When the engine does not have the method or the instruction set.
     pub fn new(frame: Frame, content: Content, talk: Talk) -> Result<Drawing, Failure> {
-        let (engine, has) = match &content {
-            Content::Shaded(_, Engine::Barycentric(_)) => {
-                let has = METHODS.iter().filter(|entry| entry.info.barycentric).map(|entry| entry.info.name);
-                ("the barycentric renderer", has.collect::<Vec<_>>())
+        let Content::Shaded(method, engine, simd) = &content else { return Ok(Drawing { frame, content }) };
+        let (name, title) = match (engine, method) {
+            (Engine::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
+            (Engine::Cs171 { .. }, _) => ("cs171", "CS171"),
+            (Engine::Scanlines(Some(engine)), Method::Reference(_)) => {
+                return Err(
+                    format!("the {engine} engine does not have `{method}`, which is none: leave out --engine").into()
+                );
             }
-            Content::Shaded(_, Engine::Cs171 { .. }) => ("CS171", CS171.map(|(name, _)| name).to_vec()),
+            (Engine::Scanlines(None), Method::Reference(_)) => {
+                pixel_by_pixel("the reference", *simd)?;
+                return Ok(Drawing { frame, content });
+            }
             _ => return Ok(Drawing { frame, content }),
         };
-        let Content::Shaded(method, _) = &content else { return Ok(Drawing { frame, content }) };
+        let has: Vec<&str> = ENGINES.iter().filter(|e| e.name == name).flat_map(|e| e.methods()).collect();
         let known = matches!(method, Method::Variant(variant) if has.contains(&variant.info().name));
         if !known {
-            return Err(format!("{engine} does not have `{method}`: expected one of {}", has.join(", ")).into());
+            return Err(format!("{title} does not have `{method}`: expected one of {}", has.join(", ")).into());
         }
-        let with_more_corners = frame.polygons().iter().filter(|polygon| polygon.count > 3).count();
-        if with_more_corners == 0 {
-            return Ok(Drawing { frame, content });
+        pixel_by_pixel(title, *simd)?;
+        Ok(Drawing { frame: in_triangles(frame, title, talk), content })
+    }
+
+    /// Says what draws the picture: in full to the curious, and to all where it is not what they asked for.
+    pub fn tell(&self, threads: Option<usize>, talk: Talk) {
+        let line = |engine: &str, level: &str, threads: usize| {
+            format!("drawn by {engine}, {level}, {threads} thread{}", if threads == 1 { "" } else { "s" })
+        };
+        let (text, used, reason) = match &self.content {
+            Content::Aov(..) => (line("the span engine", "scalar", 1), 1, None),
+            Content::Shaded(Method::Reference(_), ..) => (line("the reference", "f64", 1), 1, None),
+            Content::Shaded(_, Engine::Barycentric(_), _) => (line("the barycentric engine", "scalar", 1), 1, None),
+            Content::Shaded(_, Engine::Cs171 { .. }, _) => (line("the cs171 engine", "f64", 1), 1, None),
+            Content::Shaded(Method::Variant(variant), Engine::Scanlines(asked), simd) => {
+                let plan = variant.plan(&self.frame, Renderer { engine: *asked, level: simd.level() });
+                let text = line(&format!("the {} engine", plan.engine), plan.level.name(), plan.threads());
+                // Where the choice was left, why it is not rows, which are taken where they can be.
+                let by_rows = Renderer { engine: Some(raster::Engine::Row), level: plan.level };
+                let reason = plan.reason.or_else(|| match asked {
+                    None => variant.plan(&self.frame, by_rows).reason,
+                    Some(_) => None,
+                });
+                let is_other = asked.is_some_and(|asked| asked != plan.engine)
+                    || matches!(simd, Simd::Level(level) if *level != plan.level);
+                (text, plan.threads(), reason.map(|reason| (reason, is_other)))
+            }
+        };
+        match reason {
+            Some((reason, true)) => talk.note(&format!("{text}: {reason}")),
+            Some((reason, false)) => talk.detail(&format!("{text}: {reason}")),
+            None => talk.detail(&text),
         }
-        let cut = triangulated(&frame);
-        let (of, into) = (grouped(with_more_corners), grouped(cut.frame.polygons().len()));
-        talk.note(&format!(
-            "{of} polygons of more than three corners are cut into triangles for {engine}: {into} in all"
-        ));
-        if cut.not_simple > 0 {
-            talk.warning(&match cut.not_simple {
-                1 => "1 polygon crosses or overlaps itself and is left out".to_owned(),
-                n => format!("{} polygons cross or overlap themselves and are left out", grouped(n)),
-            });
+        if let (Some(threads @ 2..), 1) = (threads, used) {
+            talk.note(&format!("--threads {threads} leaves the pixels on one thread: {text}"));
         }
-        Ok(Drawing { frame: cut.frame, content })
     }
 
     /// The picture: floats if `linear`, else as it is stored in 8 bits.
@@ -166,18 +144,51 @@ impl Drawing {
         match (&self.content, linear) {
             (Content::Aov(aov, square), true) => FilePicture::linear(aov.linear(frame, *square)),
             (Content::Aov(aov, square), false) => FilePicture::stored(aov.stored(frame, *square)),
-            (Content::Shaded(Method::Reference(model), _), linear) => {
+            (Content::Shaded(Method::Reference(model), ..), linear) => {
                 wide(&reference::render(frame, *model).picture, frame.encoding(), linear)
             }
-            (Content::Shaded(method, Engine::Cs171 { normalise }), linear) => {
-                // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
-                let shading = cs171_shading(method).unwrap_or(Shading::Phong);
-                let reading = Reading { normalise: *normalise, cull: false, ..Reading::default() };
-                wide(&cs171::render(frame, shading, reading).filtered(frame.samples()), frame.encoding(), linear)
-            }
-            (Content::Shaded(Method::Variant(variant), engine), linear) => shaded(frame, variant, *engine, linear),
+            (Content::Shaded(Method::Variant(variant), engine, simd), linear) => match engine {
+                Engine::Scanlines(engine) => {
+                    by_scanlines(frame, variant, Renderer { engine: *engine, level: simd.level() }, linear)
+                }
+                Engine::Barycentric(edges) => barycentric(frame, variant, *edges, linear),
+                Engine::Cs171 { normalise } => {
+                    // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
+                    let shading = cs171_shading(variant.info()).unwrap_or(Shading::Phong);
+                    let reading = Reading { normalise: *normalise, cull: false, ..Reading::default() };
+                    wide(&cs171::render(frame, shading, reading).filtered(frame.samples()), frame.encoding(), linear)
+                }
+            },
         }
     }
+}
+
+/// Refuses an instruction set for what shades one pixel at a time.
+fn pixel_by_pixel(what: &str, simd: Simd) -> Result<(), Failure> {
+    match simd {
+        Simd::Auto | Simd::Level(Level::Scalar) => Ok(()),
+        Simd::Level(level) => {
+            Err(format!("{what} goes pixel by pixel and has no `{level}`: expected --simd auto or scalar").into())
+        }
+    }
+}
+
+/// `frame` with its polygons cut into triangles, if it has others.
+fn in_triangles(frame: Frame, engine: &str, talk: Talk) -> Frame {
+    let with_more_corners = frame.polygons().iter().filter(|polygon| polygon.count > 3).count();
+    if with_more_corners == 0 {
+        return frame;
+    }
+    let cut = triangulated(&frame);
+    let (of, into) = (grouped(with_more_corners), grouped(cut.frame.polygons().len()));
+    talk.note(&format!("{of} polygons of more than three corners are cut into triangles for {engine}: {into} in all"));
+    if cut.not_simple > 0 {
+        talk.warning(&match cut.not_simple {
+            1 => "1 polygon crosses or overlaps itself and is left out".to_owned(),
+            n => format!("{} polygons cross or overlap themselves and are left out", grouped(n)),
+        });
+    }
+    cut.frame
 }
 
 /// A picture in `f64` as a file has it.
@@ -190,19 +201,20 @@ fn wide(picture: &Picture<[f64; 4]>, encoding: Encoding, linear: bool) -> FilePi
     }
 }
 
-fn shaded(frame: &Frame, variant: &Variant, engine: Engine, linear: bool) -> FilePicture {
+fn by_scanlines(frame: &Frame, variant: &Variant, renderer: Renderer, linear: bool) -> FilePicture {
+    if linear {
+        return FilePicture::linear(variant.render_linear_with(frame, renderer));
+    }
+    let mut picture = Picture8::new(0, 0, [0; 4]);
+    variant.render_with(frame, renderer, &mut picture);
+    FilePicture::stored(picture)
+}
+
+fn barycentric(frame: &Frame, variant: &Variant, edges: Edges, linear: bool) -> FilePicture {
+    let picture = match linear {
+        true => variant.render_barycentric_linear(frame, edges).map(FilePicture::linear),
+        false => variant.render_barycentric(frame, edges).map(FilePicture::stored),
+    };
     // `Drawing::new` asked whether the barycentric renderer has the method; were it not so, the lecture's engine does.
-    if let Engine::Barycentric(edges) = engine {
-        let picture = match linear {
-            true => variant.render_barycentric_linear(frame, edges).map(FilePicture::linear),
-            false => variant.render_barycentric(frame, edges).map(FilePicture::stored),
-        };
-        if let Some(picture) = picture {
-            return picture;
-        }
-    }
-    match linear {
-        true => FilePicture::linear(variant.render_linear(frame)),
-        false => FilePicture::stored(variant.render(frame)),
-    }
+    picture.unwrap_or_else(|| by_scanlines(frame, variant, Renderer::LECTURE, linear))
 }

@@ -1,6 +1,6 @@
 //! `fastphong explain`: all that is said about one method, and what it costs.
 
-use super::drawing::engines;
+use super::engines::engines_with;
 use super::list::{exactness, method_json};
 use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
@@ -85,7 +85,7 @@ impl Explain {
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
         section("lights at positions", &wrapped(info.local.sentence(), 2));
-        section("engines", &format!("  {}\n", engines(info)));
+        section("engines", &format!("  {}\n", engines_with(info)));
         let parameters = info.parameters.iter().zip(self.method.parameters());
         let parameters: String = parameters
             .map(|(p, value)| {

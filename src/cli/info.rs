@@ -1,5 +1,6 @@
 //! `fastphong info`: what a scene or a mesh consists of.
 
+use super::chosen::{Choice, choices};
 use super::mesh_facts::{MeshFacts, PLANAR};
 use super::scene_flags::SceneFlags;
 use super::table::{columns, wrapped};
@@ -51,9 +52,10 @@ impl Info {
         let objects: Vec<Described> = objects
             .map(|(object, section)| Described { name: &section.mesh.value, object, facts: facts(object) })
             .collect();
+        let chosen = choices(&scene.frame()?);
         match self.json {
-            true => json_to_stdout(&scene_json(&self.input, &file, scene, &objects))?,
-            false => to_stdout(scene_text(&self.input, &file, scene, &objects).as_bytes())?,
+            true => json_to_stdout(&scene_json(&self.input, &file, scene, &objects, &chosen))?,
+            false => to_stdout(scene_text(&self.input, &file, scene, &objects, &chosen).as_bytes())?,
         }
         Ok(Outcome::Done)
     }
@@ -63,7 +65,7 @@ fn row(name: &str, value: impl Into<String>) -> Vec<String> {
     vec![format!("  {name}"), value.into()]
 }
 
-fn scene_text(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described]) -> String {
+fn scene_text(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described], chosen: &[Choice]) -> String {
     let mut text = input.to_owned();
     if let Some(title) = &file.title {
         text += &format!(": {}", title.value);
@@ -78,16 +80,16 @@ fn scene_text(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described
         Projection::Perspective { fovy } => format!("perspective, {fovy} degrees"),
     };
     let total: usize = objects.iter().map(|object| object.object.mesh.polygon_count()).sum();
-    text += &columns(
-        &[
-            row("picture", format!("{} x {}", scene.width, scene.height)),
-            row("camera", format!("at {}, toward {}; {projection}", point(camera.eye), point(camera.target))),
-            row("lights", scene.lights.len().to_string()),
-            row("objects", format!("{}, {} polygons in all", objects.len(), grouped(total))),
-        ],
-        false,
-        &[],
-    );
+    let mut rows = vec![
+        row("picture", format!("{} x {}", scene.width, scene.height)),
+        row("camera", format!("at {}, toward {}; {projection}", point(camera.eye), point(camera.target))),
+        row("lights", scene.lights.len().to_string()),
+        row("objects", format!("{}, {} polygons in all", objects.len(), grouped(total))),
+    ];
+    for (number, choice) in chosen.iter().enumerate() {
+        rows.push(row(if number == 0 { "auto" } else { "" }, choice.text()));
+    }
+    text += &columns(&rows, false, &[]);
     for object in objects {
         text += &format!("\n{}\n{}", object.name, object_text(object));
     }
@@ -147,7 +149,7 @@ fn normals(described: &Described) -> String {
     }
 }
 
-fn scene_json(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described]) -> Value {
+fn scene_json(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described], chosen: &[Choice]) -> Value {
     let camera = &scene.camera;
     let (half_height, fovy) = match camera.projection {
         Projection::Orthographic { half_height } => (Some(half_height), None),
@@ -170,6 +172,7 @@ fn scene_json(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described
             "far": camera.far,
         },
         "lights": scene.lights.len(),
+        "auto": chosen.iter().map(Choice::json).collect::<Vec<_>>(),
         "objects": objects.iter().map(object_json).collect::<Vec<_>>(),
     })
 }

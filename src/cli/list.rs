@@ -1,6 +1,6 @@
 //! `fastphong list`: what there is, each from its own table.
 
-use super::drawing::engines;
+use super::engines::{ENGINES, EngineInfo, engines_with};
 use super::table::columns;
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
@@ -8,11 +8,12 @@ use fastphong::figures::FIGURES;
 use fastphong::input::SCENES;
 use fastphong::mesh::builtin::{BUILTINS, Kind, Parameter};
 use fastphong::metrics::{Better, METRICS};
+use fastphong::number::Level;
 use fastphong::scene::file::SceneFile;
 use fastphong::shader::{Info, METHODS, Roundings, Stepped};
 use serde_json::{Value, json};
 
-/// List methods, meshes, scenes, metrics or figures of the lectures
+/// List methods, meshes, scenes, metrics, figures of the lectures, engines or instruction sets
 #[derive(clap::Args, Debug)]
 pub struct List {
     /// What to list
@@ -35,6 +36,10 @@ enum Subject {
     Metrics,
     /// Figures of the lectures
     Figures,
+    /// What finds the pixels
+    Engines,
+    /// Instruction sets of the pixel loops
+    Simd,
 }
 
 impl List {
@@ -47,6 +52,8 @@ impl List {
                 Subject::Scenes => scenes_json()?,
                 Subject::Metrics => metrics_json(),
                 Subject::Figures => figures_json(),
+                Subject::Engines => ENGINES.iter().map(EngineInfo::json).collect(),
+                Subject::Simd => simd_json(),
             };
             json_to_stdout(&entries.into())?;
         } else {
@@ -56,6 +63,8 @@ impl List {
                 Subject::Scenes => scenes()?,
                 Subject::Metrics => metrics(),
                 Subject::Figures => figures(),
+                Subject::Engines => engines(),
+                Subject::Simd => simd(),
             };
             to_stdout(text.as_bytes())?;
         }
@@ -71,7 +80,7 @@ fn methods() -> String {
         text += &format!("    perspective: {}\n", info.perspective.sentence());
         text += &format!("    positions: {}\n", info.local.sentence());
         text += &format!("    {}\n", exactness(info));
-        text += &format!("    engines: {}\n", engines(info));
+        text += &format!("    engines: {}\n", engines_with(info));
         for p in info.parameters {
             text += &format!("    {}={}..{}, default {}: {}\n", p.name, p.least, p.most, p.default, p.meaning);
         }
@@ -225,4 +234,39 @@ fn figures() -> String {
 fn figures_json() -> Vec<Value> {
     let entry = |figure: &&fastphong::figures::Figure| json!({ "name": figure.name, "title": figure.title, "lecture": figure.lecture });
     FIGURES.iter().map(entry).collect()
+}
+
+fn engines() -> String {
+    let mut text = String::new();
+    for engine in &ENGINES {
+        let EngineInfo { name, title, draws, runs } = engine;
+        text += &format!("{name}\n    {title}\n    draws: {draws}\n    on: {runs}\n");
+        text += &format!("    methods: {}\n", engine.methods().collect::<Vec<_>>().join(", "));
+    }
+    text
+}
+
+fn simd() -> String {
+    let rows = Level::ALL.map(|level| {
+        let here = match () {
+            () if level == Level::best() => "here, taken by auto",
+            () if level.is_available() => "here",
+            () => "not on this machine",
+        };
+        [level.name(), here, level.title()].map(str::to_owned).to_vec()
+    });
+    columns(&rows, false, &[])
+}
+
+fn simd_json() -> Vec<Value> {
+    let entry = |level: Level| {
+        json!({
+            "name": level.name(),
+            "title": level.title(),
+            "width": level.width(),
+            "available": level.is_available(),
+            "auto": level == Level::best(),
+        })
+    };
+    Level::ALL.map(entry).to_vec()
 }

@@ -1,12 +1,14 @@
 //! What the commands that compare and time methods have in common.
 
 use super::Failure;
+use super::engines::ThreadFlags;
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
 use super::talk::Talk;
 use fastphong::bench::{Limits, Machine};
 use fastphong::comparison::{Comparison, Input, Options, compare};
 use fastphong::input::{self, SCENES};
+use fastphong::raster::Renderer;
 use fastphong::shader::{METHODS, Variant};
 use std::time::Duration;
 
@@ -35,6 +37,13 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
     seconds.ok_or_else(|| "expected seconds: a number, 0 or more".to_owned())
 }
 
+/// By what, one after the other, and on how many threads methods are drawn.
+#[derive(Clone, Copy)]
+pub struct How<'a> {
+    pub renderers: &'a [Renderer],
+    pub threads: &'a ThreadFlags,
+}
+
 /// The flags that say what is timed, and for how long.
 #[derive(clap::Args, Debug)]
 pub struct TimingFlags {
@@ -47,20 +56,25 @@ pub struct TimingFlags {
 }
 
 impl TimingFlags {
-    /// How long to take times.
-    pub fn options(&self) -> Options {
-        Options { timing: Some(Limits { time_budget: self.time_budget, ..Limits::default() }) }
+    /// How to draw, and how long to take times.
+    pub fn options(&self, renderer: Renderer) -> Options {
+        Options { timing: Some(Limits { time_budget: self.time_budget, ..Limits::default() }), renderer }
     }
 
-    /// Draws, compares and times every input, with a progress bar where it takes long.
-    pub fn compare(&self, inputs: &[&str], scene: &SceneFlags, talk: Talk) -> Result<Vec<Comparison>, Failure> {
-        if Machine::this().profile != "release" {
-            talk.warning("built without optimisation: the times say nothing (cargo build --release)");
-        }
+    /// Draws, compares and times every input by every renderer, with a progress bar where it takes long.
+    pub fn compare(
+        &self,
+        inputs: &[&str],
+        scene: &SceneFlags,
+        how: How<'_>,
+        talk: Talk,
+    ) -> Result<Vec<Comparison>, Failure> {
+        warn_of_debug_build(talk);
+        let renderers = how.renderers;
         // What can fail at once does so before the first minute is spent.
         let files = inputs.iter().map(|name| scene.load(name)).collect::<Result<Vec<_>, _>>()?;
         let progress = Progress::silent_between_moves(talk);
-        let mut comparisons = Vec::with_capacity(files.len());
+        let mut comparisons = Vec::with_capacity(files.len() * renderers.len());
         for (number, (name, file)) in inputs.iter().zip(&files).enumerate() {
             let told = |part: f32, what: &str| {
                 progress.at((number as f32 + part) / files.len() as f32, &format!("{name}: {what}"));
@@ -71,9 +85,21 @@ impl TimingFlags {
             let frame = resolved.scene.frame()?;
             drop(resolved);
             let input = Input { name: (*name).to_owned(), frame: &frame };
-            comparisons.push(compare(&input, &self.methods.0, &self.options(), &mut |part, what| told(part, what)));
+            for (turn, renderer) in renderers.iter().enumerate() {
+                let told = |part: f32, what: &str| told((turn as f32 + part) / renderers.len() as f32, what);
+                let (methods, options) = (&self.methods.0, self.options(*renderer));
+                let compare = || compare(&input, methods, &options, &mut |part, what| told(part, what));
+                comparisons.push(how.threads.install_for(*renderer, compare)?);
+            }
         }
         Ok(comparisons)
+    }
+}
+
+/// Says that times of a build for finding mistakes are none.
+pub fn warn_of_debug_build(talk: Talk) {
+    if Machine::this().profile != "release" {
+        talk.warning("built without optimisation: the times say nothing (cargo build --release)");
     }
 }
 

@@ -5,12 +5,15 @@
 
 mod aov;
 mod bench;
+mod chosen;
 mod compare;
 mod diff;
 mod drawing;
+mod engines;
 mod explain;
 mod failure;
 mod figure;
+mod frame_times;
 mod info;
 mod list;
 mod measured;

@@ -1,7 +1,8 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::Aov;
-use super::drawing::{self, Content, Drawing, Engine, Method};
+use super::drawing::{self, Content, Drawing, Method};
+use super::engines::{self, Engine, Simd, ThreadFlags};
 use super::output::{self, Output};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
@@ -32,13 +33,19 @@ pub struct Render {
     /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
     #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
     method: Method,
-    /// What finds the pixels: `scanline` (also called `span`); `barycentric`, also with `:edges=top-left|closed`; or `cs171`,
-    /// CS171's algorithms as printed, closed edges, in f64, slow, for flat-average, gouraud and naive-phong, also with
-    /// `:normals=unit|as-printed`
-    #[arg(long, default_value = "scanline", value_parser = drawing::engine)]
+    /// What finds the pixels: `span`, the lecture's way (also called `scanline`); `row`; `auto`, the faster of the two;
+    /// `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See `fastphong
+    /// list engines`
+    #[arg(long, default_value = "auto", value_parser = engines::engine)]
     engine: Engine,
+    /// Instruction set of the pixel loops: `auto`, the best of this machine, or one of `fastphong list simd`. `--engine span
+    /// --simd scalar` is the lecture's own form: one thread, the same bytes on every platform
+    #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = engines::simd)]
+    simd: Simd,
+    #[command(flatten)]
+    threads: ThreadFlags,
     /// Show something else than colours
-    #[arg(long, value_enum, conflicts_with_all = ["method", "engine"])]
+    #[arg(long, value_enum, conflicts_with_all = ["method", "engine", "simd"])]
     aov: Option<Aov>,
     /// Side of a square of `--aov checkerboard`, in world units
     #[arg(long, value_name = "UNITS", default_value = "1", value_parser = values::length, allow_hyphen_values = true, requires = "aov")]
@@ -65,6 +72,10 @@ impl Render {
     /// Draws, compares and prints, as asked for.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         let talk = *talk;
+        self.threads.install(|| self.draw(talk))?
+    }
+
+    fn draw(&self, talk: Talk) -> Result<Outcome, Failure> {
         let output = self.checked_output()?;
         // A picture on standard output leaves no room there for words.
         let say: fn(&str) -> Result<(), Failure> = match &output {
@@ -113,7 +124,11 @@ impl Render {
             progress.aside(|| tell_of_conflicts(&found, talk));
         }
         progress.at(0.5, "shading");
-        let drawing = progress.aside(|| Drawing::new(frame, self.content(), talk))?;
+        let drawing = progress.aside(|| {
+            let drawing = Drawing::new(frame, self.content(), talk)?;
+            drawing.tell(self.threads.threads, talk);
+            Ok::<_, Failure>(drawing)
+        })?;
         if let Some(output) = &output {
             self.write(&drawing, output, &progress, talk)?;
         }
@@ -154,7 +169,7 @@ impl Render {
     fn content(&self) -> Content {
         match self.aov {
             Some(aov) => Content::Aov(aov, self.square),
-            None => Content::Shaded(self.method.clone(), self.engine),
+            None => Content::Shaded(self.method.clone(), self.engine, self.simd),
         }
     }
 

@@ -1,7 +1,8 @@
 //! `fastphong report`: every method on every scene, as one page.
 
+use super::engines::LectureFlags;
 use super::figure::{drawn, page_folder};
-use super::measured::{TimingFlags, command_line, named_or_shipped};
+use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
 use super::talk::{Talk, to_stdout};
@@ -26,6 +27,8 @@ pub struct Report {
     inputs: Vec<String>,
     #[command(flatten)]
     timing: TimingFlags,
+    #[command(flatten)]
+    drawn: LectureFlags,
     /// Where the page goes; its folder is made if there is none
     #[arg(short, long, value_name = "FILE", default_value = "report/index.html")]
     output: PathBuf,
@@ -70,15 +73,17 @@ impl Report {
     /// Compares, times, and writes the page.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         let talk = *talk;
+        self.drawn.install(|| self.make(talk))?
+    }
+
+    fn make(&self, talk: Talk) -> Result<Outcome, Failure> {
         let names = named_or_shipped(&self.inputs);
         // What can fail at once does so before the first minute is spent.
         let files = names.iter().map(|name| self.scene.load(name)).collect::<Result<Vec<_>, Failure>>()?;
         let folder = page_folder(&self.output)?;
         let figures = self.figures();
         let machine = Machine::this();
-        if machine.profile != "release" {
-            talk.warning("built without optimisation: the times say nothing (cargo build --release)");
-        }
+        warn_of_debug_build(talk);
         let progress = Progress::silent_between_moves(talk);
         // Figures take about as long as two scenes.
         let scenes = files.len() as f32 + if figures.is_empty() { 0.0 } else { 2.0 };
@@ -125,8 +130,8 @@ impl Report {
         drop(resolved);
         let input = Input { name: name.to_owned(), frame: &frame };
         // Comparing is most of the work; pictures are encoded in the rest.
-        let comparison =
-            compare(&input, &self.timing.methods.0, &self.timing.options(), &mut |part, what| told(0.9 * part, what));
+        let options = self.timing.options(self.drawn.renderer());
+        let comparison = compare(&input, &self.timing.methods.0, &options, &mut |part, what| told(0.9 * part, what));
         told(0.9, "pictures");
         let triangles = triangulation(&frame, &comparison.reference);
         let text = |text: &Option<Located<String>>| text.as_ref().map(|t| t.value.clone());

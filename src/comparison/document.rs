@@ -4,6 +4,7 @@ use super::{Comparison, Row, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::bench::{Machine, Ratio, Timing};
 use crate::frame::FrameStats;
 use crate::metrics::Difference;
+use crate::raster::{Engine, Renderer};
 use crate::scene::{Encoding, Interpolation};
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
@@ -51,8 +52,46 @@ pub struct ComparisonData {
     pub covered_pixels: usize,
     pub fragments: usize,
     pub stats: StatsData,
+    /// See [`Comparison::renderer`].
+    #[serde(default)]
+    pub renderer: RendererData,
     pub rows: Vec<RowData>,
     pub barycentric: Vec<RowData>,
+}
+
+/// How the variants were to be drawn; a row says how it was.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RendererData {
+    /// `span`, `row`, or `auto`: for each row the one that is faster for most frames.
+    pub engine: String,
+    /// The instruction set of the pixel loops: `scalar`, `sse4.2`, `avx2` or `neon`.
+    pub level: String,
+    /// Threads.
+    pub threads: usize,
+}
+
+impl Default for RendererData {
+    /// The lecture's own form, in which all was drawn before there were others.
+    fn default() -> Self {
+        RendererData::new(Renderer::LECTURE, 1)
+    }
+}
+
+impl RendererData {
+    pub(super) fn new(renderer: Renderer, threads: usize) -> Self {
+        let engine = renderer.engine.map_or("auto", Engine::name).to_string();
+        RendererData { engine, level: renderer.level.name().to_string(), threads }
+    }
+
+    /// The three in words: `the span engine, scalar, 1 thread`.
+    pub fn line(&self) -> String {
+        let RendererData { engine, level, threads } = self;
+        let engine = match engine.as_str() {
+            "auto" => "the engine that suits each".to_string(),
+            engine => alloc::format!("the {engine} engine"),
+        };
+        alloc::format!("{engine}, {level}, {threads} thread{}", if *threads == 1 { "" } else { "s" })
+    }
 }
 
 /// [`FrameStats`].
@@ -78,8 +117,14 @@ pub struct RowData {
     pub method: String,
     /// The values of all its parameters.
     pub parameters: BTreeMap<String, u32>,
-    /// `scanline` or `barycentric`.
+    /// `span`, `row` or `barycentric`.
     pub engine: String,
+    /// The instruction set that drew it.
+    #[serde(default = "lecture_level")]
+    pub level: String,
+    /// The threads that walked and shaded its pixels.
+    #[serde(default = "lecture_threads")]
+    pub threads: usize,
     /// The closed form that `own` is the difference from: `flat`, `gouraud`, `phong` or `slerp`.
     pub model: String,
     /// See [`Row::error`].
@@ -94,6 +139,21 @@ pub struct RowData {
     pub other_polygon: usize,
     /// `None` if no times were taken.
     pub speed: Option<SpeedData>,
+}
+
+fn lecture_level() -> String {
+    RendererData::default().level
+}
+
+fn lecture_threads() -> usize {
+    RendererData::default().threads
+}
+
+impl RowData {
+    /// Whether the barycentric renderer drew it.
+    pub fn is_barycentric(&self) -> bool {
+        self.engine == super::Engine::Barycentric.name()
+    }
 }
 
 /// A [`Difference`], and whether there is none.
@@ -215,6 +275,7 @@ impl From<&Comparison> for ComparisonData {
             covered_pixels: c.covered_pixels,
             fragments: c.fragments,
             stats: c.stats.into(),
+            renderer: RendererData::new(c.renderer, c.threads),
             rows: c.rows.iter().map(RowData::from).collect(),
             barycentric: c.barycentric.iter().map(RowData::from).collect(),
         }
@@ -237,6 +298,8 @@ impl From<&Row> for RowData {
             method: info.name.to_string(),
             parameters: info.parameters.iter().map(|p| p.name.to_string()).zip(values.copied()).collect(),
             engine: row.engine.name().to_string(),
+            level: row.level.name().to_string(),
+            threads: row.threads,
             model: info.model.name().into(),
             error: row.error.into(),
             own: row.own.into(),

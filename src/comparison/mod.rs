@@ -32,7 +32,7 @@
 //! let frame = scene.frame()?;
 //!
 //! let variants = [Variant::parse("gouraud")?, Variant::parse("fast-phong:steps=1")?];
-//! let options = Options { timing: None }; // errors only
+//! let options = Options { timing: None, ..Options::default() }; // errors only
 //! let comparison = compare(&Input { name: "sphere".into(), frame: &frame }, &variants, &options, &mut |_, _| {});
 //! let [naive, gouraud, fast] = &comparison.rows[..] else { unreachable!("naive Phong is always among them") };
 //! assert!(naive.error.rms < fast.error.rms && fast.error.rms < gouraud.error.rms);
@@ -49,7 +49,8 @@ mod tests;
 mod triangulation;
 
 pub use document::{
-    ComparisonData, DifferenceData, Document, DocumentError, RatioData, RowData, SCHEMA, SpeedData, StatsData, to_json,
+    ComparisonData, DifferenceData, Document, DocumentError, RatioData, RendererData, RowData, SCHEMA, SpeedData,
+    StatsData, to_json,
 };
 pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
@@ -58,8 +59,9 @@ pub use triangulation::{Triangulation, triangulation};
 use crate::bench::Limits;
 use crate::frame::{Frame, FrameStats};
 use crate::metrics::Difference;
+use crate::number::Level;
 use crate::picture::{LinearPicture, Picture8};
-use crate::raster::coverage;
+use crate::raster::{self, Plan, Renderer, coverage};
 use crate::scene::{Encoding, Interpolation};
 use crate::shader::{METHODS, Variant};
 use alloc::string::{String, ToString};
@@ -87,11 +89,14 @@ pub struct Input<'a> {
 pub struct Options {
     /// How long to take times; `None` takes none, so that the result is the same to the last bit at every run.
     pub timing: Option<Limits>,
+    /// How the variants draw. The barycentric renderer has one way only.
+    pub renderer: Renderer,
 }
 
 impl Default for Options {
+    /// With times, in the lecture's own form.
     fn default() -> Self {
-        Options { timing: Some(Limits::default()) }
+        Options { timing: Some(Limits::default()), renderer: Renderer::LECTURE }
     }
 }
 
@@ -122,16 +127,20 @@ pub struct Comparison {
     pub fragments: usize,
     /// What became of the scene's polygons on their way into the frame.
     pub stats: FrameStats,
+    /// How the variants were to be drawn; a row says how it was.
+    pub renderer: Renderer,
+    /// Threads that there were.
+    pub threads: usize,
     /// The picture of the `f64` Phong reference.
     pub reference: LinearPicture,
-    /// The variants in the scanline engine, in the order given; before them naive Phong if it was not given.
+    /// The variants drawn by scanlines, in the order given; before them naive Phong if it was not given.
     pub rows: Vec<Row>,
     /// The methods of the barycentric renderer that the rows are measured against.
     pub barycentric: Vec<Row>,
 }
 
 impl Comparison {
-    /// All rows: the scanline engine's, then the barycentric renderer's.
+    /// All rows: those drawn by scanlines, then the barycentric renderer's.
     pub fn all_rows(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().chain(&self.barycentric)
     }
@@ -140,9 +149,9 @@ impl Comparison {
 /// What drew a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engine {
-    /// The lecture's: [`crate::raster::scanline`].
-    Scanline,
-    /// The one it is measured against: [`crate::raster::barycentric`].
+    /// By scanlines: [`raster::Engine::Span`] is the lecture's.
+    Scanlines(raster::Engine),
+    /// The one they are measured against: [`crate::raster::barycentric`].
     Barycentric,
 }
 
@@ -150,7 +159,7 @@ impl Engine {
     /// Its name in tables and files.
     pub fn name(self) -> &'static str {
         match self {
-            Engine::Scanline => "scanline",
+            Engine::Scanlines(engine) => engine.name(),
             Engine::Barycentric => "barycentric",
         }
     }
@@ -163,6 +172,10 @@ pub struct Row {
     pub variant: Variant,
     /// What drew it.
     pub engine: Engine,
+    /// The instruction set of its pixel loops.
+    pub level: Level,
+    /// How many threads walked and shaded its pixels: [`Plan::threads`].
+    pub threads: usize,
     /// Its difference from the Phong reference: see [`WHAT_IS_COMPARED`].
     pub error: Difference,
     /// Its difference from its own closed form ([`crate::shader::Info::model`]): how well it does what it means to do. In
@@ -224,7 +237,7 @@ pub fn compare(
     let references = References::new(frame);
     let mut scanline = |variant: &Variant| {
         next(&variant.to_string());
-        references.scanline_row(frame, variant)
+        references.scanline_row(frame, variant, options.renderer)
     };
     let mut rows: Vec<Row> = variants.iter().map(&mut scanline).collect();
     let mut barycentric = |variant: &Variant| {
@@ -243,7 +256,7 @@ pub fn compare(
             &mut rows,
             &mut barycentric,
             covered_pixels,
-            limits,
+            (options.renderer, limits),
             progress,
         );
     }
@@ -261,10 +274,17 @@ pub fn compare(
         covered_pixels,
         fragments,
         stats: frame.stats(),
+        renderer: options.renderer,
+        threads: plan_of(options.renderer).threads(),
         reference: references.phong,
         rows,
         barycentric,
     }
+}
+
+/// What `renderer` does where it can do as it says.
+fn plan_of(renderer: Renderer) -> Plan {
+    Plan { engine: renderer.engine.unwrap_or(raster::Engine::Row), level: renderer.level, reason: None }
 }
 
 fn with_baseline(variants: &[Variant]) -> Vec<Variant> {

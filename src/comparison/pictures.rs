@@ -3,8 +3,9 @@
 use super::{Engine, Row};
 use crate::frame::Frame;
 use crate::metrics::{Difference, compare_where};
+use crate::number::Level;
 use crate::picture::{LinearPicture, Picture};
-use crate::raster::{Edges, barycentric_polygon_numbers, polygon_numbers};
+use crate::raster::{Edges, Renderer, barycentric_polygon_numbers, polygon_numbers};
 use crate::reference::{self, Model, Visibility};
 use crate::shader::Variant;
 use crate::triangulate::{Triangulated, triangulated};
@@ -19,7 +20,7 @@ pub(super) struct References {
     closed_forms: ClosedForms,
     /// Those on triangles, where they are not the same.
     on_triangles: Option<ClosedForms>,
-    /// What the scanline engine shows.
+    /// What the engines show that draw by scanlines.
     scanline: Picture<u32>,
     /// What the barycentric renderer shows, as triangles.
     barycentric: Picture<u32>,
@@ -62,19 +63,31 @@ impl References {
         self.phong.texels().iter().filter(|texel| texel[3] > 0.0).count()
     }
 
-    /// The row of a variant in the scanline engine, without times.
-    pub fn scanline_row(&self, frame: &Frame, variant: &Variant) -> Row {
-        let linear = variant.render_linear(frame);
+    /// The row of a variant as `renderer` draws it, without times.
+    pub fn scanline_row(&self, frame: &Frame, variant: &Variant, renderer: Renderer) -> Row {
+        let plan = variant.plan(frame, renderer);
+        let linear = variant.render_linear_with(frame, renderer);
         let seen = &self.closed_forms.visibility.polygons;
         let (error, other_polygon) = difference(&self.phong, &linear, seen, &self.scanline);
         let own = match variant.info().model {
             Model::Phong => error,
             model => difference(self.closed_forms.picture(frame, model), &linear, seen, &self.scanline).0,
         };
-        let picture = variant.render(frame);
-        let engine = Engine::Scanline;
-        let bound = variant.info().bound(frame);
-        Row { variant: variant.clone(), engine, error, own, bound, other_polygon, speed: None, picture, linear }
+        let mut picture = Picture::new(0, 0, [0; 4]);
+        variant.render_with(frame, renderer, &mut picture);
+        Row {
+            variant: variant.clone(),
+            engine: Engine::Scanlines(plan.engine),
+            level: plan.level,
+            threads: plan.threads(),
+            error,
+            own,
+            bound: variant.info().bound(frame),
+            other_polygon,
+            speed: None,
+            picture,
+            linear,
+        }
     }
 
     /// The row of a variant in the barycentric renderer, without times; `None` if it does not have the method.
@@ -89,9 +102,19 @@ impl References {
         let closed_form = own_forms.picture(frame, variant.info().model);
         let (own, _) = difference(closed_form, &linear, &own_forms.visibility.polygons, &self.barycentric);
         let picture = variant.render_barycentric(frame, Edges::TopLeft)?;
-        let engine = Engine::Barycentric;
-        let bound = variant.info().bound(frame);
-        Some(Row { variant: variant.clone(), engine, error, own, bound, other_polygon, speed: None, picture, linear })
+        Some(Row {
+            variant: variant.clone(),
+            engine: Engine::Barycentric,
+            level: Level::Scalar,
+            threads: 1,
+            error,
+            own,
+            bound: variant.info().bound(frame),
+            other_polygon,
+            speed: None,
+            picture,
+            linear,
+        })
     }
 }
 

@@ -3,15 +3,16 @@
 use super::{Engine, Row, counterpart, is_baseline};
 use crate::bench::{Candidate, Limits, Ratio, Timing, time_interleaved};
 use crate::frame::Frame;
-use crate::raster::Edges;
+use crate::picture::Picture;
+use crate::raster::{Edges, Renderer};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::hint::black_box;
 
 /// What a [`Timing`] of a row holds, in one line.
 pub const WHAT_IS_TIMED: &str = "from projected frame to stored picture: vertex lighting, rasterization, shading and \
-                                 storing, with the memory they take; one thread; not loading, normals, projection or \
-                                 triangulation";
+                                 storing, with the memory they take; on as many threads as a row says; not loading, normals, \
+                                 projection or triangulation";
 
 /// The speed of a variant. A ratio over 1 means faster than what it is compared with.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +21,7 @@ pub struct Speed {
     pub timing: Timing,
     /// The median time divided by the pixels that any polygon covers; `None` if there are none.
     pub ns_per_covered_pixel: Option<f64>,
-    /// Against naive Phong in the scanline engine.
+    /// Against naive Phong, drawn as all rows are.
     pub ratio_to_naive: Option<Ratio>,
     /// Against the barycentric renderer with the same method where it has it, naive Phong otherwise.
     pub ratio_to_barycentric: Option<Ratio>,
@@ -33,15 +34,20 @@ pub(super) fn take(
     rows: &mut [Row],
     barycentric: &mut [Row],
     covered_pixels: usize,
-    limits: Limits,
+    (renderer, limits): (Renderer, Limits),
     progress: impl FnMut(f32),
 ) {
     let mut candidates: Vec<Candidate<'_>> = Vec::new();
     for row in rows.iter().chain(barycentric.iter()) {
         let variant = &row.variant;
         candidates.push(match row.engine {
-            Engine::Scanline => Box::new(move || {
+            Engine::Scanlines(_) if variant.plan(frame, renderer).is_lectures_own() => Box::new(move || {
                 black_box(variant.render(black_box(frame)));
+            }),
+            Engine::Scanlines(_) => Box::new(move || {
+                let mut picture = Picture::new(0, 0, [0; 4]);
+                variant.render_with(black_box(frame), renderer, &mut picture);
+                black_box(picture);
             }),
             Engine::Barycentric => Box::new(move || {
                 black_box(variant.render_barycentric(black_box(triangles), Edges::TopLeft));

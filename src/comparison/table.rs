@@ -1,8 +1,9 @@
 //! Comparisons as text: a row a method, in aligned columns.
 
-use super::{BASELINE, Comparison, Engine, Row, Speed};
+use super::{BASELINE, Comparison, Engine, RendererData, Row, Speed};
 use crate::bench::Ratio;
 use crate::metrics::Difference;
+use crate::raster::Renderer;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -98,6 +99,9 @@ fn head(c: &Comparison) -> String {
         text.push_str(&format!(" {:.2} times", c.fragments as f64 / c.covered_pixels as f64));
     }
     text.push_str(&format!(", {}\n", count(c.lights, "light")));
+    for (line, names) in drawn_by(c) {
+        text.push_str(&format!("drawn by {line}{names}\n"));
+    }
     if c.not_simple > 0 {
         let crossing = count(c.not_simple, "polygon");
         text.push_str(&format!("{crossing} crossing themselves: not drawn by the barycentric renderer\n"));
@@ -109,6 +113,23 @@ fn head(c: &Comparison) -> String {
     }
     text.push('\n');
     text
+}
+
+/// Who drew what, and on what; all rows on one line if it was the same for all of them.
+fn drawn_by(c: &Comparison) -> Vec<(String, String)> {
+    let mut groups: Vec<(String, Vec<String>)> = Vec::new();
+    for row in &c.rows {
+        let Engine::Scanlines(engine) = row.engine else { continue };
+        let renderer = Renderer { engine: Some(engine), level: row.level };
+        let line = RendererData::new(renderer, row.threads).line();
+        match groups.iter_mut().find(|(other, _)| *other == line) {
+            Some((_, names)) => names.push(row.name()),
+            None => groups.push((line, Vec::from([row.name()]))),
+        }
+    }
+    let several = groups.len() > 1;
+    let names = |names: Vec<String>| if several { format!(": {}", names.join(", ")) } else { String::new() };
+    groups.into_iter().map(|(line, rows)| (line, names(rows))).collect()
 }
 
 /// The first column to the left, all others to the right, two spaces apart.
@@ -138,7 +159,7 @@ const NONE: &str = "-";
 
 fn method(row: &Row) -> String {
     match row.engine {
-        Engine::Scanline => row.name(),
+        Engine::Scanlines(_) => row.name(),
         Engine::Barycentric => format!("{}, barycentric", row.name()),
     }
 }

@@ -88,3 +88,16 @@ pub struct Plan {
     /// Why it is not what was asked for, if it is not.
     pub reason: Option<&'static str>,
 }
+
+impl Plan {
+    /// Whether this is the lecture's own form, [`Renderer::LECTURE`].
+    pub fn is_lectures_own(self) -> bool {
+        (Some(self.engine), self.level) == (Renderer::LECTURE.engine, Renderer::LECTURE.level)
+    }
+
+    /// How many threads walk and shade its pixels: one in the lecture's own form, in any other those of the current pool of
+    /// `rayon`, which is one without the feature `threads`. Vertices are lit on all of the pool in every form.
+    pub fn threads(self) -> usize {
+        if self.is_lectures_own() { 1 } else { crate::parallel::threads() }
+    }
+}

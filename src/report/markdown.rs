@@ -41,8 +41,9 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
         text += &format!(" on {date}");
     }
     text += &format!(
-        ", on {}. A time is {WHAT_IS_TIMED}. An error is of {WHAT_IS_COMPARED}; a level is 1/255.\n\n",
-        escape(&report.machine.line())
+        ", on {}. Drawn by {}. A time is {WHAT_IS_TIMED}. An error is of {WHAT_IS_COMPARED}; a level is 1/255.\n\n",
+        escape(&report.machine.line()),
+        report.sections.first().map(|section| section.data.renderer.clone()).unwrap_or_default().line()
     );
     text += &project(&report.sections);
     for (number, section) in report.sections.iter().enumerate() {

@@ -16,7 +16,7 @@
 //! let frame = scene.frame()?;
 //! let variants: Vec<_> = METHODS.iter().map(|entry| entry.variant()).collect();
 //! let input = Input { name: "sphere".into(), frame: &frame };
-//! let comparison = compare(&input, &variants, &Options { timing: None }, &mut |_, _| {});
+//! let comparison = compare(&input, &variants, &Options { timing: None, ..Options::default() }, &mut |_, _| {});
 //! let triangles = triangulation(&frame, &comparison.reference);
 //!
 //! let caption = Caption { title: "Sphere".into(), description: "Eight rings.".into() };

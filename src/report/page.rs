@@ -109,7 +109,8 @@ fn operation_counts() -> String {
 /// What was measured, on what, and how to do it again.
 fn measurement(report: &Report) -> String {
     let m = &report.machine;
-    let cores = format!("{}, of which one is used", count(m.cores, "logical processor"));
+    let renderer = report.sections.first().map(|section| section.data.renderer.clone()).unwrap_or_default();
+    let cores = format!("{}; {}", count(m.cores, "logical processor"), count(renderer.threads, "thread"));
     let rows = [
         ("processor", m.cpu.clone()),
         ("", cores),
@@ -118,6 +119,7 @@ fn measurement(report: &Report) -> String {
         ("for", if m.target_features.is_empty() { String::new() } else { m.target_features.join(", ") }),
         ("fastphong", m.version.clone() + &m.commit.as_ref().map(|c| format!(", commit {c}")).unwrap_or_default()),
         ("date", report.date.clone().unwrap_or_default()),
+        ("drawn by", renderer.line()),
         ("a time", WHAT_IS_TIMED.to_string()),
         ("an error", WHAT_IS_COMPARED.to_string()),
     ];

@@ -154,7 +154,7 @@ fn charts(section: &Section) -> String {
                 high: ratio.ratio.high,
                 // Not with itself.
                 is_tie: ratio.tie && (ratio.ratio.low, ratio.ratio.high) != (1.0, 1.0),
-                is_barycentric: row.engine != "scanline",
+                is_barycentric: row.is_barycentric(),
             })
         })
         .collect();
@@ -163,7 +163,7 @@ fn charts(section: &Section) -> String {
             label: row_name(row),
             time: speed.timing.median_ns / 1e6,
             error: 255.0 * row.error.difference.rms,
-            is_barycentric: row.engine != "scanline",
+            is_barycentric: row.is_barycentric(),
         })
         .collect();
     if points.is_empty() {

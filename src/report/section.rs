@@ -145,12 +145,12 @@ impl Section {
         })
     }
 
-    /// All rows: those of the scanline engine, then those of the barycentric renderer.
+    /// All rows: those drawn by scanlines, then those of the barycentric renderer.
     pub(super) fn all_rows(&self) -> impl Iterator<Item = &RowData> {
         self.data.rows.iter().chain(&self.data.barycentric)
     }
 
-    /// The row of a method with its default parameters in the scanline engine.
+    /// The row of a method with its default parameters drawn by scanlines.
     pub(super) fn row(&self, method: &str) -> Option<&RowData> {
         self.data.rows.iter().find(|row| row.variant == method)
     }
@@ -164,7 +164,7 @@ impl From<&Triangulation> for TriangulationData {
 
 /// The name of a row that tells it from all others.
 pub(super) fn row_name(row: &RowData) -> String {
-    if row.engine == "scanline" { row.variant.to_string() } else { alloc::format!("{}, {}", row.variant, row.engine) }
+    if row.is_barycentric() { alloc::format!("{}, {}", row.variant, row.engine) } else { row.variant.to_string() }
 }
 
 /// Whether no channel of two pictures of one size is more than a grey level apart.
@@ -234,7 +234,7 @@ mod tests {
         let frame = scene.frame().unwrap();
         let variants = ["slerp-phong", "slerp-phong-vector"].map(|name| Variant::parse(name).unwrap());
         let input = Input { name: "sphere".into(), frame: &frame };
-        let comparison = compare(&input, &variants, &Options { timing: None }, &mut |_, _| {});
+        let comparison = compare(&input, &variants, &Options { timing: None, ..Options::default() }, &mut |_, _| {});
         let rows = |detail| {
             let section = Section::new(Caption::default(), &comparison, None, detail).unwrap();
             (section.figures.len(), section.figures.last().map(|figure| figure.also.clone()))

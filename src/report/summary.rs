@@ -29,7 +29,7 @@ pub(super) struct Tally<'a> {
 }
 
 impl<'a> Tally<'a> {
-    /// That of `method` with its default parameters in the scanline engine; `None` if it was never timed.
+    /// That of `method` with its default parameters drawn by scanlines; `None` if it was never timed.
     pub fn of(method: &str, sections: &'a [Section]) -> Option<Tally<'a>> {
         let timed = sections.iter().filter_map(|section| {
             let ratio = section.row(method)?.speed.as_ref()?.ratio_to_naive?;
@@ -96,7 +96,8 @@ pub(super) fn overall(sections: &[Section]) -> Vec<Overall> {
 fn of_all_scenes(row: &RowData, sections: &[Section]) -> Option<Overall> {
     let (mut logarithms, mut squares) = (Vec::new(), 0.0);
     for section in sections {
-        let same = section.all_rows().find(|r| r.variant == row.variant && r.engine == row.engine)?;
+        let same =
+            section.all_rows().find(|r| r.variant == row.variant && r.is_barycentric() == row.is_barycentric())?;
         logarithms.push(-libm::log(same.speed.as_ref()?.ratio_to_naive?.ratio.median));
         squares += same.error.difference.rms * same.error.difference.rms;
     }
@@ -104,6 +105,6 @@ fn of_all_scenes(row: &RowData, sections: &[Section]) -> Option<Overall> {
         name: row_name(row),
         time: geometric_mean(&logarithms),
         rms: libm::sqrt(squares / sections.len() as f64),
-        is_barycentric: row.engine != "scanline",
+        is_barycentric: row.is_barycentric(),
     })
 }

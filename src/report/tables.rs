@@ -57,7 +57,7 @@ const COLUMNS: &[Column] = &[
         speed(r, |s| s.ns_per_covered_pixel.map_or_else(|| NONE.to_string(), significant))
     }),
     column("speed to naive Phong", "ratio, 95 %", "over 1: faster; =: a tie, the interval holds 1", |r| {
-        if r.engine == "scanline" && r.variant == BASELINE {
+        if !r.is_barycentric() && r.variant == BASELINE {
             "1".to_string()
         } else {
             speed(r, |s| ratio(s.ratio_to_naive))

@@ -17,8 +17,12 @@ fn compared(mesh: &str, name: &str) -> (Comparison, Section) {
     (scene.width, scene.height) = (40, 30);
     let frame = scene.frame().unwrap();
     let variants: Vec<_> = METHODS.iter().map(|entry| entry.variant()).collect();
-    let comparison =
-        compare(&Input { name: name.into(), frame: &frame }, &variants, &Options { timing: None }, &mut |_, _| {});
+    let comparison = compare(
+        &Input { name: name.into(), frame: &frame },
+        &variants,
+        &Options { timing: None, ..Options::default() },
+        &mut |_, _| {},
+    );
     let triangles = triangulation(&frame, &comparison.reference);
     let caption = Caption { title: name.to_owned(), description: format!("What {name} tests.") };
     let section = Section::new(caption, &comparison, triangles.as_ref(), Detail::Full).unwrap();
@@ -325,7 +329,7 @@ fn a_report_of_nothing_and_of_an_empty_frame_is_a_page() {
     let comparison = compare(
         &Input { name: "empty".into(), frame: &frame },
         &[METHODS[0].variant()],
-        &Options { timing: None },
+        &Options { timing: None, ..Options::default() },
         &mut |_, _| {},
     );
     let section = Section::new(Caption::default(), &comparison, None, Detail::Full).unwrap();

@@ -1,11 +1,11 @@
 //! Flat shading: one colour a polygon (L21 2).
 
-use super::local::{Far, Lights, Near};
-use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
-use crate::lighting::Lighting;
-use crate::number::{Machine, Num, Real};
+use super::local::{Far, Near};
+use super::one_colour::{Of, PolygonNormal};
+use super::{Corners, Info, Local, Method, Perspective, Roundings, Stepped};
+use crate::number::Machine;
 use crate::reference::Model;
-use crate::walk::{Constant, Lerp};
+use crate::walk::Lerp;
 
 /// Flat (uniform) shading: the polygon's own normal, lit once (L21 2.1).
 ///
@@ -28,41 +28,15 @@ impl Method for Flat {
         local: Local::PerPolygon,
         barycentric: true,
     };
-    type Screen<const L: usize> = Of<Far, L>;
-    type Perspective<const L: usize> = Of<Far, L>;
-    type Local<const L: usize> = Of<Near, L>;
-    type LocalPerspective<const L: usize> = Of<Near, L>;
+    type Screen<const L: usize> = Of<Self, Far, L>;
+    type Perspective<const L: usize> = Of<Self, Far, L>;
+    type Local<const L: usize> = Of<Self, Near, L>;
+    type LocalPerspective<const L: usize> = Of<Self, Near, L>;
 }
 
-/// Flat shading with `L` lights.
-#[derive(Debug)]
-pub struct Of<P, const L: usize>(P);
-
-impl<P: Lights, const L: usize> Shader for Of<P, L> {
-    type Consts<N: Num> = P::Of<N, L>;
-    type Attribute<R: Real> = Lerp<()>;
-    type Polygon<R: Real> = [R; 3];
-    type Walk<M: Machine> = Constant<[M::F; 3]>;
-    type Pixel<F: Num> = [F; 3];
-
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> P::Of<N, L> {
-        P::new(lighting, of)
-    }
+impl PolygonNormal for Flat {
     #[inline(always)]
-    fn vertex<M: Machine>(_: &P::Of<M::One, L>, _: &Corner<'_, M>) -> Lerp<()> {
-        Lerp(())
-    }
-    #[inline(always)]
-    fn polygon<M: Machine>(c: &P::Of<M::One, L>, corners: &Corners<'_, M, Lerp<()>>) -> [M::One; 3] {
-        let (model, there) = (P::model(c), P::there(c, || corners.mean_position()));
-        model.clamped(model.lit(corners.normal(), P::seen(c, &there))) // 2.1
-    }
-    #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &P::Of<M::One, L>, colour: &[M::One; 3], _: &SpanOf<Self, M::One>) -> Self::Walk<M> {
-        Constant(m.splat3(*colour))
-    }
-    #[inline(always)]
-    fn shade<F: Num>(_: &P::Of<F, L>, colour: [F; 3]) -> [F; 3] {
-        colour
+    fn unit<M: Machine>(_: M::One, corners: &Corners<'_, M, Lerp<()>>) -> [M::One; 3] {
+        corners.normal()
     }
 }

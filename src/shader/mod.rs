@@ -25,6 +25,7 @@ mod flat_average;
 mod gouraud;
 mod gouraud_separate;
 mod naive_phong;
+mod one_colour;
 mod phong_rsqrt;
 mod slerp_phong;
 mod slerp_phong_vector;

@@ -1,8 +1,12 @@
 //! The command line as a user calls it: exit code and message of good and bad input.
 #![cfg(feature = "cli")]
 
+mod aov;
+mod bench;
 mod diff;
+mod engines;
 mod figure;
+mod flags;
 mod input;
 mod output;
 mod reference;
@@ -10,6 +14,7 @@ mod render;
 mod report;
 mod tables;
 
+use fastphong::picture::Picture8;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -124,8 +129,24 @@ impl Ended {
     }
 }
 
-fn picture(path: &Path) -> fastphong::picture::Picture8 {
+fn picture(path: &Path) -> Picture8 {
     fastphong::image_file::read_picture(path).unwrap_or_else(|error| panic!("{error}")).to_stored()
+}
+
+/// The picture of `input` with `flags`.
+fn rendered(flags: &str) -> Picture8 {
+    let folder = Folder::new();
+    folder.run(&format!("render {flags} -o out.png")).done();
+    picture(&folder.path("out.png"))
+}
+
+/// That of [`SPHERE`].
+fn sphere(flags: &str) -> Picture8 {
+    rendered(&format!("{SPHERE} {flags}"))
+}
+
+fn covered(picture: &Picture8) -> usize {
+    picture.texels().iter().filter(|texel| texel[3] == 255).count()
 }
 
 /// A small sphere: pictures that are drawn in no time.

@@ -5,6 +5,8 @@ use fastphong::figures::FIGURES;
 use fastphong::input::SCENES;
 use fastphong::mesh::builtin::BUILTINS;
 use fastphong::metrics::METRICS;
+use fastphong::number::Level;
+use fastphong::raster::Engine;
 use fastphong::shader::METHODS;
 
 #[test]
@@ -15,11 +17,13 @@ fn lists_have_an_entry_for_everything_in_their_table() {
             "methods" => METHODS.iter().map(|entry| entry.info.name.to_owned()).collect(),
             "meshes" => BUILTINS.iter().map(|shape| shape.name.to_owned()).collect(),
             "figures" => FIGURES.iter().map(|figure| figure.name.to_owned()).collect(),
+            "engines" => ["span", "row", "barycentric", "cs171"].map(str::to_owned).to_vec(),
+            "simd" => Level::ALL.map(|level| level.name().to_owned()).to_vec(),
             "scenes" => SCENES.iter().map(|scene| scene.name.to_owned()).collect(),
             _ => METRICS.iter().map(|metric| metric.name.to_owned()).collect(),
         }
     };
-    for subject in ["methods", "meshes", "scenes", "metrics", "figures"] {
+    for subject in ["methods", "meshes", "scenes", "metrics", "figures", "engines", "simd"] {
         let text = folder.run(&format!("list {subject}")).done().out;
         let json = folder.run(&format!("list {subject} --json")).done().json();
         let entries = json.as_array().expect("a list");
@@ -40,7 +44,34 @@ fn lists_have_an_entry_for_everything_in_their_table() {
         assert!(shape.all_parameters().all(|p| meshes.contains(p.doc)), "{meshes}");
     }
     folder.run("list methods").done().prints("steps=1..8, default 2").prints("perspective-correct at no cost");
-    folder.run("list shaders").refused(&["methods, meshes, scenes, metrics, figures"]);
+    folder.run("list shaders").refused(&["methods, meshes, scenes, metrics, figures, engines, simd"]);
+}
+
+#[test]
+fn engines_and_instruction_sets_are_listed_with_what_they_can() {
+    let folder = Folder::new();
+    let engines = folder.run("list engines --json").done().json();
+    let engines = engines.as_array().expect("a list");
+    for (engine, entry) in Engine::ALL.iter().zip(engines) {
+        assert_eq!((&entry["name"], &entry["title"]), (&engine.name().into(), &engine.title().into()));
+    }
+    for entry in METHODS {
+        let explained = folder.run(&format!("explain {}", entry.info.name)).done().out;
+        for engine in engines {
+            let name = engine["name"].as_str().expect("a name");
+            let has = engine["methods"].as_array().expect("a list").iter().any(|method| *method == entry.info.name);
+            let after = explained.split("\nengines\n").nth(1).expect("a section").lines().next().expect("a line");
+            assert_eq!(after.trim().split(", ").any(|other| other == name), has, "{name}: {after}");
+        }
+    }
+    let levels = folder.run("list simd --json").done().json();
+    let text = folder.run("list simd").done().out;
+    for ((level, entry), line) in Level::ALL.iter().zip(levels.as_array().expect("a list")).zip(text.lines()) {
+        let (here, auto) = (level.is_available(), *level == Level::best());
+        assert_eq!((&entry["available"], &entry["auto"]), (&here.into(), &auto.into()), "{entry}");
+        assert_eq!((&entry["width"], &entry["title"]), (&level.width().into(), &level.title().into()));
+        assert_eq!((line.contains("not on this machine"), line.contains("taken by auto")), (!here, auto), "{line}");
+    }
 }
 
 #[test]
@@ -127,6 +158,35 @@ fn info_speaks_of_scenes_too() {
         .done()
         .prints("averaged up to a crease of 10 degrees")
         .prints("12 of 5 sides, 20 of 6 sides");
+}
+
+/// What `auto` would take: a scene of five lights is drawn pixel by pixel, any other by rows where the method can be.
+#[test]
+fn info_says_what_auto_would_take() {
+    let folder = Folder::new();
+    let best = Level::best();
+    let choices = |input: &str| folder.run(&format!("info {input} --json")).done().json()["auto"].clone();
+    let far = choices("teapot");
+    assert_eq!((&far[0]["engine"], &far[0]["level"]), (&"row".into(), &best.name().into()));
+    assert_eq!(
+        (&far[0]["reason"], far[0]["methods"].as_array().map(Vec::len)),
+        (&serde_json::Value::Null, Some(METHODS.len()))
+    );
+    let near = choices("teapot --light-at 9,9,9");
+    let of = |method: &str| {
+        let has = |choice: &&serde_json::Value| choice["methods"].as_array().expect("a list").contains(&method.into());
+        near.as_array().expect("a list").iter().find(has).expect("a choice").clone()
+    };
+    assert_eq!((&of("gouraud")["engine"], &of("duff-phong")["engine"]), (&"row".into(), &"span".into()));
+    assert!(
+        of("duff-phong")["reason"].as_str().is_some_and(|reason| reason.starts_with("the row engine keeps neither"))
+    );
+    let five = "--light 1,0,1 --light 0,1,1 --light -1,0,1 --light 0,-1,1 --light 0,0,1";
+    let lights = choices(&format!("teapot {five}"));
+    assert_eq!((&lights[0]["engine"], &lights[0]["level"]), (&"span".into(), &"scalar".into()));
+    assert_eq!(lights[0]["methods"].as_array().map(Vec::len), Some(METHODS.len()));
+    let text = folder.run("info teapot --light-at 9,9,9").done();
+    text.prints(&format!("auto     row, {best}: flat, ")).prints("slerp-phong-vector (the row engine keeps neither");
 }
 
 #[test]

@@ -1,0 +1,44 @@
+//! What `auto` would choose for a scene: which engine, on which instruction set, for which methods.
+
+use fastphong::frame::Frame;
+use fastphong::raster::{self, Plan, Renderer};
+use fastphong::shader::METHODS;
+use serde_json::{Value, json};
+
+/// One choice, and the methods that it is made for.
+pub struct Choice {
+    plan: Plan,
+    methods: Vec<&'static str>,
+}
+
+/// What `--engine auto --simd auto` chooses on this machine: each choice once, in the order of the methods.
+pub fn choices(frame: &Frame) -> Vec<Choice> {
+    let mut choices: Vec<Choice> = Vec::new();
+    for entry in METHODS {
+        let variant = entry.variant();
+        let plan = variant.plan(frame, Renderer::fastest());
+        // Why it is not by rows, which are chosen where they can be.
+        let by_rows = Renderer { engine: Some(raster::Engine::Row), ..Renderer::fastest() };
+        let plan = Plan { reason: variant.plan(frame, by_rows).reason, ..plan };
+        match choices.iter_mut().find(|choice| choice.plan == plan) {
+            Some(choice) => choice.methods.push(entry.info.name),
+            None => choices.push(Choice { plan, methods: vec![entry.info.name] }),
+        }
+    }
+    choices
+}
+
+impl Choice {
+    /// In words.
+    pub fn text(&self) -> String {
+        let Plan { engine, level, reason } = self.plan;
+        let reason = reason.map_or(String::new(), |reason| format!(" ({reason})"));
+        format!("{engine}, {level}: {}{reason}", self.methods.join(", "))
+    }
+
+    /// As data.
+    pub fn json(&self) -> Value {
+        let Plan { engine, level, reason } = self.plan;
+        json!({ "engine": engine.name(), "level": level.name(), "reason": reason, "methods": self.methods })
+    }
+}

@@ -1,0 +1,258 @@
+//! What finds the pixels, and on what: the engines, instruction sets and threads that a user can ask for.
+
+use super::Failure;
+use fastphong::cs171::Shading;
+use fastphong::number::Level;
+use fastphong::raster::{self, Edges, Renderer};
+use fastphong::shader::{Info, METHODS};
+use fastphong::suggest::nearest;
+use serde_json::{Value, json};
+
+/// What finds the pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Engine {
+    /// Scanlines, by spans or by rows; `None` is the one that suits method and frame.
+    Scanlines(Option<raster::Engine>),
+    /// Bounding boxes and edge functions.
+    Barycentric(Edges),
+    /// CS171's algorithms as printed, in `f64`.
+    Cs171 {
+        /// Whether interpolated normals are made unit vectors, which the text leaves out.
+        normalise: bool,
+    },
+}
+
+/// What is said about an engine.
+pub struct EngineInfo {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it is.
+    pub title: &'static str,
+    /// What it can draw.
+    pub draws: &'static str,
+    /// Its instruction sets and threads.
+    pub runs: &'static str,
+}
+
+/// All engines.
+pub const ENGINES: [EngineInfo; 4] = [
+    EngineInfo {
+        name: "span",
+        title: "active edges, a depth buffer of one line, visible runs walked and shaded once: the lecture's way",
+        draws: "every method and every scene",
+        runs: "every instruction set, several threads; on scalar the lecture's own form, on one thread; over four lights \
+               that form only",
+    },
+    EngineInfo {
+        name: "row",
+        title: "bands of scanlines, interpolants kept in planes, each row shaded once",
+        draws: "every method under lights at infinity, flat, Gouraud and naive Phong shading under lights at positions \
+                too; up to four lights; interpolated depth of 32 bits, clipped by planes. What it cannot draw the span \
+                engine draws",
+        runs: "every instruction set, several threads",
+    },
+    EngineInfo {
+        name: "barycentric",
+        title: "a bounding box a triangle, three edge functions a pixel: what the lecture's way is measured against",
+        draws: "triangles, into which polygons are cut; :edges=top-left or :edges=closed",
+        runs: "scalar, one thread",
+    },
+    EngineInfo {
+        name: "cs171",
+        title: "CS171's algorithms as printed",
+        draws: "triangles, into which polygons are cut; :normals=unit or :normals=as-printed",
+        runs: "f64, one thread",
+    },
+];
+
+impl EngineInfo {
+    /// The methods that it has.
+    pub fn methods(&self) -> impl Iterator<Item = &'static str> {
+        METHODS.iter().map(|entry| entry.info).filter(|info| self.has(info)).map(|info| info.name)
+    }
+
+    fn has(&self, info: &Info) -> bool {
+        match self.name {
+            "barycentric" => info.barycentric,
+            "cs171" => cs171_shading(info).is_some(),
+            _ => true,
+        }
+    }
+
+    /// All that is said about it.
+    pub fn json(&self) -> Value {
+        let EngineInfo { name, title, draws, runs } = self;
+        let methods: Vec<&str> = self.methods().collect();
+        json!({ "name": name, "title": title, "draws": draws, "runs": runs, "methods": methods })
+    }
+}
+
+/// The engines that have a method, by their names.
+pub fn engines_with(info: &Info) -> String {
+    let names = ENGINES.iter().filter(|engine| engine.has(info)).map(|engine| engine.name);
+    names.collect::<Vec<_>>().join(", ")
+}
+
+/// The methods that CS171 has, by their names here.
+const CS171: [(&str, Shading); 3] =
+    [("flat-average", Shading::Flat), ("gouraud", Shading::Gouraud), ("naive-phong", Shading::Phong)];
+
+/// What CS171 calls a method, if it has it.
+pub fn cs171_shading(info: &Info) -> Option<Shading> {
+    CS171.iter().find(|(name, _)| *name == info.name).map(|(_, shading)| *shading)
+}
+
+/// `auto`, `span` (or `scanline`), `row`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or
+/// `cs171:normals=unit|as-printed`.
+pub fn engine(text: &str) -> Result<Engine, String> {
+    const NAMES: [&str; 6] = ["auto", "span", "scanline", "row", "barycentric", "cs171"];
+    match text {
+        "auto" => Ok(Engine::Scanlines(None)),
+        "span" | "scanline" => Ok(Engine::Scanlines(Some(raster::Engine::Span))),
+        "row" => Ok(Engine::Scanlines(Some(raster::Engine::Row))),
+        "barycentric" | "barycentric:edges=top-left" => Ok(Engine::Barycentric(Edges::TopLeft)),
+        "barycentric:edges=closed" => Ok(Engine::Barycentric(Edges::Closed)),
+        "cs171" | "cs171:normals=unit" => Ok(Engine::Cs171 { normalise: true }),
+        "cs171:normals=as-printed" => Ok(Engine::Cs171 { normalise: false }),
+        _ => Err(match text.split_once(':') {
+            Some(("barycentric", _)) => "expected edges=top-left or edges=closed".to_owned(),
+            Some(("cs171", _)) => "expected normals=unit or normals=as-printed".to_owned(),
+            Some((name, _)) if NAMES.contains(&name) => format!("the engine `{name}` has no parameters"),
+            _ => match nearest(text, NAMES) {
+                Some(near) => format!("unknown engine: did you mean `{near}`?"),
+                None => "unknown engine: expected `auto`, `span`, `row`, `barycentric` or `cs171`".to_owned(),
+            },
+        }),
+    }
+}
+
+/// The engines that draw by scanlines: what can be compared with the barycentric renderer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ScanlineEngine(pub Option<raster::Engine>);
+
+/// `auto`, `span` (or `scanline`) or `row`.
+pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
+    match engine(text) {
+        Ok(Engine::Scanlines(engine)) => Ok(ScanlineEngine(engine)),
+        Ok(Engine::Barycentric(_)) => Err("it is always compared with: expected `auto`, `span` or `row`".to_owned()),
+        Ok(Engine::Cs171 { .. }) | Err(_) => Err("unknown engine: expected `auto`, `span` or `row`".to_owned()),
+    }
+}
+
+/// The instruction set that is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Simd {
+    /// The best that this machine has.
+    Auto,
+    /// This one, which the machine has.
+    Level(Level),
+}
+
+impl Simd {
+    /// The instruction set.
+    pub fn level(self) -> Level {
+        match self {
+            Simd::Auto => Level::best(),
+            Simd::Level(level) => level,
+        }
+    }
+}
+
+/// `auto`, or an instruction set of this machine.
+pub fn simd(text: &str) -> Result<Simd, String> {
+    match text {
+        "auto" => Ok(Simd::Auto),
+        name => name.parse().map(Simd::Level).map_err(|error: fastphong::number::LevelError| error.to_string()),
+    }
+}
+
+/// Instruction sets, each once.
+#[derive(Clone, Debug)]
+pub struct Levels(pub Vec<Level>);
+
+/// Instruction sets of this machine between commas, or `all` that it has.
+pub fn levels(text: &str) -> Result<Levels, String> {
+    if text == "all" {
+        return Ok(Levels(Level::available().collect()));
+    }
+    let mut levels = Vec::new();
+    for name in text.split(',') {
+        let level = simd(name.trim())?.level();
+        if !levels.contains(&level) {
+            levels.push(level);
+        }
+    }
+    Ok(Levels(levels))
+}
+
+/// How methods are drawn where they are compared with the lecture.
+#[derive(clap::Args, Clone, Debug)]
+pub struct LectureFlags {
+    /// What finds the pixels: `span`, the lecture's way, `row`, or `auto`, the one that suits method and scene
+    #[arg(long, default_value = "span", value_parser = scanline_engine)]
+    engine: ScanlineEngine,
+    /// Instruction set of the pixel loops: see `fastphong list simd`. `--engine span --simd scalar` is the lecture's own
+    /// form, on one thread
+    #[arg(long, value_name = "LEVEL", default_value = "scalar", value_parser = simd)]
+    simd: Simd,
+    #[command(flatten)]
+    pub threads: ThreadFlags,
+}
+
+impl LectureFlags {
+    /// How to draw.
+    pub fn renderer(&self) -> Renderer {
+        Renderer { engine: self.engine.0, level: self.simd.level() }
+    }
+
+    /// Does `work` on as many threads as asked for.
+    pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+        self.threads.install_for(self.renderer(), work)
+    }
+}
+
+/// On how many threads.
+#[derive(clap::Args, Clone, Debug)]
+pub struct ThreadFlags {
+    /// Threads, 1 to 1024 [default: as many as there are processors]; comparisons in the lecture's own form take one
+    #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
+    pub threads: Option<usize>,
+}
+
+/// The most threads that can be asked for: more than any machine has processors, and no memory to speak of.
+const MOST_THREADS: usize = 1024;
+
+/// Bytes of each thread's stack: what the first thread of a program has on most systems.
+const STACK: usize = 8 << 20;
+
+/// A number of threads.
+pub fn threads(text: &str) -> Result<usize, String> {
+    let threads = text.parse().ok().filter(|threads| (1..=MOST_THREADS).contains(threads));
+    threads.ok_or_else(|| format!("expected a number of threads from 1 to {MOST_THREADS}"))
+}
+
+impl ThreadFlags {
+    /// Does `work` on a pool of as many threads as asked for.
+    ///
+    /// # Errors
+    /// When the system does not give that many.
+    pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+        // 0 stands for as many as there are processors.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).stack_size(STACK).build();
+        let pool = pool.map_err(|error| match self.threads {
+            Some(threads) => format!("{threads} threads cannot be started: {error}"),
+            None => format!("threads cannot be started: {error}"),
+        })?;
+        Ok(pool.install(work))
+    }
+
+    /// As [`ThreadFlags::install`] for what `renderer` draws: the lecture's own form is on one thread from end to end, so
+    /// that a comparison with it is not one of how well vertices are shared out.
+    ///
+    /// # Errors
+    /// As [`ThreadFlags::install`].
+    pub fn install_for<T: Send>(&self, renderer: Renderer, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+        let threads = if renderer == Renderer::LECTURE { Some(1) } else { self.threads };
+        ThreadFlags { threads }.install(work)
+    }
+}
