@@ -2,7 +2,7 @@
 //! rule bit for bit. It does not know what is drawn.
 
 use crate::frame::{Frame, ScreenVertex, SubPixel};
-use crate::number::{Lanes, each};
+use crate::number::Lanes;
 use crate::raster::edge::{Crossing, first_centre};
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -72,11 +72,13 @@ impl Cover {
             #[inline(always)]
             || {
                 self.fetch(frame, numbers);
-                for i in 0..self.fetched.len() {
-                    let fetched = self.fetched[i];
-                    self.cover(m, frame, fetched, band);
+                let fetched = core::mem::take(&mut self.fetched);
+                for triangle in &fetched {
+                    self.cover(m, frame, triangle, band);
                 }
-                self.fetched.len()
+                let taken = fetched.len();
+                self.fetched = fetched;
+                taken
             },
         )
     }
@@ -96,8 +98,8 @@ impl Cover {
     }
 
     #[inline(always)]
-    fn cover<M: Lanes>(&mut self, m: M, frame: &Frame, fetched: Fetched, band: &Range<usize>) {
-        let Fetched { number, corners: [a, b, c], places: [[xa, ya], [xb, yb], [xc, yc]] } = fetched;
+    fn cover<M: Lanes>(&mut self, m: M, frame: &Frame, fetched: &Fetched, band: &Range<usize>) {
+        let Fetched { number, corners: [a, b, c], places: [[xa, ya], [xb, yb], [xc, yc]] } = *fetched;
         let columns = within(xa.min(xb).min(xc), xa.max(xb).max(xc), 0..frame.width());
         let rows = within(ya.min(yb).min(yc), ya.max(yb).max(yc), band.clone());
         if columns.is_empty() || rows.is_empty() {
@@ -119,15 +121,18 @@ impl Cover {
         let height = ya.max(yb).max(yc) - ya.min(yb).min(yc);
         // Corners outside the picture are far from its pixels.
         let is_whole = wide(xa.max(xb).max(xc)) - wide(xa.min(xb).min(xc)) <= wide(SMALL_WIDTH * 256);
-        if is_whole && height < SMALL_HEIGHT * 256 {
-            self.small(m, [x, y], over_area, columns, rows, band.start as i32);
+        let covers = if is_whole && height < SMALL_HEIGHT * 256 {
+            self.small(m, [x, y], over_area, columns, rows, band.start as i32)
         } else {
             self.large([x, y], over_area, columns, rows, band.start as i32);
+            true
+        };
+        if covers {
+            self.triangles.push(Covered { number, corners, across });
         }
-        self.triangles.push(Covered { number, corners, across });
     }
 
-    /// Edge functions over the bounding box: f_ij > 0 inside, in sub-pixels², in 32 bits.
+    /// Edge functions over the bounding box: f_ij > 0 inside, in sub-pixels², in 32 bits. Whether any pixel is covered.
     #[inline(always)]
     fn small<M: Lanes>(
         &mut self,
@@ -137,45 +142,46 @@ impl Cover {
         columns: Range<i32>,
         rows: Range<i32>,
         top: i32,
-    ) {
+    ) -> bool {
         let source = self.triangles.len() as u32;
         let (px, py) = (256 * columns.start + 128, 256 * rows.start + 128);
-        let (mut at, mut step, mut down, mut least) = ([0; 3], [0; 3], [0; 3], [0; 3]);
-        for k in 0..3 {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        // At the first centre, from column to column, from row to row; and 1 for right and bottom edges, which do not own the
+        // centres that lie on them.
+        let edge = |i: usize, j: usize| {
             let (dx, dy) = (x[j] - x[i], y[j] - y[i]);
-            at[k] = dx * (py - y[i]) - dy * (px - x[i]);
-            (step[k], down[k]) = (-256 * dy, 256 * dx);
-            // Right and bottom edges do not own the centres that lie on them.
-            least[k] = i32::from(!(dy < 0 || (dy == 0 && dx > 0)));
-        }
+            let owns = dy < 0 || (dy == 0 && dx > 0);
+            (dx * (py - y[i]) - dy * (px - x[i]), -256 * dy, 256 * dx, i32::from(!owns))
+        };
+        let edges = [edge(1, 2), edge(2, 0), edge(0, 1)];
+        let (step, down) = (edges.map(|e| e.1), edges.map(|e| e.2));
+        let mut lines = m.edges(edges.map(|e| e.0 - e.3), step);
+        let (mut b, mut c) = (edges[1].0, edges[2].0);
         let (left, width) = (columns.start as u32, columns.len());
         let within = !(!0u32 << width); // at most 25 columns
-        let mut lines = [m.edges(each(|i| at[i] - least[i]), step); 4];
-        let mut group = 1;
-        while 8 * group < width {
-            lines[group] = m.beside(lines[group - 1], each(|i| 8 * step[i]));
-            group += 1;
-        }
-        for row in rows {
-            let mut inside = m.inside(lines[0]);
-            lines[0] = m.beside(lines[0], down);
-            let mut group = 1;
-            while 8 * group < width {
-                inside |= m.inside(lines[group]) << (8 * group);
-                lines[group] = m.beside(lines[group], down);
-                group += 1;
+        let mut covers = false;
+        for runs in &mut self.runs[(rows.start - top) as usize..(rows.end - top) as usize] {
+            let mut inside = m.inside(lines);
+            if width > 8 {
+                let second = m.beside(lines, step.map(|s| 8 * s));
+                inside |= m.inside(second) << 8;
+                if width > 16 {
+                    let third = m.beside(second, step.map(|s| 8 * s));
+                    inside |= m.inside(third) << 16 | m.inside(m.beside(third, step.map(|s| 8 * s))) << 24;
+                }
             }
             inside &= within;
             if inside != 0 {
                 let first = inside.trailing_zeros();
-                let weight = |i: usize| (at[i] + first as i32 * step[i]) as f32 * over_area;
-                let weights = [weight(1), weight(2)];
+                let weight = |at: i32, step: i32| (at + first as i32 * step) as f32 * over_area;
+                let weights = [weight(b, step[1]), weight(c, step[2])];
                 let (start, end) = ((left + first) as u16, (left + 32 - inside.leading_zeros()) as u16);
-                self.runs[(row - top) as usize].push(Run { start, end, source, weights });
+                runs.push(Run { start, end, source, weights });
+                covers = true;
             }
-            at = each(|i| at[i] + down[i]);
+            lines = m.beside(lines, down);
+            (b, c) = (b + down[1], c + down[2]);
         }
+        covers
     }
 
     /// Crossings of the edges with the scanlines, in exact integers.
@@ -217,6 +223,7 @@ impl Cover {
 /// The pixels whose centres lie between two coordinates, within limits.
 #[inline(always)]
 fn within(from: i32, to: i32, limits: Range<usize>) -> Range<i32> {
-    let centre = |bits: i32| first_centre(SubPixel::from_bits(bits));
+    // `first_centre`, in 32 bits: coordinates have 24.
+    let centre = |bits: i32| (bits + 127) >> 8;
     centre(from).max(limits.start as i32)..centre(to).min(limits.end as i32)
 }

@@ -40,14 +40,16 @@ impl<S: Shader> Sources<S> {
     /// Adds triangles, whose attributes are linear.
     pub fn add(&mut self, frame: &Frame, setup: &SetUp<S, Scalar>, triangles: &[Covered]) {
         let vertices = frame.vertices();
-        self.triangles.extend(triangles.iter().filter_map(|triangle| {
+        self.triangles.reserve(triangles.len());
+        for triangle in triangles {
             let corners = triangle.corners.map(|v| v as usize);
-            let plane = S::Attribute::plane(corners.map(|v| setup.attributes[v]), triangle.across)?;
-            let [depth, b, c] = corners.map(|v| vertices[v].depth);
-            let depth_to = [b - depth, c - depth];
-            let depth_step = depth_to[0] * triangle.across[0] + depth_to[1] * triangle.across[1];
-            Some(Triangle { number: triangle.number, depth, depth_to, depth_step, plane })
-        }));
+            let [b, c] = triangle.across;
+            let Some(plane) = S::Attribute::plane(corners.map(|v| setup.attributes[v]), [b, c]) else { continue };
+            let [depth, to_b, to_c] = corners.map(|v| vertices[v].depth);
+            let depth_to = [to_b - depth, to_c - depth];
+            let depth_step = depth_to[0] * b + depth_to[1] * c;
+            self.triangles.push(Triangle { number: triangle.number, depth, depth_to, depth_step, plane });
+        }
     }
 }
 
