@@ -223,3 +223,6 @@ impl<S: Simd> Lanes for Wide<S> {
         fearless_simd::Bytes::to_bytes(word).store_slice(&mut to[..8].as_flattened_mut()[..32]);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -188,3 +188,6 @@ fn within(from: i32, to: i32, limits: Range<usize>) -> Range<i32> {
     let centre = |bits: i32| first_centre(SubPixel::from_bits(bits));
     centre(from).max(limits.start as i32)..centre(to).min(limits.end as i32)
 }
+
+#[cfg(test)]
+mod tests;
