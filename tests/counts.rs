@@ -176,6 +176,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 shade: DIVIDE + MULTIPLY + DIVIDE + lights * (MULTIPLY + MULTIPLY + ADD + light()),
             }
         }
+        // The same root by the processor is counted as what it stands for, a root and a quotient: what is left is Duff's.
+        "fast-phong-rsqrt" => by_hand("duff-phong", lights),
         // Duff 1979: J of each light, K and three coordinates along edges; on a span J and K by one addition each, D = N·N
         // by two. D needs N·N, N·ΔN twice, ΔN·ΔN, and its first and second difference. A pixel needs 1/√D and K and J of
         // each light times that, then 2K once and 2JK − L·V for each light.

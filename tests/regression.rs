@@ -1,18 +1,20 @@
-//! Today's pictures against the blessed ones: every shipped scene by every method and by the reference.
+//! Today's pictures against the blessed ones: every shipped scene by every method and by the reference, and by every engine on
+//! every instruction set that this machine has.
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test regression` blesses today's pictures: look at each before committing it. Pixels
 //! are compared after decoding; a channel may differ by one level, because a value within rounding of a half may be
-//! stored as either level when the compiler orders the operations of the reference differently.
+//! stored as either level when the compiler orders the operations of the reference differently, or another engine does.
 
 mod support;
 
 use fastphong::image_file::{encode_png, read_png, write_file};
-use fastphong::metrics::{compare, difference_map};
+use fastphong::metrics::{compare, compare_where, difference_map};
 use fastphong::picture::Picture8;
 use fastphong::reference::{self, Model};
 use fastphong::shader::METHODS;
 use std::fs;
 use std::path::{Path, PathBuf};
+use support::renderers::{self, decided, renderers};
 
 const SIZE: (i64, i64) = (128, 96);
 
@@ -27,34 +29,43 @@ fn store(path: &Path, picture: &Picture8) {
 
 /// What is wrong with `actual`, if anything; then the picture, and its difference from the blessed one, are written.
 fn check(name: &str, actual: &Picture8) -> Option<String> {
-    let blessed = folder("tests/references").join(format!("{name}.png"));
     if std::env::var_os("FASTPHONG_BLESS").is_some() {
-        store(&blessed, actual);
+        store(&blessed(name), actual);
         return None;
     }
+    check_where(name, &blessed(name), actual, |_, _| true)
+}
+
+/// Where the blessed picture of a name is.
+fn blessed(name: &str) -> PathBuf {
+    folder("tests/references").join(format!("{name}.png"))
+}
+
+/// What is wrong with `actual` at the pixels where `counts` holds, and with what it covers anywhere.
+fn check_where(name: &str, blessed: &Path, actual: &Picture8, counts: impl Fn(usize, usize) -> bool) -> Option<String> {
     let output = folder("target/regression").join(format!("{name}.actual.png"));
-    let expected = match read_png(&blessed) {
+    let expected = match read_png(blessed) {
         Ok(expected) => expected,
         Err(error) => {
             store(&output, actual);
             return Some(format!("{name}: {error}; the candidate is {}", output.display()));
         }
     };
-    let difference = match compare(&expected, actual) {
+    let difference = match compare_where(&expected, actual, counts) {
         Ok(difference) => difference,
         Err(sizes) => return Some(format!("{name}: {sizes}")),
     };
+    let uncovered = expected.texels().iter().zip(actual.texels()).filter(|(a, b)| a[3] != b[3]).count();
     // One level, in units of 0..1, and half of another for rounding.
-    if difference.max <= 1.5 / 255.0 && difference.coverage_mismatches == 0 {
+    if difference.max <= 1.5 / 255.0 && uncovered == 0 {
         return None;
     }
     let map = folder("target/regression").join(format!("{name}.difference.png"));
     store(&output, actual);
     store(&map, &difference_map(&expected, actual, 16.0).expect("equal sizes"));
     Some(format!(
-        "{name}: off by {:.0} levels, {} pixels drawn in one only; see {} and {}",
+        "{name}: off by {:.0} levels, {uncovered} pixels drawn in one only; see {} and {}",
         255.0 * difference.max,
-        difference.coverage_mismatches,
         output.display(),
         map.display()
     ))
@@ -69,7 +80,7 @@ fn pictures_are_the_blessed_ones() {
         let mut one = |method: &str, picture: &Picture8| {
             let name = format!("{scene}/{method}");
             failures.extend(check(&name, picture));
-            known.push(folder("tests/references").join(format!("{name}.png")));
+            known.push(blessed(&name));
         };
         let visibility = reference::visibility(&frame);
         let models = [(Model::Phong, "reference"), (Model::Slerp, "reference-slerp")];
@@ -79,6 +90,14 @@ fn pictures_are_the_blessed_ones() {
         }
         for entry in METHODS {
             one(entry.info.name, &entry.variant().render(&frame));
+        }
+        let decided = decided(&frame, &visibility);
+        for (entry, renderer) in METHODS.iter().flat_map(|entry| renderers().into_iter().map(move |r| (entry, r))) {
+            let name = format!("{scene}/{}", entry.info.name);
+            let mut picture = Picture8::new(1, 1, [0; 4]);
+            entry.variant().render_with(&frame, renderer, &mut picture);
+            let by = format!("{name} by {}", renderers::name(renderer));
+            failures.extend(check_where(&by, &blessed(&name), &picture, |x, y| decided.get(x, y)));
         }
     }
     // A blessed picture that nothing makes any more would never fail again.

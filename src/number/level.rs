@@ -123,3 +123,49 @@ impl fmt::Display for LevelError {
 }
 
 impl core::error::Error for LevelError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        for level in Level::ALL {
+            match level.name().parse::<Level>() {
+                Ok(read) => assert!(read == level && level.is_available()),
+                Err(error) => assert!(error == LevelError::Unavailable { level } && !level.is_available()),
+            }
+            assert_eq!(level.to_string(), level.name());
+        }
+        assert_eq!("auto".parse(), Ok(Level::best()));
+    }
+
+    #[test]
+    fn one_pixel_at_a_time_is_always_there() {
+        let mut available = Level::available();
+        assert_eq!(available.next(), Some(Level::Scalar));
+        assert!(available.all(|level| level.width() == 8));
+        assert!(Level::best().is_available());
+        #[cfg(not(feature = "simd"))]
+        assert_eq!(Level::best(), Level::Scalar);
+    }
+
+    #[test]
+    fn what_is_no_level_is_said_to_be_none() {
+        // No processor has both.
+        let other = if cfg!(target_arch = "x86_64") { Level::Neon } else { Level::Avx2 };
+        let error = other.name().parse::<Level>().unwrap_err();
+        assert_eq!(error, LevelError::Unavailable { level: other });
+        let text = error.to_string();
+        assert!(text.starts_with("this machine does not have `") && text.ends_with(&names_of_this_machine()), "{text}");
+        let text = "avx".parse::<Level>().unwrap_err().to_string();
+        assert!(text.starts_with("unknown instruction set `avx`: did you mean `avx2`?"), "{text}");
+        let text = "".parse::<Level>().unwrap_err().to_string();
+        assert!(text.starts_with("unknown instruction set ``") && text.contains("expected `auto`, `scalar`"), "{text}");
+    }
+
+    fn names_of_this_machine() -> String {
+        let names = Level::available().map(|level| alloc::format!(", `{level}`"));
+        names.fold(String::from(": expected `auto`"), |all, name| all + &name)
+    }
+}

@@ -41,17 +41,17 @@ pub trait Num:
 {
     /// The square root.
     fn sqrt(self) -> Self;
-    /// 1 / √ of itself, over 0: by the processor's estimate and one step of Newton's where it has one (off by at most
-    /// 2⁻²² of the value, see [`wide`]), else by a root and a division.
+    /// 1 / √ of itself, over 0: by the processor's estimate and one step of Newton's where it has one (off by less than
+    /// 2⁻²¹ of the value, see [`wide`]), else by a root and a division.
     fn over_sqrt(self) -> Self;
     /// `self · factor + summand`, rounded once where the machine has one instruction for it, else twice.
     #[inline(always)]
     fn mul_add(self, factor: Self, summand: Self) -> Self {
         self * factor + summand
     }
-    /// The larger of both; the other one where one is NaN.
+    /// The larger of both; where this one is NaN, `other`, which is none.
     fn max(self, other: Self) -> Self;
-    /// The smaller of both; the other one where one is NaN.
+    /// The smaller of both; where this one is NaN, `other`, which is none.
     fn min(self, other: Self) -> Self;
     /// Itself where `condition` > 0, else 0 (also where `condition` is NaN).
     fn gate(self, condition: Self) -> Self;

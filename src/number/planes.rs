@@ -116,3 +116,47 @@ macro_rules! tuple {
 tuple!(A 0, B 1);
 tuple!(A 0, B 1, C 2);
 tuple!(A 0, B 1, C 2, D 3);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    fn planes(value: impl Planes<f32>) -> Vec<f32> {
+        let mut all = Vec::new();
+        put_each(value, |x| all.push(x));
+        all
+    }
+
+    /// A value as planes and back again; as many planes as it says.
+    #[track_caller]
+    fn round_trip<P: Planes<f32> + PartialEq + core::fmt::Debug>(value: P, expected: &[f32]) {
+        let stored = planes(value);
+        assert_eq!(stored, expected);
+        assert_eq!(P::COUNT, Some(stored.len()));
+        let mut stored = stored.into_iter();
+        assert_eq!(get_each::<f32, P>(|| stored.next().expect("as many numbers as were put")), value);
+        assert_eq!(stored.next(), None, "all numbers are taken");
+    }
+
+    #[test]
+    fn values_come_back_as_they_were_put() {
+        round_trip(4.0, &[4.0]);
+        round_trip((), &[]);
+        round_trip([1.0, 2.0, 3.0], &[1.0, 2.0, 3.0]);
+        round_trip([[1.0, 2.0], [3.0, 4.0]], &[1.0, 2.0, 3.0, 4.0]);
+        round_trip(([1.0; 0], 5.0), &[5.0]);
+        round_trip(([1.0, 2.0], 3.0, (4.0, 5.0)), &[1.0, 2.0, 3.0, 4.0, 5.0]);
+        round_trip((([1.0], (), 2.0), [(3.0, 4.0), (5.0, 6.0)], 7.0, ()), &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+    }
+
+    #[test]
+    fn what_may_be_there_or_not_has_no_planes() {
+        assert_eq!(<Option<f32> as Planes<f32>>::COUNT, None);
+        assert_eq!(<(f32, Option<f32>) as Planes<f32>>::COUNT, None);
+        assert_eq!(<[Option<f32>; 2] as Planes<f32>>::COUNT, None);
+        assert_eq!(<[Option<f32>; 0] as Planes<f32>>::COUNT, Some(0), "none of them is there");
+        assert_eq!(planes((1.0, Some(2.0))), vec![1.0]);
+    }
+}

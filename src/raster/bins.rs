@@ -89,3 +89,68 @@ fn bands_of(frame: &Frame, polygon: &Polygon, height: usize) -> Range<u32> {
     }
     rows.start / height as u32..(rows.end - 1) / height as u32 + 1
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{FrameBuilder, SubPixel, Vertex};
+    use crate::lighting::{Lighting, Material};
+    use crate::raster::coverage;
+    use crate::test_random::Random;
+    use glam::DVec3;
+    use std::collections::BTreeSet;
+
+    /// Polygons of three to six corners, in and out of the picture, of which many cover no pixel.
+    fn frame(random: &mut Random, width: usize, height: usize) -> Frame {
+        let mut builder = FrameBuilder::new(width as u32, height as u32);
+        let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
+        for number in 0..80 {
+            let reach = [128, 2000, 40_000][number % 3];
+            let middle = [width, height].map(|side| random.below(side as u64 * 512) as i32 - side as i32 * 128);
+            let corners: Vec<u32> = (0..3 + number % 4)
+                .map(|_| {
+                    let [x, y] = middle.map(|at| SubPixel::from_bits(at + random.below(reach) as i32));
+                    builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+                })
+                .collect();
+            builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
+        }
+        builder.finish().expect("corners inside the guard band")
+    }
+
+    #[test]
+    fn a_band_has_every_polygon_that_covers_any_of_its_pixels_in_order() {
+        let mut random = Random::new(31);
+        for round in 0..200 {
+            let (width, height) = (1 + random.below(60) as usize, 1 + random.below(70) as usize);
+            let (frame, rows) = (frame(&mut random, width, height), [1, 4, 8, 16, 32, 100][round % 6]);
+            let bins = Bins::new(&frame, rows);
+            assert_eq!((bins.height(), bins.starts.len()), (rows, height.div_ceil(rows) + 1));
+            let mut covering = BTreeSet::new();
+            coverage(&frame, |number, row, _| covering.extend([(row / rows, number)]));
+            for band in 0..height.div_ceil(rows) {
+                let polygons = bins.band(band);
+                assert!(polygons.is_sorted_by(|a, b| a < b), "ascending, each once: {polygons:?}");
+                let missing = covering.iter().find(|(at, number)| *at == band && !polygons.contains(number));
+                assert_eq!(missing, None, "round {round}, bands of {rows}");
+                for &number in polygons {
+                    assert!(has_centre(&frame, number, band * rows..((band + 1) * rows).min(height)), "{number}");
+                }
+            }
+        }
+    }
+
+    /// Whether the bounding box of a polygon holds the centre of a pixel of the scanlines `rows`, from left and top on, up to
+    /// but not including right and bottom.
+    fn has_centre(frame: &Frame, number: u32, rows: Range<usize>) -> bool {
+        let corners = frame.corners(&frame.polygons()[number as usize]);
+        let all = |of: fn(&Vertex) -> SubPixel| {
+            let all = corners.iter().map(|&v| of(&frame.vertices()[v as usize]).to_bits());
+            (all.clone().min().unwrap(), all.max().unwrap())
+        };
+        let holds = |(low, high): (i32, i32), mut pixels: Range<usize>| {
+            pixels.any(|p| (low..high).contains(&(256 * p as i32 + 128)))
+        };
+        holds(all(|v| v.y), rows) && holds(all(|v| v.x), 0..frame.width())
+    }
+}

@@ -26,8 +26,9 @@ impl Method for FastPhongRsqrt {
                   I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "L21 4.2, 4.3, with the root that processors have had since 1999 (SSE rsqrtps)",
         model: Model::PhongConstant,
-        roundings: Roundings { start: 10.0, step: 2.0, of: Stepped::Products },
-        derivation: "as duff-phong; the estimate of the root is off by 2^-22, which is 4 roundings more",
+        roundings: Roundings { start: 10.4, step: 2.0, of: Stepped::Products },
+        derivation: "as duff-phong; the estimate of the root and its step are off by 6.4 roundings, where a root and a quotient \
+                     are off by 2",
         fails: "where normals cancel inside a span, D is a small difference of large sums",
         parameters: &[],
         perspective: Perspective::Free,

@@ -78,5 +78,7 @@ impl<W: Walk> Walk for Option<W> {
     }
 }
 
+#[cfg(all(test, feature = "simd"))]
+mod group_tests;
 #[cfg(test)]
 mod tests;

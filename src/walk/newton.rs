@@ -49,19 +49,23 @@ impl<F: Num> Newton<F> {
         Newton { normal, length: dot(first, first).sqrt(), steps: if is_safe { steps } else { 0 } }
     }
 
-    /// The relative error that `steps` steps leave at most, from a guess that is a group away.
+    /// The relative error that `steps` steps leave at most, from a guess that is a group away and has itself the error
+    /// E = [`Newton::LARGEST_ERROR`] at most: where no more than E is left, no group is left with more.
     ///
     /// ```text
-    /// |N + k ΔN|² ≥ D_min = N·N − min(0, N·ΔN)² / ΔN·ΔN,    e_0 ≤ w |ΔN| / √D_min,    e ← e² / (2 (1 − e))
+    /// |N + k ΔN|² ≥ D_min = N·N − min(0, N·ΔN)² / ΔN·ΔN,    δ = w |ΔN| / √D_min
+    /// e_0 ≤ δ + E (1 + δ),    e ← e² / (2 (1 − e))
     /// ```
-    /// The guess may be too small by e, which leaves the most.
+    /// δ is how far the true length is from that of the group before, which is up to 1 + δ times as long. The guess may be too
+    /// small by e, which leaves the most.
     fn error_of_groups<M: Machine<F = F>>(n: [M::One; 3], dn: [M::One; 3], steps: u32) -> f32 {
         let (square, along, step) = (dot(n, n).value(), dot(n, dn).value().min(0.0), dot(dn, dn).value());
         if step == 0.0 {
             return 0.0;
         }
         let width = M::WIDTH as f32;
-        let mut e = Num::sqrt(width * width * step / (square - along * along / step).max(0.0));
+        let change = Num::sqrt(width * width * step / (square - along * along / step).max(0.0));
+        let mut e = change + Self::LARGEST_ERROR * (1.0 + change);
         for _ in 0..steps {
             if e >= 1.0 {
                 return 1.0;

@@ -1,6 +1,8 @@
 //! What several test files share: the same random numbers at every run, the shipped scenes, and frames of random shapes.
 #![allow(dead_code)] // each test file uses its own part
 
+pub mod renderers;
+
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::lighting::{Light, Lighting, Material};
 use fastphong::mesh::builtin::builtin;

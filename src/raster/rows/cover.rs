@@ -227,3 +227,6 @@ fn within(from: i32, to: i32, limits: Range<usize>) -> Range<i32> {
     let centre = |bits: i32| (bits + 127) >> 8;
     centre(from).max(limits.start as i32)..centre(to).min(limits.end as i32)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,117 @@
+//! Which pixels engines cover: those of the lecture's form, bit for bit.
+
+use crate::support::renderers::{covered, name, on_threads, renderers};
+use crate::support::{self, Corner, Random, frame, random_polygon};
+use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::lighting::{Lighting, Material};
+use fastphong::scene::HiddenSurfaces;
+use fastphong::shader::Variant;
+use glam::DVec3;
+
+/// Heights around those of bands, 4, 8, 16 and 32 scanlines.
+const HEIGHTS: [u32; 16] = [1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 32, 33, 48, 65];
+
+/// A triangle along a line, a few sub-pixels wide.
+fn sliver(random: &mut Random, width: i32, height: i32) -> Vec<Corner> {
+    let mut at = |limit: i32| random.below(limit as u64 * 256) as i32;
+    let (a, b) = ((at(width), at(height)), (at(width), at(height)));
+    let along = random.below(257) as i64;
+    let between = |a: i32, b: i32| a + (i64::from(b - a) * along / 256) as i32;
+    let aside = |random: &mut Random| random.below(5) as i32 - 2;
+    let c = (between(a.0, b.0) + aside(random), between(a.1, b.1) + aside(random));
+    [a, b, c].map(|(x, y)| Corner { x, y, depth: random.unit(), intensity: random.unit() }).to_vec()
+}
+
+/// A triangle with corners far outside of the picture, which holds all of it, a part of it, or nothing.
+fn far(random: &mut Random) -> Vec<Corner> {
+    let reach = [300, 2000, 16_000][random.below(3) as usize];
+    let mut corner = || {
+        let mut at = || random.below(2 * reach * 256) as i32 - reach as i32 * 256;
+        let (x, y) = (at(), at());
+        Corner { x, y, depth: random.unit(), intensity: random.unit() }
+    };
+    vec![corner(), corner(), corner()]
+}
+
+/// Polygons of all kinds: small triangles, slivers, triangles that reach far out, and polygons that cross themselves.
+fn soup(random: &mut Random, width: i32, height: i32) -> Vec<Vec<Corner>> {
+    let count = 1 + random.below(90);
+    let mut polygon = |_| match random.below(8) {
+        0..3 => random_polygon(random, width, height, 3),
+        3 => sliver(random, width, height),
+        4 => far(random),
+        5 => random_polygon(random, width, height, 4),
+        _ => {
+            let corners = 3 + random.below(14) as usize;
+            random_polygon(random, width, height, corners)
+        }
+    };
+    (0..count).map(&mut polygon).collect()
+}
+
+/// A frame whose every polygon has a colour of its own, so that the picture tells which one is seen. The last one is, as
+/// there is no depth test.
+fn numbered(width: u32, height: u32, polygons: &[Vec<Corner>]) -> Frame {
+    let mut builder = FrameBuilder::new(width, height);
+    builder.hidden_surfaces(HiddenSurfaces::DrawOrder);
+    for (number, corners) in polygons.iter().enumerate() {
+        let shade = (number + 1) as f32 / 128.0;
+        let dark = Material { ambient: [shade; 3], diffuse: [0.0; 3], specular: [0.0; 3], shininess: 1.0 };
+        let material = builder.lighting(Lighting::new(&dark, [1.0; 3], &[], DVec3::Z));
+        let place = |c: &Corner| (SubPixel::from_bits(c.x), SubPixel::from_bits(c.y));
+        let vertices: Vec<u32> = corners
+            .iter()
+            .map(|c| {
+                let (x, y) = place(c);
+                builder.vertex(Vertex { x, y, depth: c.depth, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+            })
+            .collect();
+        builder.polygon(&vertices, [0.0, 0.0, 1.0], number as u32);
+    }
+    builder.finish().expect("corners inside the guard band")
+}
+
+fn variant(name: &str) -> Variant {
+    Variant::parse(name).expect("a method")
+}
+
+/// Random polygons on pictures of 1 to 40 columns, of which most are no whole groups, and of heights around those of bands:
+/// the same polygon is seen at every pixel. Flat shading has triangles cut into planes, slerp follows their edges.
+#[test]
+fn random_polygons_are_covered_as_in_the_lecture() {
+    let mut random = Random::new(29);
+    let methods = [variant("flat"), variant("slerp-phong")];
+    for round in 0..320 {
+        let (width, height) = (1 + random.below(40) as u32, HEIGHTS[round % HEIGHTS.len()]);
+        let polygons = soup(&mut random, width as i32, height as i32);
+        let last = numbered(width, height, &polygons);
+        let nearest = frame(width, height, true, &polygons);
+        for method in &methods {
+            let (seen, drawn) = (method.render_linear(&last), covered(&method.render_linear(&nearest)));
+            for renderer in renderers() {
+                let who = || format!("round {round}: {} by {}", method.info().name, name(renderer));
+                assert_eq!(method.render_linear_with(&last, renderer), seen, "{}", who());
+                assert_eq!(covered(&method.render_linear_with(&nearest, renderer)), drawn, "{}", who());
+            }
+        }
+    }
+}
+
+/// The shipped scenes, on pictures whose width is no whole number of groups, on one, two and three threads.
+#[test]
+fn shipped_scenes_are_covered_as_in_the_lecture() {
+    for (scene, path) in support::shipped() {
+        let frame = support::scene(&path, Some((157, 115))).frame().expect("a frame");
+        for method in ["flat", "slerp-phong"].map(variant) {
+            let drawn = covered(&method.render_linear(&frame));
+            assert!(drawn.texels().iter().any(|&drawn| drawn));
+            for renderer in renderers() {
+                for threads in 1..=3 {
+                    let ours = on_threads(threads, || covered(&method.render_linear_with(&frame, renderer)));
+                    let who = format!("{} on {scene} by {}, {threads} threads", method.info().name, name(renderer));
+                    assert_eq!(ours, drawn, "{who}");
+                }
+            }
+        }
+    }
+}

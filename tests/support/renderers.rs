@@ -1,0 +1,107 @@
+//! Every way in which this machine can draw a frame: engines, instruction sets, threads.
+
+use fastphong::frame::Frame;
+use fastphong::lighting::{Lighting, SpecularModel};
+use fastphong::number::Level;
+use fastphong::picture::{LinearPicture, Picture};
+use fastphong::raster::{Engine, Renderer};
+use fastphong::reference::Visibility;
+use fastphong::scene::{DepthBuffer, HiddenSurfaces};
+use fastphong::shader::Info;
+use fastphong::walk::Newton;
+
+/// Every engine on every instruction set that this machine has, the lecture's own form first.
+pub fn renderers() -> Vec<Renderer> {
+    let on = |engine| Level::available().map(move |level| Renderer { engine: Some(engine), level });
+    let all: Vec<Renderer> = Engine::ALL.into_iter().flat_map(on).collect();
+    assert_eq!(all[0], Renderer::LECTURE);
+    all
+}
+
+/// The name of a renderer, as the command line has it.
+pub fn name(renderer: Renderer) -> String {
+    format!("{} on {}", renderer.engine.map_or("any", Engine::name), renderer.level)
+}
+
+/// Does `work` on so many threads.
+pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("a pool of threads");
+    pool.install(work)
+}
+
+/// How far a method may be from its closed form in a linear channel of 0..=1, drawn by `renderer`: its roundings, and what
+/// the guard of Newton's method lets through in groups of pixels.
+///
+/// The guard leaves a length, from above, within the relative error e = [`Newton::LARGEST_ERROR`]. The diffuse terms D are
+/// divided by it: they lose e D, of which after the clamp, as all other terms are 0 or more, e / (1 − e) is left at most. Of
+/// N·H, which is divided by it too, the power n loses n e. R·V does not see the length but its square, which has no error.
+pub fn bound(info: &Info, frame: &Frame, renderer: Renderer) -> f64 {
+    let bound = info.bound(frame);
+    if info.name != "fast-phong" || renderer.level.width() == 1 {
+        return bound;
+    }
+    let e = f64::from(Newton::<f32>::LARGEST_ERROR);
+    let of_half = |lighting: &Lighting| match lighting.specular {
+        SpecularModel::Phong => 0.0,
+        SpecularModel::Blinn => e * f64::from(lighting.shininess),
+    };
+    bound + e / (1.0 - e) + frame.lightings().iter().map(of_half).fold(0.0, f64::max)
+}
+
+/// Pixels of which rounding cannot change the polygon that any sample shows: see [`is_decided`].
+pub fn decided(frame: &Frame, visibility: &Visibility) -> Picture<bool> {
+    let n = frame.samples();
+    let mut decided = Picture::new(frame.picture_width(), frame.picture_height(), true);
+    for (x, y) in (0..frame.height()).flat_map(|y| (0..frame.width()).map(move |x| (x, y))) {
+        decided.row_mut(y / n)[x / n] &= is_decided(frame, visibility, x, y);
+    }
+    decided
+}
+
+/// Where rounding cannot decide which polygon is seen: the next one is farther behind than depths are off by, whichever
+/// engine interpolates them.
+pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) -> bool {
+    // A kept depth may fall on either side of the border between two levels.
+    let level = match frame.hidden_surfaces() {
+        HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. }) => bits.most().map_or(0.0, |most| 1.0 / f64::from(most)),
+        HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => 0.0,
+    };
+    visibility.depth_gap.get(x, y) > depth_rounding(frame) + level
+}
+
+/// What the difference of two depths, both in 0..=1, may be off by.
+///
+/// By edges, as derived in tests/coverage.rs: each depth is rounded twice at each of width + height steps, by half a unit in
+/// the last place, 2⁻²⁴ of 1 at most, and 32 times at the starts of its walks. By barycentric coordinates there are fewer
+/// roundings: an integer, the area, its inverse and their product are rounded, which is 4 · 2⁻²⁴ of a coordinate in 0..=1; so
+/// are two differences, two products and two sums, and a step of eight pixels is rounded once, not eight times.
+pub fn depth_rounding(frame: &Frame) -> f64 {
+    2.0 * (2 * (frame.width() + frame.height()) + 32) as f64 / f64::from(1 << 24)
+}
+
+/// The largest difference of a channel where `counts` holds, and at how many pixels in all only one of the pictures shows a
+/// polygon. Numbers that are not finite are as far away as can be.
+pub fn largest_difference(
+    truth: &LinearPicture,
+    ours: &LinearPicture,
+    counts: impl Fn(usize, usize) -> bool,
+) -> (f64, usize) {
+    let (mut most, mut uncovered) = (0.0f64, 0);
+    for y in 0..truth.height() {
+        for (x, (a, b)) in truth.row(y).iter().zip(ours.row(y)).enumerate() {
+            uncovered += usize::from(a[3] != b[3]);
+            if counts(x, y) {
+                for c in 0..3 {
+                    let difference = (f64::from(a[c]) - f64::from(b[c])).abs();
+                    most = most.max(if difference.is_finite() { difference } else { f64::INFINITY });
+                }
+            }
+        }
+    }
+    (most, uncovered)
+}
+
+/// Whether each pixel is covered.
+pub fn covered(picture: &LinearPicture) -> Picture<bool> {
+    picture.map(|texel| texel[3] > 0.0)
+}
