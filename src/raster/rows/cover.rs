@@ -34,6 +34,7 @@ impl Run {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Covered {
     pub number: u32,
+    pub material: u32,
     /// Its corners, in the order in which its area is over 0.
     pub corners: [u32; 3],
     /// How much the barycentric coordinates of the second and the third corner grow from pixel to pixel.
@@ -52,6 +53,7 @@ pub(crate) struct Cover {
 #[derive(Clone, Copy, Debug)]
 struct Fetched {
     number: u32,
+    material: u32,
     corners: [u32; 3],
     places: [[i32; 2]; 3],
 }
@@ -90,16 +92,17 @@ impl Cover {
         let (polygons, vertices) = (frame.polygons(), frame.vertices());
         self.fetched.clear();
         for &number in numbers.iter().take(BATCH) {
-            let [a, b, c] = *frame.corners(&polygons[number as usize]) else { return };
+            let polygon = &polygons[number as usize];
+            let [a, b, c] = *frame.corners(polygon) else { return };
             let place = |v: &ScreenVertex| [v.x.to_bits(), v.y.to_bits()];
             let places = [a, b, c].map(|v| place(&vertices[v as usize]));
-            self.fetched.push(Fetched { number, corners: [a, b, c], places });
+            self.fetched.push(Fetched { number, material: polygon.material, corners: [a, b, c], places });
         }
     }
 
     #[inline(always)]
     fn cover<M: Lanes>(&mut self, m: M, frame: &Frame, fetched: &Fetched, band: &Range<usize>) {
-        let Fetched { number, corners: [a, b, c], places: [[xa, ya], [xb, yb], [xc, yc]] } = *fetched;
+        let Fetched { number, material, corners: [a, b, c], places: [[xa, ya], [xb, yb], [xc, yc]] } = *fetched;
         let columns = within(xa.min(xb).min(xc), xa.max(xb).max(xc), 0..frame.width());
         let rows = within(ya.min(yb).min(yc), ya.max(yb).max(yc), band.clone());
         if columns.is_empty() || rows.is_empty() {
@@ -128,7 +131,7 @@ impl Cover {
             true
         };
         if covers {
-            self.triangles.push(Covered { number, corners, across });
+            self.triangles.push(Covered { number, material, corners, across });
         }
     }
 

@@ -50,7 +50,7 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     let hides = SampleDepth::new(frame).hides();
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
         let sources = cover_band::<S, M>(m, frame, &setup, &bins, (number, &rows), &mut scratch.cover);
-        let painter = Painter { frame, setup: &setup, sources: &sources, hides, notes_material: only.is_none() };
+        let painter = Painter { setup: &setup, sources: &sources, hides, notes_material: only.is_none() };
         let (row, line) = (&mut scratch.row, &mut scratch.line);
         row.prepare(frame.width(), planes + usize::from(only.is_none()));
         for channel in line.iter_mut() {
@@ -88,9 +88,10 @@ fn cover_band<S: Shader, M: Lanes>(
                 sources.add(frame, setup, &cover.triangles[before..]);
                 rest = &rest[taken..];
             } else {
+                let material = frame.polygons()[next as usize].material;
                 edges.runs(frame, &setup.attributes, rows, next, &mut |row, pixels, depth, attribute| {
                     let source = sources.spans.len() as u32 | Run::SPAN;
-                    sources.spans.push((next, depth, attribute));
+                    sources.spans.push(([next, material], depth, attribute));
                     let (start, end) = (pixels.start as u16, pixels.end as u16);
                     cover.runs[row - rows.start].push(Run { start, end, source, weights: [0.0; 2] });
                 });

@@ -17,13 +17,14 @@ type PlaneOf<S> = <<S as Shader>::Attribute<f32> as Attribute<f32>>::Plane;
 /// What the runs of a band belong to.
 pub(super) struct Sources<S: Shader> {
     triangles: Vec<Triangle<S>>,
-    /// Runs of other polygons: polygon, depth at the first pixel and its growth, attribute.
-    pub spans: Vec<(u32, [f32; 2], SpanIn<S>)>,
+    /// Runs of other polygons: polygon and material, depth at the first pixel and its growth, attribute.
+    pub spans: Vec<([u32; 2], [f32; 2], SpanIn<S>)>,
 }
 
 /// A triangle over which depth and attribute are linear.
 struct Triangle<S: Shader> {
-    number: u32,
+    /// Its number, and its material: not to be looked up, run by run, where it is far.
+    polygon: [u32; 2],
     depth: f32,
     depth_to: [f32; 2],
     depth_step: f32,
@@ -48,14 +49,14 @@ impl<S: Shader> Sources<S> {
             let [depth, to_b, to_c] = corners.map(|v| vertices[v].depth);
             let depth_to = [to_b - depth, to_c - depth];
             let depth_step = depth_to[0] * b + depth_to[1] * c;
-            self.triangles.push(Triangle { number: triangle.number, depth, depth_to, depth_step, plane });
+            let polygon = [triangle.number, triangle.material];
+            self.triangles.push(Triangle { polygon, depth, depth_to, depth_step, plane });
         }
     }
 }
 
 /// What draws the runs of a scanline.
 pub(super) struct Painter<'a, S: Shader> {
-    pub frame: &'a Frame,
     pub setup: &'a SetUp<S, Scalar>,
     pub sources: &'a Sources<S>,
     /// Whether nearer polygons hide farther ones.
@@ -69,16 +70,16 @@ impl<S: Shader> Painter<'_, S> {
     #[inline(always)]
     pub fn runs<M: Lanes>(&self, m: M, y: usize, runs: &[Run], row: &mut Row) {
         for run in runs {
-            let (number, depth, attribute) = if run.source & Run::SPAN == 0 {
+            let (polygon, depth, attribute) = if run.source & Run::SPAN == 0 {
                 let triangle = &self.sources.triangles[run.source as usize];
                 let [b, c] = run.weights;
                 let depth = triangle.depth + b * triangle.depth_to[0] + c * triangle.depth_to[1];
                 let attribute = S::Attribute::on_row(&triangle.plane, run.weights);
-                (triangle.number, [depth, triangle.depth_step], attribute)
+                (triangle.polygon, [depth, triangle.depth_step], attribute)
             } else {
                 self.sources.spans[(run.source ^ Run::SPAN) as usize]
             };
-            self.run(m, y, (run, number), depth, attribute, row);
+            self.run(m, y, (run, polygon), depth, attribute, row);
         }
     }
 
@@ -88,12 +89,11 @@ impl<S: Shader> Painter<'_, S> {
         &self,
         m: M,
         y: usize,
-        (run, number): (&Run, u32),
+        (run, [number, material]): (&Run, [u32; 2]),
         depth: [f32; 2],
         attribute: SpanIn<S>,
         row: &mut Row,
     ) {
-        let material = self.frame.polygons()[number as usize].material;
         let (consts, polygon) = (&self.setup.consts[material as usize], &self.setup.polygons[number as usize]);
         let start = Span { x: f32::from(run.start) + 0.5, y: y as f32 + 0.5, attribute };
         let mut walk = S::walk(m, consts, polygon, &start);
