@@ -25,8 +25,6 @@ pub trait Lanes: Machine<One = f32> {
     fn less(self, a: Self::F, b: Self::F) -> Self::Mask;
     /// Where both are.
     fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
-    /// Whether all pixels are meant.
-    fn all(self, mask: Self::Mask) -> bool;
     /// Whether any pixel is meant.
     fn any(self, mask: Self::Mask) -> bool;
     /// `new` where `mask` says so, else `old`.

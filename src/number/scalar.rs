@@ -131,11 +131,6 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    fn all(self, mask: bool) -> bool {
-        mask
-    }
-
-    #[inline(always)]
     fn any(self, mask: bool) -> bool {
         mask
     }

@@ -187,11 +187,6 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 
     #[inline(always)]
-    fn all(self, mask: mask32x8<S>) -> bool {
-        mask.all_true()
-    }
-
-    #[inline(always)]
     fn any(self, mask: mask32x8<S>) -> bool {
         mask.any_true()
     }

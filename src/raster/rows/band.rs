@@ -44,20 +44,6 @@ impl Row {
         &self.values[x..self.stride]
     }
 
-    /// Stores `pixel` and `depth` over a whole group.
-    #[inline(always)]
-    pub fn put_all<M: Lanes, P: Planes<M::F>>(&mut self, m: M, x: usize, depth: M::F, pixel: P) {
-        let mut at = x;
-        put_each(
-            (depth, pixel),
-            #[inline(always)]
-            |new: M::F| {
-                m.store(new, &mut self.values[at..at + M::WIDTH]);
-                at += self.stride;
-            },
-        );
-    }
-
     /// Stores `pixel` and `depth` where `mask` says so.
     #[inline(always)]
     pub fn put<M: Lanes, P: Planes<M::F>>(&mut self, m: M, x: usize, mask: M::Mask, depth: M::F, pixel: P) {

@@ -106,11 +106,8 @@ impl<S: Shader> Painter<'_, S> {
             if self.hides {
                 mask = m.and(mask, m.less(z, m.load(row.depth(x))));
             }
-            if m.all(mask) {
-                row.put_all(m, x, z, pixel);
-            } else if m.any(mask) {
-                row.put(m, x, mask, z, pixel);
-            }
+            // Written anyway: which groups are seen, and which of them wholly, cannot be predicted where runs are short.
+            row.put(m, x, mask, z, pixel);
             if self.notes_material {
                 row.put_material(m, x, mask, material);
             }
