@@ -46,9 +46,8 @@ pub const ENGINES: [EngineInfo; 4] = [
     EngineInfo {
         name: "row",
         title: "bands of scanlines, interpolants kept in planes, each row shaded once",
-        draws: "every method under lights at infinity, flat, Gouraud and naive Phong shading under lights at positions \
-                too; up to four lights; interpolated depth of 32 bits, clipped by planes. What it cannot draw the span \
-                engine draws",
+        draws: "every method under lights at infinity, some under lights at positions (see `fastphong info`); up to four \
+                lights; interpolated depth of 32 bits, clipped by planes. What it cannot draw the span engine draws",
         runs: "every instruction set, several threads",
     },
     EngineInfo {

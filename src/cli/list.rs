@@ -1,7 +1,7 @@
 //! `fastphong list`: what there is, each from its own table.
 
 use super::engines::{ENGINES, EngineInfo, engines_with};
-use super::table::columns;
+use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
 use fastphong::figures::FIGURES;
@@ -193,7 +193,7 @@ fn described() -> Result<Vec<[String; 3]>, Failure> {
 fn scenes() -> Result<String, Failure> {
     let mut text = String::new();
     for [name, title, description] in described()? {
-        text += &format!("{name}\n    {title}\n{}", super::table::wrapped(&description, 4));
+        text += &format!("{name}\n    {title}\n{}", wrapped(&description, 4));
     }
     Ok(text)
 }
@@ -240,8 +240,9 @@ fn engines() -> String {
     let mut text = String::new();
     for engine in &ENGINES {
         let EngineInfo { name, title, draws, runs } = engine;
-        text += &format!("{name}\n    {title}\n    draws: {draws}\n    on: {runs}\n");
-        text += &format!("    methods: {}\n", engine.methods().collect::<Vec<_>>().join(", "));
+        let methods = engine.methods().collect::<Vec<_>>().join(", ");
+        let about = wrapped(&format!("{title}\ndraws: {draws}\non: {runs}\nmethods: {methods}"), 4);
+        text += &format!("{name}\n{about}");
     }
     text
 }
