@@ -237,7 +237,9 @@ impl LanesJob for Inside {
     type Out = u32;
 
     fn run<M: Lanes>(self, m: M) -> u32 {
-        m.inside(self.0, self.1)
+        // From one pixel before, so that going beside is seen too.
+        let start = [0, 1, 2].map(|i| self.0[i] - self.1[i]);
+        m.inside(m.beside(m.edges(start, self.1), self.1))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The two ways of covering a triangle against each other, and against crossings of whole polygons.
 
 use super::*;
-use crate::frame::FrameBuilder;
+use crate::frame::{FrameBuilder, Vertex};
 use crate::lighting::{Lighting, Material};
 use crate::number::{LanesJob, Level, on_level};
 use crate::raster::coverage;
@@ -55,14 +55,20 @@ impl LanesJob for BothWays {
 
     fn run<M: Lanes>(self, m: M) -> usize {
         let (x, y, over_area, columns, rows) = self.0;
-        let (mut small, mut large) = (Batch::default(), Batch::default());
-        small.small(m, x, y, over_area, columns.clone(), rows.clone());
-        large.large(x, y, over_area, columns, rows);
-        let bits = |batch: &Batch| -> Vec<_> {
-            batch.runs.iter().map(|r| (r.row, r.start, r.end, r.weights.map(f32::to_bits))).collect()
+        let (mut small, mut large) = (Cover::default(), Cover::default());
+        small.clear(rows.end as usize);
+        large.clear(rows.end as usize);
+        let covers = small.small(m, [x, y], over_area, columns.clone(), rows.clone(), 0);
+        large.large([x, y], over_area, columns, rows, 0);
+        let bits = |cover: &Cover| -> Vec<_> {
+            let rows = cover.runs.iter().enumerate();
+            rows.flat_map(|(row, runs)| runs.iter().map(move |r| (row, r.start, r.end, r.weights.map(f32::to_bits))))
+                .collect()
         };
-        assert_eq!(bits(&small), bits(&large), "{x:?} {y:?}");
-        small.runs.len()
+        let found = bits(&small);
+        assert_eq!(found, bits(&large), "{x:?} {y:?}");
+        assert_eq!(covers, !found.is_empty());
+        found.len()
     }
 }
 
@@ -77,7 +83,7 @@ fn edge_functions_and_crossings_cover_the_same_pixels() {
     }
 }
 
-/// Batches until no triangle is left.
+/// Adds triangles until none is left.
 struct Filled<'a>(&'a Frame, Range<usize>);
 
 impl LanesJob for Filled<'_> {
@@ -87,22 +93,23 @@ impl LanesJob for Filled<'_> {
         let Filled(frame, band) = self;
         let numbers: Vec<u32> = (0..frame.polygons().len() as u32).collect();
         let (mut rest, mut found) = (&numbers[..], vec![]);
-        let mut batch = Batch::default();
+        let mut cover = Cover::default();
+        cover.clear(band.len());
         while !rest.is_empty() {
-            let taken = batch.fill(m, frame, rest, &band);
-            assert!(taken > 0 && batch.triangles.len() <= BATCH);
+            let taken = cover.add(m, frame, rest, &band);
+            assert!(taken > 0 && taken <= BATCH);
             rest = &rest[taken..];
-            let mut runs = batch.runs.iter();
-            for triangle in &batch.triangles {
-                for run in runs.by_ref().take(triangle.runs as usize) {
-                    let [b, c] = run.weights.map(f64::from);
-                    // Inside they are in 0..=1, up to four roundings each.
-                    let out = 8.0 / f64::from(1 << 24);
-                    assert!(b >= -out && c >= -out && b + c <= 1.0 + out, "{run:?}");
-                    found.push((triangle.number, run.start as usize..run.end as usize, run.row as usize));
-                }
+        }
+        for (row, runs) in cover.runs.iter().enumerate() {
+            assert!(runs.is_sorted_by_key(|run| run.source), "in drawing order");
+            for run in runs {
+                let [b, c] = run.weights.map(f64::from);
+                // Inside they are in 0..=1, up to four roundings each.
+                let out = 8.0 / f64::from(1 << 24);
+                assert!(b >= -out && c >= -out && b + c <= 1.0 + out, "{run:?}");
+                let number = cover.triangles[run.source as usize].number;
+                found.push((number, usize::from(run.start)..usize::from(run.end), band.start + row));
             }
-            assert!(runs.next().is_none(), "every run belongs to a triangle");
         }
         found
     }
@@ -110,7 +117,7 @@ impl LanesJob for Filled<'_> {
 
 /// Triangles of all sizes, in and out of the picture, in bands: together the pixels of the lecture's spans.
 #[test]
-fn batches_cover_what_spans_do() {
+fn bands_cover_what_spans_do() {
     let mut random = Random::new(23);
     for round in 0..60 {
         let (width, height) = (1 + random.below(90) as usize, 1 + random.below(70) as usize);
