@@ -4,7 +4,7 @@ mod support;
 
 use fastphong::frame::{Frame, FrameBuilder};
 use fastphong::metrics::compare_where;
-use fastphong::picture::LinearPicture;
+use fastphong::picture::{LinearPicture, Picture};
 use fastphong::raster::{self, NOTHING};
 use fastphong::reference::{self, Model, ReferencePicture, Visibility};
 use fastphong::scene::{DepthBuffer, HiddenSurfaces};
@@ -16,7 +16,7 @@ struct Shipped {
     name: String,
     frame: Frame,
     visibility: Visibility,
-    seen: fastphong::picture::Picture<u32>,
+    seen: Picture<u32>,
 }
 
 fn shipped() -> Vec<Shipped> {
@@ -39,13 +39,17 @@ fn errors(scene: &Shipped, variant: &Variant, truth: &LinearPicture) -> (f64, f6
 
 /// What is wrong with a method's picture of a scene by the other engines and on groups of pixels, if anything. They round in
 /// other places, but no more often: eight pixels on at a time, and from barycentric coordinates instead of along edges.
-fn failures_of_engines(scene: &Shipped, variant: &Variant, truth: &LinearPicture) -> Vec<String> {
+fn failures_of_engines(
+    scene: &Shipped,
+    variant: &Variant,
+    truth: &LinearPicture,
+    decided: &Picture<bool>,
+) -> Vec<String> {
     let mut failures = Vec::new();
     for renderer in renderers().into_iter().skip(1) {
         let bound = renderers::bound(variant.info(), &scene.frame, renderer);
         let ours = variant.render_linear_with(&scene.frame, renderer);
-        let decided = |x, y| renderers::is_decided(&scene.frame, &scene.visibility, x, y);
-        let (max, uncovered) = largest_difference(truth, &ours, decided);
+        let (max, uncovered) = largest_difference(truth, &ours, |x, y| decided.get(x, y));
         let who = format!("{} on {} by {}", variant.info().name, scene.name, renderers::name(renderer));
         println!("{who}: max {max:.2e}, bound {bound:.2e}");
         if max > bound || uncovered > 0 {
@@ -63,6 +67,11 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
     let mut failures = Vec::new();
     for scene in shipped() {
         let truths = Model::ALL.map(|model| reference::shade(&scene.frame, &scene.visibility, model));
+        let decided = renderers::decided(&scene.frame, &scene.visibility);
+        let left_out = decided.texels().iter().filter(|decided| !**decided).count();
+        println!("{}: {left_out} of {} pixels are left out", scene.name, decided.texels().len());
+        let fights = scene.name == "z-fighting"; // a depth buffer of 16 bits, whose levels are wide
+        assert!(fights || left_out * 1000 <= decided.texels().len(), "{}: {left_out} pixels left out", scene.name);
         let linear = truths.each_ref().map(ReferencePicture::to_linear);
         for entry in METHODS {
             let info = entry.info;
@@ -73,7 +82,7 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
             if max > bound {
                 failures.push(format!("{} on {}: {max:.2e} is over {bound:.2e}", info.name, scene.name));
             }
-            failures.extend(failures_of_engines(&scene, &entry.variant(), &linear[place]));
+            failures.extend(failures_of_engines(&scene, &entry.variant(), &linear[place], &decided));
             let nearest = nearest.entry(info.name).or_insert((0.0, String::new()));
             if max / bound > nearest.0 {
                 *nearest = (max / bound, scene.name.clone());

@@ -298,7 +298,7 @@ fn colours_are_stored_as_one_by_one() {
     let covered: Vec<f32> = values.iter().map(|_| random.signed() + 0.5).collect();
     let packed = |level| on_level(level, Packed { channels: [&values, &green, &blue], covered: &covered });
     let expected = packed(Level::Scalar);
-    assert!(expected.iter().any(|t| *t == BACKGROUND) && expected.iter().any(|t| t[3] == 255));
+    assert!(expected.contains(&BACKGROUND) && expected.iter().any(|t| t[3] == 255));
     for level in wide() {
         let found = packed(level);
         for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
