@@ -152,11 +152,9 @@ impl Lanes for Scalar {
 
     #[inline(always)]
     fn inside(self, edges: [[i32; 8]; 3]) -> u32 {
-        let mut inside = 0;
-        for k in 0..8 {
-            inside |= u32::from((edges[0][k] | edges[1][k] | edges[2][k]) >= 0) << k;
-        }
-        inside
+        let [a, b, c] = edges;
+        let signs = a.iter().zip(b).zip(c).map(|((a, b), c)| a | b | c);
+        signs.enumerate().map(|(k, sign)| u32::from(sign >= 0) << k).sum()
     }
 
     #[inline(always)]

@@ -26,7 +26,6 @@ mod gouraud;
 mod gouraud_separate;
 mod naive_phong;
 mod one_colour;
-mod phong_rsqrt;
 mod slerp_phong;
 mod slerp_phong_vector;
 
@@ -41,7 +40,6 @@ pub use gouraud::Gouraud;
 pub use gouraud_separate::GouraudSeparate;
 pub use info::{Info, Local, Parameter, Perspective};
 pub use naive_phong::NaivePhong;
-pub use phong_rsqrt::PhongRsqrt;
 pub use slerp_phong::SlerpPhong;
 pub use slerp_phong_vector::SlerpPhongVector;
 pub use span::SpanBench;

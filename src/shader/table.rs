@@ -6,7 +6,7 @@ use super::dispatch::{Job, dispatch};
 use super::span::{self, SpanBench};
 use super::{
     DuffPhong, FastPhong, FastPhongRsqrt, Flat, FlatAverage, Gouraud, GouraudSeparate, Info, Method, NaivePhong,
-    PhongRsqrt, Shader, SlerpPhong, SlerpPhongVector,
+    Shader, SlerpPhong, SlerpPhongVector,
 };
 use crate::encoding::store;
 use crate::frame::Frame;
@@ -30,7 +30,6 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<Gouraud>(),
     Entry::of::<GouraudSeparate>(),
     Entry::of::<NaivePhong>(),
-    Entry::of::<PhongRsqrt>(),
     Entry::of::<FastPhong>(),
     Entry::of::<FastPhongRsqrt>(),
     Entry::of::<DuffPhong>(),
