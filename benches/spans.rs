@@ -5,6 +5,7 @@
 //! step scalars instead of vectors pay in the former for the latter; where their lines cross is how long spans must be.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use fastphong::number::Level;
 use fastphong::shader::{METHODS, SpanBench};
 use std::hint::black_box;
 use std::time::Duration;
@@ -14,7 +15,7 @@ const DEGREES: f32 = 20.0;
 const LIGHTS: usize = 1;
 
 fn spans(c: &mut Criterion) {
-    let bench = SpanBench::new(DEGREES, LIGHTS);
+    let (bench, four) = (SpanBench::new(DEGREES, LIGHTS), SpanBench::new(DEGREES, 4));
     for variant in METHODS.iter().map(|entry| entry.variant()) {
         let mut group = c.benchmark_group(format!("spans/{variant}"));
         for length in (0..=10).map(|power| 1usize << power) {
@@ -23,6 +24,20 @@ fn spans(c: &mut Criterion) {
             group.bench_function(BenchmarkId::from_parameter(length), |b| {
                 b.iter(|| variant.shade_span(black_box(&bench), black_box(&mut out)));
             });
+        }
+        // The kernels of the instruction sets on the longest span, one light and four.
+        const LONG: usize = 1024;
+        group.throughput(Throughput::Elements(LONG as u64));
+        for level in Level::available() {
+            for (lights, bench) in [(1, &bench), (4, &four)] {
+                let mut channels = [(); 3].map(|()| vec![0.0; LONG]);
+                group.bench_function(BenchmarkId::new(format!("{level}/{lights} lights"), LONG), |b| {
+                    b.iter(|| {
+                        let [r, g, blue] = black_box(&mut channels);
+                        variant.shade_span_on(level, black_box(&bench), [r, g, blue]);
+                    });
+                });
+            }
         }
         group.finish();
     }

@@ -4,9 +4,10 @@ use super::dispatch::{Job, dispatch_span};
 use super::{Corner, Corners, Method, Shader, Span};
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Falloff, Light, Lighting, Material, Place};
-use crate::number::{Machine, Scalar, each};
+use crate::number::{Lanes, LanesJob, Level, Machine, Scalar, each, on_level};
 use crate::scene::Interpolation;
 use crate::walk::{Attribute, Walk};
+use core::marker::PhantomData;
 use glam::DVec3;
 
 /// A span between two unit normals, lit by some lights.
@@ -81,8 +82,64 @@ pub(super) fn shade<D: Method>(parameters: &[u32], bench: &SpanBench, out: &mut 
     dispatch_span::<D, _>(&bench.frame, Shade(parameters, &bench.frame, out));
 }
 
+/// Likewise on an instruction set, into one slice a channel.
+pub(super) fn shade_on<D: Method>(parameters: &[u32], bench: &SpanBench, level: Level, out: [&mut [f32]; 3]) {
+    struct Shade<'a>(&'a [u32], &'a Frame, Level, [&'a mut [f32]; 3]);
+    impl Job for Shade<'_> {
+        type Out = ();
+        fn run<S: Shader>(self) {
+            let Shade(parameters, frame, level, out) = self;
+            on_level(level, OnLevel::<S> { parameters, frame, out, shader: PhantomData });
+        }
+    }
+    dispatch_span::<D, _>(&bench.frame, Shade(parameters, &bench.frame, level, out));
+}
+
+struct OnLevel<'a, S> {
+    parameters: &'a [u32],
+    frame: &'a Frame,
+    out: [&'a mut [f32]; 3],
+    shader: PhantomData<S>,
+}
+
+impl<S: Shader> LanesJob for OnLevel<'_, S> {
+    type Out = ();
+
+    fn run<M: Lanes>(self, m: M) {
+        m.vectorize(
+            #[inline(always)]
+            || {
+                let [red, green, blue] = self.out;
+                let (mut walk, consts) = start::<S, M>(m, self.parameters, self.frame, red.len());
+                let groups = red.chunks_exact_mut(M::WIDTH).zip(green.chunks_exact_mut(M::WIDTH));
+                for ((red, green), blue) in groups.zip(blue.chunks_exact_mut(M::WIDTH)) {
+                    let [r, g, b] = S::shade(&consts, walk.next());
+                    m.store(r, red);
+                    m.store(g, green);
+                    m.store(b, blue);
+                }
+            },
+        );
+    }
+}
+
 #[inline(always)]
 fn run<S: Shader, M: Machine>(m: M, parameters: &[u32], frame: &Frame, out: &mut [[f32; 3]]) {
+    let (mut walk, wide) = start::<S, M>(m, parameters, frame, out.len());
+    for colour in out {
+        let rgb = S::shade(&wide, walk.next());
+        *colour = each(|i| m.first(rgb[i]));
+    }
+}
+
+/// The walk along a span of `length` pixels, and the constants of its pixels.
+#[inline(always)]
+fn start<S: Shader, M: Machine>(
+    m: M,
+    parameters: &[u32],
+    frame: &Frame,
+    length: usize,
+) -> (S::Walk<M>, S::Consts<M::F>) {
     let one = |x: f32| m.one(x);
     let lighting = &frame.lightings()[0];
     let consts = S::consts(lighting, parameters, &one);
@@ -91,13 +148,9 @@ fn run<S: Shader, M: Machine>(m: M, parameters: &[u32], frame: &Frame, out: &mut
     let corner: [_; 3] = each(|i| S::vertex(&consts, &Corner { machine: m, frame, vertex: i as u32 }));
     let corners = Corners { machine: m, frame, polygon, attributes: &corner };
     let over_polygon = S::polygon(&consts, &corners);
-    let dt = 1.0 / out.len() as f32;
+    let dt = 1.0 / length as f32;
     let face = frame.polygon_normal(polygon).map(one);
     let attribute = S::Attribute::span(m, face, corner[0], corner[1], m.one(0.5 * dt), m.one(dt));
     let start = Span { x: m.one(0.5), y: m.one(0.5), attribute };
-    let mut walk = S::walk(m, &consts, &over_polygon, &start);
-    for colour in out {
-        let rgb = S::shade(&wide, walk.next());
-        *colour = each(|i| m.first(rgb[i]));
-    }
+    (S::walk(m, &consts, &over_polygon, &start), wide)
 }

@@ -50,6 +50,7 @@ pub struct Entry {
     draw_barycentric: Option<DrawBarycentric>,
     count: fn(&[u32], &SpanBench) -> OperationCounts,
     span: fn(&[u32], &SpanBench, &mut [[f32; 3]]),
+    span_on: fn(&[u32], &SpanBench, Level, [&mut [f32]; 3]),
 }
 
 impl fmt::Debug for Entry {
@@ -69,6 +70,7 @@ impl Entry {
             draw_barycentric: if D::INFO.barycentric { Some(draw_barycentric::<D>) } else { None },
             count: count::count::<D>,
             span: span::shade::<D>,
+            span_on: span::shade_on::<D>,
         }
     }
 
@@ -298,6 +300,12 @@ impl Variant {
     /// Shades one span into `out`: the set-up and as many pixels as `out` has.
     pub fn shade_span(&self, bench: &SpanBench, out: &mut [[f32; 3]]) {
         (self.entry.span)(&self.parameters, bench, out);
+    }
+
+    /// The same on an instruction set, into red, green and blue: of each as many whole groups of [`Level::width`] pixels as
+    /// the slices have. The kernel of the engines, with nothing around it.
+    pub fn shade_span_on(&self, level: Level, bench: &SpanBench, channels: [&mut [f32]; 3]) {
+        (self.entry.span_on)(&self.parameters, bench, level, channels);
     }
 }
 

@@ -1,12 +1,16 @@
 //! The row engine: bands of scanlines, shaded row by row.
 //!
-//! A band's polygons are scan-converted one after the other; where one is nearer than what was drawn before, what its walk
-//! gives to the pixel ([`Shader::Pixel`]) is written into planes beside the depth. When the band is complete each row is
-//! shaded once, a group of pixels at a time, over the row and not over the span: shading costs the same for a pixel in a
-//! triangle of two pixels as in one of a thousand, and hidden pixels are never shaded.
+//! A band's polygons are covered one after the other, which gives the runs of each of its scanlines in drawing order. Then,
+//! scanline by scanline, the runs are drawn: where one is nearer than what was drawn before, what its walk gives to the pixel
+//! ([`Shader::Pixel`]) is written into planes beside the depth; and the row is shaded once, a group of pixels at a time, over
+//! the row and not over the span: shading costs the same for a pixel in a triangle of two pixels as in one of a thousand, and
+//! hidden pixels are never shaded.
 //!
-//! Bands are high enough to share the set-up of a polygon among rows, and low enough for their planes to stay in the L2
-//! cache. They are independent of one another: one is one unit of work for a thread.
+//! Bands are independent of one another: one is one unit of work for a thread.
+//!
+//! Tried and dropped (whole frames at 1920x1080, AVX2, one thread): planes of a whole band, of 8 or 16 scanlines, which lie in
+//! the L2 cache at best (4.2 ms against 4.0 with 5,040 triangles, 10.5 against 9.9 with 100,000); a branch for groups that are
+//! wholly seen, and one for those that are not seen at all (4.2 against 3.8 ms: which they are cannot be predicted).
 
 mod band;
 mod cover;

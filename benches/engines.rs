@@ -1,0 +1,74 @@
+//! Whole frames, from a prepared scene to the stored picture: both engines on every instruction set that this machine has,
+//! on one thread, beside the lecture's own form (`span` on `scalar`) and the floor: every pixel cleared, tested and written
+//! once.
+
+mod scenes;
+
+use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
+use fastphong::number::Level;
+use fastphong::picture::Picture;
+use fastphong::raster::{Engine, Renderer};
+use fastphong::shader::Variant;
+use std::hint::black_box;
+use std::time::Duration;
+
+/// The methods of the comparison, with the reciprocal root of the hardware.
+const METHODS: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "fast-phong-rsqrt"];
+
+/// Scanlines of a band of the floor.
+const BAND: usize = 32;
+
+fn engines(c: &mut Criterion) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    pool.install(|| {
+        for (name, mesh) in scenes::SCENES {
+            let prepared = scenes::scene(mesh).prepare().expect("a valid scene");
+            let mut frame = prepared.frame().expect("a valid view");
+            let mut group = c.benchmark_group(format!("engines/{name}"));
+            // Every sample with the same number of calls: frames take milliseconds, and a growing number takes minutes.
+            group.sampling_mode(SamplingMode::Flat);
+            let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
+            group.bench_function("projection", |b| b.iter(|| prepared.frame_into(black_box(&mut frame))));
+            group.bench_function("floor", |b| {
+                let mut depth = vec![0.0f32; picture.width() * BAND];
+                b.iter(|| floor(black_box(&mut depth), picture.texels_mut()));
+            });
+            for method in METHODS {
+                let variant = Variant::parse(method).expect("a method of the table");
+                for engine in Engine::ALL {
+                    for level in Level::available() {
+                        let renderer = Renderer { engine: Some(engine), level };
+                        group.bench_function(BenchmarkId::new(format!("{engine}-{level}"), method), |b| {
+                            b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
+                        });
+                    }
+                }
+            }
+            group.finish();
+        }
+    });
+}
+
+/// Clears depth and colour, tests depth and writes both, for every pixel, band by band.
+fn floor(depth: &mut [f32], texels: &mut [[u8; 4]]) {
+    for band in texels.chunks_mut(depth.len()) {
+        depth.fill(f32::INFINITY);
+        band.fill([0; 4]);
+        let near = black_box(0.5);
+        for (z, texel) in depth.iter_mut().zip(band) {
+            let is_nearer = near < *z;
+            *z = if is_nearer { near } else { *z };
+            *texel = if is_nearer { [1, 2, 3, 255] } else { *texel };
+        }
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(800));
+    targets = engines
+}
+criterion_main!(benches);
