@@ -34,7 +34,7 @@ fn spans(c: &mut Criterion) {
                 group.bench_function(BenchmarkId::new(format!("{level}/{lights} lights"), LONG), |b| {
                     b.iter(|| {
                         let [r, g, blue] = black_box(&mut channels);
-                        variant.shade_span_on(level, black_box(&bench), [r, g, blue]);
+                        variant.shade_span_on(level, black_box(bench), [r, g, blue]);
                     });
                 });
             }
