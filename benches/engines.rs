@@ -19,34 +19,32 @@ const METHODS: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "fast-phong-
 const BAND: usize = 32;
 
 fn engines(c: &mut Criterion) {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
-    pool.install(|| {
-        for (name, mesh) in scenes::SCENES {
-            let prepared = scenes::scene(mesh).prepare().expect("a valid scene");
-            let mut frame = prepared.frame().expect("a valid view");
-            let mut group = c.benchmark_group(format!("engines/{name}"));
-            // Every sample with the same number of calls: frames take milliseconds, and a growing number takes minutes.
-            group.sampling_mode(SamplingMode::Flat);
-            let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
-            group.bench_function("projection", |b| b.iter(|| prepared.frame_into(black_box(&mut frame))));
-            group.bench_function("floor", |b| {
-                let mut depth = vec![0.0f32; picture.width() * BAND];
-                b.iter(|| floor(black_box(&mut depth), picture.texels_mut()));
-            });
-            for method in METHODS {
-                let variant = Variant::parse(method).expect("a method of the table");
-                for engine in Engine::ALL {
-                    for level in Level::available() {
-                        let renderer = Renderer { engine: Some(engine), level };
-                        group.bench_function(BenchmarkId::new(format!("{engine}-{level}"), method), |b| {
-                            b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
-                        });
-                    }
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("no pool before");
+    for (name, mesh) in scenes::SCENES {
+        let prepared = scenes::scene(mesh).prepare().expect("a valid scene");
+        let mut frame = prepared.frame().expect("a valid view");
+        let mut group = c.benchmark_group(format!("engines/{name}"));
+        // Every sample with the same number of calls: frames take milliseconds, and a growing number takes minutes.
+        group.sampling_mode(SamplingMode::Flat);
+        let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
+        group.bench_function("projection", |b| b.iter(|| prepared.frame_into(black_box(&mut frame))));
+        group.bench_function("floor", |b| {
+            let mut depth = vec![0.0f32; picture.width() * BAND];
+            b.iter(|| floor(black_box(&mut depth), picture.texels_mut()));
+        });
+        for method in METHODS {
+            let variant = Variant::parse(method).expect("a method of the table");
+            for engine in Engine::ALL {
+                for level in Level::available() {
+                    let renderer = Renderer { engine: Some(engine), level };
+                    group.bench_function(BenchmarkId::new(format!("{engine}-{level}"), method), |b| {
+                        b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
+                    });
                 }
             }
-            group.finish();
         }
-    });
+        group.finish();
+    }
 }
 
 /// Clears depth and colour, tests depth and writes both, for every pixel, band by band.
