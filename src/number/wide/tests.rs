@@ -15,7 +15,7 @@ macro_rules! operation {
         #[derive(Clone, Copy)]
         struct $name;
         impl Operation for $name {
-            #[allow(unused_variables)]
+            #[allow(unused_variables)] // not every operation reads all of them
             fn of<M: Lanes>(self, $m: M, $a: M::F, $b: M::F, $c: M::F) -> M::F {
                 $result
             }
