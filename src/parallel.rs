@@ -59,7 +59,9 @@ pub(crate) fn threads() -> usize {
 }
 
 /// Gives `work` each `size` elements, the last time what is left, with the number of the first of them.
-pub(crate) fn for_each_chunk<P: Parts>(all: P, size: usize, work: &(impl Fn(usize, P) + Sync)) {
+///
+/// Behind a pointer, so that what divides the work is compiled once for each kind of parts and not for each shader.
+pub(crate) fn for_each_chunk<P: Parts>(all: P, size: usize, work: &(dyn Fn(usize, P) + Sync)) {
     from(0, all, size, work);
 }
 
@@ -72,7 +74,7 @@ pub(crate) fn collect<T: Clone + Default + Send>(count: usize, chunk: usize, of:
     all
 }
 
-fn from<P: Parts>(first: usize, all: P, size: usize, work: &(impl Fn(usize, P) + Sync)) {
+fn from<P: Parts>(first: usize, all: P, size: usize, work: &(dyn Fn(usize, P) + Sync)) {
     let chunks = all.len().div_ceil(size);
     if chunks <= 1 {
         if chunks == 1 {

@@ -52,6 +52,15 @@ pub(crate) trait LanesJob {
 
 /// Does `job` on `level`, or one pixel at a time where this machine does not have it.
 pub(crate) fn on_level<J: LanesJob>(level: Level, job: J) -> J::Out {
+    match on_wide_level(level, job) {
+        Ok(out) => out,
+        Err(job) => job.run(Scalar),
+    }
+}
+
+/// Does `job` on `level`, several pixels at a time, or gives it back where `level` has one pixel or this machine does not
+/// have it. For jobs that are never done one pixel at a time: they are not compiled for that.
+pub(crate) fn on_wide_level<J: LanesJob>(level: Level, job: J) -> Result<J::Out, J> {
     #[cfg(feature = "simd")]
     {
         use super::wide::Wide;
@@ -60,24 +69,24 @@ pub(crate) fn on_level<J: LanesJob>(level: Level, job: J) -> J::Out {
             #[cfg(target_arch = "x86_64")]
             Level::Sse42 => {
                 if let Some(token) = here.as_sse4_2() {
-                    return job.run(Wide(token));
+                    return Ok(job.run(Wide(token)));
                 }
             }
             #[cfg(target_arch = "x86_64")]
             Level::Avx2 => {
                 if let Some(token) = here.as_avx2() {
-                    return job.run(Wide(token));
+                    return Ok(job.run(Wide(token)));
                 }
             }
             #[cfg(target_arch = "aarch64")]
             Level::Neon => {
                 if let Some(token) = here.as_neon() {
-                    return job.run(Wide(token));
+                    return Ok(job.run(Wide(token)));
                 }
             }
             _ => {}
         }
     }
     let _ = level;
-    job.run(Scalar)
+    Err(job)
 }

@@ -20,7 +20,7 @@ pub mod wide;
 
 pub use counting::{Counted, Counter, Counting, Counts};
 pub use lanes::Lanes;
-pub(crate) use lanes::{LanesJob, on_level};
+pub(crate) use lanes::{LanesJob, on_level, on_wide_level};
 pub use level::{Level, LevelError};
 pub use planes::Planes;
 pub(crate) use planes::{get_each, put_each};
@@ -108,7 +108,8 @@ pub trait Machine: Copy + Send + Sync {
 /// ten times slower), as it is not inlined into functions with target features.
 #[inline(always)]
 pub fn each<T: Copy, const L: usize>(mut f: impl FnMut(usize) -> T) -> [T; L] {
-    if L == 0 {
+    // As a constant: what is not taken is not compiled, for any of the thousands of types that this is used with.
+    if const { L == 0 } {
         return core::array::from_fn(f);
     }
     let mut all = [f(0); L];

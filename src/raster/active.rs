@@ -174,7 +174,7 @@ where
     let dt = (1 << SubPixel::FRAC_NBITS) as f32 / height; // Δt = 1 / (y_2 − y_1)
     let from = depth.of_corner(frame, top);
     let rise = depth.of_corner(frame, bottom) - from;
-    let face = frame.polygon_normal(&frame.polygons()[edge.polygon as usize]).map(|n| m.one(n));
+    let face = m.three(frame.polygon_normal(&frame.polygons()[edge.polygon as usize]));
     let (a, b) = (attributes[edge.top as usize], attributes[edge.bottom as usize]);
     ActiveEdge {
         polygon: edge.polygon,

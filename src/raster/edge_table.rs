@@ -34,21 +34,21 @@ impl EdgeTable {
     /// The table of a frame.
     pub fn of_all(frame: &Frame) -> Self {
         let all: Vec<u32> = (0..frame.polygons().len() as u32).collect();
-        EdgeTable::new(frame, 0..frame.height(), || core::iter::once(&all[..]))
+        EdgeTable::new(frame, 0..frame.height(), &[&all])
     }
 
     /// The table of the polygons in the lists `numbers`, which ascend, on the scanlines `rows`, as if these were the whole picture:
     /// a counting sort, linear in edges and scanlines.
-    pub fn new<'n, N: Iterator<Item = &'n [u32]>>(frame: &Frame, rows: Range<usize>, numbers: impl Fn() -> N) -> Self {
+    pub fn new(frame: &Frame, rows: Range<usize>, numbers: &[&[u32]]) -> Self {
         let count = rows.len();
         let mut starts = vec![0u32; count + 1];
-        for_each_edge(frame, &rows, numbers(), |row, _| starts[row + 1] += 1);
+        for_each_edge(frame, &rows, numbers, |row, _| starts[row + 1] += 1);
         for row in 0..count {
             starts[row + 1] += starts[row];
         }
         let mut edges = vec![TableEdge::default(); starts[count] as usize];
         let mut next = starts.clone();
-        for_each_edge(frame, &rows, numbers(), |row, edge| {
+        for_each_edge(frame, &rows, numbers, |row, edge| {
             edges[next[row] as usize] = edge;
             next[row] += 1;
         });
@@ -68,15 +68,10 @@ impl EdgeTable {
     }
 }
 
-fn for_each_edge<'n>(
-    frame: &Frame,
-    rows: &Range<usize>,
-    numbers: impl Iterator<Item = &'n [u32]>,
-    mut visit: impl FnMut(usize, TableEdge),
-) {
+fn for_each_edge(frame: &Frame, rows: &Range<usize>, numbers: &[&[u32]], mut visit: impl FnMut(usize, TableEdge)) {
     let (first_row, end_row) = (rows.start as i32, rows.end as i32);
     let vertices = frame.vertices();
-    for &number in numbers.flatten() {
+    for &number in numbers.iter().copied().flatten() {
         let corners = frame.corners(&frame.polygons()[number as usize]);
         let mut from = corners[corners.len() - 1];
         for (i, &to) in corners.iter().enumerate() {

@@ -63,7 +63,7 @@ pub(crate) fn draw<S: Shader, M: Machine>(m: M, frame: &Frame, parameters: &[u32
         line.runs(|span, pixels| {
             let polygon = &frame.polygons()[span.polygon as usize];
             let material = polygon.material as usize;
-            let face = frame.polygon_normal(polygon).map(|n| m.one(n));
+            let face = m.three(frame.polygon_normal(polygon));
             // A run that begins inside its span starts at its own first pixel's parameter.
             let t0 = span.t0 + (pixels.start as u32 - span.start) as f32 * span.dt;
             let (left, right) = (&edges[span.left as usize], &edges[span.right as usize]);

@@ -33,7 +33,7 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     let depth = SampleDepth::new(frame);
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
         let first = rows.start;
-        let table = EdgeTable::new(frame, rows.clone(), || bins.band(number));
+        let table = EdgeTable::new(frame, rows.clone(), &bins.band(number).collect::<Vec<_>>());
         let mut line = VisibleLine::new(frame.width(), depth);
         let mut next = first;
         scan(Scalar, frame, &table, &setup.attributes, &mut line, &mut |row, line, edges| {
@@ -49,7 +49,8 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
             }
             shade_runs::<S, M>(m, frame, &setup, &consts, (row, line, edges), &mut scratch.line);
             let [r, g, b] = &scratch.line;
-            sink.row(row - first, drawn.clone(), line.kept_depth(drawn.start), [r, g, b].map(|c| &c[drawn.start..]));
+            let from = drawn.start;
+            sink.row(row - first, drawn, line.kept_depth(from), [&r[from..], &g[from..], &b[from..]]);
         });
         for empty in next..rows.end {
             sink.row(empty - first, 0..0, &[], [&[]; 3]);

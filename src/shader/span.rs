@@ -149,7 +149,7 @@ fn start<S: Shader, M: Machine>(
     let corners = Corners { machine: m, frame, polygon, attributes: &corner };
     let over_polygon = S::polygon(&consts, &corners);
     let dt = 1.0 / length as f32;
-    let face = frame.polygon_normal(polygon).map(one);
+    let face = m.three(frame.polygon_normal(polygon));
     let attribute = S::Attribute::span(m, face, corner[0], corner[1], m.one(0.5 * dt), m.one(dt));
     let start = Span { x: m.one(0.5), y: m.one(0.5), attribute };
     (S::walk(m, &consts, &over_polygon, &start), wide)

@@ -46,7 +46,7 @@ pub struct Entry {
     pub info: &'static Info,
     draw: fn(&Frame, &[u32], &mut dyn Target),
     can_draw: fn(Engine, &Frame) -> bool,
-    draw_bands: fn(Engine, &Frame, &[u32], Level, &mut dyn Bands),
+    draw_bands: fn(Engine, &Frame, &[u32], Level, &mut dyn Bands) -> bool,
     draw_barycentric: Option<DrawBarycentric>,
     count: fn(&[u32], &SpanBench) -> OperationCounts,
     span: fn(&[u32], &SpanBench, &mut [[f32; 3]]),
@@ -258,12 +258,11 @@ impl Variant {
 
     fn draw_with<T: Texel>(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture<T>) {
         let Plan { engine, level, .. } = self.plan(frame, renderer);
-        if (engine, level) == (Engine::Span, Level::Scalar) {
-            picture.texels_mut().fill(T::background(frame.background()));
-            return draw_rows(frame, picture, |target| (self.entry.draw)(frame, &self.parameters, target));
-        }
         let mut bands = PictureBands { frame, level, picture };
-        (self.entry.draw_bands)(engine, frame, &self.parameters, level, &mut bands);
+        if !(self.entry.draw_bands)(engine, frame, &self.parameters, level, &mut bands) {
+            picture.texels_mut().fill(T::background(frame.background()));
+            draw_rows(frame, picture, |target| (self.entry.draw)(frame, &self.parameters, target));
+        }
     }
 
     /// Draws the triangles of `frame` with the barycentric renderer; `None` when it does not have this method.
