@@ -86,6 +86,8 @@ pub mod reference;
 pub mod report;
 pub mod scene;
 pub mod shader;
+#[cfg(feature = "cli")]
+pub mod study;
 pub mod suggest;
 pub mod triangulate;
 pub mod walk;

@@ -287,7 +287,7 @@ fn plan_of(renderer: Renderer) -> Plan {
     Plan { engine: renderer.engine.unwrap_or(raster::Engine::Row), level: renderer.level, reason: None }
 }
 
-fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
+pub(crate) fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
     let baseline = METHODS.iter().find(|entry| entry.info.name == BASELINE).map(|entry| entry.variant());
     let missing = baseline.filter(|_| !variants.iter().any(is_baseline));
     missing.into_iter().chain(variants.iter().cloned()).collect()
