@@ -24,6 +24,7 @@ mod reference_check;
 mod render;
 mod report;
 mod scene_flags;
+mod studies;
 mod table;
 pub mod talk;
 mod values;

@@ -5,6 +5,7 @@ use super::figure::{drawn, page_folder};
 use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
+use super::studies::{Chosen, studies};
 use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
 use fastphong::bench::Machine;
@@ -35,6 +36,10 @@ pub struct Report {
     /// Figures of the lectures between commas, `all` or `none` [default: all with the shipped scenes, none with INPUT]
     #[arg(long, value_name = "NAMES", value_parser = figures)]
     figures: Option<Figures>,
+    /// Studies between commas, `speedups` (what fast Phong gained and what is left of it) and `scaling` (how cost grows with
+    /// triangles and pixels), `all` or `none` [default: all with the shipped scenes, none with INPUT]
+    #[arg(long, value_name = "NAMES", value_parser = studies)]
+    studies: Option<Chosen>,
     /// Difference maps of every pixel instead of squares of 4 x 4, and pictures that look like others too: a page of twice the size
     #[arg(long)]
     full: bool,
@@ -85,9 +90,13 @@ impl Report {
         let machine = Machine::this();
         warn_of_debug_build(talk);
         let progress = Progress::silent_between_moves(talk);
+        let studies = self.studies();
         // Figures take about as long as two scenes.
-        let scenes = files.len() as f32 + if figures.is_empty() { 0.0 } else { 2.0 };
-        let lecture = drawn(&figures, &|part, what| progress.at(part * (scenes - files.len() as f32) / scenes, what))?;
+        let of_figures = if figures.is_empty() { 0.0 } else { 2.0 };
+        let scenes = files.len() as f32 + of_figures + studies.scenes();
+        let lecture = drawn(&figures, &|part, what| progress.at(part * of_figures / scenes, what))?;
+        let told = |part: f32, what: &str| progress.at((of_figures + part * studies.scenes()) / scenes, what);
+        let studies = studies.make(&self.timing, &told)?;
         let mut sections = Vec::with_capacity(files.len());
         for (number, (name, file)) in names.iter().zip(&files).enumerate() {
             let told = |part: f32, what: &str| {
@@ -101,7 +110,7 @@ impl Report {
         progress.at(1.0, "writing");
         let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).ok();
         let date = since_1970.map(|t| utc_date(t.as_secs()));
-        let page = Page { sections, lecture, machine, command_line: command_line(), date };
+        let page = Page { sections, lecture, studies, machine, command_line: command_line(), date };
         let written = self.write(&page, &folder)?;
         drop(progress);
         to_stdout(written.as_bytes())?;
@@ -115,6 +124,12 @@ impl Report {
             None if self.inputs.is_empty() => FIGURES.to_vec(),
             None => Vec::new(),
         }
+    }
+
+    /// The studies that were asked for.
+    fn studies(&self) -> Chosen {
+        let usual = if self.inputs.is_empty() { Chosen::ALL } else { Chosen::default() };
+        self.studies.unwrap_or(usual)
     }
 
     fn section(

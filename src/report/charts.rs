@@ -213,17 +213,18 @@ impl Plot {
     }
 }
 
-/// Small numbers as powers of ten, so that an axis has room for them.
+/// Small and large numbers as powers of ten, so that an axis has room for them.
 pub(super) fn power(value: f64) -> String {
-    if value >= 0.001 {
+    if (0.001..1e5).contains(&value) {
         return value.to_string();
     }
     // The tiny part keeps 0.0001, whose logarithm may come out as -4.000…1, in its decade.
     let exponent = libm::floor(libm::log10(value) + 1e-9) as i32;
     let digits: String = exponent.unsigned_abs().to_string().chars().map(superscript).collect();
+    let sign = if exponent < 0 { "⁻" } else { "" };
     match libm::round(value / libm::pow(10.0, f64::from(exponent))) {
-        1.0 => format!("10⁻{digits}"),
-        multiple => format!("{multiple}·10⁻{digits}"),
+        1.0 => format!("10{sign}{digits}"),
+        multiple => format!("{multiple}·10{sign}{digits}"),
     }
 }
 
@@ -232,7 +233,7 @@ pub(super) fn superscript(digit: char) -> char {
 }
 
 /// A logarithmic axis.
-struct Axis {
+pub(super) struct Axis {
     /// Decimal logarithms of its ends.
     from: f64,
     to: f64,
@@ -242,7 +243,7 @@ struct Axis {
 
 impl Axis {
     /// An axis over the values that have a logarithm, with some room at both ends.
-    fn over(values: impl Iterator<Item = f64>, place: [f64; 2]) -> Axis {
+    pub(super) fn over(values: impl Iterator<Item = f64>, place: [f64; 2]) -> Axis {
         const ROOM: f64 = 0.15;
         let logarithms = values.filter(|v| *v > 0.0 && v.is_finite()).map(libm::log10);
         let (from, to) = logarithms.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
@@ -255,13 +256,13 @@ impl Axis {
     }
 
     /// Where `value` stands; what has no logarithm stands at the lower end.
-    fn at(&self, value: f64) -> f64 {
+    pub(super) fn at(&self, value: f64) -> f64 {
         let part = if value > 0.0 { (libm::log10(value) - self.from) / (self.to - self.from) } else { 0.0 };
         self.place[0] + (self.place[1] - self.place[0]) * part.clamp(0.0, 1.0)
     }
 
     /// Where lines are: powers of ten, and twice and five times them if there is room.
-    fn ticks(&self) -> Vec<f64> {
+    pub(super) fn ticks(&self) -> Vec<f64> {
         let decades = self.to - self.from;
         let every = libm::ceil(decades / 8.0).max(1.0) as i32;
         let multiples: &[f64] = if decades < 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
@@ -390,7 +391,8 @@ mod tests {
     }
 
     #[test]
-    fn small_numbers_are_powers() {
+    fn small_and_large_numbers_are_powers() {
         assert_eq!([0.001, 1e-4, 5e-5, 1e-12].map(power), ["0.001", "10⁻⁴", "5·10⁻⁵", "10⁻¹²"]);
+        assert_eq!([5e4, 1e5, 2e6].map(power), ["50000", "10⁵", "2·10⁶"]);
     }
 }

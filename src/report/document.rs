@@ -5,6 +5,7 @@ use super::lecture::{FigureData, data};
 use super::section::TriangulationData;
 use crate::bench::Machine;
 use crate::comparison::{ComparisonData, SCHEMA, WHAT_IS_COMPARED, WHAT_IS_TIMED};
+use crate::study::{Scaling, Speedups};
 use alloc::string::String;
 use alloc::vec::Vec;
 use serde::Serialize;
@@ -20,6 +21,8 @@ struct Data<'a> {
     date: Option<&'a str>,
     comparisons: Vec<SceneData<'a>>,
     figures: Vec<FigureData<'a>>,
+    speedups: Option<&'a Speedups>,
+    scaling: Option<&'a Scaling>,
 }
 
 #[derive(Serialize)]
@@ -48,6 +51,8 @@ pub(super) fn json(report: &Report) -> String {
         date: report.date.as_deref(),
         comparisons: comparisons.collect(),
         figures: data(&report.lecture),
+        speedups: report.studies.speedups.as_ref(),
+        scaling: report.studies.scaling.as_ref(),
     };
     serde_json::to_string(&all).expect("numbers, texts and lists of them")
 }

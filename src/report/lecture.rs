@@ -137,7 +137,7 @@ fn pictures<'a>(columns: usize, shown: &[Shown], files: &mut impl Iterator<Item 
     html + "</div>"
 }
 
-fn table(title: &str, head: &[String], rows: &[Vec<String>]) -> String {
+pub(super) fn table(title: &str, head: &[String], rows: &[Vec<String>]) -> String {
     let mut html = format!("<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">", escape(title));
     html += "<table><thead><tr>";
     for cell in head {

@@ -1,11 +1,11 @@
 //! The report in short, for the front page of a repository.
 
 use super::html::identifier;
-use super::page::command;
+use super::page::{command, paragraphs};
 use super::section::{Figure, FigureKind, Section};
-use super::sentences::{facts, grouped, opening, orientation};
+use super::sentences::{facts, grouped, orientation};
 use super::summary::{PROJECT, Tally};
-use super::{Report, operations, tables};
+use super::{Report, operations, scaling, speedups, tables};
 use crate::comparison::table::levels;
 use crate::comparison::{BASELINE, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::shader::METHODS;
@@ -34,7 +34,9 @@ pub struct Image {
 pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     let mut images = Vec::new();
     let mut text = String::from("# Shading methods compared\n\n");
-    text += &format!("{}\n\n", escape(&opening(&report.sections, &report.machine).join(" ")));
+    for paragraph in paragraphs(report) {
+        text += &format!("{}\n\n", escape(&paragraph));
+    }
     let is_unfit = |c: char| c == '`' || c.is_control();
     text += &format!("Made by `{}`", command(&report.command_line).replace(is_unfit, "\u{FFFD}"));
     if let Some(date) = &report.date {
@@ -45,7 +47,9 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
         escape(&report.machine.line()),
         report.sections.first().map(|section| section.data.renderer.clone()).unwrap_or_default().line()
     );
+    text += &four_corners(report);
     text += &project(&report.sections);
+    text += &growth(report);
     for (number, section) in report.sections.iter().enumerate() {
         text += &scene(section, number, folder, &mut images);
     }
@@ -73,6 +77,41 @@ fn escape(text: &str) -> String {
 
 fn head(text: &mut String, columns: &[&str]) {
     *text += &format!("| {} |\n|---|{}\n", columns.join(" | "), "---:|".repeat(columns.len() - 1));
+}
+
+/// A table, all of which is text.
+fn table(columns: &[String], rows: &[Vec<String>]) -> String {
+    let mut text = String::new();
+    let columns: Vec<String> = columns.iter().map(|column| escape(column)).collect();
+    head(&mut text, &columns.iter().map(String::as_str).collect::<Vec<_>>());
+    for row in rows {
+        let cells: Vec<String> = row.iter().map(|cell| escape(cell)).collect();
+        text += &format!("| {} |\n", cells.join(" | "));
+    }
+    text + "\n"
+}
+
+fn four_corners(report: &Report) -> String {
+    let Some(speedups) = &report.studies.speedups else { return String::new() };
+    let (before, columns, rows, after) = speedups::grid(speedups);
+    let mut text = format!("## {}\n\n{}\n\n{}", speedups::TITLE, escape(&before), table(&columns, &rows));
+    if !after.is_empty() {
+        text += &format!("{}\n\n", escape(after));
+    }
+    text
+}
+
+fn growth(report: &Report) -> String {
+    let Some(scaling) = &report.studies.scaling else { return String::new() };
+    let (paragraphs, tables) = scaling::grids(scaling);
+    let mut text = format!("## {}\n\n", scaling::TITLE);
+    for paragraph in paragraphs {
+        text += &format!("{}\n\n", escape(&paragraph));
+    }
+    for (caption, (columns, rows)) in tables {
+        text += &format!("{}\n\n{}", escape(caption), table(&columns, &rows));
+    }
+    text
 }
 
 fn project(sections: &[Section]) -> String {

@@ -7,7 +7,7 @@
 //! use fastphong::bench::Machine;
 //! use fastphong::comparison::{Input, Options, compare, triangulation};
 //! use fastphong::mesh::builtin::builtin;
-//! use fastphong::report::{Caption, Detail, Report, Section};
+//! use fastphong::report::{Caption, Detail, Report, Section, Studies};
 //! use fastphong::scene::Scene;
 //! use fastphong::shader::METHODS;
 //!
@@ -24,6 +24,7 @@
 //! let report = Report {
 //!     sections: vec![section],
 //!     lecture: vec![],
+//!     studies: Studies::default(),
 //!     machine: Machine::this(),
 //!     command_line: vec!["fastphong".into(), "report".into()],
 //!     date: None,
@@ -42,9 +43,14 @@ mod markdown;
 mod operations;
 mod page;
 mod plot;
+mod ratio_chart;
+mod scaling;
 mod scene;
 mod section;
 mod sentences;
+mod speedups;
+#[cfg(test)]
+mod study_tests;
 mod summary;
 mod tables;
 #[cfg(test)]
@@ -56,6 +62,7 @@ pub use markdown::{Image, Markdown};
 pub use section::{Caption, Detail, MAP_SCALE, Section, TriangulationData};
 
 use crate::bench::Machine;
+use crate::study::{Scaling, Speedups};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -66,12 +73,23 @@ pub struct Report {
     pub sections: Vec<Section>,
     /// The lecture's figures, made anew; may be empty.
     pub lecture: Vec<LectureFigure>,
+    /// What was measured beside the scenes.
+    pub studies: Studies,
     /// What the times are of.
     pub machine: Machine,
     /// What was typed, program first.
     pub command_line: Vec<String>,
     /// The day, as [`utc_date`] writes it.
     pub date: Option<String>,
+}
+
+/// What a report says beside its scenes.
+#[derive(Clone, Debug, Default)]
+pub struct Studies {
+    /// What fast Phong gained when it was invented, and what is left of it.
+    pub speedups: Option<Speedups>,
+    /// How cost grows with triangles and pixels.
+    pub scaling: Option<Scaling>,
 }
 
 impl Report {

@@ -4,7 +4,7 @@ use super::charts::{Point, scatter};
 use super::html::{escape, escape_script, identifier};
 use super::sentences::{count, opening};
 use super::summary::overall;
-use super::{Report, Section, lecture, operations, scene, tables};
+use super::{Report, Section, lecture, operations, scaling, scene, speedups, tables};
 use crate::comparison::{WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -27,10 +27,14 @@ pub(super) fn page(report: &Report) -> String {
     html += STYLE;
     html.extend(scenes().map(|(section, id)| scene::style(section, id)));
     html += "</style>\n</head>\n<body id=\"top\">\n<header>\n<h1>Shading methods compared</h1>\n";
-    html += &format!("<p class=\"opening\">{}</p>\n", escape(&opening(&report.sections, &report.machine).join(" ")));
+    for paragraph in paragraphs(report) {
+        html += &format!("<p class=\"opening\">{}</p>\n", escape(&paragraph));
+    }
     html += &navigation(report, &ids);
     html += "</header>\n<main>\n";
+    html += &report.studies.speedups.as_ref().map(speedups::section).unwrap_or_default();
     html += &project(report, &ids);
+    html += &report.studies.scaling.as_ref().map(scaling::section).unwrap_or_default();
     html += &operation_counts();
     html += &measurement(report);
     if !report.lecture.is_empty() {
@@ -48,6 +52,13 @@ pub(super) fn page(report: &Report) -> String {
     html + &format!("<script>\n{SCRIPT}</script>\n</body>\n</html>\n")
 }
 
+/// What stands before all else: where naive Phong wins, then what was found in the scenes.
+pub(super) fn paragraphs(report: &Report) -> Vec<String> {
+    let corners = report.studies.speedups.as_ref().map(speedups::opening).unwrap_or_default();
+    let all = [corners, opening(&report.sections, &report.machine)];
+    all.iter().filter(|sentences| !sentences.is_empty()).map(|sentences| sentences.join(" ")).collect()
+}
+
 /// The names of the sections' elements, each once.
 fn ids(sections: &[Section]) -> Vec<String> {
     let mut ids: Vec<String> = Vec::new();
@@ -62,6 +73,12 @@ fn ids(sections: &[Section]) -> Vec<String> {
 
 fn navigation(report: &Report, ids: &[String]) -> String {
     let mut html = String::from("<nav aria-label=\"Sections\"><ul>");
+    if report.studies.speedups.is_some() {
+        html += &format!("<li><a href=\"#speedups\">{}</a></li>", speedups::TITLE);
+    }
+    if report.studies.scaling.is_some() {
+        html += &format!("<li><a href=\"#scaling\">{}</a></li>", scaling::TITLE);
+    }
     if !report.lecture.is_empty() {
         html += &format!("<li><a href=\"#lecture\">{}</a></li>", lecture::TITLE);
     }

@@ -19,10 +19,16 @@ const STYLES: usize = 6;
 
 /// The plot, with a legend above it.
 pub(super) fn plot(plot: &Plot) -> String {
+    plot_with_fits(plot, &[])
+}
+
+/// The plot of measured points, each series with the line that explains it: points of a series that has a line of its own are
+/// not joined. `fits` are in the order of the series.
+pub(super) fn plot_with_fits(plot: &Plot, fits: &[Vec<(f64, f64)>]) -> String {
     let legend = Legend::of(&plot.series);
     let top = legend.height() + 8.0;
-    let points =
-        || plot.series.iter().flat_map(|series| &series.points).filter(|(x, y)| x.is_finite() && y.is_finite());
+    let measured = || plot.series.iter().flat_map(|series| &series.points).chain(fits.iter().flatten());
+    let points = || measured().filter(|(x, y)| x.is_finite() && y.is_finite());
     let x = Extent::over(points().map(|p| p.0), plot.x.1, [64.0, WIDTH - 22.0]);
     let y = Extent::over(points().map(|p| p.1), plot.y.1, [top + HEIGHT - 44.0, top]);
     let ([left, right], [bottom, top]) = (x.place, y.place);
@@ -45,7 +51,11 @@ pub(super) fn plot(plot: &Plot) -> String {
         escape(&plot.y.0)
     );
     for (i, series) in plot.series.iter().enumerate() {
-        svg += &curve(i, series, &x, &y);
+        let line = fits.get(i).filter(|fit| !fit.is_empty()).unwrap_or(&series.points);
+        svg += &curve(i, line, &x, &y);
+        if series.points.len() <= MARKED {
+            svg += &marks(i, &series.points, &x, &y);
+        }
     }
     svg += &legend.svg();
     svg + "</svg>"
@@ -75,11 +85,10 @@ fn grid(x: &Extent, y: &Extent) -> String {
 }
 
 /// A curve, broken where a value is not finite.
-fn curve(i: usize, series: &Series, x: &Extent, y: &Extent) -> String {
+fn curve(i: usize, points: &[(f64, f64)], x: &Extent, y: &Extent) -> String {
     let mut path = String::new();
-    let mut marks = String::new();
     let mut last = None;
-    for &(at_x, at_y) in &series.points {
+    for &(at_x, at_y) in points {
         if !(at_x.is_finite() && at_y.is_finite()) {
             last = None;
             continue;
@@ -89,13 +98,16 @@ fn curve(i: usize, series: &Series, x: &Extent, y: &Extent) -> String {
             continue;
         }
         path += &format!("{}{} {}", if last.is_none() { "M" } else { "L" }, place.0, place.1);
-        if series.points.len() <= MARKED {
-            marks += &mark(i, x.at(at_x), y.at(at_y));
-        }
         last = Some(place);
     }
     let style = i % STYLES;
-    format!("<path class=\"curve s{style}\" fill=\"none\" d=\"{path}\"/>{marks}")
+    format!("<path class=\"curve s{style}\" fill=\"none\" d=\"{path}\"/>")
+}
+
+/// The marks of those points that have a place.
+fn marks(i: usize, points: &[(f64, f64)], x: &Extent, y: &Extent) -> String {
+    let finite = points.iter().filter(|(at_x, at_y)| at_x.is_finite() && at_y.is_finite());
+    finite.map(|&(at_x, at_y)| mark(i, x.at(at_x), y.at(at_y))).collect()
 }
 
 /// The mark of a point, whose shape tells its curve.
@@ -268,6 +280,30 @@ mod tests {
         assert!((one.at(7.0) - 5.0).abs() < 1e-9);
         let none = Extent::over(core::iter::empty(), Scale::Log, [0.0, 10.0]);
         assert!(none.at(0.0).is_finite());
+    }
+
+    /// Points stand where they were measured and are not joined: the line is that of the fit, and the axes reach over both.
+    #[test]
+    fn points_with_a_fitted_line_are_marked_and_not_joined() {
+        let series = vec![Series::new("a", [(1.0, 1.0), (10.0, 30.0), (100.0, 100.0)]), Series::new("b", [(1.0, 2.0)])];
+        let axis = || ("n".to_string(), Scale::Log);
+        let whole = Plot { title: "t".into(), x: axis(), y: axis(), series, marks: vec![], caption: String::new() };
+        let drawn = plot_with_fits(&whole, &[vec![(1.0, 1.0), (100.0, 1000.0)], vec![]]);
+        let line =
+            drawn.split("<path class=\"curve s0\" fill=\"none\" d=\"M").nth(1).unwrap().split('"').next().unwrap();
+        let ends: Vec<f64> = line.split(['L', ' ']).map(|n| n.parse().unwrap()).collect();
+        let [left, low, right, high] = ends[..] else { panic!("a line of two points: {line}") };
+        // The middle one of three points is halfway along the axis of x and, on one of three decades, log 30 of three up.
+        let middle = (0.5 * (left + right), low + (high - low) * libm::log10(30.0) / 3.0);
+        let circles: Vec<(f64, f64)> = drawn
+            .split("<circle class=\"mark s0\" cx=\"")
+            .skip(1)
+            .map(|text| text.split_once("\" cy=\"").unwrap())
+            .map(|(x, rest)| (x.parse().unwrap(), rest.split('"').next().unwrap().parse().unwrap()))
+            .collect();
+        assert_eq!(circles.len(), 4, "three points, and one in the legend");
+        let near = circles.iter().filter(|(x, y)| (x - middle.0).abs() < 0.11 && (y - middle.1).abs() < 0.11);
+        assert_eq!(near.count(), 1, "{circles:?} {middle:?}");
     }
 
     #[test]

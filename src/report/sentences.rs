@@ -140,7 +140,7 @@ pub(super) fn grouped(n: usize) -> String {
     text
 }
 
-fn enumeration(parts: &[String]) -> String {
+pub(super) fn enumeration(parts: &[String]) -> String {
     match parts {
         [] => String::new(),
         [one] => one.clone(),

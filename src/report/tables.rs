@@ -137,7 +137,7 @@ pub(super) fn project(sections: &[Section], link: impl Fn(usize) -> String) -> S
 }
 
 /// The class of a ratio: `faster`, `slower` or `tie`.
-fn verdict(ratio: Option<RatioData>) -> &'static str {
+pub(super) fn verdict(ratio: Option<RatioData>) -> &'static str {
     match ratio {
         Some(r) if !r.tie && r.ratio.median > 1.0 => "faster",
         Some(r) if !r.tie => "slower",

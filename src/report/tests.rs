@@ -37,9 +37,16 @@ fn machine() -> Machine {
     Machine { profile: "release".into(), ..Machine::this() }
 }
 
-fn report(sections: Vec<Section>) -> Report {
+pub(super) fn report(sections: Vec<Section>) -> Report {
     let command_line = ["fastphong", "report", "a b"].map(String::from).to_vec();
-    Report { sections, lecture: vec![], machine: machine(), command_line, date: Some("2000-02-29".into()) }
+    Report {
+        sections,
+        lecture: vec![],
+        studies: Studies::default(),
+        machine: machine(),
+        command_line,
+        date: Some("2000-02-29".into()),
+    }
 }
 
 /// Gives each row a time, in ms, and ratios to naive Phong whose intervals reach `spread` to both sides.
@@ -65,7 +72,7 @@ fn timed(mut section: Section, times: &[(&str, f64)], spread: f64) -> Section {
 const SPHERE: &str = "sphere?rings=4&segments=8";
 
 /// Fails unless every element is closed in the order of opening, and every attribute is quoted.
-fn assert_balanced(html: &str) {
+pub(super) fn assert_balanced(html: &str) {
     const VOID: [&str; 4] = ["meta", "link", "img", "br"];
     let mut open: Vec<String> = Vec::new();
     let mut rest = html;
@@ -105,7 +112,7 @@ fn tag(html: &str) -> (&str, &str) {
 }
 
 /// What stands between the tags of the element with this id.
-fn script_data(html: &str) -> &str {
+pub(super) fn script_data(html: &str) -> &str {
     let start = html.find("id=\"fastphong-data\">").unwrap() + "id=\"fastphong-data\">".len();
     &html[start..start + html[start..].find("</script>").unwrap()]
 }
@@ -139,7 +146,7 @@ fn the_page_has_a_section_a_scene_and_a_row_and_a_figure_a_method() {
 }
 
 /// Fails unless all rows of each table of a text in Markdown have as many cells.
-fn assert_tables_are_even(markdown: &str) {
+pub(super) fn assert_tables_are_even(markdown: &str) {
     let cells = |line: &str| line.replace("\\\\", "").replace("\\|", "").matches('|').count();
     let tables: Vec<&str> = markdown.split("\n\n").filter(|part| part.starts_with("| ")).collect();
     assert!(tables.len() >= 4);

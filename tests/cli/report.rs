@@ -35,6 +35,24 @@ fn figures_of_the_lectures_stand_in_the_page_on_demand() {
     );
 }
 
+/// One method besides naive Phong: frames of 1920 × 1080 pixels are slow in a build for tests.
+#[test]
+fn studies_stand_in_the_page_on_demand() {
+    let folder = Folder::new();
+    folder.run(&format!("report figure5 {QUICK} --methods fast-phong --studies speedups --markdown -o p.html")).done();
+    let html = String::from_utf8(folder.read("p.html")).unwrap();
+    assert!(html.contains("<section id=\"speedups\">") && html.contains("\"scaling\":null"));
+    let first = html.split("<p class=\"opening\">").nth(1).and_then(|rest| rest.split("</p>").next()).unwrap();
+    assert!(first.starts_with("Naive Phong ") && first.contains("whole frames"), "{first}");
+    let text = String::from_utf8(folder.read("README.md")).unwrap();
+    assert!(text.starts_with("# Shading methods compared\n\nNaive Phong "), "{text}");
+    folder.run(&format!("report figure5 {QUICK} --methods flat")).done();
+    let without = String::from_utf8(folder.read("report/index.html")).unwrap();
+    assert!(without.contains("\"speedups\":null") && !without.contains("id=\"scaling\""), "with INPUT: none");
+    folder.run("report figure5 --studies scalling").refused(&["did you mean `scaling`?"]);
+    folder.run("report figure5 --studies speedups,x").refused(&["expected `speedups` or `scaling`"]);
+}
+
 #[test]
 fn the_markdown_and_its_pictures_stand_beside_the_page() {
     let folder = Folder::new();
