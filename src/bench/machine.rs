@@ -39,7 +39,7 @@ impl Machine {
             arch: std::env::consts::ARCH.to_string(),
             target_features: target_features().into_iter().map(String::from).collect(),
             rustc: env!("FASTPHONG_RUSTC").to_string(),
-            profile: if cfg!(debug_assertions) { "debug" } else { "release" }.to_string(),
+            profile: env!("FASTPHONG_PROFILE").to_string(),
             opt_level: env!("FASTPHONG_OPT_LEVEL").to_string(),
             version: env!("CARGO_PKG_VERSION").to_string(),
             commit: option_env!("FASTPHONG_COMMIT").map(String::from),
