@@ -13,7 +13,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 /// The methods of the comparison, with the reciprocal root of the hardware.
-const METHODS: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "fast-phong-rsqrt"];
+const METHODS: [&str; 5] = ["gouraud", "naive-phong", "fast-phong", "fast-phong-rsqrt", "phong-rsqrt"];
 
 /// Scanlines of a band of the floor.
 const BAND: usize = 32;

@@ -182,7 +182,7 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
         assert_eq!(difference.coverage_mismatches, 0);
         compared.push(entry.info.name);
     }
-    assert_eq!(compared, ["flat", "flat-average", "gouraud", "gouraud-separate", "naive-phong"]);
+    assert_eq!(compared, ["flat", "flat-average", "gouraud", "gouraud-separate", "naive-phong", "phong-rsqrt"]);
 }
 
 /// L21 3: on triangles the picture does not depend on how they lie; on a square it does (Figure 5).

@@ -178,6 +178,22 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
         }
         // The same root by the processor is counted as what it stands for, a root and a quotient: what is left is Duff's.
         "fast-phong-rsqrt" => by_hand("duff-phong", lights),
+        // Three coordinates as in naive Phong; then D, K and J of each light as dot products, the root as above, K and J of each
+        // light times that, 2K once and 2JK − L·V for each light.
+        "phong-rsqrt" => ByHand {
+            vertex: NONE,
+            polygon: NONE,
+            edge: 3 * ramp(),
+            edge_step: 3 * ADD,
+            span: 3 * ramp(),
+            walk: 3 * ADD,
+            shade: (lights + 2) * DOT
+                + ROOT
+                + DIVIDE
+                + (lights + 1) * MULTIPLY
+                + MULTIPLY
+                + lights * (MULTIPLY + ADD + light()),
+        },
         // Duff 1979: J of each light, K and three coordinates along edges; on a span J and K by one addition each, D = N·N
         // by two. D needs N·N, N·ΔN twice, ΔN·ΔN, and its first and second difference. A pixel needs 1/√D and K and J of
         // each light times that, then 2K once and 2JK − L·V for each light.

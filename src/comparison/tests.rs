@@ -301,8 +301,10 @@ fn tables_have_a_row_a_method() {
         for (line, row) in lines[2..].iter().zip(comparison.all_rows()) {
             assert!(line.starts_with(&row.name()), "{line}");
             let rms: Vec<f64> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
-            // Three digits: within half of the last of them, 1/200 of the number.
-            let near = |shown: &f64| (shown - 255.0 * row.error.rms).abs() <= 255.0 * row.error.rms / 200.0;
+            // Three digits, down to the sixth place: within half of the last of them, which is 1/200 of the number, or of that
+            // place.
+            let rounded = (255.0 * row.error.rms / 200.0).max(0.5e-6);
+            let near = |shown: &f64| (shown - 255.0 * row.error.rms).abs() <= rounded;
             assert!(line.contains(" ± ") && rms.iter().any(near), "{line}");
         }
         // Columns end where their heads end: all are to the right but the first.

@@ -1,6 +1,7 @@
 //! What the engines need of a machine beyond its numbers: groups of neighbouring pixels in memory, and masks over them.
 
 use super::{Level, Machine, Scalar};
+use core::ops::{Add, BitAnd, BitOr, BitXor, Mul, Sub};
 
 /// A machine whose groups of pixels can be loaded, compared, masked and stored.
 ///
@@ -8,8 +9,8 @@ use super::{Level, Machine, Scalar};
 pub trait Lanes: Machine<One = f32> {
     /// A choice among the pixels of a group.
     type Mask: Copy;
-    /// Three integers at each of eight pixels.
-    type Edges: Copy;
+    /// A whole number for each of them.
+    type I: Int;
 
     /// Does `work` with the instructions of this machine: what is inlined into it is compiled for them.
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T;
@@ -19,8 +20,8 @@ pub trait Lanes: Machine<One = f32> {
     /// Stores a group over the first `WIDTH` values of `to`.
     fn store(self, x: Self::F, to: &mut [f32]);
 
-    /// The first `n` pixels of a group, all of them if it has no more.
-    fn first_lanes(self, n: usize) -> Self::Mask;
+    /// The pixels from number `from` on, before number `to`.
+    fn lanes(self, from: usize, to: usize) -> Self::Mask;
     /// Where `a` < `b`.
     fn less(self, a: Self::F, b: Self::F) -> Self::Mask;
     /// Where both are.
@@ -30,16 +31,50 @@ pub trait Lanes: Machine<One = f32> {
     /// `new` where `mask` says so, else `old`.
     fn blend(self, mask: Self::Mask, new: Self::F, old: Self::F) -> Self::F;
 
-    /// Three linear functions at eight pixels from a first one on, whatever the width: `at + k step`.
-    fn edges(self, at: [i32; 3], step: [i32; 3]) -> Self::Edges;
-    /// The same functions where each has grown.
-    fn beside(self, edges: Self::Edges, growth: [i32; 3]) -> Self::Edges;
-    /// Bit k: whether all three are 0 or more at pixel k.
-    fn inside(self, edges: Self::Edges) -> u32;
+    /// Bit k: whether pixel k is meant.
+    fn bits(self, mask: Self::Mask) -> u32;
+
+    /// The same whole number everywhere.
+    fn int(self, x: i32) -> Self::I;
+    /// 0, 1, 2 and so on.
+    fn counted(self) -> Self::I;
+    /// The group that `from` begins with; it has `WIDTH` numbers or more.
+    fn load_int(self, from: &[i32]) -> Self::I;
+    /// Stores a group over the first `WIDTH` numbers of `to`.
+    fn store_int(self, x: Self::I, to: &mut [i32]);
+    /// Whole numbers as numbers, rounded once.
+    fn number(self, x: Self::I) -> Self::F;
+    /// Where a whole number is 0 or more.
+    fn not_negative(self, x: Self::I) -> Self::Mask;
 
     /// Stores the colours of a group as [`quantise`](crate::encoding::quantise) does, opaque where `covered`, and
     /// `background` elsewhere, over the first `WIDTH` texels of `to`.
     fn pack(self, rgb: [Self::F; 3], covered: Self::Mask, background: [u8; 4], to: &mut [[u8; 4]]);
+}
+
+/// Whole numbers of 32 bits, of which no result may need more.
+pub trait Int:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + BitAnd<Output = Self>
+    + BitOr<Output = Self>
+    + BitXor<Output = Self>
+{
+    /// The smaller of both.
+    fn min(self, other: Self) -> Self;
+    /// The larger of both.
+    fn max(self, other: Self) -> Self;
+    /// Divided by 256, rounded down: from sub-pixels to pixels.
+    fn whole_pixels(self) -> Self;
+    /// −1 (all bits) where it is less than `other`, else 0.
+    fn less(self, other: Self) -> Self;
+    /// `a` where `mask` has all bits, `b` where it has none.
+    #[inline(always)]
+    fn choose(mask: Self, a: Self, b: Self) -> Self {
+        b ^ ((a ^ b) & mask)
+    }
 }
 
 /// Something to be done on an instruction set.

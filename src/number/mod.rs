@@ -19,7 +19,7 @@ mod scalar;
 pub mod wide;
 
 pub use counting::{Counted, Counter, Counting, Counts};
-pub use lanes::Lanes;
+pub use lanes::{Int, Lanes};
 pub(crate) use lanes::{LanesJob, on_level, on_wide_level};
 pub use level::{Level, LevelError};
 pub use planes::Planes;

@@ -1,6 +1,6 @@
 //! Plain `f32`, one pixel at a time.
 
-use super::{Lanes, Machine, Num, Real, each};
+use super::{Int, Lanes, Machine, Num, Real};
 use crate::encoding::quantise;
 
 /// The scalar machine: `f32` throughout. Its pictures are the same bits on every platform.
@@ -60,6 +60,28 @@ impl Real for f32 {
     }
 }
 
+impl Int for i32 {
+    #[inline(always)]
+    fn min(self, other: i32) -> i32 {
+        Ord::min(self, other)
+    }
+
+    #[inline(always)]
+    fn max(self, other: i32) -> i32 {
+        Ord::max(self, other)
+    }
+
+    #[inline(always)]
+    fn whole_pixels(self) -> i32 {
+        self >> 8
+    }
+
+    #[inline(always)]
+    fn less(self, other: i32) -> i32 {
+        -i32::from(self < other)
+    }
+}
+
 impl Machine for Scalar {
     type One = f32;
     type F = f32;
@@ -98,7 +120,7 @@ impl Machine for Scalar {
 
 impl Lanes for Scalar {
     type Mask = bool;
-    type Edges = [[i32; 8]; 3];
+    type I = i32;
 
     #[inline(always)]
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
@@ -116,8 +138,8 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    fn first_lanes(self, n: usize) -> bool {
-        n > 0
+    fn lanes(self, from: usize, to: usize) -> bool {
+        from < 1 && to > 0
     }
 
     #[inline(always)]
@@ -141,20 +163,38 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    fn edges(self, at: [i32; 3], step: [i32; 3]) -> [[i32; 8]; 3] {
-        each(|i| each(|k| at[i] + k as i32 * step[i]))
+    fn bits(self, mask: bool) -> u32 {
+        u32::from(mask)
     }
 
     #[inline(always)]
-    fn beside(self, edges: [[i32; 8]; 3], growth: [i32; 3]) -> [[i32; 8]; 3] {
-        each(|i| each(|k| edges[i][k] + growth[i]))
+    fn int(self, x: i32) -> i32 {
+        x
     }
 
     #[inline(always)]
-    fn inside(self, edges: [[i32; 8]; 3]) -> u32 {
-        let [a, b, c] = edges;
-        let signs = a.iter().zip(b).zip(c).map(|((a, b), c)| a | b | c);
-        signs.enumerate().map(|(k, sign)| u32::from(sign >= 0) << k).sum()
+    fn counted(self) -> i32 {
+        0
+    }
+
+    #[inline(always)]
+    fn load_int(self, from: &[i32]) -> i32 {
+        from[0]
+    }
+
+    #[inline(always)]
+    fn store_int(self, x: i32, to: &mut [i32]) {
+        to[0] = x;
+    }
+
+    #[inline(always)]
+    fn number(self, x: i32) -> f32 {
+        x as f32
+    }
+
+    #[inline(always)]
+    fn not_negative(self, x: i32) -> bool {
+        x >= 0
     }
 
     #[inline(always)]

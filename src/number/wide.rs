@@ -1,6 +1,6 @@
 //! Eight pixels at a time, on the instruction set that a token proves to be there.
 
-use super::{Lanes, Level, Machine, Num};
+use super::{Int, Lanes, Level, Machine, Num};
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, i32x8, mask32x8};
 
 /// The machine of groups of eight neighbouring pixels; its set-up runs on plain `f32`.
@@ -97,6 +97,28 @@ impl<S: Simd> Num for f32x8<S> {
     }
 }
 
+impl<S: Simd> Int for i32x8<S> {
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        SimdBase::min(self, other)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        SimdBase::max(self, other)
+    }
+
+    #[inline(always)]
+    fn whole_pixels(self) -> Self {
+        self >> 8
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> Self {
+        self.simd_lt(other).to_vector()
+    }
+}
+
 /// The bits of eight numbers.
 #[inline(always)]
 fn bits<S: Simd>(x: f32x8<S>) -> i32x8<S> {
@@ -154,7 +176,7 @@ impl<S: Simd> Machine for Wide<S> {
 
 impl<S: Simd> Lanes for Wide<S> {
     type Mask = mask32x8<S>;
-    type Edges = [i32x8<S>; 3];
+    type I = i32x8<S>;
 
     #[inline(always)]
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
@@ -172,8 +194,9 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 
     #[inline(always)]
-    fn first_lanes(self, n: usize) -> mask32x8<S> {
-        i32x8::splat(self.0, n.min(8) as i32).simd_gt(i32x8::simd_from(self.0, COUNTED_INTEGERS))
+    fn lanes(self, from: usize, to: usize) -> mask32x8<S> {
+        let k = i32x8::simd_from(self.0, COUNTED_INTEGERS);
+        k.simd_ge(i32x8::splat(self.0, from.min(8) as i32)) & k.simd_lt(i32x8::splat(self.0, to.min(8) as i32))
     }
 
     #[inline(always)]
@@ -200,25 +223,38 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 
     #[inline(always)]
-    fn edges(self, at: [i32; 3], step: [i32; 3]) -> [i32x8<S>; 3] {
-        let k = i32x8::simd_from(self.0, COUNTED_INTEGERS);
-        super::each(
-            #[inline(always)]
-            |i| i32x8::splat(self.0, at[i]) + k * i32x8::splat(self.0, step[i]),
-        )
+    fn bits(self, mask: mask32x8<S>) -> u32 {
+        mask.to_bitmask() as u32
     }
 
     #[inline(always)]
-    fn beside(self, edges: [i32x8<S>; 3], growth: [i32; 3]) -> [i32x8<S>; 3] {
-        super::each(
-            #[inline(always)]
-            |i| edges[i] + i32x8::splat(self.0, growth[i]),
-        )
+    fn int(self, x: i32) -> i32x8<S> {
+        i32x8::splat(self.0, x)
     }
 
     #[inline(always)]
-    fn inside(self, [a, b, c]: [i32x8<S>; 3]) -> u32 {
-        !((a | b | c).simd_lt(i32x8::splat(self.0, 0)).to_bitmask() as u32) & 0xFF
+    fn counted(self) -> i32x8<S> {
+        i32x8::simd_from(self.0, COUNTED_INTEGERS)
+    }
+
+    #[inline(always)]
+    fn load_int(self, from: &[i32]) -> i32x8<S> {
+        i32x8::from_slice(self.0, &from[..8])
+    }
+
+    #[inline(always)]
+    fn store_int(self, x: i32x8<S>, to: &mut [i32]) {
+        x.store_slice(&mut to[..8]);
+    }
+
+    #[inline(always)]
+    fn number(self, x: i32x8<S>) -> f32x8<S> {
+        self.0.cvt_f32_i32x8(x)
+    }
+
+    #[inline(always)]
+    fn not_negative(self, x: i32x8<S>) -> mask32x8<S> {
+        x.simd_gt(i32x8::splat(self.0, -1))
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! A picture as bands of scanlines, which are drawn apart from one another.
 
-use super::rows::{Cover, Row};
+use super::rows::{Band, Batch};
 use super::sink::{Filtered, RowSink, Stored};
 use super::target::Texel;
 use crate::frame::Frame;
@@ -13,10 +13,10 @@ use core::ops::Range;
 /// Memory that a thread keeps from band to band.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    pub row: Row,
-    pub cover: Cover,
-    /// The colours of a row, by channel.
-    pub line: [Vec<f32>; 3],
+    pub band: Band,
+    pub batch: Batch,
+    /// The depths of a row and its colours, by channel.
+    pub line: [Vec<f32>; 4],
 }
 
 /// Draws one band: its number, its scanlines, memory, and where its rows go.
@@ -39,7 +39,7 @@ impl<T: Texel> Bands for PictureBands<'_, T> {
     fn each(&mut self, height: usize, draw: &DrawBand<'_>) {
         let (frame, level) = (self.frame, self.level);
         let (width, samples) = (frame.picture_width(), frame.samples());
-        debug_assert!(height.is_multiple_of(samples));
+        assert!(height.is_multiple_of(samples));
         let background = T::background(frame.background());
         let texels_a_band = height / samples * width;
         for_each_chunk(self.picture.texels_mut(), texels_a_band, &|first, texels: &mut [T]| {

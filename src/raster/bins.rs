@@ -1,7 +1,7 @@
 //! Which polygons meet which band of scanlines: what lets bands be drawn apart, one thread each.
 
 use super::edge::first_centre;
-use crate::frame::{Frame, Polygon};
+use crate::frame::{Frame, Polygon, SubPixel};
 use crate::parallel::collect;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -25,7 +25,7 @@ struct Chunk {
 }
 
 impl Bins {
-    /// The polygons of `frame` in bands of `height` scanlines.
+    /// The polygons of `frame` in bands of `height` scanlines, a power of two.
     pub fn new(frame: &Frame, height: usize) -> Self {
         let chunks = frame.polygons().len().div_ceil(CHUNK);
         Bins { chunks: collect(chunks, 1, |number| Chunk::new(frame, height, number * CHUNK)) }
@@ -45,7 +45,8 @@ impl Chunk {
         let all = &frame.polygons()[first..];
         let bands = frame.height().div_ceil(height);
         let mut starts = vec![0u32; bands + 1];
-        let ranges: Vec<Range<u32>> = all[..CHUNK.min(all.len())].iter().map(|p| bands_of(frame, p, height)).collect();
+        let ranges: Vec<Range<u32>> =
+            all[..CHUNK.min(all.len())].iter().map(|p| bands_of(frame, p, height.trailing_zeros())).collect();
         for range in &ranges {
             for band in range.clone() {
                 starts[band as usize + 1] += 1;
@@ -67,33 +68,45 @@ impl Chunk {
     }
 }
 
-/// The bands whose pixel centres a polygon's bounding box holds.
+/// The bands of 2^`log_height` scanlines whose pixel centres a polygon's bounding box holds.
 #[inline(always)]
-fn bands_of(frame: &Frame, polygon: &Polygon, height: usize) -> Range<u32> {
+fn bands_of(frame: &Frame, polygon: &Polygon, log_height: u32) -> Range<u32> {
     let vertices = frame.vertices();
     let corners = frame.corners(polygon);
-    let first = &vertices[corners[0] as usize];
-    let (mut left, mut right, mut top, mut bottom) = (first.x, first.x, first.y, first.y);
-    for &corner in &corners[1..] {
-        let v = &vertices[corner as usize];
-        (left, right) = (left.min(v.x), right.max(v.x));
-        (top, bottom) = (top.min(v.y), bottom.max(v.y));
+    let place = |corner: u32| {
+        let vertex = &vertices[corner as usize];
+        (vertex.x.to_bits(), vertex.y.to_bits())
+    };
+    // Triangles without a loop: most polygons are some.
+    let (mut left, mut right, mut top, mut bottom);
+    if let &[a, b, c] = corners {
+        let ((xa, ya), (xb, yb), (xc, yc)) = (place(a), place(b), place(c));
+        (left, right) = (xa.min(xb).min(xc), xa.max(xb).max(xc));
+        (top, bottom) = (ya.min(yb).min(yc), ya.max(yb).max(yc));
+    } else {
+        (left, right, top, bottom) = (i32::MAX, i32::MIN, i32::MAX, i32::MIN);
+        for &corner in corners {
+            let (x, y) = place(corner);
+            (left, right) = (left.min(x), right.max(x));
+            (top, bottom) = (top.min(y), bottom.max(y));
+        }
     }
     let within = |from, to, limit: usize| {
-        let (from, to) = (first_centre(from).max(0), first_centre(to).min(limit as i32));
+        let centre = |bits| first_centre(SubPixel::from_bits(bits));
+        let (from, to) = (centre(from).max(0), centre(to).min(limit as i32));
         from as u32..to.max(from) as u32
     };
     let rows = within(top, bottom, frame.height());
     if rows.is_empty() || within(left, right, frame.width()).is_empty() {
         return 0..0;
     }
-    rows.start / height as u32..(rows.end - 1) / height as u32 + 1
+    rows.start >> log_height..((rows.end - 1) >> log_height) + 1
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::{FrameBuilder, ScreenVertex, SubPixel, Vertex};
+    use crate::frame::{FrameBuilder, ScreenVertex, Vertex};
     use crate::lighting::{Lighting, Material};
     use crate::raster::coverage;
     use crate::test_random::Random;
@@ -123,7 +136,7 @@ mod tests {
         let mut random = Random::new(31);
         for round in 0..200 {
             let (width, height) = (1 + random.below(60) as usize, 1 + random.below(70) as usize);
-            let (frame, rows) = (frame(&mut random, width, height), [1, 4, 8, 16, 32, 100][round % 6]);
+            let (frame, rows) = (frame(&mut random, width, height), [1, 4, 8, 16, 32, 128][round % 6]);
             let bins = Bins::new(&frame, rows);
             let mut covering = BTreeSet::new();
             coverage(&frame, |number, row, _| covering.extend([(row / rows, number)]));

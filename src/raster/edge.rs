@@ -9,9 +9,8 @@ const UNIT: i64 = 1 << SubPixel::FRAC_NBITS;
 /// The first row (or column) whose centre is not before `at`.
 #[inline(always)]
 pub fn first_centre(at: SubPixel) -> i32 {
-    // ceil((at − ½) / 1) on the bits
-    let bits = i64::from(at.to_bits()) - UNIT / 2;
-    ((bits + UNIT - 1).div_euclid(UNIT)) as i32
+    // ceil(at − ½) on the bits
+    ((i64::from(at.to_bits()) + UNIT / 2 - 1) >> SubPixel::FRAC_NBITS) as i32
 }
 
 /// The crossing of an edge with the centre line of a scanline: exact, and stepped from scanline to scanline.
@@ -42,7 +41,7 @@ impl Crossing {
         let bits = |c: SubPixel| i64::from(c.to_bits());
         let (x0, y0) = (bits(top[0]), bits(top[1]));
         let (dx, dy) = (bits(bottom[0]) - x0, bits(bottom[1]) - y0);
-        debug_assert!(dy > 0, "a crossing needs an edge that goes down");
+        assert!(dy > 0, "a crossing needs an edge that goes down");
         let denominator = UNIT * dy;
         let centre = i64::from(row) * UNIT + UNIT / 2;
         // The crossing relative to the centre of pixel 0, times the denominator.

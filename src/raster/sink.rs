@@ -12,6 +12,13 @@ pub(crate) trait RowSink {
     /// Takes row `row` of the band. `drawn` are the pixels between which anything was drawn; `depth` and `rgb` begin with the
     /// first of them: a pixel was drawn where its depth is finite. They have a group of values more than there are pixels.
     fn row(&mut self, row: usize, drawn: Range<usize>, depth: &[f32], rgb: [&[f32]; 3]);
+
+    /// Where rows are stored as bytes, the texels of row `row` and the background: then they may be stored here, all of
+    /// them, in place of giving them to [`RowSink::row`].
+    fn bytes(&mut self, row: usize) -> Option<(&mut [[u8; 4]], [u8; 4])> {
+        let _ = row;
+        None
+    }
 }
 
 /// Texels of a band that are stored as they are drawn.
@@ -28,6 +35,10 @@ impl<T: Texel> RowSink for Stored<'_, T> {
         texels[..drawn.start].fill(self.background);
         texels[drawn.end..].fill(self.background);
         T::pack(self.level, self.background, depth, rgb, &mut texels[drawn]);
+    }
+
+    fn bytes(&mut self, row: usize) -> Option<(&mut [[u8; 4]], [u8; 4])> {
+        T::bytes(&mut self.texels[row * self.width..][..self.width], self.background)
     }
 }
 

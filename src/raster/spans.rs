@@ -42,13 +42,14 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
             }
             next = row + 1;
             let drawn = line.drawn();
-            for channel in &mut scratch.line {
+            let [_, rgb @ ..] = &mut scratch.line;
+            for channel in rgb.iter_mut() {
                 if channel.len() < drawn.end + 2 * M::WIDTH {
                     channel.resize(drawn.end + 2 * M::WIDTH, 0.0);
                 }
             }
-            shade_runs::<S, M>(m, frame, &setup, &consts, (row, line, edges), &mut scratch.line);
-            let [r, g, b] = &scratch.line;
+            shade_runs::<S, M>(m, frame, &setup, &consts, (row, line, edges), rgb);
+            let [r, g, b] = rgb;
             let from = drawn.start;
             sink.row(row - first, drawn, line.kept_depth(from), [&r[from..], &g[from..], &b[from..]]);
         });

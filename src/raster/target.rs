@@ -17,6 +17,11 @@ pub(crate) trait Texel: Copy + Send + Sync {
     /// A row of drawn colours, and `background` where `depth` is infinite; all but `texels` have a group of values more
     /// than there are texels.
     fn pack(level: Level, background: Self, depth: &[f32], rgb: [&[f32]; 3], texels: &mut [Self]);
+    /// Texels and background as bytes, if that is what they are.
+    fn bytes(texels: &mut [Self], background: Self) -> Option<(&mut [[u8; 4]], [u8; 4])> {
+        let _ = (texels, background);
+        None
+    }
 }
 
 impl Texel for [u8; 4] {
@@ -33,6 +38,9 @@ impl Texel for [u8; 4] {
     }
     fn pack(level: Level, background: Self, depth: &[f32], rgb: [&[f32]; 3], texels: &mut [Self]) {
         on_level(level, Pack { background, depth, rgb, texels });
+    }
+    fn bytes(texels: &mut [Self], background: Self) -> Option<(&mut [[u8; 4]], [u8; 4])> {
+        Some((texels, background))
     }
 }
 

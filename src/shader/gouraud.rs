@@ -1,7 +1,7 @@
 //! Gouraud shading: vertex colours, interpolated linearly (L21 3).
 
 use super::local::{Far, Lights, Near};
-use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -52,6 +52,7 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
     type Polygon<R: Real> = ();
     type Walk<M: Machine> = [Linear<M::F>; 3];
     type Pixel<F: Num> = [F; 3];
+    const GIVEN: Given = Given::Attribute;
 
     fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> P::Of<N, L> {
         P::new(lighting, of)
@@ -86,6 +87,7 @@ impl<P: Lights, const L: usize> Shader for Weighted<P, L> {
     type Polygon<R: Real> = ();
     type Walk<M: Machine> = ([Linear<M::F>; 3], Linear<M::F>);
     type Pixel<F: Num> = ([F; 3], F);
+    const GIVEN: Given = Given::Attribute;
 
     fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> P::Of<N, L> {
         P::new(lighting, of)

@@ -1,7 +1,7 @@
 //! Gouraud shading with diffuse and specular light interpolated apart (L21 3; OpenGL's separate specular colour).
 
 use super::local::{Far, Lights, Near};
-use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::{LightTerm, Lighting};
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -51,6 +51,7 @@ impl<P: Lights, const W: usize, const L: usize> Shader for Of<P, W, L> {
     type Polygon<R: Real> = ();
     type Walk<M: Machine> = ([Linear<M::F>; 3], [Linear<M::F>; 3], [Linear<M::F>; W]);
     type Pixel<F: Num> = ([F; 3], [F; 3], [F; W]);
+    const GIVEN: Given = Given::Attribute;
 
     fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N> {
         let part = |change: fn(&mut LightTerm), ambient| {

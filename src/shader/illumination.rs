@@ -29,11 +29,12 @@ impl Power {
             Power::Fractional(n) => return base.powf(n),
         };
         let mut square = base;
-        while n & 1 == 0 {
+        let zeros = n.trailing_zeros();
+        for _ in 0..zeros {
             square = square * square;
-            n >>= 1;
         }
         let mut power = square;
+        n >>= zeros;
         n >>= 1;
         while n != 0 {
             square = square * square;
@@ -299,7 +300,8 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         highlight: impl Fn(usize) -> N,
         strength: impl Fn(usize) -> Option<N>,
     ) -> [N; 3] {
-        let mut sum = self.ambient;
+        // Three numbers, not an array that a loop writes to: that would stay in memory.
+        let [mut red, mut green, mut blue] = self.ambient;
         let mut i = 0;
         while i < L {
             let l_n = l_n(i);
@@ -313,15 +315,13 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             if let Some(strength) = strength(i) {
                 (d, s) = (d * strength, s * strength);
             }
-            let mut channel = 0;
-            while channel < 3 {
-                let diffuse = self.diffuse[i][channel].mul_add(d, sum[channel]);
-                sum[channel] = self.specular[i][channel].mul_add(s, diffuse); // 2.1
-                channel += 1;
-            }
+            let (diffuse, specular) = (&self.diffuse[i], &self.specular[i]);
+            red = specular[0].mul_add(s, diffuse[0].mul_add(d, red)); // 2.1
+            green = specular[1].mul_add(s, diffuse[1].mul_add(d, green));
+            blue = specular[2].mul_add(s, diffuse[2].mul_add(d, blue));
             i += 1;
         }
-        sum
+        [red, green, blue]
     }
 
     /// The colour of a surface with unit normal `n` that sees light and viewer as `seen`, with R built as the lecture

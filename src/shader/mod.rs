@@ -26,6 +26,7 @@ mod gouraud;
 mod gouraud_separate;
 mod naive_phong;
 mod one_colour;
+mod phong_rsqrt;
 mod slerp_phong;
 mod slerp_phong_vector;
 
@@ -40,6 +41,7 @@ pub use gouraud::Gouraud;
 pub use gouraud_separate::GouraudSeparate;
 pub use info::{Info, Local, Parameter, Perspective};
 pub use naive_phong::NaivePhong;
+pub use phong_rsqrt::PhongRsqrt;
 pub use slerp_phong::SlerpPhong;
 pub use slerp_phong_vector::SlerpPhongVector;
 pub use span::SpanBench;
@@ -145,6 +147,18 @@ pub struct Span<R, S> {
 /// The span of a shader's attribute.
 pub type SpanOf<S, R> = Span<R, <<S as Shader>::Attribute<R> as Attribute<R>>::Span>;
 
+/// What a walk gives to the pixels of a triangle, seen from without: where it is no recurrence, an engine may find the same
+/// for each pixel by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Given {
+    /// What only the walk itself knows.
+    Walked,
+    /// The attribute, interpolated linearly: its numbers in order, as many of them as the pixel has.
+    Attribute,
+    /// The same to all pixels.
+    Constant,
+}
+
 /// A shading method for a fixed number of lights: what it computes at each of four rates.
 ///
 /// Every function must be `#[inline(always)]`: one that is not costs a call a pixel.
@@ -159,6 +173,8 @@ pub trait Shader: 'static {
     type Walk<M: Machine>: Walk<Out = Self::Pixel<M::F>>;
     /// What the walk gives to each pixel: numbers, arrays and tuples of them.
     type Pixel<F: Num>: Planes<F>;
+    /// What the walk gives, seen from without.
+    const GIVEN: Given = Given::Walked;
 
     /// Constants from the light on one material; `parameters` are in the order of [`Info::parameters`].
     fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N>;

@@ -2,7 +2,7 @@
 
 use super::illumination::{Illumination, Seen};
 use super::local::Local as LocalLight;
-use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, dot, each};
 use crate::reference::Model;
@@ -49,6 +49,7 @@ impl<const L: usize> Shader for Of<L> {
     type Polygon<R: Real> = ();
     type Walk<M: Machine> = [Linear<M::F>; 3];
     type Pixel<F: Num> = [F; 3];
+    const GIVEN: Given = Given::Attribute;
 
     fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> Illumination<N, L> {
         Illumination::new(lighting, of)
@@ -102,6 +103,7 @@ impl<const W: usize, const L: usize> Shader for Near<W, L> {
     type Polygon<R: Real> = ();
     type Walk<M: Machine> = ([Linear<M::F>; 3], [Linear<M::F>; 3], [Linear<M::F>; W]);
     type Pixel<F: Num> = ([F; 3], [F; 3], [F; W]);
+    const GIVEN: Given = Given::Attribute;
 
     fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> LocalLight<N, L> {
         LocalLight::new(lighting, of)

@@ -1,7 +1,7 @@
 //! One colour a polygon (L21 2): what the definitions of flat shading have in common; they differ by the normal.
 
 use super::local::Lights;
-use super::{Corner, Corners, Shader, SpanOf};
+use super::{Corner, Corners, Given, Shader, SpanOf};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real};
 use crate::walk::{Constant, Lerp};
@@ -22,6 +22,7 @@ impl<N: PolygonNormal, P: Lights, const L: usize> Shader for Of<N, P, L> {
     type Polygon<R: Real> = [R; 3];
     type Walk<M: Machine> = Constant<[M::F; 3]>;
     type Pixel<F: Num> = [F; 3];
+    const GIVEN: Given = Given::Constant;
 
     fn consts<T: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> T) -> P::Of<T, L> {
         P::new(lighting, of)

@@ -6,7 +6,7 @@ use super::dispatch::{Job, dispatch};
 use super::span::{self, SpanBench};
 use super::{
     DuffPhong, FastPhong, FastPhongRsqrt, Flat, FlatAverage, Gouraud, GouraudSeparate, Info, Method, NaivePhong,
-    Shader, SlerpPhong, SlerpPhongVector,
+    PhongRsqrt, Shader, SlerpPhong, SlerpPhongVector,
 };
 use crate::encoding::store;
 use crate::frame::Frame;
@@ -32,6 +32,7 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<NaivePhong>(),
     Entry::of::<FastPhong>(),
     Entry::of::<FastPhongRsqrt>(),
+    Entry::of::<PhongRsqrt>(),
     Entry::of::<DuffPhong>(),
     Entry::of::<SlerpPhong>(),
     Entry::of::<SlerpPhongVector>(),

@@ -1,7 +1,7 @@
 //! What is walked along edges: affine values by a constant step, unit normals along great circles.
 
 use super::Sines;
-use crate::number::{Machine, Real, dot, each};
+use crate::number::{Machine, Planes, Real, dot, each};
 use core::convert::Infallible;
 
 /// A value at a corner, and how it varies along an edge and between two edges.
@@ -34,12 +34,21 @@ pub trait Attribute<R: Real>: Copy + Send + Sync {
     fn plane(corners: [Self; 3], across: [R; 2]) -> Option<Self::Plane>;
     /// A span that starts where the second and the third corner have the barycentric coordinates `w`.
     fn on_row(plane: &Self::Plane, w: [R; 2]) -> Self::Span;
+    /// The same span as if it had begun `pixels` pixels earlier; one that has a single pixel (`is_one`) grows no more. `None` where
+    /// it is not linear.
+    ///
+    /// A walk from there is off by at most 7 / 2 times the roundings of the span itself, where groups have eight pixels: over
+    /// two pixels or more a value grows in each step by at most its whole range. Great circles are not: their recurrences
+    /// would go on from sines that are several times as large as those inside.
+    fn earlier(span: &Self::Span, pixels: R, is_one: bool) -> Option<Self::Span>;
+    /// Its numbers, in order; none where it is not linear.
+    fn numbers(self, to: &mut impl FnMut(R));
     /// A span of one pixel at barycentric coordinates `w`, for the barycentric renderer.
     fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Self::Span;
 }
 
 /// Values that can be added and scaled: numbers, arrays and tuples of them.
-pub trait Affine<R: Real>: Copy + Send + Sync {
+pub trait Affine<R: Real>: Planes<R> + Send + Sync {
     /// The sum.
     fn plus(self, other: Self) -> Self;
     /// The difference.
@@ -198,6 +207,17 @@ impl<R: Real, A: Affine<R>> Attribute<R> for Lerp<A> {
         Ramp { at, step: facet.step }
     }
     #[inline(always)]
+    fn earlier(&Ramp { at, step }: &Ramp<A>, pixels: R, is_one: bool) -> Option<Ramp<A>> {
+        Some(match is_one {
+            true => Ramp { at, step: at.minus(at) },
+            false => Ramp { at: at.minus(step.times(pixels)), step },
+        })
+    }
+    #[inline(always)]
+    fn numbers(self, to: &mut impl FnMut(R)) {
+        self.0.put(to);
+    }
+    #[inline(always)]
     fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Ramp<A> {
         let [a, b, c] = corners;
         let at = a.0.times(w[0]).plus(b.0.times(w[1])).plus(c.0.times(w[2]));
@@ -302,6 +322,12 @@ impl<R: Real> Attribute<R> for UnitNormal<R> {
     fn on_row(plane: &Infallible, _: [R; 2]) -> Arc<R> {
         match *plane {}
     }
+    #[inline(always)]
+    fn earlier(_: &Arc<R>, _: R, _: bool) -> Option<Arc<R>> {
+        None
+    }
+    #[inline(always)]
+    fn numbers(self, _: &mut impl FnMut(R)) {}
     #[inline(always)]
     fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Arc<R> {
         let [a, b, c] = corners;

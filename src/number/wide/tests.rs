@@ -1,6 +1,6 @@
 //! Groups of eight against the scalar machine, lane by lane, on every instruction set that this machine has.
 
-use super::super::{Lanes, LanesJob, Level, Num, Scalar, on_level};
+use super::super::{Int, Lanes, LanesJob, Level, Num, Scalar, on_level};
 use crate::test_random::Random;
 use std::vec;
 use std::vec::Vec;
@@ -175,28 +175,32 @@ fn inverse_roots_are_off_by_less_than_two_to_the_minus_21() {
     }
 }
 
-/// Masks of the first lanes, and whether any lane is meant.
-struct FirstLanes(usize);
+/// Masks of some neighbouring lanes: as numbers, whether any lane is meant, and as bits.
+struct SomeLanes(usize, usize);
 
-impl LanesJob for FirstLanes {
-    type Out = (Vec<f32>, bool);
+impl LanesJob for SomeLanes {
+    type Out = (Vec<f32>, bool, u32);
 
-    fn run<M: Lanes>(self, m: M) -> (Vec<f32>, bool) {
+    fn run<M: Lanes>(self, m: M) -> Self::Out {
         let mut lanes = vec![0.0; M::WIDTH];
-        let mask = m.first_lanes(self.0);
+        let mask = m.lanes(self.0, self.1);
         m.store(m.blend(mask, m.splat(1.0), m.splat(0.0)), &mut lanes);
-        (lanes, m.any(mask))
+        (lanes, m.any(mask), m.bits(mask))
     }
 }
 
 #[test]
-fn first_lanes_are_the_first() {
+fn lanes_are_those_from_and_before() {
+    let ends = || (0..12).chain([usize::MAX / 2]);
     for level in Level::available() {
-        for n in (0..20).chain([usize::MAX / 2]) {
-            let (lanes, any) = on_level(level, FirstLanes(n));
+        for (from, to) in ends().flat_map(|from| ends().map(move |to| (from, to))) {
+            let (lanes, any, bits) = on_level(level, SomeLanes(from, to));
             assert_eq!(lanes.len(), level.width());
-            assert!(lanes.iter().enumerate().all(|(k, &lane)| lane == f32::from(k < n)), "{level}: {n}: {lanes:?}");
-            assert_eq!(any, n > 0);
+            let expected: Vec<bool> = (0..level.width()).map(|k| (from..to).contains(&k)).collect();
+            let of_lanes = lanes.iter().map(|&lane| lane == 1.0);
+            assert!(of_lanes.eq(expected.iter().copied()), "{level}: {from}..{to}: {lanes:?}");
+            assert_eq!(any, expected.contains(&true), "{level}: {from}..{to}");
+            assert!((0..level.width()).all(|k| (bits >> k & 1 == 1) == expected[k]), "{level}: {from}..{to}: {bits:b}");
         }
     }
 }
@@ -230,33 +234,93 @@ fn groups_are_made_in_order() {
     }
 }
 
-/// Edge functions of eight neighbouring pixels.
-struct Inside([i32; 3], [i32; 3]);
+/// Whole numbers through every operation.
+struct Integers([i32; 8], [i32; 8]);
 
-impl LanesJob for Inside {
-    type Out = u32;
+impl LanesJob for Integers {
+    /// By operation the results of all pairs.
+    type Out = [Vec<i32>; 9];
 
-    fn run<M: Lanes>(self, m: M) -> u32 {
-        // From one pixel before, so that going beside is seen too.
-        let start = [0, 1, 2].map(|i| self.0[i] - self.1[i]);
-        m.inside(m.beside(m.edges(start, self.1), self.1))
+    fn run<M: Lanes>(self, m: M) -> Self::Out {
+        let mut out: Self::Out = Default::default();
+        for first in (0..8).step_by(M::WIDTH) {
+            let (a, b) = (m.load_int(&self.0[first..]), m.load_int(&self.1[first..]));
+            let less = a.less(b);
+            let results = [
+                a + b,
+                a - b,
+                a * b,
+                a.min(b),
+                a.max(b),
+                a.whole_pixels(),
+                less,
+                M::I::choose(less, b, m.int(7)),
+                a & b,
+            ];
+            for (out, result) in out.iter_mut().zip(results) {
+                let mut group = [0; 8];
+                m.store_int(result, &mut group);
+                out.extend(&group[..M::WIDTH]);
+            }
+        }
+        out
     }
 }
 
 #[test]
-fn eight_pixels_are_inside_where_three_functions_are_not_negative() {
+fn whole_numbers_are_those_of_the_processor() {
     let mut random = Random::new(7);
-    for round in 0..20_000 {
-        // As far as the engine goes: below 2³¹ with all that is added.
-        let reach = [4, 300, 1 << 16, 1 << 27][round % 4];
-        let mut number = |reach: u64| random.below(2 * reach + 1) as i32 - reach as i32;
-        let at = [(); 3].map(|()| number(reach));
-        let step = [(); 3].map(|()| number((reach / 4).max(2)));
-        let inside = |k: i32| (0..3).all(|i| i64::from(at[i]) + i64::from(k) * i64::from(step[i]) >= 0);
-        let expected = (0..8).map(|k| u32::from(inside(k)) << k).sum::<u32>();
+    for round in 0..2000 {
+        // As far as the engine goes: no product over 2³¹.
+        let reach = [4, 300, 1 << 15][round % 3];
+        let mut numbers = || [(); 8].map(|()| random.below(2 * reach + 1) as i32 - reach as i32);
+        let (a, b) = (numbers(), numbers());
+        let each = |of: fn(i32, i32) -> i32| -> Vec<i32> { a.iter().zip(b).map(|(&a, b)| of(a, b)).collect() };
+        let expected = [
+            each(|a, b| a + b),
+            each(|a, b| a - b),
+            each(|a, b| a * b),
+            each(Ord::min),
+            each(Ord::max),
+            each(|a, _| a.div_euclid(256)),
+            each(|a, b| if a < b { -1 } else { 0 }),
+            each(|a, b| if a < b { b } else { 7 }),
+            each(|a, b| a & b),
+        ];
         for level in Level::available() {
-            assert_eq!(on_level(level, Inside(at, step)), expected, "{level}: {at:?} {step:?}");
+            assert_eq!(on_level(level, Integers(a, b)), expected, "{level}: {a:?} {b:?}");
         }
+    }
+}
+
+/// Which whole numbers are 0 or more, what they are as numbers, and counted ones.
+struct Signs([i32; 8]);
+
+impl LanesJob for Signs {
+    type Out = (u32, Vec<f32>, i32);
+
+    fn run<M: Lanes>(self, m: M) -> Self::Out {
+        let (mut bits, mut numbers, mut counted) = (0, vec![], [0; 8]);
+        m.store_int(m.counted(), &mut counted);
+        for first in (0..8).step_by(M::WIDTH) {
+            let group = m.load_int(&self.0[first..]);
+            bits |= (m.bits(m.not_negative(group)) & ((1 << M::WIDTH) - 1)) << first;
+            let mut group_numbers = [0.0; 8];
+            m.store(m.number(group), &mut group_numbers);
+            numbers.extend(&group_numbers[..M::WIDTH]);
+        }
+        (bits, numbers, counted[M::WIDTH - 1])
+    }
+}
+
+#[test]
+fn signs_and_numbers_of_whole_numbers() {
+    let all = [0, -1, 1, i32::MAX, i32::MIN, 16_777_217, -300, 256];
+    for level in Level::available() {
+        let (bits, numbers, last) = on_level(level, Signs(all));
+        assert_eq!(bits, 0b1010_1101, "{level}");
+        assert_eq!(numbers, all.map(|x| x as f32), "{level}: rounded once");
+        assert_eq!(last, level.width() as i32 - 1, "{level}");
     }
 }
 

@@ -1,94 +1,196 @@
-//! The memory of one scanline: depth, and what the walks gave to each pixel, plane by plane.
+//! The memory of a band of scanlines: depth, and what the walks gave to each pixel.
 
-use crate::number::{Lanes, Planes, get_each, put_each};
+use crate::number::{Lanes, Num, Planes, get_each, put_each};
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 use core::ops::Range;
+use core::slice::ChunksExact;
 
-/// Values behind the end of a row, so that a group may reach over it.
-const PADDING: usize = 32;
-
-/// Depth and planes of a scanline: what is drawn together is near, in the L1 cache for a few planes.
+/// Depth and planes of a band, group by group: the depths of eight neighbouring pixels, their first plane, their second, and
+/// so on lie together. A group is one place in memory then, whatever its planes are, and what was just written to it by the
+/// triangle beside is read back as it was written, which processors do without waiting.
 #[derive(Debug, Default)]
-pub(crate) struct Row {
-    stride: usize,
-    /// Depth, then the planes.
+pub(crate) struct Band {
+    rows: usize,
+    /// Groups a row.
+    groups: usize,
+    /// Numbers a group.
+    size: usize,
     values: Vec<f32>,
-    /// The pixels between which anything was drawn.
+    /// The number of the material of each pixel, as bits; empty where all pixels have the same.
+    materials: Vec<f32>,
+    /// The groups of a row between which anything may have been drawn.
     pub drawn: Range<usize>,
 }
 
-impl Row {
-    /// Makes room for `width` pixels with `planes` planes, all of them empty.
-    pub fn prepare(&mut self, width: usize, planes: usize) {
-        let stride = (width + PADDING).next_multiple_of(16);
-        if self.stride != stride || self.values.len() != stride * (planes + 1) {
-            self.stride = stride;
+/// With more planes than this a row is no longer near.
+pub(super) const MOST_PLANES: usize = 16;
+
+/// How many numbers the depth and the planes of a group have.
+const fn size<M: Lanes, P: Planes<M::F>>() -> usize {
+    match P::COUNT {
+        Some(count) => (1 + count) * M::WIDTH,
+        None => 0,
+    }
+}
+
+/// The numbers that stand in a group, in order.
+#[inline(always)]
+fn load<M: Lanes, P: Planes<M::F>>(m: M, group: &[f32]) -> P {
+    let mut at = 0;
+    get_each(
+        #[inline(always)]
+        || {
+            at += M::WIDTH;
+            m.load(&group[at - M::WIDTH..at])
+        },
+    )
+}
+
+impl Band {
+    /// Makes room for `rows` rows of `width` pixels of `P`, all of them empty; with room for their materials if
+    /// `has_materials`.
+    pub fn prepare<M: Lanes, P: Planes<M::F>>(&mut self, rows: usize, width: usize, has_materials: bool) {
+        let (groups, size) = (width.div_ceil(M::WIDTH), size::<M, P>());
+        // Bands are empty after they were taken: only another division of the memory has to be emptied.
+        if (self.rows, self.groups, self.size) != (rows, groups, size) {
+            (self.rows, self.groups, self.size) = (rows, groups, size);
             self.values.clear();
-            self.values.resize(stride * (planes + 1), f32::INFINITY);
-            self.drawn = 0..0;
+            self.values.resize(rows * groups * size, f32::INFINITY);
+        }
+        self.materials.resize(if has_materials { rows * groups * M::WIDTH } else { 0 }, 0.0);
+        self.drawn = groups..0;
+    }
+
+    /// The groups `groups` of any row, to be drawn; with `hides` only where depth is less than what was stored before.
+    #[inline(always)]
+    pub(super) fn cells<M: Lanes, P: Planes<M::F>>(
+        &mut self,
+        m: M,
+        groups: Range<usize>,
+        hides: bool,
+    ) -> Cells<'_, M, P> {
+        self.drawn = self.drawn.start.min(groups.start)..self.drawn.end.max(groups.end);
+        Cells {
+            values: &mut self.values,
+            materials: &mut self.materials,
+            a_row: self.groups,
+            groups,
+            least: m.splat(if hides { f32::NEG_INFINITY } else { f32::INFINITY }),
+            pixel: PhantomData,
         }
     }
 
-    /// Notes that the pixels `from..to` may be drawn.
+    /// Groups of a row, from left to right.
     #[inline(always)]
-    pub fn note(&mut self, from: usize, to: usize) {
-        self.drawn = match self.drawn.is_empty() {
-            true => from..to,
-            false => self.drawn.start.min(from)..self.drawn.end.max(to),
+    pub fn row<M: Lanes, P: Planes<M::F>>(&self, row: usize, groups: Range<usize>) -> ChunksExact<'_, f32> {
+        let size = size::<M, P>();
+        self.values[(row * self.groups + groups.start) * size..][..groups.len() * size].chunks_exact(size)
+    }
+
+    /// What is stored in a group beside its depth.
+    #[inline(always)]
+    pub fn pixel<M: Lanes, P: Planes<M::F>>(m: M, group: &[f32]) -> P {
+        load::<M, (M::F, P)>(m, &group[..size::<M, P>()]).1
+    }
+
+    /// Empties what was drawn of a row.
+    #[inline(always)]
+    pub fn empty_row<M: Lanes, P: Planes<M::F>>(&mut self, m: M, row: usize) {
+        let (first, size) = (row * self.groups + self.drawn.start, size::<M, P>());
+        for group in self.values[first * size..][..self.drawn.len() * size].chunks_exact_mut(size) {
+            m.store(m.splat(f32::INFINITY), group);
+        }
+    }
+
+    /// Up to where the pixels of a row, of `pixels`, have the same material, and which one; `only` if all have the same.
+    pub fn same_material<M: Lanes, P: Planes<M::F>>(
+        &self,
+        row: usize,
+        pixels: Range<usize>,
+        only: u32,
+    ) -> (usize, u32) {
+        if self.materials.is_empty() {
+            return (pixels.end, only);
+        }
+        let first = row * self.groups;
+        let is_drawn = |x: usize| {
+            let group = first + x / M::WIDTH;
+            self.values[group * size::<M, P>() + x % M::WIDTH] < f32::INFINITY
         };
+        let mut drawn = pixels.clone().filter(|&x| is_drawn(x));
+        let material = |x: usize| self.materials[first * M::WIDTH + x].to_bits();
+        match drawn.next().map(material) {
+            None => (pixels.end, only),
+            Some(same) => (drawn.find(|&x| material(x) != same).unwrap_or(pixels.end), same),
+        }
     }
+}
 
-    /// Depth from pixel `x` on.
+/// Some groups of each row of a band.
+pub(super) struct Cells<'a, M: Lanes, P> {
+    values: &'a mut [f32],
+    materials: &'a mut [f32],
+    /// Groups a row.
+    a_row: usize,
+    groups: Range<usize>,
+    /// What is stored counts as no nearer than this.
+    least: M::F,
+    pixel: PhantomData<P>,
+}
+
+impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
+    /// Gives those of row `row`, from left to right.
     #[inline(always)]
-    pub fn depth(&self, x: usize) -> &[f32] {
-        &self.values[x..self.stride]
+    pub fn each(&mut self, row: usize, mut visit: impl FnMut(&mut Cell<'_, M, P>)) {
+        let (mut first, count) = (row * self.a_row + self.groups.start, self.groups.len());
+        let size = size::<M, P>();
+        for values in self.values[first * size..][..count * size].chunks_exact_mut(size) {
+            visit(&mut Cell {
+                values,
+                materials: self.materials,
+                number: first,
+                least: self.least,
+                pixel: PhantomData,
+            });
+            first += 1;
+        }
     }
+}
 
-    /// Stores `pixel` and `depth` where `mask` says so.
+/// One group of pixels.
+pub(super) struct Cell<'a, M: Lanes, P> {
+    values: &'a mut [f32],
+    materials: &'a mut [f32],
+    /// Its number in the band.
+    number: usize,
+    least: M::F,
+    pixel: PhantomData<P>,
+}
+
+impl<M: Lanes, P: Planes<M::F>> Cell<'_, M, P> {
+    /// Stores `depth` and `pixel` where `mask` says so and `depth` is less than what was stored before; and `material`, where
+    /// materials are stored.
+    ///
+    /// It writes in any case: which groups are seen, and which of them wholly, cannot be predicted where triangles are small.
     #[inline(always)]
-    pub fn put<M: Lanes, P: Planes<M::F>>(&mut self, m: M, x: usize, mask: M::Mask, depth: M::F, pixel: P) {
-        let mut at = x;
+    pub fn put(&mut self, m: M, mask: M::Mask, depth: M::F, pixel: P, material: u32) {
+        let values = &mut self.values[..size::<M, P>()];
+        let mask = m.and(mask, m.less(depth, m.load(values).max(self.least)));
+        let mut at = 0;
         put_each(
             (depth, pixel),
             #[inline(always)]
             |new: M::F| {
-                let place = &mut self.values[at..at + M::WIDTH];
+                let place = &mut values[at..at + M::WIDTH];
                 let old = m.load(place);
                 m.store(m.blend(mask, new, old), place);
-                at += self.stride;
+                at += M::WIDTH;
             },
         );
-    }
-
-    /// Stores the number of a material, behind the planes, where `mask` says so.
-    #[inline(always)]
-    pub fn put_material<M: Lanes>(&mut self, m: M, x: usize, mask: M::Mask, material: u32) {
-        let at = self.values.len() - self.stride + x;
-        let place = &mut self.values[at..at + M::WIDTH];
-        m.store(m.blend(mask, m.splat(f32::from_bits(material)), m.load(place)), place);
-    }
-
-    /// The numbers of the materials.
-    pub fn materials(&self) -> &[f32] {
-        &self.values[self.values.len() - self.stride..]
-    }
-
-    /// What is stored from pixel `x` on.
-    #[inline(always)]
-    pub fn get<M: Lanes, P: Planes<M::F>>(&self, m: M, x: usize) -> P {
-        let mut at = x;
-        get_each(
-            #[inline(always)]
-            || {
-                at += self.stride;
-                m.load(&self.values[at..at + M::WIDTH])
-            },
-        )
-    }
-
-    /// Empties it.
-    pub fn clear(&mut self) {
-        self.values[self.drawn.clone()].fill(f32::INFINITY);
-        self.drawn = 0..0;
+        if !self.materials.is_empty() {
+            let place = &mut self.materials[self.number * M::WIDTH..][..M::WIDTH];
+            m.store(m.blend(mask, m.splat(f32::from_bits(material)), m.load(place)), place);
+        }
     }
 }

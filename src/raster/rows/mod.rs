@@ -1,134 +1,185 @@
 //! The row engine: bands of scanlines, shaded row by row.
 //!
-//! A band's polygons are covered one after the other, which gives the runs of each of its scanlines in drawing order. Then,
-//! scanline by scanline, the runs are drawn: where one is nearer than what was drawn before, what its walk gives to the pixel
-//! ([`Shader::Pixel`]) is written into planes beside the depth; and the row is shaded once, a group of pixels at a time, over
-//! the row and not over the span: shading costs the same for a pixel in a triangle of two pixels as in one of a thousand, and
-//! hidden pixels are never shaded.
+//! A band's polygons are drawn one after the other: where one is nearer than what was drawn before, what its walk gives to the
+//! pixel ([`Shader::Pixel`]) is written into planes beside the depth. Then each row is shaded once, a group of pixels at a
+//! time, over the row and not over the span: shading costs the same for a pixel in a triangle of two pixels as in one of a
+//! thousand, and hidden pixels are never shaded.
 //!
 //! Bands are independent of one another: one is one unit of work for a thread.
 //!
-//! Tried and dropped (whole frames at 1920x1080, AVX2, one thread): planes of a whole band, of 8 or 16 scanlines, which lie in
-//! the L2 cache at best (4.2 ms against 4.0 with 5,040 triangles, 10.5 against 9.9 with 100,000); a branch for groups that are
-//! wholly seen, and one for those that are not seen at all (4.2 against 3.8 ms: which they are cannot be predicted).
-//! Least of 40 frames on a machine that varies by more than these differences: reasons to prefer, not proofs.
+//! Tried and dropped (5,040 triangles at 1920x1080, `phong-rsqrt` and `naive-phong`, AVX2, one thread, least of 30 frames or more,
+//! on a machine that varies by more than small differences): finding the runs of all triangles first, scanline by scanline,
+//! and drawing them into planes of a single row, 3.9 ms against 3.2 to 3.8; a select in place of exclusive or where pixels are
+//! blended, with all loads before the first store, which the compiler makes masked stores of all the same, 4.3 against 3.2.
 
 mod band;
-mod cover;
+mod batch;
+mod paint;
 mod polygon;
 mod shade;
-mod span;
+mod triangle;
 
-use super::bands::Bands;
+use super::bands::{Bands, Scratch};
 use super::bins::Bins;
 use super::depth::SampleDepth;
 use super::setup::SetUp;
+use super::sink::RowSink;
 use crate::frame::Frame;
 use crate::number::{Lanes, Scalar};
 use crate::shader::Shader;
 use crate::walk::Attribute;
 use alloc::vec::Vec;
-pub(crate) use band::Row;
+pub(crate) use band::Band;
+pub(crate) use batch::Batch;
 use core::ops::Range;
-pub(crate) use cover::Cover;
-use cover::Run;
-use span::{Painter, Sources};
+use paint::Painter;
+use shade::Colours;
 
 /// Scanlines a band: edges are seldom started anew, and every thread gets some.
-const HEIGHT: usize = 32;
+const HEIGHT: usize = 16;
 
 /// Whether the engine can draw `frame` with shader `S`: its depth must be interpolated and kept as it is, and what its
 /// walk gives must be numbers.
 pub(crate) fn can_draw<S: Shader, M: Lanes>(frame: &Frame) -> bool {
     let depth = SampleDepth::new(frame);
-    span::planes::<S, M>().is_some() && depth.is_plain()
+    paint::planes::<S, M>().is_some() && depth.is_plain()
 }
 
 /// Draws `frame` with a shader, band by band.
 pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32], bands: &mut dyn Bands) {
-    let Some(planes) = span::planes::<S, M>() else { return };
+    if paint::planes::<S, M>().is_none() {
+        return;
+    }
     let setup = SetUp::<S, Scalar>::new(Scalar, frame, parameters);
     let consts: Vec<S::Consts<M::F>> =
         frame.lightings().iter().map(|l| S::consts(l, parameters, &|x| m.splat(x))).collect();
     let only = only_material(frame);
     let bins = Bins::new(frame, HEIGHT);
-    let hides = SampleDepth::new(frame).hides();
+    let painter = Painter::<S> { frame, setup: &setup, hides: SampleDepth::new(frame).hides() };
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
-        let sources = cover_band::<S, M>(m, frame, &setup, &bins, (number, &rows), &mut scratch.cover);
-        let painter = Painter { setup: &setup, sources: &sources, hides, notes_material: only.is_none() };
-        let (row, line) = (&mut scratch.row, &mut scratch.line);
-        row.prepare(frame.width(), planes + usize::from(only.is_none()));
-        for channel in line.iter_mut() {
-            channel.resize(channel.len().max(frame.width() + 2 * M::WIDTH), 0.0);
+        scratch.band.prepare::<M, S::Pixel<M::F>>(HEIGHT, frame.width(), only.is_none());
+        for numbers in bins.band(number) {
+            paint::<S, M>(m, &painter, numbers, &rows, scratch);
         }
-        for y in rows.clone() {
-            let runs = &scratch.cover.runs[y - rows.start];
-            paint_and_shade::<S, M>(m, &painter, (y, runs), (&consts, only), row, line);
-            let [r, g, b] = &*line;
-            let drawn = row.drawn.clone();
-            sink.row(y - rows.start, drawn.clone(), row.depth(drawn.start), [r, g, b].map(|c| &c[drawn.start..]));
-            row.clear();
+        for row in 0..rows.len() {
+            shade::<S, M>(m, frame, (&consts, only.unwrap_or(0)), row, scratch, sink);
         }
     });
 }
 
-/// Finds the runs of a band's polygons, scanline by scanline, in drawing order.
-fn cover_band<S: Shader, M: Lanes>(
-    m: M,
-    frame: &Frame,
-    setup: &SetUp<S, Scalar>,
-    bins: &Bins,
-    (band, rows): (usize, &Range<usize>),
-    cover: &mut Cover,
-) -> Sources<S> {
-    let is_planar = S::Attribute::<f32>::IS_PLANAR;
-    let mut sources = Sources::default();
-    let mut edges = polygon::Edges::default();
-    cover.clear(rows.len());
-    for mut rest in bins.band(band) {
-        while let Some((&next, others)) = rest.split_first() {
-            if is_planar && frame.polygons()[next as usize].count == 3 {
-                let before = cover.triangles.len();
-                let taken = cover.add(m, frame, rest, rows);
-                sources.add(frame, setup, &cover.triangles[before..]);
-                rest = &rest[taken..];
-            } else {
-                let material = frame.polygons()[next as usize].material;
-                edges.runs(frame, &setup.attributes, rows, next, &mut |row, pixels, depth, attribute| {
-                    let source = sources.spans.len() as u32 | Run::SPAN;
-                    sources.spans.push(([next, material], depth, attribute));
-                    let (start, end) = (pixels.start as u16, pixels.end as u16);
-                    cover.runs[row - rows.start].push(Run { start, end, source, weights: [0.0; 2] });
-                });
-                rest = others;
-            }
-        }
-    }
-    sources
-}
-
-/// Draws the runs of a scanline, then shades it.
-#[inline(never)]
-fn paint_and_shade<S: Shader, M: Lanes>(
+/// Draws polygons into a band, in order.
+fn paint<S: Shader, M: Lanes>(
     m: M,
     painter: &Painter<'_, S>,
-    (y, runs): (usize, &[Run]),
-    (consts, only): (&[S::Consts<M::F>], Option<u32>),
-    row: &mut Row,
-    line: &mut [Vec<f32>; 3],
+    numbers: &[u32],
+    rows: &Range<usize>,
+    scratch: &mut Scratch,
+) {
+    let polygons = painter.frame.polygons();
+    let is_planar = S::Attribute::<f32>::IS_PLANAR;
+    let mut edges = polygon::Edges::default();
+    let mut rest = numbers;
+    while let Some((&next, others)) = rest.split_first() {
+        if is_planar && polygons[next as usize].count == 3 {
+            let taken = triangles::<S, M>(m, painter, rest, rows, scratch);
+            rest = &rest[taken..];
+            continue;
+        }
+        let material = polygons[next as usize].material;
+        edges.runs(painter.frame, &painter.setup.attributes, rows, next, &mut |row, pixels, depth, attribute| {
+            let place = (rows.start, row - rows.start);
+            run::<S, M>(m, painter, place, pixels, (next, material), depth, attribute, &mut scratch.band);
+        });
+        rest = others;
+    }
+}
+
+/// Draws triangles from the front of `numbers`; gives how many.
+#[inline(never)]
+fn triangles<S: Shader, M: Lanes>(
+    m: M,
+    painter: &Painter<'_, S>,
+    numbers: &[u32],
+    rows: &Range<usize>,
+    scratch: &mut Scratch,
+) -> usize {
+    m.vectorize(
+        #[inline(always)]
+        || {
+            let Scratch { band, batch, .. } = scratch;
+            let taken = batch.read(painter.frame, numbers);
+            batch.place(m, painter.frame.width(), rows);
+            painter.batch(m, batch, rows.start, band);
+            taken
+        },
+    )
+}
+
+/// Draws one run of a polygon of another shape.
+#[inline(never)]
+#[allow(clippy::too_many_arguments)] // as of what it calls
+fn run<S: Shader, M: Lanes>(
+    m: M,
+    painter: &Painter<'_, S>,
+    place: (usize, usize),
+    pixels: Range<usize>,
+    polygon: (u32, u32),
+    depth: [f32; 2],
+    attribute: paint::SpanIn<S>,
+    band: &mut Band,
 ) {
     m.vectorize(
         #[inline(always)]
         || {
-            painter.runs(m, y, runs, row);
-            shade::row::<S, M>(m, consts, only, row, line);
+            painter.run(m, place, pixels, polygon, depth, attribute, band);
         },
     );
 }
 
-/// The number of the one material that all polygons have, if there is only one.
+/// Shades row `row` of a band.
+#[inline(never)]
+fn shade<S: Shader, M: Lanes>(
+    m: M,
+    frame: &Frame,
+    consts: (&[S::Consts<M::F>], u32),
+    row: usize,
+    scratch: &mut Scratch,
+    sink: &mut dyn RowSink,
+) {
+    let Scratch { band, line, .. } = scratch;
+    let width = frame.width();
+    let end = (band.drawn.end * M::WIDTH).min(width);
+    let drawn = (band.drawn.start * M::WIDTH).min(end)..end;
+    let mut colours = match sink.bytes(row) {
+        Some((texels, background)) => {
+            texels[..drawn.start].fill(background);
+            texels[drawn.end..].fill(background);
+            Colours::Packed(texels, background)
+        }
+        None => {
+            for channel in line.iter_mut() {
+                channel.resize(channel.len().max(width + 2 * M::WIDTH), 0.0);
+            }
+            Colours::Linear(line)
+        }
+    };
+    m.vectorize(
+        #[inline(always)]
+        || shade::row::<S, M>(m, consts, row, band, &mut colours),
+    );
+    if matches!(colours, Colours::Linear(_)) {
+        let [depth, r, g, b] = &*line;
+        let from = drawn.start;
+        sink.row(row, drawn, &depth[from..], [&r[from..], &g[from..], &b[from..]]);
+    }
+}
+
+/// The number of the one material that all polygons have, if there is only one: objects of a scene bring their own, which are often
+/// the same.
 fn only_material(frame: &Frame) -> Option<u32> {
+    if frame.lightings().iter().all(|lighting| *lighting == frame.lightings()[0]) {
+        return Some(0);
+    }
     let first = frame.polygons().first().map_or(0, |polygon| polygon.material);
-    let is_only = frame.lightings().len() <= 1 || frame.polygons().iter().all(|polygon| polygon.material == first);
-    is_only.then_some(first)
+    frame.polygons().iter().all(|polygon| polygon.material == first).then_some(first)
 }

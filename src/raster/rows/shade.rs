@@ -1,63 +1,108 @@
 //! One row of a band, from planes to colours.
 
-use super::band::Row;
+use super::band::Band;
 use crate::number::Lanes;
 use crate::shader::Shader;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Shades what was drawn of a row into three channels, linear and not yet clamped. All of it has material `only`, or the
-/// last plane tells each pixel's.
-#[inline(always)]
-pub(super) fn row<S: Shader, M: Lanes>(
-    m: M,
-    consts: &[S::Consts<M::F>],
-    only: Option<u32>,
-    row: &Row,
-    line: &mut [Vec<f32>; 3],
-) {
-    let drawn = row.drawn.clone();
-    match only {
-        Some(material) => run::<S, M>(m, &consts[material as usize], row, drawn, line),
-        None => {
-            let materials = row.materials();
-            let is_drawn = |x: usize| row.depth(0)[x] < f32::INFINITY;
-            let mut x = drawn.start;
-            while x < drawn.end {
-                if !is_drawn(x) {
-                    x += 1;
-                    continue;
+/// Where the colours of a row go: into texels as they are stored, or into depth and three channels.
+pub(super) enum Colours<'a> {
+    /// The texels of the row, and the background.
+    Packed(&'a mut [[u8; 4]], [u8; 4]),
+    /// Depth, red, green and blue, linear and not yet clamped.
+    Linear(&'a mut [Vec<f32>; 4]),
+}
+
+impl Colours<'_> {
+    /// Stores the colours of a group that begins with pixel `x`, where its depth is finite, and the background elsewhere.
+    #[inline(always)]
+    fn store<M: Lanes>(&mut self, m: M, x: usize, depth: M::F, rgb: [M::F; 3]) {
+        match self {
+            Colours::Packed(texels, background) => {
+                let covered = m.less(depth, m.splat(f32::INFINITY));
+                match texels.get_mut(x..x + M::WIDTH) {
+                    Some(texels) => m.pack(rgb, covered, *background, texels),
+                    None => self.store_part(m, x, x..x + M::WIDTH, depth, rgb),
                 }
-                let (first, material) = (x, materials[x].to_bits());
-                while x < drawn.end && (!is_drawn(x) || materials[x].to_bits() == material) {
-                    x += 1;
-                }
-                run::<S, M>(m, &consts[material as usize], row, first..x, line);
             }
+            Colours::Linear(channels) => {
+                let mut i = 0;
+                while i < 4 {
+                    let value = if i == 0 { depth } else { rgb[i - 1] };
+                    m.store(value, &mut channels[i][x..]);
+                    i += 1;
+                }
+            }
+        }
+    }
+
+    /// The same of the pixels `pixels` only, as far as there are any.
+    #[cold]
+    fn store_part<M: Lanes>(&mut self, m: M, x: usize, pixels: Range<usize>, depth: M::F, rgb: [M::F; 3]) {
+        match self {
+            Colours::Packed(texels, background) => {
+                let mut all = [[0; 4]; 8];
+                m.pack(rgb, m.less(depth, m.splat(f32::INFINITY)), *background, &mut all);
+                let own = pixels.start.max(x)..pixels.end.min(x + M::WIDTH).min(texels.len());
+                if let Some(texels) = texels.get_mut(own.clone()) {
+                    texels.copy_from_slice(&all[own.start - x..own.end - x]);
+                }
+            }
+            Colours::Linear(channels) => {
+                let own = m.lanes(pixels.start.saturating_sub(x), pixels.end - x);
+                for (channel, value) in channels.iter_mut().zip([depth, rgb[0], rgb[1], rgb[2]]) {
+                    let place = &mut channel[x..];
+                    m.store(m.blend(own, value, m.load(place)), place);
+                }
+            }
+        }
+    }
+
+    /// Nothing was drawn in the group that begins with pixel `x`.
+    #[inline(always)]
+    fn skip<M: Lanes>(&mut self, m: M, x: usize) {
+        match self {
+            Colours::Packed(texels, background) => {
+                let end = texels.len().min(x + M::WIDTH);
+                texels[x..end].fill(*background);
+            }
+            Colours::Linear([depth, ..]) => m.store(m.splat(f32::INFINITY), &mut depth[x..]),
         }
     }
 }
 
-/// Shades the pixels `pixels`, and up to a group behind them, which what comes next is written over.
+/// Shades what was drawn of a row and empties it. All of it has material `only`, or the band knows each pixel's.
 #[inline(always)]
-fn run<S: Shader, M: Lanes>(
+pub(super) fn row<S: Shader, M: Lanes>(
     m: M,
-    consts: &S::Consts<M::F>,
-    row: &Row,
-    pixels: Range<usize>,
-    [red, green, blue]: &mut [Vec<f32>; 3],
+    (all, only): (&[S::Consts<M::F>], u32),
+    row: usize,
+    band: &mut Band,
+    colours: &mut Colours<'_>,
 ) {
-    // A copy that nothing else refers to: loads from it can leave the loop.
-    let consts = *consts;
     let nothing = m.splat(f32::INFINITY);
-    let mut x = pixels.start;
-    while x < pixels.end {
-        if m.any(m.less(m.load(row.depth(x)), nothing)) {
-            let [r, g, b] = S::shade(&consts, row.get::<M, S::Pixel<M::F>>(m, x));
-            m.store(r, &mut red[x..]);
-            m.store(g, &mut green[x..]);
-            m.store(b, &mut blue[x..]);
+    let (mut from, end) = (band.drawn.start * M::WIDTH, band.drawn.end * M::WIDTH);
+    while from < end {
+        let (to, material) = band.same_material::<M, S::Pixel<M::F>>(row, from..end, only);
+        // A copy that nothing else refers to: loads from it can leave the loop.
+        let consts = all[material as usize];
+        let mut x = from / M::WIDTH * M::WIDTH;
+        for cell in band.row::<M, S::Pixel<M::F>>(row, x / M::WIDTH..to.div_ceil(M::WIDTH)) {
+            let depth = m.load(cell);
+            if m.any(m.less(depth, nothing)) {
+                let rgb = S::shade(&consts, Band::pixel(m, cell));
+                if from <= x && x + M::WIDTH <= to {
+                    colours.store(m, x, depth, rgb);
+                } else {
+                    colours.store_part(m, x, from..to, depth, rgb);
+                }
+            } else {
+                colours.skip(m, x);
+            }
+            x += M::WIDTH;
         }
-        x += M::WIDTH;
+        from = to;
     }
+    band.empty_row::<M, S::Pixel<M::F>>(m, row);
 }

@@ -1,0 +1,154 @@
+//! The ways of covering a triangle against each other, and against crossings of whole polygons.
+
+use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use crate::lighting::{Lighting, Material};
+use crate::number::{Lanes, LanesJob, Level, on_level};
+use crate::raster::coverage;
+use crate::raster::rows::batch::{Batch, SMALL_HEIGHT, SMALL_WIDTH};
+use crate::raster::rows::triangle::Groups;
+use crate::test_random::Random;
+use core::ops::Range;
+use glam::DVec3;
+use std::vec;
+use std::vec::Vec;
+
+/// A frame of triangles given by the bits of their corners.
+fn frame(width: u32, height: u32, triangles: &[[[i32; 2]; 3]]) -> Frame {
+    let mut builder = FrameBuilder::new(width, height);
+    let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
+    for (number, triangle) in (0..).zip(triangles) {
+        let corners = triangle.map(|place| {
+            let [x, y] = place.map(SubPixel::from_bits);
+            builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+        });
+        builder.polygon(&corners, [0.0, 0.0, 1.0], number);
+    }
+    builder.finish().expect("corners inside the guard band")
+}
+
+/// A pixel of a triangle, by the number of the triangle, row and column, and the barycentric coordinates of its second and third
+/// corner there.
+type Pixel = ((u32, usize, usize), [f32; 2]);
+
+/// Every pixel that the triangles of a frame cover in a band: found as runs, and group by group where they are small.
+struct Covered<'a>(&'a Frame, Range<usize>);
+
+impl LanesJob for Covered<'_> {
+    type Out = [Vec<Pixel>; 2];
+
+    fn run<M: Lanes>(self, m: M) -> [Vec<Pixel>; 2] {
+        let Covered(frame, band) = self;
+        let numbers: Vec<u32> = (0..frame.polygons().len() as u32).collect();
+        let (mut rest, mut runs, mut groups) = (&numbers[..], vec![], vec![]);
+        let mut batch = Batch::default();
+        while !rest.is_empty() {
+            let taken = batch.read(frame, rest);
+            assert!(taken > 0 && taken <= rest.len());
+            rest = &rest[taken..];
+            batch.place(m, frame.width(), &band);
+            let mut places = Batch::PLACES;
+            let count = batch.drawn(&mut places);
+            for &k in &places[..count] {
+                let k = usize::from(k);
+                let number = batch.polygon(k).0;
+                let mut run = |growth: [f32; 2], row: usize, pixels: Range<usize>, weights: [f32; 2]| {
+                    for (i, x) in pixels.enumerate() {
+                        let at = |c: usize| weights[c] + i as f32 * growth[c];
+                        runs.push(((number, band.start + row, x), [at(0), at(1)]));
+                    }
+                };
+                if batch.is_small(k) {
+                    let small = batch.small(k);
+                    small.runs(m, band.start, |row, pixels, weights| run(small.growth(), row, pixels, weights));
+                    by_groups(m, &batch, k, (frame.width(), &band), &mut groups);
+                } else if let Some(large) = batch.large(k) {
+                    large.runs(band.start, |row, pixels, weights| run(large.across(), row, pixels, weights));
+                }
+            }
+        }
+        [runs, groups]
+    }
+}
+
+/// The pixels of small triangle `k`, group by group.
+fn by_groups<M: Lanes>(m: M, batch: &Batch, k: usize, (width, band): (usize, &Range<usize>), found: &mut Vec<Pixel>) {
+    let small = batch.small(k);
+    let mut groups = Groups::new(m, &small);
+    for row in small.rows(band.start) {
+        let mut here = groups.next_row();
+        for group in groups.groups[0]..groups.groups[1] {
+            let inside = m.bits(Groups::inside(m, here));
+            let mut weights = [[0.0; 8]; 2];
+            for (to, from) in weights.iter_mut().zip(groups.weights(m, here)) {
+                m.store(from, to);
+            }
+            for lane in (0..M::WIDTH).filter(|lane| inside >> lane & 1 == 1) {
+                let x = group * M::WIDTH + lane;
+                // What lies beyond the picture is drawn and never shown.
+                if x < width {
+                    found.push(((batch.polygon(k).0, band.start + row, x), [weights[0][lane], weights[1][lane]]));
+                }
+            }
+            here = groups.beside(here);
+        }
+    }
+}
+
+/// Triangles of all sizes, in and out of the picture, on a grid of half-pixels in one case of two, where centres lie on edges.
+fn soup(random: &mut Random, width: usize, height: usize) -> Vec<[[i32; 2]; 3]> {
+    let reaches = [3, 20, SMALL_WIDTH, SMALL_HEIGHT, 200, 20_000];
+    (0..150)
+        .map(|_| {
+            let grid = [1, 128][random.below(2) as usize];
+            let reach = reaches[random.below(reaches.len() as u64) as usize] * 256 / grid;
+            let middle = [width, height].map(|side| random.below(side as u64 * 256) as i32 / grid * grid);
+            [(); 3].map(|()| middle.map(|at| at + (random.below(reach as u64 + 1) as i32 - reach / 2) * grid))
+        })
+        .collect()
+}
+
+/// In bands, runs have the pixels of the lecture's spans, and groups those of small triangles, with the same coordinates.
+#[test]
+fn bands_cover_what_spans_do() {
+    let mut random = Random::new(23);
+    let mut small = 0;
+    for round in 0..60 {
+        let (width, height) = (1 + random.below(120) as usize, 1 + random.below(90) as usize);
+        let frame = frame(width as u32, height as u32, &soup(&mut random, width, height));
+        let mut expected = vec![];
+        coverage(&frame, |number, row, pixels| expected.extend(pixels.map(|x| (number, row, x))));
+        expected.sort_unstable();
+        for level in Level::available() {
+            let (mut runs, mut groups) = (vec![], vec![]);
+            for first in (0..height).step_by(16) {
+                let [more_runs, more_groups] = on_level(level, Covered(&frame, first..(first + 16).min(height)));
+                runs.extend(more_runs);
+                groups.extend(more_groups);
+            }
+            runs.sort_by_key(|(place, _)| *place);
+            groups.sort_by_key(|(place, _)| *place);
+            assert!(runs.iter().map(|(place, _)| *place).eq(expected.iter().copied()), "round {round} on {level}");
+            assert_weights(&runs);
+            let numbers: std::collections::BTreeSet<u32> = groups.iter().map(|((number, ..), _)| *number).collect();
+            let of_small = runs.iter().filter(|((number, ..), _)| numbers.contains(number));
+            assert!(
+                of_small.map(|(place, _)| place).eq(groups.iter().map(|(place, _)| place)),
+                "round {round} on {level}"
+            );
+            assert_weights(&groups);
+            small += groups.len();
+        }
+    }
+    assert!(small > 100_000, "{small} pixels of small triangles");
+}
+
+/// Inside, coordinates are in 0..=1: the edge function is rounded once, one over the area twice, their product once, and what was
+/// taken off three times, each by half of 2⁻²³ at most; along a run the growth adds as much for its own three and the sum's.
+#[track_caller]
+fn assert_weights(pixels: &[Pixel]) {
+    let out = 12.0 / f64::from(1 << 24);
+    for (place, weights) in pixels {
+        let [b, c] = weights.map(f64::from);
+        assert!(b >= -out && c >= -out && b + c <= 1.0 + 2.0 * out, "{place:?}: {b} {c}");
+    }
+}

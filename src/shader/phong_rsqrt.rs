@@ -1,0 +1,76 @@
+//! Phong shading from normals with scalars: what suits processors that shade eight pixels at a time, row by row.
+
+use super::illumination::Illumination;
+use super::naive_phong::{self, Near};
+use super::{Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use crate::lighting::Lighting;
+use crate::number::{Machine, Num, Real, dot, each};
+use crate::reference::Model;
+use crate::walk::{Lerp, Linear};
+
+/// Naive Phong shading without its vectors: N by three additions a pixel, then `J = L·N`, `K = V·N`, `D = N·N` and the
+/// processor's reciprocal root `r = 1/√D`, of which the cosines are `J r` and `2 (J r) (K r) − L·V` (L21 4.3, 4.6).
+///
+/// It steps three numbers for any number of lights, where fast Phong steps one a light, one for K and two for D: where what is
+/// stepped is kept in memory until a row is shaded, that is less to keep, and products are cheaper than memory. Where a light
+/// or the eye is at a position it is naive Phong.
+#[derive(Debug)]
+pub struct PhongRsqrt;
+
+impl Method for PhongRsqrt {
+    const INFO: Info = Info {
+        name: "phong-rsqrt",
+        title: "normals interpolated; J = L.N, K = V.N, D = N.N and the hardware's reciprocal root at every pixel",
+        formula: "N_next = N + dN;  J = L.N;  K = V.N;  r = rsqrt(N.N);  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
+        source: "L21 4.1-4.3, eq 4.5, with the root that processors have had since 1999 (SSE rsqrtps)",
+        model: Model::Phong,
+        roundings: Roundings { start: 10.0, step: 0.9, of: Stepped::Cosines },
+        derivation: "as naive-phong; J, K and D take 5 roundings each, and the estimate of the root is off by 2^-22, which is 4 more",
+        fails: "as naive-phong",
+        parameters: &[],
+        perspective: Perspective::Free,
+        local: Local::PerPixel,
+        barycentric: true,
+    };
+    type Screen<const L: usize> = Of<L>;
+    type Perspective<const L: usize> = Of<L>;
+    type Local<const L: usize> = Near<0, L>;
+    type LocalPerspective<const L: usize> = Near<1, L>;
+}
+
+/// Phong shading from normals with `L` lights.
+#[derive(Debug)]
+pub struct Of<const L: usize>;
+
+impl<const L: usize> Shader for Of<L> {
+    type Consts<N: Num> = Illumination<N, L>;
+    type Attribute<R: Real> = Lerp<[R; 3]>;
+    type Polygon<R: Real> = ();
+    type Walk<M: Machine> = [Linear<M::F>; 3];
+    type Pixel<F: Num> = [F; 3];
+    const GIVEN: Given = Given::Attribute;
+
+    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> Illumination<N, L> {
+        Illumination::new(lighting, of)
+    }
+    #[inline(always)]
+    fn vertex<M: Machine>(_: &Illumination<M::One, L>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
+        Lerp(corner.normal())
+    }
+    #[inline(always)]
+    fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}
+    #[inline(always)]
+    fn walk<M: Machine>(m: M, c: &Illumination<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+        naive_phong::Of::<L>::walk(m, c, &(), span)
+    }
+    #[inline(always)]
+    fn shade<F: Num>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
+        let r = dot(n, n).over_sqrt();
+        let (j, k) = (c.far().light_cosines(n), c.far().view_cosine(n));
+        let cosines = each(
+            #[inline(always)]
+            |i| j[i] * r,
+        );
+        c.colour_of_cosines(cosines, k * r, &c.far().scalars)
+    }
+}
