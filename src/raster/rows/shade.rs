@@ -40,23 +40,30 @@ impl Colours<'_> {
     /// The same of the pixels `pixels` only, as far as there are any.
     #[cold]
     fn store_part<M: Lanes>(&mut self, m: M, x: usize, pixels: Range<usize>, depth: M::F, rgb: [M::F; 3]) {
-        match self {
-            Colours::Packed(texels, background) => {
-                let mut all = [[0; 4]; 8];
-                m.pack(rgb, m.less(depth, m.splat(f32::INFINITY)), *background, &mut all);
-                let own = pixels.start.max(x)..pixels.end.min(x + M::WIDTH).min(texels.len());
-                if let Some(texels) = texels.get_mut(own.clone()) {
-                    texels.copy_from_slice(&all[own.start - x..own.end - x]);
+        // Not inlined where rows are shaded, it has to ask for its instructions itself.
+        m.vectorize(
+            #[inline(always)]
+            || match self {
+                Colours::Packed(texels, background) => {
+                    let mut all = [[0; 4]; 8];
+                    m.pack(rgb, m.less(depth, m.splat(f32::INFINITY)), *background, &mut all);
+                    let own = pixels.start.max(x)..pixels.end.min(x + M::WIDTH).min(texels.len());
+                    if let Some(texels) = texels.get_mut(own.clone()) {
+                        texels.copy_from_slice(&all[own.start - x..own.end - x]);
+                    }
                 }
-            }
-            Colours::Linear(channels) => {
-                let own = m.lanes(pixels.start.saturating_sub(x), pixels.end - x);
-                for (channel, value) in channels.iter_mut().zip([depth, rgb[0], rgb[1], rgb[2]]) {
-                    let place = &mut channel[x..];
-                    m.store(m.blend(own, value, m.load(place)), place);
+                Colours::Linear(channels) => {
+                    let own = m.lanes(pixels.start.saturating_sub(x), pixels.end - x);
+                    let mut i = 0;
+                    while i < 4 {
+                        let value = if i == 0 { depth } else { rgb[i - 1] };
+                        let place = &mut channels[i][x..];
+                        m.store(m.blend(own, value, m.load(place)), place);
+                        i += 1;
+                    }
                 }
-            }
-        }
+            },
+        );
     }
 
     /// Nothing was drawn in the group that begins with pixel `x`.
