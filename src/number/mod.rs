@@ -11,6 +11,7 @@
 mod counting;
 mod lanes;
 mod level;
+mod pair;
 mod planes;
 #[cfg(feature = "simd")]
 mod power;
@@ -22,6 +23,7 @@ pub use counting::{Counted, Counter, Counting, Counts};
 pub use lanes::{Int, Lanes};
 pub(crate) use lanes::{LanesJob, on_level, on_wide_level};
 pub use level::{Level, LevelError};
+pub(crate) use pair::Pair;
 pub use planes::Planes;
 pub(crate) use planes::{get_each, put_each};
 pub use scalar::Scalar;

@@ -1,6 +1,6 @@
 //! The memory of a band of scanlines: depth, and what the walks gave to each pixel.
 
-use crate::number::{Lanes, Num, Planes, get_each, put_each};
+use crate::number::{Lanes, Num, Pair, Planes, get_each, put_each};
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 use core::ops::Range;
@@ -12,15 +12,15 @@ use core::slice::ChunksExact;
 #[derive(Debug, Default)]
 pub(crate) struct Band {
     rows: usize,
-    /// Groups a row.
+    /// Groups a row, an even number.
     groups: usize,
     /// Numbers a group.
     size: usize,
     values: Vec<f32>,
     /// The number of the material of each pixel, as bits; empty where all pixels have the same.
     materials: Vec<f32>,
-    /// The groups of a row between which anything may have been drawn.
-    pub drawn: Range<usize>,
+    /// The groups of a row between which anything may have been drawn: see [`Band::drawn`].
+    drawn: Range<usize>,
 }
 
 /// With more planes than this a row is no longer near.
@@ -34,24 +34,11 @@ const fn size<M: Lanes, P: Planes<M::F>>() -> usize {
     }
 }
 
-/// The numbers that stand in a group, in order.
-#[inline(always)]
-fn load<M: Lanes, P: Planes<M::F>>(m: M, group: &[f32]) -> P {
-    let mut at = 0;
-    get_each(
-        #[inline(always)]
-        || {
-            at += M::WIDTH;
-            m.load(&group[at - M::WIDTH..at])
-        },
-    )
-}
-
 impl Band {
     /// Makes room for `rows` rows of `width` pixels of `P`, all of them empty; with room for their materials if
     /// `has_materials`.
     pub fn prepare<M: Lanes, P: Planes<M::F>>(&mut self, rows: usize, width: usize, has_materials: bool) {
-        let (groups, size) = (width.div_ceil(M::WIDTH), size::<M, P>());
+        let (groups, size) = (width.div_ceil(2 * M::WIDTH) * 2, size::<M, P>());
         // Bands are empty after they were taken: only another division of the memory has to be emptied.
         if (self.rows, self.groups, self.size) != (rows, groups, size) {
             (self.rows, self.groups, self.size) = (rows, groups, size);
@@ -81,24 +68,39 @@ impl Band {
         }
     }
 
-    /// Groups of a row, from left to right.
+    /// The groups of each row between which anything may have been drawn: an even number from an even one on.
+    pub fn drawn(&self) -> Range<usize> {
+        // Nothing drawn: from the end to the beginning.
+        self.drawn.start.min(self.drawn.end) & !1..self.drawn.end.next_multiple_of(2)
+    }
+
+    /// Groups of a row, two by two, from left to right.
     #[inline(always)]
     pub fn row<M: Lanes, P: Planes<M::F>>(&self, row: usize, groups: Range<usize>) -> ChunksExact<'_, f32> {
         let size = size::<M, P>();
-        self.values[(row * self.groups + groups.start) * size..][..groups.len() * size].chunks_exact(size)
+        self.values[(row * self.groups + groups.start) * size..][..groups.len() * size].chunks_exact(2 * size)
     }
 
-    /// What is stored in a group beside its depth.
+    /// The depth of two groups, and what is stored beside it.
     #[inline(always)]
-    pub fn pixel<M: Lanes, P: Planes<M::F>>(m: M, group: &[f32]) -> P {
-        load::<M, (M::F, P)>(m, &group[..size::<M, P>()]).1
+    pub fn pixels<M: Lanes, P: Planes<Pair<M::F>>>(m: M, groups: &[f32]) -> (Pair<M::F>, P) {
+        let (first, second) = groups.split_at(groups.len() / 2);
+        let mut at = 0;
+        get_each::<_, (Pair<M::F>, P)>(
+            #[inline(always)]
+            || {
+                at += M::WIDTH;
+                Pair(m.load(&first[at - M::WIDTH..at]), m.load(&second[at - M::WIDTH..at]))
+            },
+        )
     }
 
     /// Empties what was drawn of a row.
     #[inline(always)]
     pub fn empty_row<M: Lanes, P: Planes<M::F>>(&mut self, m: M, row: usize) {
-        let (first, size) = (row * self.groups + self.drawn.start, size::<M, P>());
-        for group in self.values[first * size..][..self.drawn.len() * size].chunks_exact_mut(size) {
+        let (drawn, size) = (self.drawn(), size::<M, P>());
+        let first = row * self.groups + drawn.start;
+        for group in self.values[first * size..][..drawn.len() * size].chunks_exact_mut(size) {
             m.store(m.splat(f32::INFINITY), group);
         }
     }

@@ -25,7 +25,7 @@ use super::depth::SampleDepth;
 use super::setup::SetUp;
 use super::sink::RowSink;
 use crate::frame::Frame;
-use crate::number::{Lanes, Scalar};
+use crate::number::{Lanes, Pair, Scalar};
 use crate::shader::Shader;
 use crate::walk::Attribute;
 use alloc::vec::Vec;
@@ -51,8 +51,9 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
         return;
     }
     let setup = SetUp::<S, Scalar>::new(Scalar, frame, parameters);
-    let consts: Vec<S::Consts<M::F>> =
-        frame.lightings().iter().map(|l| S::consts(l, parameters, &|x| m.splat(x))).collect();
+    let twice = |x| Pair(m.splat(x), m.splat(x));
+    let consts: Vec<S::Consts<Pair<M::F>>> =
+        frame.lightings().iter().map(|l| S::consts(l, parameters, &twice)).collect();
     let only = only_material(frame);
     let bins = Bins::new(frame, HEIGHT);
     let painter = Painter::<S> { frame, setup: &setup, hides: SampleDepth::new(frame).hides() };
@@ -141,15 +142,15 @@ fn run<S: Shader, M: Lanes>(
 fn shade<S: Shader, M: Lanes>(
     m: M,
     frame: &Frame,
-    consts: (&[S::Consts<M::F>], u32),
+    consts: (&[S::Consts<Pair<M::F>>], u32),
     row: usize,
     scratch: &mut Scratch,
     sink: &mut dyn RowSink,
 ) {
     let Scratch { band, line, .. } = scratch;
     let width = frame.width();
-    let end = (band.drawn.end * M::WIDTH).min(width);
-    let drawn = (band.drawn.start * M::WIDTH).min(end)..end;
+    let Range { start, end } = band.drawn();
+    let drawn = (start * M::WIDTH).min(width)..(end * M::WIDTH).min(width);
     let mut colours = match sink.bytes(row) {
         Some((texels, background)) => {
             texels[..drawn.start].fill(background);

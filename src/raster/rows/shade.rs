@@ -1,7 +1,7 @@
-//! One row of a band, from planes to colours.
+//! One row of a band, from planes to colours: two groups at a time, as shading one of them waits for its own results.
 
 use super::band::Band;
-use crate::number::Lanes;
+use crate::number::{Lanes, Num, Pair};
 use crate::shader::Shader;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -10,71 +10,72 @@ use core::ops::Range;
 pub(super) enum Colours<'a> {
     /// The texels of the row, and the background.
     Packed(&'a mut [[u8; 4]], [u8; 4]),
-    /// Depth, red, green and blue, linear and not yet clamped.
+    /// Depth, red, green and blue, linear and not yet clamped, with room for two groups beyond the row.
     Linear(&'a mut [Vec<f32>; 4]),
 }
 
+/// The most pixels of two groups.
+const MOST: usize = 16;
+
 impl Colours<'_> {
-    /// Stores the colours of a group that begins with pixel `x`, where its depth is finite, and the background elsewhere.
+    /// Stores the colours of two groups that begin with pixel `x` where their depth is finite, and the background elsewhere; of
+    /// the pixels `pixels` only, as far as there are any.
     #[inline(always)]
-    fn store<M: Lanes>(&mut self, m: M, x: usize, depth: M::F, rgb: [M::F; 3]) {
+    fn store<M: Lanes>(
+        &mut self,
+        m: M,
+        x: usize,
+        pixels: &Range<usize>,
+        depth: Pair<M::F>,
+        [r, g, b]: [Pair<M::F>; 3],
+    ) {
+        let infinite = m.splat(f32::INFINITY);
         match self {
             Colours::Packed(texels, background) => {
-                let covered = m.less(depth, m.splat(f32::INFINITY));
-                match texels.get_mut(x..x + M::WIDTH) {
-                    Some(texels) => m.pack(rgb, covered, *background, texels),
-                    None => self.store_part(m, x, x..x + M::WIDTH, depth, rgb),
+                let own = pixels.start.max(x)..pixels.end.min(x + 2 * M::WIDTH).min(texels.len());
+                let is_whole = own.len() == 2 * M::WIDTH;
+                // Not into the row where it has other texels there: the colours themselves need not leave their registers then.
+                let mut aside = [[0; 4]; MOST];
+                let place = if is_whole { &mut texels[x..x + 2 * M::WIDTH] } else { &mut aside[..2 * M::WIDTH] };
+                let (first, second) = place.split_at_mut(M::WIDTH);
+                m.pack([r.0, g.0, b.0], m.less(depth.0, infinite), *background, first);
+                m.pack([r.1, g.1, b.1], m.less(depth.1, infinite), *background, second);
+                if !is_whole && own.start < own.end {
+                    texels[own.clone()].copy_from_slice(&aside[own.start - x..own.end - x]);
                 }
             }
             Colours::Linear(channels) => {
+                let values = [depth, r, g, b];
                 let mut i = 0;
                 while i < 4 {
-                    let value = if i == 0 { depth } else { rgb[i - 1] };
-                    m.store(value, &mut channels[i][x..]);
+                    let value = values[i];
+                    let places = [(x, value.0), (x + M::WIDTH, value.1)];
+                    let mut group = 0;
+                    while group < 2 {
+                        let (x, value) = places[group];
+                        let own = m.lanes(pixels.start.saturating_sub(x), pixels.end.saturating_sub(x));
+                        let place = &mut channels[i][x..];
+                        m.store(m.blend(own, value, m.load(place)), place);
+                        group += 1;
+                    }
                     i += 1;
                 }
             }
         }
     }
 
-    /// The same of the pixels `pixels` only, as far as there are any.
-    #[cold]
-    fn store_part<M: Lanes>(&mut self, m: M, x: usize, pixels: Range<usize>, depth: M::F, rgb: [M::F; 3]) {
-        // Not inlined where rows are shaded, it has to ask for its instructions itself.
-        m.vectorize(
-            #[inline(always)]
-            || match self {
-                Colours::Packed(texels, background) => {
-                    let mut all = [[0; 4]; 8];
-                    m.pack(rgb, m.less(depth, m.splat(f32::INFINITY)), *background, &mut all);
-                    let own = pixels.start.max(x)..pixels.end.min(x + M::WIDTH).min(texels.len());
-                    if let Some(texels) = texels.get_mut(own.clone()) {
-                        texels.copy_from_slice(&all[own.start - x..own.end - x]);
-                    }
-                }
-                Colours::Linear(channels) => {
-                    let own = m.lanes(pixels.start.saturating_sub(x), pixels.end - x);
-                    let mut i = 0;
-                    while i < 4 {
-                        let value = if i == 0 { depth } else { rgb[i - 1] };
-                        let place = &mut channels[i][x..];
-                        m.store(m.blend(own, value, m.load(place)), place);
-                        i += 1;
-                    }
-                }
-            },
-        );
-    }
-
-    /// Nothing was drawn in the group that begins with pixel `x`.
+    /// Nothing was drawn in the two groups that begin with pixel `x`.
     #[inline(always)]
     fn skip<M: Lanes>(&mut self, m: M, x: usize) {
         match self {
             Colours::Packed(texels, background) => {
-                let end = texels.len().min(x + M::WIDTH);
+                let end = texels.len().min(x + 2 * M::WIDTH);
                 texels[x..end].fill(*background);
             }
-            Colours::Linear([depth, ..]) => m.store(m.splat(f32::INFINITY), &mut depth[x..]),
+            Colours::Linear([depth, ..]) => {
+                m.store(m.splat(f32::INFINITY), &mut depth[x..]);
+                m.store(m.splat(f32::INFINITY), &mut depth[x + M::WIDTH..]);
+            }
         }
     }
 }
@@ -83,31 +84,27 @@ impl Colours<'_> {
 #[inline(always)]
 pub(super) fn row<S: Shader, M: Lanes>(
     m: M,
-    (all, only): (&[S::Consts<M::F>], u32),
+    (all, only): (&[S::Consts<Pair<M::F>>], u32),
     row: usize,
     band: &mut Band,
     colours: &mut Colours<'_>,
 ) {
-    let nothing = m.splat(f32::INFINITY);
-    let (mut from, end) = (band.drawn.start * M::WIDTH, band.drawn.end * M::WIDTH);
+    let infinite = m.splat(f32::INFINITY);
+    let drawn = band.drawn();
+    let (mut from, end) = (drawn.start * M::WIDTH, drawn.end * M::WIDTH);
     while from < end {
         let (to, material) = band.same_material::<M, S::Pixel<M::F>>(row, from..end, only);
         // A copy that nothing else refers to: loads from it can leave the loop.
         let consts = all[material as usize];
-        let mut x = from / M::WIDTH * M::WIDTH;
-        for cell in band.row::<M, S::Pixel<M::F>>(row, x / M::WIDTH..to.div_ceil(M::WIDTH)) {
-            let depth = m.load(cell);
-            if m.any(m.less(depth, nothing)) {
-                let rgb = S::shade(&consts, Band::pixel(m, cell));
-                if from <= x && x + M::WIDTH <= to {
-                    colours.store(m, x, depth, rgb);
-                } else {
-                    colours.store_part(m, x, from..to, depth, rgb);
-                }
+        let mut x = from / (2 * M::WIDTH) * 2 * M::WIDTH;
+        for groups in band.row::<M, S::Pixel<M::F>>(row, x / M::WIDTH..to.div_ceil(2 * M::WIDTH) * 2) {
+            let (depth, pixels) = Band::pixels::<M, S::Pixel<Pair<M::F>>>(m, groups);
+            if m.any(m.less(depth.0.min(depth.1), infinite)) {
+                colours.store(m, x, &(from..to), depth, S::shade(&consts, pixels));
             } else {
                 colours.skip(m, x);
             }
-            x += M::WIDTH;
+            x += 2 * M::WIDTH;
         }
         from = to;
     }
