@@ -24,12 +24,15 @@ pub trait Lanes: Machine<One = f32> {
     fn lanes(self, from: usize, to: usize) -> Self::Mask;
     /// Where `a` < `b`.
     fn less(self, a: Self::F, b: Self::F) -> Self::Mask;
-    /// Where both are.
-    fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// Whether any pixel is meant.
     fn any(self, mask: Self::Mask) -> bool;
     /// `new` where `mask` says so, else `old`.
     fn blend(self, mask: Self::Mask, new: Self::F, old: Self::F) -> Self::F;
+
+    /// `x`, but with a positive sign where `outside` is below 0.
+    fn negative_inside(self, x: Self::F, outside: Self::I) -> Self::F;
+    /// `new` where the sign of `sign` is negative, else `old`.
+    fn choose_negative(self, sign: Self::F, new: Self::F, old: Self::F) -> Self::F;
 
     /// Bit k: whether pixel k is meant.
     fn bits(self, mask: Self::Mask) -> u32;
@@ -44,6 +47,8 @@ pub trait Lanes: Machine<One = f32> {
     fn store_int(self, x: Self::I, to: &mut [i32]);
     /// Whole numbers as numbers, rounded once.
     fn number(self, x: Self::I) -> Self::F;
+    /// Numbers whose magnitude is below 2³¹ as whole numbers, toward 0.
+    fn truncated(self, x: Self::F) -> Self::I;
     /// Where a whole number is 0 or more.
     fn not_negative(self, x: Self::I) -> Self::Mask;
 

@@ -148,11 +148,6 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    fn and(self, a: bool, b: bool) -> bool {
-        a & b
-    }
-
-    #[inline(always)]
     fn any(self, mask: bool) -> bool {
         mask
     }
@@ -160,6 +155,16 @@ impl Lanes for Scalar {
     #[inline(always)]
     fn blend(self, mask: bool, new: f32, old: f32) -> f32 {
         if mask { new } else { old }
+    }
+
+    #[inline(always)]
+    fn negative_inside(self, x: f32, outside: i32) -> f32 {
+        if outside < 0 { x.abs() } else { x }
+    }
+
+    #[inline(always)]
+    fn choose_negative(self, sign: f32, new: f32, old: f32) -> f32 {
+        if sign.is_sign_negative() { new } else { old }
     }
 
     #[inline(always)]
@@ -190,6 +195,11 @@ impl Lanes for Scalar {
     #[inline(always)]
     fn number(self, x: i32) -> f32 {
         x as f32
+    }
+
+    #[inline(always)]
+    fn truncated(self, x: f32) -> i32 {
+        x as i32
     }
 
     #[inline(always)]

@@ -27,8 +27,8 @@ pub(super) fn is_available(level: Level) -> bool {
 }
 
 #[cfg(target_arch = "x86_64")]
-mod estimate {
-    use core::arch::x86_64::{__m256, _mm256_rsqrt_ps};
+mod avx2 {
+    use core::arch::x86_64::{__m256, _mm256_blendv_ps, _mm256_rsqrt_ps};
 
     fearless_simd::kernel!(
         /// 1/√x to 12 bits.
@@ -36,6 +36,15 @@ mod estimate {
         pub fn over_sqrt(avx2: Avx2, x: __m256) -> __m256 {
             let _ = avx2;
             _mm256_rsqrt_ps(x)
+        }
+    );
+
+    fearless_simd::kernel!(
+        /// `new` where the sign of `sign` is negative, else `old`.
+        #[inline(always)]
+        pub fn choose_negative(avx2: Avx2, sign: __m256, new: __m256, old: __m256) -> __m256 {
+            let _ = avx2;
+            _mm256_blendv_ps(old, new, sign)
         }
     );
 }
@@ -55,7 +64,7 @@ impl<S: Simd> Num for f32x8<S> {
     fn over_sqrt(self) -> Self {
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = self.simd.level().as_avx2() {
-            let y = Self::simd_from(self.simd, estimate::over_sqrt(avx2, self.into()));
+            let y = Self::simd_from(self.simd, avx2::over_sqrt(avx2, self.into()));
             let (half, three_halves) = (Self::splat(self.simd, 0.5), Self::splat(self.simd, 1.5));
             return y * (three_halves - half * self * y * y);
         }
@@ -205,11 +214,6 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 
     #[inline(always)]
-    fn and(self, a: mask32x8<S>, b: mask32x8<S>) -> mask32x8<S> {
-        a & b
-    }
-
-    #[inline(always)]
     fn any(self, mask: mask32x8<S>) -> bool {
         mask.any_true()
     }
@@ -220,6 +224,22 @@ impl<S: Simd> Lanes for Wide<S> {
     fn blend(self, mask: mask32x8<S>, new: f32x8<S>, old: f32x8<S>) -> f32x8<S> {
         let (new, old) = (bits(new), bits(old));
         from_bits(old ^ ((old ^ new) & mask.to_vector()))
+    }
+
+    #[inline(always)]
+    fn negative_inside(self, x: f32x8<S>, outside: i32x8<S>) -> f32x8<S> {
+        from_bits(bits(x) & !outside)
+    }
+
+    /// By signs, not by comparisons: of those the compiler would know that they are masks, and make masked stores of them.
+    #[inline(always)]
+    fn choose_negative(self, sign: f32x8<S>, new: f32x8<S>, old: f32x8<S>) -> f32x8<S> {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = self.0.level().as_avx2() {
+            return f32x8::simd_from(self.0, avx2::choose_negative(avx2, sign.into(), new.into(), old.into()));
+        }
+        let (new, old) = (bits(new), bits(old));
+        from_bits(old ^ ((old ^ new) & (bits(sign) >> 31)))
     }
 
     #[inline(always)]
@@ -250,6 +270,11 @@ impl<S: Simd> Lanes for Wide<S> {
     #[inline(always)]
     fn number(self, x: i32x8<S>) -> f32x8<S> {
         self.0.cvt_f32_i32x8(x)
+    }
+
+    #[inline(always)]
+    fn truncated(self, x: f32x8<S>) -> i32x8<S> {
+        fearless_simd::SimdCvtTruncate::truncate_from(x)
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! A picture as bands of scanlines, which are drawn apart from one another.
 
-use super::rows::{Band, Batch};
+use super::rows::{Band, Batch, Fragments};
 use super::sink::{Filtered, RowSink, Stored};
 use super::target::Texel;
 use crate::frame::Frame;
@@ -15,6 +15,7 @@ use core::ops::Range;
 pub(crate) struct Scratch {
     pub band: Band,
     pub batch: Batch,
+    pub fragments: Fragments,
     /// The depths of a row and its colours, by channel.
     pub line: [Vec<f32>; 4],
 }

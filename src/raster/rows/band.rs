@@ -49,23 +49,24 @@ impl Band {
         self.drawn = groups..0;
     }
 
-    /// The groups `groups` of any row, to be drawn; with `hides` only where depth is less than what was stored before.
+    /// All groups, to be drawn; with `hides` only where depth is less than what was stored before. Which groups of any row are drawn
+    /// is to be said by [`Band::extend`].
     #[inline(always)]
-    pub(super) fn cells<M: Lanes, P: Planes<M::F>>(
-        &mut self,
-        m: M,
-        groups: Range<usize>,
-        hides: bool,
-    ) -> Cells<'_, M, P> {
-        self.drawn = self.drawn.start.min(groups.start)..self.drawn.end.max(groups.end);
+    pub(super) fn cells<M: Lanes, P: Planes<M::F>>(&mut self, m: M, hides: bool) -> Cells<'_, M, P> {
         Cells {
             values: &mut self.values,
             materials: &mut self.materials,
             a_row: self.groups,
-            groups,
+            hides,
             least: m.splat(if hides { f32::NEG_INFINITY } else { f32::INFINITY }),
             pixel: PhantomData,
         }
+    }
+
+    /// Says that the groups `groups` of any row may be drawn.
+    #[inline(always)]
+    pub(super) fn extend(&mut self, groups: Range<usize>) {
+        self.drawn = self.drawn.start.min(groups.start)..self.drawn.end.max(groups.end);
     }
 
     /// The groups of each row between which anything may have been drawn: an even number from an even one on.
@@ -129,25 +130,25 @@ impl Band {
     }
 }
 
-/// Some groups of each row of a band.
-pub(super) struct Cells<'a, M: Lanes, P> {
+/// The groups of a band.
+pub(crate) struct Cells<'a, M: Lanes, P> {
     values: &'a mut [f32],
     materials: &'a mut [f32],
     /// Groups a row.
     a_row: usize,
-    groups: Range<usize>,
+    hides: bool,
     /// What is stored counts as no nearer than this.
     least: M::F,
     pixel: PhantomData<P>,
 }
 
 impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
-    /// Gives those of row `row`, from left to right.
+    /// Gives the groups `groups` of row `row`, from left to right.
     #[inline(always)]
-    pub fn each(&mut self, row: usize, mut visit: impl FnMut(&mut Cell<'_, M, P>)) {
-        let (mut first, count) = (row * self.a_row + self.groups.start, self.groups.len());
+    pub fn each(&mut self, row: usize, groups: Range<usize>, mut visit: impl FnMut(&mut Cell<'_, M, P>)) {
+        let (mut first, end) = (row * self.a_row + groups.start, row * self.a_row + groups.end);
         let size = size::<M, P>();
-        for values in self.values[first * size..][..count * size].chunks_exact_mut(size) {
+        for values in self.values[first * size..end * size].chunks_exact_mut(size) {
             visit(&mut Cell {
                 values,
                 materials: self.materials,
@@ -158,10 +159,37 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
             first += 1;
         }
     }
+
+    /// Where the first number of the pixel in row `row` and column `column` is, by triangle.
+    #[inline(always)]
+    pub fn places(&self, m: M, row: M::I, column: M::I) -> M::I {
+        let in_group = m.int(M::WIDTH as i32 - 1);
+        // As many numbers a row as 32 bits hold: a band has at most 16 rows of them.
+        let group = row * m.int((self.a_row * M::WIDTH) as i32) + (column - (column & in_group));
+        group * m.int((size::<M, P>() / M::WIDTH) as i32) + (column & in_group)
+    }
+
+    /// Stores one pixel at a place that [`Cells::places`] gave; its numbers are a group's width apart.
+    #[inline(always)]
+    pub fn put_one(&mut self, place: i32, numbers: &[f32], material: u32) {
+        let (place, size) = (place as usize, size::<M, P>());
+        let values = &mut self.values[place..][..size - M::WIDTH + 1];
+        let numbers = &numbers[..size - M::WIDTH + 1];
+        if !self.hides || numbers[0] < values[0] {
+            let mut at = 0;
+            while at < size {
+                values[at] = numbers[at];
+                at += M::WIDTH;
+            }
+            if !self.materials.is_empty() {
+                self.materials[place / size * M::WIDTH + place % size] = f32::from_bits(material);
+            }
+        }
+    }
 }
 
 /// One group of pixels.
-pub(super) struct Cell<'a, M: Lanes, P> {
+pub(crate) struct Cell<'a, M: Lanes, P> {
     values: &'a mut [f32],
     materials: &'a mut [f32],
     /// Its number in the band.
@@ -171,14 +199,15 @@ pub(super) struct Cell<'a, M: Lanes, P> {
 }
 
 impl<M: Lanes, P: Planes<M::F>> Cell<'_, M, P> {
-    /// Stores `depth` and `pixel` where `mask` says so and `depth` is less than what was stored before; and `material`, where
-    /// materials are stored.
+    /// Stores `depth` and `pixel` where `outside` is not below 0 and `depth` is less than what was stored before; and `material`,
+    /// where materials are stored.
     ///
     /// It writes in any case: which groups are seen, and which of them wholly, cannot be predicted where triangles are small.
     #[inline(always)]
-    pub fn put(&mut self, m: M, mask: M::Mask, depth: M::F, pixel: P, material: u32) {
+    pub fn put(&mut self, m: M, outside: M::I, depth: M::F, pixel: P, material: u32) {
         let values = &mut self.values[..size::<M, P>()];
-        let mask = m.and(mask, m.less(depth, m.load(values).max(self.least)));
+        // Depths are finite and what is empty is infinite: the difference is a number, or −∞.
+        let sign = m.negative_inside(depth - m.load(values).max(self.least), outside);
         let mut at = 0;
         put_each(
             (depth, pixel),
@@ -186,13 +215,13 @@ impl<M: Lanes, P: Planes<M::F>> Cell<'_, M, P> {
             |new: M::F| {
                 let place = &mut values[at..at + M::WIDTH];
                 let old = m.load(place);
-                m.store(m.blend(mask, new, old), place);
+                m.store(m.choose_negative(sign, new, old), place);
                 at += M::WIDTH;
             },
         );
         if !self.materials.is_empty() {
             let place = &mut self.materials[self.number * M::WIDTH..][..M::WIDTH];
-            m.store(m.blend(mask, m.splat(f32::from_bits(material)), m.load(place)), place);
+            m.store(m.choose_negative(sign, m.splat(f32::from_bits(material)), m.load(place)), place);
         }
     }
 }

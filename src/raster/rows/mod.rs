@@ -15,8 +15,10 @@
 mod band;
 mod batch;
 mod paint;
+mod place;
 mod polygon;
 mod shade;
+mod tiny;
 mod triangle;
 
 use super::bands::{Bands, Scratch};
@@ -26,7 +28,7 @@ use super::setup::SetUp;
 use super::sink::RowSink;
 use crate::frame::Frame;
 use crate::number::{Lanes, Pair, Scalar};
-use crate::shader::Shader;
+use crate::shader::{Given, Shader};
 use crate::walk::Attribute;
 use alloc::vec::Vec;
 pub(crate) use band::Band;
@@ -34,6 +36,7 @@ pub(crate) use batch::Batch;
 use core::ops::Range;
 use paint::Painter;
 use shade::Colours;
+pub(crate) use tiny::Fragments;
 
 /// Scanlines a band: edges are seldom started anew, and every thread gets some.
 const HEIGHT: usize = 16;
@@ -107,10 +110,12 @@ fn triangles<S: Shader, M: Lanes>(
     m.vectorize(
         #[inline(always)]
         || {
-            let Scratch { band, batch, .. } = scratch;
-            let taken = batch.read(painter.frame, numbers);
-            batch.place(m, painter.frame.width(), rows);
-            painter.batch(m, batch, rows.start, band);
+            let Scratch { band, batch, fragments, .. } = scratch;
+            let has_numbers = S::GIVEN == Given::Attribute;
+            let attributes = has_numbers.then_some(&painter.setup.attributes[..]);
+            let taken = batch.read(painter.frame, attributes, numbers);
+            band.extend(batch.place(m, painter.frame.width(), rows, paint::facets::<S, M>(), has_numbers));
+            painter.batch(m, batch, fragments, rows.start, &mut band.cells(m, painter.hides));
             taken
         },
     )
@@ -132,7 +137,8 @@ fn run<S: Shader, M: Lanes>(
     m.vectorize(
         #[inline(always)]
         || {
-            painter.run(m, place, pixels, polygon, depth, attribute, band);
+            band.extend(pixels.start / M::WIDTH..pixels.end.div_ceil(M::WIDTH));
+            painter.run(m, place, pixels, polygon, depth, attribute, &mut band.cells(m, painter.hides));
         },
     );
 }

@@ -1,10 +1,11 @@
 //! Polygons into a band: what a walk gives is written wherever it is nearer than what was drawn before.
 
-use super::band::{Band, MOST_PLANES};
-use super::batch::{Batch, Small};
+use super::band::{Cells, MOST_PLANES};
+use super::batch::{Batch, Facets, Kind};
+use super::tiny::Fragments;
 use super::triangle::{Groups, Triangle};
 use crate::frame::Frame;
-use crate::number::{Lanes, Num, Planes, Scalar, get_each, put_each};
+use crate::number::{Lanes, Num, Planes, Scalar, each, get_each, put_each};
 use crate::raster::setup::SetUp;
 use crate::shader::{Given, Shader, Span};
 use crate::walk::{Attribute, Walk};
@@ -21,12 +22,7 @@ pub(super) const fn planes<S: Shader, M: Lanes>() -> Option<usize> {
     }
 }
 
-/// A number over a triangle: at its first corner, and how far the other two are from it.
-///
-/// ```text
-/// A = A_a + β (A_b − A_a) + γ (A_c − A_a)
-/// ```
-/// β and γ come from exact integers and are in 0..=1 inside, so that nothing cancels, however thin the triangle is.
+/// A number over one triangle: see [`Facets`].
 #[derive(Clone, Copy, Debug, Default)]
 struct Facet {
     at: f32,
@@ -34,10 +30,10 @@ struct Facet {
 }
 
 impl Facet {
-    /// From its values at the corners.
+    /// That of triangle `k`.
     #[inline(always)]
-    fn new([a, b, c]: [f32; 3]) -> Facet {
-        Facet { at: a, to: [b - a, c - a] }
+    fn of(facets: &Facets, k: usize) -> Facet {
+        Facet { at: facets.at[k], to: [facets.to[0][k], facets.to[1][k]] }
     }
 
     /// At a group of pixels with these coordinates.
@@ -53,6 +49,14 @@ impl Facet {
     }
 }
 
+/// How many facets triangles have: that of depth, and those of the attribute where it is what pixels are given.
+pub(super) const fn facets<S: Shader, M: Lanes>() -> usize {
+    match (S::GIVEN, planes::<S, M>()) {
+        (Given::Attribute, Some(count)) => 1 + count,
+        _ => 1,
+    }
+}
+
 /// What draws polygons into a band.
 pub(super) struct Painter<'a, S: Shader> {
     pub frame: &'a Frame,
@@ -64,73 +68,99 @@ pub(super) struct Painter<'a, S: Shader> {
 impl<S: Shader> Painter<'_, S> {
     /// Draws what a batch of triangles covers of the band that begins with row `top`; depth and attribute are linear over them.
     #[inline(always)]
-    pub fn batch<M: Lanes>(&self, m: M, batch: &Batch, top: usize, band: &mut Band) {
-        let mut places = Batch::PLACES;
-        let count = batch.drawn(&mut places);
-        for &k in &places[..count] {
-            let k = usize::from(k);
-            if batch.is_small(k) {
-                self.small(m, (batch.polygon(k), batch.corners(k)), &batch.small(k), top, band);
-            } else if let Some(triangle) = batch.large(k) {
-                self.large(m, batch.polygon(k), &triangle, top, band);
+    pub fn batch<M: Lanes>(
+        &self,
+        m: M,
+        batch: &Batch,
+        fragments: &mut Fragments,
+        top: usize,
+        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
+    ) {
+        for k in 0..batch.count() {
+            let kind = batch.kind(k);
+            if S::GIVEN == Given::Attribute {
+                if k % M::WIDTH == 0 {
+                    fragments.find(m, batch, (k, facets::<S, M>()), top, cells);
+                }
+                if kind == Kind::Tiny as i32 {
+                    let material = batch.material(k);
+                    fragments.each::<M>(
+                        k,
+                        facets::<S, M>(),
+                        #[inline(always)]
+                        |place, numbers| cells.put_one(place, numbers, material),
+                    );
+                    continue;
+                }
+            }
+            if kind == Kind::Small as i32 {
+                self.small(m, batch, k, top, cells);
+            } else if kind == Kind::Large as i32
+                && let Some(triangle) = batch.large(k)
+            {
+                self.large(m, batch, k, &triangle, top, cells);
             }
         }
     }
 
     #[inline(always)]
-    fn small<M: Lanes>(
-        &self,
-        m: M,
-        (polygon, corners): ((u32, u32), [usize; 3]),
-        small: &Small<'_>,
-        top: usize,
-        band: &mut Band,
-    ) {
-        let depth = self.depth(corners);
+    fn small<M: Lanes>(&self, m: M, batch: &Batch, k: usize, top: usize, cells: &mut Cells<'_, M, S::Pixel<M::F>>) {
+        let (small, polygon) = (batch.small(k), batch.polygon(k));
+        let depth = Facet::of(&batch.facets[0], k);
         if S::GIVEN == Given::Walked {
-            let Some(walked) = self.walked(corners, &depth, small.growth()) else { return };
+            let Some(walked) = self.walked(batch.corners(k), &depth, small.growth()) else { return };
             return small.runs(
                 m,
                 top,
                 #[inline(always)]
-                |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, band),
+                |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
             );
         }
-        let flat = self.flat(m, corners, polygon);
-        let mut groups = Groups::new(m, small);
-        let [first, end] = groups.groups;
-        let mut cells = band.cells::<M, S::Pixel<M::F>>(m, first..end, self.hides);
-        for row in small.rows(top) {
-            let mut here = groups.next_row();
-            cells.each(
-                row,
-                #[inline(always)]
-                |cell| {
-                    let inside = Groups::inside(m, here);
-                    // Whether a group has any pixel of a wide triangle is like the row before, of a narrow one it is not.
-                    if end - first == 1 || m.any(inside) {
+        let flat = self.flat(m, batch, k);
+        let groups = Groups::new(m, &small);
+        groups.rows(
+            m,
+            &small,
+            top,
+            #[inline(always)]
+            |row, range, mut here| {
+                cells.each(
+                    row,
+                    range,
+                    #[inline(always)]
+                    |cell| {
                         let weights = groups.weights(m, here);
-                        cell.put(m, inside, depth.lanes(m, weights), flat.at(m, weights), polygon.1);
-                    }
-                    here = groups.beside(here);
-                },
-            );
-        }
+                        let outside = Groups::<M>::outside(here);
+                        cell.put(m, outside, depth.lanes(m, weights), flat.at(m, weights), polygon.1);
+                        here = groups.beside(here);
+                    },
+                );
+            },
+        );
     }
 
     #[inline(always)]
-    fn large<M: Lanes>(&self, m: M, polygon: (u32, u32), triangle: &Triangle, top: usize, band: &mut Band) {
-        let depth = self.depth(triangle.corners);
+    fn large<M: Lanes>(
+        &self,
+        m: M,
+        batch: &Batch,
+        k: usize,
+        triangle: &Triangle,
+        top: usize,
+        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
+    ) {
+        let polygon = batch.polygon(k);
+        let depth = Facet::of(&batch.facets[0], k);
         let across = triangle.across();
         if S::GIVEN == Given::Walked {
-            let Some(walked) = self.walked(triangle.corners, &depth, across) else { return };
+            let Some(walked) = self.walked(batch.corners(k), &depth, across) else { return };
             return triangle.runs(
                 top,
                 #[inline(always)]
-                |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, band),
+                |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
             );
         }
-        let flat = self.flat(m, triangle.corners, polygon);
+        let flat = self.flat(m, batch, k);
         let across = [m.splat(across[0]), m.splat(across[1])];
         triangle.runs(
             top,
@@ -139,15 +169,20 @@ impl<S: Shader> Painter<'_, S> {
                 let mut group = pixels.start / M::WIDTH;
                 // Columns from the first pixel on, which is exact; before it, nothing is drawn.
                 let (mut k, next) = (m.ramp(-((pixels.start % M::WIDTH) as f32), 1.0), m.stride(1.0));
-                let mut cells = band.cells::<M, S::Pixel<M::F>>(m, group..pixels.end.div_ceil(M::WIDTH), self.hides);
                 cells.each(
                     row,
+                    group..pixels.end.div_ceil(M::WIDTH),
                     #[inline(always)]
                     |cell| {
                         let weights =
                             [across[0].mul_add(k, m.splat(weights[0])), across[1].mul_add(k, m.splat(weights[1]))];
-                        let inside = lanes(m, group, &pixels);
-                        cell.put(m, inside, depth.lanes(m, weights), flat.at(m, weights), polygon.1);
+                        cell.put(
+                            m,
+                            outside(m, group, &pixels),
+                            depth.lanes(m, weights),
+                            flat.at(m, weights),
+                            polygon.1,
+                        );
                         k = k + next;
                         group += 1;
                     },
@@ -157,26 +192,29 @@ impl<S: Shader> Painter<'_, S> {
     }
 
     #[inline(always)]
-    fn depth(&self, [a, b, c]: [usize; 3]) -> Facet {
-        let vertices = self.frame.vertices();
-        Facet::new([vertices[a].depth, vertices[b].depth, vertices[c].depth])
-    }
-
-    #[inline(always)]
-    fn attributes(&self, [a, b, c]: [usize; 3]) -> [S::Attribute<f32>; 3] {
+    fn attributes(&self, corners: [usize; 3]) -> [S::Attribute<f32>; 3] {
         let all = &self.setup.attributes;
-        [all[a], all[b], all[c]]
+        each(
+            #[inline(always)]
+            |i| all[corners[i]],
+        )
     }
 
-    /// What pixels are given where it is no walk that gives it.
+    /// What the pixels of triangle `k` are given where it is no walk that gives it.
     #[inline(always)]
-    fn flat<M: Lanes>(&self, m: M, corners: [usize; 3], (number, material): (u32, u32)) -> Flat<S, M> {
-        let attributes = self.attributes(corners);
+    fn flat<M: Lanes>(&self, m: M, batch: &Batch, k: usize) -> Flat<S, M> {
         if S::GIVEN == Given::Attribute {
-            return Flat::Interpolated(facets::<S>(attributes));
+            let mut flat = [Facet::default(); MOST_PLANES];
+            let mut i = 1;
+            while i < facets::<S, M>() {
+                flat[i - 1] = Facet::of(&batch.facets[i], k);
+                i += 1;
+            }
+            return Flat::Interpolated(flat);
         }
-        match S::Attribute::plane(attributes, [0.0; 2]) {
+        match S::Attribute::plane(self.attributes(batch.corners(k)), [0.0; 2]) {
             Some(plane) => {
+                let (number, material) = batch.polygon(k);
                 let start = Span { x: 0.5, y: 0.5, attribute: S::Attribute::on_row(&plane, [0.0; 2]) };
                 Flat::Constant(self.walk(m, number, material, &start).next())
             }
@@ -200,11 +238,11 @@ impl<S: Shader> Painter<'_, S> {
         polygon: (u32, u32),
         walked: &Walked<S>,
         weights: [f32; 2],
-        band: &mut Band,
+        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
     ) {
         let attribute = S::Attribute::on_row(&walked.plane, weights);
         let depth = [walked.depth.one(weights), walked.depth_step];
-        self.run(m, place, pixels, polygon, depth, attribute, band);
+        self.run(m, place, pixels, polygon, depth, attribute, cells);
     }
 
     #[inline(always)]
@@ -224,7 +262,7 @@ impl<S: Shader> Painter<'_, S> {
         (number, material): (u32, u32),
         depth: [f32; 2],
         attribute: SpanIn<S>,
-        band: &mut Band,
+        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
     ) {
         // Groups begin at certain pixels, before the run: so does the walk where it can.
         let (first, before) = (pixels.start / M::WIDTH, pixels.start % M::WIDTH);
@@ -240,16 +278,16 @@ impl<S: Shader> Painter<'_, S> {
         let step = if is_one { 0.0 } else { depth[1] };
         let (mut z, stride) = (m.ramp(depth[0] - before as f32 * step, step), m.stride(step));
         let mut group = first;
-        let mut cells = band.cells::<M, S::Pixel<M::F>>(m, first..pixels.end.div_ceil(M::WIDTH), self.hides);
         cells.each(
             row,
+            first..pixels.end.div_ceil(M::WIDTH),
             #[inline(always)]
             |cell| {
                 let mut pixel = walk.next();
                 if earlier.is_none() {
                     pixel = later.next(m, pixel);
                 }
-                cell.put(m, lanes(m, group, &pixels), z, pixel, material);
+                cell.put(m, outside(m, group, &pixels), z, pixel, material);
                 z = z + stride;
                 group += 1;
             },
@@ -338,44 +376,9 @@ struct Walked<S: Shader> {
     depth_step: f32,
 }
 
-/// The facets of an attribute's numbers; the rest is not looked at.
+/// Below 0 at those pixels of group `group` that a run does not have.
 #[inline(always)]
-fn facets<S: Shader>([a, b, c]: [S::Attribute<f32>; 3]) -> [Facet; MOST_PLANES] {
-    let mut facets = [Facet::default(); MOST_PLANES];
-    let mut i = 0;
-    each_number::<S>(
-        a,
-        #[inline(always)]
-        |x| {
-            facets[i].at = x;
-            i += 1;
-        },
-    );
-    let mut corner = 0;
-    while corner < 2 {
-        let mut i = 0;
-        each_number::<S>(
-            if corner == 0 { b } else { c },
-            #[inline(always)]
-            |x| {
-                facets[i].to[corner] = x - facets[i].at;
-                i += 1;
-            },
-        );
-        corner += 1;
-    }
-    facets
-}
-
-/// Gives the numbers of an attribute, to what must be inlined.
-#[inline(always)]
-fn each_number<S: Shader>(attribute: S::Attribute<f32>, mut to: impl FnMut(f32)) {
-    attribute.numbers(&mut to);
-}
-
-/// Which pixels of group `group` a run has.
-#[inline(always)]
-fn lanes<M: Lanes>(m: M, group: usize, pixels: &Range<usize>) -> M::Mask {
-    let first = group * M::WIDTH;
-    m.lanes(pixels.start.saturating_sub(first), pixels.end - first)
+fn outside<M: Lanes>(m: M, group: usize, pixels: &Range<usize>) -> M::I {
+    let (first, k) = ((group * M::WIDTH) as i32, m.counted());
+    (k - m.int(pixels.start as i32 - first)) | (m.int(pixels.end as i32 - 1 - first) - k)
 }

@@ -13,11 +13,9 @@ use core::ops::Range;
 pub(super) struct Groups<M: Lanes> {
     /// The groups of a row between which it lies.
     pub groups: [usize; 2],
-    /// Its edge functions in the first group of the row.
-    row: [M::I; 3],
-    /// Their growth from group to group.
+    /// How much its edge functions grow to each pixel of a group, and from group to group.
+    ramp: [M::I; 3],
     across: [M::I; 3],
-    down: [M::I; 3],
     over_area: M::F,
     /// What was taken off the functions for ownership, given back: the coordinates are those of the centre itself.
     back: [M::F; 2],
@@ -29,32 +27,70 @@ impl<M: Lanes> Groups<M> {
         let [first, end] = small.columns();
         Groups {
             groups: [first / M::WIDTH, end.div_ceil(M::WIDTH)],
-            row: each(
+            ramp: each(
                 #[inline(always)]
-                |i| m.int(small.at(i)) + m.counted() * m.int(small.right(i)),
+                |i| m.counted() * m.int(small.right(i)),
             ),
             across: each(
                 #[inline(always)]
                 |i| m.int(small.across(i)),
-            ),
-            down: each(
-                #[inline(always)]
-                |i| m.int(small.down(i)),
             ),
             over_area: m.splat(small.over_area()),
             back: [m.splat(small.off(1)), m.splat(small.off(2))],
         }
     }
 
-    /// The functions of the first group of this row; to the next one.
+    /// Gives `visit`, for each row of the band that begins with row `top`, the groups between which it has pixels, and the functions
+    /// in the first of them.
+    ///
+    /// As many rows at a time as groups have pixels. Where a function becomes 0 is off by three roundings: with at most 62
+    /// columns by less than 2⁻¹⁶ of one. A group more is looked at where that could matter.
     #[inline(always)]
-    pub fn next_row(&mut self) -> [M::I; 3] {
-        let here = self.row;
-        self.row = each(
-            #[inline(always)]
-            |i| here[i] + self.down[i],
-        );
-        here
+    pub fn rows(&self, m: M, small: &Small<'_>, top: usize, mut visit: impl FnMut(usize, Range<usize>, [M::I; 3])) {
+        let rows = small.rows(top);
+        let [first, end] = self.groups;
+        let groups = 1.0 / M::WIDTH as f32;
+        let doubt = m.splat(groups / 1024.0);
+        let last = m.splat(((end - first) * M::WIDTH - 1) as f32);
+        let mut row = rows.start;
+        while row < rows.end {
+            let number = m.counted() + m.int((row - rows.start) as i32);
+            let mut start: [M::I; 3] = each(
+                #[inline(always)]
+                |i| m.int(small.at(i)) + number * m.int(small.down(i)),
+            );
+            let (mut from, mut to) = (m.splat(0.0), last);
+            let mut i = 0;
+            while i < 3 {
+                let ([begins, ends, beyond], here) = (small.limits(i), m.number(start[i]));
+                from = from.max(here * m.splat(begins));
+                to = to.min(here.mul_add(m.splat(ends), m.splat(beyond)));
+                i += 1;
+            }
+            let from = m.truncated(from.mul_add(m.splat(groups), -doubt));
+            let to = m.truncated(to.mul_add(m.splat(groups), doubt)) + m.int(1);
+            let (mut begin, mut end) = ([0; 8], [0; 8]);
+            m.store_int(from, &mut begin);
+            m.store_int(to, &mut end);
+            let mut starts = [[0; 8]; 3];
+            let mut i = 0;
+            while i < 3 {
+                start[i] = start[i] + from * self.across[i];
+                m.store_int(start[i], &mut starts[i]);
+                i += 1;
+            }
+            let count = M::WIDTH.min(rows.end - row);
+            for k in 0..count {
+                let here = each(
+                    #[inline(always)]
+                    |i| m.int(starts[i][k]) + self.ramp[i],
+                );
+                if begin[k] < end[k] {
+                    visit(row + k, first + begin[k] as usize..first + end[k] as usize, here);
+                }
+            }
+            row += count;
+        }
     }
 
     /// The functions of the group beside.
@@ -66,10 +102,10 @@ impl<M: Lanes> Groups<M> {
         )
     }
 
-    /// Which pixels are covered.
+    /// Below 0 at pixels that are not covered.
     #[inline(always)]
-    pub fn inside(m: M, [a, b, c]: [M::I; 3]) -> M::Mask {
-        m.not_negative(a | b | c)
+    pub fn outside([a, b, c]: [M::I; 3]) -> M::I {
+        a | b | c
     }
 
     /// The barycentric coordinates of the second and the third corner.
@@ -84,30 +120,35 @@ impl Small<'_> {
     /// the second and the third corner at the first of them.
     #[inline(always)]
     pub fn runs<M: Lanes>(&self, m: M, top: usize, mut visit: impl FnMut(usize, Range<usize>, [f32; 2])) {
-        let mut groups = Groups::new(m, self);
-        let [first, end] = groups.groups;
-        let (mut b, mut c) = (self.at(1), self.at(2));
-        // Those of its last group that lie beyond the picture are none of it.
-        let within = !(!0u64 << (self.columns()[1] - first * M::WIDTH));
-        for row in self.rows(top) {
-            let mut here = groups.next_row();
-            // At most 62 pixels, a bit each.
-            let mut inside = 0u64;
-            for group in 0..end - first {
-                inside |= u64::from(m.bits(Groups::inside(m, here))) << (group * M::WIDTH);
-                here = groups.beside(here);
-            }
-            inside &= within;
-            if inside != 0 {
-                let skipped = inside.trailing_zeros();
-                let weight =
-                    |at: i32, edge| (at + skipped as i32 * self.right(edge)) as f32 * self.over_area() + self.off(edge);
-                let start = first * M::WIDTH + skipped as usize;
-                let pixels = start..start + (64 - (inside >> skipped).leading_zeros()) as usize;
-                visit(row, pixels, [weight(b, 1), weight(c, 2)]);
-            }
-            (b, c) = (b + self.down(1), c + self.down(2));
-        }
+        let (groups, columns, rows) = (Groups::new(m, self), self.columns(), self.rows(top));
+        let first = groups.groups[0] * M::WIDTH;
+        groups.rows(
+            m,
+            self,
+            top,
+            #[inline(always)]
+            |row, range, mut here| {
+                // At most 62 pixels, a bit each.
+                let mut inside = 0u64;
+                for group in range {
+                    inside |=
+                        u64::from(m.bits(m.not_negative(Groups::<M>::outside(here)))) << (group * M::WIDTH - first);
+                    here = groups.beside(here);
+                }
+                // Those of its last group that lie beyond the picture are none of it.
+                inside &= !(!0u64 << (columns[1] - first));
+                if inside != 0 {
+                    let skipped = inside.trailing_zeros();
+                    let weight = |edge| {
+                        let at = self.at(edge) + (row - rows.start) as i32 * self.down(edge);
+                        (at + skipped as i32 * self.right(edge)) as f32 * self.over_area() + self.off(edge)
+                    };
+                    let start = first + skipped as usize;
+                    let pixels = start..start + (64 - (inside >> skipped).leading_zeros()) as usize;
+                    visit(row, pixels, [weight(1), weight(2)]);
+                }
+            },
+        );
     }
 
     /// How much the barycentric coordinates of the second and the third corner grow from pixel to pixel.
@@ -120,29 +161,22 @@ impl Small<'_> {
 /// A triangle of any size.
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
-    /// Its corners, in the order in which its area is over 0.
-    pub corners: [usize; 3],
     pub columns: Range<i32>,
     rows: Range<i32>,
     x: [i32; 3],
     y: [i32; 3],
+    /// One over twice its area, below 0 where its corners run the other way around.
     over_area: f32,
 }
 
 impl Triangle {
     /// The triangle with these corners, x and y each in sub-pixels, on these pixels; `None` if it has no area.
-    pub fn new(corners: [u32; 3], places: [[i32; 2]; 3], columns: Range<i32>, rows: Range<i32>) -> Option<Triangle> {
+    pub fn new(places: [[i32; 2]; 3], columns: Range<i32>, rows: Range<i32>) -> Option<Triangle> {
         let [[xa, ya], [xb, yb], [xc, yc]] = places;
         let wide = i64::from;
         let area = wide(xb - xa) * wide(yc - ya) - wide(xc - xa) * wide(yb - ya);
-        let over_area = 1.0 / area.abs() as f32;
-        let [a, b, c] = corners.map(|corner| corner as usize);
-        let (corners, x, y) = match area {
-            0 => return None,
-            1.. => ([a, b, c], [xa, xb, xc], [ya, yb, yc]),
-            _ => ([a, c, b], [xa, xc, xb], [ya, yc, yb]),
-        };
-        Some(Triangle { corners, columns, rows, x, y, over_area })
+        let (x, y, over_area) = ([xa, xb, xc], [ya, yb, yc], 1.0 / area as f32);
+        (area != 0).then_some(Triangle { columns, rows, x, y, over_area })
     }
 
     /// How much the barycentric coordinates of the second and the third corner grow from pixel to pixel.

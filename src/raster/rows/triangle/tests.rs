@@ -4,9 +4,12 @@ use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Lighting, Material};
 use crate::number::{Lanes, LanesJob, Level, on_level};
 use crate::raster::coverage;
-use crate::raster::rows::batch::{Batch, SMALL_HEIGHT, SMALL_WIDTH};
+use crate::raster::rows::band::Band;
+use crate::raster::rows::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH};
+use crate::raster::rows::tiny::Fragments;
 use crate::raster::rows::triangle::Groups;
 use crate::test_random::Random;
+use crate::walk::Lerp;
 use core::ops::Range;
 use glam::DVec3;
 use std::vec;
@@ -30,26 +33,25 @@ fn frame(width: u32, height: u32, triangles: &[[[i32; 2]; 3]]) -> Frame {
 /// corner there.
 type Pixel = ((u32, usize, usize), [f32; 2]);
 
-/// Every pixel that the triangles of a frame cover in a band: found as runs, and group by group where they are small.
+/// Every pixel that the triangles of a frame cover in a band: found as runs, and group by group where they are small, and
+/// pixel by pixel where they are tiny.
 struct Covered<'a>(&'a Frame, Range<usize>);
 
 impl LanesJob for Covered<'_> {
-    type Out = [Vec<Pixel>; 2];
+    type Out = [Vec<Pixel>; 3];
 
-    fn run<M: Lanes>(self, m: M) -> [Vec<Pixel>; 2] {
+    fn run<M: Lanes>(self, m: M) -> [Vec<Pixel>; 3] {
         let Covered(frame, band) = self;
         let numbers: Vec<u32> = (0..frame.polygons().len() as u32).collect();
-        let (mut rest, mut runs, mut groups) = (&numbers[..], vec![], vec![]);
+        let (mut rest, mut runs, mut groups, mut tiny) = (&numbers[..], vec![], vec![], vec![]);
         let mut batch = Batch::default();
         while !rest.is_empty() {
-            let taken = batch.read(frame, rest);
+            let taken = batch.read::<Lerp<f32>>(frame, None, rest);
             assert!(taken > 0 && taken <= rest.len());
+            by_pixels(m, (frame, &band), rest, &mut tiny);
             rest = &rest[taken..];
-            batch.place(m, frame.width(), &band);
-            let mut places = Batch::PLACES;
-            let count = batch.drawn(&mut places);
-            for &k in &places[..count] {
-                let k = usize::from(k);
+            batch.place(m, frame.width(), &band, 1, false);
+            for k in 0..batch.count() {
                 let number = batch.polygon(k).0;
                 let mut run = |growth: [f32; 2], row: usize, pixels: Range<usize>, weights: [f32; 2]| {
                     for (i, x) in pixels.enumerate() {
@@ -57,27 +59,28 @@ impl LanesJob for Covered<'_> {
                         runs.push(((number, band.start + row, x), [at(0), at(1)]));
                     }
                 };
-                if batch.is_small(k) {
+                if batch.kind(k) == Kind::Small as i32 {
                     let small = batch.small(k);
                     small.runs(m, band.start, |row, pixels, weights| run(small.growth(), row, pixels, weights));
                     by_groups(m, &batch, k, (frame.width(), &band), &mut groups);
-                } else if let Some(large) = batch.large(k) {
-                    large.runs(band.start, |row, pixels, weights| run(large.across(), row, pixels, weights));
+                } else if batch.kind(k) == Kind::Large as i32 {
+                    if let Some(large) = batch.large(k) {
+                        large.runs(band.start, |row, pixels, weights| run(large.across(), row, pixels, weights));
+                    }
                 }
             }
         }
-        [runs, groups]
+        [runs, groups, tiny]
     }
 }
 
 /// The pixels of small triangle `k`, group by group.
 fn by_groups<M: Lanes>(m: M, batch: &Batch, k: usize, (width, band): (usize, &Range<usize>), found: &mut Vec<Pixel>) {
     let small = batch.small(k);
-    let mut groups = Groups::new(m, &small);
-    for row in small.rows(band.start) {
-        let mut here = groups.next_row();
-        for group in groups.groups[0]..groups.groups[1] {
-            let inside = m.bits(Groups::inside(m, here));
+    let groups = Groups::new(m, &small);
+    groups.rows(m, &small, band.start, |row, range, mut here| {
+        for group in range {
+            let inside = m.bits(m.not_negative(Groups::<M>::outside(here)));
             let mut weights = [[0.0; 8]; 2];
             for (to, from) in weights.iter_mut().zip(groups.weights(m, here)) {
                 m.store(from, to);
@@ -90,6 +93,31 @@ fn by_groups<M: Lanes>(m: M, batch: &Batch, k: usize, (width, band): (usize, &Ra
                 }
             }
             here = groups.beside(here);
+        }
+    });
+}
+
+/// The pixels of the tiny ones of the first triangles of `numbers`, with a depth and the coordinates for planes.
+fn by_pixels<M: Lanes>(m: M, (frame, band): (&Frame, &Range<usize>), numbers: &[u32], found: &mut Vec<Pixel>) {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+    let attributes: Vec<Lerp<[f32; 2]>> = (0..frame.vertices().len()).map(|v| Lerp(corners[v % 3])).collect();
+    let (mut batch, mut fragments, mut memory) = (Batch::default(), Fragments::default(), Band::default());
+    batch.read(frame, Some(&attributes), numbers);
+    let drawn = batch.place(m, frame.width(), band, 3, true);
+    memory.prepare::<M, [M::F; 2]>(16, frame.width(), false);
+    let cells = memory.cells::<M, [M::F; 2]>(m, true);
+    let a_row = frame.width().div_ceil(2 * M::WIDTH) * 2;
+    for k in 0..batch.count() {
+        if k % M::WIDTH == 0 {
+            fragments.find(m, &batch, (k, 3), band.start, &cells);
+        }
+        if batch.kind(k) == Kind::Tiny as i32 {
+            fragments.each::<M>(k, 3, |place, values| {
+                let (group, lane) = (place as usize / (3 * M::WIDTH), place as usize % (3 * M::WIDTH));
+                let (row, x) = (group / a_row, group % a_row * M::WIDTH + lane);
+                assert!(lane < M::WIDTH && drawn.contains(&(x / M::WIDTH)));
+                found.push(((numbers[k], band.start + row, x), [values[M::WIDTH], values[2 * M::WIDTH]]));
+            });
         }
     }
 }
@@ -107,11 +135,12 @@ fn soup(random: &mut Random, width: usize, height: usize) -> Vec<[[i32; 2]; 3]> 
         .collect()
 }
 
-/// In bands, runs have the pixels of the lecture's spans, and groups those of small triangles, with the same coordinates.
+/// In bands, runs have the pixels of the lecture's spans, groups those of small triangles and fragments those of tiny ones,
+/// with the same coordinates.
 #[test]
 fn bands_cover_what_spans_do() {
     let mut random = Random::new(23);
-    let mut small = 0;
+    let mut counts = [0, 0];
     for round in 0..60 {
         let (width, height) = (1 + random.below(120) as usize, 1 + random.below(90) as usize);
         let frame = frame(width as u32, height as u32, &soup(&mut random, width, height));
@@ -119,27 +148,27 @@ fn bands_cover_what_spans_do() {
         coverage(&frame, |number, row, pixels| expected.extend(pixels.map(|x| (number, row, x))));
         expected.sort_unstable();
         for level in Level::available() {
-            let (mut runs, mut groups) = (vec![], vec![]);
+            let mut found = [vec![], vec![], vec![]];
             for first in (0..height).step_by(16) {
-                let [more_runs, more_groups] = on_level(level, Covered(&frame, first..(first + 16).min(height)));
-                runs.extend(more_runs);
-                groups.extend(more_groups);
+                let more = on_level(level, Covered(&frame, first..(first + 16).min(height)));
+                found.iter_mut().zip(more).for_each(|(all, more)| all.extend(more));
             }
-            runs.sort_by_key(|(place, _)| *place);
-            groups.sort_by_key(|(place, _)| *place);
+            found.iter_mut().for_each(|all| all.sort_by_key(|(place, _)| *place));
+            let [runs, others @ ..] = found;
             assert!(runs.iter().map(|(place, _)| *place).eq(expected.iter().copied()), "round {round} on {level}");
             assert_weights(&runs);
-            let numbers: std::collections::BTreeSet<u32> = groups.iter().map(|((number, ..), _)| *number).collect();
-            let of_small = runs.iter().filter(|((number, ..), _)| numbers.contains(number));
-            assert!(
-                of_small.map(|(place, _)| place).eq(groups.iter().map(|(place, _)| place)),
-                "round {round} on {level}"
-            );
-            assert_weights(&groups);
-            small += groups.len();
+            for (others, count) in others.iter().zip(&mut counts) {
+                // A triangle may be tiny in one band, of which it has a row or two, and not in the next.
+                let of = |&((number, row, _), _): &Pixel| (number, row / 16);
+                let these: std::collections::BTreeSet<_> = others.iter().map(of).collect();
+                let same = runs.iter().filter(|pixel| these.contains(&of(pixel)));
+                assert!(same.map(|(place, _)| place).eq(others.iter().map(|(place, _)| place)), "{round} on {level}");
+                assert_weights(others);
+                *count += others.len();
+            }
         }
     }
-    assert!(small > 100_000, "{small} pixels of small triangles");
+    assert!(counts[0] > 100_000 && counts[1] > 5_000, "{counts:?} pixels of small and of tiny triangles");
 }
 
 /// Inside, coordinates are in 0..=1: the edge function is rounded once, one over the area twice, their product once, and what was
