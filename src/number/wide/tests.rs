@@ -35,7 +35,9 @@ operation!(Gate, |m, a, b, c| a.gate(b));
 operation!(MulAdd, |m, a, b, c| Num::mul_add(a, b, c));
 operation!(Less, |m, a, b, c| m.blend(m.less(a, b), m.splat(1.0), m.splat(0.0)));
 operation!(Blend, |m, a, b, c| m.blend(m.less(c, m.splat(0.0)), a, b));
-operation!(And, |m, a, b, c| m.blend(m.and(m.less(a, b), m.less(b, c)), a, c));
+operation!(Chosen, |m, a, b, c| m.choose_negative(a, b, c));
+operation!(Inside, |m, a, b, c| m.negative_inside(a, m.truncated(c * m.splat(4.0))));
+operation!(Truncated, |m, a, b, c| m.number(m.truncated(c * m.splat(1e6))));
 operation!(FromLargest, |m, a, b, c| m.ramp(m.first(a), m.first(b)));
 
 /// An operation on columns of numbers, a group at a time.
@@ -115,7 +117,9 @@ fn every_operation_is_the_scalar_one() {
     compare(Negative, moved);
     compare(Less, moved);
     compare(Blend, moved);
-    compare(And, moved);
+    compare(Chosen, moved);
+    compare(Inside, moved);
+    compare(Truncated, moved);
     compare(Gate, moved);
 }
 
