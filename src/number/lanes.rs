@@ -29,7 +29,7 @@ pub trait Lanes: Machine<One = f32> {
     /// `new` where `mask` says so, else `old`.
     fn blend(self, mask: Self::Mask, new: Self::F, old: Self::F) -> Self::F;
 
-    /// `x`, but with a positive sign where `outside` is below 0.
+    /// A number whose sign is negative where that of `x` is and `outside` is not below 0. Only its sign means anything.
     fn negative_inside(self, x: Self::F, outside: Self::I) -> Self::F;
     /// `new` where the sign of `sign` is negative, else `old`.
     fn choose_negative(self, sign: Self::F, new: Self::F, old: Self::F) -> Self::F;

@@ -36,7 +36,7 @@ operation!(MulAdd, |m, a, b, c| Num::mul_add(a, b, c));
 operation!(Less, |m, a, b, c| m.blend(m.less(a, b), m.splat(1.0), m.splat(0.0)));
 operation!(Blend, |m, a, b, c| m.blend(m.less(c, m.splat(0.0)), a, b));
 operation!(Chosen, |m, a, b, c| m.choose_negative(a, b, c));
-operation!(Inside, |m, a, b, c| m.negative_inside(a, m.truncated(c * m.splat(4.0))));
+operation!(Inside, |m, a, b, c| m.choose_negative(m.negative_inside(a, m.truncated(c * m.splat(4.0))), b, c));
 operation!(Truncated, |m, a, b, c| m.number(m.truncated(c * m.splat(1e6))));
 operation!(FromLargest, |m, a, b, c| m.ramp(m.first(a), m.first(b)));
 
