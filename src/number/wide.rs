@@ -28,7 +28,7 @@ pub(super) fn is_available(level: Level) -> bool {
 
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
-    use core::arch::x86_64::{__m256, _mm256_blendv_ps, _mm256_rsqrt_ps};
+    use core::arch::x86_64::{__m256, __m256i, _mm256_blendv_epi8, _mm256_rsqrt_ps};
 
     fearless_simd::kernel!(
         /// 1/√x to 12 bits.
@@ -40,11 +40,11 @@ mod avx2 {
     );
 
     fearless_simd::kernel!(
-        /// `new` where the sign of `sign` is negative, else `old`.
+        /// `new` where `mask` has all bits, `old` where it has none.
         #[inline(always)]
-        pub fn choose_negative(avx2: Avx2, sign: __m256, new: __m256, old: __m256) -> __m256 {
+        pub fn choose(avx2: Avx2, mask: __m256i, new: __m256i, old: __m256i) -> __m256i {
             let _ = avx2;
-            _mm256_blendv_ps(old, new, sign)
+            _mm256_blendv_epi8(old, new, mask)
         }
     );
 }
@@ -231,15 +231,16 @@ impl<S: Simd> Lanes for Wide<S> {
         from_bits(bits(x) & !outside)
     }
 
-    /// By signs, not by comparisons: of those the compiler would know that they are masks, and make masked stores of them.
+    /// Byte by byte: a choice of whole numbers, from memory and back to it, becomes a masked store, which takes four times as
+    /// long (Zen 3).
     #[inline(always)]
     fn choose_negative(self, sign: f32x8<S>, new: f32x8<S>, old: f32x8<S>) -> f32x8<S> {
+        let (mask, new, old) = (bits(sign) >> 31, bits(new), bits(old));
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = self.0.level().as_avx2() {
-            return f32x8::simd_from(self.0, avx2::choose_negative(avx2, sign.into(), new.into(), old.into()));
+            return from_bits(i32x8::simd_from(self.0, avx2::choose(avx2, mask.into(), new.into(), old.into())));
         }
-        let (new, old) = (bits(new), bits(old));
-        from_bits(old ^ ((old ^ new) & (bits(sign) >> 31)))
+        from_bits(old ^ ((old ^ new) & mask))
     }
 
     #[inline(always)]
