@@ -138,6 +138,25 @@ impl Drawing {
         }
     }
 
+    /// Gives the texels of the picture, as it is stored in 8 bits, to `take`: row by row from the top, and where that can be
+    /// while it is drawn.
+    ///
+    /// # Errors
+    /// Those of `take`.
+    pub fn rows<E>(&self, mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>) -> Result<(), E> {
+        match &self.content {
+            Content::Shaded(Method::Variant(variant), Engine::Scanlines(engine), simd) => {
+                variant.render_rows(&self.frame, Renderer { engine: *engine, level: simd.level() }, take)
+            }
+            _ => take(self.picture(false).to_stored().texels()),
+        }
+    }
+
+    /// Width and height of the picture in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        [self.frame.picture_width(), self.frame.picture_height()]
+    }
+
     /// The picture: floats if `linear`, else as it is stored in 8 bits.
     pub fn picture(&self, linear: bool) -> FilePicture {
         let frame = &self.frame;
@@ -205,7 +224,9 @@ fn by_scanlines(frame: &Frame, variant: &Variant, renderer: Renderer, linear: bo
     if linear {
         return FilePicture::linear(variant.render_linear_with(frame, renderer));
     }
-    let mut picture = Picture8::new(0, 0, [0; 4]);
+    // Every texel is drawn or becomes background. Zeros are memory that nothing has touched yet: the threads that draw are
+    // the first, each in rows of its own.
+    let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
     variant.render_with(frame, renderer, &mut picture);
     FilePicture::stored(picture)
 }

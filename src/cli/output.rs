@@ -1,9 +1,9 @@
 //! Where a picture goes: a file, or standard output.
 
 use super::Failure;
-use super::talk::to_stdout;
-use fastphong::image_file::{FilePicture, Format, write_file};
-use std::io::IsTerminal;
+use super::talk::to_stdout_by;
+use fastphong::image_file::{FilePicture, Format, PpmWriter, write_file_by};
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// Where a picture goes, and in which format.
@@ -33,15 +33,35 @@ impl Output {
         Ok(Output { path: None, format: format.unwrap_or(Format::Png) })
     }
 
-    /// Writes `picture`, whole or not at all.
+    /// Writes `picture`; a file whole or not at all.
     ///
     /// # Errors
     /// When it cannot be written.
     pub fn write(&self, picture: &FilePicture) -> Result<(), Failure> {
-        let bytes = picture.encode(self.format).map_err(|error| error.to_string())?;
+        let encoder = picture.encoder(self.format).map_err(|error| error.to_string())?;
+        self.write_by(|out| encoder.write_to(out))
+    }
+
+    /// Writes a PPM file whose texels `rows` gives from the top; a file whole or not at all.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write_ppm(
+        &self,
+        [width, height]: [usize; 2],
+        rows: impl FnOnce(&mut dyn FnMut(&[[u8; 4]]) -> io::Result<()>) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        self.write_by(|out| {
+            let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
+            rows(&mut |texels| file.texels(texels))?;
+            file.finish()
+        })
+    }
+
+    fn write_by(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
         match &self.path {
-            Some(path) => Ok(write_file(path, &bytes)?),
-            None => to_stdout(&bytes),
+            Some(path) => Ok(write_file_by(path, write)?),
+            None => to_stdout_by(write),
         }
     }
 }

@@ -155,12 +155,18 @@ impl Render {
 
     fn write(&self, drawing: &Drawing, output: &Output, progress: &Progress, talk: Talk) -> Result<(), Failure> {
         let started = Instant::now();
-        let picture = drawing.picture(output.format == Format::Pfm);
-        progress.aside(|| talk.detail(&format!("shaded in {:.1} ms", milliseconds(started))));
-        progress.at(0.75, "writing");
-        output.write(&picture)?;
+        if output.format == Format::Ppm {
+            // Its rows can be written while others are not yet drawn.
+            output.write_ppm(drawing.size(), |take| drawing.rows(take))?;
+            progress.aside(|| talk.detail(&format!("shaded and written in {:.1} ms", milliseconds(started))));
+        } else {
+            let picture = drawing.picture(output.format == Format::Pfm);
+            progress.aside(|| talk.detail(&format!("shaded in {:.1} ms", milliseconds(started))));
+            progress.at(0.75, "writing");
+            output.write(&picture)?;
+        }
         if let Some(path) = &output.path {
-            let [width, height] = picture.size();
+            let [width, height] = drawing.size();
             progress.aside(|| talk.note(&format!("{}: {width}x{height}, {}", path.display(), self.what())));
         }
         Ok(())

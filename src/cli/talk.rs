@@ -64,8 +64,16 @@ pub fn to_stderr(text: &str) {
 /// # Errors
 /// When it cannot be written for another reason, such as a full disk.
 pub fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
+    to_stdout_by(|out| out.write_all(bytes))
+}
+
+/// The same for what `write` writes.
+///
+/// # Errors
+/// As [`to_stdout`].
+pub fn to_stdout_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
-    match out.write_all(bytes).and_then(|()| out.flush()) {
+    match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(format!("standard output: cannot be written: {error}").into())
         }

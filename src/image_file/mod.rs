@@ -24,7 +24,7 @@
 //! # }
 //! ```
 
-use std::borrow::ToOwned;
+use std::borrow::{Cow, ToOwned};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -34,15 +34,17 @@ use crate::encoding::quantise;
 use crate::metrics::{Levels, Texel};
 use crate::picture::{LinearPicture, Picture, Picture8};
 
+mod encoder;
 mod error;
 mod netpbm;
 mod png;
 mod replace;
 
+pub use encoder::Encoder;
 pub use error::{DecodeError, EncodeError, ImageFileError};
-pub use netpbm::{encode_pfm, encode_ppm};
+pub use netpbm::{PpmWriter, encode_pfm, encode_ppm};
 pub use png::encode_png;
-pub use replace::write_file;
+pub use replace::{write_file, write_file_by};
 
 /// Pixels of the largest picture that is read, 8192 × 8192: beyond that a file is more likely broken, or hostile, than meant.
 pub const MAX_PIXELS: u64 = 1 << 26;
@@ -145,13 +147,21 @@ impl FilePicture {
     /// # Errors
     /// If the picture has no pixels, or more than the format can count.
     pub fn encode(&self, format: Format) -> Result<Vec<u8>, EncodeError> {
+        self.encoder(format).map(Encoder::bytes)
+    }
+
+    /// The same, to be written in pieces.
+    ///
+    /// # Errors
+    /// As [`FilePicture::encode`].
+    pub fn encoder(&self, format: Format) -> Result<Encoder<'_>, EncodeError> {
         match (format, &self.texels) {
-            (Format::Png, FileTexels::Stored(picture)) => encode_png(picture),
-            (Format::Png, FileTexels::Linear(_)) => encode_png(&self.to_stored()),
-            (Format::Ppm, FileTexels::Stored(picture)) => encode_ppm(picture),
-            (Format::Ppm, FileTexels::Linear(_)) => encode_ppm(&self.to_stored()),
-            (Format::Pfm, FileTexels::Linear(picture)) => encode_pfm(picture),
-            (Format::Pfm, FileTexels::Stored(_)) => encode_pfm(&self.to_linear()),
+            (Format::Png, FileTexels::Stored(picture)) => Encoder::png(picture),
+            (Format::Png, FileTexels::Linear(_)) => Encoder::png(&self.to_stored()),
+            (Format::Ppm, FileTexels::Stored(picture)) => Encoder::ppm(Cow::Borrowed(picture)),
+            (Format::Ppm, FileTexels::Linear(_)) => Encoder::ppm(Cow::Owned(self.to_stored())),
+            (Format::Pfm, FileTexels::Linear(picture)) => Encoder::pfm(Cow::Borrowed(picture)),
+            (Format::Pfm, FileTexels::Stored(_)) => Encoder::pfm(Cow::Owned(self.to_linear())),
         }
     }
 
@@ -178,8 +188,8 @@ pub fn comparable(reference: &FilePicture, actual: &FilePicture) -> [Picture<Lev
 /// If the ending names no format, the format cannot hold the picture, or the file cannot be written.
 pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFileError> {
     let format = Format::of_path(path)?;
-    let bytes = picture.encode(format).map_err(|source| ImageFileError::Encode { path: path.to_owned(), source })?;
-    write_file(path, &bytes)
+    let encoder = picture.encoder(format).map_err(|source| ImageFileError::Encode { path: path.to_owned(), source })?;
+    write_file_by(path, |file| encoder.write_to(file))
 }
 
 /// Reads a picture of any of the formats, whatever the path ends in.

@@ -1,11 +1,12 @@
 //! PPM and PFM: a short header in text, then the samples.
 
-use std::format;
-use std::str;
+use std::borrow::Cow;
+use std::io::{self, Write};
 use std::vec::Vec;
+use std::{format, str, vec};
 
-use super::{DecodeError, EncodeError, Format, checked_size};
-use crate::picture::{LinearPicture, Picture, Picture8};
+use super::{DecodeError, EncodeError, Encoder, Format, checked_size};
+use crate::picture::{LinearPicture, Picture8};
 
 /// Longest side that is written; readers are not bound to accept more.
 const MAX_SIDE: usize = (1 << 31) - 1;
@@ -15,11 +16,7 @@ const MAX_SIDE: usize = (1 << 31) - 1;
 /// # Errors
 /// If the picture has no pixels, or a side longer than 2³¹ − 1.
 pub fn encode_ppm(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
-    let [width, height] = size(picture)?;
-    let mut bytes = format!("P6\n{width} {height}\n255\n").into_bytes();
-    bytes.reserve_exact(3 * picture.texels().len());
-    bytes.extend(picture.texels().iter().flat_map(|&[r, g, b, _]| [r, g, b]));
-    Ok(bytes)
+    Encoder::ppm(Cow::Borrowed(picture)).map(Encoder::bytes)
 }
 
 /// The bytes of a PFM file: red, green, blue as little-endian floats, the bottom row first; alpha is dropped.
@@ -27,22 +24,125 @@ pub fn encode_ppm(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
 /// # Errors
 /// If the picture has no pixels, or a side longer than 2³¹ − 1.
 pub fn encode_pfm(picture: &LinearPicture) -> Result<Vec<u8>, EncodeError> {
-    let [width, height] = size(picture)?;
-    // The sign of the scale tells the order of bytes: negative is little-endian.
-    let mut bytes = format!("PF\n{width} {height}\n-1.0\n").into_bytes();
-    bytes.reserve_exact(12 * picture.texels().len());
-    for y in (0..height).rev() {
-        for &[r, g, b, _] in picture.row(y) {
-            bytes.extend([r, g, b].iter().flat_map(|sample| sample.to_le_bytes()));
-        }
-    }
-    Ok(bytes)
+    Encoder::pfm(Cow::Borrowed(picture)).map(Encoder::bytes)
 }
 
-fn size<T: Copy>(picture: &Picture<T>) -> Result<[usize; 2], EncodeError> {
-    let (width, height) = (picture.width(), picture.height());
+/// Writes a binary PPM file from the top, as [`encode_ppm`] has it, of a picture that need not be in memory as a whole.
+#[derive(Debug)]
+pub struct PpmWriter<W> {
+    pieces: Pieces<W>,
+    /// Pixels that are still to come.
+    missing: u64,
+}
+
+impl<W: Write> PpmWriter<W> {
+    /// A file of `width` × `height` pixels into `out`, which needs no buffer.
+    ///
+    /// # Errors
+    /// If there are no pixels, or a side is longer than 2³¹ − 1.
+    pub fn new(out: W, width: usize, height: usize) -> Result<Self, EncodeError> {
+        check_size(width, height)?;
+        let pieces = Pieces::new(out, &format!("P6\n{width} {height}\n255\n"));
+        Ok(PpmWriter { pieces, missing: width as u64 * height as u64 })
+    }
+
+    /// The next texels, row by row; alpha is dropped.
+    ///
+    /// # Errors
+    /// If they cannot be written, or are more than the file has pixels.
+    pub fn texels(&mut self, texels: &[[u8; 4]]) -> io::Result<()> {
+        let wrong = || io::Error::new(io::ErrorKind::InvalidInput, "there are more texels than pixels of the picture");
+        self.missing = self.missing.checked_sub(texels.len() as u64).ok_or_else(wrong)?;
+        for texels in texels.chunks(RUN) {
+            without_alpha(texels, self.pieces.room(3 * texels.len())?);
+        }
+        Ok(())
+    }
+
+    /// Writes what is left.
+    ///
+    /// # Errors
+    /// If it cannot be written, or texels are missing.
+    pub fn finish(self) -> io::Result<()> {
+        match self.missing {
+            0 => self.pieces.finish(),
+            n => Err(io::Error::new(io::ErrorKind::UnexpectedEof, format!("{n} pixels of the picture are missing"))),
+        }
+    }
+}
+
+/// Writes the bytes of [`encode_pfm`], of a picture that fits.
+pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<()> {
+    // The sign of the scale tells the order of bytes: negative is little-endian.
+    let mut pieces = Pieces::new(out, &format!("PF\n{} {}\n-1.0\n", picture.width(), picture.height()));
+    for y in (0..picture.height()).rev() {
+        for texels in picture.row(y).chunks(RUN) {
+            let samples = pieces.room(12 * texels.len())?.as_chunks_mut::<4>().0.as_chunks_mut::<3>().0;
+            for (samples, &[r, g, b, _]) in samples.iter_mut().zip(texels) {
+                *samples = [r, g, b].map(f32::to_le_bytes);
+            }
+        }
+    }
+    pieces.finish()
+}
+
+/// The colours of `texels`, three bytes each, into `bytes`.
+fn without_alpha(texels: &[[u8; 4]], bytes: &mut [u8]) {
+    // Four texels fill three words.
+    let (fours, last_texels) = texels.as_chunks::<4>();
+    let (words, last_bytes) = bytes.split_at_mut(12 * fours.len());
+    for (words, &four) in words.as_chunks_mut::<4>().0.as_chunks_mut::<3>().0.iter_mut().zip(fours) {
+        let [a, b, c, d] = four.map(|[r, g, b, _]| u32::from_le_bytes([r, g, b, 0]));
+        *words = [a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8].map(u32::to_le_bytes);
+    }
+    for (bytes, texel) in last_bytes.chunks_exact_mut(3).zip(last_texels) {
+        bytes.copy_from_slice(&texel[..3]);
+    }
+}
+
+/// Texels that are converted at a time.
+const RUN: usize = 1 << 10;
+
+/// Bytes that are written at a time: enough for the cost of a call not to show, few enough to stay in a cache, and whole
+/// pages of the file.
+const PIECE: usize = 1 << 17;
+
+/// The bytes of a file on their way out.
+#[derive(Debug)]
+struct Pieces<W> {
+    out: W,
+    /// Room for a piece and a run of texels.
+    bytes: Vec<u8>,
+    filled: usize,
+}
+
+impl<W: Write> Pieces<W> {
+    fn new(out: W, header: &str) -> Self {
+        let mut bytes = vec![0; PIECE + 12 * RUN];
+        bytes[..header.len()].copy_from_slice(header.as_bytes());
+        Pieces { out, bytes, filled: header.len() }
+    }
+
+    /// The next `count` bytes, at most those of a run, to be filled.
+    fn room(&mut self, count: usize) -> io::Result<&mut [u8]> {
+        if self.filled >= PIECE {
+            self.out.write_all(&self.bytes[..PIECE])?;
+            self.bytes.copy_within(PIECE..self.filled, 0);
+            self.filled -= PIECE;
+        }
+        self.filled += count;
+        Ok(&mut self.bytes[self.filled - count..self.filled])
+    }
+
+    fn finish(mut self) -> io::Result<()> {
+        self.out.write_all(&self.bytes[..self.filled])
+    }
+}
+
+/// Whether both sides can be written down.
+pub(super) fn check_size(width: usize, height: usize) -> Result<(), EncodeError> {
     let fits = |side| (1..=MAX_SIDE).contains(&side);
-    if fits(width) && fits(height) { Ok([width, height]) } else { Err(EncodeError { width, height }) }
+    if fits(width) && fits(height) { Ok(()) } else { Err(EncodeError { width, height }) }
 }
 
 /// The picture in a binary PPM file (P6); samples of another range than 255 are scaled to it and rounded.

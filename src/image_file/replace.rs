@@ -11,14 +11,23 @@ use super::ImageFileError;
 
 /// Writes a file that is either complete or not there: beside its place first, then renamed.
 ///
-/// A file already there is replaced, with its permissions kept, and stays as it was if anything fails; a link is
-/// followed. What is not a plain file, such as a pipe or a device, is written to directly.
+/// A file already there is replaced, with its permissions kept, and stays as it was if anything fails, the power too: the
+/// new bytes are on the disk before they take its name. Where none was there is nothing to lose, and that is not waited for:
+/// a process that is killed leaves a complete file or none, but a machine that stops within seconds may leave one
+/// that is cut off. A link is followed. What is not a plain file, such as a pipe or a device, is written to directly.
 ///
 /// # Errors
 /// If the directory does not exist or cannot be written to, the place is a directory or a read-only file, or the disk is full.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
-    replace(path, |file| file.write_all(bytes))
-        .map_err(|source| ImageFileError::Write { path: path.to_owned(), source })
+    write_file_by(path, |file| file.write_all(bytes))
+}
+
+/// As [`write_file`], with the bytes that `write` writes.
+///
+/// # Errors
+/// As [`write_file`], and if `write` fails.
+pub fn write_file_by(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), ImageFileError> {
+    replace(path, |file| write(file)).map_err(|source| ImageFileError::Write { path: path.to_owned(), source })
 }
 
 fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
@@ -44,8 +53,9 @@ fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
     write(&mut file)?;
     if let Some(old) = old {
         file.set_permissions(old.permissions())?;
+        // Else a loss of power could leave neither: the name may reach the disk before the bytes.
+        file.sync_all()?;
     }
-    file.sync_all()?;
     drop(file);
     draft.rename(&place)
 }

@@ -60,6 +60,73 @@ fn the_bytes_are_those_of_the_formats() {
     assert_eq!(samples[12..20], [0, 0, 0x80, 0x3f, 0, 0, 0, 0x3f]);
 }
 
+/// Sizes about the ends of what is converted and written at a time.
+const SIZES: [[usize; 2]; 8] = [[1, 1], [3, 1], [1, 5], [4, 4], [1023, 3], [1025, 2], [90_001, 1], [301, 300]];
+
+#[test]
+fn large_pictures_are_written_as_small_ones() {
+    for [width, height] in SIZES {
+        let texel = |i: usize| [i as u8, (i >> 8) as u8, (i >> 16) as u8 ^ 0xa5, (i * 3) as u8];
+        let picture = Picture8::from_texels(width, height, (0..width * height).map(texel).collect()).unwrap();
+        let mut expected = format!("P6\n{width} {height}\n255\n").into_bytes();
+        expected.extend(picture.texels().iter().flat_map(|&[r, g, b, _]| [r, g, b]));
+        assert!(encode_ppm(&picture).unwrap() == expected, "{width}x{height}");
+
+        // In parts that end anywhere.
+        let mut bytes = Vec::new();
+        let mut file = PpmWriter::new(&mut bytes, width, height).unwrap();
+        for texels in picture.texels().chunks(1 + width * height / 7) {
+            file.texels(texels).unwrap();
+        }
+        file.finish().unwrap();
+        assert!(bytes == expected, "{width}x{height} in parts");
+
+        let texel = |i: usize| [i as f32, -(i as f32), 1.0 / (i as f32), 0.5];
+        let picture = LinearPicture::from_texels(width, height, (0..width * height).map(texel).collect()).unwrap();
+        let mut expected = format!("PF\n{width} {height}\n-1.0\n").into_bytes();
+        for y in (0..height).rev() {
+            expected.extend(picture.row(y).iter().flat_map(|texel| texel[..3].iter().flat_map(|c| c.to_le_bytes())));
+        }
+        assert!(encode_pfm(&picture).unwrap() == expected, "{width}x{height}");
+    }
+}
+
+/// Something that notes how many bytes it is given at a time.
+#[derive(Default)]
+struct Sizes(Vec<usize>);
+
+impl io::Write for Sizes {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.push(bytes.len());
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn files_are_written_in_whole_pages() {
+    for format in [Format::Ppm, Format::Pfm] {
+        let picture = FilePicture::linear(LinearPicture::new(301, 300, [0.5; 4]));
+        let mut sizes = Sizes::default();
+        picture.encoder(format).unwrap().write_to(&mut sizes).unwrap();
+        let (last, pieces) = sizes.0.split_last().unwrap();
+        assert!(!pieces.is_empty() && pieces.iter().all(|size| size.is_multiple_of(4096)), "{:?}", sizes.0);
+        assert_eq!(pieces.iter().sum::<usize>() + last, picture.encode(format).unwrap().len());
+    }
+}
+
+#[test]
+fn a_file_has_as_many_texels_as_its_header_says() {
+    let mut file = PpmWriter::new(Vec::new(), 3, 2).unwrap();
+    file.texels(&[[1; 4]; 4]).unwrap();
+    assert_eq!(file.texels(&[[1; 4]; 3]).unwrap_err().kind(), io::ErrorKind::InvalidInput);
+    assert_eq!(file.finish().unwrap_err().to_string(), "2 pixels of the picture are missing");
+    assert_eq!(PpmWriter::new(Vec::new(), 0, 2).unwrap_err(), EncodeError { width: 0, height: 2 });
+}
+
 #[test]
 fn pictures_are_converted_to_what_a_format_holds() {
     let shades = LinearPicture::from_texels(2, 1, vec![[0.5, 2.0, f32::NAN, 1.0], [0.0, 0.25, 1.0, 0.0]]).unwrap();

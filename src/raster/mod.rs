@@ -36,6 +36,6 @@ pub use engine::{Engine, Plan, Renderer};
 pub use interpolated::{barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours};
 pub use visibility::NOTHING;
 
-pub(crate) use bands::{Bands, PictureBands};
+pub(crate) use bands::{Bands, PictureBands, StreamedBands};
 pub(crate) use supersampling::{draw_anyhow, draw_rows};
 pub(crate) use target::{Target, Texel, clear, linear_picture, picture8};

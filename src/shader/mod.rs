@@ -12,6 +12,7 @@ mod dispatch;
 mod info;
 mod span;
 mod spread;
+mod streamed;
 mod table;
 
 pub mod illumination;

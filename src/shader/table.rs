@@ -47,7 +47,7 @@ pub struct Entry {
     pub info: &'static Info,
     draw: fn(&Frame, &[u32], &mut dyn Target),
     can_draw: fn(Engine, &Frame) -> bool,
-    draw_bands: fn(Engine, &Frame, &[u32], Level, &mut dyn Bands) -> bool,
+    pub(super) draw_bands: fn(Engine, &Frame, &[u32], Level, &mut dyn Bands) -> bool,
     draw_barycentric: Option<DrawBarycentric>,
     count: fn(&[u32], &SpanBench) -> OperationCounts,
     span: fn(&[u32], &SpanBench, &mut [[f32; 3]]),

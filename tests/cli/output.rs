@@ -64,6 +64,7 @@ fn a_reader_that_goes_away_ends_it_quietly() {
         ("info teapot", 0),
         ("--help", 0),
         ("render builtin:sphere --size 640x480 -o -", 0),
+        ("render builtin:sphere --size 640x480 -o - --format ppm", 0),
         ("diff a.ppm b.ppm --fail-above 0", 1),
     ] {
         folder.write("a.ppm", "P6 1 1 255\nabc").write("b.ppm", "P6 1 1 255\nxyz");

@@ -89,6 +89,7 @@ fn statistics_count_what_is_left_out() {
     assert_eq!(folder.names(), ["mesh.obj"], "statistics alone draw nothing");
     let verbose = folder.run("render mesh.obj --view 0,0 --size 64x48 -o out.png --verbose").done();
     verbose.says("zero-area").says("shaded in").says("warning: 2 of 4");
+    folder.run("render mesh.obj --view 0,0 --size 64x48 -o out.ppm --verbose").done().says("shaded and written in");
     let quiet = folder.run("render mesh.obj --view 0,0 --size 64x48 -o out.png --quiet").done();
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
 }

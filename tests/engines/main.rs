@@ -6,4 +6,5 @@ mod support;
 mod agreement;
 mod coverage;
 mod frames;
+mod streamed;
 mod threads;

@@ -1,7 +1,6 @@
 //! Corners of faces: `v`, `v/vt`, `v//vn` and `v/vt/vn`, and what their indices name.
 
 use super::error::{ObjProblem, quote};
-use std::string::String;
 use std::vec::Vec;
 
 /// A corner as resolved: position and, if given, normal, both counted from 0.
@@ -76,7 +75,7 @@ pub(super) fn resolve(
 }
 
 /// Appends `number` in decimal. Faster than `write!`, and there are as many numbers as corners.
-pub(super) fn push_decimal(text: &mut String, mut number: usize) {
+pub(super) fn push_decimal(text: &mut Vec<u8>, mut number: usize) {
     // 20 digits hold every 64-bit number.
     let mut digits = [0_u8; 20];
     let mut start = digits.len();
@@ -88,6 +87,5 @@ pub(super) fn push_decimal(text: &mut String, mut number: usize) {
             break;
         }
     }
-    // Digits are text: the conversion cannot fail.
-    text.push_str(std::str::from_utf8(&digits[start..]).unwrap_or_default());
+    text.extend_from_slice(&digits[start..]);
 }

@@ -1,4 +1,4 @@
-//! The text of OBJ and MTL files: decoding, lines, comments, continued lines.
+//! The text of OBJ and MTL files: decoding, lines, comments, continued lines, words that are plainly numbers.
 
 use std::borrow::Cow;
 use std::string::String;
@@ -16,7 +16,8 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
 
 /// The number, counted from 1, of the first line with a byte that text does not have (a NUL), if there is one.
 pub(super) fn binary_line(bytes: &[u8]) -> Option<usize> {
-    let at = bytes.iter().position(|&byte| byte == 0)?;
+    // Nearly no file has one, and `contains` looks at several bytes at a time.
+    let at = if bytes.contains(&0) { bytes.iter().position(|&byte| byte == 0)? } else { return None };
     Some(1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count())
 }
 
@@ -98,4 +99,42 @@ pub(super) fn keyword(statement: &str) -> (&str, &str) {
 pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {
     let comment = rest.match_indices('#').map(|(at, _)| at).find(|&at| rest[..at].ends_with(char::is_whitespace));
     core::iter::once(rest).chain(comment.map(|at| rest[..at].trim_end()))
+}
+
+/// Whether `word` is a finite `f32` by its looks: a sign or none, then digits with at most one point among them.
+pub(super) fn is_plain_number(word: &str) -> bool {
+    let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word).as_bytes();
+    let (mut digits, mut points) = (0, 0);
+    for &byte in unsigned {
+        digits += usize::from(byte.is_ascii_digit());
+        points += usize::from(byte == b'.');
+    }
+    // f32 reaches past 10^38.
+    digits + points == unsigned.len() && points <= 1 && (1..=38).contains(&digits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_plain_number;
+    use crate::test_random::Random;
+    use std::string::String;
+
+    #[test]
+    fn what_looks_like_a_number_is_one() {
+        let mut random = Random::new(9);
+        let mut plain = 0;
+        for _ in 0..200_000 {
+            let length = 1 + random.below(5);
+            let letter = |_| b"+-..012789e"[random.below(11) as usize] as char;
+            let word: String = (0..length).map(letter).collect();
+            if is_plain_number(&word) {
+                plain += 1;
+                assert!(word.parse().is_ok_and(f32::is_finite), "{word}");
+            }
+        }
+        assert!(plain > 10_000, "{plain}");
+        let nines = "9".repeat(39);
+        assert!(nines[1..].parse().is_ok_and(f32::is_finite) && is_plain_number(&nines[1..]));
+        assert!(!is_plain_number(&nines) && !is_plain_number(""));
+    }
 }

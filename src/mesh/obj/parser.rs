@@ -20,7 +20,7 @@ pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
         tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: true, ignore_lines: true };
     // No `mtllib` reaches the parser, so that this is never asked.
     let no_library = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
-    let (models, _) = guarded(|| tobj::load_obj_buf(&mut scan.text.as_bytes(), &options, no_library))?;
+    let (models, _) = guarded(|| tobj::load_obj_buf(&mut &scan.text[..], &options, no_library))?;
     let [model] = <[tobj::Model; 1]>::try_from(models).map_err(|models| format!("{} models", models.len()))?;
     let mut mesh = model.mesh;
     if mesh.face_arities.is_empty() {

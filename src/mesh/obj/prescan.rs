@@ -7,7 +7,7 @@
 
 use super::corner::{Corner, WrittenCorner, push_decimal, resolve};
 use super::error::{ObjProblem, quote};
-use super::lines::{Statements, keyword, without_comment};
+use super::lines::{Statements, is_plain_number, keyword, without_comment};
 use std::collections::HashMap;
 use std::format;
 use std::string::String;
@@ -49,7 +49,7 @@ impl Tally {
 #[derive(Default)]
 pub(super) struct Prescan {
     /// The text for the parser.
-    pub text: String,
+    pub text: Vec<u8>,
     /// How many polygons it holds.
     pub polygons: usize,
     /// How many corners they have together.
@@ -112,7 +112,7 @@ type Failure = (Option<usize>, ObjProblem);
 /// # Errors
 /// The first line that is wrong, and how.
 pub(super) fn prescan(text: &str, limits: Limits) -> Result<Prescan, Failure> {
-    let mut scan = Prescan { text: String::with_capacity(text.len()), ..Prescan::default() };
+    let mut scan = Prescan { text: Vec::with_capacity(text.len()), ..Prescan::default() };
     let mut corners = Vec::new();
     for (line, statement) in Statements::new(text) {
         scan.statement(line, &statement, &mut corners, limits).map_err(|problem| (Some(line), problem))?;
@@ -201,17 +201,22 @@ impl Prescan {
         let bad = |word: &str| ObjProblem::BadNumber { keyword, found: quote(word) };
         let mut found = 0;
         let mut more = [0.0; 3];
-        self.text.push_str(keyword);
+        self.text.extend_from_slice(keyword.as_bytes());
         for word in without_comment(rest).split_ascii_whitespace() {
+            found += 1;
+            if found <= 3 {
+                self.text.push(b' ');
+                self.text.extend_from_slice(word.as_bytes());
+                // The parser finds its value; most are plainly numbers, and need not be read twice.
+                if is_plain_number(word) {
+                    continue;
+                }
+            }
             let number: f32 = word.parse().map_err(|_| bad(word))?;
             if !number.is_finite() {
                 return Err(bad(word));
             }
-            found += 1;
-            if found <= 3 {
-                self.text.push(' ');
-                self.text.push_str(word);
-            } else if found <= 6 {
+            if (4..=6).contains(&found) {
                 more[found - 4] = number;
             }
         }
@@ -219,12 +224,12 @@ impl Prescan {
             return Err(ObjProblem::TooFewNumbers { keyword, found });
         }
         if keyword == "vn" {
-            self.text.push('\n');
+            self.text.push(b'\n');
             self.normals += 1;
             return Ok(());
         }
         self.colour(line, (found == 6).then_some(more));
-        self.text.push('\n');
+        self.text.push(b'\n');
         self.positions += 1;
         if found == 4 && more[0] != 1.0 {
             self.weights.add(line);
@@ -247,7 +252,7 @@ impl Prescan {
         }
         if colours.written {
             let [r, g, b] = colour.unwrap_or([1.0; 3]);
-            self.text.push_str(&format!(" {r} {g} {b}"));
+            self.text.extend_from_slice(format!(" {r} {g} {b}").as_bytes());
         }
     }
 
@@ -287,17 +292,17 @@ impl Prescan {
     }
 
     fn write_face(&mut self, line: usize, corners: &[Corner]) {
-        self.text.push('f');
+        self.text.push(b'f');
         for &(position, normal) in corners {
-            self.text.push(' ');
+            self.text.push(b' ');
             push_decimal(&mut self.text, position + 1);
             if let Some(normal) = normal {
-                self.text.push_str("//");
+                self.text.extend_from_slice(b"//");
                 push_decimal(&mut self.text, normal + 1);
                 self.corners_with_normal += 1;
             }
         }
-        self.text.push('\n');
+        self.text.push(b'\n');
         if corners.iter().any(|(_, normal)| normal.is_none()) {
             self.faces_without_normal.add(line);
         }

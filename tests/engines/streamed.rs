@@ -1,0 +1,60 @@
+//! Rows that are given away while others are not yet drawn make the same picture.
+
+use super::frames::kinds;
+use crate::support::renderers::{name, on_threads, renderers};
+use fastphong::frame::Frame;
+use fastphong::picture::{Picture, Picture8};
+use fastphong::raster::Renderer;
+use fastphong::shader::{METHODS, Variant};
+use std::convert::Infallible;
+
+/// More rows than either engine draws before it gives some away, on one thread and on two.
+const HEIGHT: u32 = 270;
+
+/// The picture of the rows that are given away, and in how many parts they were.
+fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, usize) {
+    let (mut texels, mut parts) = (Vec::new(), 0);
+    let Ok(()) = variant.render_rows(frame, renderer, |rows| {
+        assert!(!rows.is_empty() && rows.len().is_multiple_of(frame.picture_width()), "whole rows");
+        texels.extend_from_slice(rows);
+        parts += 1;
+        Ok::<(), Infallible>(())
+    });
+    let picture =
+        Picture::from_texels(frame.picture_width(), frame.picture_height(), texels).expect("every texel once");
+    (picture, parts)
+}
+
+#[test]
+fn rows_make_the_picture() {
+    let mut in_parts = 0;
+    for (kind, frame) in kinds(21, HEIGHT) {
+        for variant in METHODS.iter().map(|entry| entry.variant()) {
+            for renderer in renderers() {
+                let mut whole = Picture::new(0, 0, [0; 4]);
+                variant.render_with(&frame, renderer, &mut whole);
+                for threads in [1, 2] {
+                    let (picture, parts) = on_threads(threads, || streamed(&variant, &frame, renderer));
+                    let who = format!("{kind}, {} by {}, {threads} threads", variant.info().name, name(renderer));
+                    assert!(picture == whole, "{who}: the rows make another picture");
+                    in_parts += usize::from(parts > 1);
+                }
+            }
+        }
+    }
+    assert!(in_parts > 0, "every picture was given away as a whole");
+}
+
+#[test]
+fn nothing_is_drawn_for_a_taker_that_failed() {
+    for (kind, frame) in kinds(21, HEIGHT) {
+        for renderer in renderers() {
+            let mut calls = 0;
+            let taken = METHODS[0].variant().render_rows(&frame, renderer, |_| {
+                calls += 1;
+                Err("full")
+            });
+            assert_eq!((taken, calls), (Err("full"), 1), "{kind} by {}", name(renderer));
+        }
+    }
+}
