@@ -18,13 +18,13 @@ pub(super) enum Colours<'a> {
 const MOST: usize = 16;
 
 impl Colours<'_> {
-    /// Stores the colours of two groups that begin with pixel `x` where their depth is finite, and the background elsewhere; of
-    /// the pixels `pixels` only, as far as there are any.
+    /// Stores the colours of two groups that begin with pixel `x` where their depth is finite, and the background elsewhere: all of
+    /// them if `is_whole`, else of the pixels `pixels` only, as far as there are any.
     #[inline(always)]
     fn store<M: Lanes>(
         &mut self,
         m: M,
-        x: usize,
+        (x, is_whole): (usize, bool),
         pixels: &Range<usize>,
         depth: Pair<M::F>,
         [r, g, b]: [Pair<M::F>; 3],
@@ -32,16 +32,14 @@ impl Colours<'_> {
         let infinite = m.splat(f32::INFINITY);
         match self {
             Colours::Packed(texels, background) => {
-                let own = pixels.start.max(x)..pixels.end.min(x + 2 * M::WIDTH).min(texels.len());
-                let is_whole = own.len() == 2 * M::WIDTH;
                 // Not into the row where it has other texels there: the colours themselves need not leave their registers then.
                 let mut aside = [[0; 4]; MOST];
                 let place = if is_whole { &mut texels[x..x + 2 * M::WIDTH] } else { &mut aside[..2 * M::WIDTH] };
                 let (first, second) = place.split_at_mut(M::WIDTH);
                 m.pack([r.0, g.0, b.0], m.less(depth.0, infinite), *background, first);
                 m.pack([r.1, g.1, b.1], m.less(depth.1, infinite), *background, second);
-                if !is_whole && own.start < own.end {
-                    texels[own.clone()].copy_from_slice(&aside[own.start - x..own.end - x]);
+                if !is_whole {
+                    copy_part(&aside[..2 * M::WIDTH], x, pixels, texels);
                 }
             }
             Colours::Linear(channels) => {
@@ -64,6 +62,15 @@ impl Colours<'_> {
         }
     }
 
+    /// How many texels there are.
+    #[inline(always)]
+    fn end(&self) -> usize {
+        match self {
+            Colours::Packed(texels, _) => texels.len(),
+            Colours::Linear(_) => 0,
+        }
+    }
+
     /// Nothing was drawn in the two groups that begin with pixel `x`.
     #[inline(always)]
     fn skip<M: Lanes>(&mut self, m: M, x: usize) {
@@ -77,6 +84,16 @@ impl Colours<'_> {
                 m.store(m.splat(f32::INFINITY), &mut depth[x + M::WIDTH..]);
             }
         }
+    }
+}
+
+/// Copies the texels of the pixels `pixels`, as far as there are any, from those that begin with pixel `x`.
+#[cold]
+#[inline(never)]
+fn copy_part(from: &[[u8; 4]], x: usize, pixels: &Range<usize>, texels: &mut [[u8; 4]]) {
+    let own = pixels.start.max(x)..pixels.end.min(x + from.len()).min(texels.len());
+    if own.start < own.end {
+        texels[own.clone()].copy_from_slice(&from[own.start - x..own.end - x]);
     }
 }
 
@@ -97,10 +114,12 @@ pub(super) fn row<S: Shader, M: Lanes>(
         // A copy that nothing else refers to: loads from it can leave the loop.
         let consts = all[material as usize];
         let mut x = from / (2 * M::WIDTH) * 2 * M::WIDTH;
+        let end = to.min(colours.end());
         for groups in band.row::<M, S::Pixel<M::F>>(row, x / M::WIDTH..to.div_ceil(2 * M::WIDTH) * 2) {
             let (depth, pixels) = Band::pixels::<M, S::Pixel<Pair<M::F>>>(m, groups);
             if m.any(m.less(depth.0.min(depth.1), infinite)) {
-                colours.store(m, x, &(from..to), depth, S::shade(&consts, pixels));
+                let is_whole = from <= x && x + 2 * M::WIDTH <= end;
+                colours.store(m, (x, is_whole), &(from..to), depth, S::shade(&consts, pixels));
             } else {
                 colours.skip(m, x);
             }
