@@ -90,6 +90,7 @@ pub mod shader;
 pub mod study;
 pub mod suggest;
 pub mod triangulate;
+mod vectorized;
 pub mod walk;
 
 #[cfg(test)]

@@ -38,6 +38,14 @@ pub struct ScreenVertex {
     pub inv_w: f32,
 }
 
+impl ScreenVertex {
+    /// Column and row as one number, to be read and written at once: the bits of the column below those of the row.
+    #[inline(always)]
+    pub(crate) fn place(&self) -> u64 {
+        u64::from(self.x.to_bits() as u32) | u64::from(self.y.to_bits() as u32) << 32
+    }
+}
+
 /// A vertex that clipping made: its attributes lie between those of two others and are never lit again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClipCorner {

@@ -15,6 +15,7 @@ mod side;
 mod tests;
 mod vertices;
 mod view;
+mod winding;
 
 use crate::camera::Camera;
 use crate::frame::{Frame, FrameError, FrameStats, Geometry, Polygon};

@@ -1,9 +1,11 @@
 //! The polygons of a scene that do not change with the camera, and which of them a camera sees.
 
 use super::view::{BEYOND_PLANES, Codes};
+use super::winding::{self, NO_PLACES, Places};
 use crate::frame::{FrameStats, Polygon, ScreenVertex};
 use crate::parallel::for_each_chunk;
 use crate::scene::{Clipping, Culling, Scene};
+use crate::vectorized::vectorized;
 use alloc::vec::Vec;
 
 /// Words of a chunk of polygons.
@@ -87,18 +89,40 @@ impl Sight<'_> {
         chunks.resize(self.table.count.div_ceil(CHUNK), Chunk::default());
         for_each_chunk(&mut chunks[..], 1, &|number, chunk: &mut [Chunk]| {
             chunk[0] = Chunk::default();
-            let end = self.table.count.min((number + 1) * CHUNK);
-            for (k, first) in (number * CHUNK..end).step_by(64).enumerate() {
-                chunk[0].words[k] = self.word(first, (end - first).min(64), &mut chunk[0].stats);
-            }
+            vectorized(
+                #[inline(always)]
+                || self.chunk(number, &mut chunk[0]),
+            );
         });
     }
 
+    /// Finds out of the polygons of chunk `number`.
+    #[inline(always)]
+    fn chunk(&self, number: usize, chunk: &mut Chunk) {
+        let end = self.table.count.min((number + 1) * CHUNK);
+        let mut places = NO_PLACES;
+        let (mut first, mut k) = (number * CHUNK, 0);
+        while first < end {
+            chunk.words[k] = self.word(first, (end - first).min(64), &mut places, &mut chunk.stats);
+            (first, k) = (first + 64, k + 1);
+        }
+    }
+
     /// Finds out of up to 64 polygons from `first` on.
-    fn word(&self, first: usize, count: usize, stats: &mut FrameStats) -> Word {
+    #[inline(always)]
+    fn word(&self, first: usize, count: usize, places: &mut Places, stats: &mut FrameStats) -> Word {
         let all = u64::MAX >> (64 - count);
-        let (clockwise, counter_clockwise) =
-            if self.table.starts.is_empty() { self.triangles(first, count) } else { self.shapes(first, count) };
+        let (clockwise, counter_clockwise) = if self.table.starts.is_empty() {
+            winding::of_triangles(self.triangles(first, count), self.vertices, places)
+        } else {
+            winding::of_polygons(
+                count,
+                #[inline(always)]
+                |k| self.polygon(first + k),
+                self.vertices,
+                places,
+            )
+        };
         let (outside, beyond) = self.codes.map_or((0, 0), |codes| self.beyond(codes, first, count));
         let has_normal = self.table.has_normal[first / 64];
         let number = |bits: u64| bits.count_ones() as usize;
@@ -126,57 +150,38 @@ impl Sight<'_> {
         Word { drawn: whole & (clockwise | counter_clockwise) & !culled, back, cut }
     }
 
-    /// Which of some triangles run clockwise on the picture, and which counter-clockwise.
-    fn triangles(&self, first: usize, count: usize) -> (u64, u64) {
-        let (mut clockwise, mut counter_clockwise) = (0, 0);
-        let corners = self.corners[3 * first..3 * (first + count)].as_chunks::<3>().0;
-        for (bit, triangle) in corners.iter().enumerate() {
-            let [a, b, c] = triangle.map(|v| {
-                let v = &self.vertices[v as usize];
-                [v.x, v.y].map(|c| i64::from(c.to_bits()))
-            });
-            let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-            clockwise |= u64::from(area > 0) << bit;
-            counter_clockwise |= u64::from(area < 0) << bit;
-        }
-        (clockwise, counter_clockwise)
-    }
-
-    /// Likewise of polygons of any shape.
-    fn shapes(&self, first: usize, count: usize) -> (u64, u64) {
-        let (mut clockwise, mut counter_clockwise) = (0, 0);
-        for bit in 0..count {
-            let area = doubled_area(self.polygon(first + bit).iter().map(|&v| {
-                let v = &self.vertices[v as usize];
-                [v.x, v.y]
-            }));
-            clockwise |= u64::from(area > 0) << bit;
-            counter_clockwise |= u64::from(area < 0) << bit;
-        }
-        (clockwise, counter_clockwise)
-    }
-
     /// Which of some polygons are outside the view, and which have a corner beyond a plane.
+    #[inline(always)]
     fn beyond(&self, codes: &[Codes], first: usize, count: usize) -> (u64, u64) {
-        let (mut outside, mut beyond) = (0, 0);
-        let mut found = |bit: usize, all: Codes, any: Codes| {
-            outside |= u64::from(all & !BEYOND_PLANES != 0) << bit;
-            beyond |= u64::from(any & BEYOND_PLANES != 0) << bit;
-        };
+        // What all corners of each polygon are beyond, and what any is.
+        let (mut all, mut any) = ([0; 64], [0; 64]);
         if self.table.starts.is_empty() {
-            let corners = self.corners[3 * first..3 * (first + count)].as_chunks::<3>().0;
-            for (bit, triangle) in corners.iter().enumerate() {
-                let [a, b, c] = triangle.map(|v| codes[v as usize]);
-                found(bit, a & b & c, a | b | c);
+            for (k, triangle) in self.triangles(first, count.min(64)).iter().enumerate() {
+                let [a, b, c] = *triangle;
+                let (a, b, c) = (codes[a as usize], codes[b as usize], codes[c as usize]);
+                (all[k], any[k]) = (a & b & c, a | b | c);
             }
-            return (outside, beyond);
+        } else {
+            for k in 0..count.min(64) {
+                all[k] = Codes::MAX;
+                for &v in self.polygon(first + k) {
+                    all[k] &= codes[v as usize];
+                    any[k] |= codes[v as usize];
+                }
+            }
         }
-        for bit in 0..count {
-            let of_corners = self.polygon(first + bit).iter().map(|&v| codes[v as usize]);
-            let (all, any) = of_corners.fold((Codes::MAX, 0), |(all, any), code| (all & code, any | code));
-            found(bit, all, any);
+        let (mut outside, mut beyond) = ([0; 64], [0; 64]);
+        for k in 0..64 {
+            outside[k] = u8::from(all[k] & !BEYOND_PLANES != 0);
+            beyond[k] = u8::from(any[k] & BEYOND_PLANES != 0);
         }
-        (outside, beyond)
+        (winding::bits(&outside), winding::bits(&beyond))
+    }
+
+    /// The corners of some polygons, where all are triangles.
+    #[inline(always)]
+    fn triangles(&self, first: usize, count: usize) -> &[[u32; 3]] {
+        self.corners[3 * first..3 * (first + count)].as_chunks().0
     }
 
     #[inline(always)]
@@ -232,7 +237,10 @@ impl Filling<'_> {
     pub fn fill(&self, first: usize, chunks: &[Chunk], out: &mut [Polygon]) {
         match chunks {
             [] => (),
-            [chunk] => self.fill_chunk(first, chunk, out),
+            [chunk] => vectorized(
+                #[inline(always)]
+                || self.fill_chunk(first, chunk, out),
+            ),
             _ => {
                 let (left, right) = chunks.split_at(chunks.len() / 2);
                 let (left_out, right_out) = out.split_at_mut(right[0].before - left[0].before);
@@ -242,26 +250,62 @@ impl Filling<'_> {
         }
     }
 
-    fn fill_chunk(&self, number: usize, chunk: &Chunk, out: &mut [Polygon]) {
+    #[inline(always)]
+    fn fill_chunk(&self, number: usize, chunk: &Chunk, mut out: &mut [Polygon]) {
+        let mut pieces = self.pieces[chunk.first_piece..].iter();
+        let is_plain = self.table.starts.is_empty() && self.table.materials.is_empty();
+        for (k, word) in chunk.words.iter().enumerate() {
+            let first = number * CHUNK + 64 * k;
+            if word.cut != 0 {
+                out = self.fill_cut(first, word, &mut pieces, out);
+                continue;
+            }
+            let (here, rest) = out.split_at_mut(word.drawn.count_ones() as usize);
+            match is_plain && word.drawn & word.back == 0 {
+                true => fill_plain(first, word.drawn, here),
+                false => self.fill_whole(first, word, here),
+            }
+            out = rest;
+        }
+    }
+
+    /// Writes the polygons of a word of which none is cut.
+    #[inline(always)]
+    fn fill_whole(&self, first: usize, word: &Word, out: &mut [Polygon]) {
+        let mut left = word.drawn;
+        for place in out {
+            let bit = left.trailing_zeros();
+            left &= left.wrapping_sub(1);
+            *place = self.whole(first + bit as usize, word.back >> (bit & 63) & 1 != 0);
+        }
+    }
+
+    /// Writes the polygons of any word, and the pieces that stand in the place of some; gives what is left of `out`.
+    #[inline(never)]
+    fn fill_cut<'o>(
+        &self,
+        first: usize,
+        word: &Word,
+        pieces: &mut core::slice::Iter<'_, Piece>,
+        out: &'o mut [Polygon],
+    ) -> &'o mut [Polygon] {
         let mut out = out.iter_mut();
         let mut put = |polygon| _ = out.next().map(|place| *place = polygon);
-        let mut pieces = self.pieces[chunk.first_piece..].iter();
-        for (k, word) in chunk.words.iter().enumerate() {
-            let mut left = word.drawn | word.cut;
-            while left != 0 {
-                let bit = left.trailing_zeros();
-                left &= left - 1;
-                let polygon = number * CHUNK + 64 * k + bit as usize;
-                if word.cut >> bit & 1 == 0 {
-                    put(self.whole(polygon, word.back >> bit & 1 != 0));
-                    continue;
-                }
-                while let Some(piece) = pieces.as_slice().first().filter(|piece| piece.source as usize == polygon) {
-                    put(self.piece(piece));
-                    pieces.next();
-                }
+        let mut left = word.drawn | word.cut;
+        while left != 0 {
+            let bit = left.trailing_zeros();
+            left &= left - 1;
+            let polygon = first + bit as usize;
+            if word.cut >> bit & 1 == 0 {
+                put(self.whole(polygon, word.back >> bit & 1 != 0));
+                continue;
+            }
+            while let Some(piece) = pieces.as_slice().first().filter(|piece| piece.source as usize == polygon) {
+                put(self.piece(piece));
+                pieces.next();
             }
         }
+        out.into_slice()
     }
 
     #[inline(always)]
@@ -280,6 +324,17 @@ impl Filling<'_> {
     fn piece(&self, piece: &Piece) -> Polygon {
         let &Piece { source, first, count, is_back } = piece;
         Polygon { first, count, material: self.table.material(source as usize), source, face: face(source, is_back) }
+    }
+}
+
+/// Writes triangles of the first lighting that are seen from the front: where all of a scene are such, nothing is looked up.
+#[inline(always)]
+fn fill_plain(first: usize, drawn: u64, out: &mut [Polygon]) {
+    let mut left = drawn;
+    for place in out {
+        let source = first as u32 + left.trailing_zeros();
+        left &= left.wrapping_sub(1);
+        *place = Polygon { first: 3 * source, count: 3, material: 0, source, face: source };
     }
 }
 

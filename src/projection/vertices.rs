@@ -5,6 +5,7 @@ use crate::camera::Projection;
 use crate::frame::{FrameError, Models, ScreenVertex, SubPixel};
 use crate::parallel::for_each_chunk;
 use crate::scene::Clipping;
+use crate::vectorized::vectorized;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use glam::{DMat4, DVec4};
 
@@ -37,7 +38,10 @@ pub(super) fn place(
             let to = end.min(object.end);
             let range = at - first..to - first;
             let placing = Placing::new(view, view.clip_matrix * DMat4::from(object.transform));
-            let found = placing.vertices(models, at, &mut vertices[range.clone()], &mut codes[range]);
+            let found = vectorized(
+                #[inline(always)]
+                || placing.vertices(models, at, &mut vertices[range.clone()], &mut codes[range]),
+            );
             match found {
                 Ok(false) => (),
                 Ok(true) => is_any_beyond.store(true, Ordering::Relaxed),
@@ -88,6 +92,7 @@ impl<'a> Placing<'a> {
     }
 
     /// Places vertices from `first` on; whether any is beyond a plane, or the number of one that is nowhere.
+    #[inline(always)]
     fn vertices(
         &self,
         models: &Models,
@@ -96,31 +101,58 @@ impl<'a> Placing<'a> {
         codes: &mut [Codes],
     ) -> Result<bool, usize> {
         let mut is_any_beyond = false;
-        for (block, (out, codes)) in vertices.chunks_mut(BLOCK).zip(codes.chunks_mut(BLOCK)).enumerate() {
-            let from = first + block * BLOCK;
-            let [x, y, z] = [&models.x, &models.y, &models.z].map(|all| lanes(&all[from..from + out.len()]));
-            let [c_x, c_y, c_z, c_w] = core::array::from_fn(|row| self.row(row, &x, &y, &z));
-            let is_inside = self.all_inside([1.0; 2], &c_x, &c_y, &c_z, &c_w);
-            if is_inside || (self.clips && self.all_inside(self.guard, &c_x, &c_y, &c_z, &c_w)) {
-                if self.is_perspective {
-                    self.block::<true>(&c_x, &c_y, &c_z, &c_w, out);
-                } else {
-                    self.block::<false>(&c_x, &c_y, &c_z, &c_w, out);
+        // The last block may have fewer vertices than there is room for.
+        let (mut last, mut last_codes) = ([ScreenVertex::default(); BLOCK], [0; BLOCK]);
+        let mut at = 0;
+        while at < vertices.len() {
+            let (out, codes) = (&mut vertices[at..], &mut codes[at..]);
+            let count = out.len().min(BLOCK);
+            match (out.first_chunk_mut(), codes.first_chunk_mut()) {
+                (Some(out), Some(codes)) => is_any_beyond |= self.block(models, first + at, BLOCK, out, codes)?,
+                _ => {
+                    is_any_beyond |= self.block(models, first + at, count, &mut last, &mut last_codes)?;
+                    out.copy_from_slice(&last[..count]);
+                    codes.copy_from_slice(&last_codes[..count]);
                 }
-                if !is_inside {
-                    is_any_beyond = true;
-                    sides(&c_x, &c_y, &c_w, codes);
-                }
-                continue;
             }
-            for (i, (vertex, codes)) in out.iter_mut().zip(codes).enumerate() {
-                let clip = DVec4::new(c_x[i], c_y[i], c_z[i], c_w[i]);
-                *codes = self.view.codes(clip);
-                *vertex = self.view.vertex(clip);
-                is_any_beyond |= *codes != 0;
-                if !clip.is_finite() || !self.view.is_valid(vertex) {
-                    return Err(from + i);
-                }
+            at += count;
+        }
+        Ok(is_any_beyond)
+    }
+
+    /// Places the `count` vertices of a block.
+    #[inline(always)]
+    fn block(
+        &self,
+        models: &Models,
+        from: usize,
+        count: usize,
+        out: &mut [ScreenVertex; BLOCK],
+        codes: &mut [Codes; BLOCK],
+    ) -> Result<bool, usize> {
+        let (x, y, z) = (lanes(&models.x, from, count), lanes(&models.y, from, count), lanes(&models.z, from, count));
+        let (c_x, c_y) = (self.row(0, &x, &y, &z), self.row(1, &x, &y, &z));
+        let (c_z, c_w) = (self.row(2, &x, &y, &z), self.row(3, &x, &y, &z));
+        let is_inside = self.all_inside([1.0; 2], &c_x, &c_y, &c_z, &c_w);
+        if is_inside || (self.clips && self.all_inside(self.guard, &c_x, &c_y, &c_z, &c_w)) {
+            if self.is_perspective {
+                self.on_picture::<true>(&c_x, &c_y, &c_z, &c_w, out);
+            } else {
+                self.on_picture::<false>(&c_x, &c_y, &c_z, &c_w, out);
+            }
+            if !is_inside {
+                sides(&c_x, &c_y, &c_w, codes);
+            }
+            return Ok(!is_inside);
+        }
+        let mut is_any_beyond = false;
+        for i in 0..count {
+            let clip = DVec4::new(c_x[i], c_y[i], c_z[i], c_w[i]);
+            codes[i] = self.view.codes(clip);
+            out[i] = self.view.vertex(clip);
+            is_any_beyond |= codes[i] != 0;
+            if !clip.is_finite() || !self.view.is_valid(&out[i]) {
+                return Err(from + i);
             }
         }
         Ok(is_any_beyond)
@@ -129,10 +161,10 @@ impl<'a> Placing<'a> {
     /// One coordinate in clip space, in the order of additions of a product of matrix and vector.
     #[inline(always)]
     fn row(&self, row: usize, x: &Lanes, y: &Lanes, z: &Lanes) -> Lanes {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|column| self.matrix.col(column)[row]);
+        let matrix = self.matrix.row(row);
         let mut clip = [0.0; BLOCK];
         for i in 0..BLOCK {
-            clip[i] = a * x[i] + b * y[i] + c * z[i] + d;
+            clip[i] = matrix.x * x[i] + matrix.y * y[i] + matrix.z * z[i] + matrix.w;
         }
         clip
     }
@@ -144,7 +176,7 @@ impl<'a> Placing<'a> {
         let mut inside = true;
         for i in 0..BLOCK {
             // As the planes compute it: the sign of a difference is exact.
-            let [right, bottom] = reach.map(|reach| reach * w[i]);
+            let (right, bottom) = (reach[0] * w[i], reach[1] * w[i]);
             inside &= (x[i].abs() <= right) & (y[i].abs() <= bottom) & (z[i] >= 0.0) & (z[i] <= w[i]);
             inside &= (w[i] >= self.least_w) & (w[i] <= self.most_w);
         }
@@ -153,44 +185,69 @@ impl<'a> Placing<'a> {
 
     /// What [`View::vertex`] gives for vertices inside all planes, to the bit. Orthographic ones have w = 1.
     #[inline(always)]
-    fn block<const PERSPECTIVE: bool>(&self, x: &Lanes, y: &Lanes, z: &Lanes, w: &Lanes, out: &mut [ScreenVertex]) {
-        let over_w = |c: f64, w: f64| if PERSPECTIVE { c / w } else { c };
-        let nearest = |pixels: f64| (pixels * 256.0 + ROUNDING).to_bits() as i32;
-        let (mut columns, mut rows) = ([0; BLOCK], [0; BLOCK]);
-        let (mut depths, mut weights) = ([0.0; BLOCK], [1.0; BLOCK]);
-        for i in 0..BLOCK {
-            columns[i] = nearest((over_w(x[i], w[i]) * 0.5 + 0.5) * self.size[0]);
-            rows[i] = nearest((0.5 - over_w(y[i], w[i]) * 0.5) * self.size[1]);
-            depths[i] = over_w(z[i], w[i]) as f32;
-        }
+    fn on_picture<const PERSPECTIVE: bool>(
+        &self,
+        x: &Lanes,
+        y: &Lanes,
+        z: &Lanes,
+        w: &Lanes,
+        out: &mut [ScreenVertex; BLOCK],
+    ) {
+        let mut weights = [1.0; BLOCK];
         if PERSPECTIVE && self.view.needs_inv_w {
             for i in 0..BLOCK {
                 weights[i] = (self.near / w[i]) as f32;
             }
         }
-        for (i, vertex) in out.iter_mut().enumerate() {
-            let [x, y] = [columns[i], rows[i]].map(SubPixel::from_bits);
-            *vertex = ScreenVertex { x, y, depth: depths[i], inv_w: weights[i] };
+        for i in 0..BLOCK {
+            out[i] = ScreenVertex {
+                x: nearest((over::<PERSPECTIVE>(x[i], w[i]) * 0.5 + 0.5) * self.size[0]),
+                y: nearest((0.5 - over::<PERSPECTIVE>(y[i], w[i]) * 0.5) * self.size[1]),
+                depth: over::<PERSPECTIVE>(z[i], w[i]) as f32,
+                inv_w: weights[i],
+            };
         }
     }
 }
 
+/// Divided by w, where that is not 1.
+#[inline(always)]
+fn over<const PERSPECTIVE: bool>(c: f64, w: f64) -> f64 {
+    if PERSPECTIVE { c / w } else { c }
+}
+
+/// To the nearest 1/256 pixel.
+#[inline(always)]
+fn nearest(pixels: f64) -> SubPixel {
+    SubPixel::from_bits((pixels * 256.0 + ROUNDING).to_bits() as i32)
+}
+
 /// The sides of the view that vertices between near and far plane are beyond, as [`View::codes`] has them.
 #[inline(always)]
-fn sides(x: &Lanes, y: &Lanes, w: &Lanes, codes: &mut [Codes]) {
-    let mut all = [0; BLOCK];
+fn sides(x: &Lanes, y: &Lanes, w: &Lanes, codes: &mut [Codes; BLOCK]) {
     for i in 0..BLOCK {
-        let bit = |beyond: bool, bit: Codes| if beyond { 1 << bit } else { 0 };
-        all[i] = bit(x[i] < -w[i], 0) | bit(x[i] > w[i], 1) | bit(y[i] < -w[i], 2) | bit(y[i] > w[i], 3);
+        let (left, right) = (Codes::from(x[i] < -w[i]), Codes::from(x[i] > w[i]));
+        let (bottom, top) = (Codes::from(y[i] < -w[i]), Codes::from(y[i] > w[i]));
+        codes[i] = left | right << 1 | bottom << 2 | top << 3;
     }
-    codes.copy_from_slice(&all[..codes.len()]);
 }
 
 /// A block's numbers; where there are fewer, the last one fills it.
 #[inline(always)]
-fn lanes(from: &[f32]) -> Lanes {
-    match <&[f32; BLOCK]>::try_from(from) {
-        Ok(whole) => whole.map(f64::from),
-        Err(_) => core::array::from_fn(|i| f64::from(from[i.min(from.len() - 1)])),
+fn lanes(all: &[f32], from: usize, count: usize) -> Lanes {
+    let of_block = &all[from..from + count];
+    let mut lanes = [0.0; BLOCK];
+    match of_block.first_chunk::<BLOCK>() {
+        Some(whole) => {
+            for i in 0..BLOCK {
+                lanes[i] = f64::from(whole[i]);
+            }
+        }
+        None => {
+            for i in 0..BLOCK {
+                lanes[i] = f64::from(of_block[i.min(count - 1)]);
+            }
+        }
     }
+    lanes
 }
