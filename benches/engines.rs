@@ -1,6 +1,6 @@
 //! Whole frames, from a prepared scene to the stored picture: both engines on every instruction set that this machine has,
 //! on one thread, beside the lecture's own form (`span` on `scalar`) and the floor: every pixel cleared, tested and written
-//! once.
+//! once. Four lights and a million triangles by the lecture's own form and by the fastest.
 
 mod scenes;
 
@@ -47,6 +47,26 @@ fn engines(c: &mut Criterion) {
     }
 }
 
+/// Four lights, and a million triangles: the lecture's own form and the fastest.
+fn large(c: &mut Criterion) {
+    for &(name, mesh, lights) in scenes::LARGE {
+        let prepared = scenes::lit(mesh, lights).prepare().expect("a valid scene");
+        let frame = prepared.frame().expect("a valid view");
+        let mut group = c.benchmark_group(format!("engines/{name}"));
+        group.sampling_mode(SamplingMode::Flat);
+        let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
+        for method in METHODS {
+            let variant = Variant::parse(method).expect("a method of the table");
+            for (renderer, kind) in [(Renderer::LECTURE, "lecture"), (Renderer::fastest(), "fastest")] {
+                group.bench_function(BenchmarkId::new(kind, method), |b| {
+                    b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
+                });
+            }
+        }
+        group.finish();
+    }
+}
+
 /// Clears depth and colour, tests depth and writes both, for every pixel, band by band.
 fn floor(depth: &mut [f32], texels: &mut [[u8; 4]]) {
     for band in texels.chunks_mut(depth.len()) {
@@ -66,7 +86,7 @@ criterion_group! {
     config = Criterion::default()
         .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(800));
-    targets = engines
+        .measurement_time(Duration::from_millis(600));
+    targets = engines, large
 }
 criterion_main!(benches);

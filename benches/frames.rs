@@ -1,4 +1,4 @@
-//! Whole pictures: every method in the scanline engine, and those that the barycentric renderer has in it.
+//! Whole pictures: every method in the lecture's own form and in the fastest, and those that the barycentric renderer has in it.
 //!
 //! From the projected frame to the stored picture, per covered pixel. `fastphong bench` times the same in interleaved
 //! rounds, and is the one to quote; this one tells whether a change of the code made it faster.
@@ -6,7 +6,8 @@
 mod scenes;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
-use fastphong::raster::{Edges, NOTHING, polygon_numbers};
+use fastphong::picture::Picture;
+use fastphong::raster::{Edges, NOTHING, Renderer, polygon_numbers};
 use fastphong::shader::METHODS;
 use fastphong::triangulate::triangulated;
 use std::hint::black_box;
@@ -25,6 +26,10 @@ fn frames(c: &mut Criterion) {
             group.bench_function(BenchmarkId::new("scanline", &variant), |b| {
                 b.iter(|| variant.render(black_box(&frame)));
             });
+            let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
+            group.bench_function(BenchmarkId::new("fastest", &variant), |b| {
+                b.iter(|| variant.render_with(black_box(&frame), Renderer::fastest(), &mut picture));
+            });
             if variant.info().barycentric {
                 group.bench_function(BenchmarkId::new("barycentric", &variant), |b| {
                     b.iter(|| variant.render_barycentric(black_box(&triangles), Edges::TopLeft));
@@ -38,9 +43,9 @@ fn frames(c: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default()
-        .sample_size(20)
-        .warm_up_time(Duration::from_millis(500))
-        .measurement_time(Duration::from_secs(3));
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_secs(1));
     targets = frames
 }
 criterion_main!(benches);
