@@ -168,43 +168,60 @@ impl Default for Batch {
 
 impl Batch {
     /// Reads triangles from the front of `numbers` until there are enough, or a polygon has another shape; gives how many. Of
-    /// `attributes` it reads the numbers of their corners, if there are any. In a loop of its own: nothing in it has to be
-    /// guessed, so that the reads of many overlap. Their places in memory are far from one another, and waiting for them took a
-    /// third of the time.
+    /// `attributes` it reads the numbers of their corners, if there are any.
+    ///
+    /// In loops of their own, in which nothing has to be guessed, and each of which reads from places that the one before has
+    /// found: so the reads of many triangles overlap. Their places in memory are far from one another, and waiting for them
+    /// took a third of the time.
     #[inline(always)]
     pub fn read<A: Attribute<f32>>(&mut self, frame: &Frame, attributes: Option<&[A]>, numbers: &[u32]) -> usize {
-        let (polygons, vertices) = (frame.polygons(), frame.vertices());
-        let mut k = 0;
+        let polygons = frame.polygons();
+        let (mut count, mut firsts) = (0, [0; MOST]);
         for &number in &numbers[..numbers.len().min(MOST)] {
             let polygon = &polygons[number as usize];
-            let &[a, b, c] = frame.corners(polygon) else { break };
-            self.material[k] = polygon.material;
+            if polygon.count != 3 {
+                break;
+            }
+            (firsts[count], self.material[count]) = (polygon.first, polygon.material);
             if attributes.is_none() {
-                (self.number[k], self.corners[k]) = (number, [a, b, c]);
+                self.number[count] = number;
             }
-            let corners = [a as usize, b as usize, c as usize];
-            let mut i = 0;
-            while i < 3 {
-                let vertex = &vertices[corners[i]];
-                (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
-                self.facets[0].corner(i)[k] = vertex.depth;
-                if let Some(attributes) = attributes {
-                    let mut facet = 1;
-                    each_number(
-                        attributes[corners[i]],
-                        #[inline(always)]
-                        |number| {
-                            self.facets[facet].corner(i)[k] = number;
-                            facet += 1;
-                        },
-                    );
-                }
-                i += 1;
-            }
-            k += 1;
+            count += 1;
         }
-        self.count = k;
-        k
+        for (corners, &first) in self.corners[..count].iter_mut().zip(&firsts) {
+            let found = frame.corners_from(first, 3);
+            *corners = [found[0], found[1], found[2]];
+        }
+        for k in 0..count {
+            self.read_corners(frame, attributes, k);
+        }
+        self.count = count;
+        count
+    }
+
+    /// Reads the corners of triangle `k`.
+    #[inline(always)]
+    fn read_corners<A: Attribute<f32>>(&mut self, frame: &Frame, attributes: Option<&[A]>, k: usize) {
+        let vertices = frame.vertices();
+        let corners = self.corners(k);
+        let mut i = 0;
+        while i < 3 {
+            let vertex = &vertices[corners[i]];
+            (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
+            self.facets[0].corner(i)[k] = vertex.depth;
+            if let Some(attributes) = attributes {
+                let mut facet = 1;
+                each_number(
+                    attributes[corners[i]],
+                    #[inline(always)]
+                    |number| {
+                        self.facets[facet].corner(i)[k] = number;
+                        facet += 1;
+                    },
+                );
+            }
+            i += 1;
+        }
     }
 
     /// How many were read.
@@ -231,7 +248,7 @@ impl Batch {
         (self.number[k], self.material[k])
     }
 
-    /// The corners of triangle `k`, likewise.
+    /// The corners of triangle `k`.
     #[inline(always)]
     pub fn corners(&self, k: usize) -> [usize; 3] {
         each(
