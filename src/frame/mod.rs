@@ -214,13 +214,7 @@ impl Frame {
     /// The vertex numbers of a polygon's corners, in order.
     #[inline]
     pub fn corners(&self, polygon: &Polygon) -> &[u32] {
-        self.corners_from(polygon.first, polygon.count as usize)
-    }
-
-    /// The vertex numbers of the `count` corners that begin with number `first`.
-    #[inline(always)]
-    pub(crate) fn corners_from(&self, first: u32, count: usize) -> &[u32] {
-        let first = first as usize;
+        let (first, count) = (polygon.first as usize, polygon.count as usize);
         let shared = &self.geometry.corners;
         if first < shared.len() {
             &shared[first..][..count]

@@ -11,40 +11,77 @@ const CHUNK: usize = 1 << 13;
 /// Polygons that are read, and then bounded, together.
 const GROUP: usize = 64;
 
+/// What stands for a polygon in the list of a band.
+pub(crate) trait Entry: Copy + Default + Send + Sync {
+    /// That of polygon `number`.
+    fn new(frame: &Frame, number: u32, polygon: &Polygon) -> Self;
+}
+
+/// Its number alone.
+impl Entry for u32 {
+    #[inline(always)]
+    fn new(_: &Frame, number: u32, _: &Polygon) -> u32 {
+        number
+    }
+}
+
+/// A polygon with its corners, if it is a triangle. Who reads a band finds them in a row, where polygons and their corner
+/// lists are spread over memory: two reads of which the second waits for the first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Listed {
+    /// Its number.
+    pub number: u32,
+    /// Its corners; [`Listed::OTHER`] where there are more of them.
+    pub corners: [u32; 3],
+}
+
+impl Listed {
+    /// Of what is no triangle.
+    pub const OTHER: [u32; 3] = [u32::MAX; 3];
+}
+
+impl Entry for Listed {
+    #[inline(always)]
+    fn new(frame: &Frame, number: u32, polygon: &Polygon) -> Listed {
+        let corners = if polygon.count == 3 { frame.corners(polygon) } else { &[] };
+        Listed { number, corners: corners.try_into().unwrap_or(Listed::OTHER) }
+    }
+}
+
 /// Polygons by band of scanlines, each band's in drawing order. Those that cover no pixel centre by their bounding box are
 /// left out.
 #[derive(Debug)]
-pub(crate) struct Bins {
-    chunks: Vec<Chunk>,
+pub(crate) struct Bins<E> {
+    chunks: Vec<Chunk<E>>,
 }
 
 /// Polygons that follow one another, by band; after the last band, those that are in none.
 #[derive(Clone, Debug, Default)]
-struct Chunk {
+struct Chunk<E> {
     starts: Vec<u32>,
-    polygons: Vec<u32>,
+    polygons: Vec<E>,
 }
 
 /// The first band of each polygon and the one after its last. There are at most
 /// [`MAX_SIDE`](crate::scene::Scene::MAX_SIDE) bands.
 type Ranges = [[u16; CHUNK]; 2];
 
-impl Bins {
+impl<E: Entry> Bins<E> {
     /// The polygons of `frame` in bands of `height` scanlines, a power of two.
     pub fn new(frame: &Frame, height: usize) -> Self {
         let chunks = frame.polygons().len().div_ceil(CHUNK);
         Bins { chunks: collect(chunks, 1, |number| Chunk::new(frame, height, number * CHUNK)) }
     }
 
-    /// The numbers of the polygons that may cover pixels of band `band`, ascending from list to list and within each.
-    pub fn band(&self, band: usize) -> impl Iterator<Item = &[u32]> {
+    /// The polygons that may cover pixels of band `band`, by ascending numbers from list to list and within each.
+    pub fn band(&self, band: usize) -> impl Iterator<Item = &[E]> {
         self.chunks
             .iter()
             .map(move |chunk| &chunk.polygons[chunk.starts[band] as usize..chunk.starts[band + 1] as usize])
     }
 }
 
-impl Chunk {
+impl<E: Entry> Chunk<E> {
     /// The polygons from number `first` on: a counting sort. Every polygon is in some list, if only in that of those which
     /// are in no band: that most have one place cannot be guessed wrong then.
     fn new(frame: &Frame, height: usize, first: usize) -> Self {
@@ -60,19 +97,19 @@ impl Chunk {
                 count(&ranges, all.len(), &mut starts);
             },
         );
-        let mut polygons = vec![0u32; starts[bands + 1] as usize];
+        let mut polygons = vec![E::default(); starts[bands + 1] as usize];
         let mut next = starts.clone();
-        let mut put = |band: u16, number: u32| {
+        let mut put = |band: u16, entry: E| {
             let place = &mut next[usize::from(band)];
-            polygons[*place as usize] = number;
+            polygons[*place as usize] = entry;
             *place += 1;
         };
         let [from, end] = &ranges;
-        for (k, (&from, &end)) in from[..all.len()].iter().zip(&end[..all.len()]).enumerate() {
-            let number = (first + k) as u32;
-            put(from, number);
-            for band in from + 1..end {
-                put(band, number);
+        for (k, polygon) in all.iter().enumerate() {
+            let entry = E::new(frame, (first + k) as u32, polygon);
+            put(from[k], entry);
+            for band in from[k] + 1..end[k] {
+                put(band, entry);
             }
         }
         Chunk { starts, polygons }
@@ -237,6 +274,25 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn triangles_are_listed_with_their_corners() {
+        let whole = frame(&mut Random::new(33), 400, 50, 40);
+        let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
+        let mut triangles = 0;
+        for frame in [&whole, &pieces] {
+            let (numbers, listed): (Bins<u32>, Bins<Listed>) = (Bins::new(frame, 8), Bins::new(frame, 8));
+            for band in 0..5 {
+                assert!(listed.band(band).flatten().map(|entry| &entry.number).eq(numbers.band(band).flatten()));
+                for entry in listed.band(band).flatten() {
+                    let corners = frame.corners(&frame.polygons()[entry.number as usize]);
+                    triangles += usize::from(corners.len() == 3);
+                    assert_eq!(entry.corners, *corners.as_array().unwrap_or(&Listed::OTHER));
+                }
+            }
+        }
+        assert!(triangles > 50, "{triangles}");
     }
 
     /// Also over several chunks, and where corner lists are not those of the scene: as those of pieces.

@@ -29,7 +29,7 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     let setup = SetUp::<S, Scalar>::new(Scalar, frame, parameters);
     let consts: Vec<S::Consts<M::F>> =
         frame.lightings().iter().map(|l| S::consts(l, parameters, &|x| m.splat(x))).collect();
-    let bins = Bins::new(frame, HEIGHT);
+    let bins = Bins::<u32>::new(frame, HEIGHT);
     let depth = SampleDepth::new(frame);
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
         let first = rows.start;

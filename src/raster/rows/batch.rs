@@ -4,6 +4,7 @@ use super::band::MOST_PLANES;
 use super::triangle::Triangle;
 use crate::frame::Frame;
 use crate::number::each;
+use crate::raster::bins::Listed;
 use crate::walk::Attribute;
 use core::ops::Range;
 
@@ -167,33 +168,37 @@ impl Default for Batch {
 }
 
 impl Batch {
-    /// Reads triangles from the front of `numbers` until there are enough, or a polygon has another shape; gives how many. Of
-    /// `attributes` it reads the numbers of their corners, if there are any.
+    /// Reads triangles from the front of `polygons` until there are enough, or a polygon has another shape; gives how many. Of
+    /// `attributes` it reads the numbers of their corners, if there are any; else the numbers of the triangles. Their materials are
+    /// read with their numbers, and if they are asked for.
     ///
-    /// In loops of their own, in which nothing has to be guessed, and each of which reads from places that the one before has
-    /// found: so the reads of many triangles overlap. Their places in memory are far from one another, and waiting for them
-    /// took a third of the time.
+    /// In loops of their own, in which nothing has to be guessed: so the reads of many triangles overlap. Their places in memory
+    /// are far from one another, and waiting for them took a third of the time.
     #[inline(always)]
-    pub fn read<A: Attribute<f32>>(&mut self, frame: &Frame, attributes: Option<&[A]>, numbers: &[u32]) -> usize {
-        let polygons = frame.polygons();
-        let (mut count, mut firsts) = (0, [0; MOST]);
-        for &number in &numbers[..numbers.len().min(MOST)] {
-            let polygon = &polygons[number as usize];
-            if polygon.count != 3 {
+    pub fn read<A: Attribute<f32>>(
+        &mut self,
+        frame: &Frame,
+        attributes: Option<&[A]>,
+        polygons: &[Listed],
+        with_materials: bool,
+    ) -> usize {
+        let mut count = 0;
+        for polygon in &polygons[..polygons.len().min(MOST)] {
+            if polygon.corners == Listed::OTHER {
                 break;
             }
-            (firsts[count], self.material[count]) = (polygon.first, polygon.material);
-            if attributes.is_none() {
-                self.number[count] = number;
-            }
+            self.corners[count] = polygon.corners;
             count += 1;
         }
-        for (corners, &first) in self.corners[..count].iter_mut().zip(&firsts) {
-            let found = frame.corners_from(first, 3);
-            *corners = [found[0], found[1], found[2]];
+        let polygons = &polygons[..count];
+        for (k, polygon) in polygons.iter().enumerate() {
+            self.read_corners(frame, attributes, k, polygon.corners);
         }
-        for k in 0..count {
-            self.read_corners(frame, attributes, k);
+        if with_materials || attributes.is_none() {
+            for (k, polygon) in polygons.iter().enumerate() {
+                self.number[k] = polygon.number;
+                self.material[k] = frame.polygons()[polygon.number as usize].material;
+            }
         }
         self.count = count;
         count
@@ -201,9 +206,15 @@ impl Batch {
 
     /// Reads the corners of triangle `k`.
     #[inline(always)]
-    fn read_corners<A: Attribute<f32>>(&mut self, frame: &Frame, attributes: Option<&[A]>, k: usize) {
+    fn read_corners<A: Attribute<f32>>(
+        &mut self,
+        frame: &Frame,
+        attributes: Option<&[A]>,
+        k: usize,
+        [a, b, c]: [u32; 3],
+    ) {
         let vertices = frame.vertices();
-        let corners = self.corners(k);
+        let corners = [a as usize, b as usize, c as usize];
         let mut i = 0;
         while i < 3 {
             let vertex = &vertices[corners[i]];
@@ -236,7 +247,7 @@ impl Batch {
         self.kind[k]
     }
 
-    /// The material of triangle `k`.
+    /// The material of triangle `k`, where it was read.
     #[inline(always)]
     pub fn material(&self, k: usize) -> u32 {
         self.material[k]

@@ -22,7 +22,7 @@ mod tiny;
 mod triangle;
 
 use super::bands::{Bands, Scratch};
-use super::bins::Bins;
+use super::bins::{Bins, Listed};
 use super::depth::SampleDepth;
 use super::setup::SetUp;
 use super::sink::RowSink;
@@ -58,12 +58,13 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     let consts: Vec<S::Consts<Pair<M::F>>> =
         frame.lightings().iter().map(|l| S::consts(l, parameters, &twice)).collect();
     let only = only_material(frame);
-    let bins = Bins::new(frame, HEIGHT);
-    let painter = Painter::<S> { frame, setup: &setup, hides: SampleDepth::new(frame).hides() };
+    let bins = Bins::<Listed>::new(frame, HEIGHT);
+    let (hides, has_materials) = (SampleDepth::new(frame).hides(), only.is_none());
+    let painter = Painter::<S> { frame, setup: &setup, hides, has_materials };
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
         scratch.band.prepare::<M, S::Pixel<M::F>>(HEIGHT, frame.width(), only.is_none());
-        for numbers in bins.band(number) {
-            paint::<S, M>(m, &painter, numbers, &rows, scratch);
+        for polygons in bins.band(number) {
+            paint::<S, M>(m, &painter, polygons, &rows, scratch);
         }
         for row in 0..rows.len() {
             shade::<S, M>(m, frame, (&consts, only.unwrap_or(0)), row, scratch, sink);
@@ -75,21 +76,21 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
 fn paint<S: Shader, M: Lanes>(
     m: M,
     painter: &Painter<'_, S>,
-    numbers: &[u32],
+    polygons: &[Listed],
     rows: &Range<usize>,
     scratch: &mut Scratch,
 ) {
-    let polygons = painter.frame.polygons();
     let is_planar = S::Attribute::<f32>::IS_PLANAR;
     let mut edges = polygon::Edges::default();
-    let mut rest = numbers;
-    while let Some((&next, others)) = rest.split_first() {
-        if is_planar && polygons[next as usize].count == 3 {
+    let mut rest = polygons;
+    while let Some((next, others)) = rest.split_first() {
+        if is_planar && next.corners != Listed::OTHER {
             let taken = triangles::<S, M>(m, painter, rest, rows, scratch);
             rest = &rest[taken..];
             continue;
         }
-        let material = polygons[next as usize].material;
+        let next = next.number;
+        let material = painter.frame.polygons()[next as usize].material;
         edges.runs(painter.frame, &painter.setup.attributes, rows, next, &mut |row, pixels, depth, attribute| {
             let place = (rows.start, row - rows.start);
             run::<S, M>(m, painter, place, pixels, (next, material), depth, attribute, &mut scratch.band);
@@ -98,12 +99,12 @@ fn paint<S: Shader, M: Lanes>(
     }
 }
 
-/// Draws triangles from the front of `numbers`; gives how many.
+/// Draws triangles from the front of `polygons`; gives how many.
 #[inline(never)]
 fn triangles<S: Shader, M: Lanes>(
     m: M,
     painter: &Painter<'_, S>,
-    numbers: &[u32],
+    polygons: &[Listed],
     rows: &Range<usize>,
     scratch: &mut Scratch,
 ) -> usize {
@@ -113,7 +114,7 @@ fn triangles<S: Shader, M: Lanes>(
             let Scratch { band, batch, fragments, .. } = scratch;
             let has_numbers = S::GIVEN == Given::Attribute;
             let attributes = has_numbers.then_some(&painter.setup.attributes[..]);
-            let taken = batch.read(painter.frame, attributes, numbers);
+            let taken = batch.read(painter.frame, attributes, polygons, painter.has_materials);
             band.extend(batch.place(m, painter.frame.width(), rows, paint::facets::<S, M>(), has_numbers));
             painter.batch(m, batch, fragments, rows.start, &mut band.cells(m, painter.hides));
             taken

@@ -63,6 +63,8 @@ pub(super) struct Painter<'a, S: Shader> {
     pub setup: &'a SetUp<S, Scalar>,
     /// Whether nearer polygons hide farther ones.
     pub hides: bool,
+    /// Whether pixels have different materials.
+    pub has_materials: bool,
 }
 
 impl<S: Shader> Painter<'_, S> {

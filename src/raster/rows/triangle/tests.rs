@@ -3,6 +3,7 @@
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Lighting, Material};
 use crate::number::{Lanes, LanesJob, Level, on_level};
+use crate::raster::bins::{Entry, Listed};
 use crate::raster::coverage;
 use crate::raster::rows::band::Band;
 use crate::raster::rows::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH};
@@ -42,11 +43,12 @@ impl LanesJob for Covered<'_> {
 
     fn run<M: Lanes>(self, m: M) -> [Vec<Pixel>; 3] {
         let Covered(frame, band) = self;
-        let numbers: Vec<u32> = (0..frame.polygons().len() as u32).collect();
-        let (mut rest, mut runs, mut groups, mut tiny) = (&numbers[..], vec![], vec![], vec![]);
+        let listed = |(number, polygon)| Listed::new(frame, number, polygon);
+        let polygons: Vec<Listed> = (0..).zip(frame.polygons()).map(listed).collect();
+        let (mut rest, mut runs, mut groups, mut tiny) = (&polygons[..], vec![], vec![], vec![]);
         let mut batch = Batch::default();
         while !rest.is_empty() {
-            let taken = batch.read::<Lerp<f32>>(frame, None, rest);
+            let taken = batch.read::<Lerp<f32>>(frame, None, rest, false);
             assert!(taken > 0 && taken <= rest.len());
             by_pixels(m, (frame, &band), rest, &mut tiny);
             rest = &rest[taken..];
@@ -97,12 +99,12 @@ fn by_groups<M: Lanes>(m: M, batch: &Batch, k: usize, (width, band): (usize, &Ra
     });
 }
 
-/// The pixels of the tiny ones of the first triangles of `numbers`, with a depth and the coordinates for planes.
-fn by_pixels<M: Lanes>(m: M, (frame, band): (&Frame, &Range<usize>), numbers: &[u32], found: &mut Vec<Pixel>) {
+/// The pixels of the tiny ones of the first triangles of `polygons`, with a depth and the coordinates for planes.
+fn by_pixels<M: Lanes>(m: M, (frame, band): (&Frame, &Range<usize>), polygons: &[Listed], found: &mut Vec<Pixel>) {
     let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
     let attributes: Vec<Lerp<[f32; 2]>> = (0..frame.vertices().len()).map(|v| Lerp(corners[v % 3])).collect();
     let (mut batch, mut fragments, mut memory) = (Batch::default(), Fragments::default(), Band::default());
-    batch.read(frame, Some(&attributes), numbers);
+    batch.read(frame, Some(&attributes), polygons, false);
     let drawn = batch.place(m, frame.width(), band, 3, true);
     memory.prepare::<M, [M::F; 2]>(16, frame.width(), false);
     let cells = memory.cells::<M, [M::F; 2]>(m, true);
@@ -116,7 +118,7 @@ fn by_pixels<M: Lanes>(m: M, (frame, band): (&Frame, &Range<usize>), numbers: &[
                 let (group, lane) = (place as usize / (3 * M::WIDTH), place as usize % (3 * M::WIDTH));
                 let (row, x) = (group / a_row, group % a_row * M::WIDTH + lane);
                 assert!(lane < M::WIDTH && drawn.contains(&(x / M::WIDTH)));
-                found.push(((numbers[k], band.start + row, x), [values[M::WIDTH], values[2 * M::WIDTH]]));
+                found.push(((polygons[k].number, band.start + row, x), [values[M::WIDTH], values[2 * M::WIDTH]]));
             });
         }
     }
