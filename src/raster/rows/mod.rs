@@ -27,7 +27,7 @@ use super::depth::SampleDepth;
 use super::setup::SetUp;
 use super::sink::RowSink;
 use crate::frame::Frame;
-use crate::number::{Lanes, Pair, Scalar};
+use crate::number::{Lanes, Machine, Pair, Scalar};
 use crate::shader::{Given, Shader};
 use crate::walk::Attribute;
 use alloc::vec::Vec;
@@ -40,6 +40,9 @@ pub(crate) use tiny::Fragments;
 
 /// Scanlines a band: edges are seldom started anew, and every thread gets some.
 const HEIGHT: usize = 16;
+
+/// The constants of a shader's material, for two groups at a time.
+type Consts<S, M> = <S as Shader>::Consts<Pair<<M as Machine>::F>>;
 
 /// Whether the engine can draw `frame` with shader `S`: its depth must be interpolated and kept as it is, and what its
 /// walk gives must be numbers.
@@ -55,8 +58,7 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     }
     let setup = SetUp::<S, Scalar>::new(Scalar, frame, parameters);
     let twice = |x| Pair(m.splat(x), m.splat(x));
-    let consts: Vec<S::Consts<Pair<M::F>>> =
-        frame.lightings().iter().map(|l| S::consts(l, parameters, &twice)).collect();
+    let consts: Vec<Consts<S, M>> = frame.lightings().iter().map(|l| S::consts(l, parameters, &twice)).collect();
     let only = only_material(frame);
     let bins = Bins::<Listed>::new(frame, HEIGHT);
     let (hides, has_materials) = (SampleDepth::new(frame).hides(), only.is_none());
@@ -149,7 +151,7 @@ fn run<S: Shader, M: Lanes>(
 fn shade<S: Shader, M: Lanes>(
     m: M,
     frame: &Frame,
-    consts: (&[S::Consts<Pair<M::F>>], u32),
+    consts: (&[Consts<S, M>], u32),
     row: usize,
     scratch: &mut Scratch,
     sink: &mut dyn RowSink,

@@ -1,5 +1,6 @@
 //! One row of a band, from planes to colours: two groups at a time, as shading one of them waits for its own results.
 
+use super::Consts;
 use super::band::Band;
 use crate::number::{Lanes, Num, Pair};
 use crate::shader::Shader;
@@ -101,7 +102,7 @@ fn copy_part(from: &[[u8; 4]], x: usize, pixels: &Range<usize>, texels: &mut [[u
 #[inline(always)]
 pub(super) fn row<S: Shader, M: Lanes>(
     m: M,
-    (all, only): (&[S::Consts<Pair<M::F>>], u32),
+    (all, only): (&[Consts<S, M>], u32),
     row: usize,
     band: &mut Band,
     colours: &mut Colours<'_>,

@@ -65,10 +65,10 @@ impl LanesJob for Covered<'_> {
                     let small = batch.small(k);
                     small.runs(m, band.start, |row, pixels, weights| run(small.growth(), row, pixels, weights));
                     by_groups(m, &batch, k, (frame.width(), &band), &mut groups);
-                } else if batch.kind(k) == Kind::Large as i32 {
-                    if let Some(large) = batch.large(k) {
-                        large.runs(band.start, |row, pixels, weights| run(large.across(), row, pixels, weights));
-                    }
+                } else if batch.kind(k) == Kind::Large as i32
+                    && let Some(large) = batch.large(k)
+                {
+                    large.runs(band.start, |row, pixels, weights| run(large.across(), row, pixels, weights));
                 }
             }
         }
@@ -109,7 +109,7 @@ fn by_pixels<M: Lanes>(m: M, (frame, band): (&Frame, &Range<usize>), polygons: &
     memory.prepare::<M, [M::F; 2]>(16, frame.width(), false);
     let cells = memory.cells::<M, [M::F; 2]>(m, true);
     let a_row = frame.width().div_ceil(2 * M::WIDTH) * 2;
-    for k in 0..batch.count() {
+    for (k, polygon) in polygons[..batch.count()].iter().enumerate() {
         if k % M::WIDTH == 0 {
             fragments.find(m, &batch, (k, 3), band.start, &cells);
         }
@@ -118,7 +118,7 @@ fn by_pixels<M: Lanes>(m: M, (frame, band): (&Frame, &Range<usize>), polygons: &
                 let (group, lane) = (place as usize / (3 * M::WIDTH), place as usize % (3 * M::WIDTH));
                 let (row, x) = (group / a_row, group % a_row * M::WIDTH + lane);
                 assert!(lane < M::WIDTH && drawn.contains(&(x / M::WIDTH)));
-                found.push(((polygons[k].number, band.start + row, x), [values[M::WIDTH], values[2 * M::WIDTH]]));
+                found.push(((polygon.number, band.start + row, x), [values[M::WIDTH], values[2 * M::WIDTH]]));
             });
         }
     }
