@@ -314,16 +314,8 @@ impl Later {
 
     #[inline(always)]
     fn next<M: Lanes, P: Planes<M::F>>(&mut self, m: M, pixel: P) -> P {
-        let mut at = M::WIDTH;
-        put_each(
-            pixel,
-            #[inline(always)]
-            |x| {
-                m.store(x, &mut self.line[at..]);
-                at += 2 * M::WIDTH;
-            },
-        );
-        at = M::WIDTH - self.pixels;
+        self.keep(m, pixel, M::WIDTH);
+        let mut at = M::WIDTH - self.pixels;
         let given = get_each(
             #[inline(always)]
             || {
@@ -331,7 +323,13 @@ impl Later {
                 m.load(&self.line[at - 2 * M::WIDTH..])
             },
         );
-        at = 0;
+        self.keep(m, pixel, 0);
+        given
+    }
+
+    /// Stores each plane, from `at` on: as the group before, or as this one.
+    #[inline(always)]
+    fn keep<M: Lanes, P: Planes<M::F>>(&mut self, m: M, pixel: P, mut at: usize) {
         put_each(
             pixel,
             #[inline(always)]
@@ -340,7 +338,6 @@ impl Later {
                 at += 2 * M::WIDTH;
             },
         );
-        given
     }
 }
 

@@ -70,15 +70,9 @@ impl Fragments {
                 if m.any(m.not_negative(outside)) {
                     covered = covered | (m.int(-1).less(outside) & m.int(1 << (slot + column)));
                     m.store_int(cells.places(m, down_at, across_at), &mut self.places[(slot + column) * M::WIDTH..]);
-                    let b = m.number(here[1]).mul_add(over_area, back[0]);
-                    let c = m.number(here[2]).mul_add(over_area, back[1]);
-                    let mut at = (slot + column) * facets * M::WIDTH;
-                    for facet in &batch.facets[..facets] {
-                        let [from, to_b, to_c] = [&facet.at, &facet.to[0], &facet.to[1]];
-                        let value = m.load(&to_b[first..]).mul_add(b, m.load(&from[first..]));
-                        m.store(m.load(&to_c[first..]).mul_add(c, value), &mut self.values[at..]);
-                        at += M::WIDTH;
-                    }
+                    let weights =
+                        [m.number(here[1]).mul_add(over_area, back[0]), m.number(here[2]).mul_add(over_area, back[1])];
+                    self.interpolate(m, batch, (first, facets), slot + column, weights);
                 }
                 here = [here[0] + right[0], here[1] + right[1], here[2] + right[2]];
                 (beside, across_at) = (beside - one, across_at + one);
@@ -89,6 +83,25 @@ impl Fragments {
             slot += TINY as usize;
         }
         m.store_int(covered, &mut self.covered);
+    }
+
+    /// The numbers of a group of triangles at pixel `slot` of their boxes, with these barycentric coordinates there.
+    #[inline(always)]
+    fn interpolate<M: Lanes>(
+        &mut self,
+        m: M,
+        batch: &Batch,
+        (first, facets): (usize, usize),
+        slot: usize,
+        [b, c]: [M::F; 2],
+    ) {
+        let mut at = slot * facets * M::WIDTH;
+        for facet in &batch.facets[..facets] {
+            let [from, to_b, to_c] = [&facet.at, &facet.to[0], &facet.to[1]];
+            let value = m.load(&to_b[first..]).mul_add(b, m.load(&from[first..]));
+            m.store(m.load(&to_c[first..]).mul_add(c, value), &mut self.values[at..]);
+            at += M::WIDTH;
+        }
     }
 
     /// The covered pixels of tiny triangle `k` of the group that was last looked at: their places, and the numbers there, each a

@@ -44,7 +44,8 @@ impl<M: Lanes> Groups<M> {
     /// in the first of them.
     ///
     /// As many rows at a time as groups have pixels. Where a function becomes 0 is off by three roundings: with at most 62
-    /// columns by less than 2⁻¹⁶ of one. A group more is looked at where that could matter.
+    /// columns by less than 2⁻¹⁶ of one. A group more is looked at where that could matter. Rows past the last are computed and
+    /// not given: there 32 bits need not hold the results.
     #[inline(always)]
     pub fn rows(&self, m: M, small: &Small<'_>, top: usize, mut visit: impl FnMut(usize, Range<usize>, [M::I; 3])) {
         let rows = small.rows(top);
