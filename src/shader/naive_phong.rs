@@ -33,17 +33,35 @@ impl Method for NaivePhong {
         local: Local::PerPixel,
         barycentric: true,
     };
-    type Screen<const L: usize> = Of<L>;
-    type Perspective<const L: usize> = Of<L>;
+    type Screen<const L: usize> = Of<Renormalised, L>;
+    type Perspective<const L: usize> = Of<Renormalised, L>;
     type Local<const L: usize> = Near<0, L>;
     type LocalPerspective<const L: usize> = Near<1, L>;
 }
 
-/// Naive Phong shading with `L` lights.
-#[derive(Debug)]
-pub struct Of<const L: usize>;
+/// What is made of an interpolated normal at a pixel.
+pub(super) trait AtPixel: 'static {
+    /// The colour of a surface whose normal has the direction of `n`; not yet clamped.
+    fn colour<F: Num, const L: usize>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3];
+}
 
-impl<const L: usize> Shader for Of<L> {
+/// It is divided by its length, and lit.
+#[derive(Debug)]
+pub struct Renormalised;
+
+impl AtPixel for Renormalised {
+    #[inline(always)]
+    fn colour<F: Num, const L: usize>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
+        let r = c.one() / dot(n, n).sqrt();
+        c.lit([n[0] * r, n[1] * r, n[2] * r], c.far()) // N_unit = N / |N|, 2.1
+    }
+}
+
+/// Phong shading from interpolated normals with `L` lights, of which `Q` makes colours.
+#[derive(Debug)]
+pub struct Of<Q, const L: usize>(Q);
+
+impl<Q: AtPixel, const L: usize> Shader for Of<Q, L> {
     type Consts<N: Num> = Illumination<N, L>;
     type Attribute<R: Real> = Lerp<[R; 3]>;
     type Polygon<R: Real> = ();
@@ -70,8 +88,7 @@ impl<const L: usize> Shader for Of<L> {
     }
     #[inline(always)]
     fn shade<F: Num>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
-        let r = c.one() / dot(n, n).sqrt();
-        c.lit([n[0] * r, n[1] * r, n[2] * r], c.far()) // N_unit = N / |N|, 2.1
+        Q::colour(c, n)
     }
 }
 

@@ -1,12 +1,10 @@
 //! Phong shading from normals with scalars: what suits processors that shade eight pixels at a time, row by row.
 
 use super::illumination::Illumination;
-use super::naive_phong::{self, Near};
-use super::{Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
-use crate::lighting::Lighting;
-use crate::number::{Machine, Num, Real, dot, each};
+use super::naive_phong::{AtPixel, Near, Of};
+use super::{Info, Local, Method, Perspective, Roundings, Stepped};
+use crate::number::{Num, dot, each};
 use crate::reference::Model;
-use crate::walk::{Lerp, Linear};
 
 /// Naive Phong shading without its vectors: N by three additions a pixel, then `J = L·N`, `K = V·N`, `D = N·N` and the
 /// processor's reciprocal root `r = 1/√D`, of which the cosines are `J r` and `2 (J r) (K r) − L·V` (L21 4.3, 4.6).
@@ -32,39 +30,19 @@ impl Method for PhongRsqrt {
         local: Local::PerPixel,
         barycentric: true,
     };
-    type Screen<const L: usize> = Of<L>;
-    type Perspective<const L: usize> = Of<L>;
+    type Screen<const L: usize> = Of<Scalars, L>;
+    type Perspective<const L: usize> = Of<Scalars, L>;
     type Local<const L: usize> = Near<0, L>;
     type LocalPerspective<const L: usize> = Near<1, L>;
 }
 
-/// Phong shading from normals with `L` lights.
+/// Its scalar products with light and eye are divided by its length.
 #[derive(Debug)]
-pub struct Of<const L: usize>;
+pub struct Scalars;
 
-impl<const L: usize> Shader for Of<L> {
-    type Consts<N: Num> = Illumination<N, L>;
-    type Attribute<R: Real> = Lerp<[R; 3]>;
-    type Polygon<R: Real> = ();
-    type Walk<M: Machine> = [Linear<M::F>; 3];
-    type Pixel<F: Num> = [F; 3];
-    const GIVEN: Given = Given::Attribute;
-
-    fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> Illumination<N, L> {
-        Illumination::new(lighting, of)
-    }
+impl AtPixel for Scalars {
     #[inline(always)]
-    fn vertex<M: Machine>(_: &Illumination<M::One, L>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
-        Lerp(corner.normal())
-    }
-    #[inline(always)]
-    fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}
-    #[inline(always)]
-    fn walk<M: Machine>(m: M, c: &Illumination<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
-        naive_phong::Of::<L>::walk(m, c, &(), span)
-    }
-    #[inline(always)]
-    fn shade<F: Num>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
+    fn colour<F: Num, const L: usize>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
         let r = dot(n, n).over_sqrt();
         let (j, k) = (c.far().light_cosines(n), c.far().view_cosine(n));
         let cosines = each(
