@@ -19,7 +19,7 @@ const METHODS: [&str; 5] = ["gouraud", "naive-phong", "fast-phong", "fast-phong-
 const BAND: usize = 32;
 
 fn engines(c: &mut Criterion) {
-    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("no pool before");
+    rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global().expect("no pool before");
     for (name, mesh) in scenes::SCENES {
         let prepared = scenes::scene(mesh).prepare().expect("a valid scene");
         let mut frame = prepared.frame().expect("a valid view");
