@@ -1,7 +1,7 @@
 //! The row engine: bands of scanlines, shaded row by row.
 //!
 //! A band's polygons are drawn one after the other: where one is nearer than what was drawn before, what its walk gives to the
-//! pixel ([`Shader::Pixel`]) is written into planes beside the depth. Then each row is shaded once, a group of pixels at a
+//! pixel ([`Shader::Pixel`]) is written into planes beside the depth. Then each row is shaded once, two groups of pixels at a
 //! time, over the row and not over the span: shading costs the same for a pixel in a triangle of two pixels as in one of a
 //! thousand, and hidden pixels are never shaded.
 //!
@@ -9,8 +9,9 @@
 //!
 //! Tried and dropped (5,040 triangles at 1920x1080, `phong-rsqrt` and `naive-phong`, AVX2, one thread, least of 30 frames or more,
 //! on a machine that varies by more than small differences): finding the runs of all triangles first, scanline by scanline,
-//! and drawing them into planes of a single row, 3.9 ms against 3.2 to 3.8; a select in place of exclusive or where pixels are
-//! blended, with all loads before the first store, which the compiler makes masked stores of all the same, 4.3 against 3.2.
+//! and drawing them into planes of a single row, 3.9 ms against 3.2 to 3.8; choosing pixels by a select, with all
+//! loads before the first store, 4.3 against 3.2, or by `vblendvps` itself: the compiler makes masked stores of both, and bytes are
+//! chosen instead. `docs/performance.md` has the rest.
 
 mod band;
 mod batch;
@@ -64,7 +65,7 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     let (hides, has_materials) = (SampleDepth::new(frame).hides(), only.is_none());
     let painter = Painter::<S> { frame, setup: &setup, hides, has_materials };
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
-        scratch.band.prepare::<M, S::Pixel<M::F>>(HEIGHT, frame.width(), only.is_none());
+        scratch.band.prepare::<M, S::Pixel<M::F>>(HEIGHT, frame.width(), has_materials);
         for polygons in bins.band(number) {
             paint::<S, M>(m, &painter, polygons, &rows, scratch);
         }
