@@ -29,10 +29,10 @@ pub trait Lanes: Machine<One = f32> {
     /// `new` where `mask` says so, else `old`.
     fn blend(self, mask: Self::Mask, new: Self::F, old: Self::F) -> Self::F;
 
-    /// A number whose sign is negative where that of `x` is and `outside` is not below 0. Only its sign means anything.
-    fn negative_inside(self, x: Self::F, outside: Self::I) -> Self::F;
-    /// `new` where the sign of `sign` is negative, else `old`.
-    fn choose_negative(self, sign: Self::F, new: Self::F, old: Self::F) -> Self::F;
+    /// Which pixels keep what they have: all bits where `outside` is below 0 or `new` is not less than `old`, else none.
+    fn kept(self, outside: Self::I, new: Self::F, old: Self::F) -> Self::I;
+    /// `old` where `kept` has all bits, `new` where it has none.
+    fn keep(self, kept: Self::I, old: Self::F, new: Self::F) -> Self::F;
 
     /// Bit k: whether pixel k is meant.
     fn bits(self, mask: Self::Mask) -> u32;

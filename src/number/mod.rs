@@ -51,6 +51,11 @@ pub trait Num:
     fn mul_add(self, factor: Self, summand: Self) -> Self {
         self * factor + summand
     }
+    /// `self · factor − subtrahend`, rounded likewise.
+    #[inline(always)]
+    fn mul_sub(self, factor: Self, subtrahend: Self) -> Self {
+        self * factor - subtrahend
+    }
     /// The larger of both; where this one is NaN, `other`, which is none.
     fn max(self, other: Self) -> Self;
     /// The smaller of both; where this one is NaN, `other`, which is none.

@@ -158,13 +158,13 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    fn negative_inside(self, x: f32, outside: i32) -> f32 {
-        if outside < 0 { x.abs() } else { x }
+    fn kept(self, outside: i32, new: f32, old: f32) -> i32 {
+        if outside >= 0 && new < old { 0 } else { -1 }
     }
 
     #[inline(always)]
-    fn choose_negative(self, sign: f32, new: f32, old: f32) -> f32 {
-        if sign.is_sign_negative() { new } else { old }
+    fn keep(self, kept: i32, old: f32, new: f32) -> f32 {
+        if kept == 0 { new } else { old }
     }
 
     #[inline(always)]

@@ -28,7 +28,10 @@ pub(super) fn is_available(level: Level) -> bool {
 
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
-    use core::arch::x86_64::{__m256, __m256i, _mm256_blendv_epi8, _mm256_rsqrt_ps};
+    use core::arch::x86_64::{
+        __m256, __m256i, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_min_ps, _mm256_mul_ps, _mm256_packs_epi32,
+        _mm256_packus_epi16, _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi8, _mm256_shuffle_epi8,
+    };
 
     fearless_simd::kernel!(
         /// 1/√x to 12 bits.
@@ -47,6 +50,29 @@ mod avx2 {
             _mm256_blendv_epi8(old, new, mask)
         }
     );
+
+    fearless_simd::kernel!(
+        /// The colours of eight pixels as opaque texels: rounded to the nearest level, half-way to the even one, as `quantise` does.
+        ///
+        /// Narrowing saturates, which is the clamp at 0. The clamp at 255 comes first: what no whole number of 32 bits holds is
+        /// converted to the least of them. `min` gives its second operand where that is NaN, whose conversion is that least one too.
+        #[inline(always)]
+        pub fn texels(avx2: Avx2, r: __m256, g: __m256, b: __m256) -> __m256i {
+            let _ = avx2;
+            let most = _mm256_set1_ps(255.0);
+            let r = _mm256_cvtps_epi32(_mm256_min_ps(most, _mm256_mul_ps(r, most)));
+            let g = _mm256_cvtps_epi32(_mm256_min_ps(most, _mm256_mul_ps(g, most)));
+            let b = _mm256_cvtps_epi32(_mm256_min_ps(most, _mm256_mul_ps(b, most)));
+            // Of each half of the pixels four bytes of red, then of blue, of green, and of alpha: now by pixel.
+            let (rb, ga) = (_mm256_packs_epi32(r, b), _mm256_packs_epi32(g, _mm256_set1_epi32(255)));
+            #[rustfmt::skip]
+            let by_pixel = _mm256_setr_epi8(
+                0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15,
+                0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15,
+            );
+            _mm256_shuffle_epi8(_mm256_packus_epi16(rb, ga), by_pixel)
+        }
+    );
 }
 
 impl<S: Simd> Num for f32x8<S> {
@@ -58,15 +84,15 @@ impl<S: Simd> Num for f32x8<S> {
     /// ```text
     /// y = y_0 (3 − x y_0²) / 2        Newton's method for y = 1/√x
     /// ```
-    /// The estimate y_0 is off by at most e = 1.5 · 2⁻¹² (Intel's and AMD's manuals), which leaves 1.5 e² = 3.4 · 2⁻²⁴. The two
-    /// products of the subtrahend, ½, the difference, 1, and the last product add at most 3 · 2⁻²⁴: below 2⁻²¹ in all.
+    /// The estimate y_0 is off by at most e = 1.5 · 2⁻¹² (Intel's and AMD's manuals), which leaves 1.5 e² = 3.4 · 2⁻²⁴. The
+    /// product in the subtrahend, ½, the difference, 1, and the last product add at most 3 · 2⁻²⁴: below 2⁻²¹ in all.
     #[inline(always)]
     fn over_sqrt(self) -> Self {
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = self.simd.level().as_avx2() {
             let y = Self::simd_from(self.simd, avx2::over_sqrt(avx2, self.into()));
             let (half, three_halves) = (Self::splat(self.simd, 0.5), Self::splat(self.simd, 1.5));
-            return y * (three_halves - half * self * y * y);
+            return y * Num::mul_add(-(half * self * y), y, three_halves);
         }
         Self::splat(self.simd, 1.0) / SimdFloat::sqrt(self)
     }
@@ -74,6 +100,11 @@ impl<S: Simd> Num for f32x8<S> {
     #[inline(always)]
     fn mul_add(self, factor: Self, summand: Self) -> Self {
         SimdFloat::mul_add(self, factor, summand)
+    }
+
+    #[inline(always)]
+    fn mul_sub(self, factor: Self, subtrahend: Self) -> Self {
+        SimdFloat::mul_sub(self, factor, subtrahend)
     }
 
     #[inline(always)]
@@ -227,20 +258,20 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 
     #[inline(always)]
-    fn negative_inside(self, x: f32x8<S>, outside: i32x8<S>) -> f32x8<S> {
-        from_bits(bits(x) & !outside)
+    fn kept(self, outside: i32x8<S>, new: f32x8<S>, old: f32x8<S>) -> i32x8<S> {
+        (outside | (!new.simd_lt(old)).to_vector()) >> 31
     }
 
     /// Byte by byte: a choice of whole numbers, from memory and back to it, becomes a masked store, which takes four times as
-    /// long (Zen 3).
+    /// long (Zen 3). In this order what was in memory need not be loaded first.
     #[inline(always)]
-    fn choose_negative(self, sign: f32x8<S>, new: f32x8<S>, old: f32x8<S>) -> f32x8<S> {
-        let (mask, new, old) = (bits(sign) >> 31, bits(new), bits(old));
+    fn keep(self, kept: i32x8<S>, old: f32x8<S>, new: f32x8<S>) -> f32x8<S> {
+        let (old, new) = (bits(old), bits(new));
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = self.0.level().as_avx2() {
-            return from_bits(i32x8::simd_from(self.0, avx2::choose(avx2, mask.into(), new.into(), old.into())));
+            return from_bits(i32x8::simd_from(self.0, avx2::choose(avx2, kept.into(), old.into(), new.into())));
         }
-        from_bits(old ^ ((old ^ new) & mask))
+        from_bits(new ^ ((new ^ old) & kept))
     }
 
     #[inline(always)]
@@ -285,6 +316,16 @@ impl<S: Simd> Lanes for Wide<S> {
 
     #[inline(always)]
     fn pack(self, rgb: [f32x8<S>; 3], covered: mask32x8<S>, background: [u8; 4], to: &mut [[u8; 4]]) {
+        let empty = i32x8::splat(self.0, i32::from_le_bytes(background));
+        let to = &mut to[..8].as_flattened_mut()[..32];
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = self.0.level().as_avx2() {
+            let [r, g, b] = rgb;
+            let word = avx2::texels(avx2, r.into(), g.into(), b.into());
+            let word = avx2::choose(avx2, covered.to_vector().into(), word, empty.into());
+            fearless_simd::Bytes::to_bytes(i32x8::simd_from(self.0, word)).store_slice(to);
+            return;
+        }
         let (zero, one, scale) = (self.splat(0.0), self.splat(1.0), self.splat(255.0));
         // As `quantise`: adding 2²³ rounds, and the level stands in the lowest bits, below the bits of 2²³ itself.
         let integers = self.splat(8_388_608.0);
@@ -295,9 +336,8 @@ impl<S: Simd> Lanes for Wide<S> {
         );
         let opaque = i32x8::splat(self.0, (0xFF00_0000u32 ^ 8_388_608f32.to_bits()) as i32);
         let word = (r ^ opaque) | (g << 8) | (b << 16);
-        let empty = i32x8::splat(self.0, i32::from_le_bytes(background));
         let word = empty ^ ((empty ^ word) & covered.to_vector());
-        fearless_simd::Bytes::to_bytes(word).store_slice(&mut to[..8].as_flattened_mut()[..32]);
+        fearless_simd::Bytes::to_bytes(word).store_slice(to);
     }
 }
 

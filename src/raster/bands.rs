@@ -1,6 +1,6 @@
 //! A picture as bands of scanlines, which are drawn apart from one another.
 
-use super::rows::{Band, Batch, Fragments};
+use super::rows::{Band, Batch, Fragments, Starts};
 use super::sink::{Filtered, RowSink, Stored};
 use super::target::Texel;
 use crate::frame::Frame;
@@ -17,6 +17,7 @@ pub(crate) struct Scratch {
     pub band: Band,
     pub batch: Batch,
     pub fragments: Fragments,
+    pub starts: Starts,
     /// The depths of a row and its colours, by channel.
     pub line: [Vec<f32>; 4],
 }

@@ -35,9 +35,9 @@ operation!(Gate, |m, a, b, c| a.gate(b));
 operation!(MulAdd, |m, a, b, c| Num::mul_add(a, b, c));
 operation!(Less, |m, a, b, c| m.blend(m.less(a, b), m.splat(1.0), m.splat(0.0)));
 operation!(Blend, |m, a, b, c| m.blend(m.less(c, m.splat(0.0)), a, b));
-operation!(Chosen, |m, a, b, c| m.choose_negative(a, b, c));
-operation!(Inside, |m, a, b, c| m.choose_negative(m.negative_inside(a, m.truncated(c * m.splat(4.0))), b, c));
+operation!(Kept, |m, a, b, c| m.keep(m.kept(m.truncated(c * m.splat(4.0)), a, b), a, c));
 operation!(Truncated, |m, a, b, c| m.number(m.truncated(c * m.splat(1e6))));
+operation!(MulSub, |m, a, b, c| Num::mul_sub(a, b, c));
 operation!(FromLargest, |m, a, b, c| m.ramp(m.first(a), m.first(b)));
 
 /// An operation on columns of numbers, a group at a time.
@@ -117,8 +117,7 @@ fn every_operation_is_the_scalar_one() {
     compare(Negative, moved);
     compare(Less, moved);
     compare(Blend, moved);
-    compare(Chosen, moved);
-    compare(Inside, moved);
+    compare(Kept, moved);
     compare(Truncated, moved);
     compare(Gate, moved);
 }
@@ -139,6 +138,8 @@ fn clamps_make_numbers_of_what_is_none() {
 fn sums_of_products_are_rounded_once_or_twice() {
     let fused = |[a, b, c]: [f32; 3], found, expected| same(found, expected) || same(found, f32::mul_add(a, b, c));
     compare(MulAdd, fused);
+    let fused = |[a, b, c]: [f32; 3], found, expected| same(found, expected) || same(found, f32::mul_add(a, b, -c));
+    compare(MulSub, fused);
     let columns = pairs();
     let columns = columns.each_ref().map(|column| &column[..]);
     for level in wide() {

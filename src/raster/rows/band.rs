@@ -160,6 +160,22 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
         }
     }
 
+    /// Gives the groups whose numbers are `numbers` of the band's, if there are any and pixels have no materials.
+    #[inline(always)]
+    pub fn plain(&mut self, numbers: Range<usize>, mut visit: impl FnMut(&mut Cell<'_, M, P>)) {
+        if let Some(values) = self.values.get_mut(numbers) {
+            for values in values.chunks_exact_mut(size::<M, P>()) {
+                visit(&mut Cell { values, materials: &mut [], number: 0, least: self.least, pixel: PhantomData });
+            }
+        }
+    }
+
+    /// How many numbers there are a row, and a group.
+    #[inline(always)]
+    pub fn row_and_group(&self) -> [usize; 2] {
+        [self.a_row * size::<M, P>(), size::<M, P>()]
+    }
+
     /// Where the first number of the pixel in row `row` and column `column` is, by triangle.
     #[inline(always)]
     pub fn places(&self, m: M, row: M::I, column: M::I) -> M::I {
@@ -206,22 +222,20 @@ impl<M: Lanes, P: Planes<M::F>> Cell<'_, M, P> {
     #[inline(always)]
     pub fn put(&mut self, m: M, outside: M::I, depth: M::F, pixel: P, material: u32) {
         let values = &mut self.values[..size::<M, P>()];
-        // Depths are finite and what is empty is infinite: the difference is a number, or −∞.
-        let sign = m.negative_inside(depth - m.load(values).max(self.least), outside);
+        let kept = m.kept(outside, depth, m.load(values).max(self.least));
         let mut at = 0;
         put_each(
             (depth, pixel),
             #[inline(always)]
             |new: M::F| {
                 let place = &mut values[at..at + M::WIDTH];
-                let old = m.load(place);
-                m.store(m.choose_negative(sign, new, old), place);
+                m.store(m.keep(kept, m.load(place), new), place);
                 at += M::WIDTH;
             },
         );
         if !self.materials.is_empty() {
             let place = &mut self.materials[self.number * M::WIDTH..][..M::WIDTH];
-            m.store(m.choose_negative(sign, m.splat(f32::from_bits(material)), m.load(place)), place);
+            m.store(m.keep(kept, m.load(place), m.splat(f32::from_bits(material))), place);
         }
     }
 }

@@ -20,6 +20,10 @@ pub(super) const SMALL_HEIGHT: i32 = 64;
 /// Up to this many pixels wide and high a triangle is drawn pixel by pixel, a group of triangles at a time.
 pub(super) const TINY: i32 = 5;
 
+/// Barycentric coordinates of a small triangle grow by at most this from column to column: it is not thinner than a quarter of a
+/// pixel.
+pub(super) const STEEPEST: i32 = 4;
+
 /// Whole numbers, one for each triangle.
 pub(super) type All = [i32; MOST];
 

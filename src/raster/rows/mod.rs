@@ -38,6 +38,7 @@ use core::ops::Range;
 use paint::Painter;
 use shade::Colours;
 pub(crate) use tiny::Fragments;
+pub(crate) use triangle::Starts;
 
 /// Scanlines a band: edges are seldom started anew, and every thread gets some.
 const HEIGHT: usize = 16;
@@ -114,12 +115,12 @@ fn triangles<S: Shader, M: Lanes>(
     m.vectorize(
         #[inline(always)]
         || {
-            let Scratch { band, batch, fragments, .. } = scratch;
+            let Scratch { band, batch, fragments, starts, .. } = scratch;
             let has_numbers = S::GIVEN == Given::Attribute;
             let attributes = has_numbers.then_some(&painter.setup.attributes[..]);
             let taken = batch.read(painter.frame, attributes, polygons, painter.has_materials);
             band.extend(batch.place(m, painter.frame.width(), rows, paint::facets::<S, M>(), has_numbers));
-            painter.batch(m, batch, fragments, rows.start, &mut band.cells(m, painter.hides));
+            painter.batch(m, batch, (fragments, starts), rows.start, &mut band.cells(m, painter.hides));
             taken
         },
     )
@@ -162,11 +163,7 @@ fn shade<S: Shader, M: Lanes>(
     let Range { start, end } = band.drawn();
     let drawn = (start * M::WIDTH).min(width)..(end * M::WIDTH).min(width);
     let mut colours = match sink.bytes(row) {
-        Some((texels, background)) => {
-            texels[..drawn.start].fill(background);
-            texels[drawn.end..].fill(background);
-            Colours::Packed(texels, background)
-        }
+        Some((texels, background)) => Colours::Packed(texels, background),
         None => {
             for channel in line.iter_mut() {
                 channel.resize(channel.len().max(width + 2 * M::WIDTH), 0.0);
@@ -176,7 +173,13 @@ fn shade<S: Shader, M: Lanes>(
     };
     m.vectorize(
         #[inline(always)]
-        || shade::row::<S, M>(m, consts, row, band, &mut colours),
+        || {
+            if let Colours::Packed(texels, background) = &mut colours {
+                texels[..drawn.start].fill(*background);
+                texels[drawn.end..].fill(*background);
+            }
+            shade::row::<S, M>(m, consts, row, band, &mut colours);
+        },
     );
     if matches!(colours, Colours::Linear(_)) {
         let [depth, r, g, b] = &*line;

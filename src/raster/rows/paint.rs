@@ -1,9 +1,9 @@
 //! Polygons into a band: what a walk gives is written wherever it is nearer than what was drawn before.
 
-use super::band::{Cells, MOST_PLANES};
+use super::band::{Cell, Cells, MOST_PLANES};
 use super::batch::{Batch, Facets, Kind};
 use super::tiny::Fragments;
-use super::triangle::{Groups, Triangle};
+use super::triangle::{Groups, Line, Starts, Triangle};
 use crate::frame::Frame;
 use crate::number::{Lanes, Num, Planes, Scalar, each, get_each, put_each};
 use crate::raster::setup::SetUp;
@@ -74,7 +74,7 @@ impl<S: Shader> Painter<'_, S> {
         &self,
         m: M,
         batch: &Batch,
-        fragments: &mut Fragments,
+        (fragments, starts): (&mut Fragments, &mut Starts),
         top: usize,
         cells: &mut Cells<'_, M, S::Pixel<M::F>>,
     ) {
@@ -96,7 +96,7 @@ impl<S: Shader> Painter<'_, S> {
                 }
             }
             if kind == Kind::Small as i32 {
-                self.small(m, batch, k, top, cells);
+                self.small(m, (batch, k), starts, top, cells);
             } else if kind == Kind::Large as i32
                 && let Some(triangle) = batch.large(k)
             {
@@ -106,7 +106,14 @@ impl<S: Shader> Painter<'_, S> {
     }
 
     #[inline(always)]
-    fn small<M: Lanes>(&self, m: M, batch: &Batch, k: usize, top: usize, cells: &mut Cells<'_, M, S::Pixel<M::F>>) {
+    fn small<M: Lanes>(
+        &self,
+        m: M,
+        (batch, k): (&Batch, usize),
+        starts: &mut Starts,
+        top: usize,
+        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
+    ) {
         let (small, polygon) = (batch.small(k), batch.polygon(k));
         let depth = Facet::of(&batch.facets[0], k);
         if S::GIVEN == Given::Walked {
@@ -120,23 +127,36 @@ impl<S: Shader> Painter<'_, S> {
         }
         let flat = self.flat(m, batch, k);
         let groups = Groups::new(m, &small);
+        let numbers = Numbers::<M>::new(m, small.growth(), facets::<S, M>(), &batch.facets, k);
+        let small_triangle =
+            SmallTriangle::<S, M> { groups: &groups, numbers: &numbers, flat: &flat, material: polygon.1 };
         groups.rows(
             m,
-            &small,
-            top,
+            (&small, top),
+            cells.row_and_group(),
+            starts,
+            (
+                facets::<S, M>(),
+                #[inline(always)]
+                |i, weights| Facet::of(&batch.facets[i], k).lanes(m, weights),
+            ),
             #[inline(always)]
-            |row, range, mut here| {
-                cells.each(
-                    row,
-                    range,
-                    #[inline(always)]
-                    |cell| {
-                        let weights = groups.weights(m, here);
-                        let outside = Groups::<M>::outside(here);
-                        cell.put(m, outside, depth.lanes(m, weights), flat.at(m, weights), polygon.1);
-                        here = groups.beside(here);
-                    },
-                );
+            |Line { row, groups, numbers: places, functions: mut here, of_eight }, starts| {
+                let mut at = numbers.start(m, &starts.values, of_eight, facets::<S, M>());
+                if !self.has_materials {
+                    cells.plain(
+                        places,
+                        #[inline(always)]
+                        |cell| small_triangle.draw(m, cell, &mut here, &mut at),
+                    );
+                } else if groups.start < groups.end {
+                    cells.each(
+                        row,
+                        groups,
+                        #[inline(always)]
+                        |cell| small_triangle.draw(m, cell, &mut here, &mut at),
+                    );
+                }
             },
         );
     }
@@ -294,6 +314,98 @@ impl<S: Shader> Painter<'_, S> {
                 group += 1;
             },
         );
+    }
+}
+
+/// A small triangle, of which groups are drawn from left to right.
+struct SmallTriangle<'a, S: Shader, M: Lanes> {
+    groups: &'a Groups<M>,
+    numbers: &'a Numbers<M>,
+    flat: &'a Flat<S, M>,
+    material: u32,
+}
+
+impl<S: Shader, M: Lanes> SmallTriangle<'_, S, M> {
+    /// Draws a group with these edge functions and numbers, which are those of the group beside then.
+    #[inline(always)]
+    fn draw(
+        &self,
+        m: M,
+        cell: &mut Cell<'_, M, S::Pixel<M::F>>,
+        functions: &mut [M::I; 3],
+        at: &mut [M::F; 1 + MOST_PLANES],
+    ) {
+        let pixel = match self.flat {
+            Flat::Interpolated(_) => Numbers::<M>::pixel(at),
+            Flat::Constant(pixel) => *pixel,
+        };
+        cell.put(m, Groups::<M>::outside(*functions), at[0], pixel, self.material);
+        *functions = self.groups.beside(*functions);
+        self.numbers.beside(at, facets::<S, M>());
+    }
+}
+
+/// The numbers of a small triangle from group to group.
+///
+/// They are exact, but for roundings, at the first pixel of the first group of each row, and grow from there by additions. That
+/// pixel is up to 7 columns off the triangle: a coordinate that grows by at most [`STEEPEST`] a column is below 32 there, and three
+/// roundings of it and one of each of up to 8 sums are at most 2⁻¹⁶ of how far corners are apart.
+struct Numbers<M: Lanes> {
+    /// How much they grow to each pixel of a group, and from group to group.
+    ramp: [M::F; 1 + MOST_PLANES],
+    across: [M::F; 1 + MOST_PLANES],
+}
+
+impl<M: Lanes> Numbers<M> {
+    /// The first `count` of triangle `k`, whose barycentric coordinates grow by `growth` from column to column.
+    #[inline(always)]
+    fn new(m: M, growth: [f32; 2], count: usize, facets: &[Facets], k: usize) -> Self {
+        let zero = m.splat(0.0);
+        let mut numbers = Numbers { ramp: [zero; 1 + MOST_PLANES], across: [zero; 1 + MOST_PLANES] };
+        let mut i = 0;
+        while i < count {
+            let to = &facets[i].to;
+            let step = to[0][k] * growth[0] + to[1][k] * growth[1];
+            numbers.ramp[i] = m.ramp(0.0, step);
+            numbers.across[i] = m.stride(step);
+            i += 1;
+        }
+        numbers
+    }
+
+    /// In the first group of row `row` of those that begin with `values`.
+    #[inline(always)]
+    fn start(&self, m: M, values: &[[f32; 8]; 1 + MOST_PLANES], row: usize, count: usize) -> [M::F; 1 + MOST_PLANES] {
+        let mut at = self.ramp;
+        let mut i = 0;
+        while i < count {
+            at[i] = m.splat(values[i][row]) + self.ramp[i];
+            i += 1;
+        }
+        at
+    }
+
+    /// In the group beside.
+    #[inline(always)]
+    fn beside(&self, at: &mut [M::F; 1 + MOST_PLANES], count: usize) {
+        let mut i = 0;
+        while i < count {
+            at[i] = at[i] + self.across[i];
+            i += 1;
+        }
+    }
+
+    /// All but the first of them, which is depth.
+    #[inline(always)]
+    fn pixel<P: Planes<M::F>>(at: &[M::F; 1 + MOST_PLANES]) -> P {
+        let mut i = 0;
+        get_each(
+            #[inline(always)]
+            || {
+                i += 1;
+                at[i]
+            },
+        )
     }
 }
 

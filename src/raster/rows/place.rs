@@ -1,6 +1,6 @@
 //! The triangles of a batch on the pixels of a band: bounds, edge functions, facets, a group of triangles at a time.
 
-use super::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH, TINY};
+use super::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH, STEEPEST, TINY};
 use crate::number::{Int, Lanes, each};
 use core::ops::Range;
 
@@ -96,12 +96,15 @@ impl Batch {
         let turned = area.less(zero);
         let area = (area ^ turned) - turned;
         let over_area = m.splat(1.0) / m.number(area);
-        let small = exact & zero.less(area);
-        let large = is_there & (is_small ^ all) & m.int(Kind::Large as i32);
+        let drawn = exact & zero.less(area);
         let mut tiny = zero;
         if has_tiny {
-            tiny = small & (columns[1] - columns[0]).less(m.int(TINY + 1)) & (rows[1] - rows[0]).less(m.int(TINY + 1));
+            tiny = drawn & (columns[1] - columns[0]).less(m.int(TINY + 1)) & (rows[1] - rows[0]).less(m.int(TINY + 1));
         }
+        // No edge is higher than the box: coordinates grow by at most 256 times its height over twice the area.
+        let steep = drawn & area.less(((bottom - top) & exact) * m.int(256 / STEEPEST)) & (tiny ^ all);
+        let small = drawn & (steep ^ all);
+        let large = is_there & ((is_small ^ all) | steep) & m.int(Kind::Large as i32);
         let kind = (small & m.int(Kind::Small as i32)) | (tiny & m.int(Kind::Tiny as i32)) | large;
         let has_small = m.any(m.not_negative((small & (tiny ^ all)) ^ all));
         m.store_int(kind, &mut self.kind[first..]);

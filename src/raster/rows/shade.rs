@@ -19,56 +19,45 @@ pub(super) enum Colours<'a> {
 const MOST: usize = 16;
 
 impl Colours<'_> {
-    /// Stores the colours of two groups that begin with pixel `x` where their depth is finite, and the background elsewhere: all of
-    /// them if `is_whole`, else of the pixels `pixels` only, as far as there are any.
+    /// Stores the colours of two groups that begin with pixel `x` where their depth is finite, and the background elsewhere.
     #[inline(always)]
-    fn store<M: Lanes>(
-        &mut self,
-        m: M,
-        (x, is_whole): (usize, bool),
-        pixels: &Range<usize>,
-        depth: Pair<M::F>,
-        [r, g, b]: [Pair<M::F>; 3],
-    ) {
-        let infinite = m.splat(f32::INFINITY);
+    fn store<M: Lanes>(&mut self, m: M, x: usize, depth: Pair<M::F>, rgb: [Pair<M::F>; 3]) {
         match self {
             Colours::Packed(texels, background) => {
-                // Not into the row where it has other texels there: the colours themselves need not leave their registers then.
-                let mut aside = [[0; 4]; MOST];
-                let place = if is_whole { &mut texels[x..x + 2 * M::WIDTH] } else { &mut aside[..2 * M::WIDTH] };
-                let (first, second) = place.split_at_mut(M::WIDTH);
-                m.pack([r.0, g.0, b.0], m.less(depth.0, infinite), *background, first);
-                m.pack([r.1, g.1, b.1], m.less(depth.1, infinite), *background, second);
-                if !is_whole {
-                    copy_part(&aside[..2 * M::WIDTH], x, pixels, texels);
-                }
+                pack(m, depth, rgb, *background, &mut texels[x..x + 2 * M::WIDTH]);
             }
             Colours::Linear(channels) => {
-                let values = [depth, r, g, b];
-                let mut i = 0;
-                while i < 4 {
-                    let value = values[i];
-                    let places = [(x, value.0), (x + M::WIDTH, value.1)];
-                    let mut group = 0;
-                    while group < 2 {
-                        let (x, value) = places[group];
-                        let own = m.lanes(pixels.start.saturating_sub(x), pixels.end.saturating_sub(x));
-                        let place = &mut channels[i][x..];
-                        m.store(m.blend(own, value, m.load(place)), place);
-                        group += 1;
-                    }
-                    i += 1;
+                for (channel, value) in channels.iter_mut().zip([depth, rgb[0], rgb[1], rgb[2]]) {
+                    let (first, second) = channel[x..x + 2 * M::WIDTH].split_at_mut(M::WIDTH);
+                    m.store(value.0, first);
+                    m.store(value.1, second);
                 }
             }
         }
     }
 
-    /// How many texels there are.
+    /// Stores two groups that begin with pixel `x`, which were stored aside: the pixels `pixels` only, as far as there are any.
+    #[cold]
+    #[inline(never)]
+    fn store_part(&mut self, from: &Aside, x: usize, pixels: Range<usize>) {
+        let own = pixels.start.max(x)..pixels.end.min(x + MOST);
+        let part = own.start - x..own.end - x;
+        match self {
+            Colours::Packed(texels, _) => texels[own].copy_from_slice(&from.texels[part]),
+            Colours::Linear(channels) => {
+                for (channel, from) in channels.iter_mut().zip(&from.channels) {
+                    channel[own.clone()].copy_from_slice(&from[part.clone()]);
+                }
+            }
+        }
+    }
+
+    /// How many pixels there is room for.
     #[inline(always)]
     fn end(&self) -> usize {
         match self {
             Colours::Packed(texels, _) => texels.len(),
-            Colours::Linear(_) => 0,
+            Colours::Linear([depth, ..]) => depth.len(),
         }
     }
 
@@ -88,14 +77,37 @@ impl Colours<'_> {
     }
 }
 
-/// Copies the texels of the pixels `pixels`, as far as there are any, from those that begin with pixel `x`.
-#[cold]
-#[inline(never)]
-fn copy_part(from: &[[u8; 4]], x: usize, pixels: &Range<usize>, texels: &mut [[u8; 4]]) {
-    let own = pixels.start.max(x)..pixels.end.min(x + from.len()).min(texels.len());
-    if own.start < own.end {
-        texels[own.clone()].copy_from_slice(&from[own.start - x..own.end - x]);
+/// Two groups whose pixels do not all go where they lie.
+struct Aside {
+    texels: [[u8; 4]; MOST],
+    channels: [[f32; MOST]; 4],
+}
+
+impl Aside {
+    /// As they go into `colours`.
+    #[inline(always)]
+    fn new<M: Lanes>(m: M, colours: &Colours<'_>, depth: Pair<M::F>, rgb: [Pair<M::F>; 3]) -> Self {
+        let mut aside = Aside { texels: [[0; 4]; MOST], channels: [[0.0; MOST]; 4] };
+        match colours {
+            Colours::Packed(_, background) => pack(m, depth, rgb, *background, &mut aside.texels[..2 * M::WIDTH]),
+            Colours::Linear(_) => {
+                for (channel, value) in aside.channels.iter_mut().zip([depth, rgb[0], rgb[1], rgb[2]]) {
+                    m.store(value.0, channel);
+                    m.store(value.1, &mut channel[M::WIDTH..]);
+                }
+            }
+        }
+        aside
     }
+}
+
+/// Packs two groups into texels.
+#[inline(always)]
+fn pack<M: Lanes>(m: M, depth: Pair<M::F>, [r, g, b]: [Pair<M::F>; 3], background: [u8; 4], texels: &mut [[u8; 4]]) {
+    let infinite = m.splat(f32::INFINITY);
+    let (first, second) = texels.split_at_mut(M::WIDTH);
+    m.pack([r.0, g.0, b.0], m.less(depth.0, infinite), background, first);
+    m.pack([r.1, g.1, b.1], m.less(depth.1, infinite), background, second);
 }
 
 /// Shades what was drawn of a row and empties it. All of it has material `only`, or the band knows each pixel's.
@@ -116,11 +128,18 @@ pub(super) fn row<S: Shader, M: Lanes>(
         let consts = all[material as usize];
         let mut x = from / (2 * M::WIDTH) * 2 * M::WIDTH;
         let end = to.min(colours.end());
+        // Where two groups lie wholly in these pixels, if they begin there.
+        let whole = from..(end + 1).saturating_sub(2 * M::WIDTH);
         for groups in band.row::<M, S::Pixel<M::F>>(row, x / M::WIDTH..to.div_ceil(2 * M::WIDTH) * 2) {
             let (depth, pixels) = Band::pixels::<M, S::Pixel<Pair<M::F>>>(m, groups);
             if m.any(m.less(depth.0.min(depth.1), infinite)) {
-                let is_whole = from <= x && x + 2 * M::WIDTH <= end;
-                colours.store(m, (x, is_whole), &(from..to), depth, S::shade(&consts, pixels));
+                let rgb = S::shade(&consts, pixels);
+                if whole.contains(&x) {
+                    colours.store(m, x, depth, rgb);
+                } else {
+                    let aside = Aside::new(m, colours, depth, rgb);
+                    colours.store_part(&aside, x, from..end.min(x + 2 * M::WIDTH));
+                }
             } else {
                 colours.skip(m, x);
             }

@@ -1,6 +1,7 @@
 //! Which pixels a triangle covers, and where they lie in it: by edge functions where it is small, by crossings where it is
 //! large, which is the same rule bit for bit. It does not know what is drawn.
 
+use super::band::MOST_PLANES;
 use super::batch::Small;
 use crate::frame::SubPixel;
 use crate::number::{Lanes, Num, each};
@@ -19,6 +20,37 @@ pub(super) struct Groups<M: Lanes> {
     over_area: M::F,
     /// What was taken off the functions for ownership, given back: the coordinates are those of the centre itself.
     back: [M::F; 2],
+}
+
+/// A row of a small triangle.
+#[derive(Clone, Debug)]
+pub(super) struct Line<M: Lanes> {
+    /// Its number in the band.
+    pub row: usize,
+    /// The groups between which it has pixels: none where the end is not over the start.
+    pub groups: Range<usize>,
+    /// The same as numbers of the band.
+    pub numbers: Range<usize>,
+    /// The edge functions in the first group.
+    pub functions: [M::I; 3],
+    /// Its place in the values of [`Starts`].
+    pub of_eight: usize,
+}
+
+/// What eight rows of a small triangle begin with, by row.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Starts {
+    groups: [[i32; 8]; 2],
+    numbers: [[i32; 8]; 2],
+    functions: [[i32; 8]; 3],
+    /// The numbers that are interpolated, at the first pixel of the first group.
+    pub values: [[f32; 8]; 1 + MOST_PLANES],
+}
+
+/// The numbers between these two of row `k`; none where the end is below 0.
+#[inline(always)]
+fn between([from, to]: [[i32; 8]; 2], k: usize) -> Range<usize> {
+    from[k] as usize..Ord::max(to[k], 0) as usize
 }
 
 impl<M: Lanes> Groups<M> {
@@ -40,14 +72,22 @@ impl<M: Lanes> Groups<M> {
         }
     }
 
-    /// Gives `visit`, for each row of the band that begins with row `top`, the groups between which it has pixels, and the functions
-    /// in the first of them.
+    /// Gives `visit` each row of the band that begins with row `top`, and the `count` values that it begins with: `values` at its
+    /// first pixel, of the barycentric coordinates there. A band has `a_row` numbers a row and `a_group` numbers a group.
     ///
     /// As many rows at a time as groups have pixels. Where a function becomes 0 is off by three roundings: with at most 62
     /// columns by less than 2⁻¹⁶ of one. A group more is looked at where that could matter. Rows past the last are computed and
     /// not given: there 32 bits need not hold the results.
     #[inline(always)]
-    pub fn rows(&self, m: M, small: &Small<'_>, top: usize, mut visit: impl FnMut(usize, Range<usize>, [M::I; 3])) {
+    pub fn rows(
+        &self,
+        m: M,
+        (small, top): (&Small<'_>, usize),
+        [a_row, a_group]: [usize; 2],
+        starts: &mut Starts,
+        (count, values): (usize, impl Fn(usize, [M::F; 2]) -> M::F),
+        mut visit: impl FnMut(Line<M>, &Starts),
+    ) {
         let rows = small.rows(top);
         let [first, end] = self.groups;
         let groups = 1.0 / M::WIDTH as f32;
@@ -70,27 +110,38 @@ impl<M: Lanes> Groups<M> {
             }
             let from = m.truncated(from.mul_add(m.splat(groups), -doubt));
             let to = m.truncated(to.mul_add(m.splat(groups), doubt)) + m.int(1);
-            let (mut begin, mut end) = ([0; 8], [0; 8]);
-            m.store_int(from, &mut begin);
-            m.store_int(to, &mut end);
-            let mut starts = [[0; 8]; 3];
+            m.store_int(from + m.int(first as i32), &mut starts.groups[0]);
+            m.store_int(to + m.int(first as i32), &mut starts.groups[1]);
+            let before = m.int((row * a_row + first * a_group) as i32) + m.counted() * m.int(a_row as i32);
+            m.store_int(before + from * m.int(a_group as i32), &mut starts.numbers[0]);
+            m.store_int(before + to * m.int(a_group as i32), &mut starts.numbers[1]);
             let mut i = 0;
             while i < 3 {
                 start[i] = start[i] + from * self.across[i];
-                m.store_int(start[i], &mut starts[i]);
+                m.store_int(start[i], &mut starts.functions[i]);
                 i += 1;
             }
-            let count = M::WIDTH.min(rows.end - row);
-            for k in 0..count {
-                let here = each(
-                    #[inline(always)]
-                    |i| m.int(starts[i][k]) + self.ramp[i],
-                );
-                if begin[k] < end[k] {
-                    visit(row + k, first + begin[k] as usize..first + end[k] as usize, here);
-                }
+            let weights = self.weights(m, start);
+            let mut i = 0;
+            while i < count {
+                m.store(values(i, weights), &mut starts.values[i]);
+                i += 1;
             }
-            row += count;
+            let rows_here = M::WIDTH.min(rows.end - row);
+            for k in 0..rows_here {
+                let line = Line {
+                    row: row + k,
+                    groups: between(starts.groups, k),
+                    numbers: between(starts.numbers, k),
+                    functions: each(
+                        #[inline(always)]
+                        |i| m.int(starts.functions[i][k]) + self.ramp[i],
+                    ),
+                    of_eight: k,
+                };
+                visit(line, starts);
+            }
+            row += rows_here;
         }
     }
 
@@ -125,10 +176,16 @@ impl Small<'_> {
         let first = groups.groups[0] * M::WIDTH;
         groups.rows(
             m,
-            self,
-            top,
+            (self, top),
+            [0, 0],
+            &mut Starts::default(),
+            (
+                0,
+                #[inline(always)]
+                |_, weights| weights[0],
+            ),
             #[inline(always)]
-            |row, range, mut here| {
+            |Line { row, groups: range, functions: mut here, .. }, _| {
                 // At most 62 pixels, a bit each.
                 let mut inside = 0u64;
                 for group in range {

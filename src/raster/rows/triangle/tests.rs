@@ -8,7 +8,7 @@ use crate::raster::coverage;
 use crate::raster::rows::band::Band;
 use crate::raster::rows::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH};
 use crate::raster::rows::tiny::Fragments;
-use crate::raster::rows::triangle::Groups;
+use crate::raster::rows::triangle::{Groups, Line, Starts};
 use crate::test_random::Random;
 use crate::walk::Lerp;
 use core::ops::Range;
@@ -80,7 +80,19 @@ impl LanesJob for Covered<'_> {
 fn by_groups<M: Lanes>(m: M, batch: &Batch, k: usize, (width, band): (usize, &Range<usize>), found: &mut Vec<Pixel>) {
     let small = batch.small(k);
     let groups = Groups::new(m, &small);
-    groups.rows(m, &small, band.start, |row, range, mut here| {
+    let (a_row, a_group) = (1000, 7);
+    let coordinates = (2, |i: usize, weights: [M::F; 2]| weights[i]);
+    let mut starts = Starts::default();
+    groups.rows(m, (&small, band.start), [a_row, a_group], &mut starts, coordinates, |line, starts| {
+        let Line { row, groups: range, numbers, functions: mut here, of_eight } = line;
+        if range.is_empty() {
+            assert!(numbers.is_empty());
+        } else {
+            assert_eq!(numbers, row * a_row + range.start * a_group..row * a_row + range.end * a_group);
+        }
+        for (value, weight) in starts.values.iter().zip(groups.weights(m, here)) {
+            assert_eq!(value[of_eight], m.first(weight), "at the first pixel");
+        }
         for group in range {
             let inside = m.bits(m.not_negative(Groups::<M>::outside(here)));
             let mut weights = [[0.0; 8]; 2];
