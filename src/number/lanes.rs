@@ -29,7 +29,8 @@ pub trait Lanes: Machine<One = f32> {
     /// `new` where `mask` says so, else `old`.
     fn blend(self, mask: Self::Mask, new: Self::F, old: Self::F) -> Self::F;
 
-    /// Which pixels keep what they have: all bits where `outside` is below 0 or `new` is not less than `old`, else none.
+    /// Which pixels keep what they have: all bits where `outside` is below 0 or `new` is not less than `old`, else none;
+    /// both are numbers.
     fn kept(self, outside: Self::I, new: Self::F, old: Self::F) -> Self::I;
     /// `old` where `kept` has all bits, `new` where it has none.
     fn keep(self, kept: Self::I, old: Self::F, new: Self::F) -> Self::F;

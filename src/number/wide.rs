@@ -259,7 +259,7 @@ impl<S: Simd> Lanes for Wide<S> {
 
     #[inline(always)]
     fn kept(self, outside: i32x8<S>, new: f32x8<S>, old: f32x8<S>) -> i32x8<S> {
-        (outside | (!new.simd_lt(old)).to_vector()) >> 31
+        (outside | new.simd_ge(old).to_vector()) >> 31
     }
 
     /// Byte by byte: a choice of whole numbers, from memory and back to it, becomes a masked store, which takes four times as

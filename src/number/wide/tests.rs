@@ -117,7 +117,10 @@ fn every_operation_is_the_scalar_one() {
     compare(Negative, moved);
     compare(Less, moved);
     compare(Blend, moved);
-    compare(Kept, moved);
+    let kept = |[a, b, _]: [f32; 3], found: f32, expected: f32| {
+        a.is_nan() || b.is_nan() || found.to_bits() == expected.to_bits()
+    };
+    compare(Kept, kept);
     compare(Truncated, moved);
     compare(Gate, moved);
 }

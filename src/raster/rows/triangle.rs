@@ -49,7 +49,7 @@ pub(crate) struct Starts {
 
 /// The numbers between these two of row `k`; none where the end is below 0.
 #[inline(always)]
-fn between([from, to]: [[i32; 8]; 2], k: usize) -> Range<usize> {
+fn between([from, to]: &[[i32; 8]; 2], k: usize) -> Range<usize> {
     from[k] as usize..Ord::max(to[k], 0) as usize
 }
 
@@ -131,8 +131,8 @@ impl<M: Lanes> Groups<M> {
             for k in 0..rows_here {
                 let line = Line {
                     row: row + k,
-                    groups: between(starts.groups, k),
-                    numbers: between(starts.numbers, k),
+                    groups: between(&starts.groups, k),
+                    numbers: between(&starts.numbers, k),
                     functions: each(
                         #[inline(always)]
                         |i| m.int(starts.functions[i][k]) + self.ramp[i],
