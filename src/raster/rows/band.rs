@@ -160,13 +160,15 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
         }
     }
 
-    /// Gives the groups whose numbers are `numbers` of the band's, if there are any and pixels have no materials.
+    /// Gives the groups from number `from` of the band up to number `to`, if there are any; their pixels have no materials.
     #[inline(always)]
-    pub fn plain(&mut self, numbers: Range<usize>, mut visit: impl FnMut(&mut Cell<'_, M, P>)) {
-        if let Some(values) = self.values.get_mut(numbers) {
-            for values in values.chunks_exact_mut(size::<M, P>()) {
-                visit(&mut Cell { values, materials: &mut [], number: 0, least: self.least, pixel: PhantomData });
-            }
+    pub fn plain(&mut self, [from, to]: [i32; 2], mut visit: impl FnMut(&mut Cell<'_, M, P>)) {
+        let size = size::<M, P>();
+        let (mut from, to) = (from as u32 as usize, Ord::max(to, 0) as usize);
+        while from < to {
+            let Some(values) = self.values.get_mut(from..from + size) else { return };
+            visit(&mut Cell { values, materials: &mut [], number: 0, least: self.least, pixel: PhantomData });
+            from += size;
         }
     }
 

@@ -114,9 +114,9 @@ impl<S: Shader> Painter<'_, S> {
         top: usize,
         cells: &mut Cells<'_, M, S::Pixel<M::F>>,
     ) {
-        let (small, polygon) = (batch.small(k), batch.polygon(k));
-        let depth = Facet::of(&batch.facets[0], k);
         if S::GIVEN == Given::Walked {
+            let (small, polygon) = (batch.small(k), batch.polygon(k));
+            let depth = Facet::of(&batch.facets[0], k);
             let Some(walked) = self.walked(batch.corners(k), &depth, small.growth()) else { return };
             return small.runs(
                 m,
@@ -125,11 +125,28 @@ impl<S: Shader> Painter<'_, S> {
                 |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
             );
         }
-        let flat = self.flat(m, batch, k);
+        if self.has_materials {
+            self.groups::<M, true>(m, (batch, k), starts, top, cells);
+        } else {
+            self.groups::<M, false>(m, (batch, k), starts, top, cells);
+        }
+    }
+
+    /// A small triangle group by group, whose pixels have `MATERIALS` or none.
+    #[inline(always)]
+    fn groups<M: Lanes, const MATERIALS: bool>(
+        &self,
+        m: M,
+        (batch, k): (&Batch, usize),
+        starts: &mut Starts,
+        top: usize,
+        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
+    ) {
+        let (small, flat) = (batch.small(k), self.flat(m, batch, k));
         let groups = Groups::new(m, &small);
         let numbers = Numbers::<M>::new(m, small.growth(), facets::<S, M>(), &batch.facets, k);
-        let small_triangle =
-            SmallTriangle::<S, M> { groups: &groups, numbers: &numbers, flat: &flat, material: polygon.1 };
+        let material = batch.polygon(k).1;
+        let triangle = SmallTriangle::<S, M> { groups: &groups, numbers: &numbers, flat: &flat, material };
         groups.rows(
             m,
             (&small, top),
@@ -143,18 +160,18 @@ impl<S: Shader> Painter<'_, S> {
             #[inline(always)]
             |Line { row, groups, numbers: places, functions: mut here, of_eight }, starts| {
                 let mut at = numbers.start(m, &starts.values, of_eight, facets::<S, M>());
-                if !self.has_materials {
+                if !MATERIALS {
                     cells.plain(
                         places,
                         #[inline(always)]
-                        |cell| small_triangle.draw(m, cell, &mut here, &mut at),
+                        |cell| triangle.draw(m, cell, &mut here, &mut at),
                     );
                 } else if groups.start < groups.end {
                     cells.each(
                         row,
                         groups,
                         #[inline(always)]
-                        |cell| small_triangle.draw(m, cell, &mut here, &mut at),
+                        |cell| triangle.draw(m, cell, &mut here, &mut at),
                     );
                 }
             },

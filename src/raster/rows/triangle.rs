@@ -29,8 +29,8 @@ pub(super) struct Line<M: Lanes> {
     pub row: usize,
     /// The groups between which it has pixels: none where the end is not over the start.
     pub groups: Range<usize>,
-    /// The same as numbers of the band.
-    pub numbers: Range<usize>,
+    /// The same as numbers of the band: the first, and the one after the last.
+    pub numbers: [i32; 2],
     /// The edge functions in the first group.
     pub functions: [M::I; 3],
     /// Its place in the values of [`Starts`].
@@ -45,12 +45,6 @@ pub(crate) struct Starts {
     functions: [[i32; 8]; 3],
     /// The numbers that are interpolated, at the first pixel of the first group.
     pub values: [[f32; 8]; 1 + MOST_PLANES],
-}
-
-/// The numbers between these two of row `k`; none where the end is below 0.
-#[inline(always)]
-fn between([from, to]: &[[i32; 8]; 2], k: usize) -> Range<usize> {
-    from[k] as usize..Ord::max(to[k], 0) as usize
 }
 
 impl<M: Lanes> Groups<M> {
@@ -131,8 +125,8 @@ impl<M: Lanes> Groups<M> {
             for k in 0..rows_here {
                 let line = Line {
                     row: row + k,
-                    groups: between(&starts.groups, k),
-                    numbers: between(&starts.numbers, k),
+                    groups: starts.groups[0][k] as usize..Ord::max(starts.groups[1][k], 0) as usize,
+                    numbers: [starts.numbers[0][k], starts.numbers[1][k]],
                     functions: each(
                         #[inline(always)]
                         |i| m.int(starts.functions[i][k]) + self.ramp[i],
