@@ -257,6 +257,26 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         }
     }
 
+    /// The same where it is what most scenes ask for: R·V, no specular light where `L·N ≤ 0`, lights of full strength, a shininess
+    /// that is a power of two. Written out, so that the compiler sees these choices and leaves them out of a loop that is shaded with
+    /// it.
+    #[inline(always)]
+    pub fn usual(&self) -> Option<Self> {
+        let Power::Integer(n) = self.power else { return None };
+        let is_usual = self.model == SpecularModel::Phong && self.gate == SpecularGate::Gated && n.is_power_of_two();
+        if !is_usual || self.far.scalars.strength.is_some() {
+            return None;
+        }
+        let scalars = SeenScalars { strength: None, ..self.far.scalars };
+        Some(Illumination {
+            model: SpecularModel::Phong,
+            gate: SpecularGate::Gated,
+            power: Power::Integer(1 << (n.trailing_zeros() & 31)),
+            far: Seen { scalars, ..self.far },
+            ..*self
+        })
+    }
+
     /// Light and viewer at infinity, as every point sees them.
     #[inline(always)]
     pub fn far(&self) -> &Seen<N, L> {
@@ -363,9 +383,17 @@ impl<N: Num, const L: usize> Illumination<N, L> {
                 (d, s) = (d * strength, s * strength);
             }
             let (diffuse, specular) = (&self.diffuse[i], &self.specular[i]);
-            red = specular[0].mul_add(s, diffuse[0].mul_add(d, red)); // 2.1
-            green = specular[1].mul_add(s, diffuse[1].mul_add(d, green));
-            blue = specular[2].mul_add(s, diffuse[2].mul_add(d, blue));
+            if i == 0 {
+                // Not `mul_add`: both constants lie in memory, of which one operand at a time is read.
+                (red, green, blue) = (red + diffuse[0] * d, green + diffuse[1] * d, blue + diffuse[2] * d);
+            } else {
+                red = diffuse[0].mul_add(d, red);
+                green = diffuse[1].mul_add(d, green);
+                blue = diffuse[2].mul_add(d, blue);
+            }
+            red = specular[0].mul_add(s, red); // 2.1
+            green = specular[1].mul_add(s, green);
+            blue = specular[2].mul_add(s, blue);
             i += 1;
         }
         [red, green, blue]

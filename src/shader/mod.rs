@@ -179,6 +179,13 @@ pub trait Shader: 'static {
 
     /// Constants from the light on one material; `parameters` are in the order of [`Info::parameters`].
     fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N>;
+    /// The constants again, if they ask for what most scenes do, with that written out: pixel loops of it are compiled apart, without
+    /// decisions. `None` by default: then there is one loop.
+    #[inline(always)]
+    fn usual<N: Num>(consts: &Self::Consts<N>) -> Option<Self::Consts<N>> {
+        let _ = consts;
+        None
+    }
     /// Once a vertex.
     fn vertex<M: Machine>(c: &Self::Consts<M::One>, corner: &Corner<'_, M>) -> Self::Attribute<M::One>;
     /// Once a polygon.

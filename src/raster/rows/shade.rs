@@ -6,6 +6,7 @@ use crate::number::{Lanes, Num, Pair};
 use crate::shader::Shader;
 use alloc::vec::Vec;
 use core::ops::Range;
+use core::slice::ChunksExactMut;
 
 /// Where the colours of a row go: into texels as they are stored, or into depth and three channels.
 pub(super) enum Colours<'a> {
@@ -19,39 +20,6 @@ pub(super) enum Colours<'a> {
 const MOST: usize = 16;
 
 impl Colours<'_> {
-    /// Stores the colours of two groups that begin with pixel `x` where their depth is finite, and the background elsewhere.
-    #[inline(always)]
-    fn store<M: Lanes>(&mut self, m: M, x: usize, depth: Pair<M::F>, rgb: [Pair<M::F>; 3]) {
-        match self {
-            Colours::Packed(texels, background) => {
-                pack(m, depth, rgb, *background, &mut texels[x..x + 2 * M::WIDTH]);
-            }
-            Colours::Linear(channels) => {
-                for (channel, value) in channels.iter_mut().zip([depth, rgb[0], rgb[1], rgb[2]]) {
-                    let (first, second) = channel[x..x + 2 * M::WIDTH].split_at_mut(M::WIDTH);
-                    m.store(value.0, first);
-                    m.store(value.1, second);
-                }
-            }
-        }
-    }
-
-    /// Stores two groups that begin with pixel `x`, which were stored aside: the pixels `pixels` only, as far as there are any.
-    #[cold]
-    #[inline(never)]
-    fn store_part(&mut self, from: &Aside, x: usize, pixels: Range<usize>) {
-        let own = pixels.start.max(x)..pixels.end.min(x + MOST);
-        let part = own.start - x..own.end - x;
-        match self {
-            Colours::Packed(texels, _) => texels[own].copy_from_slice(&from.texels[part]),
-            Colours::Linear(channels) => {
-                for (channel, from) in channels.iter_mut().zip(&from.channels) {
-                    channel[own.clone()].copy_from_slice(&from[part.clone()]);
-                }
-            }
-        }
-    }
-
     /// How many pixels there is room for.
     #[inline(always)]
     fn end(&self) -> usize {
@@ -61,17 +29,43 @@ impl Colours<'_> {
         }
     }
 
-    /// Nothing was drawn in the two groups that begin with pixel `x`.
+    /// The places of `count` pixels from pixel `x` on; or, where they do not all go there, two groups aside.
     #[inline(always)]
-    fn skip<M: Lanes>(&mut self, m: M, x: usize) {
+    fn places<'a, M: Lanes>(
+        &'a mut self,
+        aside: &'a mut Aside,
+        (x, count): (usize, usize),
+        is_here: bool,
+    ) -> Places<'a> {
         match self {
             Colours::Packed(texels, background) => {
-                let end = texels.len().min(x + 2 * M::WIDTH);
-                texels[x..end].fill(*background);
+                let texels = if is_here { &mut texels[x..x + count] } else { &mut aside.texels[..count] };
+                Places::Packed(texels.chunks_exact_mut(2 * M::WIDTH), *background)
             }
-            Colours::Linear([depth, ..]) => {
-                m.store(m.splat(f32::INFINITY), &mut depth[x..]);
-                m.store(m.splat(f32::INFINITY), &mut depth[x + M::WIDTH..]);
+            Colours::Linear(channels) => {
+                let [depth, r, g, b] = channels;
+                let [no_depth, no_r, no_g, no_b] = &mut aside.channels;
+                let of = |here: &'a mut Vec<f32>, aside: &'a mut [f32; MOST]| {
+                    let place = if is_here { &mut here[x..x + count] } else { &mut aside[..count] };
+                    place.chunks_exact_mut(M::WIDTH)
+                };
+                Places::Linear([of(depth, no_depth), of(r, no_r), of(g, no_g), of(b, no_b)])
+            }
+        }
+    }
+
+    /// Copies the pixels `pixels` of two groups aside that begin with pixel `x`.
+    fn copy(&mut self, from: &Aside, x: usize, pixels: Range<usize>) {
+        if pixels.is_empty() {
+            return;
+        }
+        let part = pixels.start - x..pixels.end - x;
+        match self {
+            Colours::Packed(texels, _) => texels[pixels].copy_from_slice(&from.texels[part]),
+            Colours::Linear(channels) => {
+                for (channel, from) in channels.iter_mut().zip(&from.channels) {
+                    channel[pixels.clone()].copy_from_slice(&from[part.clone()]);
+                }
             }
         }
     }
@@ -83,31 +77,54 @@ struct Aside {
     channels: [[f32; MOST]; 4],
 }
 
-impl Aside {
-    /// As they go into `colours`.
+/// Where the colours of neighbouring groups go.
+enum Places<'a> {
+    /// Two groups at a time; and the background.
+    Packed(ChunksExactMut<'a, [u8; 4]>, [u8; 4]),
+    /// One at a time.
+    Linear([ChunksExactMut<'a, f32>; 4]),
+}
+
+impl Places<'_> {
+    /// Stores two groups, where their depth is finite, else the background.
     #[inline(always)]
-    fn new<M: Lanes>(m: M, colours: &Colours<'_>, depth: Pair<M::F>, rgb: [Pair<M::F>; 3]) -> Self {
-        let mut aside = Aside { texels: [[0; 4]; MOST], channels: [[0.0; MOST]; 4] };
-        match colours {
-            Colours::Packed(_, background) => pack(m, depth, rgb, *background, &mut aside.texels[..2 * M::WIDTH]),
-            Colours::Linear(_) => {
-                for (channel, value) in aside.channels.iter_mut().zip([depth, rgb[0], rgb[1], rgb[2]]) {
-                    m.store(value.0, channel);
-                    m.store(value.1, &mut channel[M::WIDTH..]);
+    fn store<M: Lanes>(&mut self, m: M, depth: Pair<M::F>, [r, g, b]: [Pair<M::F>; 3]) {
+        match self {
+            Places::Packed(places, background) => {
+                let Some(place) = places.next() else { return };
+                let (first, second) = place.split_at_mut(M::WIDTH);
+                let infinite = m.splat(f32::INFINITY);
+                m.pack([r.0, g.0, b.0], m.less(depth.0, infinite), *background, first);
+                m.pack([r.1, g.1, b.1], m.less(depth.1, infinite), *background, second);
+            }
+            Places::Linear(channels) => {
+                for (places, value) in channels.iter_mut().zip([depth, r, g, b]) {
+                    for value in [value.0, value.1] {
+                        if let Some(place) = places.next() {
+                            m.store(value, place);
+                        }
+                    }
                 }
             }
         }
-        aside
     }
-}
 
-/// Packs two groups into texels.
-#[inline(always)]
-fn pack<M: Lanes>(m: M, depth: Pair<M::F>, [r, g, b]: [Pair<M::F>; 3], background: [u8; 4], texels: &mut [[u8; 4]]) {
-    let infinite = m.splat(f32::INFINITY);
-    let (first, second) = texels.split_at_mut(M::WIDTH);
-    m.pack([r.0, g.0, b.0], m.less(depth.0, infinite), background, first);
-    m.pack([r.1, g.1, b.1], m.less(depth.1, infinite), background, second);
+    /// Nothing was drawn in the next two groups.
+    #[inline(always)]
+    fn skip<M: Lanes>(&mut self, m: M) {
+        match self {
+            Places::Packed(places, background) => {
+                if let Some(place) = places.next() {
+                    place.fill(*background);
+                }
+            }
+            Places::Linear(_) => self.store(
+                m,
+                Pair(m.splat(f32::INFINITY), m.splat(f32::INFINITY)),
+                [Pair(m.splat(0.0), m.splat(0.0)); 3],
+            ),
+        }
+    }
 }
 
 /// Shades what was drawn of a row and empties it. All of it has material `only`, or the band knows each pixel's.
@@ -119,33 +136,54 @@ pub(super) fn row<S: Shader, M: Lanes>(
     band: &mut Band,
     colours: &mut Colours<'_>,
 ) {
-    let infinite = m.splat(f32::INFINITY);
+    let mut aside = Aside { texels: [[0; 4]; MOST], channels: [[0.0; MOST]; 4] };
     let drawn = band.drawn();
     let (mut from, end) = (drawn.start * M::WIDTH, drawn.end * M::WIDTH);
     while from < end {
         let (to, material) = band.same_material::<M, S::Pixel<M::F>>(row, from..end, only);
-        // A copy that nothing else refers to: loads from it can leave the loop.
-        let consts = all[material as usize];
-        let mut x = from / (2 * M::WIDTH) * 2 * M::WIDTH;
-        let end = to.min(colours.end());
-        // Where two groups lie wholly in these pixels, if they begin there.
-        let whole = from..(end + 1).saturating_sub(2 * M::WIDTH);
-        for groups in band.row::<M, S::Pixel<M::F>>(row, x / M::WIDTH..to.div_ceil(2 * M::WIDTH) * 2) {
-            let (depth, pixels) = Band::pixels::<M, S::Pixel<Pair<M::F>>>(m, groups);
-            if m.any(m.less(depth.0.min(depth.1), infinite)) {
-                let rgb = S::shade(&consts, pixels);
-                if whole.contains(&x) {
-                    colours.store(m, x, depth, rgb);
-                } else {
-                    let aside = Aside::new(m, colours, depth, rgb);
-                    colours.store_part(&aside, x, from..end.min(x + 2 * M::WIDTH));
-                }
-            } else {
-                colours.skip(m, x);
-            }
-            x += 2 * M::WIDTH;
+        let consts = &all[material as usize];
+        let part = Part { row, pixels: from..to.min(colours.end()), aside: &mut aside };
+        match S::usual(consts) {
+            Some(consts) => part.shade::<S, M>(m, &consts, band, colours),
+            None => part.shade::<S, M>(m, consts, band, colours),
         }
         from = to;
     }
     band.empty_row::<M, S::Pixel<M::F>>(m, row);
+}
+
+/// Pixels of a row that have one material.
+struct Part<'a> {
+    row: usize,
+    pixels: Range<usize>,
+    aside: &'a mut Aside,
+}
+
+impl Part<'_> {
+    #[inline(always)]
+    fn shade<S: Shader, M: Lanes>(self, m: M, consts: &Consts<S, M>, band: &Band, colours: &mut Colours<'_>) {
+        // A copy that nothing else refers to: loads from it can leave the loop.
+        let consts = *consts;
+        let Part { row, pixels: Range { start: from, end: last }, aside } = self;
+        let (two, infinite) = (2 * M::WIDTH, m.splat(f32::INFINITY));
+        let mut x = from / two * two;
+        while x < last {
+            // As many groups as go where they lie, or two that do not.
+            let is_here = from <= x && x + two <= last;
+            let count = if is_here { (last - x) / two * two } else { two };
+            let mut places = colours.places::<M>(aside, (x, count), is_here);
+            for groups in band.row::<M, S::Pixel<M::F>>(row, x / M::WIDTH..(x + count) / M::WIDTH) {
+                let (depth, planes) = Band::pixels::<M, S::Pixel<Pair<M::F>>>(m, groups);
+                if m.any(m.less(depth.0.min(depth.1), infinite)) {
+                    places.store(m, depth, S::shade(&consts, planes));
+                } else {
+                    places.skip(m);
+                }
+            }
+            if !is_here {
+                colours.copy(aside, x, from.max(x)..last.min(x + two));
+            }
+            x += count;
+        }
+    }
 }
