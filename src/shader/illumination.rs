@@ -3,82 +3,7 @@
 use crate::lighting::{Lighting, Place, SpecularGate, SpecularModel};
 use crate::number::{Machine, Num, Planes, Real, dot, each};
 
-/// The exponent `n` of the specular term, as it is best computed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Power {
-    /// A whole number: by repeated squaring, at most 2 log₂ n multiplications.
-    Integer(u32),
-    /// Any other: by the library's power function.
-    Fractional(f32),
-}
-
-impl Power {
-    /// The power for a shininess of 0 or more.
-    pub fn new(shininess: f32) -> Self {
-        let whole = shininess as u32;
-        if whole as f32 == shininess { Power::Integer(whole) } else { Power::Fractional(shininess) }
-    }
-
-    /// `base` to this power; `base` is 0 or more, and anything to the power 0 is 1. The one power function of all
-    /// methods, so that none is faster by a cheaper one.
-    #[inline(always)]
-    pub fn of<F: Num>(self, base: F, one: F) -> F {
-        self.of_each([base], one)[0]
-    }
-
-    /// The same of several numbers: what is to be done is decided once for all of them.
-    #[inline(always)]
-    pub fn of_each<F: Num, const L: usize>(self, base: [F; L], one: F) -> [F; L] {
-        let mut n = match self {
-            Power::Integer(0) => return [one; L],
-            Power::Integer(n) => n,
-            Power::Fractional(n) => {
-                return each(
-                    #[inline(always)]
-                    |i| base[i].powf(n),
-                );
-            }
-        };
-        let mut square = base;
-        let zeros = n.trailing_zeros();
-        // Without a loop: those of 16, 32 and 64 are most of what is done for a highlight.
-        if zeros & 4 != 0 {
-            square = squared(squared(squared(squared(square))));
-        }
-        if zeros & 2 != 0 {
-            square = squared(squared(square));
-        }
-        if zeros & 1 != 0 {
-            square = squared(square);
-        }
-        for _ in 0..zeros / 8 * 8 {
-            square = squared(square);
-        }
-        let mut power = square;
-        n >>= zeros;
-        n >>= 1;
-        while n != 0 {
-            square = squared(square);
-            if n & 1 == 1 {
-                power = each(
-                    #[inline(always)]
-                    |i| power[i] * square[i],
-                );
-            }
-            n >>= 1;
-        }
-        power
-    }
-}
-
-/// The square of each.
-#[inline(always)]
-fn squared<F: Num, const L: usize>(x: [F; L]) -> [F; L] {
-    each(
-        #[inline(always)]
-        |i| x[i] * x[i],
-    )
-}
+pub use super::power::Power;
 
 /// Light and viewer as one point sees them: unit vectors, and what the model needs of them.
 #[derive(Clone, Copy, Debug)]
@@ -262,19 +187,14 @@ impl<N: Num, const L: usize> Illumination<N, L> {
     /// it.
     #[inline(always)]
     pub fn usual(&self) -> Option<Self> {
-        let Power::Integer(n) = self.power else { return None };
-        let is_usual = self.model == SpecularModel::Phong && self.gate == SpecularGate::Gated && n.is_power_of_two();
-        if !is_usual || self.far.scalars.strength.is_some() {
+        let power = self.power.by_squaring()?;
+        if self.model != SpecularModel::Phong || self.gate != SpecularGate::Gated || self.far.scalars.strength.is_some()
+        {
             return None;
         }
         let scalars = SeenScalars { strength: None, ..self.far.scalars };
-        Some(Illumination {
-            model: SpecularModel::Phong,
-            gate: SpecularGate::Gated,
-            power: Power::Integer(1 << (n.trailing_zeros() & 31)),
-            far: Seen { scalars, ..self.far },
-            ..*self
-        })
+        let far = Seen { scalars, ..self.far };
+        Some(Illumination { model: SpecularModel::Phong, gate: SpecularGate::Gated, power, far, ..*self })
     }
 
     /// Light and viewer at infinity, as every point sees them.

@@ -10,6 +10,7 @@ mod bound;
 mod count;
 mod dispatch;
 mod info;
+mod power;
 mod span;
 mod spread;
 mod streamed;
