@@ -172,6 +172,15 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
         }
     }
 
+    /// Group `group` of row `row`, whose pixels have `MATERIALS` or none.
+    #[inline(always)]
+    pub fn cell<const MATERIALS: bool>(&mut self, row: usize, group: usize) -> Option<Cell<'_, M, P>> {
+        let (number, size) = (row * self.a_row + group, size::<M, P>());
+        let values = self.values.get_mut(number * size..(number + 1) * size)?;
+        let materials: &mut [f32] = if MATERIALS { self.materials } else { &mut [] };
+        Some(Cell { values, materials, number, least: self.least, pixel: PhantomData })
+    }
+
     /// How many numbers there are a row, and a group.
     #[inline(always)]
     pub fn row_and_group(&self) -> [usize; 2] {

@@ -20,8 +20,7 @@ pub(super) const SMALL_HEIGHT: i32 = 64;
 /// Up to this many pixels wide and high a triangle is drawn pixel by pixel, a group of triangles at a time.
 pub(super) const TINY: i32 = 5;
 
-/// Barycentric coordinates of a small triangle grow by at most this from column to column: it is not thinner than a quarter of a
-/// pixel.
+/// Barycentric coordinates of a small triangle grow by at most this from pixel to pixel: it is not thinner than a quarter of one.
 pub(super) const STEEPEST: i32 = 4;
 
 /// Whole numbers, one for each triangle.

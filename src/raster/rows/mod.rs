@@ -19,6 +19,7 @@ mod paint;
 mod place;
 mod polygon;
 mod shade;
+mod small;
 mod tiny;
 mod triangle;
 

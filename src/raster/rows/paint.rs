@@ -1,9 +1,10 @@
 //! Polygons into a band: what a walk gives is written wherever it is nearer than what was drawn before.
 
-use super::band::{Cell, Cells, MOST_PLANES};
+use super::band::{Cells, MOST_PLANES};
 use super::batch::{Batch, Facets, Kind};
+use super::small::SmallTriangle;
 use super::tiny::Fragments;
-use super::triangle::{Groups, Line, Starts, Triangle};
+use super::triangle::{Starts, Triangle};
 use crate::frame::Frame;
 use crate::number::{Lanes, Num, Planes, Scalar, each, get_each, put_each};
 use crate::raster::setup::SetUp;
@@ -24,7 +25,7 @@ pub(super) const fn planes<S: Shader, M: Lanes>() -> Option<usize> {
 
 /// A number over one triangle: see [`Facets`].
 #[derive(Clone, Copy, Debug, Default)]
-struct Facet {
+pub(super) struct Facet {
     at: f32,
     to: [f32; 2],
 }
@@ -32,13 +33,13 @@ struct Facet {
 impl Facet {
     /// That of triangle `k`.
     #[inline(always)]
-    fn of(facets: &Facets, k: usize) -> Facet {
+    pub fn of(facets: &Facets, k: usize) -> Facet {
         Facet { at: facets.at[k], to: [facets.to[0][k], facets.to[1][k]] }
     }
 
     /// At a group of pixels with these coordinates.
     #[inline(always)]
-    fn lanes<M: Lanes>(&self, m: M, [b, c]: [M::F; 2]) -> M::F {
+    pub fn lanes<M: Lanes>(&self, m: M, [b, c]: [M::F; 2]) -> M::F {
         m.splat(self.to[1]).mul_add(c, m.splat(self.to[0]).mul_add(b, m.splat(self.at)))
     }
 
@@ -125,57 +126,13 @@ impl<S: Shader> Painter<'_, S> {
                 |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
             );
         }
+        let (flat, material) = (self.flat(m, batch, k), batch.polygon(k).1);
+        let triangle = SmallTriangle::<S, M>::new(m, batch.small(k), (&batch.facets, k), &flat, material);
         if self.has_materials {
-            self.groups::<M, true>(m, (batch, k), starts, top, cells);
+            triangle.draw::<true>(m, starts, top, cells);
         } else {
-            self.groups::<M, false>(m, (batch, k), starts, top, cells);
+            triangle.draw::<false>(m, starts, top, cells);
         }
-    }
-
-    /// A small triangle group by group, whose pixels have `MATERIALS` or none.
-    #[inline(always)]
-    fn groups<M: Lanes, const MATERIALS: bool>(
-        &self,
-        m: M,
-        (batch, k): (&Batch, usize),
-        starts: &mut Starts,
-        top: usize,
-        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
-    ) {
-        let (small, flat) = (batch.small(k), self.flat(m, batch, k));
-        let groups = Groups::new(m, &small);
-        let numbers = Numbers::<M>::new(m, small.growth(), facets::<S, M>(), &batch.facets, k);
-        let material = batch.polygon(k).1;
-        let triangle = SmallTriangle::<S, M> { groups: &groups, numbers: &numbers, flat: &flat, material };
-        groups.rows(
-            m,
-            (&small, top),
-            cells.row_and_group(),
-            starts,
-            (
-                facets::<S, M>(),
-                #[inline(always)]
-                |i, weights| Facet::of(&batch.facets[i], k).lanes(m, weights),
-            ),
-            #[inline(always)]
-            |Line { row, groups, numbers: places, functions: mut here, of_eight }, starts| {
-                let mut at = numbers.start(m, &starts.values, of_eight, facets::<S, M>());
-                if !MATERIALS {
-                    cells.plain(
-                        places,
-                        #[inline(always)]
-                        |cell| triangle.draw(m, cell, &mut here, &mut at),
-                    );
-                } else if groups.start < groups.end {
-                    cells.each(
-                        row,
-                        groups,
-                        #[inline(always)]
-                        |cell| triangle.draw(m, cell, &mut here, &mut at),
-                    );
-                }
-            },
-        );
     }
 
     #[inline(always)]
@@ -334,98 +291,6 @@ impl<S: Shader> Painter<'_, S> {
     }
 }
 
-/// A small triangle, of which groups are drawn from left to right.
-struct SmallTriangle<'a, S: Shader, M: Lanes> {
-    groups: &'a Groups<M>,
-    numbers: &'a Numbers<M>,
-    flat: &'a Flat<S, M>,
-    material: u32,
-}
-
-impl<S: Shader, M: Lanes> SmallTriangle<'_, S, M> {
-    /// Draws a group with these edge functions and numbers, which are those of the group beside then.
-    #[inline(always)]
-    fn draw(
-        &self,
-        m: M,
-        cell: &mut Cell<'_, M, S::Pixel<M::F>>,
-        functions: &mut [M::I; 3],
-        at: &mut [M::F; 1 + MOST_PLANES],
-    ) {
-        let pixel = match self.flat {
-            Flat::Interpolated(_) => Numbers::<M>::pixel(at),
-            Flat::Constant(pixel) => *pixel,
-        };
-        cell.put(m, Groups::<M>::outside(*functions), at[0], pixel, self.material);
-        *functions = self.groups.beside(*functions);
-        self.numbers.beside(at, facets::<S, M>());
-    }
-}
-
-/// The numbers of a small triangle from group to group.
-///
-/// They are exact, but for roundings, at the first pixel of the first group of each row, and grow from there by additions. That
-/// pixel is up to 7 columns off the triangle: a coordinate that grows by at most [`STEEPEST`] a column is below 32 there, and three
-/// roundings of it and one of each of up to 8 sums are at most 2⁻¹⁶ of how far corners are apart.
-struct Numbers<M: Lanes> {
-    /// How much they grow to each pixel of a group, and from group to group.
-    ramp: [M::F; 1 + MOST_PLANES],
-    across: [M::F; 1 + MOST_PLANES],
-}
-
-impl<M: Lanes> Numbers<M> {
-    /// The first `count` of triangle `k`, whose barycentric coordinates grow by `growth` from column to column.
-    #[inline(always)]
-    fn new(m: M, growth: [f32; 2], count: usize, facets: &[Facets], k: usize) -> Self {
-        let zero = m.splat(0.0);
-        let mut numbers = Numbers { ramp: [zero; 1 + MOST_PLANES], across: [zero; 1 + MOST_PLANES] };
-        let mut i = 0;
-        while i < count {
-            let to = &facets[i].to;
-            let step = to[0][k] * growth[0] + to[1][k] * growth[1];
-            numbers.ramp[i] = m.ramp(0.0, step);
-            numbers.across[i] = m.stride(step);
-            i += 1;
-        }
-        numbers
-    }
-
-    /// In the first group of row `row` of those that begin with `values`.
-    #[inline(always)]
-    fn start(&self, m: M, values: &[[f32; 8]; 1 + MOST_PLANES], row: usize, count: usize) -> [M::F; 1 + MOST_PLANES] {
-        let mut at = self.ramp;
-        let mut i = 0;
-        while i < count {
-            at[i] = m.splat(values[i][row]) + self.ramp[i];
-            i += 1;
-        }
-        at
-    }
-
-    /// In the group beside.
-    #[inline(always)]
-    fn beside(&self, at: &mut [M::F; 1 + MOST_PLANES], count: usize) {
-        let mut i = 0;
-        while i < count {
-            at[i] = at[i] + self.across[i];
-            i += 1;
-        }
-    }
-
-    /// All but the first of them, which is depth.
-    #[inline(always)]
-    fn pixel<P: Planes<M::F>>(at: &[M::F; 1 + MOST_PLANES]) -> P {
-        let mut i = 0;
-        get_each(
-            #[inline(always)]
-            || {
-                i += 1;
-                at[i]
-            },
-        )
-    }
-}
-
 /// Groups of pixels that are given some pixels later than they come: of two that follow one another the last pixels of the
 /// first and the first ones of the second make one.
 struct Later {
@@ -471,7 +336,7 @@ impl Later {
 }
 
 /// What the pixels of a triangle are given.
-enum Flat<S: Shader, M: Lanes> {
+pub(super) enum Flat<S: Shader, M: Lanes> {
     /// The attribute's numbers.
     Interpolated([Facet; MOST_PLANES]),
     /// The same everywhere.

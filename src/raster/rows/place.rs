@@ -101,8 +101,9 @@ impl Batch {
         if has_tiny {
             tiny = drawn & (columns[1] - columns[0]).less(m.int(TINY + 1)) & (rows[1] - rows[0]).less(m.int(TINY + 1));
         }
-        // No edge is higher than the box: coordinates grow by at most 256 times its height over twice the area.
-        let steep = drawn & area.less(((bottom - top) & exact) * m.int(256 / STEEPEST)) & (tiny ^ all);
+        // No edge is higher or wider than the box: coordinates grow by at most 256 times that over twice the area.
+        let longer = (right - left).max(bottom - top) & exact;
+        let steep = drawn & area.less(longer * m.int(256 / STEEPEST)) & (tiny ^ all);
         let small = drawn & (steep ^ all);
         let large = is_there & ((is_small ^ all) | steep) & m.int(Kind::Large as i32);
         let kind = (small & m.int(Kind::Small as i32)) | (tiny & m.int(Kind::Tiny as i32)) | large;

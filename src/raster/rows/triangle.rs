@@ -14,9 +14,10 @@ use core::ops::Range;
 pub(super) struct Groups<M: Lanes> {
     /// The groups of a row between which it lies.
     pub groups: [usize; 2],
-    /// How much its edge functions grow to each pixel of a group, and from group to group.
+    /// How much its edge functions grow to each pixel of a group, from group to group, and from row to row.
     ramp: [M::I; 3],
     across: [M::I; 3],
+    down: [M::I; 3],
     over_area: M::F,
     /// What was taken off the functions for ownership, given back: the coordinates are those of the centre itself.
     back: [M::F; 2],
@@ -61,6 +62,10 @@ impl<M: Lanes> Groups<M> {
                 #[inline(always)]
                 |i| m.int(small.across(i)),
             ),
+            down: each(
+                #[inline(always)]
+                |i| m.int(small.down(i)),
+            ),
             over_area: m.splat(small.over_area()),
             back: [m.splat(small.off(1)), m.splat(small.off(2))],
         }
@@ -92,7 +97,7 @@ impl<M: Lanes> Groups<M> {
             let number = m.counted() + m.int((row - rows.start) as i32);
             let mut start: [M::I; 3] = each(
                 #[inline(always)]
-                |i| m.int(small.at(i)) + number * m.int(small.down(i)),
+                |i| m.int(small.at(i)) + number * self.down[i],
             );
             let (mut from, mut to) = (m.splat(0.0), last);
             let mut i = 0;
@@ -139,12 +144,30 @@ impl<M: Lanes> Groups<M> {
         }
     }
 
+    /// The functions in the first group of the first row.
+    #[inline(always)]
+    pub fn first(&self, m: M, small: &Small<'_>) -> [M::I; 3] {
+        each(
+            #[inline(always)]
+            |i| m.int(small.at(i)) + self.ramp[i],
+        )
+    }
+
     /// The functions of the group beside.
     #[inline(always)]
     pub fn beside(&self, here: [M::I; 3]) -> [M::I; 3] {
         each(
             #[inline(always)]
             |i| here[i] + self.across[i],
+        )
+    }
+
+    /// The functions of the group below.
+    #[inline(always)]
+    pub fn below(&self, here: [M::I; 3]) -> [M::I; 3] {
+        each(
+            #[inline(always)]
+            |i| here[i] + self.down[i],
         )
     }
 
@@ -207,6 +230,12 @@ impl Small<'_> {
     #[inline(always)]
     pub fn growth(&self) -> [f32; 2] {
         [self.right(1) as f32 * self.over_area(), self.right(2) as f32 * self.over_area()]
+    }
+
+    /// The same from row to row.
+    #[inline(always)]
+    pub fn fall(&self) -> [f32; 2] {
+        [self.down(1) as f32 * self.over_area(), self.down(2) as f32 * self.over_area()]
     }
 }
 

@@ -1,0 +1,193 @@
+//! Small triangles, group by group: narrow ones row by row of their boxes, others between the limits of each row.
+
+use super::band::{Cell, Cells, MOST_PLANES};
+use super::batch::{Facets, Small};
+use super::paint::{Facet, Flat, facets};
+use super::triangle::{Groups, Line, Starts};
+use crate::number::{Lanes, get_each};
+use crate::shader::Shader;
+
+/// A depth, and the numbers that pixels are given.
+type Numbers<F> = [F; 1 + MOST_PLANES];
+
+/// A small triangle that is drawn group by group.
+///
+/// Its numbers are exact, but for roundings, in its first group, or in the first one of each row, and grow from there by additions: finding
+/// them anew in each group took 46 instructions a group where 28 do now (`phong-rsqrt`, AVX2). From there to any pixel of it there are at
+/// most 15 rows and 55 columns, but fewer of these where it is steep: with at most [`STEEPEST`](super::batch::STEEPEST) a pixel no
+/// coordinate is over 121 at the first one. Three roundings of that and one of each of at most 17 sums are below 2⁻¹² of how far corners
+/// are apart; where a triangle is 2 pixels wide and high or more, below 2⁻¹⁵.
+pub(super) struct SmallTriangle<'a, S: Shader, M: Lanes> {
+    small: Small<'a>,
+    groups: Groups<M>,
+    /// Those of its batch, and its number in it.
+    facets: (&'a [Facets], usize),
+    flat: &'a Flat<S, M>,
+    material: u32,
+}
+
+impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
+    /// How many numbers are interpolated.
+    const COUNT: usize = facets::<S, M>();
+
+    /// Triangle number `facets.1` of a batch.
+    #[inline(always)]
+    pub fn new(m: M, small: Small<'a>, facets: (&'a [Facets], usize), flat: &'a Flat<S, M>, material: u32) -> Self {
+        SmallTriangle { groups: Groups::new(m, &small), small, facets, flat, material }
+    }
+
+    /// Draws it into the band that begins with row `top`, with its material if pixels have `MATERIALS`.
+    #[inline(always)]
+    pub fn draw<const MATERIALS: bool>(
+        &self,
+        m: M,
+        starts: &mut Starts,
+        top: usize,
+        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
+    ) {
+        let [first, end] = self.groups.groups;
+        if end - first <= 2 {
+            self.narrow::<MATERIALS>(m, top, cells);
+        } else {
+            self.wide::<MATERIALS>(m, starts, top, cells);
+        }
+    }
+
+    /// One or two groups a row: all of them are looked at. Limits would take longer than what they spare.
+    #[inline(always)]
+    fn narrow<const MATERIALS: bool>(&self, m: M, top: usize, cells: &mut Cells<'_, M, S::Pixel<M::F>>) {
+        let [first, end] = self.groups.groups;
+        let has_two = end - first == 2;
+        let (across, down) = (self.growth(m, self.small.growth(), M::WIDTH), self.growth(m, self.small.fall(), 1));
+        let mut functions = self.groups.first(m, &self.small);
+        let weights = self.groups.weights(m, functions);
+        let mut at = [m.splat(0.0); 1 + MOST_PLANES];
+        let mut i = 0;
+        while i < Self::COUNT {
+            at[i] = Facet::of(&self.facets.0[i], self.facets.1).lanes(m, weights);
+            i += 1;
+        }
+        for row in self.small.rows(top) {
+            if let Some(mut cell) = cells.cell::<MATERIALS>(row, first) {
+                self.put(m, &mut cell, functions, &at);
+            }
+            if has_two && let Some(mut cell) = cells.cell::<MATERIALS>(row, first + 1) {
+                self.put(m, &mut cell, self.groups.beside(functions), &Self::grown(at, &across));
+            }
+            functions = self.groups.below(functions);
+            at = Self::grown(at, &down);
+        }
+    }
+
+    /// Any number of groups a row, between the limits of each row.
+    #[inline(always)]
+    fn wide<const MATERIALS: bool>(
+        &self,
+        m: M,
+        starts: &mut Starts,
+        top: usize,
+        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
+    ) {
+        let (all, k) = self.facets;
+        let across = self.growth(m, self.small.growth(), M::WIDTH);
+        let mut ramps = self.growth(m, self.small.growth(), 1);
+        let mut i = 0;
+        while i < Self::COUNT {
+            ramps[i] = ramps[i] * m.number(m.counted());
+            i += 1;
+        }
+        self.groups.rows(
+            m,
+            (&self.small, top),
+            cells.row_and_group(),
+            starts,
+            (
+                Self::COUNT,
+                #[inline(always)]
+                |i, weights| Facet::of(&all[i], k).lanes(m, weights),
+            ),
+            #[inline(always)]
+            |Line { row, groups, numbers, mut functions, of_eight }, starts| {
+                let mut at = ramps;
+                let mut i = 0;
+                while i < Self::COUNT {
+                    at[i] = m.splat(starts.values[i][of_eight]) + ramps[i];
+                    i += 1;
+                }
+                if !MATERIALS {
+                    cells.plain(
+                        numbers,
+                        #[inline(always)]
+                        |cell| self.put_next(m, cell, &mut functions, &mut at, &across),
+                    );
+                } else if groups.start < groups.end {
+                    cells.each(
+                        row,
+                        groups,
+                        #[inline(always)]
+                        |cell| self.put_next(m, cell, &mut functions, &mut at, &across),
+                    );
+                }
+            },
+        );
+    }
+
+    /// Draws a group; `functions` and `at` are those of the group beside then.
+    #[inline(always)]
+    fn put_next(
+        &self,
+        m: M,
+        cell: &mut Cell<'_, M, S::Pixel<M::F>>,
+        functions: &mut [M::I; 3],
+        at: &mut Numbers<M::F>,
+        across: &Numbers<M::F>,
+    ) {
+        self.put(m, cell, *functions, at);
+        *functions = self.groups.beside(*functions);
+        *at = Self::grown(*at, across);
+    }
+
+    /// Draws a group with these edge functions and numbers.
+    #[inline(always)]
+    fn put(&self, m: M, cell: &mut Cell<'_, M, S::Pixel<M::F>>, functions: [M::I; 3], at: &Numbers<M::F>) {
+        let pixel = match self.flat {
+            Flat::Interpolated(_) => {
+                let mut i = 0;
+                get_each(
+                    #[inline(always)]
+                    || {
+                        i += 1;
+                        at[i]
+                    },
+                )
+            }
+            Flat::Constant(pixel) => *pixel,
+        };
+        cell.put(m, Groups::<M>::outside(functions), at[0], pixel, self.material);
+    }
+
+    /// How much its numbers grow over so many pixels, of each of which the coordinates grow by `growth`.
+    #[inline(always)]
+    fn growth(&self, m: M, growth: [f32; 2], pixels: usize) -> Numbers<M::F> {
+        let (all, k) = self.facets;
+        let mut grown = [m.splat(0.0); 1 + MOST_PLANES];
+        let mut i = 0;
+        while i < Self::COUNT {
+            let to = &all[i].to;
+            grown[i] = m.splat((to[0][k] * growth[0] + to[1][k] * growth[1]) * pixels as f32);
+            i += 1;
+        }
+        grown
+    }
+
+    /// The numbers `at`, grown by `growth`.
+    #[inline(always)]
+    fn grown(mut at: Numbers<M::F>, growth: &Numbers<M::F>) -> Numbers<M::F> {
+        let mut i = 0;
+        while i < Self::COUNT {
+            at[i] = at[i] + growth[i];
+            i += 1;
+        }
+        at
+    }
+}
