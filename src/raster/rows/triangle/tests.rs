@@ -3,7 +3,7 @@
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Lighting, Material};
 use crate::number::{Lanes, LanesJob, Level, on_level};
-use crate::raster::bins::{Entry, Listed};
+use crate::raster::bins::Listed;
 use crate::raster::coverage;
 use crate::raster::rows::band::Band;
 use crate::raster::rows::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH};
@@ -43,7 +43,7 @@ impl LanesJob for Covered<'_> {
 
     fn run<M: Lanes>(self, m: M) -> [Vec<Pixel>; 3] {
         let Covered(frame, band) = self;
-        let listed = |(number, polygon)| Listed::new(frame, number, polygon);
+        let listed = |(number, polygon)| Listed { number, corners: frame.corners(polygon).try_into().unwrap() };
         let polygons: Vec<Listed> = (0..).zip(frame.polygons()).map(listed).collect();
         let (mut rest, mut runs, mut groups, mut tiny) = (&polygons[..], vec![], vec![], vec![]);
         let mut batch = Batch::default();
