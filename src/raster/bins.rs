@@ -38,6 +38,12 @@ pub(crate) struct Listed {
 impl Listed {
     /// Of what is no triangle.
     pub const OTHER: [u32; 3] = [u32::MAX; 3];
+
+    /// Whether it is a triangle.
+    #[inline(always)]
+    pub fn is_triangle(&self) -> bool {
+        self.corners[0] != Listed::OTHER[0]
+    }
 }
 
 impl Entry for Listed {
