@@ -65,6 +65,8 @@ pub(crate) struct Bins<E> {
 struct Chunk<E> {
     starts: Vec<u32>,
     polygons: Vec<E>,
+    /// Whether none has more than three corners.
+    are_triangles: bool,
 }
 
 /// The first band of each polygon and the one after its last. There are at most
@@ -76,6 +78,11 @@ impl<E: Entry> Bins<E> {
     pub fn new(frame: &Frame, height: usize) -> Self {
         let chunks = frame.polygons().len().div_ceil(CHUNK);
         Bins { chunks: collect(chunks, 1, |number| Chunk::new(frame, height, number * CHUNK)) }
+    }
+
+    /// Whether all polygons of the frame are triangles.
+    pub fn are_triangles(&self) -> bool {
+        self.chunks.iter().all(|chunk| chunk.are_triangles)
     }
 
     /// The polygons that may cover pixels of band `band`, by ascending numbers from list to list and within each.
@@ -96,10 +103,11 @@ impl<E: Entry> Chunk<E> {
         let mut ranges = [[0; CHUNK]; 2];
         let mut starts = vec![0u32; bands + 2];
         let mut entries = Vec::with_capacity(all.len());
+        let mut are_triangles = true;
         vectorized(
             #[inline(always)]
             || {
-                find_ranges(frame, first, all, height, &mut ranges, &mut entries);
+                are_triangles = find_ranges(frame, first, all, height, &mut ranges, &mut entries);
                 count(&ranges, all.len(), &mut starts);
             },
         );
@@ -117,7 +125,7 @@ impl<E: Entry> Chunk<E> {
                 put(band, entry);
             }
         }
-        Chunk { starts, polygons }
+        Chunk { starts, polygons, are_triangles }
     }
 }
 
@@ -138,7 +146,7 @@ fn count(ranges: &Ranges, polygons: usize, starts: &mut [u32]) {
 }
 
 /// The bands of `height` scanlines whose pixel centres the bounding box of each polygon holds, and what stands for it in their
-/// lists; the first polygon has number `number`.
+/// lists; the first polygon has number `number`. Gives whether all are triangles.
 #[inline(always)]
 fn find_ranges<E: Entry>(
     frame: &Frame,
@@ -147,11 +155,12 @@ fn find_ranges<E: Entry>(
     height: usize,
     ranges: &mut Ranges,
     entries: &mut Vec<E>,
-) {
+) -> bool {
     let mut corners = [[[0; 2]; GROUP]; 4];
     let mut read_entries = [E::default(); GROUP];
     let (limit, log_height) = ([[frame.width() as i32, frame.height() as i32]; GROUP], height.trailing_zeros());
     let nowhere = frame.height().div_ceil(height) as i32;
+    let mut are_triangles = true;
     let mut first = 0;
     while first < polygons.len() {
         let polygons = &polygons[first..];
@@ -160,6 +169,7 @@ fn find_ranges<E: Entry>(
         entries.extend_from_slice(&read_entries[..polygons.len()]);
         // The fourth corner of a triangle is its third one.
         let (begin, end) = if these_are { pixels::<3>(&corners, &limit) } else { pixels::<4>(&corners, &limit) };
+        are_triangles &= these_are;
         let [from, to] = ranges;
         let (from, to) = (&mut from[first..first + GROUP], &mut to[first..first + GROUP]);
         for k in 0..GROUP {
@@ -170,6 +180,7 @@ fn find_ranges<E: Entry>(
         }
         first += GROUP;
     }
+    are_triangles
 }
 
 /// Columns and rows, by polygon.

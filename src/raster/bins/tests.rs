@@ -48,6 +48,37 @@ fn a_band_has_every_polygon_that_covers_any_of_its_pixels_in_order() {
     }
 }
 
+/// Also in groups that follow one of other shapes, and in a list with all chunks.
+#[test]
+fn triangles_are_told_from_polygons_of_other_shapes() {
+    for count in [1, GROUP, CHUNK + GROUP + 1] {
+        for other in [None, Some(0), Some(count / 2), Some(count - 1)] {
+            for corners in [4, 5] {
+                let mut builder = FrameBuilder::new(8, 8);
+                let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
+                for number in 0..count {
+                    let corners: Vec<u32> = (0..if Some(number) == other { corners } else { 3 })
+                        .map(|corner| {
+                            let [x, y] =
+                                [[0, 0], [900, 0], [900, 900], [500, 950], [0, 900]][corner].map(SubPixel::from_bits);
+                            builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+                        })
+                        .collect();
+                    builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
+                }
+                let whole = builder.finish().expect("corners inside the guard band");
+                let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
+                for frame in [&whole, &pieces] {
+                    let bins = Bins::<Listed>::new(frame, 8);
+                    assert_eq!(bins.are_triangles(), other.is_none(), "{other:?} of {count}");
+                    let others = bins.band(0).flatten().filter(|entry| !entry.is_triangle());
+                    assert!(others.map(|entry| entry.number as usize).eq(other));
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn triangles_are_listed_with_their_corners() {
     let whole = frame(&mut Random::new(33), 400, 50, 40);

@@ -70,6 +70,8 @@ pub(super) enum Numbers<'a, A> {
     Unread,
     /// In attributes.
     Attributes(&'a [A]),
+    /// They are those of the vertices' own normals.
+    Normals(&'a [[f32; 3]]),
 }
 
 /// An edge function of each triangle, over 0 inside, in sub-pixels²: at the centre of the first pixel of the first group of the
@@ -246,6 +248,19 @@ impl Batch {
                                 i += 1;
                             },
                         );
+                    },
+                );
+            }
+            Numbers::Normals(normals) => {
+                let count = vertices.len().min(normals.len());
+                let (vertices, normals) = (&vertices[..count], &normals[..count]);
+                self.read_lines(
+                    m,
+                    (drawn, facets),
+                    #[inline(always)]
+                    |corner, line| {
+                        let [x, y, z] = normals[corner];
+                        (line[0], line[1], line[2], line[3]) = (vertices[corner].depth, x, y, z);
                     },
                 );
             }

@@ -59,10 +59,16 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
         return;
     }
     let bins = Bins::<Listed>::new(frame, HEIGHT);
-    let setup = SetUp::<S, Scalar>::new(Scalar, frame, parameters);
-    let numbers = match S::GIVEN {
-        Given::Attribute => Numbers::Attributes(&setup.attributes[..]),
-        _ => Numbers::Unread,
+    // Only polygons of other shapes need attributes where normals are read as they are.
+    let normals = if S::ATTRIBUTE_IS_NORMAL && bins.are_triangles() { frame.normals_on_screen() } else { None };
+    let setup = match normals {
+        Some(_) => SetUp::<S, Scalar>::without_attributes(Scalar, frame, parameters),
+        None => SetUp::new(Scalar, frame, parameters),
+    };
+    let numbers = match normals {
+        _ if S::GIVEN != Given::Attribute => Numbers::Unread,
+        Some(normals) => Numbers::Normals(normals),
+        None => Numbers::Attributes(&setup.attributes),
     };
     let twice = |x| Pair(m.splat(x), m.splat(x));
     let consts: Vec<Consts<S, M>> = frame.lightings().iter().map(|l| S::consts(l, parameters, &twice)).collect();
