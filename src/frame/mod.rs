@@ -140,6 +140,13 @@ impl Frame {
         self.geometry.normal(vertex)
     }
 
+    /// The unit normals of all vertices, where all of them stand together and attributes are linear on the screen: there are no
+    /// clip corners and no second sides then.
+    pub(crate) fn normals_on_screen(&self) -> Option<&[[f32; 3]]> {
+        let normals = &self.geometry.normals;
+        (self.interpolation == Interpolation::Screen && normals.len() == self.vertices.len()).then_some(normals)
+    }
+
     /// The material of a vertex: its entry in [`Frame::lightings`].
     #[inline(always)]
     pub fn material(&self, vertex: u32) -> u32 {

@@ -13,14 +13,14 @@ const GROUP: usize = 64;
 
 /// What stands for a polygon in the list of a band.
 pub(crate) trait Entry: Copy + Default + Send + Sync {
-    /// That of polygon `number`.
-    fn new(frame: &Frame, number: u32, polygon: &Polygon) -> Self;
+    /// That of polygon `number`, with its corners, or [`Listed::OTHER`] if it is no triangle.
+    fn new(number: u32, corners: [u32; 3]) -> Self;
 }
 
 /// Its number alone.
 impl Entry for u32 {
     #[inline(always)]
-    fn new(_: &Frame, number: u32, _: &Polygon) -> u32 {
+    fn new(number: u32, _: [u32; 3]) -> u32 {
         number
     }
 }
@@ -38,13 +38,18 @@ pub(crate) struct Listed {
 impl Listed {
     /// Of what is no triangle.
     pub const OTHER: [u32; 3] = [u32::MAX; 3];
+
+    /// Whether it is a triangle.
+    #[inline(always)]
+    pub fn is_triangle(&self) -> bool {
+        self.corners[0] != Listed::OTHER[0]
+    }
 }
 
 impl Entry for Listed {
     #[inline(always)]
-    fn new(frame: &Frame, number: u32, polygon: &Polygon) -> Listed {
-        let corners = if polygon.count == 3 { frame.corners(polygon) } else { &[] };
-        Listed { number, corners: corners.try_into().unwrap_or(Listed::OTHER) }
+    fn new(number: u32, corners: [u32; 3]) -> Listed {
+        Listed { number, corners }
     }
 }
 
@@ -60,6 +65,8 @@ pub(crate) struct Bins<E> {
 struct Chunk<E> {
     starts: Vec<u32>,
     polygons: Vec<E>,
+    /// Whether none has more than three corners.
+    are_triangles: bool,
 }
 
 /// The first band of each polygon and the one after its last. There are at most
@@ -71,6 +78,11 @@ impl<E: Entry> Bins<E> {
     pub fn new(frame: &Frame, height: usize) -> Self {
         let chunks = frame.polygons().len().div_ceil(CHUNK);
         Bins { chunks: collect(chunks, 1, |number| Chunk::new(frame, height, number * CHUNK)) }
+    }
+
+    /// Whether all polygons of the frame are triangles.
+    pub fn are_triangles(&self) -> bool {
+        self.chunks.iter().all(|chunk| chunk.are_triangles)
     }
 
     /// The polygons that may cover pixels of band `band`, by ascending numbers from list to list and within each.
@@ -90,10 +102,12 @@ impl<E: Entry> Chunk<E> {
         let bands = frame.height().div_ceil(height);
         let mut ranges = [[0; CHUNK]; 2];
         let mut starts = vec![0u32; bands + 2];
+        let mut entries = Vec::with_capacity(all.len());
+        let mut are_triangles = true;
         vectorized(
             #[inline(always)]
             || {
-                find_ranges(frame, all, height, &mut ranges);
+                are_triangles = find_ranges(frame, first, all, height, &mut ranges, &mut entries);
                 count(&ranges, all.len(), &mut starts);
             },
         );
@@ -105,14 +119,13 @@ impl<E: Entry> Chunk<E> {
             *place += 1;
         };
         let [from, end] = &ranges;
-        for (k, polygon) in all.iter().enumerate() {
-            let entry = E::new(frame, (first + k) as u32, polygon);
-            put(from[k], entry);
-            for band in from[k] + 1..end[k] {
+        for ((&entry, &from), &end) in entries.iter().zip(from).zip(end) {
+            put(from, entry);
+            for band in from + 1..end {
                 put(band, entry);
             }
         }
-        Chunk { starts, polygons }
+        Chunk { starts, polygons, are_triangles }
     }
 }
 
@@ -132,16 +145,31 @@ fn count(ranges: &Ranges, polygons: usize, starts: &mut [u32]) {
     }
 }
 
-/// The bands of `height` scanlines whose pixel centres the bounding box of each polygon holds.
+/// The bands of `height` scanlines whose pixel centres the bounding box of each polygon holds, and what stands for it in their
+/// lists; the first polygon has number `number`. Gives whether all are triangles.
 #[inline(always)]
-fn find_ranges(frame: &Frame, polygons: &[Polygon], height: usize, ranges: &mut Ranges) {
+fn find_ranges<E: Entry>(
+    frame: &Frame,
+    number: usize,
+    polygons: &[Polygon],
+    height: usize,
+    ranges: &mut Ranges,
+    entries: &mut Vec<E>,
+) -> bool {
     let mut corners = [[[0; 2]; GROUP]; 4];
+    let mut read_entries = [E::default(); GROUP];
     let (limit, log_height) = ([[frame.width() as i32, frame.height() as i32]; GROUP], height.trailing_zeros());
     let nowhere = frame.height().div_ceil(height) as i32;
+    let mut are_triangles = true;
     let mut first = 0;
     while first < polygons.len() {
-        read(frame, &polygons[first..], &mut corners);
-        let (begin, end) = pixels(&corners, &limit);
+        let polygons = &polygons[first..];
+        let polygons = &polygons[..polygons.len().min(GROUP)];
+        let these_are = read(frame, (number + first) as u32, polygons, &mut corners, &mut read_entries);
+        entries.extend_from_slice(&read_entries[..polygons.len()]);
+        // The fourth corner of a triangle is its third one.
+        let (begin, end) = if these_are { pixels::<3>(&corners, &limit) } else { pixels::<4>(&corners, &limit) };
+        are_triangles &= these_are;
         let [from, to] = ranges;
         let (from, to) = (&mut from[first..first + GROUP], &mut to[first..first + GROUP]);
         for k in 0..GROUP {
@@ -152,22 +180,25 @@ fn find_ranges(frame: &Frame, polygons: &[Polygon], height: usize, ranges: &mut 
         }
         first += GROUP;
     }
+    are_triangles
 }
 
 /// Columns and rows, by polygon.
 type Places = [[i32; 2]; GROUP];
 
-/// The pixels, of those from 0 to `limit`, whose centres the bounding box of each polygon holds: the first ones and those
-/// after the last.
+/// The pixels, of those from 0 to `limit`, whose centres the bounding box of each polygon of at most `MOST` corners holds: the
+/// first ones and those after the last.
 #[inline(always)]
-fn pixels(corners: &[Places; 4], limit: &Places) -> (Places, Places) {
+fn pixels<const MOST: usize>(corners: &[Places; 4], limit: &Places) -> (Places, Places) {
     let (mut begin, mut end) = ([[0; 2]; GROUP], [[0; 2]; GROUP]);
     // Columns and rows alike, one after the other as they stand in memory.
     let (a, b, c, d) = (flat(&corners[0]), flat(&corners[1]), flat(&corners[2]), flat(&corners[3]));
     let (limit, to_begin, to_end) = (flat(limit), begin.as_flattened_mut(), end.as_flattened_mut());
     for i in 0..2 * GROUP {
-        let least = a[i].min(b[i]).min(c[i]).min(d[i]);
-        let most = a[i].max(b[i]).max(c[i]).max(d[i]);
+        let (mut least, mut most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+        if MOST > 3 {
+            (least, most) = (least.min(d[i]), most.max(d[i]));
+        }
         // As `first_centre` has it, in 32 bits: coordinates are within ±2²³.
         to_begin[i] = ((least + 127) >> 8).max(0);
         to_end[i] = ((most + 127) >> 8).min(limit[i]);
@@ -180,14 +211,22 @@ fn flat(places: &Places) -> &[i32] {
     &places.as_flattened()[..2 * GROUP]
 }
 
-/// Reads the places of the corners of as many polygons as `corners` has room for, if there are so many. Triangles have their
-/// last one twice; those of polygons of more than four corners are two corners of their bounding boxes.
+/// Reads the places of the corners of polygons, of which there are at most [`GROUP`]. Triangles have their last one twice; those of polygons of more than four corners are two corners of their bounding boxes. What stands for the
+/// polygons, from number `number` on, is made of what is read anyway. Gives whether all are triangles.
 #[inline(always)]
-fn read(frame: &Frame, polygons: &[Polygon], corners: &mut [Places; 4]) {
+fn read<E: Entry>(
+    frame: &Frame,
+    number: u32,
+    polygons: &[Polygon],
+    corners: &mut [Places; 4],
+    entries: &mut [E; GROUP],
+) -> bool {
     let (vertices, shared) = (frame.vertices(), &frame.geometry.corners[..]);
-    for k in 0..GROUP.min(polygons.len()) {
+    let mut are_triangles = true;
+    for k in 0..polygons.len().min(GROUP) {
         let polygon = &polygons[k];
         let first = polygon.first as usize;
+        let mut listed = Listed::OTHER;
         // Without asking first whose corners they are, as `Frame::corners` does: those of pieces stand elsewhere.
         if polygon.count == 3
             && let Some(&[a, b, c]) = shared.get(first..first + 3)
@@ -196,6 +235,7 @@ fn read(frame: &Frame, polygons: &[Polygon], corners: &mut [Places; 4]) {
             corners[1][k] = place(&vertices[b as usize]);
             corners[2][k] = place(&vertices[c as usize]);
             corners[3][k] = corners[2][k];
+            listed = [a, b, c];
         } else if polygon.count == 4
             && let Some(&[a, b, c, d]) = shared.get(first..first + 4)
         {
@@ -203,11 +243,16 @@ fn read(frame: &Frame, polygons: &[Polygon], corners: &mut [Places; 4]) {
             corners[1][k] = place(&vertices[b as usize]);
             corners[2][k] = place(&vertices[c as usize]);
             corners[3][k] = place(&vertices[d as usize]);
+            are_triangles = false;
         } else {
             let [least, most] = bounds(frame, polygon);
             (corners[0][k], corners[1][k], corners[2][k], corners[3][k]) = (least, most, most, most);
+            listed = *frame.corners(polygon).as_array().unwrap_or(&Listed::OTHER);
+            are_triangles &= polygon.count == 3;
         }
+        entries[k] = E::new(number + k as u32, listed);
     }
+    are_triangles
 }
 
 #[inline(always)]
@@ -227,107 +272,4 @@ fn bounds(frame: &Frame, polygon: &Polygon) -> [[i32; 2]; 2] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::frame::{FrameBuilder, SubPixel, Vertex};
-    use crate::lighting::{Lighting, Material};
-    use crate::raster::coverage;
-    use crate::test_random::Random;
-    use core::ops::Range;
-    use glam::DVec3;
-    use std::collections::BTreeSet;
-
-    /// `polygons` polygons of three to six corners, in and out of the picture, of which many cover no pixel.
-    fn frame(random: &mut Random, polygons: usize, width: usize, height: usize) -> Frame {
-        let mut builder = FrameBuilder::new(width as u32, height as u32);
-        let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
-        for number in 0..polygons {
-            let reach = [128, 2000, 40_000][number % 3];
-            let middle = [width, height].map(|side| random.below(side as u64 * 512) as i32 - side as i32 * 128);
-            let corners: Vec<u32> = (0..3 + number % 4)
-                .map(|_| {
-                    let [x, y] = middle.map(|at| SubPixel::from_bits(at + random.below(reach) as i32));
-                    builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
-                })
-                .collect();
-            builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
-        }
-        builder.finish().expect("corners inside the guard band")
-    }
-
-    #[test]
-    fn a_band_has_every_polygon_that_covers_any_of_its_pixels_in_order() {
-        let mut random = Random::new(31);
-        for round in 0..200 {
-            let (width, height) = (1 + random.below(60) as usize, 1 + random.below(70) as usize);
-            let (frame, rows) = (frame(&mut random, 80, width, height), [1, 4, 8, 16, 32, 128][round % 6]);
-            let bins = Bins::new(&frame, rows);
-            let mut covering = BTreeSet::new();
-            coverage(&frame, |number, row, _| covering.extend([(row / rows, number)]));
-            for band in 0..height.div_ceil(rows) {
-                let polygons: Vec<u32> = bins.band(band).flatten().copied().collect();
-                assert!(polygons.is_sorted_by(|a, b| a < b), "ascending, each once: {polygons:?}");
-                let missing = covering.iter().find(|(at, number)| *at == band && !polygons.contains(number));
-                assert_eq!(missing, None, "round {round}, bands of {rows}");
-                for number in polygons {
-                    assert!(has_centre(&frame, number, band * rows..((band + 1) * rows).min(height)), "{number}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn triangles_are_listed_with_their_corners() {
-        let whole = frame(&mut Random::new(33), 400, 50, 40);
-        let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
-        let mut triangles = 0;
-        for frame in [&whole, &pieces] {
-            let (numbers, listed): (Bins<u32>, Bins<Listed>) = (Bins::new(frame, 8), Bins::new(frame, 8));
-            for band in 0..5 {
-                assert!(listed.band(band).flatten().map(|entry| &entry.number).eq(numbers.band(band).flatten()));
-                for entry in listed.band(band).flatten() {
-                    let corners = frame.corners(&frame.polygons()[entry.number as usize]);
-                    triangles += usize::from(corners.len() == 3);
-                    assert_eq!(entry.corners, *corners.as_array().unwrap_or(&Listed::OTHER));
-                }
-            }
-        }
-        assert!(triangles > 50, "{triangles}");
-    }
-
-    /// Also over several chunks, and where corner lists are not those of the scene: as those of pieces.
-    #[test]
-    fn the_bands_of_a_polygon_are_those_of_its_bounding_box() {
-        let mut random = Random::new(32);
-        for (count, rows) in [(1, 16), (64, 1), (65, 32), (CHUNK, 16), (2 * CHUNK + 100, 8)] {
-            let (width, height) = (1 + random.below(60) as usize, 1 + random.below(70) as usize);
-            let whole = frame(&mut random, count, width, height);
-            let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
-            assert_eq!(pieces.cut_corners.len(), whole.geometry.corners.len());
-            let [of_whole, of_pieces] = [&whole, &pieces].map(|frame| Bins::new(frame, rows));
-            for band in 0..height.div_ceil(rows) {
-                let of_band = band * rows..((band + 1) * rows).min(height);
-                let expected: Vec<u32> =
-                    (0..count as u32).filter(|&number| has_centre(&whole, number, of_band.clone())).collect();
-                for bins in [&of_whole, &of_pieces] {
-                    let found: Vec<u32> = bins.band(band).flatten().copied().collect();
-                    assert!(found == expected, "{count} polygons, band {band} of {rows} rows");
-                }
-            }
-        }
-    }
-
-    /// Whether the bounding box of a polygon holds the centre of a pixel of the scanlines `rows`, from left and top on, up to
-    /// but not including right and bottom.
-    fn has_centre(frame: &Frame, number: u32, rows: Range<usize>) -> bool {
-        let corners = frame.corners(&frame.polygons()[number as usize]);
-        let all = |of: fn(&ScreenVertex) -> SubPixel| {
-            let all = corners.iter().map(|&v| of(&frame.vertices()[v as usize]).to_bits());
-            (all.clone().min().unwrap(), all.max().unwrap())
-        };
-        let holds = |(low, high): (i32, i32), mut pixels: Range<usize>| {
-            pixels.any(|p| (low..high).contains(&(256 * p as i32 + 128)))
-        };
-        holds(all(|v| v.y), rows) && holds(all(|v| v.x), 0..frame.width())
-    }
-}
+mod tests;

@@ -177,6 +177,9 @@ pub trait Shader: 'static {
     type Pixel<F: Num>: Planes<F>;
     /// What the walk gives, seen from without.
     const GIVEN: Given = Given::Walked;
+    /// Whether what it makes of a vertex is the vertex normal as it is, whatever the constants are, and of a polygon nothing: an
+    /// engine may then read the frame's own normals.
+    const ATTRIBUTE_IS_NORMAL: bool = false;
 
     /// Constants from the light on one material; `parameters` are in the order of [`Info::parameters`].
     fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N>;

@@ -68,6 +68,7 @@ impl<Q: AtPixel, const L: usize> Shader for Of<Q, L> {
     type Walk<M: Machine> = [Linear<M::F>; 3];
     type Pixel<F: Num> = [F; 3];
     const GIVEN: Given = Given::Attribute;
+    const ATTRIBUTE_IS_NORMAL: bool = true;
 
     fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> Illumination<N, L> {
         Illumination::new(lighting, of)

@@ -196,17 +196,18 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
         group * m.int((size::<M, P>() / M::WIDTH) as i32) + (column & in_group)
     }
 
-    /// Stores one pixel at a place that [`Cells::places`] gave; its numbers are a group's width apart.
+    /// Stores one pixel, its depth and then its numbers, at a place that [`Cells::places`] gave.
     #[inline(always)]
     pub fn put_one(&mut self, place: i32, numbers: &[f32], material: u32) {
-        let (place, size) = (place as usize, size::<M, P>());
-        let values = &mut self.values[place..][..size - M::WIDTH + 1];
-        let numbers = &numbers[..size - M::WIDTH + 1];
+        // Places are 0 or more: so the end of what is stored is in bounds if it is at all.
+        let (place, size) = (place as u32 as usize, size::<M, P>());
+        let values = &mut self.values[place..place + (size - M::WIDTH + 1)];
+        let numbers = &numbers[..size / M::WIDTH];
         if !self.hides || numbers[0] < values[0] {
-            let mut at = 0;
-            while at < size {
-                values[at] = numbers[at];
-                at += M::WIDTH;
+            let mut i = 0;
+            while i < numbers.len() {
+                values[i * M::WIDTH] = numbers[i];
+                i += 1;
             }
             if !self.materials.is_empty() {
                 self.materials[place / size * M::WIDTH + place % size] = f32::from_bits(material);

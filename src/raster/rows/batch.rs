@@ -1,9 +1,12 @@
 //! Many triangles at a time: read, bounded, and set up, a group of triangles where pixels come in groups.
+//!
+//! Where triangles have a pixel or two, many cover no pixel centre though their bounding boxes hold one. So places are read first,
+//! then it is found what is covered, and only of triangles that cover something are depths and attributes read.
 
 use super::band::MOST_PLANES;
 use super::triangle::Triangle;
 use crate::frame::Frame;
-use crate::number::each;
+use crate::number::{Lanes, Num, each};
 use crate::raster::bins::Listed;
 use crate::walk::Attribute;
 use core::ops::Range;
@@ -26,13 +29,15 @@ pub(super) const STEEPEST: i32 = 4;
 /// Whole numbers, one for each triangle.
 pub(super) type All = [i32; MOST];
 
+/// Numbers that a corner has room for: depth and those of its attribute, in whole groups.
+pub(super) const LINE: usize = (1 + MOST_PLANES).next_multiple_of(8);
+
 /// Triangles, as they are read and as they are set up.
 #[derive(Debug)]
 pub(crate) struct Batch {
     count: usize,
-    number: [u32; MOST],
+    listed: [Listed; MOST],
     material: [u32; MOST],
-    corners: [[u32; 3]; MOST],
     /// Columns and rows of the corners in sub-pixels.
     pub(super) x: [All; 3],
     pub(super) y: [All; 3],
@@ -41,22 +46,35 @@ pub(crate) struct Batch {
     pub(super) rows: [All; 2],
     /// What is to be drawn: see [`Kind`].
     pub(super) kind: All,
+    /// Bit k: whether triangle k is small or large.
+    pub(super) others: u32,
     pub(super) over_area: [f32; MOST],
     pub(super) edges: [Functions; 3],
-    /// Depth, then the numbers of the attribute where it is what pixels are given.
-    pub(super) facets: [Facets; 1 + MOST_PLANES],
+    pub(super) facets: Facets,
 }
 
-/// A number over each triangle: at its first corner, and how far the other two are from it.
+/// Numbers over each triangle: at its first corner, and how far the other two are from it.
 ///
 /// ```text
 /// A = A_a + β (A_b − A_a) + γ (A_c − A_a)
 /// ```
 /// β and γ come from exact integers and are in 0..=1 inside, so that nothing cancels, however thin the triangle is.
+///
+/// Depth first, then the numbers of the attribute where it is what pixels are given. Those of a corner lie together, as they are
+/// read and as a pixel needs them; in whole groups, whose last numbers mean nothing.
+#[derive(Debug)]
+#[repr(align(32))]
+pub(super) struct Facets([[[f32; LINE]; 3]; MOST]);
+
+/// Where the numbers of the vertices' attributes are.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Facets {
-    pub at: [f32; MOST],
-    pub to: [[f32; MOST]; 2],
+pub(super) enum Numbers<'a, A> {
+    /// They are not read: they are not what pixels are given.
+    Unread,
+    /// In attributes.
+    Attributes(&'a [A]),
+    /// They are those of the vertices' own normals.
+    Normals(&'a [[f32; 3]]),
 }
 
 /// An edge function of each triangle, over 0 inside, in sub-pixels²: at the centre of the first pixel of the first group of the
@@ -155,87 +173,138 @@ impl Default for Batch {
             || Functions { at: all, right: all, across: all, down: all, off: none, begins: none, ends: [none; 2] };
         Batch {
             count: 0,
-            number: [0; MOST],
+            listed: [Listed::default(); MOST],
             material: [0; MOST],
-            corners: [[0; 3]; MOST],
             x: [all; 3],
             y: [all; 3],
             columns: [all; 2],
             rows: [all; 2],
             kind: all,
+            others: 0,
             over_area: none,
             edges: [edges(), edges(), edges()],
-            facets: [Facets { at: none, to: [none; 2] }; 1 + MOST_PLANES],
+            facets: Facets([[[0.0; LINE]; 3]; MOST]),
         }
     }
 }
 
 impl Batch {
-    /// Reads triangles from the front of `polygons` until there are enough, or a polygon has another shape; gives how many. Of
-    /// `attributes` it reads the numbers of their corners, if there are any; else the numbers of the triangles. Their materials are
-    /// read with their numbers, and if they are asked for.
+    /// Reads the places of triangles from the front of `polygons` until there are enough, or a polygon has another shape; gives how
+    /// many.
     ///
-    /// In loops of their own, in which nothing has to be guessed: so the reads of many triangles overlap. Their places in memory
+    /// In a loop of its own, in which nothing has to be guessed: so the reads of many triangles overlap. Their places in memory
     /// are far from one another, and waiting for them took a third of the time.
     #[inline(always)]
-    pub fn read<A: Attribute<f32>>(
-        &mut self,
-        frame: &Frame,
-        attributes: Option<&[A]>,
-        polygons: &[Listed],
-        with_materials: bool,
-    ) -> usize {
-        let mut count = 0;
-        for polygon in &polygons[..polygons.len().min(MOST)] {
-            if polygon.corners == Listed::OTHER {
-                break;
+    pub fn read(&mut self, frame: &Frame, polygons: &[Listed]) -> usize {
+        let (vertices, most) = (frame.vertices(), polygons.len().min(MOST));
+        let polygons = &polygons[..most];
+        let mut k = 0;
+        while k < most && polygons[k].is_triangle() {
+            self.listed[k] = polygons[k];
+            let mut i = 0;
+            while i < 3 {
+                let vertex = &vertices[polygons[k].corners[i] as usize];
+                (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
+                i += 1;
             }
-            self.corners[count] = polygon.corners;
-            count += 1;
+            k += 1;
         }
-        let polygons = &polygons[..count];
-        for (k, polygon) in polygons.iter().enumerate() {
-            self.read_corners(frame, attributes, k, polygon.corners);
-        }
-        if with_materials || attributes.is_none() {
-            for (k, polygon) in polygons.iter().enumerate() {
-                self.number[k] = polygon.number;
-                self.material[k] = frame.polygons()[polygon.number as usize].material;
-            }
-        }
-        self.count = count;
-        count
+        self.count = k;
+        k
     }
 
-    /// Reads the corners of triangle `k`.
+    /// Reads the depths, and `numbers`, of the corners of those triangles whose bits `drawn` has, and sets up their facets, of
+    /// which there are `facets`; with their materials if they are asked for. Again in a loop of its own.
     #[inline(always)]
-    fn read_corners<A: Attribute<f32>>(
+    pub(super) fn read_numbers<M: Lanes, A: Attribute<f32>>(
         &mut self,
+        m: M,
         frame: &Frame,
-        attributes: Option<&[A]>,
-        k: usize,
-        [a, b, c]: [u32; 3],
+        (numbers, facets): (Numbers<'_, A>, usize),
+        drawn: u32,
+        with_materials: bool,
     ) {
         let vertices = frame.vertices();
-        let corners = [a as usize, b as usize, c as usize];
-        let mut i = 0;
-        while i < 3 {
-            let vertex = &vertices[corners[i]];
-            (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
-            self.facets[0].corner(i)[k] = vertex.depth;
-            if let Some(attributes) = attributes {
-                let mut facet = 1;
-                each_number(
-                    attributes[corners[i]],
+        match numbers {
+            Numbers::Unread => self.read_lines(
+                m,
+                (drawn, facets),
+                #[inline(always)]
+                |corner, line| line[0] = vertices[corner].depth,
+            ),
+            Numbers::Attributes(attributes) => {
+                // Bounded once for both.
+                let count = vertices.len().min(attributes.len());
+                let (vertices, attributes) = (&vertices[..count], &attributes[..count]);
+                self.read_lines(
+                    m,
+                    (drawn, facets),
                     #[inline(always)]
-                    |number| {
-                        self.facets[facet].corner(i)[k] = number;
-                        facet += 1;
+                    |corner, line| {
+                        line[0] = vertices[corner].depth;
+                        let mut i = 1;
+                        each_number(
+                            attributes[corner],
+                            #[inline(always)]
+                            |number| {
+                                line[i] = number;
+                                i += 1;
+                            },
+                        );
                     },
                 );
             }
-            i += 1;
+            Numbers::Normals(normals) => {
+                let count = vertices.len().min(normals.len());
+                let (vertices, normals) = (&vertices[..count], &normals[..count]);
+                self.read_lines(
+                    m,
+                    (drawn, facets),
+                    #[inline(always)]
+                    |corner, line| {
+                        let [x, y, z] = normals[corner];
+                        (line[0], line[1], line[2], line[3]) = (vertices[corner].depth, x, y, z);
+                    },
+                );
+            }
         }
+        if with_materials {
+            each_bit(
+                drawn,
+                #[inline(always)]
+                |k| self.material[k] = frame.polygons()[self.listed[k].number as usize].material,
+            );
+        }
+    }
+
+    /// Has `read` read each corner of those triangles whose bits `drawn` has, and sets up their facets.
+    #[inline(always)]
+    fn read_lines<M: Lanes>(
+        &mut self,
+        m: M,
+        (drawn, facets): (u32, usize),
+        mut read: impl FnMut(usize, &mut [f32; LINE]),
+    ) {
+        each_bit(
+            drawn,
+            #[inline(always)]
+            |k| {
+                let [a, b, c] = self.listed[k].corners;
+                let (mut at, mut to_b, mut to_c) = ([0.0; LINE], [0.0; LINE], [0.0; LINE]);
+                read(a as usize, &mut at);
+                read(b as usize, &mut to_b);
+                read(c as usize, &mut to_c);
+                let to = &mut self.facets.0[k];
+                let mut i = 0;
+                while i < facets {
+                    let from = m.load(&at[i..]);
+                    m.store(from, &mut to[0][i..]);
+                    m.store(m.load(&to_b[i..]) - from, &mut to[1][i..]);
+                    m.store(m.load(&to_c[i..]) - from, &mut to[2][i..]);
+                    i += M::WIDTH;
+                }
+            },
+        );
     }
 
     /// How many were read.
@@ -250,16 +319,22 @@ impl Batch {
         self.kind[k]
     }
 
+    /// Bit k: whether triangle k is to be drawn as a small or a large one.
+    #[inline(always)]
+    pub fn others(&self) -> u32 {
+        self.others
+    }
+
     /// The material of triangle `k`, where it was read.
     #[inline(always)]
     pub fn material(&self, k: usize) -> u32 {
         self.material[k]
     }
 
-    /// Number and material of triangle `k`, where attributes were not read.
+    /// Number and material of triangle `k`, the latter where it was read.
     #[inline(always)]
     pub fn polygon(&self, k: usize) -> (u32, u32) {
-        (self.number[k], self.material[k])
+        (self.listed[k].number, self.material[k])
     }
 
     /// The corners of triangle `k`.
@@ -267,7 +342,7 @@ impl Batch {
     pub fn corners(&self, k: usize) -> [usize; 3] {
         each(
             #[inline(always)]
-            |i| self.corners[k][i] as usize,
+            |i| self.listed[k].corners[i] as usize,
         )
     }
 
@@ -287,10 +362,48 @@ impl Batch {
 }
 
 impl Facets {
-    /// The numbers of corner `i`, as they are read.
+    /// Number `number` over triangle `k`: at its first corner, and how far the other two are from it.
     #[inline(always)]
-    fn corner(&mut self, i: usize) -> &mut [f32; MOST] {
-        if i == 0 { &mut self.at } else { &mut self.to[i - 1] }
+    pub fn number(&self, number: usize, k: usize) -> [f32; 3] {
+        let [at, b, c] = &self.0[k];
+        [at[number], b[number], c[number]]
+    }
+
+    /// The first `count` numbers of triangle `k` where its second and third corner have the coordinates `weights`.
+    #[inline(always)]
+    pub fn at<M: Lanes>(&self, m: M, k: usize, count: usize, weights: [f32; 2]) -> [f32; LINE] {
+        let ([at, to_b, to_c], [b, c]) = (&self.0[k], [m.splat(weights[0]), m.splat(weights[1])]);
+        let mut numbers = [0.0; LINE];
+        let mut i = 0;
+        while i < count {
+            let value = m.load(&to_b[i..]).mul_add(b, m.load(&at[i..]));
+            m.store(m.load(&to_c[i..]).mul_add(c, value), &mut numbers[i..]);
+            i += M::WIDTH;
+        }
+        numbers
+    }
+
+    /// How much the first `count` numbers of triangle `k` grow where the coordinates of its second and third corner grow by `weights`.
+    #[inline(always)]
+    pub fn growth<M: Lanes>(&self, m: M, k: usize, count: usize, weights: [f32; 2]) -> [f32; LINE] {
+        let ([_, to_b, to_c], [b, c]) = (&self.0[k], [m.splat(weights[0]), m.splat(weights[1])]);
+        let mut growth = [0.0; LINE];
+        let mut i = 0;
+        while i < count {
+            m.store(m.load(&to_c[i..]).mul_add(c, m.load(&to_b[i..]) * b), &mut growth[i..]);
+            i += M::WIDTH;
+        }
+        growth
+    }
+}
+
+/// Gives the number of each bit that is 1, from the lowest on.
+#[inline(always)]
+pub(super) fn each_bit(bits: u32, mut visit: impl FnMut(usize)) {
+    let mut left = bits;
+    while left != 0 {
+        visit(left.trailing_zeros() as usize % MOST);
+        left &= left - 1;
     }
 }
 

@@ -35,6 +35,7 @@ use crate::walk::Attribute;
 use alloc::vec::Vec;
 pub(crate) use band::Band;
 pub(crate) use batch::Batch;
+use batch::Numbers;
 use core::ops::Range;
 use paint::Painter;
 use shade::Colours;
@@ -59,13 +60,23 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     if paint::planes::<S, M>().is_none() {
         return;
     }
-    let setup = SetUp::<S, Scalar>::new(Scalar, frame, parameters);
+    let bins = Bins::<Listed>::new(frame, HEIGHT);
+    // Only polygons of other shapes need attributes where normals are read as they are.
+    let normals = if S::ATTRIBUTE_IS_NORMAL && bins.are_triangles() { frame.normals_on_screen() } else { None };
+    let setup = match normals {
+        Some(_) => SetUp::<S, Scalar>::without_attributes(Scalar, frame, parameters),
+        None => SetUp::new(Scalar, frame, parameters),
+    };
+    let numbers = match normals {
+        _ if S::GIVEN != Given::Attribute => Numbers::Unread,
+        Some(normals) => Numbers::Normals(normals),
+        None => Numbers::Attributes(&setup.attributes),
+    };
     let twice = |x| Pair(m.splat(x), m.splat(x));
     let consts: Vec<Consts<S, M>> = frame.lightings().iter().map(|l| S::consts(l, parameters, &twice)).collect();
     let only = only_material(frame);
-    let bins = Bins::<Listed>::new(frame, HEIGHT);
     let (hides, has_materials) = (SampleDepth::new(frame).hides(), only.is_none());
-    let painter = Painter::<S> { frame, setup: &setup, hides, has_materials };
+    let painter = Painter::<S> { frame, setup: &setup, numbers, hides, has_materials };
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
         scratch.band.prepare::<M, S::Pixel<M::F>>(HEIGHT, frame.width(), has_materials);
         for polygons in bins.band(number) {
@@ -89,7 +100,7 @@ fn paint<S: Shader, M: Lanes>(
     let mut edges = polygon::Edges::default();
     let mut rest = polygons;
     while let Some((next, others)) = rest.split_first() {
-        if is_planar && next.corners != Listed::OTHER {
+        if is_planar && next.is_triangle() {
             let taken = triangles::<S, M>(m, painter, rest, rows, scratch);
             rest = &rest[taken..];
             continue;
@@ -118,10 +129,16 @@ fn triangles<S: Shader, M: Lanes>(
         || {
             let Scratch { band, batch, fragments, starts, .. } = scratch;
             let has_numbers = S::GIVEN == Given::Attribute;
-            let attributes = has_numbers.then_some(&painter.setup.attributes[..]);
-            let taken = batch.read(painter.frame, attributes, polygons, painter.has_materials);
-            band.extend(batch.place(m, painter.frame.width(), rows, paint::facets::<S, M>(), has_numbers));
-            painter.batch(m, batch, (fragments, starts), rows.start, &mut band.cells(m, painter.hides));
+            let taken = batch.read(painter.frame, polygons);
+            band.extend(batch.place(m, painter.frame.width(), rows, has_numbers));
+            let mut cells = band.cells(m, painter.hides);
+            let mut drawn = batch.others();
+            if has_numbers {
+                drawn |= fragments.find(m, batch, rows.start, &cells);
+            }
+            let numbers = (painter.numbers, paint::facets::<S, M>());
+            batch.read_numbers(m, painter.frame, numbers, drawn, painter.has_materials || !has_numbers);
+            painter.batch(m, (batch, drawn), (fragments, starts), rows.start, &mut cells);
             taken
         },
     )

@@ -1,7 +1,7 @@
 //! Polygons into a band: what a walk gives is written wherever it is nearer than what was drawn before.
 
 use super::band::{Cells, MOST_PLANES};
-use super::batch::{Batch, Facets, Kind};
+use super::batch::{Batch, Facets, Kind, Numbers, each_bit};
 use super::small::SmallTriangle;
 use super::tiny::Fragments;
 use super::triangle::{Starts, Triangle};
@@ -31,10 +31,11 @@ pub(super) struct Facet {
 }
 
 impl Facet {
-    /// That of triangle `k`.
+    /// That of number `number` over triangle `k`.
     #[inline(always)]
-    pub fn of(facets: &Facets, k: usize) -> Facet {
-        Facet { at: facets.at[k], to: [facets.to[0][k], facets.to[1][k]] }
+    pub fn of(facets: &Facets, number: usize, k: usize) -> Facet {
+        let [at, to @ ..] = facets.number(number, k);
+        Facet { at, to }
     }
 
     /// At a group of pixels with these coordinates.
@@ -62,6 +63,8 @@ pub(super) const fn facets<S: Shader, M: Lanes>() -> usize {
 pub(super) struct Painter<'a, S: Shader> {
     pub frame: &'a Frame,
     pub setup: &'a SetUp<S, Scalar>,
+    /// Where the numbers that the pixels of triangles are given come from, where no walk gives them.
+    pub numbers: Numbers<'a, S::Attribute<f32>>,
     /// Whether nearer polygons hide farther ones.
     pub hides: bool,
     /// Whether pixels have different materials.
@@ -69,41 +72,38 @@ pub(super) struct Painter<'a, S: Shader> {
 }
 
 impl<S: Shader> Painter<'_, S> {
-    /// Draws what a batch of triangles covers of the band that begins with row `top`; depth and attribute are linear over them.
+    /// Draws those triangles of a batch whose bits `drawn` has on the band that begins with row `top`, in order; depth and attribute
+    /// are linear over them. `fragments` are the pixels of its tiny ones.
     #[inline(always)]
     pub fn batch<M: Lanes>(
         &self,
         m: M,
-        batch: &Batch,
-        (fragments, starts): (&mut Fragments, &mut Starts),
+        (batch, drawn): (&Batch, u32),
+        (fragments, starts): (&Fragments, &mut Starts),
         top: usize,
         cells: &mut Cells<'_, M, S::Pixel<M::F>>,
     ) {
-        for k in 0..batch.count() {
-            let kind = batch.kind(k);
-            if S::GIVEN == Given::Attribute {
-                if k % M::WIDTH == 0 {
-                    fragments.find(m, batch, (k, facets::<S, M>()), top, cells);
-                }
-                if kind == Kind::Tiny as i32 {
+        let others = batch.others();
+        each_bit(
+            drawn,
+            #[inline(always)]
+            |k| {
+                if S::GIVEN == Given::Attribute && others >> k & 1 == 0 {
                     let material = batch.material(k);
-                    fragments.each::<M>(
+                    fragments.each(
+                        m,
+                        (batch, facets::<S, M>()),
                         k,
-                        facets::<S, M>(),
                         #[inline(always)]
                         |place, numbers| cells.put_one(place, numbers, material),
                     );
-                    continue;
+                } else if batch.kind(k) == Kind::Small as i32 {
+                    self.small(m, (batch, k), starts, top, cells);
+                } else if let Some(triangle) = batch.large(k) {
+                    self.large(m, batch, k, &triangle, top, cells);
                 }
-            }
-            if kind == Kind::Small as i32 {
-                self.small(m, (batch, k), starts, top, cells);
-            } else if kind == Kind::Large as i32
-                && let Some(triangle) = batch.large(k)
-            {
-                self.large(m, batch, k, &triangle, top, cells);
-            }
-        }
+            },
+        );
     }
 
     #[inline(always)]
@@ -117,7 +117,7 @@ impl<S: Shader> Painter<'_, S> {
     ) {
         if S::GIVEN == Given::Walked {
             let (small, polygon) = (batch.small(k), batch.polygon(k));
-            let depth = Facet::of(&batch.facets[0], k);
+            let depth = Facet::of(&batch.facets, 0, k);
             let Some(walked) = self.walked(batch.corners(k), &depth, small.growth()) else { return };
             return small.runs(
                 m,
@@ -146,7 +146,7 @@ impl<S: Shader> Painter<'_, S> {
         cells: &mut Cells<'_, M, S::Pixel<M::F>>,
     ) {
         let polygon = batch.polygon(k);
-        let depth = Facet::of(&batch.facets[0], k);
+        let depth = Facet::of(&batch.facets, 0, k);
         let across = triangle.across();
         if S::GIVEN == Given::Walked {
             let Some(walked) = self.walked(batch.corners(k), &depth, across) else { return };
@@ -203,7 +203,7 @@ impl<S: Shader> Painter<'_, S> {
             let mut flat = [Facet::default(); MOST_PLANES];
             let mut i = 1;
             while i < facets::<S, M>() {
-                flat[i - 1] = Facet::of(&batch.facets[i], k);
+                flat[i - 1] = Facet::of(&batch.facets, i, k);
                 i += 1;
             }
             return Flat::Interpolated(flat);

@@ -1,4 +1,4 @@
-//! The triangles of a batch on the pixels of a band: bounds, edge functions, facets, a group of triangles at a time.
+//! The triangles of a batch on the pixels of a band: bounds, edge functions, a group of triangles at a time.
 
 use super::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH, STEEPEST, TINY};
 use crate::number::{Int, Lanes, each};
@@ -22,19 +22,12 @@ struct Placed<M: Lanes> {
 }
 
 impl Batch {
-    /// Bounds what was read by a picture `width` pixels wide and the rows `band`, and sets up the edge functions of small triangles,
-    /// and `facets` of their facets. With `has_tiny`, tiny triangles are told apart. Gives the groups of pixels of a row between
-    /// which the triangles lie.
+    /// Bounds what was read by a picture `width` pixels wide and the rows `band`, and sets up the edge functions of small triangles.
+    /// With `has_tiny`, tiny triangles are told apart. Gives the groups of pixels of a row between which the triangles lie.
     #[inline(always)]
-    pub fn place<M: Lanes>(
-        &mut self,
-        m: M,
-        width: usize,
-        band: &Range<usize>,
-        facets: usize,
-        has_tiny: bool,
-    ) -> Range<usize> {
+    pub fn place<M: Lanes>(&mut self, m: M, width: usize, band: &Range<usize>, has_tiny: bool) -> Range<usize> {
         let (mut left, mut right) = (m.int(width as i32), m.int(0));
+        self.others = 0;
         let mut first = 0;
         while first < self.count() {
             let placed = self.bound(m, first, width as i32, [band.start as i32, band.end as i32], has_tiny);
@@ -44,12 +37,6 @@ impl Batch {
             while edge < 3 {
                 self.edge(m, first, edge, &placed);
                 edge += 1;
-            }
-            for facet in &mut self.facets[..facets] {
-                let at = m.load(&facet.at[first..]);
-                for to in &mut facet.to {
-                    m.store(m.load(&to[first..]) - at, &mut to[first..]);
-                }
             }
             first += M::WIDTH;
         }
@@ -80,7 +67,9 @@ impl Batch {
         let centre = |at: M::I| (at + m.int(127)).whole_pixels();
         let columns = [centre(left).max(zero), centre(right).min(m.int(width))];
         let rows = [centre(top).max(m.int(band[0])), centre(bottom).min(m.int(band[1]))];
-        let is_there = columns[0].less(columns[1]) & rows[0].less(rows[1]);
+        // What stands after the last one was there before.
+        let is_read = m.counted().less(m.int((self.count() - first) as i32));
+        let is_there = columns[0].less(columns[1]) & rows[0].less(rows[1]) & is_read;
         let is_small =
             (right - left).less(m.int(256 * SMALL_WIDTH + 1)) & (bottom - top).less(m.int(256 * SMALL_HEIGHT));
         let exact = is_there & is_small;
@@ -105,9 +94,13 @@ impl Batch {
         let longer = (right - left).max(bottom - top) & exact;
         let steep = drawn & area.less(longer * m.int(256 / STEEPEST)) & (tiny ^ all);
         let small = drawn & (steep ^ all);
-        let large = is_there & ((is_small ^ all) | steep) & m.int(Kind::Large as i32);
-        let kind = (small & m.int(Kind::Small as i32)) | (tiny & m.int(Kind::Tiny as i32)) | large;
-        let has_small = m.any(m.not_negative((small & (tiny ^ all)) ^ all));
+        let large = is_there & ((is_small ^ all) | steep);
+        let kind = (small & m.int(Kind::Small as i32))
+            | (tiny & m.int(Kind::Tiny as i32))
+            | (large & m.int(Kind::Large as i32));
+        let not_small = (small & (tiny ^ all)) ^ all;
+        let has_small = m.any(m.not_negative(not_small));
+        self.others |= m.bits(m.not_negative(not_small & (large ^ all))) << first;
         m.store_int(kind, &mut self.kind[first..]);
         m.store(over_area, &mut self.over_area[first..]);
         for end in 0..2 {
@@ -134,12 +127,12 @@ impl Batch {
         let right = dy * m.int(-256);
         m.store_int(dx * (*py - y[i]) - dy * (*px - x[i]) - disowns, &mut to.at[first..]);
         m.store_int(right, &mut to.right[first..]);
-        m.store_int(dy * m.int(-256 * M::WIDTH as i32), &mut to.across[first..]);
         m.store_int(dx * m.int(256), &mut to.down[first..]);
         m.store(m.number(disowns) * *over_area, &mut to.off[first..]);
         if !placed.has_small {
             return;
         }
+        m.store_int(dy * m.int(-256 * M::WIDTH as i32), &mut to.across[first..]);
         let grows = m.less(none, m.number(right));
         let falls = m.less(m.number(right), none);
         let columns = m.splat(-1.0) / m.number(right);

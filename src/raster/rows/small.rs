@@ -21,7 +21,7 @@ pub(super) struct SmallTriangle<'a, S: Shader, M: Lanes> {
     small: Small<'a>,
     groups: Groups<M>,
     /// Those of its batch, and its number in it.
-    facets: (&'a [Facets], usize),
+    facets: (&'a Facets, usize),
     flat: &'a Flat<S, M>,
     material: u32,
 }
@@ -32,7 +32,7 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
 
     /// Triangle number `facets.1` of a batch.
     #[inline(always)]
-    pub fn new(m: M, small: Small<'a>, facets: (&'a [Facets], usize), flat: &'a Flat<S, M>, material: u32) -> Self {
+    pub fn new(m: M, small: Small<'a>, facets: (&'a Facets, usize), flat: &'a Flat<S, M>, material: u32) -> Self {
         SmallTriangle { groups: Groups::new(m, &small), small, facets, flat, material }
     }
 
@@ -64,7 +64,7 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
         let mut at = [m.splat(0.0); 1 + MOST_PLANES];
         let mut i = 0;
         while i < Self::COUNT {
-            at[i] = Facet::of(&self.facets.0[i], self.facets.1).lanes(m, weights);
+            at[i] = Facet::of(self.facets.0, i, self.facets.1).lanes(m, weights);
             i += 1;
         }
         for row in self.small.rows(top) {
@@ -104,7 +104,7 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
             (
                 Self::COUNT,
                 #[inline(always)]
-                |i, weights| Facet::of(&all[i], k).lanes(m, weights),
+                |i, weights| Facet::of(all, i, k).lanes(m, weights),
             ),
             #[inline(always)]
             |Line { row, groups, numbers, mut functions, of_eight }, starts| {
@@ -170,11 +170,11 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
     #[inline(always)]
     fn growth(&self, m: M, growth: [f32; 2], pixels: usize) -> Numbers<M::F> {
         let (all, k) = self.facets;
+        let steps = all.growth(m, k, Self::COUNT, [growth[0] * pixels as f32, growth[1] * pixels as f32]);
         let mut grown = [m.splat(0.0); 1 + MOST_PLANES];
         let mut i = 0;
         while i < Self::COUNT {
-            let to = &all[i].to;
-            grown[i] = m.splat((to[0][k] * growth[0] + to[1][k] * growth[1]) * pixels as f32);
+            grown[i] = m.splat(steps[i]);
             i += 1;
         }
         grown

@@ -3,10 +3,10 @@
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Lighting, Material};
 use crate::number::{Lanes, LanesJob, Level, on_level};
-use crate::raster::bins::{Entry, Listed};
+use crate::raster::bins::Listed;
 use crate::raster::coverage;
 use crate::raster::rows::band::Band;
-use crate::raster::rows::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH};
+use crate::raster::rows::batch::{Batch, Kind, MOST, Numbers, SMALL_HEIGHT, SMALL_WIDTH};
 use crate::raster::rows::tiny::Fragments;
 use crate::raster::rows::triangle::{Groups, Line, Starts};
 use crate::test_random::Random;
@@ -43,16 +43,16 @@ impl LanesJob for Covered<'_> {
 
     fn run<M: Lanes>(self, m: M) -> [Vec<Pixel>; 3] {
         let Covered(frame, band) = self;
-        let listed = |(number, polygon)| Listed::new(frame, number, polygon);
+        let listed = |(number, polygon)| Listed { number, corners: frame.corners(polygon).try_into().unwrap() };
         let polygons: Vec<Listed> = (0..).zip(frame.polygons()).map(listed).collect();
         let (mut rest, mut runs, mut groups, mut tiny) = (&polygons[..], vec![], vec![], vec![]);
         let mut batch = Batch::default();
         while !rest.is_empty() {
-            let taken = batch.read::<Lerp<f32>>(frame, None, rest, false);
+            let taken = batch.read(frame, rest);
             assert!(taken > 0 && taken <= rest.len());
             by_pixels(m, (frame, &band), rest, &mut tiny);
             rest = &rest[taken..];
-            batch.place(m, frame.width(), &band, 1, false);
+            batch.place(m, frame.width(), &band, false);
             for k in 0..batch.count() {
                 let number = batch.polygon(k).0;
                 let mut run = |growth: [f32; 2], row: usize, pixels: Range<usize>, weights: [f32; 2]| {
@@ -117,23 +117,23 @@ fn by_pixels<M: Lanes>(m: M, (frame, band): (&Frame, &Range<usize>), polygons: &
     let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
     let attributes: Vec<Lerp<[f32; 2]>> = (0..frame.vertices().len()).map(|v| Lerp(corners[v % 3])).collect();
     let (mut batch, mut fragments, mut memory) = (Batch::default(), Fragments::default(), Band::default());
-    batch.read(frame, Some(&attributes), polygons, false);
-    let drawn = batch.place(m, frame.width(), band, 3, true);
+    batch.read(frame, polygons);
+    let drawn = batch.place(m, frame.width(), band, true);
     memory.prepare::<M, [M::F; 2]>(16, frame.width(), false);
     let cells = memory.cells::<M, [M::F; 2]>(m, true);
     let a_row = frame.width().div_ceil(2 * M::WIDTH) * 2;
-    for (k, polygon) in polygons[..batch.count()].iter().enumerate() {
-        if k % M::WIDTH == 0 {
-            fragments.find(m, &batch, (k, 3), band.start, &cells);
-        }
-        if batch.kind(k) == Kind::Tiny as i32 {
-            fragments.each::<M>(k, 3, |place, values| {
-                let (group, lane) = (place as usize / (3 * M::WIDTH), place as usize % (3 * M::WIDTH));
-                let (row, x) = (group / a_row, group % a_row * M::WIDTH + lane);
-                assert!(lane < M::WIDTH && drawn.contains(&(x / M::WIDTH)));
-                found.push(((polygon.number, band.start + row, x), [values[M::WIDTH], values[2 * M::WIDTH]]));
-            });
-        }
+    let covering = fragments.find(m, &batch, band.start, &cells);
+    assert_eq!(covering & batch.others(), 0);
+    batch.read_numbers(m, frame, (Numbers::Attributes(&attributes), 3), covering, false);
+    for k in (0..MOST).filter(|k| covering >> k & 1 != 0) {
+        assert_eq!(batch.kind(k), Kind::Tiny as i32);
+        fragments.each(m, (&batch, 3), k, |place, values| {
+            let (group, lane) = (place as usize / (3 * M::WIDTH), place as usize % (3 * M::WIDTH));
+            let (row, x) = (group / a_row, group % a_row * M::WIDTH + lane);
+            assert!(lane < M::WIDTH && drawn.contains(&(x / M::WIDTH)));
+            assert_eq!(values[0], 0.5, "the depth");
+            found.push(((polygons[k].number, band.start + row, x), [values[1], values[2]]));
+        });
     }
 }
 
