@@ -11,7 +11,8 @@
 //! on a machine that varies by more than small differences): finding the runs of all triangles first, scanline by scanline,
 //! and drawing them into planes of a single row, 3.9 ms against 3.2 to 3.8; choosing pixels by a select, with all
 //! loads before the first store, 4.3 against 3.2, or by `vblendvps` itself: the compiler makes masked stores of both, and bytes are
-//! chosen instead. `docs/performance.md` has the rest.
+//! chosen instead; storing some of the background with each two groups that are shaded, as storing it at once waits for memory: 2.0 and
+//! 2.0 ms. `docs/performance.md` has the rest.
 
 mod band;
 mod batch;

@@ -13,10 +13,13 @@ type Numbers<F> = [F; 1 + MOST_PLANES];
 /// A small triangle that is drawn group by group.
 ///
 /// Its numbers are exact, but for roundings, in its first group, or in the first one of each row, and grow from there by additions: finding
-/// them anew in each group took 46 instructions a group where 28 do now (`phong-rsqrt`, AVX2). From there to any pixel of it there are at
-/// most 15 rows and 55 columns, but fewer of these where it is steep: with at most [`STEEPEST`](super::batch::STEEPEST) a pixel no
-/// coordinate is over 121 at the first one. Three roundings of that and one of each of at most 17 sums are below 2⁻¹² of how far corners
-/// are apart; where a triangle is 2 pixels wide and high or more, below 2⁻¹⁵.
+/// them anew in each group took 46 instructions a group where 28 do now (`phong-rsqrt`, AVX2).
+///
+/// That costs accuracy where a triangle is thin. Barycentric coordinates are in 0..=1 where it is covered and grow by at most
+/// [`STEEPEST`](super::batch::STEEPEST) a pixel. A covered pixel is at most 15 rows and 8 columns from where numbers begin, so that no
+/// coordinate is over 93 there; three roundings of that, one of each of 16 sums, and those of the steps are at most 1900 · 2⁻²⁴, below
+/// 2⁻¹³ of how far corners are apart. Along a row, from its first group on, it is less: where a coordinate grows by more than 1 a pixel
+/// no two pixels of a row are covered. A triangle that is 2 pixels thick is within 2⁻¹⁵.
 pub(super) struct SmallTriangle<'a, S: Shader, M: Lanes> {
     small: Small<'a>,
     groups: Groups<M>,

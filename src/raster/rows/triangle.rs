@@ -74,9 +74,8 @@ impl<M: Lanes> Groups<M> {
     /// Gives `visit` each row of the band that begins with row `top`, and the `count` values that it begins with: `values` at its
     /// first pixel, of the barycentric coordinates there. A band has `a_row` numbers a row and `a_group` numbers a group.
     ///
-    /// As many rows at a time as groups have pixels. Where a function becomes 0 is off by three roundings: with at most 62
-    /// columns by less than 2⁻¹⁶ of one. A group more is looked at where that could matter. Rows past the last are computed and
-    /// not given: there 32 bits need not hold the results.
+    /// As many rows at a time as groups have pixels. Rows past the last are computed and not given: there 32 bits need not hold the
+    /// results.
     #[inline(always)]
     pub fn rows(
         &self,
@@ -88,10 +87,7 @@ impl<M: Lanes> Groups<M> {
         mut visit: impl FnMut(Line<M>, &Starts),
     ) {
         let rows = small.rows(top);
-        let [first, end] = self.groups;
-        let groups = 1.0 / M::WIDTH as f32;
-        let doubt = m.splat(groups / 1024.0);
-        let last = m.splat(((end - first) * M::WIDTH - 1) as f32);
+        let [first, _] = self.groups;
         let mut row = rows.start;
         while row < rows.end {
             let number = m.counted() + m.int((row - rows.start) as i32);
@@ -99,16 +95,7 @@ impl<M: Lanes> Groups<M> {
                 #[inline(always)]
                 |i| m.int(small.at(i)) + number * self.down[i],
             );
-            let (mut from, mut to) = (m.splat(0.0), last);
-            let mut i = 0;
-            while i < 3 {
-                let ([begins, ends, beyond], here) = (small.limits(i), m.number(start[i]));
-                from = from.max(here * m.splat(begins));
-                to = to.min(here.mul_add(m.splat(ends), m.splat(beyond)));
-                i += 1;
-            }
-            let from = m.truncated(from.mul_add(m.splat(groups), -doubt));
-            let to = m.truncated(to.mul_add(m.splat(groups), doubt)) + m.int(1);
+            let [from, to] = self.between(m, small, start);
             m.store_int(from + m.int(first as i32), &mut starts.groups[0]);
             m.store_int(to + m.int(first as i32), &mut starts.groups[1]);
             let before = m.int((row * a_row + first * a_group) as i32) + m.counted() * m.int(a_row as i32);
@@ -142,6 +129,27 @@ impl<M: Lanes> Groups<M> {
             }
             row += rows_here;
         }
+    }
+
+    /// The groups of rows, counted from the first, between which all functions are over 0, which are `start` at the rows' first pixels.
+    ///
+    /// Where a function becomes 0 is off by three roundings: with at most 62 columns by less than 2⁻¹⁶ of one. A group more is looked
+    /// at where that could matter.
+    #[inline(always)]
+    fn between(&self, m: M, small: &Small<'_>, start: [M::I; 3]) -> [M::I; 2] {
+        let [first, end] = self.groups;
+        let groups = 1.0 / M::WIDTH as f32;
+        let doubt = m.splat(groups / 1024.0);
+        let (mut from, mut to) = (m.splat(0.0), m.splat(((end - first) * M::WIDTH - 1) as f32));
+        let mut i = 0;
+        while i < 3 {
+            let ([begins, ends, beyond], here) = (small.limits(i), m.number(start[i]));
+            from = from.max(here * m.splat(begins));
+            to = to.min(here.mul_add(m.splat(ends), m.splat(beyond)));
+            i += 1;
+        }
+        let groups = m.splat(groups);
+        [m.truncated(from.mul_add(groups, -doubt)), m.truncated(to.mul_add(groups, doubt)) + m.int(1)]
     }
 
     /// The functions in the first group of the first row.
