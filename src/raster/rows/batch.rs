@@ -20,8 +20,10 @@ pub(super) const SMALL_WIDTH: i32 = 48;
 /// right of it, so that none is over 2 · 62 · 64 · 2¹⁶ < 2²⁹.
 pub(super) const SMALL_HEIGHT: i32 = 64;
 
-/// Up to this many pixels wide and high a triangle is drawn pixel by pixel, a group of triangles at a time.
-pub(super) const TINY: i32 = 5;
+/// Up to this many pixels wide a triangle is drawn pixel by pixel, a group of triangles at a time.
+pub(super) const TINY_WIDTH: i32 = 5;
+/// And up to this many pixels high: its box has no more pixels than a number has bits.
+pub(super) const TINY_HEIGHT: i32 = 6;
 
 /// Barycentric coordinates of a small triangle grow by at most this from pixel to pixel: it is not thinner than a quarter of one.
 pub(super) const STEEPEST: i32 = 4;
@@ -100,7 +102,7 @@ pub(super) enum Kind {
     Small = 1,
     /// By crossings: it is large, or not known to be small.
     Large = 2,
-    /// Pixel by pixel: it is at most [`TINY`] pixels wide and high.
+    /// Pixel by pixel: it is at most [`TINY_WIDTH`] pixels wide and [`TINY_HEIGHT`] high.
     Tiny = 3,
 }
 

@@ -1,6 +1,6 @@
 //! The triangles of a batch on the pixels of a band: bounds, edge functions, a group of triangles at a time.
 
-use super::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH, STEEPEST, TINY};
+use super::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH, STEEPEST, TINY_HEIGHT, TINY_WIDTH};
 use crate::number::{Int, Lanes, each};
 use core::ops::Range;
 
@@ -88,7 +88,9 @@ impl Batch {
         let drawn = exact & zero.less(area);
         let mut tiny = zero;
         if has_tiny {
-            tiny = drawn & (columns[1] - columns[0]).less(m.int(TINY + 1)) & (rows[1] - rows[0]).less(m.int(TINY + 1));
+            tiny = drawn
+                & (columns[1] - columns[0]).less(m.int(TINY_WIDTH + 1))
+                & (rows[1] - rows[0]).less(m.int(TINY_HEIGHT + 1));
         }
         // No edge is higher or wider than the box: coordinates grow by at most 256 times that over twice the area.
         let longer = (right - left).max(bottom - top) & exact;

@@ -2,11 +2,11 @@
 //! its rows is most of its cost; this way nothing is set up for one triangle alone.
 
 use super::band::Cells;
-use super::batch::{Batch, Kind, LINE, MOST, TINY};
+use super::batch::{Batch, Kind, LINE, MOST, TINY_HEIGHT, TINY_WIDTH};
 use crate::number::{Int, Lanes, Num, Planes};
 
 /// Pixels of a box.
-const SLOTS: usize = (TINY * TINY) as usize;
+const SLOTS: usize = (TINY_WIDTH * TINY_HEIGHT) as usize;
 /// Pixels of a box that there is room for: one a bit.
 const ROOM: usize = 32;
 /// Pixels of the boxes of a batch.
@@ -19,7 +19,7 @@ pub(crate) struct Fragments {
     places: [i32; ALL],
     /// The barycentric coordinates of the second and the third corner there.
     weights: [[f32; ALL]; 2],
-    /// Bit `TINY` column + row: whether that pixel of the box is covered, for each triangle.
+    /// Bit [`TINY_HEIGHT`] column + row: whether that pixel of the box is covered, for each triangle.
     covered: [i32; MOST],
 }
 
@@ -83,7 +83,7 @@ impl Fragments {
             let mut bit = m.int(1 << slot);
             let mut at = first * ROOM + slot * M::WIDTH;
             let mut row = 0;
-            while row < TINY && m.any(m.not_negative(below)) {
+            while row < TINY_HEIGHT && m.any(m.not_negative(below)) {
                 let outside = here[0] | here[1] | here[2] | below | beside;
                 covered = covered | (m.int(-1).less(outside) & bit);
                 m.store_int(place, &mut self.places[at..]);
@@ -96,7 +96,7 @@ impl Fragments {
             }
             column = [column[0] + right[0], column[1] + right[1], column[2] + right[2]];
             (beside, across_at) = (beside - one, across_at + one);
-            slot += TINY as usize;
+            slot += TINY_HEIGHT as usize;
         }
         m.store_int(covered, &mut self.covered[first..]);
         m.bits(m.not_negative(m.int(0).less(covered) ^ m.int(-1)))
