@@ -3,10 +3,10 @@
 //! Where triangles have a pixel or two, many cover no pixel centre though their bounding boxes hold one. So places are read first,
 //! then it is found what is covered, and only of triangles that cover something are depths and attributes read.
 
-use super::band::MOST_PLANES;
+use super::facets::{Facets, LINE};
 use super::triangle::Triangle;
 use crate::frame::Frame;
-use crate::number::{Lanes, Num, each};
+use crate::number::{Lanes, each};
 use crate::raster::bins::Listed;
 use crate::walk::Attribute;
 use core::ops::Range;
@@ -31,9 +31,6 @@ pub(super) const STEEPEST: i32 = 4;
 /// Whole numbers, one for each triangle.
 pub(super) type All = [i32; MOST];
 
-/// Numbers that a corner has room for: depth and those of its attribute, in whole groups.
-pub(super) const LINE: usize = (1 + MOST_PLANES).next_multiple_of(8);
-
 /// Triangles, as they are read and as they are set up.
 #[derive(Debug)]
 pub(crate) struct Batch {
@@ -54,19 +51,6 @@ pub(crate) struct Batch {
     pub(super) edges: [Functions; 3],
     pub(super) facets: Facets,
 }
-
-/// Numbers over each triangle: at its first corner, and how far the other two are from it.
-///
-/// ```text
-/// A = A_a + β (A_b − A_a) + γ (A_c − A_a)
-/// ```
-/// β and γ come from exact integers and are in 0..=1 inside, so that nothing cancels, however thin the triangle is.
-///
-/// Depth first, then the numbers of the attribute where it is what pixels are given. Those of a corner lie together, as they are
-/// read and as a pixel needs them; in whole groups, whose last numbers mean nothing.
-#[derive(Debug)]
-#[repr(align(32))]
-pub(super) struct Facets([[[f32; LINE]; 3]; MOST]);
 
 /// Where the numbers of the vertices' attributes are.
 #[derive(Clone, Copy, Debug)]
@@ -185,7 +169,7 @@ impl Default for Batch {
             others: 0,
             over_area: none,
             edges: [edges(), edges(), edges()],
-            facets: Facets([[[0.0; LINE]; 3]; MOST]),
+            facets: Facets::default(),
         }
     }
 }
@@ -360,42 +344,6 @@ impl Batch {
         let place = |i: usize| [self.x[i][k], self.y[i][k]];
         let columns = self.columns[0][k]..self.columns[1][k];
         Triangle::new([place(0), place(1), place(2)], columns, self.rows[0][k]..self.rows[1][k])
-    }
-}
-
-impl Facets {
-    /// Number `number` over triangle `k`: at its first corner, and how far the other two are from it.
-    #[inline(always)]
-    pub fn number(&self, number: usize, k: usize) -> [f32; 3] {
-        let [at, b, c] = &self.0[k];
-        [at[number], b[number], c[number]]
-    }
-
-    /// The first `count` numbers of triangle `k` where its second and third corner have the coordinates `weights`.
-    #[inline(always)]
-    pub fn at<M: Lanes>(&self, m: M, k: usize, count: usize, weights: [f32; 2]) -> [f32; LINE] {
-        let ([at, to_b, to_c], [b, c]) = (&self.0[k], [m.splat(weights[0]), m.splat(weights[1])]);
-        let mut numbers = [0.0; LINE];
-        let mut i = 0;
-        while i < count {
-            let value = m.load(&to_b[i..]).mul_add(b, m.load(&at[i..]));
-            m.store(m.load(&to_c[i..]).mul_add(c, value), &mut numbers[i..]);
-            i += M::WIDTH;
-        }
-        numbers
-    }
-
-    /// How much the first `count` numbers of triangle `k` grow where the coordinates of its second and third corner grow by `weights`.
-    #[inline(always)]
-    pub fn growth<M: Lanes>(&self, m: M, k: usize, count: usize, weights: [f32; 2]) -> [f32; LINE] {
-        let ([_, to_b, to_c], [b, c]) = (&self.0[k], [m.splat(weights[0]), m.splat(weights[1])]);
-        let mut growth = [0.0; LINE];
-        let mut i = 0;
-        while i < count {
-            m.store(m.load(&to_c[i..]).mul_add(c, m.load(&to_b[i..]) * b), &mut growth[i..]);
-            i += M::WIDTH;
-        }
-        growth
     }
 }
 

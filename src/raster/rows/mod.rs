@@ -16,6 +16,7 @@
 
 mod band;
 mod batch;
+mod facets;
 mod paint;
 mod place;
 mod polygon;

@@ -1,7 +1,8 @@
 //! Polygons into a band: what a walk gives is written wherever it is nearer than what was drawn before.
 
 use super::band::{Cells, MOST_PLANES};
-use super::batch::{Batch, Facets, Kind, Numbers, each_bit};
+use super::batch::{Batch, Kind, Numbers, each_bit};
+use super::facets::Facets;
 use super::small::SmallTriangle;
 use super::tiny::Fragments;
 use super::triangle::{Starts, Triangle};

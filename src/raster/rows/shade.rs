@@ -160,6 +160,7 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
+    /// Shades them with the constants of their material.
     #[inline(always)]
     fn shade<S: Shader, M: Lanes>(self, m: M, consts: &Consts<S, M>, band: &Band, colours: &mut Colours<'_>) {
         // A copy that nothing else refers to: loads from it can leave the loop.

@@ -1,7 +1,8 @@
 //! Small triangles, group by group: narrow ones row by row of their boxes, others between the limits of each row.
 
 use super::band::{Cell, Cells, MOST_PLANES};
-use super::batch::{Facets, Small};
+use super::batch::Small;
+use super::facets::Facets;
 use super::paint::{Facet, Flat, facets};
 use super::triangle::{Groups, Line, Starts};
 use crate::number::{Lanes, get_each};

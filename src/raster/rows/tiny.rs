@@ -2,7 +2,8 @@
 //! its rows is most of its cost; this way nothing is set up for one triangle alone.
 
 use super::band::Cells;
-use super::batch::{Batch, Kind, LINE, MOST, TINY_HEIGHT, TINY_WIDTH};
+use super::batch::{Batch, Kind, MOST, TINY_HEIGHT, TINY_WIDTH};
+use super::facets::LINE;
 use crate::number::{Int, Lanes, Num, Planes};
 
 /// Pixels of a box.
