@@ -211,7 +211,8 @@ fn flat(places: &Places) -> &[i32] {
     &places.as_flattened()[..2 * GROUP]
 }
 
-/// Reads the places of the corners of polygons, of which there are at most [`GROUP`]. Triangles have their last one twice; those of polygons of more than four corners are two corners of their bounding boxes. What stands for the
+/// Reads the places of the corners of polygons, of which there are at most [`GROUP`]. Triangles have their last one twice; those of
+/// polygons of more than four corners are two corners of their bounding boxes. What stands for the
 /// polygons, from number `number` on, is made of what is read anyway. Gives whether all are triangles.
 #[inline(always)]
 fn read<E: Entry>(
