@@ -1,7 +1,7 @@
 //! Plain `f32`, one pixel at a time.
 
 use super::{Int, Lanes, Machine, Num, Real};
-use crate::encoding::quantise;
+use crate::encoding::{quantise, quantise_level};
 
 /// The scalar machine: `f32` throughout. Its pictures are the same bits on every platform.
 #[derive(Clone, Copy, Debug, Default)]
@@ -210,6 +210,12 @@ impl Lanes for Scalar {
     #[inline(always)]
     fn pack(self, rgb: [f32; 3], covered: bool, background: [u8; 4], to: &mut [[u8; 4]]) {
         let [r, g, b] = rgb.map(quantise);
+        to[0] = if covered { [r, g, b, 255] } else { background };
+    }
+
+    #[inline(always)]
+    fn pack_levels(self, levels: [f32; 3], covered: bool, background: [u8; 4], to: &mut [[u8; 4]]) {
+        let [r, g, b] = levels.map(quantise_level);
         to[0] = if covered { [r, g, b, 255] } else { background };
     }
 }

@@ -29,8 +29,8 @@ pub(super) fn is_available(level: Level) -> bool {
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
     use core::arch::x86_64::{
-        __m256, __m256i, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_min_ps, _mm256_mul_ps, _mm256_packs_epi32,
-        _mm256_packus_epi16, _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi8, _mm256_shuffle_epi8,
+        __m256, __m256i, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_packs_epi32,
+        _mm256_packus_epi16, _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_setr_epi8, _mm256_shuffle_epi8,
     };
 
     fearless_simd::kernel!(
@@ -52,17 +52,14 @@ mod avx2 {
     );
 
     fearless_simd::kernel!(
-        /// The colours of eight pixels as opaque texels: rounded to the nearest level, half-way to the even one, as `quantise` does.
+        /// The levels of eight pixels as opaque texels: rounded to the nearest whole one, half-way to the even one, as `quantise` does.
         ///
-        /// Narrowing saturates, which is the clamp at 0. The clamp at 255 comes first: what no whole number of 32 bits holds is
-        /// converted to the least of them. `min` gives its second operand where that is NaN, whose conversion is that least one too.
+        /// Narrowing saturates, which is the clamp to 0..=255. What no whole number of 32 bits holds is converted to the least
+        /// of them, and NaN too: both become 0.
         #[inline(always)]
         pub fn texels(avx2: Avx2, r: __m256, g: __m256, b: __m256) -> __m256i {
             let _ = avx2;
-            let most = _mm256_set1_ps(255.0);
-            let r = _mm256_cvtps_epi32(_mm256_min_ps(most, _mm256_mul_ps(r, most)));
-            let g = _mm256_cvtps_epi32(_mm256_min_ps(most, _mm256_mul_ps(g, most)));
-            let b = _mm256_cvtps_epi32(_mm256_min_ps(most, _mm256_mul_ps(b, most)));
+            let (r, g, b) = (_mm256_cvtps_epi32(r), _mm256_cvtps_epi32(g), _mm256_cvtps_epi32(b));
             // Of each half of the pixels four bytes of red, then of blue, of green, and of alpha: now by pixel.
             let (rb, ga) = (_mm256_packs_epi32(r, b), _mm256_packs_epi32(g, _mm256_set1_epi32(255)));
             #[rustfmt::skip]
@@ -316,23 +313,39 @@ impl<S: Simd> Lanes for Wide<S> {
 
     #[inline(always)]
     fn pack(self, rgb: [f32x8<S>; 3], covered: mask32x8<S>, background: [u8; 4], to: &mut [[u8; 4]]) {
+        let most = self.splat(255.0);
+        let levels = super::each(
+            #[inline(always)]
+            |i| {
+                let level = rgb[i] * most;
+                // x86 gives the second operand where one is NaN, which becomes 0.
+                match cfg!(target_arch = "x86_64") {
+                    true => SimdBase::min(most, level),
+                    false => Num::min(Num::max(level, self.splat(0.0)), most),
+                }
+            },
+        );
+        self.pack_levels(levels, covered, background, to);
+    }
+
+    #[inline(always)]
+    fn pack_levels(self, levels: [f32x8<S>; 3], covered: mask32x8<S>, background: [u8; 4], to: &mut [[u8; 4]]) {
         let empty = i32x8::splat(self.0, i32::from_le_bytes(background));
         let to = &mut to[..8].as_flattened_mut()[..32];
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = self.0.level().as_avx2() {
-            let [r, g, b] = rgb;
+            let [r, g, b] = levels;
             let word = avx2::texels(avx2, r.into(), g.into(), b.into());
             let word = avx2::choose(avx2, covered.to_vector().into(), word, empty.into());
             fearless_simd::Bytes::to_bytes(i32x8::simd_from(self.0, word)).store_slice(to);
             return;
         }
-        let (zero, one, scale) = (self.splat(0.0), self.splat(1.0), self.splat(255.0));
+        let (zero, most) = (self.splat(0.0), self.splat(255.0));
         // As `quantise`: adding 2²³ rounds, and the level stands in the lowest bits, below the bits of 2²³ itself.
         let integers = self.splat(8_388_608.0);
-        let level = |c: f32x8<S>| bits(scale * Num::min(Num::max(c, zero), one) + integers);
         let [r, g, b] = super::each(
             #[inline(always)]
-            |i| level(rgb[i]),
+            |i| bits(Num::min(Num::max(levels[i], zero), most) + integers),
         );
         let opaque = i32x8::splat(self.0, (0xFF00_0000u32 ^ 8_388_608f32.to_bits()) as i32);
         let word = (r ^ opaque) | (g << 8) | (b << 16);

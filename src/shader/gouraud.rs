@@ -75,6 +75,15 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
     fn shade<F: Num>(_: &P::Of<F, L>, colour: [F; 3]) -> [F; 3] {
         colour
     }
+    /// Clamped colours are at most 1 between vertices too.
+    #[inline(always)]
+    fn usual<N: Num>(consts: &P::Of<N, L>, _: N) -> Option<P::Of<N, L>> {
+        Some(*consts)
+    }
+    #[inline(always)]
+    fn scaled<F: Num>(_: &P::Of<F, L>, colour: [F; 3], scale: F) -> [F; 3] {
+        [colour[0] * scale, colour[1] * scale, colour[2] * scale]
+    }
 }
 
 /// Gouraud shading with `L` lights, linear in space: `I/w` and `1/w` are interpolated and divided.

@@ -130,6 +130,8 @@ pub struct Illumination<N, const L: usize> {
     diffuse: [[N; 3]; L],
     specular: [[N; 3]; L],
     far: Seen<N, L>,
+    /// No colour is 2²² or more.
+    is_bounded: bool,
     power: Power,
     model: SpecularModel,
     gate: SpecularGate,
@@ -159,6 +161,10 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             square if square > SpecularModel::LEAST_SUM => 1.0 / libm::sqrtf(square),
             _ => 0.0,
         };
+        let is_bounded = |channel: usize| {
+            let lights = lighting.lights.iter().map(|l| l.diffuse[channel].abs() + l.specular[channel].abs());
+            lighting.ambient[channel].abs() + lights.sum::<f32>() < 4_194_304.0
+        };
         Illumination {
             ambient: three(lighting.ambient),
             diffuse: each(|i| three(light(i).map_or([0.0; 3], |l| l.diffuse))),
@@ -172,6 +178,7 @@ impl<N: Num, const L: usize> Illumination<N, L> {
                     strength: None,
                 },
             },
+            is_bounded: (0..3).all(is_bounded),
             power: Power::new(lighting.shininess),
             model: lighting.specular,
             gate: lighting.gate,
@@ -182,19 +189,36 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         }
     }
 
-    /// The same where it is what most scenes ask for: R·V, no specular light where `L·N ≤ 0`, lights of full strength, a shininess
-    /// that is a power of two. Written out, so that the compiler sees these choices and leaves them out of a loop that is shaded with
-    /// it.
+    /// The same for `scale` times the colours, where it is what most scenes ask for: R·V, no specular light where `L·N ≤ 0`, lights
+    /// of full strength, a shininess that is a power of two up to 128, and colours below 2²². Written out, so that the compiler sees
+    /// these choices and leaves them out of a loop that is shaded with it.
     #[inline(always)]
-    pub fn usual(&self) -> Option<Self> {
+    pub fn usual(&self, scale: N) -> Option<Self> {
         let power = self.power.by_squaring()?;
-        if self.model != SpecularModel::Phong || self.gate != SpecularGate::Gated || self.far.scalars.strength.is_some()
-        {
+        let is_usual = self.model == SpecularModel::Phong
+            && self.gate == SpecularGate::Gated
+            && self.far.scalars.strength.is_none()
+            && self.is_bounded;
+        if !is_usual {
             return None;
         }
         let scalars = SeenScalars { strength: None, ..self.far.scalars };
-        let far = Seen { scalars, ..self.far };
-        Some(Illumination { model: SpecularModel::Phong, gate: SpecularGate::Gated, power, far, ..*self })
+        Some(Illumination {
+            ambient: scaled(self.ambient, scale),
+            diffuse: each(
+                #[inline(always)]
+                |i| scaled(self.diffuse[i], scale),
+            ),
+            specular: each(
+                #[inline(always)]
+                |i| scaled(self.specular[i], scale),
+            ),
+            far: Seen { scalars, ..self.far },
+            power,
+            model: SpecularModel::Phong,
+            gate: SpecularGate::Gated,
+            ..*self
+        })
     }
 
     /// Light and viewer at infinity, as every point sees them.
@@ -353,4 +377,10 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             |i| sum[i].max(self.zero).min(self.one),
         )
     }
+}
+
+/// A colour times `scale`.
+#[inline(always)]
+fn scaled<N: Num>([r, g, b]: [N; 3], scale: N) -> [N; 3] {
+    [r * scale, g * scale, b * scale]
 }

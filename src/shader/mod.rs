@@ -183,12 +183,19 @@ pub trait Shader: 'static {
 
     /// Constants from the light on one material; `parameters` are in the order of [`Info::parameters`].
     fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N>;
-    /// The constants again, if they ask for what most scenes do, with that written out: pixel loops of it are compiled apart, without
-    /// decisions. `None` by default: then there is one loop.
+    /// The constants again, for [`Shader::scaled`], if they ask for what most scenes do, with that written out: pixel loops of it are
+    /// compiled apart, without decisions. `None` by default: then there is one loop.
     #[inline(always)]
-    fn usual<N: Num>(consts: &Self::Consts<N>) -> Option<Self::Consts<N>> {
-        let _ = consts;
+    fn usual<N: Num>(consts: &Self::Consts<N>, scale: N) -> Option<Self::Consts<N>> {
+        let _ = (consts, scale);
         None
+    }
+    /// Once a pixel, with usual constants: `scale` times linear red, green and blue, not yet clamped, of magnitudes below
+    /// `scale` · 2²². By default the constants are scaled.
+    #[inline(always)]
+    fn scaled<F: Num>(c: &Self::Consts<F>, pixel: Self::Pixel<F>, scale: F) -> [F; 3] {
+        let _ = scale;
+        Self::shade(c, pixel)
     }
     /// Once a vertex.
     fn vertex<M: Machine>(c: &Self::Consts<M::One>, corner: &Corner<'_, M>) -> Self::Attribute<M::One>;

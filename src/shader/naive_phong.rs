@@ -74,8 +74,8 @@ impl<Q: AtPixel, const L: usize> Shader for Of<Q, L> {
         Illumination::new(lighting, of)
     }
     #[inline(always)]
-    fn usual<N: Num>(consts: &Illumination<N, L>) -> Option<Illumination<N, L>> {
-        consts.usual()
+    fn usual<N: Num>(consts: &Illumination<N, L>, scale: N) -> Option<Illumination<N, L>> {
+        consts.usual(scale)
     }
     #[inline(always)]
     fn vertex<M: Machine>(_: &Illumination<M::One, L>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {

@@ -18,11 +18,11 @@ impl Power {
         if whole as f32 == shininess { Power::Integer(whole) } else { Power::Fractional(shininess) }
     }
 
-    /// The same power if squaring alone gives it, so that the compiler sees that it does.
+    /// The same power if up to 7 squarings give it, so that the compiler sees that they do.
     #[inline(always)]
     pub(super) fn by_squaring(self) -> Option<Self> {
         match self {
-            Power::Integer(n) if n.is_power_of_two() => Some(Power::Integer(1 << (n.trailing_zeros() & 31))),
+            Power::Integer(n) if n.is_power_of_two() && n <= 128 => Some(Power::Integer(1 << (n.trailing_zeros() & 7))),
             _ => None,
         }
     }
@@ -105,7 +105,8 @@ mod tests {
                 assert!((found - truth).abs() <= bound, "{power:?}: {found}, expected {truth}");
             }
         }
-        assert_eq!(Power::new(24.0).by_squaring(), None);
+        assert_eq!([24.0, 256.0, 0.0, 0.5].map(|n| Power::new(n).by_squaring()), [None; 4]);
+        assert_eq!([1.0, 128.0].map(|n| Power::new(n).by_squaring()), [1, 128].map(|n| Some(Power::Integer(n))));
         assert_eq!(Power::new(32.0).by_squaring(), Some(Power::Integer(32)));
     }
 }
