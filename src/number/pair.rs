@@ -79,6 +79,10 @@ impl<F: Num> Num for Pair<F> {
         Pair(self.0.gate(condition.0), self.1.gate(condition.1))
     }
     #[inline(always)]
+    fn is_over(self, least: f32) -> bool {
+        self.0.max(self.1).is_over(least)
+    }
+    #[inline(always)]
     fn powf(self, exponent: f32) -> Self {
         Pair(self.0.powf(exponent), self.1.powf(exponent))
     }

@@ -38,6 +38,11 @@ impl Num for f32 {
     }
 
     #[inline(always)]
+    fn is_over(self, least: f32) -> bool {
+        self > least
+    }
+
+    #[inline(always)]
     fn powf(self, exponent: f32) -> f32 {
         libm::powf(self, exponent)
     }

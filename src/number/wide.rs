@@ -129,6 +129,11 @@ impl<S: Simd> Num for f32x8<S> {
     }
 
     #[inline(always)]
+    fn is_over(self, least: f32) -> bool {
+        self.simd_gt(Self::splat(self.simd, least)).any_true()
+    }
+
+    #[inline(always)]
     fn powf(self, exponent: f32) -> Self {
         super::power::powf(self, exponent)
     }
