@@ -73,6 +73,11 @@ pub(super) struct Functions {
     pub across: All,
     pub down: All,
     pub off: [f32; MOST],
+    /// What follows is that of small triangles that are not tiny. The barycentric coordinate at the centre of that first pixel, but for
+    /// edge 0, and its growth from column to column and from row to row.
+    pub weight: [f32; MOST],
+    pub growth: [f32; MOST],
+    pub fall: [f32; MOST],
     /// Where it grows to the right, how many columns on it becomes 0, per value; else 0.
     pub begins: [f32; MOST],
     /// Where it falls to the right, likewise, and 0; else 0, and more columns than any has.
@@ -138,6 +143,27 @@ impl Small<'_> {
         self.0.edges[edge].down[self.1]
     }
 
+    /// The barycentric coordinates of the second and the third corner at the centre of the first pixel of the first group of the first row.
+    #[inline(always)]
+    pub fn weights(&self) -> [f32; 2] {
+        let [_, b, c] = &self.0.edges;
+        [b.weight[self.1], c.weight[self.1]]
+    }
+
+    /// How much they grow from pixel to pixel.
+    #[inline(always)]
+    pub fn growth(&self) -> [f32; 2] {
+        let [_, b, c] = &self.0.edges;
+        [b.growth[self.1], c.growth[self.1]]
+    }
+
+    /// The same from row to row.
+    #[inline(always)]
+    pub fn fall(&self) -> [f32; 2] {
+        let [_, b, c] = &self.0.edges;
+        [b.fall[self.1], c.fall[self.1]]
+    }
+
     /// What was taken off for ownership, over the area.
     #[inline(always)]
     pub fn off(&self, edge: usize) -> f32 {
@@ -155,8 +181,18 @@ impl Small<'_> {
 impl Default for Batch {
     fn default() -> Self {
         let (all, none) = ([0; MOST], [0.0; MOST]);
-        let edges =
-            || Functions { at: all, right: all, across: all, down: all, off: none, begins: none, ends: [none; 2] };
+        let edges = || Functions {
+            at: all,
+            right: all,
+            across: all,
+            down: all,
+            off: none,
+            weight: none,
+            growth: none,
+            fall: none,
+            begins: none,
+            ends: [none; 2],
+        };
         Batch {
             count: 0,
             listed: [Listed::default(); MOST],

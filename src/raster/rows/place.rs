@@ -1,7 +1,7 @@
 //! The triangles of a batch on the pixels of a band: bounds, edge functions, a group of triangles at a time.
 
 use super::batch::{Batch, Kind, SMALL_HEIGHT, SMALL_WIDTH, STEEPEST, TINY_HEIGHT, TINY_WIDTH};
-use crate::number::{Int, Lanes, each};
+use crate::number::{Int, Lanes, Num, each};
 use core::ops::Range;
 
 /// What a group of triangles has in common with pixels.
@@ -126,13 +126,20 @@ impl Batch {
         let level = (dy.less(zero) | zero.less(dy)) ^ m.int(-1);
         let disowns = m.int(1) + (dy.less(zero) | (level & zero.less(dx)));
         let to = &mut self.edges[edge];
-        let right = dy * m.int(-256);
-        m.store_int(dx * (*py - y[i]) - dy * (*px - x[i]) - disowns, &mut to.at[first..]);
+        let (at, right, down) =
+            (dx * (*py - y[i]) - dy * (*px - x[i]) - disowns, dy * m.int(-256), dx * m.int(256));
+        let off = m.number(disowns) * *over_area;
+        m.store_int(at, &mut to.at[first..]);
         m.store_int(right, &mut to.right[first..]);
-        m.store_int(dx * m.int(256), &mut to.down[first..]);
-        m.store(m.number(disowns) * *over_area, &mut to.off[first..]);
+        m.store_int(down, &mut to.down[first..]);
+        m.store(off, &mut to.off[first..]);
         if !placed.has_small {
             return;
+        }
+        if edge != 0 {
+            m.store(m.number(at).mul_add(*over_area, off), &mut to.weight[first..]);
+            m.store(m.number(right) * *over_area, &mut to.growth[first..]);
+            m.store(m.number(down) * *over_area, &mut to.fall[first..]);
         }
         m.store_int(dy * m.int(-256 * M::WIDTH as i32), &mut to.across[first..]);
         let grows = m.less(none, m.number(right));

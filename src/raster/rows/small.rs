@@ -5,7 +5,7 @@ use super::batch::Small;
 use super::facets::Facets;
 use super::paint::{Facet, Flat, facets};
 use super::triangle::{Groups, Line, Starts};
-use crate::number::{Lanes, get_each};
+use crate::number::{Lanes, Num, get_each};
 use crate::shader::Shader;
 
 /// A depth, and the numbers that pixels are given.
@@ -62,13 +62,15 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
     fn narrow<const MATERIALS: bool>(&self, m: M, top: usize, cells: &mut Cells<'_, M, S::Pixel<M::F>>) {
         let [first, end] = self.groups.groups;
         let has_two = end - first == 2;
-        let (across, down) = (self.growth(m, self.small.growth(), M::WIDTH), self.growth(m, self.small.fall(), 1));
+        let (growth, down) = (self.growth(m, self.small.growth()), self.growth(m, self.small.fall()));
         let mut functions = self.groups.first(m, &self.small);
-        let weights = self.groups.weights(m, functions);
-        let mut at = [m.splat(0.0); 1 + MOST_PLANES];
+        let (all, k) = self.facets;
+        let start = all.at(m, k, Self::COUNT, self.small.weights());
+        let (counted, width) = (m.number(m.counted()), m.splat(M::WIDTH as f32));
+        let mut at = growth;
         let mut i = 0;
         while i < Self::COUNT {
-            at[i] = Facet::of(self.facets.0, i, self.facets.1).lanes(m, weights);
+            at[i] = growth[i].mul_add(counted, m.splat(start[i]));
             i += 1;
         }
         for row in self.small.rows(top) {
@@ -76,7 +78,13 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
                 self.put(m, &mut cell, functions, &at);
             }
             if has_two && let Some(mut cell) = cells.cell::<MATERIALS>(row, first + 1) {
-                self.put(m, &mut cell, self.groups.beside(functions), &Self::grown(at, &across));
+                let mut beside = at;
+                let mut i = 0;
+                while i < Self::COUNT {
+                    beside[i] = growth[i].mul_add(width, at[i]);
+                    i += 1;
+                }
+                self.put(m, &mut cell, self.groups.beside(functions), &beside);
             }
             functions = self.groups.below(functions);
             at = Self::grown(at, &down);
@@ -93,11 +101,11 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
         cells: &mut Cells<'_, M, S::Pixel<M::F>>,
     ) {
         let (all, k) = self.facets;
-        let across = self.growth(m, self.small.growth(), M::WIDTH);
-        let mut ramps = self.growth(m, self.small.growth(), 1);
+        let (mut across, mut ramps) = (self.growth(m, self.small.growth()), [m.splat(0.0); 1 + MOST_PLANES]);
+        let (counted, width) = (m.number(m.counted()), m.splat(M::WIDTH as f32));
         let mut i = 0;
         while i < Self::COUNT {
-            ramps[i] = ramps[i] * m.number(m.counted());
+            (across[i], ramps[i]) = (across[i] * width, across[i] * counted);
             i += 1;
         }
         self.groups.rows(
@@ -111,8 +119,9 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
                 |i, weights| Facet::of(all, i, k).lanes(m, weights),
             ),
             #[inline(always)]
-            |Line { row, groups, numbers, mut functions, of_eight }, starts| {
-                let mut at = ramps;
+            |line, starts| {
+                let mut functions = self.groups.of_line(m, starts, &line);
+                let (Line { row, groups, numbers, of_eight }, mut at) = (line, ramps);
                 let mut i = 0;
                 while i < Self::COUNT {
                     at[i] = m.splat(starts.values[i][of_eight]) + ramps[i];
@@ -170,11 +179,11 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
         cell.put(m, Groups::<M>::outside(functions), at[0], pixel, self.material);
     }
 
-    /// How much its numbers grow over so many pixels, of each of which the coordinates grow by `growth`.
+    /// How much its numbers grow where the coordinates grow by `growth`.
     #[inline(always)]
-    fn growth(&self, m: M, growth: [f32; 2], pixels: usize) -> Numbers<M::F> {
+    fn growth(&self, m: M, growth: [f32; 2]) -> Numbers<M::F> {
         let (all, k) = self.facets;
-        let steps = all.growth(m, k, Self::COUNT, [growth[0] * pixels as f32, growth[1] * pixels as f32]);
+        let steps = all.growth(m, k, Self::COUNT, growth);
         let mut grown = [m.splat(0.0); 1 + MOST_PLANES];
         let mut i = 0;
         while i < Self::COUNT {

@@ -25,15 +25,13 @@ pub(super) struct Groups<M: Lanes> {
 
 /// A row of a small triangle.
 #[derive(Clone, Debug)]
-pub(super) struct Line<M: Lanes> {
+pub(super) struct Line {
     /// Its number in the band.
     pub row: usize,
     /// The groups between which it has pixels: none where the end is not over the start.
     pub groups: Range<usize>,
     /// The same as numbers of the band: the first, and the one after the last.
     pub numbers: [i32; 2],
-    /// The edge functions in the first group.
-    pub functions: [M::I; 3],
     /// Its place in the values of [`Starts`].
     pub of_eight: usize,
 }
@@ -84,7 +82,7 @@ impl<M: Lanes> Groups<M> {
         [a_row, a_group]: [usize; 2],
         starts: &mut Starts,
         (count, values): (usize, impl Fn(usize, [M::F; 2]) -> M::F),
-        mut visit: impl FnMut(Line<M>, &Starts),
+        mut visit: impl FnMut(Line, &Starts),
     ) {
         let rows = small.rows(top);
         let [first, _] = self.groups;
@@ -119,10 +117,6 @@ impl<M: Lanes> Groups<M> {
                     row: row + k,
                     groups: starts.groups[0][k] as usize..Ord::max(starts.groups[1][k], 0) as usize,
                     numbers: [starts.numbers[0][k], starts.numbers[1][k]],
-                    functions: each(
-                        #[inline(always)]
-                        |i| m.int(starts.functions[i][k]) + self.ramp[i],
-                    ),
                     of_eight: k,
                 };
                 visit(line, starts);
@@ -150,6 +144,15 @@ impl<M: Lanes> Groups<M> {
         }
         let groups = m.splat(groups);
         [m.truncated(from.mul_add(groups, -doubt)), m.truncated(to.mul_add(groups, doubt)) + m.int(1)]
+    }
+
+    /// The functions in the first group of a row.
+    #[inline(always)]
+    pub fn of_line(&self, m: M, starts: &Starts, line: &Line) -> [M::I; 3] {
+        each(
+            #[inline(always)]
+            |i| m.int(starts.functions[i][line.of_eight]) + self.ramp[i],
+        )
     }
 
     /// The functions in the first group of the first row.
@@ -210,7 +213,8 @@ impl Small<'_> {
                 |_, weights| weights[0],
             ),
             #[inline(always)]
-            |Line { row, groups: range, functions: mut here, .. }, _| {
+            |line, starts| {
+                let (mut here, Line { row, groups: range, .. }) = (groups.of_line(m, starts, &line), line);
                 // At most 62 pixels, a bit each.
                 let mut inside = 0u64;
                 for group in range {
@@ -232,18 +236,6 @@ impl Small<'_> {
                 }
             },
         );
-    }
-
-    /// How much the barycentric coordinates of the second and the third corner grow from pixel to pixel.
-    #[inline(always)]
-    pub fn growth(&self) -> [f32; 2] {
-        [self.right(1) as f32 * self.over_area(), self.right(2) as f32 * self.over_area()]
-    }
-
-    /// The same from row to row.
-    #[inline(always)]
-    pub fn fall(&self) -> [f32; 2] {
-        [self.down(1) as f32 * self.over_area(), self.down(2) as f32 * self.over_area()]
     }
 }
 
