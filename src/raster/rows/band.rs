@@ -160,11 +160,12 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
         }
     }
 
-    /// Gives the groups from number `from` of the band up to number `to`, if there are any; their pixels have no materials.
+    /// Gives the groups from number `from` of the band up to number `to`, 0 or more, if there are any; their pixels have no materials.
     #[inline(always)]
     pub fn plain(&mut self, [from, to]: [i32; 2], mut visit: impl FnMut(&mut Cell<'_, M, P>)) {
         let size = size::<M, P>();
-        let (mut from, to) = (from as u32 as usize, Ord::max(to, 0) as usize);
+        // Not over a slice of the groups: that takes more registers than there are.
+        let (mut from, to) = (from as u32 as usize, to as u32 as usize);
         while from < to {
             let Some(values) = self.values.get_mut(from..from + size) else { return };
             visit(&mut Cell { values, materials: &mut [], number: 0, least: self.least, pixel: PhantomData });

@@ -4,7 +4,7 @@
 use super::band::MOST_PLANES;
 use super::batch::Small;
 use crate::frame::SubPixel;
-use crate::number::{Lanes, Num, each};
+use crate::number::{self, Lanes, Num, each};
 use crate::raster::edge::{Crossing, first_centre};
 use core::ops::Range;
 
@@ -98,7 +98,8 @@ impl<M: Lanes> Groups<M> {
             m.store_int(to + m.int(first as i32), &mut starts.groups[1]);
             let before = m.int((row * a_row + first * a_group) as i32) + m.counted() * m.int(a_row as i32);
             m.store_int(before + from * m.int(a_group as i32), &mut starts.numbers[0]);
-            m.store_int(before + to * m.int(a_group as i32), &mut starts.numbers[1]);
+            let end = number::Int::max(before + to * m.int(a_group as i32), m.int(0));
+            m.store_int(end, &mut starts.numbers[1]);
             let mut i = 0;
             while i < 3 {
                 start[i] = start[i] + from * self.across[i];
