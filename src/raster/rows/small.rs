@@ -67,10 +67,11 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
         let (all, k) = self.facets;
         let start = all.at(m, k, Self::COUNT, self.small.weights());
         let (counted, width) = (m.number(m.counted()), m.splat(M::WIDTH as f32));
-        let mut at = growth;
+        let (mut at, mut across) = (growth, growth);
         let mut i = 0;
         while i < Self::COUNT {
             at[i] = growth[i].mul_add(counted, m.splat(start[i]));
+            across[i] = growth[i] * width;
             i += 1;
         }
         for row in self.small.rows(top) {
@@ -78,13 +79,7 @@ impl<'a, S: Shader, M: Lanes> SmallTriangle<'a, S, M> {
                 self.put(m, &mut cell, functions, &at);
             }
             if has_two && let Some(mut cell) = cells.cell::<MATERIALS>(row, first + 1) {
-                let mut beside = at;
-                let mut i = 0;
-                while i < Self::COUNT {
-                    beside[i] = growth[i].mul_add(width, at[i]);
-                    i += 1;
-                }
-                self.put(m, &mut cell, self.groups.beside(functions), &beside);
+                self.put(m, &mut cell, self.groups.beside(functions), &Self::grown(at, &across));
             }
             functions = self.groups.below(functions);
             at = Self::grown(at, &down);
