@@ -100,6 +100,10 @@ impl<Q: OverRoot, const L: usize> Shader for Of<Q, L> {
         (light, Linear::new(m, k, dk), Quadratic::square(m, n, dn))
     }
     #[inline(always)]
+    fn usual<N: Num>(consts: &Illumination<N, L>, scale: N) -> Option<Illumination<N, L>> {
+        consts.usual(scale)
+    }
+    #[inline(always)]
     fn shade<F: Num>(c: &Illumination<F, L>, (j, k, d): Self::Pixel<F>) -> [F; 3] {
         let r = Q::of(d, c.one());
         let cosines = each(

@@ -87,6 +87,10 @@ impl<const L: usize> Shader for Of<L> {
         (light, Linear::new(m, k, dk), Newton::new(m, n, dn, c.steps))
     }
     #[inline(always)]
+    fn usual<N: Num>(consts: &Consts<N, L>, scale: N) -> Option<Consts<N, L>> {
+        Some(Consts { light: consts.light.usual(scale)?, steps: consts.steps })
+    }
+    #[inline(always)]
     fn shade<F: Num>(c: &Consts<F, L>, (j, k, (d, squared)): Self::Pixel<F>) -> [F; 3] {
         colour(&c.light, j, k, d, squared, &c.light.far().scalars)
     }

@@ -6,6 +6,7 @@ use crate::number::{Lanes, Num, Pair};
 use crate::shader::Shader;
 use alloc::vec::Vec;
 use core::ops::Range;
+use core::slice::ChunksExactMut;
 
 /// Where the colours of a row go: into texels as they are stored, or into depth and three channels.
 pub(super) enum Colours<'a> {
@@ -27,12 +28,103 @@ impl Colours<'_> {
             Colours::Linear([depth, ..]) => depth.len(),
         }
     }
+
+    /// The places of `count` pixels from pixel `x` on; or, where they do not all go there, two groups aside.
+    #[inline(always)]
+    fn places<'a, M: Lanes>(
+        &'a mut self,
+        aside: &'a mut Aside,
+        (x, count): (usize, usize),
+        is_here: bool,
+    ) -> Places<'a> {
+        match self {
+            Colours::Packed(texels, background) => {
+                let texels = if is_here { &mut texels[x..x + count] } else { &mut aside.texels[..count] };
+                Places::Packed(texels.chunks_exact_mut(2 * M::WIDTH), *background)
+            }
+            Colours::Linear(channels) => {
+                let [depth, r, g, b] = channels;
+                let [no_depth, no_r, no_g, no_b] = &mut aside.channels;
+                let of = |here: &'a mut Vec<f32>, aside: &'a mut [f32; MOST]| {
+                    let place = if is_here { &mut here[x..x + count] } else { &mut aside[..count] };
+                    place.chunks_exact_mut(M::WIDTH)
+                };
+                Places::Linear([of(depth, no_depth), of(r, no_r), of(g, no_g), of(b, no_b)])
+            }
+        }
+    }
+
+    /// Copies the pixels `pixels` of two groups aside that begin with pixel `x`.
+    fn copy(&mut self, from: &Aside, x: usize, pixels: Range<usize>) {
+        if pixels.is_empty() {
+            return;
+        }
+        let part = pixels.start - x..pixels.end - x;
+        match self {
+            Colours::Packed(texels, _) => texels[pixels].copy_from_slice(&from.texels[part]),
+            Colours::Linear(channels) => {
+                for (channel, from) in channels.iter_mut().zip(&from.channels) {
+                    channel[pixels.clone()].copy_from_slice(&from[part.clone()]);
+                }
+            }
+        }
+    }
 }
 
 /// Two groups whose pixels do not all go where they lie.
 struct Aside {
     texels: [[u8; 4]; MOST],
     channels: [[f32; MOST]; 4],
+}
+
+/// Where the colours of neighbouring groups go.
+enum Places<'a> {
+    /// Two groups at a time; and the background.
+    Packed(ChunksExactMut<'a, [u8; 4]>, [u8; 4]),
+    /// One at a time.
+    Linear([ChunksExactMut<'a, f32>; 4]),
+}
+
+impl Places<'_> {
+    /// Stores two groups, where their depth is finite, else the background.
+    #[inline(always)]
+    fn store<M: Lanes>(&mut self, m: M, depth: Pair<M::F>, [r, g, b]: [Pair<M::F>; 3]) {
+        match self {
+            Places::Packed(places, background) => {
+                let Some(place) = places.next() else { return };
+                let (first, second) = place.split_at_mut(M::WIDTH);
+                let infinite = m.splat(f32::INFINITY);
+                m.pack([r.0, g.0, b.0], m.less(depth.0, infinite), *background, first);
+                m.pack([r.1, g.1, b.1], m.less(depth.1, infinite), *background, second);
+            }
+            Places::Linear(channels) => {
+                for (places, value) in channels.iter_mut().zip([depth, r, g, b]) {
+                    for value in [value.0, value.1] {
+                        if let Some(place) = places.next() {
+                            m.store(value, place);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Nothing was drawn in the next two groups.
+    #[inline(always)]
+    fn skip<M: Lanes>(&mut self, m: M) {
+        match self {
+            Places::Packed(places, background) => {
+                if let Some(place) = places.next() {
+                    place.fill(*background);
+                }
+            }
+            Places::Linear(_) => self.store(
+                m,
+                Pair(m.splat(f32::INFINITY), m.splat(f32::INFINITY)),
+                [Pair(m.splat(0.0), m.splat(0.0)); 3],
+            ),
+        }
+    }
 }
 
 /// Shades what was drawn of a row and empties it. All of it has material `only`, or the band knows each pixel's.
@@ -51,15 +143,12 @@ pub(super) fn row<S: Shader, M: Lanes>(
         let (to, material) = band.same_material::<M, S::Pixel<M::F>>(row, from..end, only);
         let consts = &all[material as usize];
         let part = Part { row, pixels: from..to.min(colours.end()), aside: &mut aside };
-        match colours {
-            Colours::Packed(texels, background) => {
-                let scale = m.splat(LEVELS);
-                match S::usual(consts, Pair(scale, scale)) {
-                    Some(consts) => part.packed::<S, M, true>(m, &consts, band, (texels, *background)),
-                    None => part.packed::<S, M, false>(m, consts, band, (texels, *background)),
-                }
+        let scale = m.splat(LEVELS);
+        match (&mut *colours, S::usual(consts, Pair(scale, scale))) {
+            (Colours::Packed(texels, background), Some(consts)) => {
+                part.usual::<S, M>(m, &consts, band, (texels, *background));
             }
-            Colours::Linear(channels) => part.linear::<S, M>(m, consts, band, channels),
+            (colours, _) => part.any::<S, M>(m, consts, band, colours),
         }
         from = to;
     }
@@ -90,10 +179,9 @@ impl Part<'_> {
         }
     }
 
-    /// Shades them with the constants of their material into the texels of their row, and the background where nothing was drawn;
-    /// `USUAL` are [`Shader::usual`] constants, of levels.
+    /// Shades them with [`Shader::usual`] constants, of levels, into the texels of their row; the background where nothing was drawn.
     #[inline(always)]
-    fn packed<S: Shader, M: Lanes, const USUAL: bool>(
+    fn usual<S: Shader, M: Lanes>(
         self,
         m: M,
         consts: &Consts<S, M>,
@@ -110,10 +198,9 @@ impl Part<'_> {
             |groups, is_here| {
                 let count = groups.len();
                 let places = if is_here { &mut texels[groups.clone()] } else { &mut aside.texels[..count] };
-                let cells = band.row::<M, S::Pixel<M::F>>(row, groups.start / M::WIDTH..groups.end / M::WIDTH);
                 // Not `zip`, which is not inlined into this.
                 let mut places = places.chunks_exact_mut(2 * M::WIDTH);
-                for cells in cells {
+                for cells in band.row::<M, S::Pixel<M::F>>(row, groups.start / M::WIDTH..groups.end / M::WIDTH) {
                     let Some(place) = places.next() else { return };
                     let (depth, planes) = Band::pixels::<M, S::Pixel<Pair<M::F>>>(m, cells);
                     if !m.any(m.less(depth.0.min(depth.1), infinite)) {
@@ -121,16 +208,9 @@ impl Part<'_> {
                         continue;
                     }
                     let (first, second) = place.split_at_mut(M::WIDTH);
-                    let covered = (m.less(depth.0, infinite), m.less(depth.1, infinite));
-                    if USUAL {
-                        let [r, g, b] = S::scaled(&consts, planes, Pair(scale, scale));
-                        m.pack_levels([r.0, g.0, b.0], covered.0, background, first);
-                        m.pack_levels([r.1, g.1, b.1], covered.1, background, second);
-                    } else {
-                        let [r, g, b] = S::shade(&consts, planes);
-                        m.pack([r.0, g.0, b.0], covered.0, background, first);
-                        m.pack([r.1, g.1, b.1], covered.1, background, second);
-                    }
+                    let [r, g, b] = S::scaled(&consts, planes, Pair(scale, scale));
+                    m.pack_levels([r.0, g.0, b.0], m.less(depth.0, infinite), background, first);
+                    m.pack_levels([r.1, g.1, b.1], m.less(depth.1, infinite), background, second);
                 }
                 if !is_here {
                     let part = pixels.start.max(groups.start)..pixels.end.min(groups.end);
@@ -141,9 +221,9 @@ impl Part<'_> {
         );
     }
 
-    /// Shades them with the constants of their material into depth and three channels.
+    /// Shades them with any constants of their material.
     #[inline(always)]
-    fn linear<S: Shader, M: Lanes>(self, m: M, consts: &Consts<S, M>, band: &Band, channels: &mut [Vec<f32>; 4]) {
+    fn any<S: Shader, M: Lanes>(self, m: M, consts: &Consts<S, M>, band: &Band, colours: &mut Colours<'_>) {
         let Part { row, pixels, aside } = self;
         let consts = *consts;
         let infinite = m.splat(f32::INFINITY);
@@ -151,26 +231,17 @@ impl Part<'_> {
             pixels.clone(),
             #[inline(always)]
             |groups, is_here| {
-                let cells = band.row::<M, S::Pixel<M::F>>(row, groups.start / M::WIDTH..groups.end / M::WIDTH);
-                for (i, cells) in cells.enumerate() {
+                let mut places = colours.places::<M>(aside, (groups.start, groups.len()), is_here);
+                for cells in band.row::<M, S::Pixel<M::F>>(row, groups.start / M::WIDTH..groups.end / M::WIDTH) {
                     let (depth, planes) = Band::pixels::<M, S::Pixel<Pair<M::F>>>(m, cells);
-                    let [r, g, b] = match m.any(m.less(depth.0.min(depth.1), infinite)) {
-                        true => S::shade(&consts, planes),
-                        false => [Pair(m.splat(0.0), m.splat(0.0)); 3],
-                    };
-                    let at = if is_here { groups.start + 2 * M::WIDTH * i } else { 0 };
-                    for (k, value) in [depth, r, g, b].into_iter().enumerate() {
-                        let place = if is_here { &mut channels[k][at..] } else { &mut aside.channels[k][at..] };
-                        m.store(value.0, place);
-                        m.store(value.1, &mut place[M::WIDTH..]);
+                    if m.any(m.less(depth.0.min(depth.1), infinite)) {
+                        places.store(m, depth, S::shade(&consts, planes));
+                    } else {
+                        places.skip(m);
                     }
                 }
                 if !is_here {
-                    let part = pixels.start.max(groups.start)..pixels.end.min(groups.end);
-                    let from = part.start - groups.start..part.end - groups.start;
-                    for (channel, aside) in channels.iter_mut().zip(&aside.channels) {
-                        channel[part.clone()].copy_from_slice(&aside[from.clone()]);
-                    }
+                    colours.copy(aside, groups.start, pixels.start.max(groups.start)..pixels.end.min(groups.end));
                 }
             },
         );

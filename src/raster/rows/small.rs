@@ -13,14 +13,14 @@ type Numbers<F> = [F; 1 + MOST_PLANES];
 
 /// A small triangle that is drawn group by group.
 ///
-/// Its numbers are exact, but for roundings, in its first group, or in the first one of each row, and grow from there by additions: finding
-/// them anew in each group took 46 instructions a group where 28 do now (`phong-rsqrt`, AVX2).
+/// Its numbers are exact, but for roundings, at the first pixel of its first group, or of the first one of each row, and grow from there:
+/// finding them anew in each group took 46 instructions a group where 28 do now (`phong-rsqrt`, AVX2).
 ///
 /// That costs accuracy where a triangle is thin. Barycentric coordinates are in 0..=1 where it is covered and grow by at most
-/// [`STEEPEST`](super::batch::STEEPEST) a pixel. A covered pixel is at most 15 rows and 8 columns from where numbers begin, so that no
-/// coordinate is over 93 there; three roundings of that, one of each of 16 sums, and those of the steps are at most 1900 · 2⁻²⁴, below
-/// 2⁻¹³ of how far corners are apart. Along a row, from its first group on, it is less: where a coordinate grows by more than 1 a pixel
-/// no two pixels of a row are covered. A triangle that is 2 pixels thick is within 2⁻¹⁵.
+/// [`STEEPEST`](super::batch::STEEPEST) a pixel. A covered pixel is at most 15 rows and 15 columns from where numbers begin, so that no
+/// coordinate is over 121 on the way; 6 roundings of that where they begin, one of each of 17 sums, and 6 of each of 30 steps, are below
+/// 3600 · 2⁻²⁴, which is below 2⁻¹² of how far corners are apart. Along a row, from its first group on, it is less: where a coordinate
+/// grows by more than 1 a pixel no two pixels of a row are covered. A triangle that is 2 pixels thick is within 2⁻¹⁵.
 pub(super) struct SmallTriangle<'a, S: Shader, M: Lanes> {
     small: Small<'a>,
     groups: Groups<M>,
