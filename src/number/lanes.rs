@@ -11,6 +11,9 @@ pub trait Lanes: Machine<One = f32> {
     type Mask: Copy;
     /// A whole number for each of them.
     type I: Int;
+    /// Whether a group lies in one register. Where it does not, loops that are compiled apart for what is usual gain little, as
+    /// registers run out, and would be a good part of what there is to compile.
+    const IS_ONE_REGISTER: bool;
 
     /// Does `work` with the instructions of this machine: what is inlined into it is compiled for them.
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T;

@@ -126,6 +126,7 @@ impl Machine for Scalar {
 impl Lanes for Scalar {
     type Mask = bool;
     type I = i32;
+    const IS_ONE_REGISTER: bool = true;
 
     #[inline(always)]
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {

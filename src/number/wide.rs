@@ -29,8 +29,8 @@ pub(super) fn is_available(level: Level) -> bool {
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
     use core::arch::x86_64::{
-        __m256, __m256i, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_packs_epi32,
-        _mm256_packus_epi16, _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_setr_epi8, _mm256_shuffle_epi8,
+        __m256, __m256i, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_packs_epi32, _mm256_packus_epi16,
+        _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_setr_epi8, _mm256_shuffle_epi8,
     };
 
     fearless_simd::kernel!(
@@ -219,6 +219,7 @@ impl<S: Simd> Machine for Wide<S> {
 impl<S: Simd> Lanes for Wide<S> {
     type Mask = mask32x8<S>;
     type I = i32x8<S>;
+    const IS_ONE_REGISTER: bool = size_of::<S::f32s>() >= 32;
 
     #[inline(always)]
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
@@ -361,3 +362,5 @@ impl<S: Simd> Lanes for Wide<S> {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod texel_tests;

@@ -3,6 +3,8 @@
 use crate::lighting::{Lighting, Place, SpecularGate, SpecularModel};
 use crate::number::{Machine, Num, Planes, Real, dot, each};
 
+mod usual;
+
 pub use super::power::Power;
 
 /// Light and viewer as one point sees them: unit vectors, and what the model needs of them.
@@ -190,42 +192,9 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             one: of(1.0),
             two: of(2.0),
             least_sum: of(SpecularModel::LEAST_SUM),
-            faint: faint(lighting),
+            faint: usual::faint(lighting),
             skips_faint: false,
         }
-    }
-
-    /// The same for `scale` times the colours and without faint highlights, where it is what most scenes ask for: R·V, no specular light where `L·N ≤ 0`, lights
-    /// of full strength, a shininess that is a power of two up to 128, and colours below 2²². Written out, so that the compiler sees
-    /// these choices and leaves them out of a loop that is shaded with it.
-    #[inline(always)]
-    pub fn usual(&self, scale: N) -> Option<Self> {
-        let power = self.power.by_squaring()?;
-        let is_usual = self.model == SpecularModel::Phong
-            && self.gate == SpecularGate::Gated
-            && self.far.scalars.strength.is_none()
-            && self.is_bounded;
-        if !is_usual {
-            return None;
-        }
-        let scalars = SeenScalars { strength: None, ..self.far.scalars };
-        Some(Illumination {
-            ambient: scaled(self.ambient, scale),
-            diffuse: each(
-                #[inline(always)]
-                |i| scaled(self.diffuse[i], scale),
-            ),
-            specular: each(
-                #[inline(always)]
-                |i| scaled(self.specular[i], scale),
-            ),
-            far: Seen { scalars, ..self.far },
-            power,
-            model: SpecularModel::Phong,
-            gate: SpecularGate::Gated,
-            skips_faint: true,
-            ..*self
-        })
     }
 
     /// Light and viewer at infinity, as every point sees them.
@@ -353,50 +322,6 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         [red, green, blue]
     }
 
-    /// The same without highlights that are faint at all pixels of a group, of constants that are usual: most of a surface has none,
-    /// and highlights are half of the work.
-    #[inline(always)]
-    fn visible_sum(&self, diffuse_cosine: [N; L], highlight: [N; L]) -> [N; 3] {
-        let (d, h) = (&diffuse_cosine, &highlight);
-        let mut sum = self.ambient;
-        // Written out: a loop with decisions in it is not unrolled, and what it goes through stays in memory.
-        if L > 0 {
-            sum = self.with_light(0, sum, d[0], h[0]);
-        }
-        if L > 1 {
-            sum = self.with_light(1, sum, d[1], h[1]);
-        }
-        if L > 2 {
-            sum = self.with_light(2, sum, d[2], h[2]);
-        }
-        if L > 3 {
-            sum = self.with_light(3, sum, d[3], h[3]);
-        }
-        let mut i = 4;
-        while i < L {
-            sum = self.with_light(i, sum, d[i], h[i]);
-            i += 1;
-        }
-        sum
-    }
-
-    /// `sum` and what light `i` adds, from L·N and R·V, each 0 or more.
-    #[inline(always)]
-    fn with_light(&self, i: usize, [red, green, blue]: [N; 3], d: N, highlight: N) -> [N; 3] {
-        let (diffuse, specular) = (&self.diffuse[i], &self.specular[i]);
-        let [red, green, blue] = match i {
-            // Not `mul_add`: both constants lie in memory, of which one operand at a time is read.
-            0 => [red + diffuse[0] * d, green + diffuse[1] * d, blue + diffuse[2] * d],
-            _ => [diffuse[0].mul_add(d, red), diffuse[1].mul_add(d, green), diffuse[2].mul_add(d, blue)],
-        };
-        let highlight = highlight.gate(d);
-        if !highlight.is_over(self.faint) {
-            return [red, green, blue];
-        }
-        let s = self.power.of(highlight, self.one);
-        [specular[0].mul_add(s, red), specular[1].mul_add(s, green), specular[2].mul_add(s, blue)] // 2.1
-    }
-
     /// The colour of a surface with unit normal `n` that sees light and viewer as `seen`, with R built as the lecture
     /// prints it; not yet clamped.
     #[inline(always)]
@@ -431,16 +356,4 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             |i| sum[i].max(self.zero).min(self.one),
         )
     }
-}
-
-/// The R·V up to which `k_s (R·V)^n` is below 2⁻²⁴ for every light: what rounding a colour of ½ or more changes.
-fn faint(lighting: &Lighting) -> f32 {
-    let strongest = lighting.lights.iter().flat_map(|l| l.specular).fold(0.0, |most, c| f32::max(most, c.abs()));
-    libm::powf(5.960_464_5e-8 / strongest.max(5.960_464_5e-8), 1.0 / lighting.shininess)
-}
-
-/// A colour times `scale`.
-#[inline(always)]
-fn scaled<N: Num>([r, g, b]: [N; 3], scale: N) -> [N; 3] {
-    [r * scale, g * scale, b * scale]
 }

@@ -1,6 +1,6 @@
 //! Groups of eight against the scalar machine, lane by lane, on every instruction set that this machine has.
 
-use super::super::{Int, Lanes, LanesJob, Level, Num, Scalar, on_level};
+use super::super::{Int, Lanes, LanesJob, Level, Num, on_level};
 use crate::test_random::Random;
 use std::vec;
 use std::vec::Vec;
@@ -63,7 +63,7 @@ impl<O: Operation> LanesJob for Columns<'_, O> {
 }
 
 /// The levels that shade eight pixels at a time.
-fn wide() -> impl Iterator<Item = Level> {
+pub(super) fn wide() -> impl Iterator<Item = Level> {
     Level::available().filter(|level| level.width() > 1)
 }
 
@@ -134,6 +134,34 @@ fn clamps_make_numbers_of_what_is_none() {
     let bounded = |[x, bound, _]: [f32; 3], found, _| !x.is_nan() || same(found, bound);
     compare(Most, bounded);
     compare(Least, bounded);
+}
+
+/// Whether any number of a group is over a limit, each limit of the group's own.
+struct AnyOver<'a>(&'a [f32], f32);
+
+impl LanesJob for AnyOver<'_> {
+    type Out = Vec<bool>;
+
+    fn run<M: Lanes>(self, m: M) -> Vec<bool> {
+        let groups = self.0.chunks_exact(M::WIDTH);
+        groups.flat_map(|group| vec![m.load(group).is_over(self.1); M::WIDTH]).collect()
+    }
+}
+
+#[test]
+fn a_group_is_over_what_any_of_it_is_over() {
+    let [numbers, ..] = pairs();
+    let numbers: Vec<f32> = numbers.into_iter().step_by(5).collect();
+    let numbers = &numbers[..numbers.len() / 8 * 8];
+    for least in [-1.0, 0.0, 0.5, 254.0, 255.0, f32::MAX] {
+        for level in wide() {
+            let found = on_level(level, AnyOver(numbers, least));
+            for (group, found) in numbers.chunks_exact(8).zip(found.chunks_exact(8)) {
+                let expected = group.iter().any(|&x| x > least);
+                assert_eq!(found, [expected; 8], "{level}: {group:?} over {least}");
+            }
+        }
+    }
 }
 
 /// Rounded once or twice, as the machine has it; a ramp counts lanes from 0.
@@ -330,58 +358,4 @@ fn signs_and_numbers_of_whole_numbers() {
         assert_eq!(numbers, all.map(|x| x as f32), "{level}: rounded once");
         assert_eq!(last, level.width() as i32 - 1, "{level}");
     }
-}
-
-/// Colours as bytes: of every pixel whether it is covered.
-struct Packed<'a> {
-    channels: [&'a [f32]; 3],
-    covered: &'a [f32],
-}
-
-const BACKGROUND: [u8; 4] = [10, 200, 255, 0];
-
-impl LanesJob for Packed<'_> {
-    type Out = Vec<[u8; 4]>;
-
-    fn run<M: Lanes>(self, m: M) -> Vec<[u8; 4]> {
-        let mut to = vec![[1, 2, 3, 4]; self.covered.len() + 5];
-        for x in (0..self.covered.len()).step_by(M::WIDTH) {
-            let covered = m.less(m.load(&self.covered[x..]), m.splat(0.0));
-            let rgb = self.channels.map(|channel| m.load(&channel[x..]));
-            m.pack(rgb, covered, BACKGROUND, &mut to[x..]);
-        }
-        to
-    }
-}
-
-/// Every level's own value, both borders and their neighbours, values outside of 0..=1 and no numbers, in each channel.
-#[test]
-fn colours_are_stored_as_one_by_one() {
-    let mut values: Vec<f32> =
-        vec![f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 2.0, -0.0, 1e-40, -1e-40];
-    for level in 0..=255u16 {
-        let border = ((f64::from(level) + 0.5) / 255.0) as f32;
-        values.extend([f32::from(level) / 255.0, border, border.next_up(), border.next_down()]);
-    }
-    values.resize(values.len().next_multiple_of(8), 0.25);
-    let turned = |by: usize| -> Vec<f32> { values.iter().cycle().skip(by).take(values.len()).copied().collect() };
-    let (green, blue) = (turned(331), turned(77));
-    let mut random = Random::new(9);
-    let covered: Vec<f32> = values.iter().map(|_| random.signed() + 0.5).collect();
-    let packed = |level| on_level(level, Packed { channels: [&values, &green, &blue], covered: &covered });
-    let expected = packed(Level::Scalar);
-    assert!(expected.contains(&BACKGROUND) && expected.iter().any(|t| t[3] == 255));
-    for level in wide() {
-        let found = packed(level);
-        for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
-            let rgb = (values.get(i), green.get(i), blue.get(i));
-            assert_eq!(found, expected, "{level} at {i}: {rgb:?}");
-        }
-    }
-    let [nan, infinite] = [f32::NAN, f32::INFINITY].map(|c| {
-        let mut to = [[0; 4]];
-        Scalar.pack([c; 3], true, BACKGROUND, &mut to);
-        to[0]
-    });
-    assert_eq!((nan, infinite), ([0, 0, 0, 255], [255; 4]));
 }

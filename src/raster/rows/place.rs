@@ -126,8 +126,7 @@ impl Batch {
         let level = (dy.less(zero) | zero.less(dy)) ^ m.int(-1);
         let disowns = m.int(1) + (dy.less(zero) | (level & zero.less(dx)));
         let to = &mut self.edges[edge];
-        let (at, right, down) =
-            (dx * (*py - y[i]) - dy * (*px - x[i]) - disowns, dy * m.int(-256), dx * m.int(256));
+        let (at, right, down) = (dx * (*py - y[i]) - dy * (*px - x[i]) - disowns, dy * m.int(-256), dx * m.int(256));
         let off = m.number(disowns) * *over_area;
         m.store_int(at, &mut to.at[first..]);
         m.store_int(right, &mut to.right[first..]);

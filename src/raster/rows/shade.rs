@@ -143,12 +143,13 @@ pub(super) fn row<S: Shader, M: Lanes>(
         let (to, material) = band.same_material::<M, S::Pixel<M::F>>(row, from..end, only);
         let consts = &all[material as usize];
         let part = Part { row, pixels: from..to.min(colours.end()), aside: &mut aside };
-        let scale = m.splat(LEVELS);
-        match (&mut *colours, S::usual(consts, Pair(scale, scale))) {
-            (Colours::Packed(texels, background), Some(consts)) => {
-                part.usual::<S, M>(m, &consts, band, (texels, *background));
-            }
-            (colours, _) => part.any::<S, M>(m, consts, band, colours),
+        if M::IS_ONE_REGISTER
+            && let Colours::Packed(texels, background) = colours
+            && let Some(consts) = S::usual(consts, Pair(m.splat(LEVELS), m.splat(LEVELS)))
+        {
+            part.usual::<S, M>(m, &consts, band, (texels, *background));
+        } else {
+            part.any::<S, M>(m, consts, band, colours);
         }
         from = to;
     }

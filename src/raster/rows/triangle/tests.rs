@@ -83,8 +83,11 @@ fn by_groups<M: Lanes>(m: M, batch: &Batch, k: usize, (width, band): (usize, &Ra
     let (a_row, a_group) = (1000, 7);
     let coordinates = (2, |i: usize, weights: [M::F; 2]| weights[i]);
     let mut starts = Starts::default();
+    for (found, weight) in small.weights().into_iter().zip(groups.weights(m, groups.first(m, &small))) {
+        assert_eq!(found, m.first(weight), "at the first pixel of the first group of the first row");
+    }
     groups.rows(m, (&small, band.start), [a_row, a_group], &mut starts, coordinates, |line, starts| {
-        let Line { row, groups: range, numbers, functions: mut here, of_eight } = line;
+        let (mut here, Line { row, groups: range, numbers, of_eight }) = (groups.of_line(m, starts, &line), line);
         let [from, to] = numbers;
         assert!(range.start < range.end || from >= to);
         if range.start < range.end {

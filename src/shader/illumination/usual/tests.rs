@@ -1,0 +1,90 @@
+use super::super::Illumination;
+use crate::lighting::{Light, Lighting, Material, SpecularGate, SpecularModel};
+use crate::test_random::Random;
+use alloc::vec::Vec;
+use glam::DVec3;
+
+/// Four lights from all sides on a surface of this shininess, seen along z.
+fn lighting(random: &mut Random, shininess: f32) -> Lighting {
+    let mut direction = || DVec3::from([0; 3].map(|_| f64::from(random.signed()))).normalize();
+    let lights: Vec<Light> = (0..4).map(|i| Light::directional(direction(), [0.9, 0.2, 0.1 * i as f32])).collect();
+    Lighting::new(&Material { shininess, ..Material::default() }, [1.0; 3], &lights, DVec3::Z)
+}
+
+/// The colour at a unit normal.
+fn colour(model: &Illumination<f32, 4>, n: [f32; 3]) -> [f32; 3] {
+    model.colour_of_cosines(model.far().light_cosines(n), model.far().view_cosine(n), &model.far().scalars)
+}
+
+/// What is left out is below 2⁻²⁴ for each light. After it come at most two sums a light, in each of which what was left out can change
+/// the rounding, by up to 2⁻²⁴ of the colour, or of 1.
+#[test]
+fn usual_constants_leave_out_what_is_not_seen() {
+    let mut random = Random::new(21);
+    let (mut differ, mut same_highlights) = (0, 0);
+    for shininess in (0..8).map(|k| (1 << k) as f32) {
+        for _ in 0..20 {
+            let lighting = lighting(&mut random, shininess);
+            let all = Illumination::<f32, 4>::new(&lighting, &|x| x);
+            let usual = all.usual(1.0).expect("what most scenes ask for");
+            let matt = Lighting {
+                lights: lighting
+                    .lights
+                    .iter()
+                    .map(|l| crate::lighting::LightTerm { specular: [0.0; 3], ..*l })
+                    .collect(),
+                ..lighting.clone()
+            };
+            let matt = Illumination::<f32, 4>::new(&matt, &|x| x);
+            for _ in 0..200 {
+                let n = [0; 3].map(|_| random.signed());
+                let length = n.iter().map(|x| x * x).sum::<f32>().sqrt();
+                let n = n.map(|x| x / length);
+                let (expected, found, without) = (colour(&all, n), colour(&usual, n), colour(&matt, n));
+                for c in 0..3 {
+                    let bound = (4.0 + 8.0 * expected[c].max(1.0)) * f32::powi(2.0, -24);
+                    let error = (expected[c] - found[c]).abs();
+                    assert!(error <= bound, "shininess {shininess}, {n:?}: {found:?}, expected {expected:?}");
+                }
+                differ += usize::from(expected != found);
+                same_highlights += usize::from(expected == found && expected != without);
+            }
+        }
+    }
+    assert!(
+        differ > 100 && same_highlights > 1000,
+        "{differ} have faint highlights left out, {same_highlights} others"
+    );
+}
+
+#[test]
+fn colours_are_scaled() {
+    let lighting = lighting(&mut Random::new(2), 32.0);
+    let all = Illumination::<f32, 4>::new(&lighting, &|x| x);
+    // A power of two scales without rounding.
+    let (one, four) = (all.usual(1.0).expect("usual"), all.usual(4.0).expect("usual"));
+    let n = [0.6, 0.0, 0.8];
+    assert_eq!(colour(&four, n), colour(&one, n).map(|c| 4.0 * c));
+}
+
+#[test]
+fn what_is_unusual_is_not_taken_for_usual() {
+    let lighting = lighting(&mut Random::new(1), 32.0);
+    let is_usual = |change: &dyn Fn(&mut Lighting)| {
+        let mut lighting = lighting.clone();
+        change(&mut lighting);
+        Illumination::<f32, 4>::new(&lighting, &|x| x).usual(255.0).is_some()
+    };
+    assert!(is_usual(&|_| ()));
+    assert!(is_usual(&|l| l.shininess = 1.0));
+    for shininess in [0.0, 0.5, 3.0, 24.0, 32.5, 256.0] {
+        assert!(!is_usual(&|l| l.shininess = shininess), "{shininess}");
+    }
+    assert!(!is_usual(&|l| l.specular = SpecularModel::Blinn));
+    assert!(!is_usual(&|l| l.gate = SpecularGate::Ungated));
+    assert!(!is_usual(&|l| l.gate = SpecularGate::Weighted));
+    // 255 times this is more than 32 bits hold.
+    assert!(!is_usual(&|l| l.ambient[1] = 1e7));
+    assert!(!is_usual(&|l| l.lights[3].specular[2] = 1e7));
+    assert!(!is_usual(&|l| l.lights[0].diffuse[0] = f32::INFINITY));
+}
