@@ -62,7 +62,7 @@ pub trait Num:
     fn min(self, other: Self) -> Self;
     /// Itself where `condition` > 0, else 0 (also where `condition` is NaN).
     fn gate(self, condition: Self) -> Self;
-    /// Whether it is over `least`, of a group of pixels anywhere.
+    /// Whether it, which is not NaN, is over `least`, of a group of pixels anywhere.
     fn is_over(self, least: f32) -> bool;
     /// Itself, 0 or more, to the power `exponent`.
     fn powf(self, exponent: f32) -> Self;

@@ -144,6 +144,8 @@ pub struct Illumination<N, const L: usize> {
     least_sum: N,
     /// Highlights are faint up to this R·V.
     faint: f32,
+    /// The same number.
+    least_highlight: N,
     /// Whether faint highlights are left out.
     skips_faint: bool,
 }
@@ -193,6 +195,7 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             two: of(2.0),
             least_sum: of(SpecularModel::LEAST_SUM),
             faint: usual::faint(lighting),
+            least_highlight: of(usual::faint(lighting)),
             skips_faint: false,
         }
     }

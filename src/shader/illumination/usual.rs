@@ -78,7 +78,8 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         if !highlight.is_over(self.faint) {
             return [red, green, blue];
         }
-        let s = self.power.of(highlight, self.one);
+        // Faint ones are none here too, so that no pixel depends on what lies beside it.
+        let s = self.power.of(highlight, self.one).gate(highlight - self.least_highlight);
         [specular[0].mul_add(s, red), specular[1].mul_add(s, green), specular[2].mul_add(s, blue)] // 2.1
     }
 }

@@ -1,5 +1,6 @@
 use super::super::Illumination;
-use crate::lighting::{Light, Lighting, Material, SpecularGate, SpecularModel};
+use crate::lighting::{Light, LightTerm, Lighting, Material, SpecularGate, SpecularModel};
+use crate::number::{Lanes, LanesJob, Level, on_level};
 use crate::test_random::Random;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -28,11 +29,7 @@ fn usual_constants_leave_out_what_is_not_seen() {
             let all = Illumination::<f32, 4>::new(&lighting, &|x| x);
             let usual = all.usual(1.0).expect("what most scenes ask for");
             let matt = Lighting {
-                lights: lighting
-                    .lights
-                    .iter()
-                    .map(|l| crate::lighting::LightTerm { specular: [0.0; 3], ..*l })
-                    .collect(),
+                lights: lighting.lights.iter().map(|l| LightTerm { specular: [0.0; 3], ..*l }).collect(),
                 ..lighting.clone()
             };
             let matt = Illumination::<f32, 4>::new(&matt, &|x| x);
@@ -87,4 +84,53 @@ fn what_is_unusual_is_not_taken_for_usual() {
     assert!(!is_usual(&|l| l.ambient[1] = 1e7));
     assert!(!is_usual(&|l| l.lights[3].specular[2] = 1e7));
     assert!(!is_usual(&|l| l.lights[0].diffuse[0] = f32::INFINITY));
+}
+
+/// The colours at these unit normals: of groups of pixels, or each with its pixel's normal everywhere in its group.
+struct Lit<'a> {
+    lighting: &'a Lighting,
+    normals: &'a [[f32; 3]],
+    alone: bool,
+}
+
+impl LanesJob for Lit<'_> {
+    type Out = Vec<[u32; 3]>;
+
+    fn run<M: Lanes>(self, m: M) -> Vec<[u32; 3]> {
+        let model = Illumination::<M::F, 4>::new(self.lighting, &|x| m.splat(x)).usual(m.splat(255.0)).expect("usual");
+        let of = |normals: [[f32; 8]; 3]| {
+            let n = normals.map(|line| m.load(&line));
+            let (j, k) = (model.far().light_cosines(n), model.far().view_cosine(n));
+            let colour = model.colour_of_cosines(j, k, &model.far().scalars);
+            colour.map(|c| {
+                let mut line = [0.0; 8];
+                m.store(c, &mut line);
+                line.map(f32::to_bits)
+            })
+        };
+        let each = self.normals.chunks_exact(M::WIDTH).flat_map(|group| {
+            let together = of([0, 1, 2].map(|c| core::array::from_fn(|k| group[k % M::WIDTH][c])));
+            (0..M::WIDTH).map(move |k| match self.alone {
+                true => of([0, 1, 2].map(|c| [group[k][c]; 8])).map(|line| line[k]),
+                false => together.map(|line| line[k]),
+            })
+        });
+        each.collect()
+    }
+}
+
+/// What lies beside a pixel decides what is computed, not what comes out: bands are drawn into memory that others have used.
+#[test]
+fn pixels_do_not_depend_on_their_neighbours() {
+    let mut random = Random::new(4);
+    let lighting = lighting(&mut random, 8.0);
+    let normals: Vec<[f32; 3]> = (0..800)
+        .map(|_| DVec3::from([0; 3].map(|_| f64::from(random.signed()))).normalize().as_vec3().to_array())
+        .collect();
+    for level in Level::available() {
+        let colours = [true, false].map(|alone| on_level(level, Lit { lighting: &lighting, normals: &normals, alone }));
+        for (i, (alone, together)) in colours[0].iter().zip(&colours[1]).enumerate() {
+            assert_eq!(alone, together, "{level}, {:?}", normals[i]);
+        }
+    }
 }
