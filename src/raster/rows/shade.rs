@@ -172,7 +172,8 @@ impl Part<'_> {
     fn each<M: Lanes>(pixels: Range<usize>, mut visit: impl FnMut(Range<usize>, bool)) {
         let two = 2 * M::WIDTH;
         let mut x = pixels.start / two * two;
-        while x < pixels.end {
+        // None are left where another material begins beyond the picture.
+        while x < pixels.end && !pixels.is_empty() {
             let is_here = pixels.start <= x && x + two <= pixels.end;
             let count = if is_here { (pixels.end - x) / two * two } else { two };
             visit(x..x + count, is_here);
