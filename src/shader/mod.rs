@@ -190,7 +190,7 @@ pub trait Shader: 'static {
         let _ = (consts, scale);
         None
     }
-    /// Once a pixel, with usual constants: `scale` times linear red, green and blue, not yet clamped, of magnitudes below
+    /// Once a pixel, with usual constants: `scale` times linear red, green and blue, before the clamp, of magnitudes below
     /// `scale` · 2²². By default the constants are scaled.
     #[inline(always)]
     fn scaled<F: Num>(c: &Self::Consts<F>, pixel: Self::Pixel<F>, scale: F) -> [F; 3] {

@@ -136,7 +136,7 @@ fn clamps_make_numbers_of_what_is_none() {
     compare(Least, bounded);
 }
 
-/// Whether any number of a group is over a limit, each limit of the group's own.
+/// Of each number whether any of its group is over the limit.
 struct AnyOver<'a>(&'a [f32], f32);
 
 impl LanesJob for AnyOver<'_> {
