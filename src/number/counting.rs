@@ -136,8 +136,8 @@ impl Num for Counted<'_> {
     fn gate(self, condition: Self) -> Self {
         self.with(self.value.gate(condition.value), |c| c.comparisons += 1)
     }
-    fn is_over(self, least: f32) -> bool {
-        self.with(self.value, |c| c.comparisons += 1).value > least
+    fn is_over(self, least: Self) -> bool {
+        self.with(self.value, |c| c.comparisons += 1).value > least.value
     }
     fn powf(self, exponent: f32) -> Self {
         self.with(Num::powf(self.value, exponent), |c| c.powers += 1)

@@ -62,8 +62,8 @@ pub trait Num:
     fn min(self, other: Self) -> Self;
     /// Itself where `condition` > 0, else 0 (also where `condition` is NaN).
     fn gate(self, condition: Self) -> Self;
-    /// Whether it, which is not NaN, is over `least`, of a group of pixels anywhere.
-    fn is_over(self, least: f32) -> bool;
+    /// Whether it, which is not NaN, is over `least` at any pixel of a group; `least` is the same at all of them.
+    fn is_over(self, least: Self) -> bool;
     /// Itself, 0 or more, to the power `exponent`.
     fn powf(self, exponent: f32) -> Self;
 }

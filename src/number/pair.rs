@@ -79,8 +79,8 @@ impl<F: Num> Num for Pair<F> {
         Pair(self.0.gate(condition.0), self.1.gate(condition.1))
     }
     #[inline(always)]
-    fn is_over(self, least: f32) -> bool {
-        self.0.max(self.1).is_over(least)
+    fn is_over(self, least: Self) -> bool {
+        self.0.max(self.1).is_over(least.0)
     }
     #[inline(always)]
     fn powf(self, exponent: f32) -> Self {

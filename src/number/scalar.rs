@@ -38,7 +38,7 @@ impl Num for f32 {
     }
 
     #[inline(always)]
-    fn is_over(self, least: f32) -> bool {
+    fn is_over(self, least: Self) -> bool {
         self > least
     }
 

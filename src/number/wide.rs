@@ -129,8 +129,8 @@ impl<S: Simd> Num for f32x8<S> {
     }
 
     #[inline(always)]
-    fn is_over(self, least: f32) -> bool {
-        self.simd_gt(Self::splat(self.simd, least)).any_true()
+    fn is_over(self, least: Self) -> bool {
+        self.simd_gt(least).any_true()
     }
 
     #[inline(always)]

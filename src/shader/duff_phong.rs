@@ -104,14 +104,27 @@ impl<Q: OverRoot, const L: usize> Shader for Of<Q, L> {
         consts.usual(scale)
     }
     #[inline(always)]
-    fn shade<F: Num>(c: &Illumination<F, L>, (j, k, d): Self::Pixel<F>) -> [F; 3] {
-        let r = Q::of(d, c.one());
-        let cosines = each(
-            #[inline(always)]
-            |i| j[i] * r,
-        );
-        c.colour_of_cosines(cosines, k * r, &c.far().scalars)
+    fn scaled<F: Num>(c: &Illumination<F, L>, pixel: Self::Pixel<F>, _: F) -> [F; 3] {
+        colour::<Q, F, L, true>(c, pixel)
     }
+    #[inline(always)]
+    fn shade<F: Num>(c: &Illumination<F, L>, pixel: Self::Pixel<F>) -> [F; 3] {
+        colour::<Q, F, L, false>(c, pixel)
+    }
+}
+
+/// The colour of a pixel from J, K and D, if `USUAL` with constants of that kind.
+#[inline(always)]
+fn colour<Q: OverRoot, F: Num, const L: usize, const USUAL: bool>(
+    c: &Illumination<F, L>,
+    (j, k, d): ([F; L], F, F),
+) -> [F; 3] {
+    let r = Q::of(d, c.one());
+    let cosines = each(
+        #[inline(always)]
+        |i| j[i] * r,
+    );
+    c.colour_of_unit_cosines::<USUAL>(cosines, k * r, &c.far().scalars)
 }
 
 /// Forward differences with `L` lights, some of them or the eye at positions; linear in space (`SPACE`) or on the screen.

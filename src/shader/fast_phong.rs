@@ -92,13 +92,17 @@ impl<const L: usize> Shader for Of<L> {
     }
     #[inline(always)]
     fn shade<F: Num>(c: &Consts<F, L>, (j, k, (d, squared)): Self::Pixel<F>) -> [F; 3] {
-        colour(&c.light, j, k, d, squared, &c.light.far().scalars)
+        colour::<F, L, false>(&c.light, j, k, d, squared, &c.light.far().scalars)
+    }
+    #[inline(always)]
+    fn scaled<F: Num>(c: &Consts<F, L>, (j, k, (d, squared)): Self::Pixel<F>, _: F) -> [F; 3] {
+        colour::<F, L, true>(&c.light, j, k, d, squared, &c.light.far().scalars)
     }
 }
 
-/// The colour of a pixel from J, K, d and D.
+/// The colour of a pixel from J, K, d and D, if `USUAL` with constants of that kind.
 #[inline(always)]
-fn colour<F: Num, const L: usize>(
+fn colour<F: Num, const L: usize, const USUAL: bool>(
     light: &Illumination<F, L>,
     j: [F; L],
     k: F,
@@ -107,7 +111,7 @@ fn colour<F: Num, const L: usize>(
     seen: &SeenScalars<F, L>,
 ) -> [F; 3] {
     let (over_d, twice_k) = (light.one() / d, light.two() * k / squared);
-    light.colour(
+    light.colour_of::<USUAL>(
         #[inline(always)]
         |i| j[i] * over_d,
         #[inline(always)]
@@ -168,6 +172,6 @@ impl<const L: usize> Shader for Near<L> {
     }
     #[inline(always)]
     fn shade<F: Num>(c: &NearConsts<F, L>, (j, k, (d, squared), seen): Self::Pixel<F>) -> [F; 3] {
-        colour(&c.light.model, j, k, d, squared, &seen)
+        colour::<F, L, false>(&c.light.model, j, k, d, squared, &seen)
     }
 }

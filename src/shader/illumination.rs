@@ -143,11 +143,7 @@ pub struct Illumination<N, const L: usize> {
     /// See [`SpecularModel::LEAST_SUM`].
     least_sum: N,
     /// Highlights are faint up to this R·V.
-    faint: f32,
-    /// The same number.
-    least_highlight: N,
-    /// Whether faint highlights are left out.
-    skips_faint: bool,
+    faint: N,
 }
 
 impl<N: Num, const L: usize> Illumination<N, L> {
@@ -194,9 +190,7 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             one: of(1.0),
             two: of(2.0),
             least_sum: of(SpecularModel::LEAST_SUM),
-            faint: usual::faint(lighting),
-            least_highlight: of(usual::faint(lighting)),
-            skips_faint: false,
+            faint: of(usual::faint(lighting)),
         }
     }
 
@@ -247,17 +241,53 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         n_h: impl Fn(usize) -> N,
         strength: impl Fn(usize) -> Option<N>,
     ) -> [N; 3] {
-        match self.model {
-            SpecularModel::Phong => self.sum(l_n, r_v, strength),
-            SpecularModel::Blinn => self.sum(l_n, n_h, strength),
-        }
+        self.colour_of::<false>(l_n, r_v, n_h, strength)
+    }
+
+    /// The same, if `USUAL` with constants of [`Illumination::usual`].
+    #[inline(always)]
+    pub(super) fn colour_of<const USUAL: bool>(
+        &self,
+        l_n: impl Fn(usize) -> N,
+        r_v: impl Fn(usize) -> N,
+        n_h: impl Fn(usize) -> N,
+        strength: impl Fn(usize) -> Option<N>,
+    ) -> [N; 3] {
+        // Each step for all lights, so that what kind of step it is is decided once a pixel.
+        let diffuse_cosine: [N; L] = each(
+            #[inline(always)]
+            |i| l_n(i).max(self.zero),
+        );
+        let highlight: [N; L] = if USUAL || self.model == SpecularModel::Phong {
+            each(
+                #[inline(always)]
+                |i| r_v(i).max(self.zero),
+            )
+        } else {
+            each(
+                #[inline(always)]
+                |i| n_h(i).max(self.zero),
+            )
+        };
+        if USUAL { self.usual_sum(diffuse_cosine, highlight) } else { self.sum(diffuse_cosine, highlight, strength) }
     }
 
     /// The same from cosines between unit vectors: L·N of each light and V·N.
     #[inline(always)]
     pub fn colour_of_cosines(&self, l_n: [N; L], v_n: N, seen: &SeenScalars<N, L>) -> [N; 3] {
+        self.colour_of_unit_cosines::<false>(l_n, v_n, seen)
+    }
+
+    /// The same, if `USUAL` with constants of [`Illumination::usual`].
+    #[inline(always)]
+    pub(super) fn colour_of_unit_cosines<const USUAL: bool>(
+        &self,
+        l_n: [N; L],
+        v_n: N,
+        seen: &SeenScalars<N, L>,
+    ) -> [N; 3] {
         let twice = self.two * v_n;
-        self.colour(
+        self.colour_of::<USUAL>(
             #[inline(always)]
             |i| l_n[i],
             #[inline(always)]
@@ -269,25 +299,9 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         )
     }
 
+    /// The sum from the clamped cosines.
     #[inline(always)]
-    fn sum(
-        &self,
-        l_n: impl Fn(usize) -> N,
-        highlight: impl Fn(usize) -> N,
-        strength: impl Fn(usize) -> Option<N>,
-    ) -> [N; 3] {
-        // Each step for all lights, so that what kind of step it is is decided once a pixel.
-        let diffuse_cosine: [N; L] = each(
-            #[inline(always)]
-            |i| l_n(i).max(self.zero),
-        );
-        let highlight: [N; L] = each(
-            #[inline(always)]
-            |i| highlight(i).max(self.zero),
-        );
-        if self.skips_faint {
-            return self.visible_sum(diffuse_cosine, highlight);
-        }
+    fn sum(&self, diffuse_cosine: [N; L], highlight: [N; L], strength: impl Fn(usize) -> Option<N>) -> [N; 3] {
         let powers = self.power.of_each(highlight, self.one);
         let powers: [N; L] = match self.gate {
             SpecularGate::Gated => each(
@@ -300,37 +314,50 @@ impl<N: Num, const L: usize> Illumination<N, L> {
                 |i| powers[i] * diffuse_cosine[i],
             ),
         };
-        // Three numbers, not an array that a loop writes to: that would stay in memory.
-        let [mut red, mut green, mut blue] = self.ambient;
+        let mut sum = self.ambient;
         let mut i = 0;
         while i < L {
             let (mut d, mut s) = (diffuse_cosine[i], powers[i]);
             if let Some(strength) = strength(i) {
                 (d, s) = (d * strength, s * strength);
             }
-            let (diffuse, specular) = (&self.diffuse[i], &self.specular[i]);
-            if i == 0 {
-                // Not `mul_add`: both constants lie in memory, of which one operand at a time is read.
-                (red, green, blue) = (red + diffuse[0] * d, green + diffuse[1] * d, blue + diffuse[2] * d);
-            } else {
-                red = diffuse[0].mul_add(d, red);
-                green = diffuse[1].mul_add(d, green);
-                blue = diffuse[2].mul_add(d, blue);
-            }
-            red = specular[0].mul_add(s, red); // 2.1
-            green = specular[1].mul_add(s, green);
-            blue = specular[2].mul_add(s, blue);
+            sum = self.with_specular(i, self.with_diffuse(i, sum, d), s); // 2.1
             i += 1;
         }
-        [red, green, blue]
+        sum
+    }
+
+    /// `sum` and the diffuse light of light `i`, whose cosine is `d`. Numbers one by one, not an array that a loop writes to: that
+    /// would stay in memory.
+    #[inline(always)]
+    fn with_diffuse(&self, i: usize, [red, green, blue]: [N; 3], d: N) -> [N; 3] {
+        let [r, g, b] = self.diffuse[i];
+        match i {
+            // Not `mul_add`: both constants lie in memory, of which one operand at a time is read.
+            0 => [red + r * d, green + g * d, blue + b * d],
+            _ => [r.mul_add(d, red), g.mul_add(d, green), b.mul_add(d, blue)],
+        }
+    }
+
+    /// `sum` and the specular light of light `i`, whose cosine to the power is `s`.
+    #[inline(always)]
+    fn with_specular(&self, i: usize, [red, green, blue]: [N; 3], s: N) -> [N; 3] {
+        let [r, g, b] = self.specular[i];
+        [r.mul_add(s, red), g.mul_add(s, green), b.mul_add(s, blue)]
     }
 
     /// The colour of a surface with unit normal `n` that sees light and viewer as `seen`, with R built as the lecture
     /// prints it; not yet clamped.
     #[inline(always)]
     pub fn lit(&self, n: [N; 3], seen: &Seen<N, L>) -> [N; 3] {
+        self.lit_of::<false>(n, seen)
+    }
+
+    /// The same, if `USUAL` with constants of [`Illumination::usual`].
+    #[inline(always)]
+    pub(super) fn lit_of<const USUAL: bool>(&self, n: [N; 3], seen: &Seen<N, L>) -> [N; 3] {
         let cosines = seen.light_cosines(n);
-        self.colour(
+        self.colour_of::<USUAL>(
             #[inline(always)]
             |i| cosines[i],
             #[inline(always)]

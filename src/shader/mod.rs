@@ -157,8 +157,8 @@ pub enum Given {
     Walked,
     /// The attribute, interpolated linearly: its numbers in order, as many of them as the pixel has.
     Attribute,
-    /// The same to all pixels.
-    Constant,
+    /// What holds over the polygon, finite: its numbers in order, likewise.
+    Polygon,
 }
 
 /// A shading method for a fixed number of lights: what it computes at each of four rates.
@@ -170,7 +170,7 @@ pub trait Shader: 'static {
     /// What is walked along edges.
     type Attribute<R: Real>: Attribute<R>;
     /// What holds over one polygon.
-    type Polygon<R: Real>: Copy + Send + Sync;
+    type Polygon<R: Real>: Planes<R> + Send + Sync;
     /// What is walked along one visible run of a span.
     type Walk<M: Machine>: Walk<Out = Self::Pixel<M::F>>;
     /// What the walk gives to each pixel: numbers, arrays and tuples of them.

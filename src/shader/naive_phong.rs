@@ -41,8 +41,8 @@ impl Method for NaivePhong {
 
 /// What is made of an interpolated normal at a pixel.
 pub(super) trait AtPixel: 'static {
-    /// The colour of a surface whose normal has the direction of `n`; not yet clamped.
-    fn colour<F: Num, const L: usize>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3];
+    /// The colour of a surface whose normal has the direction of `n`, if `USUAL` with constants of that kind; not yet clamped.
+    fn colour<F: Num, const L: usize, const USUAL: bool>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3];
 }
 
 /// It is divided by its length, and lit.
@@ -51,9 +51,9 @@ pub struct Renormalised;
 
 impl AtPixel for Renormalised {
     #[inline(always)]
-    fn colour<F: Num, const L: usize>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
+    fn colour<F: Num, const L: usize, const USUAL: bool>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
         let r = c.one() / dot(n, n).sqrt();
-        c.lit([n[0] * r, n[1] * r, n[2] * r], c.far()) // N_unit = N / |N|, 2.1
+        c.lit_of::<USUAL>([n[0] * r, n[1] * r, n[2] * r], c.far()) // N_unit = N / |N|, 2.1
     }
 }
 
@@ -93,7 +93,11 @@ impl<Q: AtPixel, const L: usize> Shader for Of<Q, L> {
     }
     #[inline(always)]
     fn shade<F: Num>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
-        Q::colour(c, n)
+        Q::colour::<F, L, false>(c, n)
+    }
+    #[inline(always)]
+    fn scaled<F: Num>(c: &Illumination<F, L>, n: [F; 3], _: F) -> [F; 3] {
+        Q::colour::<F, L, true>(c, n)
     }
 }
 

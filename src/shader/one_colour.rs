@@ -22,7 +22,7 @@ impl<N: PolygonNormal, P: Lights, const L: usize> Shader for Of<N, P, L> {
     type Polygon<R: Real> = [R; 3];
     type Walk<M: Machine> = Constant<[M::F; 3]>;
     type Pixel<F: Num> = [F; 3];
-    const GIVEN: Given = Given::Constant;
+    const GIVEN: Given = Given::Polygon;
 
     fn consts<T: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> T) -> P::Of<T, L> {
         P::new(lighting, of)

@@ -42,13 +42,13 @@ pub struct Scalars;
 
 impl AtPixel for Scalars {
     #[inline(always)]
-    fn colour<F: Num, const L: usize>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
+    fn colour<F: Num, const L: usize, const USUAL: bool>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
         let r = dot(n, n).over_sqrt();
         let (j, k) = (c.far().light_cosines(n), c.far().view_cosine(n));
         let cosines = each(
             #[inline(always)]
             |i| j[i] * r,
         );
-        c.colour_of_cosines(cosines, k * r, &c.far().scalars)
+        c.colour_of_unit_cosines::<USUAL>(cosines, k * r, &c.far().scalars)
     }
 }

@@ -50,8 +50,8 @@ impl Num for Four {
     fn min(self, o: Four) -> Four {
         Four(core::array::from_fn(|i| self.0[i].min(o.0[i])))
     }
-    fn is_over(self, least: f32) -> bool {
-        self.0.iter().any(|&x| x > least)
+    fn is_over(self, least: Four) -> bool {
+        self.0.iter().any(|&x| x > least.0[0])
     }
     fn gate(self, c: Four) -> Four {
         Four(core::array::from_fn(|i| self.0[i].gate(c.0[i])))

@@ -144,7 +144,7 @@ impl LanesJob for AnyOver<'_> {
 
     fn run<M: Lanes>(self, m: M) -> Vec<bool> {
         let groups = self.0.chunks_exact(M::WIDTH);
-        groups.flat_map(|group| vec![m.load(group).is_over(self.1); M::WIDTH]).collect()
+        groups.flat_map(|group| vec![m.load(group).is_over(m.splat(self.1)); M::WIDTH]).collect()
     }
 }
 

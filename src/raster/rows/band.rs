@@ -63,6 +63,11 @@ impl Band {
         }
     }
 
+    /// Where its numbers are.
+    pub(super) fn layout<M: Lanes, P: Planes<M::F>>(&self) -> Layout {
+        Layout { a_row: (self.groups * M::WIDTH) as i32, numbers: (size::<M, P>() / M::WIDTH) as i32 }
+    }
+
     /// Says that the groups `groups` of any row may be drawn.
     #[inline(always)]
     pub(super) fn extend(&mut self, groups: Range<usize>) {
@@ -188,16 +193,7 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
         [self.a_row * size::<M, P>(), size::<M, P>()]
     }
 
-    /// Where the first number of the pixel in row `row` and column `column` is, by triangle.
-    #[inline(always)]
-    pub fn places(&self, m: M, row: M::I, column: M::I) -> M::I {
-        let in_group = m.int(M::WIDTH as i32 - 1);
-        // As many numbers a row as 32 bits hold: a band has at most 16 rows of them.
-        let group = row * m.int((self.a_row * M::WIDTH) as i32) + (column - (column & in_group));
-        group * m.int((size::<M, P>() / M::WIDTH) as i32) + (column & in_group)
-    }
-
-    /// Stores one pixel, its depth and then its numbers, at a place that [`Cells::places`] gave.
+    /// Stores one pixel, its depth and then its numbers, at a place that [`Layout::places`] gave.
     #[inline(always)]
     pub fn put_one(&mut self, place: i32, numbers: &[f32], material: u32) {
         // Places are 0 or more: so the end of what is stored is in bounds if it is at all.
@@ -214,6 +210,25 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
                 self.materials[place / size * M::WIDTH + place % size] = f32::from_bits(material);
             }
         }
+    }
+}
+
+/// Where the numbers of a band are, whatever they mean.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layout {
+    /// Pixels a row, as there is room for.
+    a_row: i32,
+    /// Numbers a pixel: its depth and its planes.
+    numbers: i32,
+}
+
+impl Layout {
+    /// Where the first number of the pixel in row `row` and column `column` is, by triangle.
+    #[inline(always)]
+    pub fn places<M: Lanes>(self, m: M, row: M::I, column: M::I) -> M::I {
+        let in_group = column & m.int(M::WIDTH as i32 - 1);
+        // As many numbers a row as 32 bits hold: a band has at most 16 rows of them.
+        (row * m.int(self.a_row) + (column - in_group)) * m.int(self.numbers) + in_group
     }
 }
 

@@ -3,12 +3,10 @@
 //! Where triangles have a pixel or two, many cover no pixel centre though their bounding boxes hold one. So places are read first,
 //! then it is found what is covered, and only of triangles that cover something are depths and attributes read.
 
-use super::facets::{Facets, LINE};
+use super::facets::Facets;
 use super::triangle::Triangle;
-use crate::frame::Frame;
-use crate::number::{Lanes, each};
+use crate::number::each;
 use crate::raster::bins::Listed;
-use crate::walk::Attribute;
 use core::ops::Range;
 
 /// This many triangles are read before they are drawn.
@@ -34,9 +32,9 @@ pub(super) type All = [i32; MOST];
 /// Triangles, as they are read and as they are set up.
 #[derive(Debug)]
 pub(crate) struct Batch {
-    count: usize,
-    listed: [Listed; MOST],
-    material: [u32; MOST],
+    pub(super) count: usize,
+    pub(super) listed: [Listed; MOST],
+    pub(super) material: [u32; MOST],
     /// Columns and rows of the corners in sub-pixels.
     pub(super) x: [All; 3],
     pub(super) y: [All; 3],
@@ -50,17 +48,6 @@ pub(crate) struct Batch {
     pub(super) over_area: [f32; MOST],
     pub(super) edges: [Functions; 3],
     pub(super) facets: Facets,
-}
-
-/// Where the numbers of the vertices' attributes are.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Numbers<'a, A> {
-    /// They are not read: they are not what pixels are given.
-    Unread,
-    /// In attributes.
-    Attributes(&'a [A]),
-    /// They are those of the vertices' own normals.
-    Normals(&'a [[f32; 3]]),
 }
 
 /// An edge function of each triangle, over 0 inside, in sub-pixels²: at the centre of the first pixel of the first group of the
@@ -211,124 +198,6 @@ impl Default for Batch {
 }
 
 impl Batch {
-    /// Reads the places of triangles from the front of `polygons` until there are enough, or a polygon has another shape; gives how
-    /// many.
-    ///
-    /// In a loop of its own, in which nothing has to be guessed: so the reads of many triangles overlap. Their places in memory
-    /// are far from one another, and waiting for them took a third of the time.
-    #[inline(always)]
-    pub fn read(&mut self, frame: &Frame, polygons: &[Listed]) -> usize {
-        let (vertices, most) = (frame.vertices(), polygons.len().min(MOST));
-        let polygons = &polygons[..most];
-        let mut k = 0;
-        while k < most && polygons[k].is_triangle() {
-            self.listed[k] = polygons[k];
-            let mut i = 0;
-            while i < 3 {
-                let vertex = &vertices[polygons[k].corners[i] as usize];
-                (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
-                i += 1;
-            }
-            k += 1;
-        }
-        self.count = k;
-        k
-    }
-
-    /// Reads the depths, and `numbers`, of the corners of those triangles whose bits `drawn` has, and sets up their facets, of
-    /// which there are `facets`; with their materials if they are asked for. Again in a loop of its own.
-    #[inline(always)]
-    pub(super) fn read_numbers<M: Lanes, A: Attribute<f32>>(
-        &mut self,
-        m: M,
-        frame: &Frame,
-        (numbers, facets): (Numbers<'_, A>, usize),
-        drawn: u32,
-        with_materials: bool,
-    ) {
-        let vertices = frame.vertices();
-        match numbers {
-            Numbers::Unread => self.read_lines(
-                m,
-                (drawn, facets),
-                #[inline(always)]
-                |corner, line| line[0] = vertices[corner].depth,
-            ),
-            Numbers::Attributes(attributes) => {
-                // Bounded once for both.
-                let count = vertices.len().min(attributes.len());
-                let (vertices, attributes) = (&vertices[..count], &attributes[..count]);
-                self.read_lines(
-                    m,
-                    (drawn, facets),
-                    #[inline(always)]
-                    |corner, line| {
-                        line[0] = vertices[corner].depth;
-                        let mut i = 1;
-                        each_number(
-                            attributes[corner],
-                            #[inline(always)]
-                            |number| {
-                                line[i] = number;
-                                i += 1;
-                            },
-                        );
-                    },
-                );
-            }
-            Numbers::Normals(normals) => {
-                let count = vertices.len().min(normals.len());
-                let (vertices, normals) = (&vertices[..count], &normals[..count]);
-                self.read_lines(
-                    m,
-                    (drawn, facets),
-                    #[inline(always)]
-                    |corner, line| {
-                        let [x, y, z] = normals[corner];
-                        (line[0], line[1], line[2], line[3]) = (vertices[corner].depth, x, y, z);
-                    },
-                );
-            }
-        }
-        if with_materials {
-            each_bit(
-                drawn,
-                #[inline(always)]
-                |k| self.material[k] = frame.polygons()[self.listed[k].number as usize].material,
-            );
-        }
-    }
-
-    /// Has `read` read each corner of those triangles whose bits `drawn` has, and sets up their facets.
-    #[inline(always)]
-    fn read_lines<M: Lanes>(
-        &mut self,
-        m: M,
-        (drawn, facets): (u32, usize),
-        mut read: impl FnMut(usize, &mut [f32; LINE]),
-    ) {
-        each_bit(
-            drawn,
-            #[inline(always)]
-            |k| {
-                let [a, b, c] = self.listed[k].corners;
-                let (mut at, mut to_b, mut to_c) = ([0.0; LINE], [0.0; LINE], [0.0; LINE]);
-                read(a as usize, &mut at);
-                read(b as usize, &mut to_b);
-                read(c as usize, &mut to_c);
-                let to = &mut self.facets.0[k];
-                let mut i = 0;
-                while i < facets {
-                    let from = m.load(&at[i..]);
-                    m.store(from, &mut to[0][i..]);
-                    m.store(m.load(&to_b[i..]) - from, &mut to[1][i..]);
-                    m.store(m.load(&to_c[i..]) - from, &mut to[2][i..]);
-                    i += M::WIDTH;
-                }
-            },
-        );
-    }
-
     /// How many were read.
     #[inline(always)]
     pub fn count(&self) -> usize {
@@ -391,10 +260,4 @@ pub(super) fn each_bit(bits: u32, mut visit: impl FnMut(usize)) {
         visit(left.trailing_zeros() as usize % MOST);
         left &= left - 1;
     }
-}
-
-/// Gives the numbers of an attribute, to what must be inlined.
-#[inline(always)]
-fn each_number<A: Attribute<f32>>(attribute: A, mut to: impl FnMut(f32)) {
-    attribute.numbers(&mut to);
 }

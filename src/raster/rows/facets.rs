@@ -61,3 +61,32 @@ impl Facets {
         growth
     }
 }
+
+/// A number over one triangle: see [`Facets`].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Facet {
+    at: f32,
+    /// How far the second and the third corner are from it.
+    pub to: [f32; 2],
+}
+
+impl Facet {
+    /// That of number `number` over triangle `k`.
+    #[inline(always)]
+    pub fn of(facets: &Facets, number: usize, k: usize) -> Facet {
+        let [at, to @ ..] = facets.number(number, k);
+        Facet { at, to }
+    }
+
+    /// At a group of pixels with these coordinates.
+    #[inline(always)]
+    pub fn lanes<M: Lanes>(&self, m: M, [b, c]: [M::F; 2]) -> M::F {
+        m.splat(self.to[1]).mul_add(c, m.splat(self.to[0]).mul_add(b, m.splat(self.at)))
+    }
+
+    /// At one pixel.
+    #[inline(always)]
+    pub fn one(&self, [b, c]: [f32; 2]) -> f32 {
+        self.at + b * self.to[0] + c * self.to[1]
+    }
+}

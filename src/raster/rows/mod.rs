@@ -17,9 +17,11 @@
 mod band;
 mod batch;
 mod facets;
+mod fill;
 mod paint;
 mod place;
 mod polygon;
+mod read;
 mod shade;
 mod small;
 mod tiny;
@@ -31,15 +33,17 @@ use super::depth::SampleDepth;
 use super::setup::SetUp;
 use super::sink::RowSink;
 use crate::frame::Frame;
-use crate::number::{Lanes, Machine, Pair, Scalar};
+use crate::number::{Lanes, Machine, Pair, Planes, Scalar};
 use crate::shader::{Given, Shader};
 use crate::walk::Attribute;
 use alloc::vec::Vec;
 pub(crate) use band::Band;
+use band::Layout;
 pub(crate) use batch::Batch;
-use batch::Numbers;
 use core::ops::Range;
+use fill::Filler;
 use paint::Painter;
+use read::Numbers;
 use shade::Colours;
 pub(crate) use tiny::Fragments;
 pub(crate) use triangle::Starts;
@@ -50,6 +54,9 @@ const HEIGHT: usize = 16;
 /// The constants of a shader's material, for two groups at a time.
 type Consts<S, M> = <S as Shader>::Consts<Pair<<M as Machine>::F>>;
 
+/// What fills triangles with a shader's numbers.
+type FillerOf<'a, S> = Filler<'a, <S as Shader>::Attribute<f32>, <S as Shader>::Polygon<f32>>;
+
 /// Whether the engine can draw `frame` with shader `S`: its depth must be interpolated and kept as it is, and what its
 /// walk gives must be numbers.
 pub(crate) fn can_draw<S: Shader, M: Lanes>(frame: &Frame) -> bool {
@@ -59,7 +66,8 @@ pub(crate) fn can_draw<S: Shader, M: Lanes>(frame: &Frame) -> bool {
 
 /// Draws `frame` with a shader, band by band.
 pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32], bands: &mut dyn Bands) {
-    if paint::planes::<S, M>().is_none() {
+    // A constant of its own: what comes after is then not even compiled for shaders that have no planes.
+    if const { paint::planes::<S, M>().is_none() } {
         return;
     }
     let bins = Bins::<Listed>::new(frame, HEIGHT);
@@ -70,7 +78,7 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
         None => SetUp::new(Scalar, frame, parameters),
     };
     let numbers = match normals {
-        _ if S::GIVEN != Given::Attribute => Numbers::Unread,
+        _ if S::GIVEN == Given::Polygon => Numbers::Polygons(&setup.polygons),
         Some(normals) => Numbers::Normals(normals),
         None => Numbers::Attributes(&setup.attributes),
     };
@@ -78,11 +86,12 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     let consts: Vec<Consts<S, M>> = frame.lightings().iter().map(|l| S::consts(l, parameters, &twice)).collect();
     let only = only_material(frame);
     let (hides, has_materials) = (SampleDepth::new(frame).hides(), only.is_none());
-    let painter = Painter::<S> { frame, setup: &setup, numbers, hides, has_materials };
+    let painter = Painter::<S> { frame, setup: &setup, hides };
+    let filler = Filler { frame, numbers, hides, has_materials };
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
         scratch.band.prepare::<M, S::Pixel<M::F>>(HEIGHT, frame.width(), has_materials);
         for polygons in bins.band(number) {
-            paint::<S, M>(m, &painter, polygons, &rows, scratch);
+            paint::<S, M>(m, (&painter, &filler), polygons, &rows, scratch);
         }
         for row in 0..rows.len() {
             shade::<S, M>(m, frame, (&consts, only.unwrap_or(0)), row, scratch, sink);
@@ -93,17 +102,16 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
 /// Draws polygons into a band, in order.
 fn paint<S: Shader, M: Lanes>(
     m: M,
-    painter: &Painter<'_, S>,
+    (painter, filler): (&Painter<'_, S>, &FillerOf<'_, S>),
     polygons: &[Listed],
     rows: &Range<usize>,
     scratch: &mut Scratch,
 ) {
-    let is_planar = S::Attribute::<f32>::IS_PLANAR;
     let mut edges = polygon::Edges::default();
     let mut rest = polygons;
     while let Some((next, others)) = rest.split_first() {
-        if is_planar && next.is_triangle() {
-            let taken = triangles::<S, M>(m, painter, rest, rows, scratch);
+        if const { <S::Attribute<f32> as Attribute<f32>>::IS_PLANAR } && next.is_triangle() {
+            let taken = triangles::<S, M>(m, (painter, filler), rest, rows, scratch);
             rest = &rest[taken..];
             continue;
         }
@@ -118,32 +126,88 @@ fn paint<S: Shader, M: Lanes>(
 }
 
 /// Draws triangles from the front of `polygons`; gives how many.
-#[inline(never)]
 fn triangles<S: Shader, M: Lanes>(
     m: M,
-    painter: &Painter<'_, S>,
+    (painter, filler): (&Painter<'_, S>, &FillerOf<'_, S>),
     polygons: &[Listed],
     rows: &Range<usize>,
     scratch: &mut Scratch,
 ) -> usize {
+    let layout = scratch.band.layout::<M, S::Pixel<M::F>>();
+    // A constant of its own: only one of both is compiled.
+    if const { matches!(S::GIVEN, Given::Walked) } {
+        let Found { taken, drawn } = find(m, painter.frame, polygons, rows, None, scratch);
+        walk(m, painter, drawn, rows.start, scratch);
+        taken
+    } else {
+        let Found { taken, drawn } = find(m, painter.frame, polygons, rows, Some(layout), scratch);
+        fill::<M, _, _, S::Pixel<M::F>>(m, filler, drawn, rows.start, scratch);
+        taken
+    }
+}
+
+/// Triangles that were read from a list.
+struct Found {
+    /// How many.
+    taken: usize,
+    /// Bit k: whether triangle k may be drawn.
+    drawn: u32,
+}
+
+/// Reads triangles from the front of `polygons` and finds where they lie in a band; with `tiny`, its layout, also which pixels
+/// the tiny ones cover. Compiled once for an instruction set and not for each shader.
+#[inline(never)]
+fn find<M: Lanes>(
+    m: M,
+    frame: &Frame,
+    polygons: &[Listed],
+    rows: &Range<usize>,
+    tiny: Option<Layout>,
+    scratch: &mut Scratch,
+) -> Found {
+    let Scratch { band, batch, fragments, .. } = scratch;
     m.vectorize(
         #[inline(always)]
         || {
-            let Scratch { band, batch, fragments, starts, .. } = scratch;
-            let has_numbers = S::GIVEN == Given::Attribute;
-            let taken = batch.read(painter.frame, polygons);
-            band.extend(batch.place(m, painter.frame.width(), rows, has_numbers));
-            let mut cells = band.cells(m, painter.hides);
+            let taken = batch.read(frame, polygons);
+            band.extend(batch.place(m, frame.width(), rows, tiny.is_some()));
             let mut drawn = batch.others();
-            if has_numbers {
-                drawn |= fragments.find(m, batch, rows.start, &cells);
+            if let Some(layout) = tiny {
+                drawn |= fragments.find(m, batch, rows.start, layout);
             }
-            let numbers = (painter.numbers, paint::facets::<S, M>());
-            batch.read_numbers(m, painter.frame, numbers, drawn, painter.has_materials || !has_numbers);
-            painter.batch(m, (batch, drawn), (fragments, starts), rows.start, &mut cells);
-            taken
+            Found { taken, drawn }
         },
     )
+}
+
+/// Draws those triangles that were found whose bits `drawn` has, on the band that begins with row `top`.
+#[inline(never)]
+fn walk<S: Shader, M: Lanes>(m: M, painter: &Painter<'_, S>, drawn: u32, top: usize, scratch: &mut Scratch) {
+    let Scratch { band, batch, .. } = scratch;
+    m.vectorize(
+        #[inline(always)]
+        || {
+            batch.read_depths(m, painter.frame, drawn);
+            batch.read_materials(painter.frame, drawn);
+            painter.batch(m, (batch, drawn), top, &mut band.cells(m, painter.hides));
+        },
+    );
+}
+
+/// The same where the pixels are `P` and no walk gives them: compiled once for all shaders of which that is so.
+#[inline(never)]
+fn fill<M: Lanes, A: Attribute<f32>, Q: Planes<f32>, P: Planes<M::F>>(
+    m: M,
+    filler: &Filler<'_, A, Q>,
+    drawn: u32,
+    top: usize,
+    scratch: &mut Scratch,
+) {
+    let Scratch { band, batch, fragments, starts, .. } = scratch;
+    m.vectorize(
+        #[inline(always)]
+        || filler.batch::<M, P>(m, (batch, drawn), (fragments, starts), top, &mut band.cells(m, filler.hides)),
+    );
 }
 
 /// Draws one run of a polygon of another shape.

@@ -1,15 +1,12 @@
-//! Polygons into a band: what a walk gives is written wherever it is nearer than what was drawn before.
+//! Polygons into a band, run by run: what a walk gives is written wherever it is nearer than what was drawn before.
 
 use super::band::{Cells, MOST_PLANES};
-use super::batch::{Batch, Kind, Numbers, each_bit};
-use super::facets::Facets;
-use super::small::SmallTriangle;
-use super::tiny::Fragments;
-use super::triangle::{Starts, Triangle};
+use super::batch::{Batch, Kind, each_bit};
+use super::facets::Facet;
 use crate::frame::Frame;
-use crate::number::{Lanes, Num, Planes, Scalar, each, get_each, put_each};
+use crate::number::{Lanes, Planes, Scalar, each, get_each, put_each};
 use crate::raster::setup::SetUp;
-use crate::shader::{Given, Shader, Span};
+use crate::shader::{Shader, Span};
 use crate::walk::{Attribute, Walk};
 use core::ops::Range;
 
@@ -24,204 +21,59 @@ pub(super) const fn planes<S: Shader, M: Lanes>() -> Option<usize> {
     }
 }
 
-/// A number over one triangle: see [`Facets`].
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Facet {
-    at: f32,
-    to: [f32; 2],
-}
-
-impl Facet {
-    /// That of number `number` over triangle `k`.
-    #[inline(always)]
-    pub fn of(facets: &Facets, number: usize, k: usize) -> Facet {
-        let [at, to @ ..] = facets.number(number, k);
-        Facet { at, to }
-    }
-
-    /// At a group of pixels with these coordinates.
-    #[inline(always)]
-    pub fn lanes<M: Lanes>(&self, m: M, [b, c]: [M::F; 2]) -> M::F {
-        m.splat(self.to[1]).mul_add(c, m.splat(self.to[0]).mul_add(b, m.splat(self.at)))
-    }
-
-    /// At one pixel.
-    #[inline(always)]
-    fn one(&self, [b, c]: [f32; 2]) -> f32 {
-        self.at + b * self.to[0] + c * self.to[1]
-    }
-}
-
-/// How many facets triangles have: that of depth, and those of the attribute where it is what pixels are given.
-pub(super) const fn facets<S: Shader, M: Lanes>() -> usize {
-    match (S::GIVEN, planes::<S, M>()) {
-        (Given::Attribute, Some(count)) => 1 + count,
-        _ => 1,
-    }
-}
-
-/// What draws polygons into a band.
+/// What draws polygons into a band whose pixels are given what a walk gives.
 pub(super) struct Painter<'a, S: Shader> {
     pub frame: &'a Frame,
     pub setup: &'a SetUp<S, Scalar>,
-    /// Where the numbers that the pixels of triangles are given come from, where no walk gives them.
-    pub numbers: Numbers<'a, S::Attribute<f32>>,
     /// Whether nearer polygons hide farther ones.
     pub hides: bool,
-    /// Whether pixels have different materials.
-    pub has_materials: bool,
 }
 
 impl<S: Shader> Painter<'_, S> {
     /// Draws those triangles of a batch whose bits `drawn` has on the band that begins with row `top`, in order; depth and attribute
-    /// are linear over them. `fragments` are the pixels of its tiny ones.
+    /// are linear over them.
     #[inline(always)]
     pub fn batch<M: Lanes>(
         &self,
         m: M,
         (batch, drawn): (&Batch, u32),
-        (fragments, starts): (&Fragments, &mut Starts),
         top: usize,
         cells: &mut Cells<'_, M, S::Pixel<M::F>>,
     ) {
-        let others = batch.others();
         each_bit(
             drawn,
             #[inline(always)]
             |k| {
-                if S::GIVEN == Given::Attribute && others >> k & 1 == 0 {
-                    let material = batch.material(k);
-                    fragments.each(
+                let (polygon, depth) = (batch.polygon(k), Facet::of(&batch.facets, 0, k));
+                if batch.kind(k) == Kind::Small as i32 {
+                    let small = batch.small(k);
+                    let Some(walked) = self.walked(batch.corners(k), &depth, small.growth()) else { return };
+                    small.runs(
                         m,
-                        (batch, facets::<S, M>()),
-                        k,
+                        top,
                         #[inline(always)]
-                        |place, numbers| cells.put_one(place, numbers, material),
+                        |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
                     );
-                } else if batch.kind(k) == Kind::Small as i32 {
-                    self.small(m, (batch, k), starts, top, cells);
                 } else if let Some(triangle) = batch.large(k) {
-                    self.large(m, batch, k, &triangle, top, cells);
+                    let Some(walked) = self.walked(batch.corners(k), &depth, triangle.across()) else { return };
+                    triangle.runs(
+                        top,
+                        #[inline(always)]
+                        |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
+                    );
                 }
             },
         );
     }
 
     #[inline(always)]
-    fn small<M: Lanes>(
-        &self,
-        m: M,
-        (batch, k): (&Batch, usize),
-        starts: &mut Starts,
-        top: usize,
-        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
-    ) {
-        if S::GIVEN == Given::Walked {
-            let (small, polygon) = (batch.small(k), batch.polygon(k));
-            let depth = Facet::of(&batch.facets, 0, k);
-            let Some(walked) = self.walked(batch.corners(k), &depth, small.growth()) else { return };
-            return small.runs(
-                m,
-                top,
-                #[inline(always)]
-                |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
-            );
-        }
-        let (flat, material) = (self.flat(m, batch, k), batch.polygon(k).1);
-        let triangle = SmallTriangle::<S, M>::new(m, batch.small(k), (&batch.facets, k), &flat, material);
-        if self.has_materials {
-            triangle.draw::<true>(m, starts, top, cells);
-        } else {
-            triangle.draw::<false>(m, starts, top, cells);
-        }
-    }
-
-    #[inline(always)]
-    fn large<M: Lanes>(
-        &self,
-        m: M,
-        batch: &Batch,
-        k: usize,
-        triangle: &Triangle,
-        top: usize,
-        cells: &mut Cells<'_, M, S::Pixel<M::F>>,
-    ) {
-        let polygon = batch.polygon(k);
-        let depth = Facet::of(&batch.facets, 0, k);
-        let across = triangle.across();
-        if S::GIVEN == Given::Walked {
-            let Some(walked) = self.walked(batch.corners(k), &depth, across) else { return };
-            return triangle.runs(
-                top,
-                #[inline(always)]
-                |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
-            );
-        }
-        let flat = self.flat(m, batch, k);
-        let across = [m.splat(across[0]), m.splat(across[1])];
-        triangle.runs(
-            top,
-            #[inline(always)]
-            |row, pixels, weights| {
-                let mut group = pixels.start / M::WIDTH;
-                // Columns from the first pixel on, which is exact; before it, nothing is drawn.
-                let (mut k, next) = (m.ramp(-((pixels.start % M::WIDTH) as f32), 1.0), m.stride(1.0));
-                cells.each(
-                    row,
-                    group..pixels.end.div_ceil(M::WIDTH),
-                    #[inline(always)]
-                    |cell| {
-                        let weights =
-                            [across[0].mul_add(k, m.splat(weights[0])), across[1].mul_add(k, m.splat(weights[1]))];
-                        cell.put(
-                            m,
-                            outside(m, group, &pixels),
-                            depth.lanes(m, weights),
-                            flat.at(m, weights),
-                            polygon.1,
-                        );
-                        k = k + next;
-                        group += 1;
-                    },
-                );
-            },
-        );
-    }
-
-    #[inline(always)]
-    fn attributes(&self, corners: [usize; 3]) -> [S::Attribute<f32>; 3] {
+    fn walked(&self, corners: [usize; 3], depth: &Facet, across: [f32; 2]) -> Option<Walked<S>> {
         let all = &self.setup.attributes;
-        each(
+        let corners: [_; 3] = each(
             #[inline(always)]
             |i| all[corners[i]],
-        )
-    }
-
-    /// What the pixels of triangle `k` are given where it is no walk that gives it.
-    #[inline(always)]
-    fn flat<M: Lanes>(&self, m: M, batch: &Batch, k: usize) -> Flat<S, M> {
-        if S::GIVEN == Given::Attribute {
-            let mut flat = [Facet::default(); MOST_PLANES];
-            let mut i = 1;
-            while i < facets::<S, M>() {
-                flat[i - 1] = Facet::of(&batch.facets, i, k);
-                i += 1;
-            }
-            return Flat::Interpolated(flat);
-        }
-        match S::Attribute::plane(self.attributes(batch.corners(k)), [0.0; 2]) {
-            Some(plane) => {
-                let (number, material) = batch.polygon(k);
-                let start = Span { x: 0.5, y: 0.5, attribute: S::Attribute::on_row(&plane, [0.0; 2]) };
-                Flat::Constant(self.walk(m, number, material, &start).next())
-            }
-            None => unreachable!("asked for triangles over which the attribute is linear"),
-        }
-    }
-
-    #[inline(always)]
-    fn walked(&self, corners: [usize; 3], depth: &Facet, across: [f32; 2]) -> Option<Walked<S>> {
-        let plane = S::Attribute::plane(self.attributes(corners), across)?;
+        );
+        let plane = S::Attribute::plane(corners, across)?;
         Some(Walked { plane, depth: *depth, depth_step: depth.to[0] * across[0] + depth.to[1] * across[1] })
     }
 
@@ -336,33 +188,6 @@ impl Later {
     }
 }
 
-/// What the pixels of a triangle are given.
-pub(super) enum Flat<S: Shader, M: Lanes> {
-    /// The attribute's numbers.
-    Interpolated([Facet; MOST_PLANES]),
-    /// The same everywhere.
-    Constant(S::Pixel<M::F>),
-}
-
-impl<S: Shader, M: Lanes> Flat<S, M> {
-    #[inline(always)]
-    fn at(&self, m: M, weights: [M::F; 2]) -> S::Pixel<M::F> {
-        match self {
-            Flat::Interpolated(facets) => {
-                let mut i = 0;
-                get_each(
-                    #[inline(always)]
-                    || {
-                        i += 1;
-                        facets[i - 1].lanes(m, weights)
-                    },
-                )
-            }
-            Flat::Constant(pixel) => *pixel,
-        }
-    }
-}
-
 /// A triangle whose pixels are given what a walk gives.
 struct Walked<S: Shader> {
     plane: <S::Attribute<f32> as Attribute<f32>>::Plane,
@@ -372,7 +197,7 @@ struct Walked<S: Shader> {
 
 /// Below 0 at those pixels of group `group` that a run does not have.
 #[inline(always)]
-fn outside<M: Lanes>(m: M, group: usize, pixels: &Range<usize>) -> M::I {
+pub(super) fn outside<M: Lanes>(m: M, group: usize, pixels: &Range<usize>) -> M::I {
     let (first, k) = ((group * M::WIDTH) as i32, m.counted());
     (k - m.int(pixels.start as i32 - first)) | (m.int(pixels.end as i32 - 1 - first) - k)
 }

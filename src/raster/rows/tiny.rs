@@ -1,10 +1,10 @@
 //! Tiny triangles: a group of them at a time, pixel by pixel of their boxes. Where a triangle has a pixel or two, setting up
 //! its rows is most of its cost; this way nothing is set up for one triangle alone.
 
-use super::band::Cells;
+use super::band::Layout;
 use super::batch::{Batch, Kind, MOST, TINY_HEIGHT, TINY_WIDTH};
 use super::facets::LINE;
-use crate::number::{Int, Lanes, Num, Planes};
+use crate::number::{Int, Lanes, Num};
 
 /// Pixels of a box.
 const SLOTS: usize = (TINY_WIDTH * TINY_HEIGHT) as usize;
@@ -34,10 +34,10 @@ impl Fragments {
     /// Finds what the tiny triangles of a batch cover in a band that begins with row `top`. Gives which of them cover anything: bit k
     /// for triangle k.
     #[inline(always)]
-    pub fn find<M: Lanes, P: Planes<M::F>>(&mut self, m: M, batch: &Batch, top: usize, cells: &Cells<'_, M, P>) -> u32 {
+    pub(super) fn find<M: Lanes>(&mut self, m: M, batch: &Batch, top: usize, layout: Layout) -> u32 {
         let (mut drawn, mut first) = (0, 0);
         while first < batch.count() {
-            drawn |= self.find_group(m, batch, first, top, cells) << first;
+            drawn |= self.find_group(m, batch, (first, top), layout) << first;
             first += M::WIDTH;
         }
         drawn
@@ -45,14 +45,7 @@ impl Fragments {
 
     /// Finds what those cover of the group of triangles from number `first` on; bit k for triangle `first` + k.
     #[inline(always)]
-    fn find_group<M: Lanes, P: Planes<M::F>>(
-        &mut self,
-        m: M,
-        batch: &Batch,
-        first: usize,
-        top: usize,
-        cells: &Cells<'_, M, P>,
-    ) -> u32 {
+    fn find_group<M: Lanes>(&mut self, m: M, batch: &Batch, (first, top): (usize, usize), layout: Layout) -> u32 {
         let one = m.int(1);
         let others = m.load_int(&batch.kind[first..]).less(m.int(Kind::Tiny as i32));
         if !m.any(m.not_negative(others)) {
@@ -75,12 +68,12 @@ impl Fragments {
         // Columns and rows that are left, less 1: below 0 outside the box. As many are looked at as the widest and the highest of
         // the triangles have, whether any covers a pixel there or not: that would often be guessed wrong.
         let (mut beside, all_below) = ((columns[1] - columns[0] - one) | others, (rows[1] - rows[0] - one) | others);
-        let (mut across_at, next_row) = (columns[0], cells.places(m, one, m.int(0)));
+        let (mut across_at, next_row) = (columns[0], layout.places(m, one, m.int(0)));
         let mut covered = m.int(0);
         let mut slot = 0;
         while slot < SLOTS && m.any(m.not_negative(beside)) {
             let (mut here, mut below) = (column, all_below);
-            let mut place = cells.places(m, rows[0] - m.int(top as i32), across_at);
+            let mut place = layout.places(m, rows[0] - m.int(top as i32), across_at);
             let mut bit = m.int(1 << slot);
             let mut at = first * ROOM + slot * M::WIDTH;
             let mut row = 0;

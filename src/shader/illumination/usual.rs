@@ -1,13 +1,12 @@
 //! What most scenes ask of the illumination model, written out for loops that are compiled apart for it.
 
-use super::{Illumination, Seen, SeenScalars};
+use super::Illumination;
 use crate::lighting::{Lighting, SpecularGate, SpecularModel};
 use crate::number::{Num, each};
 
 impl<N: Num, const L: usize> Illumination<N, L> {
-    /// The same for `scale` times the colours and without faint highlights, where it is what most scenes ask for: R·V, no specular light
-    /// where `L·N ≤ 0`, lights of full strength, a shininess that is a power of two up to 128, and colours below 2²². Written out, so that
-    /// the compiler sees these choices and leaves them out of a loop that is shaded with it.
+    /// The same for `scale` times the colours, to be summed without faint highlights, where it is what most scenes ask for: R·V, no
+    /// specular light where `L·N ≤ 0`, lights of full strength, a shininess that is a power of two up to 128, and colours below 2²².
     #[inline(always)]
     pub fn usual(&self, scale: N) -> Option<Self> {
         let power = self.power.by_squaring()?;
@@ -15,11 +14,7 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             && self.gate == SpecularGate::Gated
             && self.far.scalars.strength.is_none()
             && self.is_bounded;
-        if !is_usual {
-            return None;
-        }
-        let scalars = SeenScalars { strength: None, ..self.far.scalars };
-        Some(Illumination {
+        is_usual.then_some(Illumination {
             ambient: scaled(self.ambient, scale),
             diffuse: each(
                 #[inline(always)]
@@ -29,19 +24,15 @@ impl<N: Num, const L: usize> Illumination<N, L> {
                 #[inline(always)]
                 |i| scaled(self.specular[i], scale),
             ),
-            far: Seen { scalars, ..self.far },
             power,
-            model: SpecularModel::Phong,
-            gate: SpecularGate::Gated,
-            skips_faint: true,
             ..*self
         })
     }
 
-    /// The same without highlights that are faint at all pixels of a group, of constants that are usual: most of a surface has none,
-    /// and highlights are half of the work.
+    /// The sum from the clamped cosines, of constants that are usual, and without highlights that are faint at all pixels of a group: most
+    /// of a surface has none, and highlights are half of the work.
     #[inline(always)]
-    pub(super) fn visible_sum(&self, diffuse_cosine: [N; L], highlight: [N; L]) -> [N; 3] {
+    pub(super) fn usual_sum(&self, diffuse_cosine: [N; L], highlight: [N; L]) -> [N; 3] {
         let (d, h) = (&diffuse_cosine, &highlight);
         let mut sum = self.ambient;
         // Written out: a loop with decisions in it is not unrolled, and what it goes through stays in memory.
@@ -67,20 +58,15 @@ impl<N: Num, const L: usize> Illumination<N, L> {
 
     /// `sum` and what light `i` adds, from L·N and R·V, each 0 or more.
     #[inline(always)]
-    fn with_light(&self, i: usize, [red, green, blue]: [N; 3], d: N, highlight: N) -> [N; 3] {
-        let (diffuse, specular) = (&self.diffuse[i], &self.specular[i]);
-        let [red, green, blue] = match i {
-            // Not `mul_add`: both constants lie in memory, of which one operand at a time is read.
-            0 => [red + diffuse[0] * d, green + diffuse[1] * d, blue + diffuse[2] * d],
-            _ => [diffuse[0].mul_add(d, red), diffuse[1].mul_add(d, green), diffuse[2].mul_add(d, blue)],
-        };
+    fn with_light(&self, i: usize, sum: [N; 3], d: N, highlight: N) -> [N; 3] {
+        let sum = self.with_diffuse(i, sum, d);
         let highlight = highlight.gate(d);
         if !highlight.is_over(self.faint) {
-            return [red, green, blue];
+            return sum;
         }
         // Faint ones are none here too, so that no pixel depends on what lies beside it.
-        let s = self.power.of(highlight, self.one).gate(highlight - self.least_highlight);
-        [specular[0].mul_add(s, red), specular[1].mul_add(s, green), specular[2].mul_add(s, blue)] // 2.1
+        let s = self.power.of(highlight, self.one).gate(highlight - self.faint);
+        self.with_specular(i, sum, s) // 2.1
     }
 }
 

@@ -6,7 +6,8 @@ use crate::number::{Lanes, LanesJob, Level, on_level};
 use crate::raster::bins::Listed;
 use crate::raster::coverage;
 use crate::raster::rows::band::Band;
-use crate::raster::rows::batch::{Batch, Kind, MOST, Numbers, SMALL_HEIGHT, SMALL_WIDTH};
+use crate::raster::rows::batch::{Batch, Kind, MOST, SMALL_HEIGHT, SMALL_WIDTH};
+use crate::raster::rows::read::Numbers;
 use crate::raster::rows::tiny::Fragments;
 use crate::raster::rows::triangle::{Groups, Line, Starts};
 use crate::test_random::Random;
@@ -123,11 +124,10 @@ fn by_pixels<M: Lanes>(m: M, (frame, band): (&Frame, &Range<usize>), polygons: &
     batch.read(frame, polygons);
     let drawn = batch.place(m, frame.width(), band, true);
     memory.prepare::<M, [M::F; 2]>(16, frame.width(), false);
-    let cells = memory.cells::<M, [M::F; 2]>(m, true);
     let a_row = frame.width().div_ceil(2 * M::WIDTH) * 2;
-    let covering = fragments.find(m, &batch, band.start, &cells);
+    let covering = fragments.find(m, &batch, band.start, memory.layout::<M, [M::F; 2]>());
     assert_eq!(covering & batch.others(), 0);
-    batch.read_numbers(m, frame, (Numbers::Attributes(&attributes), 3), covering, false);
+    batch.read_numbers(m, frame, (Numbers::<_, ()>::Attributes(&attributes), 3), covering);
     for k in (0..MOST).filter(|k| covering >> k & 1 != 0) {
         assert_eq!(batch.kind(k), Kind::Tiny as i32);
         fragments.each(m, (&batch, 3), k, |place, values| {

@@ -12,9 +12,10 @@ fn lighting(random: &mut Random, shininess: f32) -> Lighting {
     Lighting::new(&Material { shininess, ..Material::default() }, [1.0; 3], &lights, DVec3::Z)
 }
 
-/// The colour at a unit normal.
-fn colour(model: &Illumination<f32, 4>, n: [f32; 3]) -> [f32; 3] {
-    model.colour_of_cosines(model.far().light_cosines(n), model.far().view_cosine(n), &model.far().scalars)
+/// The colour at a unit normal, if `USUAL` with constants that are.
+fn colour<const USUAL: bool>(model: &Illumination<f32, 4>, n: [f32; 3]) -> [f32; 3] {
+    let far = model.far();
+    model.colour_of_unit_cosines::<USUAL>(far.light_cosines(n), far.view_cosine(n), &far.scalars)
 }
 
 /// What is left out is below 2⁻²⁴ for each light. After it come at most two sums a light, in each of which what was left out can change
@@ -37,7 +38,8 @@ fn usual_constants_leave_out_what_is_not_seen() {
                 let n = [0; 3].map(|_| random.signed());
                 let length = n.iter().map(|x| x * x).sum::<f32>().sqrt();
                 let n = n.map(|x| x / length);
-                let (expected, found, without) = (colour(&all, n), colour(&usual, n), colour(&matt, n));
+                let (expected, found, without) =
+                    (colour::<false>(&all, n), colour::<true>(&usual, n), colour::<false>(&matt, n));
                 for c in 0..3 {
                     let bound = (4.0 + 8.0 * expected[c].max(1.0)) * f32::powi(2.0, -24);
                     let error = (expected[c] - found[c]).abs();
@@ -61,7 +63,7 @@ fn colours_are_scaled() {
     // A power of two scales without rounding.
     let (one, four) = (all.usual(1.0).expect("usual"), all.usual(4.0).expect("usual"));
     let n = [0.6, 0.0, 0.8];
-    assert_eq!(colour(&four, n), colour(&one, n).map(|c| 4.0 * c));
+    assert_eq!(colour::<true>(&four, n), colour::<true>(&one, n).map(|c| 4.0 * c));
 }
 
 #[test]
@@ -101,7 +103,7 @@ impl LanesJob for Lit<'_> {
         let of = |normals: [[f32; 8]; 3]| {
             let n = normals.map(|line| m.load(&line));
             let (j, k) = (model.far().light_cosines(n), model.far().view_cosine(n));
-            let colour = model.colour_of_cosines(j, k, &model.far().scalars);
+            let colour = model.colour_of_unit_cosines::<true>(j, k, &model.far().scalars);
             colour.map(|c| {
                 let mut line = [0.0; 8];
                 m.store(c, &mut line);
