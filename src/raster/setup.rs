@@ -53,18 +53,23 @@ const CHUNK: usize = 1 << 13;
 
 /// The values of `of` for 0 to `count` − 1, on several threads.
 fn all<T: Copy + Send + Sync>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    if core::mem::size_of::<T>() == 0 && count > 0 {
-        // There is one such value.
-        return vec![of(0); count];
+    if count == 0 {
+        return Vec::new();
     }
-    if count <= CHUNK {
-        return (0..count).map(of).collect();
+    let mut all = vec![value(0, &of); count];
+    // Where a value has no size there is only one.
+    if core::mem::size_of::<T>() != 0 {
+        for_each_chunk(&mut all[1..], CHUNK, &|first, part: &mut [T]| {
+            part.iter_mut().enumerate().for_each(|(i, value)| *value = of(1 + first + i));
+        });
     }
-    let mut all = vec![of(0); count];
-    for_each_chunk(&mut all[..], CHUNK, &|first, part: &mut [T]| {
-        part.iter_mut().enumerate().for_each(|(i, value)| *value = of(first + i));
-    });
     all
+}
+
+/// The value of `of` for `i`: not inlined, as what it is made of is inlined into the loop over all others.
+#[inline(never)]
+fn value<T>(i: usize, of: &impl Fn(usize) -> T) -> T {
+    of(i)
 }
 
 /// Vertices are lit; clip corners lie between two of them and are not lit again; then all are weighted by 1/w where

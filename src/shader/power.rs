@@ -18,11 +18,11 @@ impl Power {
         if whole as f32 == shininess { Power::Integer(whole) } else { Power::Fractional(shininess) }
     }
 
-    /// The same power if up to 7 squarings give it, so that the compiler sees that they do.
+    /// How many squarings give it, if up to 7 do.
     #[inline(always)]
-    pub(super) fn by_squaring(self) -> Option<Self> {
+    pub(super) fn squarings(self) -> Option<u32> {
         match self {
-            Power::Integer(n) if n.is_power_of_two() && n <= 128 => Some(Power::Integer(1 << (n.trailing_zeros() & 7))),
+            Power::Integer(n) if n.is_power_of_two() && n <= 128 => Some(n.trailing_zeros()),
             _ => None,
         }
     }
@@ -47,18 +47,8 @@ impl Power {
                 );
             }
         };
-        let mut square = base;
         let zeros = n.trailing_zeros();
-        // Without a loop: those of 16, 32 and 64 are most of what is done for a highlight.
-        if zeros & 4 != 0 {
-            square = squared(squared(squared(squared(square))));
-        }
-        if zeros & 2 != 0 {
-            square = squared(squared(square));
-        }
-        if zeros & 1 != 0 {
-            square = squared(square);
-        }
+        let mut square = squared_up_to_7(base, zeros % 8);
         for _ in 0..zeros / 8 * 8 {
             square = squared(square);
         }
@@ -79,6 +69,21 @@ impl Power {
     }
 }
 
+/// Each squared `times` times, of 7 at most. Without a loop: those of 16, 32 and 64 are most of what is done for a highlight.
+#[inline(always)]
+pub(super) fn squared_up_to_7<F: Num, const L: usize>(mut x: [F; L], times: u32) -> [F; L] {
+    if times & 4 != 0 {
+        x = squared(squared(squared(squared(x))));
+    }
+    if times & 2 != 0 {
+        x = squared(squared(x));
+    }
+    if times & 1 != 0 {
+        x = squared(x);
+    }
+    x
+}
+
 /// The square of each.
 #[inline(always)]
 fn squared<F: Num, const L: usize>(x: [F; L]) -> [F; L] {
@@ -90,7 +95,7 @@ fn squared<F: Num, const L: usize>(x: [F; L]) -> [F; L] {
 
 #[cfg(test)]
 mod tests {
-    use super::Power;
+    use super::{Power, squared_up_to_7};
 
     /// Each multiplication rounds the factor once: n of them, however they are put together, are off by at most n · 2⁻²⁴ of the value,
     /// and a factor 1.1 covers the products of roundings.
@@ -99,14 +104,14 @@ mod tests {
         for n in (0..=70).chain([96, 127, 128, 129, 255, 256, 300, 512, 1000, 1024, 4096, 65_536]) {
             let base = 1.0 - 1.0 / (n as f32 + 3.0);
             let truth = f64::from(base).powi(n);
-            for power in [Some(Power::new(n as f32)), Power::new(n as f32).by_squaring()].into_iter().flatten() {
-                let found = f64::from(power.of(base, 1.0));
+            let power = Power::new(n as f32);
+            let by_squaring = power.squarings().map(|times| squared_up_to_7([base], times)[0]);
+            for found in [Some(power.of(base, 1.0)), by_squaring].into_iter().flatten() {
                 let bound = 1.1 * f64::from(n) * f64::powi(2.0, -24) * truth;
-                assert!((found - truth).abs() <= bound, "{power:?}: {found}, expected {truth}");
+                assert!((f64::from(found) - truth).abs() <= bound, "{power:?}: {found}, expected {truth}");
             }
         }
-        assert_eq!([24.0, 256.0, 0.0, 0.5].map(|n| Power::new(n).by_squaring()), [None; 4]);
-        assert_eq!([1.0, 128.0].map(|n| Power::new(n).by_squaring()), [1, 128].map(|n| Some(Power::Integer(n))));
-        assert_eq!(Power::new(32.0).by_squaring(), Some(Power::Integer(32)));
+        assert_eq!([24.0, 256.0, 0.0, 0.5].map(|n| Power::new(n).squarings()), [None; 4]);
+        assert_eq!([1.0, 32.0, 128.0].map(|n| Power::new(n).squarings()), [Some(0), Some(5), Some(7)]);
     }
 }

@@ -3,14 +3,15 @@
 use super::Illumination;
 use crate::lighting::{Lighting, SpecularGate, SpecularModel};
 use crate::number::{Num, each};
+use crate::shader::power::squared_up_to_7;
 
 impl<N: Num, const L: usize> Illumination<N, L> {
     /// The same for `scale` times the colours, to be summed without faint highlights, where it is what most scenes ask for: R·V, no
     /// specular light where `L·N ≤ 0`, lights of full strength, a shininess that is a power of two up to 128, and colours below 2²².
     #[inline(always)]
     pub fn usual(&self, scale: N) -> Option<Self> {
-        let power = self.power.by_squaring()?;
-        let is_usual = self.model == SpecularModel::Phong
+        let is_usual = self.power.squarings().is_some()
+            && self.model == SpecularModel::Phong
             && self.gate == SpecularGate::Gated
             && self.far.scalars.strength.is_none()
             && self.is_bounded;
@@ -24,7 +25,6 @@ impl<N: Num, const L: usize> Illumination<N, L> {
                 #[inline(always)]
                 |i| scaled(self.specular[i], scale),
             ),
-            power,
             ..*self
         })
     }
@@ -65,7 +65,8 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             return sum;
         }
         // Faint ones are none here too, so that no pixel depends on what lies beside it.
-        let s = self.power.of(highlight, self.one).gate(highlight - self.faint);
+        let [s] = squared_up_to_7([highlight], self.power.squarings().unwrap_or(0));
+        let s = s.gate(highlight - self.faint);
         self.with_specular(i, sum, s) // 2.1
     }
 }
