@@ -120,11 +120,12 @@ fn colour<Q: OverRoot, F: Num, const L: usize, const USUAL: bool>(
     (j, k, d): ([F; L], F, F),
 ) -> [F; 3] {
     let r = Q::of(d, c.one());
-    let cosines = each(
+    c.colour_of_unit_cosines::<USUAL>(
         #[inline(always)]
         |i| j[i] * r,
-    );
-    c.colour_of_unit_cosines::<USUAL>(cosines, k * r, &c.far().scalars)
+        k * r,
+        &c.far().scalars,
+    )
 }
 
 /// Forward differences with `L` lights, some of them or the eye at positions; linear in space (`SPACE`) or on the screen.

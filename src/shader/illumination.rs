@@ -6,6 +6,7 @@ use crate::number::{Machine, Num, Planes, Real, dot, each};
 mod usual;
 
 pub use super::power::Power;
+use usual::Cosines;
 
 /// Light and viewer as one point sees them: unit vectors, and what the model needs of them.
 #[derive(Clone, Copy, Debug)]
@@ -253,47 +254,54 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         n_h: impl Fn(usize) -> N,
         strength: impl Fn(usize) -> Option<N>,
     ) -> [N; 3] {
+        if USUAL {
+            return self.usual_sum(l_n, r_v);
+        }
         // Each step for all lights, so that what kind of step it is is decided once a pixel.
         let diffuse_cosine: [N; L] = each(
             #[inline(always)]
             |i| l_n(i).max(self.zero),
         );
-        let highlight: [N; L] = if USUAL || self.model == SpecularModel::Phong {
-            each(
+        let highlight: [N; L] = match self.model {
+            SpecularModel::Phong => each(
                 #[inline(always)]
                 |i| r_v(i).max(self.zero),
-            )
-        } else {
-            each(
+            ),
+            SpecularModel::Blinn => each(
                 #[inline(always)]
                 |i| n_h(i).max(self.zero),
-            )
+            ),
         };
-        if USUAL { self.usual_sum(diffuse_cosine, highlight) } else { self.sum(diffuse_cosine, highlight, strength) }
+        self.sum(diffuse_cosine, highlight, strength)
     }
 
     /// The same from cosines between unit vectors: L·N of each light and V·N.
     #[inline(always)]
     pub fn colour_of_cosines(&self, l_n: [N; L], v_n: N, seen: &SeenScalars<N, L>) -> [N; 3] {
-        self.colour_of_unit_cosines::<false>(l_n, v_n, seen)
+        self.colour_of_unit_cosines::<false>(
+            #[inline(always)]
+            |i| l_n[i],
+            v_n,
+            seen,
+        )
     }
 
     /// The same, if `USUAL` with constants of [`Illumination::usual`].
     #[inline(always)]
     pub(super) fn colour_of_unit_cosines<const USUAL: bool>(
         &self,
-        l_n: [N; L],
+        l_n: impl Fn(usize) -> N,
         v_n: N,
         seen: &SeenScalars<N, L>,
     ) -> [N; 3] {
-        let twice = self.two * v_n;
+        let (l_n, twice) = (Cosines::<N, _, L>::new::<USUAL>(l_n), self.two * v_n);
         self.colour_of::<USUAL>(
             #[inline(always)]
-            |i| l_n[i],
+            |i| l_n.of(i),
             #[inline(always)]
-            |i| twice.mul_sub(l_n[i], seen.light_view[i]), // 4.5
+            |i| twice.mul_sub(l_n.of(i), seen.light_view[i]), // 4.5
             #[inline(always)]
-            |i| (l_n[i] + v_n) * seen.half[i], // N·H
+            |i| (l_n.of(i) + v_n) * seen.half[i], // N·H
             #[inline(always)]
             |i| seen.strength(i),
         )
@@ -356,14 +364,17 @@ impl<N: Num, const L: usize> Illumination<N, L> {
     /// The same, if `USUAL` with constants of [`Illumination::usual`].
     #[inline(always)]
     pub(super) fn lit_of<const USUAL: bool>(&self, n: [N; 3], seen: &Seen<N, L>) -> [N; 3] {
-        let cosines = seen.light_cosines(n);
+        let cosines = Cosines::<N, _, L>::new::<USUAL>(
+            #[inline(always)]
+            |i| dot(seen.light[i], n),
+        );
         self.colour_of::<USUAL>(
             #[inline(always)]
-            |i| cosines[i],
+            |i| cosines.of(i),
             #[inline(always)]
             |i| {
                 let l = seen.light[i];
-                let twice = self.two * cosines[i];
+                let twice = self.two * cosines.of(i);
                 let r = [twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]]; // R = 2 (L·N) N − L
                 dot(r, seen.view)
             },

@@ -3,7 +3,7 @@
 use super::illumination::Illumination;
 use super::naive_phong::{AtPixel, Near, Of};
 use super::{Info, Local, Method, Perspective, Roundings, Stepped};
-use crate::number::{Num, dot, each};
+use crate::number::{Num, dot};
 use crate::reference::Model;
 
 /// Naive Phong shading without its vectors: N by three additions a pixel, then `J = L·N`, `K = V·N`, `D = N·N` and the
@@ -44,11 +44,12 @@ impl AtPixel for Scalars {
     #[inline(always)]
     fn colour<F: Num, const L: usize, const USUAL: bool>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
         let r = dot(n, n).over_sqrt();
-        let (j, k) = (c.far().light_cosines(n), c.far().view_cosine(n));
-        let cosines = each(
+        let (light, k) = (&c.far().light, c.far().view_cosine(n));
+        c.colour_of_unit_cosines::<USUAL>(
             #[inline(always)]
-            |i| j[i] * r,
-        );
-        c.colour_of_unit_cosines::<USUAL>(cosines, k * r, &c.far().scalars)
+            |i| dot(light[i], n) * r,
+            k * r,
+            &c.far().scalars,
+        )
     }
 }

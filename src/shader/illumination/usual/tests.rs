@@ -15,7 +15,8 @@ fn lighting(random: &mut Random, shininess: f32) -> Lighting {
 /// The colour at a unit normal, if `USUAL` with constants that are.
 fn colour<const USUAL: bool>(model: &Illumination<f32, 4>, n: [f32; 3]) -> [f32; 3] {
     let far = model.far();
-    model.colour_of_unit_cosines::<USUAL>(far.light_cosines(n), far.view_cosine(n), &far.scalars)
+    let j = far.light_cosines(n);
+    model.colour_of_unit_cosines::<USUAL>(|i| j[i], far.view_cosine(n), &far.scalars)
 }
 
 /// What is left out is below 2⁻²⁴ for each light. After it come at most two sums a light, in each of which what was left out can change
@@ -103,7 +104,7 @@ impl LanesJob for Lit<'_> {
         let of = |normals: [[f32; 8]; 3]| {
             let n = normals.map(|line| m.load(&line));
             let (j, k) = (model.far().light_cosines(n), model.far().view_cosine(n));
-            let colour = model.colour_of_unit_cosines::<true>(j, k, &model.far().scalars);
+            let colour = model.colour_of_unit_cosines::<true>(|i| j[i], k, &model.far().scalars);
             colour.map(|c| {
                 let mut line = [0.0; 8];
                 m.store(c, &mut line);
