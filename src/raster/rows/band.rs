@@ -101,6 +101,19 @@ impl Band {
         )
     }
 
+    /// What is stored of one group beside its depth.
+    #[inline(always)]
+    pub fn pixel<M: Lanes, P: Planes<M::F>>(m: M, group: &[f32]) -> P {
+        let mut at = M::WIDTH;
+        get_each(
+            #[inline(always)]
+            || {
+                at += M::WIDTH;
+                m.load(&group[at - M::WIDTH..at])
+            },
+        )
+    }
+
     /// Empties what was drawn of a row.
     #[inline(always)]
     pub fn empty_row<M: Lanes, P: Planes<M::F>>(&mut self, m: M, row: usize) {

@@ -36,7 +36,6 @@ use crate::frame::Frame;
 use crate::number::{Lanes, Machine, Pair, Planes, Scalar};
 use crate::shader::{Given, Shader};
 use crate::walk::Attribute;
-use alloc::vec::Vec;
 pub(crate) use band::Band;
 use band::Layout;
 pub(crate) use batch::Batch;
@@ -44,7 +43,7 @@ use core::ops::Range;
 use fill::Filler;
 use paint::Painter;
 use read::Numbers;
-use shade::Colours;
+use shade::{Colours, Constants};
 pub(crate) use tiny::Fragments;
 pub(crate) use triangle::Starts;
 
@@ -82,9 +81,8 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
         Some(normals) => Numbers::Normals(normals),
         None => Numbers::Attributes(&setup.attributes),
     };
-    let twice = |x| Pair(m.splat(x), m.splat(x));
-    let consts: Vec<Consts<S, M>> = frame.lightings().iter().map(|l| S::consts(l, parameters, &twice)).collect();
     let only = only_material(frame);
+    let consts = Constants::<S, M>::new(m, frame, parameters, only);
     let (hides, has_materials) = (SampleDepth::new(frame).hides(), only.is_none());
     let painter = Painter::<S> { frame, setup: &setup, hides };
     let filler = Filler { frame, numbers, hides, has_materials };
@@ -94,7 +92,7 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
             paint::<S, M>(m, (&painter, &filler), polygons, &rows, scratch);
         }
         for row in 0..rows.len() {
-            shade::<S, M>(m, frame, (&consts, only.unwrap_or(0)), row, scratch, sink);
+            shade::<S, M>(m, frame, &consts, row, scratch, sink);
         }
     });
 }
@@ -237,7 +235,7 @@ fn run<S: Shader, M: Lanes>(
 fn shade<S: Shader, M: Lanes>(
     m: M,
     frame: &Frame,
-    consts: (&[Consts<S, M>], u32),
+    consts: &Constants<S, M>,
     row: usize,
     scratch: &mut Scratch,
     sink: &mut dyn RowSink,

@@ -86,6 +86,7 @@ impl<N: Copy, C: Fn(usize) -> N, const L: usize> Cosines<N, C, L> {
         if USUAL {
             return Cosines { all: None, of };
         }
+        #[allow(clippy::redundant_closure)] // what is called by `&of` is not inlined everywhere
         let all = each(
             #[inline(always)]
             |i| of(i),
