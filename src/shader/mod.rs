@@ -183,8 +183,8 @@ pub trait Shader: 'static {
 
     /// Constants from the light on one material; `parameters` are in the order of [`Info::parameters`].
     fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N>;
-    /// The constants again, for [`Shader::scaled`], if they ask for what most scenes do, with that written out: pixel loops of it are
-    /// compiled apart, without decisions. `None` by default: then there is one loop.
+    /// The constants again, for [`Shader::scaled`], if they ask for what most scenes do, which pixel loops are compiled for apart, without
+    /// decisions. `None` by default: then there is one loop.
     #[inline(always)]
     fn usual<N: Num>(consts: &Self::Consts<N>, scale: N) -> Option<Self::Consts<N>> {
         let _ = (consts, scale);

@@ -41,7 +41,7 @@ impl Method for NaivePhong {
 
 /// What is made of an interpolated normal at a pixel.
 pub(super) trait AtPixel: 'static {
-    /// The colour of a surface whose normal has the direction of `n`, if `USUAL` with constants of that kind; not yet clamped.
+    /// The colour of a surface whose normal has the direction of `n`, before the clamp, if `USUAL` with constants of that kind.
     fn colour<F: Num, const L: usize, const USUAL: bool>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3];
 }
 

@@ -211,7 +211,8 @@ impl<S: Shader, M: Lanes> Constants<S, M> {
 }
 
 /// Whether usual pixels are shaded a group at a time: with the constants of several lights two at a time run out of registers (20.0
-/// against 19.5 million instructions a frame with four, of 5,040 triangles). Those of one light are 28 numbers, of four 64.
+/// against 19.5 million instructions a frame with four, of 5,040 triangles). An illumination model is as large as 27 numbers with one light,
+/// as 63 with four.
 const fn one_by_one<S: Shader>() -> bool {
     size_of::<S::Consts<f32>>() > 40 * size_of::<f32>()
 }

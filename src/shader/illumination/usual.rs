@@ -1,4 +1,4 @@
-//! What most scenes ask of the illumination model, written out for loops that are compiled apart for it.
+//! What most scenes ask of the illumination model, as functions of its own for loops that are compiled apart for it.
 
 use super::Illumination;
 use crate::lighting::{Lighting, SpecularGate, SpecularModel};
