@@ -14,13 +14,23 @@ use std::hint::black_box;
 use std::time::Duration;
 
 /// The methods of the comparison, with the reciprocal root of the hardware.
-const METHODS: [&str; 5] = ["gouraud", "naive-phong", "fast-phong", "fast-phong-rsqrt", "phong-rsqrt"];
+const METHODS: [&str; 5] = [
+    "gouraud",
+    "naive-phong",
+    "fast-phong",
+    "fast-phong-rsqrt",
+    "phong-rsqrt",
+];
 
 /// Scanlines of a band of the floor.
 const BAND: usize = 32;
 
 fn engines(c: &mut Criterion) {
-    rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global().expect("no pool before");
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .use_current_thread()
+        .build_global()
+        .expect("no pool before");
     for (name, mesh) in scenes::SCENES {
         let prepared = scenes::scene(mesh).prepare().expect("a valid scene");
         let mut frame = prepared.frame().expect("a valid view");
@@ -28,7 +38,9 @@ fn engines(c: &mut Criterion) {
         // Every sample with the same number of calls: frames take milliseconds, and a growing number takes minutes.
         group.sampling_mode(SamplingMode::Flat);
         let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
-        group.bench_function("projection", |b| b.iter(|| prepared.frame_into(black_box(&mut frame))));
+        group.bench_function("projection", |b| {
+            b.iter(|| prepared.frame_into(black_box(&mut frame)))
+        });
         group.bench_function("floor", |b| {
             let mut depth = vec![0.0f32; picture.width() * BAND];
             b.iter(|| floor(black_box(&mut depth), picture.texels_mut()));
@@ -37,10 +49,18 @@ fn engines(c: &mut Criterion) {
             let variant = Variant::parse(method).expect("a method of the table");
             for engine in Engine::ALL {
                 for level in Level::available() {
-                    let renderer = Renderer { engine: Some(engine), level };
-                    group.bench_function(BenchmarkId::new(format!("{engine}-{level}"), method), |b| {
-                        b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
-                    });
+                    let renderer = Renderer {
+                        engine: Some(engine),
+                        level,
+                    };
+                    group.bench_function(
+                        BenchmarkId::new(format!("{engine}-{level}"), method),
+                        |b| {
+                            b.iter(|| {
+                                variant.render_with(black_box(&frame), renderer, &mut picture)
+                            });
+                        },
+                    );
                 }
             }
         }
@@ -58,7 +78,10 @@ fn large(c: &mut Criterion) {
         let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
         for method in METHODS {
             let variant = Variant::parse(method).expect("a method of the table");
-            for (renderer, kind) in [(Renderer::LECTURE, "lecture"), (Renderer::fastest(), "fastest")] {
+            for (renderer, kind) in [
+                (Renderer::LECTURE, "lecture"),
+                (Renderer::fastest(), "fastest"),
+            ] {
                 group.bench_function(BenchmarkId::new(kind, method), |b| {
                     b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
                 });
@@ -71,7 +94,11 @@ fn large(c: &mut Criterion) {
 /// A frame of 1920 × 1080 pixels of few triangles, projection included, and the floor beside it.
 fn over_floor(c: &mut Criterion) {
     let (name, mesh) = scenes::SCENES[0];
-    let scene = Scene { width: 1920, height: 1080, ..scenes::scene(mesh) };
+    let scene = Scene {
+        width: 1920,
+        height: 1080,
+        ..scenes::scene(mesh)
+    };
     let prepared = scene.prepare().expect("a valid scene");
     let mut frame = prepared.frame().expect("a valid view");
     let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
@@ -85,7 +112,9 @@ fn over_floor(c: &mut Criterion) {
         let variant = Variant::parse(method).expect("a method of the table");
         group.bench_function(BenchmarkId::new("fastest", method), |b| {
             b.iter(|| {
-                prepared.frame_into(black_box(&mut frame)).expect("a valid view");
+                prepared
+                    .frame_into(black_box(&mut frame))
+                    .expect("a valid view");
                 variant.render_with(&frame, Renderer::fastest(), &mut picture);
             });
         });

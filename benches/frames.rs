@@ -5,7 +5,9 @@
 
 mod scenes;
 
-use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use criterion::{
+    BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
+};
 use fastphong::picture::Picture;
 use fastphong::raster::{Edges, NOTHING, Renderer, polygon_numbers};
 use fastphong::shader::METHODS;
@@ -17,7 +19,11 @@ fn frames(c: &mut Criterion) {
     for (name, mesh) in scenes::SCENES {
         let frame = scenes::scene(mesh).frame().expect("a valid scene");
         let triangles = triangulated(&frame).frame;
-        let covered = polygon_numbers(&frame).texels().iter().filter(|number| **number != NOTHING).count();
+        let covered = polygon_numbers(&frame)
+            .texels()
+            .iter()
+            .filter(|number| **number != NOTHING)
+            .count();
         let mut group = c.benchmark_group(format!("frames/{name}"));
         group.throughput(Throughput::Elements(covered as u64));
         // Every sample with the same number of calls: frames take milliseconds, and a growing number takes minutes.
@@ -28,7 +34,9 @@ fn frames(c: &mut Criterion) {
             });
             let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
             group.bench_function(BenchmarkId::new("fastest", &variant), |b| {
-                b.iter(|| variant.render_with(black_box(&frame), Renderer::fastest(), &mut picture));
+                b.iter(|| {
+                    variant.render_with(black_box(&frame), Renderer::fastest(), &mut picture)
+                });
             });
             if variant.info().barycentric {
                 group.bench_function(BenchmarkId::new("barycentric", &variant), |b| {

@@ -31,12 +31,15 @@ fn spans(c: &mut Criterion) {
         for level in Level::available() {
             for (lights, bench) in [(1, &bench), (4, &four)] {
                 let mut channels = [(); 3].map(|()| vec![0.0; LONG]);
-                group.bench_function(BenchmarkId::new(format!("{level}/{lights} lights"), LONG), |b| {
-                    b.iter(|| {
-                        let [r, g, blue] = black_box(&mut channels);
-                        variant.shade_span_on(level, black_box(bench), [r, g, blue]);
-                    });
-                });
+                group.bench_function(
+                    BenchmarkId::new(format!("{level}/{lights} lights"), LONG),
+                    |b| {
+                        b.iter(|| {
+                            let [r, g, blue] = black_box(&mut channels);
+                            variant.shade_span_on(level, black_box(bench), [r, g, blue]);
+                        });
+                    },
+                );
             }
         }
         group.finish();

@@ -35,7 +35,9 @@ fn stages(c: &mut Criterion) {
         // Vertex normals are part of it: here averaged ones.
         group.bench_function("projection", |b| b.iter(|| black_box(&scene).frame()));
         group.throughput(Throughput::Elements(frame.polygons().len() as u64));
-        group.bench_function("triangulation", |b| b.iter(|| triangulated(black_box(&frame))));
+        group.bench_function("triangulation", |b| {
+            b.iter(|| triangulated(black_box(&frame)))
+        });
         group.bench_function("coverage", |b| {
             b.iter(|| {
                 let mut pixels = 0;
@@ -43,7 +45,9 @@ fn stages(c: &mut Criterion) {
                 pixels
             });
         });
-        group.bench_function("visibility", |b| b.iter(|| polygon_numbers(black_box(&frame))));
+        group.bench_function("visibility", |b| {
+            b.iter(|| polygon_numbers(black_box(&frame)))
+        });
         group.finish();
     }
 }
@@ -61,9 +65,13 @@ fn projection(c: &mut Criterion) {
         group.bench_function("prepare", |b| b.iter(|| black_box(&scene).prepare()));
         let mut prepared = scene.prepare().expect("a valid scene");
         let mut frame = prepared.frame().expect("a valid scene");
-        group.bench_function("frame_into", |b| b.iter(|| black_box(&prepared).frame_into(&mut frame)));
+        group.bench_function("frame_into", |b| {
+            b.iter(|| black_box(&prepared).frame_into(&mut frame))
+        });
         prepared.set_camera(scenes::camera(shape, Some(45.0)));
-        group.bench_function("frame_into/perspective", |b| b.iter(|| black_box(&prepared).frame_into(&mut frame)));
+        group.bench_function("frame_into/perspective", |b| {
+            b.iter(|| black_box(&prepared).frame_into(&mut frame))
+        });
         group.finish();
     }
 }

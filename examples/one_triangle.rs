@@ -21,10 +21,20 @@ use std::sync::Arc;
 fn main() -> Result<(), Box<dyn Error>> {
     // A mesh: positions, and polygons that name them, counter-clockwise seen from outside. Its normals lean outward, as
     // if the triangle were a piece of a ball; without them they would be averaged (L21 3.1), here all the same.
-    let positions = vec![Vec3::new(-1.0, -0.8, 0.0), Vec3::new(1.0, -0.8, 0.0), Vec3::new(0.0, 0.9, 0.0)];
-    let leaning = positions.iter().map(|p| (*p + 1.2 * Vec3::Z).normalize()).collect();
+    let positions = vec![
+        Vec3::new(-1.0, -0.8, 0.0),
+        Vec3::new(1.0, -0.8, 0.0),
+        Vec3::new(0.0, 0.9, 0.0),
+    ];
+    let leaning = positions
+        .iter()
+        .map(|p| (*p + 1.2 * Vec3::Z).normalize())
+        .collect();
     let mut mesh = MeshBuilder::new(positions);
-    mesh.polygon(&[0, 1, 2]).normals(GivenNormals { values: leaning, corners: None });
+    mesh.polygon(&[0, 1, 2]).normals(GivenNormals {
+        values: leaning,
+        corners: None,
+    });
 
     // A scene: what there is to see, the light on it, and from where it is seen. `Scene::of_mesh` chooses all this for a
     // mesh; here it is written out.
@@ -40,12 +50,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         width: 320,
         height: 240,
         background: [0.02, 0.02, 0.03],
-        lights: vec![Light::directional(DVec3::new(0.3, 0.4, 1.0).normalize(), [1.0; 3])],
+        lights: vec![Light::directional(
+            DVec3::new(0.3, 0.4, 1.0).normalize(),
+            [1.0; 3],
+        )],
         encoding: Encoding::Srgb,
         objects: vec![Object {
             mesh: Arc::new(mesh.finish()?),
             transform: DAffine3::IDENTITY,
-            material: Some(Material { shininess: 60.0, ..Material::default() }),
+            material: Some(Material {
+                shininess: 60.0,
+                ..Material::default()
+            }),
             normals: NormalSource::Given,
         }],
         ..Scene::new(camera)
@@ -55,12 +71,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     let frame = scene.frame()?;
 
     // A picture, by the method that the first argument names.
-    let method = std::env::args().nth(1).unwrap_or_else(|| "naive-phong".into());
+    let method = std::env::args()
+        .nth(1)
+        .unwrap_or_else(|| "naive-phong".into());
     let picture = Variant::parse(&method)?.render(&frame);
 
     // A file: portable pixmap is a header and the bytes. With the feature `io`, `image_file` writes PNG as well.
     let mut file = format!("P6\n{} {}\n255\n", picture.width(), picture.height()).into_bytes();
-    file.extend(picture.texels().iter().flat_map(|[r, g, b, _]| [*r, *g, *b]));
+    file.extend(
+        picture
+            .texels()
+            .iter()
+            .flat_map(|[r, g, b, _]| [*r, *g, *b]),
+    );
     std::io::stdout().write_all(&file)?;
     Ok(())
 }

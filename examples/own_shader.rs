@@ -17,7 +17,8 @@ use fastphong::reference::Model;
 use fastphong::scene::Scene;
 use fastphong::shader::local::{Far, Lights, Near};
 use fastphong::shader::{
-    Corner, Corners, Entry, Info, Local, Method, Parameter, Perspective, Roundings, Shader, SpanOf, Stepped, Variant,
+    Corner, Corners, Entry, Info, Local, Method, Parameter, Perspective, Roundings, Shader, SpanOf,
+    Stepped, Variant,
 };
 use fastphong::walk::{Constant, Lerp, Linear};
 use std::error::Error;
@@ -40,10 +41,20 @@ impl Method for Toon {
         formula: "I = Ia ka + Ip kd b / bands + Ip ks [R.V > 0.9], b = how many of (i - 1/2) / bands lie below L.N",
         source: "after Lake, Marshall, Harris and Blackstein 2000",
         model: Model::Phong,
-        roundings: Roundings { start: f64::INFINITY, step: 0.0, of: Stepped::Cosines },
+        roundings: Roundings {
+            start: f64::INFINITY,
+            step: 0.0,
+            of: Stepped::Cosines,
+        },
         derivation: "no bound: it is not an approximation of Phong shading",
         fails: "edges of bands are not smoothed",
-        parameters: &[Parameter { name: "bands", meaning: "bands of light", default: 3, least: 1, most: 8 }],
+        parameters: &[Parameter {
+            name: "bands",
+            meaning: "bands of light",
+            default: 3,
+            least: 1,
+            most: 8,
+        }],
         perspective: Perspective::Free,
         local: Local::PerPolygon,
         barycentric: true,
@@ -76,10 +87,21 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
     type Walk<M: Machine> = ([Linear<M::F>; 3], Constant<P::There<M::F, L>>); // along a run: three additions
     type Pixel<F: Num> = ([F; 3], P::There<F, L>);
 
-    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N> {
+    fn consts<N: Num>(
+        lighting: &Lighting,
+        parameters: &[u32],
+        of: &dyn Fn(f32) -> N,
+    ) -> Self::Consts<N> {
         let (bands, width) = (parameters[0], 1.0 / parameters[0] as f32);
         let light = P::new(lighting, of);
-        Consts { light, bands, width: of(width), half_width: of(width / 2.0), edge: of(0.9), zero: of(0.0) }
+        Consts {
+            light,
+            bands,
+            width: of(width),
+            half_width: of(width / 2.0),
+            edge: of(0.9),
+            zero: of(0.0),
+        }
     }
     #[inline(always)]
     fn vertex<M: Machine>(_: &Self::Consts<M::One>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
@@ -150,7 +172,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let mut file = format!("P6\n{} {}\n255\n", 2 * left.width(), left.height()).into_bytes();
     for y in 0..left.height() {
-        file.extend(left.row(y).iter().chain(right.row(y)).flat_map(|[r, g, b, _]| [*r, *g, *b]));
+        file.extend(
+            left.row(y)
+                .iter()
+                .chain(right.row(y))
+                .flat_map(|[r, g, b, _]| [*r, *g, *b]),
+        );
     }
     std::io::stdout().write_all(&file)?;
     Ok(())

@@ -46,13 +46,16 @@ impl Camera {
             eye: target + fit.direction.normalize(),
             target,
             up: fit.up,
-            projection: Projection::Orthographic { half_height: radius },
+            projection: Projection::Orthographic {
+                half_height: radius,
+            },
             near: 0.0,
             far: 1.0,
         };
         let distance = match fit.fovy {
             None => {
-                let half_height = camera.half_height_around(points.clone(), fit.fraction, fit.aspect);
+                let half_height =
+                    camera.half_height_around(points.clone(), fit.fraction, fit.aspect);
                 camera.projection = Projection::Orthographic { half_height };
                 4.0 * radius
             }
@@ -69,7 +72,12 @@ impl Camera {
 
     /// The half height with which `points` fill `fraction` of an orthographic picture around the target; 1 where they
     /// have no extent across the line of sight.
-    pub fn half_height_around(&self, points: impl Iterator<Item = DVec3>, fraction: f64, aspect: f64) -> f64 {
+    pub fn half_height_around(
+        &self,
+        points: impl Iterator<Item = DVec3>,
+        fraction: f64,
+        aspect: f64,
+    ) -> f64 {
         let [right, up, _] = self.axes();
         let half_height = points.fold(0.0, |most: f64, point| {
             let q = point - self.target;
@@ -94,7 +102,9 @@ impl Camera {
         points.fold(clearance, |most: f64, point| {
             let q = point - self.target;
             let depth = forward.dot(q);
-            most.max(clearance - depth).max(up.dot(q).abs() / t - depth).max(right.dot(q).abs() / (t * aspect) - depth)
+            most.max(clearance - depth)
+                .max(up.dot(q).abs() / t - depth)
+                .max(right.dot(q).abs() / (t * aspect) - depth)
         })
     }
 
@@ -105,13 +115,17 @@ impl Camera {
         // From the target, not from the eye: a far eye costs no digits in the slack.
         let distance = (self.target - self.eye).dot(forward);
         let depths = points.map(|point| forward.dot(point - self.target));
-        let (least, most) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
+        let (least, most) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| {
+            (a.min(d), b.max(d))
+        });
         if least > most {
             return None;
         }
         let slack = match DEPTH_SLACK * (most - least) {
             // A flat thing seen from the front: any slack will do that still shows in the last digits of the sum.
-            slack if slack <= 1e-9 * (distance.abs() + most.abs()) => 1e-3 * (distance.abs() + most.abs()).max(1e-3),
+            slack if slack <= 1e-9 * (distance.abs() + most.abs()) => {
+                1e-3 * (distance.abs() + most.abs()).max(1e-3)
+            }
             slack => slack,
         };
         let (near, far) = (distance + least - slack, distance + most + slack);
@@ -148,34 +162,64 @@ mod tests {
     }
 
     fn fit(fovy: Option<f64>) -> Fit {
-        Fit { direction: DVec3::new(0.5, 0.3, 1.0), up: DVec3::Y, fraction: 0.8, fovy, aspect: 4.0 / 3.0 }
+        Fit {
+            direction: DVec3::new(0.5, 0.3, 1.0),
+            up: DVec3::Y,
+            fraction: 0.8,
+            fovy,
+            aspect: 4.0 / 3.0,
+        }
     }
 
     /// The largest |x|/w and |y|/w, and the range of z/w, over the picture of `points`.
     fn extent(camera: &Camera, points: &[DVec3], aspect: f64) -> (f64, f64, f64) {
         let matrix = camera.clip_matrix(aspect);
-        points.iter().fold((0.0, f64::INFINITY, f64::NEG_INFINITY), |(most, low, high): (f64, f64, f64), p| {
-            let c = matrix * p.extend(1.0);
-            (most.max((c.x / c.w).abs()).max((c.y / c.w).abs()), low.min(c.z / c.w), high.max(c.z / c.w))
-        })
+        points.iter().fold(
+            (0.0, f64::INFINITY, f64::NEG_INFINITY),
+            |(most, low, high): (f64, f64, f64), p| {
+                let c = matrix * p.extend(1.0);
+                (
+                    most.max((c.x / c.w).abs()).max((c.y / c.w).abs()),
+                    low.min(c.z / c.w),
+                    high.max(c.z / c.w),
+                )
+            },
+        )
     }
 
     #[test]
     fn points_fill_the_part_of_the_frame_exactly() {
         for fovy in [None, Some(5.0), Some(40.0), Some(120.0)] {
             for fraction in [0.3, 0.8, 1.0] {
-                for (aspect, every_corner) in [(0.25, true), (1.0, true), (4.0, true), (4.0, false), (0.25, false)] {
+                for (aspect, every_corner) in [
+                    (0.25, true),
+                    (1.0, true),
+                    (4.0, true),
+                    (4.0, false),
+                    (0.25, false),
+                ] {
                     let mut points = box_corners();
                     if !every_corner {
                         // The same box without the symmetry in which a wrong sign of the depth would not show.
                         points = [0, 3, 5, 6].map(|i| points[i]).to_vec();
                     }
-                    let fit = Fit { fraction, aspect, ..fit(fovy) };
-                    let camera = Camera::fit(points.iter().copied(), &fit).expect("there are points");
+                    let fit = Fit {
+                        fraction,
+                        aspect,
+                        ..fit(fovy)
+                    };
+                    let camera =
+                        Camera::fit(points.iter().copied(), &fit).expect("there are points");
                     let (most, low, high) = extent(&camera, &points, aspect);
                     // Some 30 roundings of 2^-53, magnified by distance over depth (below 100 here): under 1e-12.
-                    assert!((most - fraction).abs() < 1e-12, "{fovy:?} {fraction} {aspect}: {most}");
-                    assert!(0.0 < low && high < 1.0, "{fovy:?} {fraction} {aspect}: depth {low} to {high}");
+                    assert!(
+                        (most - fraction).abs() < 1e-12,
+                        "{fovy:?} {fraction} {aspect}: {most}"
+                    );
+                    assert!(
+                        0.0 < low && high < 1.0,
+                        "{fovy:?} {fraction} {aspect}: depth {low} to {high}"
+                    );
                     assert_eq!(camera.target, DVec3::new(2.5, -1.5, 1.5));
                     // `view` normalises twice here, each time with a few roundings of 2^-53.
                     assert!((camera.view() - fit.direction.normalize()).length() < 1e-14);
@@ -200,20 +244,33 @@ mod tests {
     /// Without extent across or along the line of sight there is still a camera with a valid frustum.
     #[test]
     fn points_without_extent() {
-        let flat = [DVec3::new(0.0, 0.0, 7.0), DVec3::new(1.0, 0.0, 7.0), DVec3::new(0.0, 1.0, 7.0)];
+        let flat = [
+            DVec3::new(0.0, 0.0, 7.0),
+            DVec3::new(1.0, 0.0, 7.0),
+            DVec3::new(0.0, 1.0, 7.0),
+        ];
         let along = [DVec3::ZERO, DVec3::new(0.0, 0.0, 3.0)];
         let far_away = [DVec3::new(1e12, 0.0, 0.0)];
         for points in [&flat[..1], &flat, &along, &far_away] {
             for fovy in [None, Some(60.0)] {
-                let fit = Fit { direction: DVec3::Z, ..fit(fovy) };
+                let fit = Fit {
+                    direction: DVec3::Z,
+                    ..fit(fovy)
+                };
                 let camera = Camera::fit(points.iter().copied(), &fit).expect("there are points");
                 assert!(camera.near < camera.far, "{points:?} {fovy:?}: {camera:?}");
-                assert!(camera.near > 0.0 && camera.eye != camera.target, "{points:?} {fovy:?}: {camera:?}");
+                assert!(
+                    camera.near > 0.0 && camera.eye != camera.target,
+                    "{points:?} {fovy:?}: {camera:?}"
+                );
                 if let Projection::Orthographic { half_height } = camera.projection {
                     assert!(half_height > 0.0);
                 }
                 let (_, low, high) = extent(&camera, points, 1.0);
-                assert!(0.0 < low && high < 1.0, "{points:?} {fovy:?}: depth {low} to {high}");
+                assert!(
+                    0.0 < low && high < 1.0,
+                    "{points:?} {fovy:?}: depth {low} to {high}"
+                );
             }
         }
         assert_eq!(Camera::fit(core::iter::empty(), &fit(None)), None);
@@ -221,10 +278,13 @@ mod tests {
 
     #[test]
     fn nothing_before_a_perspective_eye_has_no_depth_range() {
-        let mut camera = Camera::fit(box_corners().into_iter(), &fit(Some(60.0))).expect("there are points");
+        let mut camera =
+            Camera::fit(box_corners().into_iter(), &fit(Some(60.0))).expect("there are points");
         // The eye inside the box: the near plane stays before it.
         camera.eye = camera.target + camera.view();
-        let (near, far) = camera.depth_range(box_corners().into_iter()).expect("points before the eye");
+        let (near, far) = camera
+            .depth_range(box_corners().into_iter())
+            .expect("points before the eye");
         assert_eq!(near, LEAST_NEAR * far);
         // Looking away from the box.
         camera.eye = camera.target - 100.0 * camera.view();

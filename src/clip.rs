@@ -35,10 +35,19 @@ impl Cut {
     /// The ends are put in a canonical order first, so that the two polygons at an edge, which go along it in opposite
     /// directions, get the same corner to the last bit.
     fn new(plane: &Plane, p: Corner, q: Corner) -> Self {
-        let (a, b) = if canonical(p.position, q.position) == Ordering::Greater { (q, p) } else { (p, q) };
+        let (a, b) = if canonical(p.position, q.position) == Ordering::Greater {
+            (q, p)
+        } else {
+            (p, q)
+        };
         let (da, db) = (plane.normal.dot(a.position), plane.normal.dot(b.position));
         let t = (da / (da - db)).clamp(0.0, 1.0);
-        Cut { a, b, t, position: a.position + (b.position - a.position) * t }
+        Cut {
+            a,
+            b,
+            t,
+            position: a.position + (b.position - a.position) * t,
+        }
     }
 
     /// The same place as a parameter that is linear on the screen; both ends must be in front of the eye.
@@ -50,7 +59,10 @@ impl Cut {
 
 fn canonical(p: DVec4, q: DVec4) -> Ordering {
     let pairs = p.to_array().into_iter().zip(q.to_array());
-    pairs.map(|(a, b)| a.total_cmp(&b)).find(|o| *o != Ordering::Equal).unwrap_or(Ordering::Equal)
+    pairs
+        .map(|(a, b)| a.total_cmp(&b))
+        .find(|o| *o != Ordering::Equal)
+        .unwrap_or(Ordering::Equal)
 }
 
 /// What of `polygon` is inside `plane`: no piece, one, or several where a concave polygon is cut apart.
@@ -64,11 +76,16 @@ pub(crate) fn clip(
     mut vertex: impl FnMut(&Cut) -> u32,
     mut piece: impl FnMut(&[Corner]),
 ) {
-    let inside: Vec<bool> = polygon.iter().map(|c| plane.normal.dot(c.position) >= 0.0).collect();
+    let inside: Vec<bool> = polygon
+        .iter()
+        .map(|c| plane.normal.dot(c.position) >= 0.0)
+        .collect();
     if inside.iter().all(|&i| i) {
         return piece(polygon);
     }
-    let Some(outside) = inside.iter().position(|&i| !i) else { return };
+    let Some(outside) = inside.iter().position(|&i| !i) else {
+        return;
+    };
     // Runs of inside corners, each with its two cuts; starting from an outside corner none is split in two.
     let count = polygon.len();
     let mut runs: Vec<Vec<Corner>> = Vec::new();
@@ -76,7 +93,10 @@ pub(crate) fn clip(
         let (i, j) = ((outside + step) % count, (outside + step + 1) % count);
         if inside[i] != inside[j] {
             let cut = Cut::new(plane, polygon[i], polygon[j]);
-            let corner = Corner { position: cut.position, vertex: vertex(&cut) };
+            let corner = Corner {
+                position: cut.position,
+                vertex: vertex(&cut),
+            };
             if inside[j] {
                 runs.push(alloc::vec![corner]);
             } else if let Some(run) = runs.last_mut() {
@@ -109,7 +129,8 @@ fn join(runs: Vec<Vec<Corner>>, piece: &mut impl FnMut(&[Corner])) {
     let mut follower = alloc::vec![usize::MAX; runs.len()];
     for pair in ends.chunks_exact(2) {
         match *pair {
-            [(_, beginning, true), (_, ending, false)] | [(_, ending, false), (_, beginning, true)] => {
+            [(_, beginning, true), (_, ending, false)]
+            | [(_, ending, false), (_, beginning, true)] => {
                 follower[ending] = beginning;
             }
             // A polygon that crosses itself: no pairing is right, so it stays one piece, bridges and all.
@@ -133,7 +154,11 @@ fn join(runs: Vec<Vec<Corner>>, piece: &mut impl FnMut(&[Corner])) {
 
 /// A position after the division by w, or its direction where w is 0.
 fn flat(p: DVec4) -> glam::DVec3 {
-    if p.w.abs() > f64::MIN_POSITIVE { p.truncate() / p.w } else { p.truncate() }
+    if p.w.abs() > f64::MIN_POSITIVE {
+        p.truncate() / p.w
+    } else {
+        p.truncate()
+    }
 }
 
 /// The direction of the cutting line: from one end to the one farthest from it.
@@ -141,7 +166,9 @@ fn line_direction(runs: &[Vec<Corner>]) -> glam::DVec3 {
     let origin = flat(runs[0][0].position);
     let ends = runs.iter().flat_map(|run| [run[0], run[run.len() - 1]]);
     let differences = ends.map(|end| flat(end.position) - origin);
-    differences.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).unwrap_or(glam::DVec3::X)
+    differences
+        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
+        .unwrap_or(glam::DVec3::X)
 }
 
 #[cfg(test)]
@@ -153,19 +180,28 @@ mod tests {
     #[test]
     fn a_cut_does_not_depend_on_the_direction() {
         let mut random = Random::new(13);
-        let plane = Plane { normal: DVec4::new(0.3, -0.2, 1.0, 0.1), in_front: false };
+        let plane = Plane {
+            normal: DVec4::new(0.3, -0.2, 1.0, 0.1),
+            in_front: false,
+        };
         let mut cuts = 0;
         while cuts < 1000 {
             let mut corner = |vertex| {
                 let mut number = || f64::from(random.signed()) * 7.3;
-                Corner { position: DVec4::new(number(), number(), number(), number()), vertex }
+                Corner {
+                    position: DVec4::new(number(), number(), number(), number()),
+                    vertex,
+                }
             };
             let (p, q) = (corner(0), corner(1));
             if plane.normal.dot(p.position) * plane.normal.dot(q.position) >= 0.0 {
                 continue;
             }
             let (there, back) = (Cut::new(&plane, p, q), Cut::new(&plane, q, p));
-            assert_eq!((there.position, there.t, there.a.vertex), (back.position, back.t, back.a.vertex));
+            assert_eq!(
+                (there.position, there.t, there.a.vertex),
+                (back.position, back.t, back.a.vertex)
+            );
             cuts += 1;
         }
     }

@@ -63,7 +63,11 @@ impl Encoder {
         for (k, c) in least.iter_mut().enumerate().take(256).skip(1) {
             // The inverse of the function at the lower end of the level, then to the very float.
             let encoded = (k as f64 - 0.5) / 255.0;
-            let linear = if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) };
+            let linear = if encoded <= 0.04045 {
+                encoded / 12.92
+            } else {
+                libm::pow((encoded + 0.055) / 1.055, 2.4)
+            };
             *c = linear as f32;
             while level(*c) as usize >= k {
                 *c = c.next_down();
@@ -123,8 +127,15 @@ mod tests {
     #[test]
     fn quantise_rounds_halves_up_and_clamps() {
         assert_eq!(quantise(0.5), 128, "127.5 is a half and goes up");
-        assert_eq!(quantise(f32::from_bits(0.5f32.to_bits() - 1)), 127, "just below the half");
-        assert_eq!([-1.0, -0.0, 1.0, 1.5, f32::INFINITY, f32::NEG_INFINITY].map(quantise), [0, 0, 255, 255, 255, 0]);
+        assert_eq!(
+            quantise(f32::from_bits(0.5f32.to_bits() - 1)),
+            127,
+            "just below the half"
+        );
+        assert_eq!(
+            [-1.0, -0.0, 1.0, 1.5, f32::INFINITY, f32::NEG_INFINITY].map(quantise),
+            [0, 0, 255, 255, 255, 0]
+        );
         assert_eq!(quantise(f32::NAN), 0);
     }
 
@@ -134,10 +145,18 @@ mod tests {
         assert_eq!(srgb_encode(1.0), 1.0);
         // Each value is in 0.03..1, where a float is spaced by at most 2^-24 = 6e-8; the input's own rounding, at most
         // half of that, is stretched by the slope, at most 12.92 (at the join): 4e-7 in all.
-        let known = [(0.003_130_8, 0.040_449_936), (0.01, 0.099_852_82), (0.18, 0.461_356_13), (0.5, 0.735_357)];
+        let known = [
+            (0.003_130_8, 0.040_449_936),
+            (0.01, 0.099_852_82),
+            (0.18, 0.461_356_13),
+            (0.5, 0.735_357),
+        ];
         for (linear, encoded) in known {
             let got = srgb_encode(linear);
-            assert!((got - encoded).abs() <= 4e-7, "{linear} became {got}, not {encoded}");
+            assert!(
+                (got - encoded).abs() <= 4e-7,
+                "{linear} became {got}, not {encoded}"
+            );
         }
     }
 

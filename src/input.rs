@@ -89,7 +89,10 @@ impl ShippedScene {
 }
 
 fn shipped_file(name: &str) -> Option<&'static [u8]> {
-    SHIPPED_FILES.iter().find(|(file, _)| *file == name).map(|(_, bytes)| *bytes)
+    SHIPPED_FILES
+        .iter()
+        .find(|(file, _)| *file == name)
+        .map(|(_, bytes)| *bytes)
 }
 
 /// Why an input gives no scene.
@@ -130,7 +133,10 @@ impl fmt::Display for InputError {
                 if has_known_ending(Path::new(input)) {
                     return Ok(());
                 }
-                write!(f, " (expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of ")?;
+                write!(
+                    f,
+                    " (expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of "
+                )?;
                 for (i, scene) in SCENES.iter().enumerate() {
                     write!(f, "{}{}", if i == 0 { "" } else { ", " }, scene.name)?;
                 }
@@ -168,20 +174,35 @@ pub fn load(input: &str) -> Result<SceneFile, InputError> {
     if !has_known_ending(path) || !path.exists() {
         return Err(unknown(input, path));
     }
-    if has_ending(path, "toml") { Ok(SceneFile::load(path)?) } else { Ok(SceneFile::for_mesh(input.to_owned())) }
+    if has_ending(path, "toml") {
+        Ok(SceneFile::load(path)?)
+    } else {
+        Ok(SceneFile::for_mesh(input.to_owned()))
+    }
 }
 
 /// The error for what is not there, or is there and of no kind that is known.
 fn unknown(input: &str, path: &Path) -> InputError {
     if path.exists() {
         let expected = "expected a scene file that ends in .toml or a mesh file that ends in .obj";
-        return InputError::Mesh(format!("{input}: neither a scene nor a mesh file by its ending: {expected}"));
+        return InputError::Mesh(format!(
+            "{input}: neither a scene nor a mesh file by its ending: {expected}"
+        ));
     }
     // Who writes `scenes/teapto.toml` means `teapot`, and who writes `sphere` the built-in mesh.
-    let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or(input);
-    let shape = BUILTINS.iter().find(|shape| shape.name == stem).map(|shape| format!("{BUILTIN}{}", shape.name));
+    let stem = path
+        .file_stem()
+        .and_then(|stem| stem.to_str())
+        .unwrap_or(input);
+    let shape = BUILTINS
+        .iter()
+        .find(|shape| shape.name == stem)
+        .map(|shape| format!("{BUILTIN}{}", shape.name));
     let scene = || nearest(stem, SCENES.iter().map(|scene| scene.name)).map(ToString::to_string);
-    InputError::Unknown { input: input.to_owned(), suggestion: scene().or(shape) }
+    InputError::Unknown {
+        input: input.to_owned(),
+        suggestion: scene().or(shape),
+    }
 }
 
 fn has_known_ending(path: &Path) -> bool {
@@ -189,7 +210,8 @@ fn has_known_ending(path: &Path) -> bool {
 }
 
 fn has_ending(path: &Path, ending: &str) -> bool {
-    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
+    path.extension()
+        .is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
 /// The scene that `file` describes, with its meshes, and what is odd about it.
@@ -199,7 +221,8 @@ fn has_ending(path: &Path, ending: &str) -> bool {
 pub fn resolve(file: &SceneFile) -> Result<Resolved, InputError> {
     let mut refused = None;
     let resolved = file.resolve(|mesh, folder| {
-        load_mesh(mesh, folder).inspect_err(|reason| refused = Some((mesh.to_owned(), reason.clone())))
+        load_mesh(mesh, folder)
+            .inspect_err(|reason| refused = Some((mesh.to_owned(), reason.clone())))
     });
     resolved.map_err(|error| match refused {
         // A mesh that the input itself named needs no line of a scene file, and no key.
@@ -209,7 +232,9 @@ pub fn resolve(file: &SceneFile) -> Result<Resolved, InputError> {
 }
 
 fn is_named_in_file(objects: &[ObjectSection], mesh: &str) -> bool {
-    objects.iter().any(|object| object.mesh.value == mesh && matches!(object.mesh.origin, Origin::File(_)))
+    objects
+        .iter()
+        .any(|object| object.mesh.value == mesh && matches!(object.mesh.origin, Origin::File(_)))
 }
 
 /// The mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
@@ -219,34 +244,61 @@ fn is_named_in_file(objects: &[ObjectSection], mesh: &str) -> bool {
 pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
     let without_warnings = |mesh: PolygonMesh| (Arc::new(mesh), Vec::new());
     if let Some(spec) = name.strip_prefix(BUILTIN) {
-        return builtin(spec).map(without_warnings).map_err(|error| error.to_string());
+        return builtin(spec)
+            .map(without_warnings)
+            .map_err(|error| error.to_string());
     }
     let loaded = if let Some(file) = name.strip_prefix(SHIPPED) {
         let Some(bytes) = shipped_file(file) else {
-            let meshes: Vec<&str> =
-                SHIPPED_FILES.iter().map(|(name, _)| *name).filter(|name| name.ends_with(".obj")).collect();
-            return Err(format!("no mesh `{file}` is shipped: expected one of {}", meshes.join(", ")));
+            let meshes: Vec<&str> = SHIPPED_FILES
+                .iter()
+                .map(|(name, _)| *name)
+                .filter(|name| name.ends_with(".obj"))
+                .collect();
+            return Err(format!(
+                "no mesh `{file}` is shipped: expected one of {}",
+                meshes.join(", ")
+            ));
         };
-        let library = |name: &str| shipped_file(name).map(<[u8]>::to_vec).ok_or(std::io::ErrorKind::NotFound.into());
+        let library = |name: &str| {
+            shipped_file(name)
+                .map(<[u8]>::to_vec)
+                .ok_or(std::io::ErrorKind::NotFound.into())
+        };
         parse_obj(name, bytes, library)
     } else {
         let path: PathBuf = folder.join(name);
         if !has_ending(&path, "obj") {
-            return Err(match BUILTINS.iter().find(|shape| name.split('?').next() == Some(shape.name)) {
-                Some(_) => format!("`{name}` is not a mesh file; did you mean `{BUILTIN}{name}`?"),
-                None => format!("`{name}` is not a mesh: expected a file that ends in .obj, or {BUILTIN}NAME"),
-            });
+            return Err(
+                match BUILTINS
+                    .iter()
+                    .find(|shape| name.split('?').next() == Some(shape.name))
+                {
+                    Some(_) => {
+                        format!("`{name}` is not a mesh file; did you mean `{BUILTIN}{name}`?")
+                    }
+                    None => format!(
+                        "`{name}` is not a mesh: expected a file that ends in .obj, or {BUILTIN}NAME"
+                    ),
+                },
+            );
         }
         load_obj(&path)
     };
     let loaded = loaded.map_err(|error| error.to_string())?;
-    let warnings = loaded.warnings.iter().map(|warning| format!("{name}: {warning}")).collect();
+    let warnings = loaded
+        .warnings
+        .iter()
+        .map(|warning| format!("{name}: {warning}"))
+        .collect();
     Ok((Arc::new(loaded.mesh), warnings))
 }
 
 /// Makes the meshes of `file` findable from the current folder, so that the scene may be written down anywhere in it.
 pub fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
-    let Some(folder) = file.path().and_then(Path::parent).map(Path::to_owned) else { return };
+    let Some(folder) = file.path().and_then(Path::parent).map(Path::to_owned) else {
+        return;
+    };
     for object in &mut file.object {
         let mesh = &mut object.mesh;
         let is_file = !mesh.value.starts_with(BUILTIN) && !mesh.value.starts_with(SHIPPED);
@@ -264,15 +316,26 @@ mod tests {
     #[test]
     fn the_table_holds_every_shipped_scene() {
         let readme = include_str!("../scenes/README.md");
-        let rows = readme.lines().filter_map(|line| line.strip_prefix("| `")?.split_once(".toml` |"));
+        let rows = readme
+            .lines()
+            .filter_map(|line| line.strip_prefix("| `")?.split_once(".toml` |"));
         let listed: Vec<&str> = rows.map(|(name, _)| name).collect();
-        assert_eq!(SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>(), listed);
+        assert_eq!(
+            SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>(),
+            listed
+        );
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-        for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        for entry in std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+        {
             let name = entry.file_name().unwrap().to_str().unwrap();
             match name.strip_suffix(".toml") {
                 Some(scene) => assert!(ShippedScene::named(scene).is_some(), "{name}"),
-                None => assert!(name == "README.md" || shipped_file(name).is_some(), "{name}"),
+                None => assert!(
+                    name == "README.md" || shipped_file(name).is_some(),
+                    "{name}"
+                ),
             }
         }
     }
@@ -280,42 +343,80 @@ mod tests {
     #[test]
     fn a_shipped_scene_is_the_scene_in_its_file() {
         for scene in SCENES.iter().filter(|scene| scene.name != "million") {
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(scene.name).with_extension("toml");
+            let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("scenes")
+                .join(scene.name)
+                .with_extension("toml");
             let from_file = resolve(&load(path.to_str().unwrap()).unwrap()).unwrap();
             let embedded = resolve(&load(scene.name).unwrap()).unwrap();
-            assert_eq!(format!("{:?}", embedded.scene), format!("{:?}", from_file.scene), "{}", scene.name);
-            assert_eq!((embedded.warnings, from_file.warnings), (Vec::new(), Vec::new()), "{}", scene.name);
+            assert_eq!(
+                format!("{:?}", embedded.scene),
+                format!("{:?}", from_file.scene),
+                "{}",
+                scene.name
+            );
+            assert_eq!(
+                (embedded.warnings, from_file.warnings),
+                (Vec::new(), Vec::new()),
+                "{}",
+                scene.name
+            );
         }
     }
 
     #[test]
     fn what_is_not_there_is_said_in_one_sentence() {
         for (input, said) in [
-            ("taepot", "`taepot` is neither a file nor a shipped scene; did you mean `teapot`?"),
+            (
+                "taepot",
+                "`taepot` is neither a file nor a shipped scene; did you mean `teapot`?",
+            ),
             ("scenes/taepot.toml", "did you mean `teapot`?"),
             ("torus", "did you mean `builtin:torus`?"),
-            ("nothing-like-it.obj", "`nothing-like-it.obj` is neither a file nor a shipped scene"),
+            (
+                "nothing-like-it.obj",
+                "`nothing-like-it.obj` is neither a file nor a shipped scene",
+            ),
             (
                 "nothing-like-it",
                 "is neither a file nor a shipped scene (expected a scene file .toml, a mesh file .obj,",
             ),
-            ("Cargo.lock", "Cargo.lock: neither a scene nor a mesh file by its ending"),
+            (
+                "Cargo.lock",
+                "Cargo.lock: neither a scene nor a mesh file by its ending",
+            ),
         ] {
             let error = load(input).unwrap_err();
             assert!(error.to_string().contains(said), "{error}");
             assert!(!error.to_string().contains('\n'));
         }
         let error = resolve(&load("builtin:spere").unwrap()).unwrap_err();
-        assert!(error.to_string().starts_with("no built-in mesh is named `spere`; did you mean `sphere`?"), "{error}");
+        assert!(
+            error
+                .to_string()
+                .starts_with("no built-in mesh is named `spere`; did you mean `sphere`?"),
+            "{error}"
+        );
         let error = resolve(&load("shipped:teapot.obj").unwrap()).unwrap_err();
-        assert_eq!(error.to_string(), "no mesh `teapot.obj` is shipped: expected one of vase.obj, football.obj");
+        assert_eq!(
+            error.to_string(),
+            "no mesh `teapot.obj` is shipped: expected one of vase.obj, football.obj"
+        );
     }
 
     #[test]
     fn a_mesh_that_a_scene_file_names_is_told_with_its_line() {
-        let file = SceneFile::parse("[[object]]\nmesh = \"sphere\"\n", "folder/scene.toml").unwrap();
+        let file =
+            SceneFile::parse("[[object]]\nmesh = \"sphere\"\n", "folder/scene.toml").unwrap();
         let error = resolve(&file).unwrap_err();
-        assert!(error.render(false).contains("folder/scene.toml:2:8"), "{}", error.render(false));
-        assert!(error.to_string().contains("did you mean `builtin:sphere`?"), "{error}");
+        assert!(
+            error.render(false).contains("folder/scene.toml:2:8"),
+            "{}",
+            error.render(false)
+        );
+        assert!(
+            error.to_string().contains("did you mean `builtin:sphere`?"),
+            "{error}"
+        );
     }
 }

@@ -101,12 +101,20 @@ pub struct Light {
 impl Light {
     /// A light at infinity: a unit vector toward it (L21 1).
     pub fn directional(direction: DVec3, colour: Rgb) -> Self {
-        Light { place: Place::Infinite(direction), colour, falloff: Falloff::None }
+        Light {
+            place: Place::Infinite(direction),
+            colour,
+            falloff: Falloff::None,
+        }
     }
 
     /// A light at a position that does not grow weaker.
     pub fn positional(position: DVec3, colour: Rgb) -> Self {
-        Light { place: Place::Local(position), colour, falloff: Falloff::None }
+        Light {
+            place: Place::Local(position),
+            colour,
+            falloff: Falloff::None,
+        }
     }
 }
 
@@ -196,6 +204,8 @@ impl Lighting {
 
     /// Whether a light grows weaker with its distance.
     pub fn is_attenuated(&self) -> bool {
-        self.lights.iter().any(|light| light.place.is_local() && light.falloff != Falloff::None)
+        self.lights
+            .iter()
+            .any(|light| light.place.is_local() && light.falloff != Falloff::None)
     }
 }

@@ -43,7 +43,10 @@ impl<A: Parts, B: Parts> Parts for (A, B) {
 }
 
 /// Runs both, on two threads where there are some.
-pub(crate) fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+pub(crate) fn join<A: Send, B: Send>(
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
     #[cfg(feature = "threads")]
     return rayon::join(a, b);
     #[cfg(not(feature = "threads"))]
@@ -66,10 +69,16 @@ pub(crate) fn for_each_chunk<P: Parts>(all: P, size: usize, work: &(dyn Fn(usize
 }
 
 /// The values of `of` for 0 to `count` − 1.
-pub(crate) fn collect<T: Clone + Default + Send>(count: usize, chunk: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub(crate) fn collect<T: Clone + Default + Send>(
+    count: usize,
+    chunk: usize,
+    of: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
     let mut all = vec![T::default(); count];
     for_each_chunk(&mut all[..], chunk, &|first, part: &mut [T]| {
-        part.iter_mut().enumerate().for_each(|(i, value)| *value = of(first + i));
+        part.iter_mut()
+            .enumerate()
+            .for_each(|(i, value)| *value = of(first + i));
     });
     all
 }
@@ -84,7 +93,10 @@ fn from<P: Parts>(first: usize, all: P, size: usize, work: &(dyn Fn(usize, P) + 
     }
     let middle = chunks / 2 * size;
     let (left, right) = all.split(middle);
-    join(|| from(first, left, size, work), || from(first + middle, right, size, work));
+    join(
+        || from(first, left, size, work),
+        || from(first + middle, right, size, work),
+    );
 }
 
 #[cfg(test)]
@@ -95,12 +107,18 @@ mod tests {
     fn every_element_is_met_once_in_chunks_of_the_size() {
         for len in [0, 1, 6, 7, 8, 49, 50, 1000] {
             let (mut firsts, mut sizes) = (vec![usize::MAX; len], vec![0u8; len]);
-            for_each_chunk((&mut firsts[..], &mut sizes[..]), 7, &|first, (firsts, sizes)| {
-                let size = firsts.len() as u8;
-                firsts.iter_mut().for_each(|f| *f = first);
-                sizes.iter_mut().for_each(|s| *s += size);
-            });
-            let expected: Vec<_> = (0..len).map(|i| (i / 7 * 7, (len - i / 7 * 7).min(7) as u8)).collect();
+            for_each_chunk(
+                (&mut firsts[..], &mut sizes[..]),
+                7,
+                &|first, (firsts, sizes)| {
+                    let size = firsts.len() as u8;
+                    firsts.iter_mut().for_each(|f| *f = first);
+                    sizes.iter_mut().for_each(|s| *s += size);
+                },
+            );
+            let expected: Vec<_> = (0..len)
+                .map(|i| (i / 7 * 7, (len - i / 7 * 7).min(7) as u8))
+                .collect();
             assert_eq!(firsts.into_iter().zip(sizes).collect::<Vec<_>>(), expected);
         }
     }

@@ -32,7 +32,14 @@ impl Frustum {
     /// [    0         0           −1             0       ]      (L5, Recall Perspective Transform)
     /// ```
     pub fn matrix(&self) -> DMat4 {
-        let Frustum { left: l, right: r, bottom: b, top: t, near: n, far: f } = *self;
+        let Frustum {
+            left: l,
+            right: r,
+            bottom: b,
+            top: t,
+            near: n,
+            far: f,
+        } = *self;
         let rows = [
             DVec4::new(2.0 * n / (r - l), 0.0, (r + l) / (r - l), 0.0),
             DVec4::new(0.0, 2.0 * n / (t - b), (t + b) / (t - b), 0.0),
@@ -82,7 +89,11 @@ pub fn weights_in_space(weights: [f64; 3], inv_w: [f64; 3]) -> [f64; 3] {
         return weights;
     }
     let sum = weights[0] * a + weights[1] * b + weights[2] * c;
-    [weights[0] * a / sum, weights[1] * b / sum, weights[2] * c / sum]
+    [
+        weights[0] * a / sum,
+        weights[1] * b / sum,
+        weights[2] * c / sum,
+    ]
 }
 
 #[cfg(test)]
@@ -104,7 +115,10 @@ mod tests {
             // Two points in front of an eye that looks along −z, and one between them in space.
             let (a, b) = ((number(), -1.5 + number()), (number(), -3.5 + number()));
             let beta = 0.5 + 0.5 * number();
-            let p = (beta * a.0 + (1.0 - beta) * b.0, beta * a.1 + (1.0 - beta) * b.1);
+            let p = (
+                beta * a.0 + (1.0 - beta) * b.0,
+                beta * a.1 + (1.0 - beta) * b.1,
+            );
             // On the screen, at distance 1: y' = y / −z. α from y'_P = α y'_A + (1 − α) y'_B.
             let on_screen = |(y, z): (f64, f64)| y / -z;
             let (y_a, y_b, y_p) = (on_screen(a), on_screen(b), on_screen(p));
@@ -118,7 +132,10 @@ mod tests {
             let found = weight_in_space(alpha, a.1, b.1);
             assert!((found - beta).abs() <= off, "{found} is not {beta}");
             let printed = printed_weight_in_space(alpha, a.1, b.1);
-            assert!((printed - (1.0 - beta)).abs() <= 2.0 * off, "it is the weight of B: {printed}, {beta}");
+            assert!(
+                (printed - (1.0 - beta)).abs() <= 2.0 * off,
+                "it is the weight of B: {printed}, {beta}"
+            );
             let of_three = weights_in_space([alpha, 1.0 - alpha, 0.0], [1.0 / a.1, 1.0 / b.1, 7.0]);
             assert!((of_three[0] - beta).abs() <= 2.0 * off && of_three[2] == 0.0);
         }
@@ -127,22 +144,44 @@ mod tests {
     #[test]
     fn at_its_end_a_point_has_the_whole_weight_and_as_printed_none() {
         for (z_a, z_b) in [(-1.0, -4.0), (-4.0, -1.0), (2.0, 3.0)] {
-            assert_eq!([1.0, 0.0].map(|alpha| weight_in_space(alpha, z_a, z_b)), [1.0, 0.0]);
-            assert_eq!([1.0, 0.0].map(|alpha| printed_weight_in_space(alpha, z_a, z_b)), [0.0, 1.0]);
+            assert_eq!(
+                [1.0, 0.0].map(|alpha| weight_in_space(alpha, z_a, z_b)),
+                [1.0, 0.0]
+            );
+            assert_eq!(
+                [1.0, 0.0].map(|alpha| printed_weight_in_space(alpha, z_a, z_b)),
+                [0.0, 1.0]
+            );
         }
         // In the middle of the picture of an edge from depth 1 to depth 4: a fifth of the way in space.
         assert_eq!(weight_in_space(0.5, -1.0, -4.0), 0.8);
-        assert_eq!(weights_in_space([0.25, 0.5, 0.25], [3.0; 3]), [0.25, 0.5, 0.25]);
+        assert_eq!(
+            weights_in_space([0.25, 0.5, 0.25], [3.0; 3]),
+            [0.25, 0.5, 0.25]
+        );
     }
 
     #[test]
     fn depth_keeps_its_order_and_not_its_value() {
-        let frustum = Frustum { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0, near: 0.5, far: 8.0 };
+        let frustum = Frustum {
+            left: -1.0,
+            right: 1.0,
+            bottom: -1.0,
+            top: 1.0,
+            near: 0.5,
+            far: 8.0,
+        };
         let depths: Vec<f64> = (0..=60).map(|k| -0.5 - 7.5 * f64::from(k) / 60.0).collect();
         let mapped: Vec<f64> = depths.iter().map(|&z| frustum.ndc_depth(z)).collect();
-        assert!(mapped.windows(2).all(|pair| pair[0] < pair[1]), "farther stays farther");
+        assert!(
+            mapped.windows(2).all(|pair| pair[0] < pair[1]),
+            "farther stays farther"
+        );
         // Sums of two numbers up to 2.2, rounded thrice each.
-        assert!((mapped[0] + 1.0).abs() <= 8.0 * HALF * 2.2 && (mapped[60] - 1.0).abs() <= 8.0 * HALF * 2.2);
+        assert!(
+            (mapped[0] + 1.0).abs() <= 8.0 * HALF * 2.2
+                && (mapped[60] - 1.0).abs() <= 8.0 * HALF * 2.2
+        );
         // Preserved up to scale would put the middle of the depths in the middle: it is at 17/15 − 16/15 · 4/17 = 15/17.
         assert!((frustum.ndc_depth(-4.25) - 15.0 / 17.0).abs() <= 8.0 * HALF * 2.2);
         // Half of the cube is nearer than 2fn/(f + n) = 0.94.
@@ -151,7 +190,14 @@ mod tests {
 
     #[test]
     fn the_matrix_maps_depth_as_the_formula() {
-        let frustum = Frustum { left: -0.3, right: 0.5, bottom: -0.2, top: 0.6, near: 0.25, far: 40.0 };
+        let frustum = Frustum {
+            left: -0.3,
+            right: 0.5,
+            bottom: -0.2,
+            top: 0.6,
+            near: 0.25,
+            far: 40.0,
+        };
         let matrix = frustum.matrix();
         for z in [-0.25, -1.0, -7.5, -40.0] {
             let clip = matrix * DVec4::new(0.3, -0.7, z, 1.0);
@@ -178,17 +224,30 @@ mod tests {
             far,
         };
         let top = near * libm::tan(fovy.to_radians() / 2.0);
-        let frustum = Frustum { left: -top * aspect, right: top * aspect, bottom: -top, top, near, far };
+        let frustum = Frustum {
+            left: -top * aspect,
+            right: top * aspect,
+            bottom: -top,
+            top,
+            near,
+            far,
+        };
         let [right, up, forward] = camera.axes();
         let mut random = Random::new(2);
         for _ in 0..200 {
             let p = DVec3::from_array([(); 3].map(|()| 10.0 * f64::from(random.signed())));
             let seen = p - camera.eye;
             let in_camera = DVec4::new(seen.dot(right), seen.dot(up), -seen.dot(forward), 1.0);
-            let (theirs, ours) = (frustum.matrix() * in_camera, camera.clip_matrix(aspect) * p.extend(1.0));
+            let (theirs, ours) = (
+                frustum.matrix() * in_camera,
+                camera.clip_matrix(aspect) * p.extend(1.0),
+            );
             let expected = DVec4::new(theirs.x, theirs.y, 0.5 * (theirs.z + theirs.w), theirs.w);
             // Coordinates up to 20, times up to 2.2, some ten roundings: 20 · 2.2 · 10 half-ulps on each side.
-            assert!((ours - expected).abs().max_element() <= 2.0 * 440.0 * HALF, "{ours} is not {expected}");
+            assert!(
+                (ours - expected).abs().max_element() <= 2.0 * 440.0 * HALF,
+                "{ours} is not {expected}"
+            );
         }
     }
 }

@@ -20,12 +20,20 @@ pub type LinearPicture = Picture<[f32; 4]>;
 impl<T: Copy> Picture<T> {
     /// A picture of `width` × `height` texels, all `fill`.
     pub fn new(width: usize, height: usize, fill: T) -> Self {
-        Picture { width, height, texels: vec![fill; width * height] }
+        Picture {
+            width,
+            height,
+            texels: vec![fill; width * height],
+        }
     }
 
     /// A picture from `texels`, row by row from the top; `None` unless there are `width` × `height` of them.
     pub fn from_texels(width: usize, height: usize, texels: Vec<T>) -> Option<Self> {
-        (texels.len() == width * height).then_some(Picture { width, height, texels })
+        (texels.len() == width * height).then_some(Picture {
+            width,
+            height,
+            texels,
+        })
     }
 
     /// Texels a row.
@@ -65,6 +73,10 @@ impl<T: Copy> Picture<T> {
 
     /// The same picture with every texel passed through `f`.
     pub fn map<U: Copy>(&self, f: impl Fn(T) -> U) -> Picture<U> {
-        Picture { width: self.width, height: self.height, texels: self.texels.iter().map(|&t| f(t)).collect() }
+        Picture {
+            width: self.width,
+            height: self.height,
+            texels: self.texels.iter().map(|&t| f(t)).collect(),
+        }
     }
 }

@@ -37,13 +37,20 @@ pub fn triangulated(frame: &Frame) -> Triangulated {
         if corners.len() == 3 {
             return add(corners);
         }
-        let places: Vec<Place> = corners.iter().map(|&v| place(&frame.vertices()[v as usize])).collect();
+        let places: Vec<Place> = corners
+            .iter()
+            .map(|&v| place(&frame.vertices()[v as usize]))
+            .collect();
         match ears(&places) {
             Some(ears) => ears.iter().for_each(|ear| add(&ear.map(|i| corners[i]))),
             None => not_simple += 1,
         }
     });
-    Triangulated { frame: triangles, origins, not_simple }
+    Triangulated {
+        frame: triangles,
+        origins,
+        not_simple,
+    }
 }
 
 /// Column and row in 1/256 pixel: at most 2²³ from 0 ([`Frame::GUARD`] pixels), so that twice an area is below 2⁵⁰.
@@ -63,13 +70,22 @@ fn area(a: Place, b: Place, c: Place) -> i64 {
 fn ears(places: &[Place]) -> Option<Vec<[usize; 3]>> {
     let origin = *places.first()?;
     // A polygon of 2³² corners adds at most 2³² areas of 2⁵⁰.
-    let whole: i128 = places.windows(2).map(|edge| i128::from(area(origin, edge[0], edge[1]))).sum();
+    let whole: i128 = places
+        .windows(2)
+        .map(|edge| i128::from(area(origin, edge[0], edge[1])))
+        .sum();
     let sign = whole.signum() as i64;
     if sign == 0 {
-        let is_line = places.iter().all(|&p| places.iter().all(|&q| area(origin, p, q) == 0));
+        let is_line = places
+            .iter()
+            .all(|&p| places.iter().all(|&q| area(origin, p, q) == 0));
         return is_line.then(Vec::new);
     }
-    let mut ring = Ring { places, left: (0..places.len()).collect(), sign };
+    let mut ring = Ring {
+        places,
+        left: (0..places.len()).collect(),
+        sign,
+    };
     let mut triangles = Vec::new();
     // Starting beside the first corner and staying there makes the fan about it.
     let mut at = 1;
@@ -108,7 +124,11 @@ impl Ring<'_> {
     /// The corner `i` of those that are left, between its neighbours.
     fn corner(&self, i: usize) -> [usize; 3] {
         let n = self.left.len();
-        [self.left[(i + n - 1) % n], self.left[i], self.left[(i + 1) % n]]
+        [
+            self.left[(i + n - 1) % n],
+            self.left[i],
+            self.left[(i + 1) % n],
+        ]
     }
 
     /// Twice the area at the corner `i`: positive where the polygon is convex.
@@ -126,13 +146,21 @@ impl Ring<'_> {
         }
         let [a, b, c] = self.corner(i).map(|k| self.places[k]);
         let blocks = |p: Place| {
-            let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(from, to)| self.sign * area(from, to, p));
-            let is_inside = if strict { ab >= 0 && bc >= 0 } else { ab > 0 && bc > 0 };
+            let [ab, bc, ca] =
+                [(a, b), (b, c), (c, a)].map(|(from, to)| self.sign * area(from, to, p));
+            let is_inside = if strict {
+                ab >= 0 && bc >= 0
+            } else {
+                ab > 0 && bc > 0
+            };
             is_inside && ca >= 0 && ![a, b, c].contains(&p)
         };
         let n = self.left.len();
         (0..n).all(|k| {
-            let (p, q) = (self.places[self.left[k]], self.places[self.left[(k + 1) % n]]);
+            let (p, q) = (
+                self.places[self.left[k]],
+                self.places[self.left[(k + 1) % n]],
+            );
             !blocks(p) && !segments_cross(a, c, p, q)
         })
     }
@@ -148,10 +176,18 @@ fn segments_cross(a: Place, b: Place, p: Place, q: Place) -> bool {
 fn are_apart(places: &[Place], triangles: &[[usize; 3]], sign: i64) -> bool {
     // Two convex shapes are apart if an edge of one has the other on its outer side.
     let separates = |t: &[Place; 3], other: &[Place; 3]| {
-        (0..3).any(|k| other.iter().all(|&p| sign * area(t[k], t[(k + 1) % 3], p) <= 0))
+        (0..3).any(|k| {
+            other
+                .iter()
+                .all(|&p| sign * area(t[k], t[(k + 1) % 3], p) <= 0)
+        })
     };
     let triangles: Vec<[Place; 3]> = triangles.iter().map(|t| t.map(|i| places[i])).collect();
-    triangles.iter().enumerate().all(|(i, t)| triangles[..i].iter().all(|u| separates(t, u) || separates(u, t)))
+    triangles.iter().enumerate().all(|(i, t)| {
+        triangles[..i]
+            .iter()
+            .all(|u| separates(t, u) || separates(u, t))
+    })
 }
 
 #[cfg(test)]
@@ -175,25 +211,50 @@ mod tests {
     }
 
     fn triangles(polygon: &[(f64, f64)]) -> Option<Vec<[usize; 3]>> {
-        ears(&polygon.iter().map(|&(x, y)| ((x * 256.0) as i64, (y * 256.0) as i64)).collect::<Vec<_>>())
+        ears(
+            &polygon
+                .iter()
+                .map(|&(x, y)| ((x * 256.0) as i64, (y * 256.0) as i64))
+                .collect::<Vec<_>>(),
+        )
     }
 
     #[test]
     fn a_convex_polygon_becomes_the_fan_about_its_first_corner() {
         let pentagon = [(4.0, 0.0), (8.0, 3.0), (6.0, 8.0), (2.0, 8.0), (0.0, 3.0)];
-        assert_eq!(triangles(&pentagon), Some(vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
+        assert_eq!(
+            triangles(&pentagon),
+            Some(vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]])
+        );
         let reversed: Points = pentagon.iter().rev().copied().collect();
-        assert_eq!(triangles(&reversed), Some(vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
+        assert_eq!(
+            triangles(&reversed),
+            Some(vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]])
+        );
         assert_eq!(check(9, &[&pentagon]), 0);
     }
 
     #[test]
     fn triangles_pass_and_pieces_know_their_polygon() {
-        let frame =
-            shape(9, 9, &[&[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)], &[(4.0, 4.0), (8.0, 4.0), (8.0, 8.0), (4.0, 8.0)]]);
+        let frame = shape(
+            9,
+            9,
+            &[
+                &[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)],
+                &[(4.0, 4.0), (8.0, 4.0), (8.0, 8.0), (4.0, 8.0)],
+            ],
+        );
         let cut = triangulated(&frame);
-        let pieces: Vec<_> = cut.frame.polygons().iter().map(|p| (cut.frame.corners(p).to_vec(), p.source)).collect();
-        assert_eq!(pieces, [(vec![0, 1, 2], 0), (vec![3, 4, 5], 1), (vec![3, 5, 6], 1)]);
+        let pieces: Vec<_> = cut
+            .frame
+            .polygons()
+            .iter()
+            .map(|p| (cut.frame.corners(p).to_vec(), p.source))
+            .collect();
+        assert_eq!(
+            pieces,
+            [(vec![0, 1, 2], 0), (vec![3, 4, 5], 1), (vec![3, 5, 6], 1)]
+        );
         assert_eq!(cut.frame.vertices(), frame.vertices());
         assert_eq!(cut.origins, [0, 1, 1]);
     }
@@ -201,7 +262,10 @@ mod tests {
     #[test]
     fn a_reflex_corner_turns_the_diagonal() {
         // The fan about the first corner would leave the arrowhead.
-        assert_eq!(triangles(&[(0.0, 0.0), (8.0, 4.0), (0.0, 8.0), (2.0, 4.0)]), Some(vec![[1, 2, 3], [0, 1, 3]]));
+        assert_eq!(
+            triangles(&[(0.0, 0.0), (8.0, 4.0), (0.0, 8.0), (2.0, 4.0)]),
+            Some(vec![[1, 2, 3], [0, 1, 3]])
+        );
     }
 
     #[test]
@@ -216,14 +280,26 @@ mod tests {
 
     #[test]
     fn repeated_corners_and_spikes_add_nothing() {
-        let doubled: Points =
-            [(0.5, 0.5), (8.5, 0.5), (8.5, 8.5), (0.5, 8.5)].iter().flat_map(|&p| [p, p, p]).collect();
+        let doubled: Points = [(0.5, 0.5), (8.5, 0.5), (8.5, 8.5), (0.5, 8.5)]
+            .iter()
+            .flat_map(|&p| [p, p, p])
+            .collect();
         assert_eq!(triangles(&doubled).map(|t| t.len()), Some(2));
         assert_eq!(check(9, &[&doubled]), 0);
-        let spike = [(1.0, 1.0), (5.0, 1.0), (8.0, 1.0), (5.0, 1.0), (5.0, 6.0), (1.0, 6.0)];
+        let spike = [
+            (1.0, 1.0),
+            (5.0, 1.0),
+            (8.0, 1.0),
+            (5.0, 1.0),
+            (5.0, 6.0),
+            (1.0, 6.0),
+        ];
         assert_eq!(triangles(&spike).map(|t| t.len()), Some(2));
         assert_eq!(check(9, &[&spike]), 0);
-        assert_eq!(triangles(&[(1.0, 1.0), (2.0, 2.0), (5.0, 5.0), (3.0, 3.0)]), Some(vec![]));
+        assert_eq!(
+            triangles(&[(1.0, 1.0), (2.0, 2.0), (5.0, 5.0), (3.0, 3.0)]),
+            Some(vec![])
+        );
         assert_eq!(triangles(&[(1.0, 1.0); 5]), Some(vec![]));
     }
 
@@ -243,11 +319,22 @@ mod tests {
         let lopsided = [(0.0, 0.0), (8.0, 8.0), (8.0, 2.0), (0.0, 8.0)];
         // Every corner of a pentagram is convex: it has ears, and they overlap.
         let pentagram = [(4.0, 0.0), (6.0, 8.0), (0.0, 3.0), (8.0, 3.0), (2.0, 8.0)];
-        let twice_around = [(0.0, 0.0), (8.0, 0.0), (4.0, 8.0), (0.0, 0.0), (8.0, 0.0), (4.0, 8.0)];
+        let twice_around = [
+            (0.0, 0.0),
+            (8.0, 0.0),
+            (4.0, 8.0),
+            (0.0, 0.0),
+            (8.0, 0.0),
+            (4.0, 8.0),
+        ];
         let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)];
         for polygon in [&bow_tie[..], &lopsided, &pentagram, &twice_around] {
             let cut = triangulated(&shape(9, 9, &[polygon, &square]));
-            assert_eq!((cut.not_simple, cut.frame.polygons().len()), (1, 2), "{polygon:?}");
+            assert_eq!(
+                (cut.not_simple, cut.frame.polygons().len()),
+                (1, 2),
+                "{polygon:?}"
+            );
             assert!(cut.frame.polygons().iter().all(|p| p.source == 1));
         }
     }
@@ -255,7 +342,10 @@ mod tests {
     #[test]
     fn the_guard_band_is_within_the_integers() {
         let g = f64::from(Frame::GUARD);
-        assert_eq!(check(4, &[&[(-g, -g), (g, -g), (g, g), (1.0, 2.0), (-g, g)]]), 0);
+        assert_eq!(
+            check(4, &[&[(-g, -g), (g, -g), (g, g), (1.0, 2.0), (-g, g)]]),
+            0
+        );
     }
 
     /// Corners in the directions of their numbers about the middle: star-shaped, of any concavity.
@@ -265,7 +355,10 @@ mod tests {
                 let angle = core::f64::consts::TAU * k as f64 / corners as f64;
                 // 1/64 pixel is more than enough to keep neighbours apart.
                 let radius = 4.0 + dice.below(27 * 64) as f64 / 64.0;
-                (32.5 + radius * libm::cos(angle), 32.5 + radius * libm::sin(angle))
+                (
+                    32.5 + radius * libm::cos(angle),
+                    32.5 + radius * libm::sin(angle),
+                )
             })
             .collect()
     }
@@ -299,12 +392,17 @@ mod tests {
     fn polygons_that_share_a_ragged_edge_tile_the_picture() {
         let mut dice = Dice::new(4);
         for _ in 0..50 {
-            let ragged: Points = (0..=16).map(|k| (2.0 * k as f64, dice.below(32 * 64) as f64 / 64.0)).collect();
+            let ragged: Points = (0..=16)
+                .map(|k| (2.0 * k as f64, dice.below(32 * 64) as f64 / 64.0))
+                .collect();
             let above: Points = [&[(0.0, 0.0)][..], &ragged, &[(32.0, 0.0)]].concat();
             let below: Points = [&[(0.0, 32.0)][..], &ragged, &[(32.0, 32.0)]].concat();
             assert_eq!(check(32, &[&above, &below]), 0);
             let cut = triangulated(&shape(32, 32, &[&above, &below]));
-            assert!(covered(&cut.frame).texels().iter().all(|&n| n == 1), "{ragged:?}");
+            assert!(
+                covered(&cut.frame).texels().iter().all(|&n| n == 1),
+                "{ragged:?}"
+            );
         }
     }
 
@@ -323,7 +421,11 @@ mod tests {
                 } else if (i + 1) % n == j {
                     !on(c, d, a) && !on(a, b, d)
                 } else {
-                    !segments_cross(a, b, c, d) && !on(a, b, c) && !on(a, b, d) && !on(c, d, a) && !on(c, d, b)
+                    !segments_cross(a, b, c, d)
+                        && !on(a, b, c)
+                        && !on(a, b, d)
+                        && !on(c, d, a)
+                        && !on(c, d, b)
                 }
             })
         })
@@ -335,9 +437,13 @@ mod tests {
         let (mut simple, mut left_out, mut touching) = (0, 0, 0);
         for round in 0..20_000 {
             // A coarse grid: most corners repeat, touch or line up with others.
-            let corners: Vec<Place> =
-                (0..4 + round % 6).map(|_| (dice.below(6) * 128 + 128, dice.below(6) * 128 + 128)).collect();
-            let points: Points = corners.iter().map(|&(x, y)| (x as f64 / 256.0, y as f64 / 256.0)).collect();
+            let corners: Vec<Place> = (0..4 + round % 6)
+                .map(|_| (dice.below(6) * 128 + 128, dice.below(6) * 128 + 128))
+                .collect();
+            let points: Points = corners
+                .iter()
+                .map(|&(x, y)| (x as f64 / 256.0, y as f64 / 256.0))
+                .collect();
             match (is_simple(&corners), check(4, &[&points])) {
                 (true, not_simple) => {
                     assert_eq!(not_simple, 0, "{points:?}");
@@ -347,6 +453,9 @@ mod tests {
                 (false, _) => left_out += 1,
             }
         }
-        assert!(simple > 2000 && left_out > 2000 && touching > 1000, "{simple} {left_out} {touching}");
+        assert!(
+            simple > 2000 && left_out > 2000 && touching > 1000,
+            "{simple} {left_out} {touching}"
+        );
     }
 }

@@ -28,7 +28,8 @@ fn lights(count: usize) -> Vec<Light> {
 }
 
 fn sphere(change: impl FnOnce(&mut Scene)) -> Frame {
-    let mut scene = Scene::of_mesh(builtin("sphere?rings=10&segments=20").expect("a built-in mesh"));
+    let mut scene =
+        Scene::of_mesh(builtin("sphere?rings=10&segments=20").expect("a built-in mesh"));
     (scene.width, scene.height) = (96, 72);
     change(&mut scene);
     scene.frame().expect("a frame")
@@ -46,13 +47,25 @@ fn equal_normals_make_all_methods_equal() {
     for count in [0, 1, 3, 6] {
         let mut builder = FrameBuilder::new(64, 48);
         let view = DVec3::new(0.1, 0.2, 1.0).normalize();
-        let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &lights(count), view));
+        let material = builder.lighting(Lighting::new(
+            &Material::default(),
+            [1.0; 3],
+            &lights(count),
+            view,
+        ));
         for number in 0..6 {
             let corners: Vec<u32> = support::random_polygon(&mut random, 64, 48, 3 + number % 4)
                 .iter()
                 .map(|c| {
                     let (x, y) = (SubPixel::from_bits(c.x), SubPixel::from_bits(c.y));
-                    builder.vertex(Vertex { x, y, depth: c.depth, inv_w: 1.0, normal, material })
+                    builder.vertex(Vertex {
+                        x,
+                        y,
+                        depth: c.depth,
+                        inv_w: 1.0,
+                        normal,
+                        material,
+                    })
                 })
                 .collect();
             builder.polygon(&corners, normal, number as u32);
@@ -60,9 +73,15 @@ fn equal_normals_make_all_methods_equal() {
         let frame = builder.finish().expect("a frame");
         let first = METHODS[0].variant().render_linear(&frame);
         for entry in METHODS {
-            let difference = compare(&first, &entry.variant().render_linear(&frame)).expect("equal sizes");
+            let difference =
+                compare(&first, &entry.variant().render_linear(&frame)).expect("equal sizes");
             let bound = METHODS[0].info.bound(&frame) + entry.info.bound(&frame);
-            assert!(difference.max <= bound, "{} with {count} lights: {}", entry.info.name, difference.max);
+            assert!(
+                difference.max <= bound,
+                "{} with {count} lights: {}",
+                entry.info.name,
+                difference.max
+            );
             assert_eq!(difference.coverage_mismatches, 0);
         }
     }
@@ -76,9 +95,15 @@ fn any_number_of_lights() {
         assert_eq!(frame.light_count(), count);
         for entry in METHODS {
             let truth = reference::render(&frame, entry.info.model).to_linear();
-            let difference = compare(&truth, &entry.variant().render_linear(&frame)).expect("equal sizes");
+            let difference =
+                compare(&truth, &entry.variant().render_linear(&frame)).expect("equal sizes");
             let bound = entry.info.bound(&frame);
-            assert!(difference.max <= bound, "{}, {count} lights: {} over {bound}", entry.info.name, difference.max);
+            assert!(
+                difference.max <= bound,
+                "{}, {count} lights: {} over {bound}",
+                entry.info.name,
+                difference.max
+            );
         }
     }
     let mut scene = Scene::of_mesh(builtin("cube").expect("a built-in mesh"));
@@ -90,7 +115,8 @@ fn any_number_of_lights() {
 /// highlight (trap T9).
 #[test]
 fn a_light_behind_makes_no_highlight() {
-    let mut scene = Scene::of_mesh(builtin("sphere?rings=40&segments=80").expect("a built-in mesh"));
+    let mut scene =
+        Scene::of_mesh(builtin("sphere?rings=40&segments=80").expect("a built-in mesh"));
     (scene.width, scene.height) = (96, 72);
     let view = scene.camera.view();
     scene.lights[0].place = Place::Infinite(-view);
@@ -100,10 +126,16 @@ fn a_light_behind_makes_no_highlight() {
     for entry in METHODS {
         let picture = entry.variant().render_linear(&frame);
         for (texel, normal) in picture.texels().iter().zip(normals.texels()) {
-            let n = DVec3::new(normal[0].into(), normal[1].into(), normal[2].into()) * 2.0 - DVec3::ONE;
+            let n =
+                DVec3::new(normal[0].into(), normal[1].into(), normal[2].into()) * 2.0 - DVec3::ONE;
             // Far enough from the rim that no corner of the polygon, 4.5 degrees wide, faces the light.
             if texel[3] > 0.0 && (0.3..0.6).contains(&n.dot(view)) {
-                assert_eq!(texel[..3], Material::default().ambient, "{}", entry.info.name);
+                assert_eq!(
+                    texel[..3],
+                    Material::default().ambient,
+                    "{}",
+                    entry.info.name
+                );
                 compared += 1;
             }
         }
@@ -116,8 +148,19 @@ fn a_light_behind_makes_no_highlight() {
 fn no_lights_means_ambient_only() {
     let frame = sphere(|scene| scene.lights.clear());
     for entry in METHODS {
-        for texel in entry.variant().render_linear(&frame).texels().iter().filter(|t| t[3] > 0.0) {
-            assert_eq!(texel[..3], Material::default().ambient, "{}", entry.info.name);
+        for texel in entry
+            .variant()
+            .render_linear(&frame)
+            .texels()
+            .iter()
+            .filter(|t| t[3] > 0.0)
+        {
+            assert_eq!(
+                texel[..3],
+                Material::default().ambient,
+                "{}",
+                entry.info.name
+            );
         }
     }
 }
@@ -134,7 +177,12 @@ fn stored_and_linear_pictures_agree() {
         let mut reused = Picture::new(96, 72, [7u8; 4]);
         entry.variant().render_into(&frame, &mut reused);
         assert_eq!(stored, reused, "{}", entry.info.name);
-        assert_eq!(stored, entry.variant().render(&frame), "{}", entry.info.name);
+        assert_eq!(
+            stored,
+            entry.variant().render(&frame),
+            "{}",
+            entry.info.name
+        );
     }
 }
 
@@ -150,39 +198,77 @@ fn perspective_interpolation_is_the_references() {
             (scene.camera.near, scene.camera.far) = (0.1, 3.0);
         })
     };
-    let (space, screen) = (near(Interpolation::Perspective), near(Interpolation::Screen));
+    let (space, screen) = (
+        near(Interpolation::Perspective),
+        near(Interpolation::Screen),
+    );
     for entry in METHODS {
         let truth = reference::render(&space, entry.info.model).to_linear();
         let ours = entry.variant().render_linear(&space);
         let difference = compare(&truth, &ours).expect("equal sizes");
         let bound = entry.info.bound(&space);
-        assert!(difference.max <= bound, "{}: {} over {bound}", entry.info.name, difference.max);
+        assert!(
+            difference.max <= bound,
+            "{}: {} over {bound}",
+            entry.info.name,
+            difference.max
+        );
     }
     let differs = |name: &str| {
-        let (a, b) = (variant(name).render_linear(&space), variant(name).render_linear(&screen));
+        let (a, b) = (
+            variant(name).render_linear(&space),
+            variant(name).render_linear(&screen),
+        );
         compare(&a, &b).expect("equal sizes").max
     };
     assert!(differs("gouraud") > 1e-3 && differs("naive-phong") > 1e-3);
     assert_eq!(differs("flat"), 0.0);
-    assert_eq!(differs("slerp-phong"), 0.0, "slerp stays linear on the screen");
+    assert_eq!(
+        differs("slerp-phong"),
+        0.0,
+        "slerp stays linear on the screen"
+    );
 }
 
 /// On triangles, scanline and barycentric interpolation are one (L21 3, Figure 6).
 #[test]
 fn barycentric_pictures_are_scanline_pictures_on_triangles() {
-    let mut scene = Scene::of_mesh(builtin("sphere?rings=10&segments=20&triangles=true").expect("a built-in mesh"));
+    let mut scene = Scene::of_mesh(
+        builtin("sphere?rings=10&segments=20&triangles=true").expect("a built-in mesh"),
+    );
     (scene.width, scene.height) = (96, 72);
     let frame = scene.frame().expect("a frame");
     let mut compared = Vec::new();
     for entry in METHODS {
-        let Some(theirs) = entry.variant().render_barycentric_linear(&frame, Edges::TopLeft) else { continue };
-        let difference = compare(&theirs, &entry.variant().render_linear(&frame)).expect("equal sizes");
+        let Some(theirs) = entry
+            .variant()
+            .render_barycentric_linear(&frame, Edges::TopLeft)
+        else {
+            continue;
+        };
+        let difference =
+            compare(&theirs, &entry.variant().render_linear(&frame)).expect("equal sizes");
         // Both are within the bound of the closed form, and the forms are equal on triangles.
-        assert!(difference.max <= 2.0 * entry.info.bound(&frame), "{}: {}", entry.info.name, difference.max);
+        assert!(
+            difference.max <= 2.0 * entry.info.bound(&frame),
+            "{}: {}",
+            entry.info.name,
+            difference.max
+        );
         assert_eq!(difference.coverage_mismatches, 0);
         compared.push(entry.info.name);
     }
-    assert_eq!(compared, ["flat", "flat-average", "gouraud", "gouraud-separate", "naive-phong", "phong-rsqrt"]);
+    assert_eq!(
+        compared,
+        [
+            "flat",
+            "flat-average",
+            "gouraud",
+            "gouraud-separate",
+            "naive-phong",
+            "phong-rsqrt"
+        ]
+    );
 }
 
 /// L21 3: on triangles the picture does not depend on how they lie; on a square it does (Figure 5).
@@ -194,17 +280,25 @@ fn orientation_matters_for_squares_only() {
         scene.camera.eye = scene.camera.target + DVec3::Z * 4.0;
         (scene.camera.near, scene.camera.far) = (1.0, 8.0);
         scene.objects[0].normals = fastphong::mesh::vertex_normals::NormalSource::Given;
-        scene.objects[0].material =
-            Some(Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 });
+        scene.objects[0].material = Some(Material {
+            ambient: [0.0; 3],
+            diffuse: [1.0; 3],
+            specular: [0.0; 3],
+            shininess: 1.0,
+        });
         scene.lights = vec![Light::directional(DVec3::Z, [1.0; 3])];
         reference::render(&scene.frame().expect("a frame"), Model::Gouraud).to_linear()
     };
     let (upright, lying) = (turned("figure5?angle=0"), turned("figure5?angle=90"));
     // The picture turned back by 90 degrees: counter-clockwise in space, with y downward on the picture.
     let n = 128;
-    let back: Vec<[f32; 4]> = (0..n * n).map(|i| lying.get(i / n, n - 1 - i % n)).collect();
+    let back: Vec<[f32; 4]> = (0..n * n)
+        .map(|i| lying.get(i / n, n - 1 - i % n))
+        .collect();
     let back = Picture::from_texels(n, n, back).expect("as many texels");
-    let other: Vec<[f32; 4]> = (0..n * n).map(|i| lying.get(n - 1 - i / n, i % n)).collect();
+    let other: Vec<[f32; 4]> = (0..n * n)
+        .map(|i| lying.get(n - 1 - i / n, i % n))
+        .collect();
     let other = Picture::from_texels(n, n, other).expect("as many texels");
     let inner = |x: usize, y: usize| (x as i32 - 64).abs() + (y as i32 - 64).abs() < 40;
     let most = |turned: &Picture<[f32; 4]>| {
@@ -213,5 +307,10 @@ fn orientation_matters_for_squares_only() {
         differences.fold(0.0f32, f32::max)
     };
     // Half of the square is bright at 0 degrees and gray at 90: whichever way it is turned back.
-    assert!(most(&back) > 0.2 && most(&other) > 0.2, "{} {}", most(&back), most(&other));
+    assert!(
+        most(&back) > 0.2 && most(&other) > 0.2,
+        "{} {}",
+        most(&back),
+        most(&other)
+    );
 }

@@ -7,7 +7,9 @@ use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::picture::LinearPicture;
-use fastphong::raster::{Edges, barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours};
+use fastphong::raster::{
+    Edges, barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours,
+};
 use fastphong::scene::{Culling, Interpolation, Object, Scene};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -27,8 +29,12 @@ fn camera() -> Camera {
 }
 
 fn seen(mesh: PolygonMesh, interpolation: Interpolation) -> Frame {
-    let object =
-        Object { mesh: Arc::new(mesh), transform: DAffine3::IDENTITY, material: None, normals: NormalSource::Averaged };
+    let object = Object {
+        mesh: Arc::new(mesh),
+        transform: DAffine3::IDENTITY,
+        material: None,
+        normals: NormalSource::Averaged,
+    };
     let scene = Scene {
         width: WIDTH as u32,
         height: HEIGHT as u32,
@@ -43,13 +49,19 @@ fn seen(mesh: PolygonMesh, interpolation: Interpolation) -> Frame {
 /// A floor of two triangles over −4..4 in x and z, with a colour that is a linear function of x and z.
 fn floor(triangles: bool) -> PolygonMesh {
     let corners = [(-4.0, -4.0), (-4.0, 4.0), (4.0, 4.0), (4.0, -4.0)];
-    let mut builder = MeshBuilder::new(corners.iter().map(|&(x, z)| Vec3::new(x, 0.0, z)).collect());
+    let mut builder =
+        MeshBuilder::new(corners.iter().map(|&(x, z)| Vec3::new(x, 0.0, z)).collect());
     if triangles {
         builder.polygon(&[0, 1, 2]).polygon(&[0, 2, 3]);
     } else {
         builder.polygon(&[0, 1, 2, 3]);
     }
-    builder.colours(corners.iter().map(|&(x, z)| colour(f64::from(x), f64::from(z)).as_vec3()).collect());
+    builder.colours(
+        corners
+            .iter()
+            .map(|&(x, z)| colour(f64::from(x), f64::from(z)).as_vec3())
+            .collect(),
+    );
     builder.finish().expect("a mesh")
 }
 
@@ -74,19 +86,32 @@ fn on_floor(column: usize, row: usize) -> Option<([f64; 2], f64)> {
     let here = at(x, y)?;
     let moved = [at(x + 1.0, y)?, at(x, y + 1.0)?];
     // Corners are snapped by half a sub-pixel each way, in x and in y.
-    Some((here, moved.iter().map(|p| (p[0] - here[0]).hypot(p[1] - here[1])).sum::<f64>() / 512.0))
+    Some((
+        here,
+        moved
+            .iter()
+            .map(|p| (p[0] - here[0]).hypot(p[1] - here[1]))
+            .sum::<f64>()
+            / 512.0,
+    ))
 }
 
 /// How many pixels show another colour than the ray's, of those on the floor and not within `off` of a line of the board.
 fn wrong(picture: &LinearPicture) -> (usize, usize) {
     let (mut wrong, mut all) = (0, 0);
     for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
-        let Some(([wx, wz], off)) = on_floor(x, y) else { continue };
+        let Some(([wx, wz], off)) = on_floor(x, y) else {
+            continue;
+        };
         // Near the line an eight-millionth of the coordinates, as they are f32, is less than half a sub-pixel.
         if [wx, wz].iter().any(|c| (c - c.round()).abs() < 2.0 * off) {
             continue;
         }
-        let expected = if (wx.floor() + wz.floor()).rem_euclid(2.0) == 0.0 { 1.0 } else { 0.0 };
+        let expected = if (wx.floor() + wz.floor()).rem_euclid(2.0) == 0.0 {
+            1.0
+        } else {
+            0.0
+        };
         wrong += usize::from(picture.get(x, y)[0] != expected);
         all += 1;
     }
@@ -99,16 +124,26 @@ const BOARD: [[f32; 3]; 2] = [[1.0; 3], [0.0; 3]];
 /// and wrong in another way if the floor is cut into triangles.
 #[test]
 fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
-    let board = |triangles, interpolation| checkerboard(&seen(floor(triangles), interpolation), 1.0, BOARD);
+    let board =
+        |triangles, interpolation| checkerboard(&seen(floor(triangles), interpolation), 1.0, BOARD);
     for triangles in [false, true] {
         let (off, all) = wrong(&board(triangles, Interpolation::Perspective));
         assert!(off == 0 && all > 1000, "{off} of {all}");
         let (off, all) = wrong(&board(triangles, Interpolation::Screen));
         assert!(off * 5 > all, "{off} of {all} are wrong");
     }
-    assert_ne!(board(false, Interpolation::Screen), board(true, Interpolation::Screen), "the diagonal shows");
+    assert_ne!(
+        board(false, Interpolation::Screen),
+        board(true, Interpolation::Screen),
+        "the diagonal shows"
+    );
     let frame = seen(floor(true), Interpolation::Perspective);
-    let (off, all) = wrong(&barycentric_checkerboard(&frame, Edges::TopLeft, 1.0, BOARD));
+    let (off, all) = wrong(&barycentric_checkerboard(
+        &frame,
+        Edges::TopLeft,
+        1.0,
+        BOARD,
+    ));
     assert!(off == 0 && all > 1000, "{off} of {all}");
 }
 
@@ -120,12 +155,21 @@ fn squares_have_their_size_and_place() {
         let picture = checkerboard(&frame, size, BOARD);
         let (mut wrong, mut all) = (0, 0);
         for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
-            let Some(([wx, wz], off)) = on_floor(x, y) else { continue };
+            let Some(([wx, wz], off)) = on_floor(x, y) else {
+                continue;
+            };
             let (i, j) = (wx / size, wz / size);
-            if [i, j].iter().any(|c| (c - c.round()).abs() * size < 2.0 * off) {
+            if [i, j]
+                .iter()
+                .any(|c| (c - c.round()).abs() * size < 2.0 * off)
+            {
                 continue;
             }
-            let expected = if (i.floor() + j.floor()).rem_euclid(2.0) == 0.0 { 1.0 } else { 0.0 };
+            let expected = if (i.floor() + j.floor()).rem_euclid(2.0) == 0.0 {
+                1.0
+            } else {
+                0.0
+            };
             wrong += usize::from(picture.get(x, y)[0] != expected);
             all += 1;
         }
@@ -137,10 +181,15 @@ fn squares_have_their_size_and_place() {
 #[test]
 fn vertex_colours_are_linear_on_the_surface() {
     let frame = seen(floor(true), Interpolation::Perspective);
-    for picture in [vertex_colours(&frame), barycentric_vertex_colours(&frame, Edges::TopLeft)] {
+    for picture in [
+        vertex_colours(&frame),
+        barycentric_vertex_colours(&frame, Edges::TopLeft),
+    ] {
         let mut compared = 0;
         for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
-            let Some(([wx, wz], off)) = on_floor(x, y) else { continue };
+            let Some(([wx, wz], off)) = on_floor(x, y) else {
+                continue;
+            };
             let [r, g, b, alpha] = picture.get(x, y).map(f64::from);
             assert_eq!(alpha, 1.0, "at {x}, {y}");
             let error = (DVec3::new(r, g, b) - colour(wx, wz)).abs().max_element();
@@ -153,8 +202,16 @@ fn vertex_colours_are_linear_on_the_surface() {
     }
     let bent = vertex_colours(&seen(floor(true), Interpolation::Screen));
     let straight = vertex_colours(&frame);
-    let most = bent.texels().iter().zip(straight.texels()).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
-    assert!(most > 0.05, "linear on the screen is another picture: {most}");
+    let most = bent
+        .texels()
+        .iter()
+        .zip(straight.texels())
+        .map(|(a, b)| (a[0] - b[0]).abs())
+        .fold(0.0, f32::max);
+    assert!(
+        most > 0.05,
+        "linear on the screen is another picture: {most}"
+    );
 }
 
 /// A mesh without colours is white; colours that are not one a position are refused.
@@ -163,14 +220,31 @@ fn colours_are_one_a_position_or_none() {
     let triangle = [Vec3::ZERO, Vec3::X, Vec3::Z];
     let mut builder = MeshBuilder::new(triangle.to_vec());
     builder.polygon(&[0, 2, 1]);
-    let picture = vertex_colours(&seen(builder.clone().finish().expect("a mesh"), Interpolation::Screen));
+    let picture = vertex_colours(&seen(
+        builder.clone().finish().expect("a mesh"),
+        Interpolation::Screen,
+    ));
     assert!(picture.texels().contains(&[1.0; 4]));
-    assert!(picture.texels().iter().all(|t| *t == [1.0; 4] || t[3] == 0.0));
+    assert!(
+        picture
+            .texels()
+            .iter()
+            .all(|t| *t == [1.0; 4] || t[3] == 0.0)
+    );
     let refused = |colours: Vec<Vec3>| {
         let mut builder = builder.clone();
         builder.colours(colours);
-        builder.finish().expect_err("colours that do not fit").to_string()
+        builder
+            .finish()
+            .expect_err("colours that do not fit")
+            .to_string()
     };
-    assert_eq!(refused(vec![Vec3::ONE; 2]), "2 colours where 3 were expected");
-    assert_eq!(refused(vec![Vec3::ONE, Vec3::NAN, Vec3::ONE]), "vector 1 is not finite");
+    assert_eq!(
+        refused(vec![Vec3::ONE; 2]),
+        "2 colours where 3 were expected"
+    );
+    assert_eq!(
+        refused(vec![Vec3::ONE, Vec3::NAN, Vec3::ONE]),
+        "vector 1 is not finite"
+    );
 }

@@ -14,7 +14,12 @@ use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
 fn scene(mesh: PolygonMesh, camera: Camera) -> Scene {
-    let material = Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 };
+    let material = Material {
+        ambient: [0.0; 3],
+        diffuse: [1.0; 3],
+        specular: [0.0; 3],
+        shininess: 1.0,
+    };
     Scene {
         width: 80,
         height: 60,
@@ -53,30 +58,51 @@ fn normal(i: f64) -> Vec3 {
 fn ground(n: usize, r: f64) -> PolygonMesh {
     let at = |i: usize, j: usize| {
         let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
-        (Vec3::new((r * (2.0 * u - 1.0)) as f32, 0.0, (r * (2.0 * v - 1.0)) as f32), normal(0.1 + 0.4 * u + 0.4 * v))
+        (
+            Vec3::new(
+                (r * (2.0 * u - 1.0)) as f32,
+                0.0,
+                (r * (2.0 * v - 1.0)) as f32,
+            ),
+            normal(0.1 + 0.4 * u + 0.4 * v),
+        )
     };
-    let all: Vec<(Vec3, Vec3)> = (0..=n).flat_map(|j| (0..=n).map(move |i| at(i, j))).collect();
+    let all: Vec<(Vec3, Vec3)> = (0..=n)
+        .flat_map(|j| (0..=n).map(move |i| at(i, j)))
+        .collect();
     let mut builder = MeshBuilder::new(all.iter().map(|a| a.0).collect());
     let index = |i: usize, j: usize| (j * (n + 1) + i) as u32;
     for j in 0..n {
         for i in 0..n {
-            builder.polygon(&[index(i, j), index(i, j + 1), index(i + 1, j + 1), index(i + 1, j)]);
+            builder.polygon(&[
+                index(i, j),
+                index(i, j + 1),
+                index(i + 1, j + 1),
+                index(i + 1, j),
+            ]);
         }
     }
-    builder.normals(GivenNormals { values: all.iter().map(|a| a.1).collect(), corners: None });
+    builder.normals(GivenNormals {
+        values: all.iter().map(|a| a.1).collect(),
+        corners: None,
+    });
     builder.finish().expect("a mesh")
 }
 
 fn covered_once(frame: &Frame) -> Vec<u32> {
     let mut counts = vec![0; frame.width() * frame.height()];
-    raster::coverage(frame, |_, row, pixels| pixels.for_each(|x| counts[row * frame.width() + x] += 1));
+    raster::coverage(frame, |_, row, pixels| {
+        pixels.for_each(|x| counts[row * frame.width() + x] += 1)
+    });
     counts
 }
 
 /// Where the ray of a pixel meets the ground: (x, z), if it does before the far plane.
 fn ground_at(camera: &Camera, x: usize, y: usize) -> Option<(f64, f64)> {
     let [right, up, forward] = camera.axes();
-    let Projection::Perspective { fovy } = camera.projection else { return None };
+    let Projection::Perspective { fovy } = camera.projection else {
+        return None;
+    };
     let scale = (fovy.to_radians() / 2.0).tan();
     let ray = forward
         + right * ((x as f64 + 0.5) / 40.0 - 1.0) * scale * 80.0 / 60.0
@@ -89,11 +115,18 @@ fn ground_at(camera: &Camera, x: usize, y: usize) -> Option<(f64, f64)> {
 /// the linear ones, which is near-plane clipping, attribute clipping and perspective interpolation at once.
 #[test]
 fn ground_under_the_eye_has_the_colours_of_the_rays() {
-    for (cells, r, near) in [(1, 50.0, 0.1), (1, 5000.0, 0.5), (7, 50.0, 0.01), (1, 50.0, 1.3)] {
+    for (cells, r, near) in [
+        (1, 50.0, 0.1),
+        (1, 5000.0, 0.5),
+        (7, 50.0, 0.01),
+        (1, 50.0, 1.3),
+    ] {
         let camera = above_ground(near);
         let frame = scene(ground(cells, r), camera).frame().expect("a frame");
         assert!(frame.stats().clipped > 0);
-        let picture = Variant::parse("gouraud").expect("a method").render_linear(&frame);
+        let picture = Variant::parse("gouraud")
+            .expect("a method")
+            .render_linear(&frame);
         let mut compared = 0;
         for (x, y) in (0..60).flat_map(|y| (0..80).map(move |x| (x, y))) {
             let Some((gx, gz)) = ground_at(&camera, x, y) else {
@@ -110,12 +143,20 @@ fn ground_under_the_eye_has_the_colours_of_the_rays() {
             // Corners are snapped to 1/256 pixel, half of that off in x and y. On the ground a pixel near the horizon
             // is long: a row down from the horizon the distance changes by its own half. Rays are compared where the
             // ground moves by at most a twentieth of its size a pixel, so that 1/512 pixel is 1e-4 of it; times 0.8.
-            let step = ground_at(&camera, x, y + 1).map_or(f64::INFINITY, |(bx, bz)| (bx - gx).hypot(bz - gz));
+            let step = ground_at(&camera, x, y + 1)
+                .map_or(f64::INFINITY, |(bx, bz)| (bx - gx).hypot(bz - gz));
             if step > r / 10.0 {
                 continue;
             }
-            assert_eq!(picture.get(x, y)[3], 1.0, "a hole at {x}, {y} ({cells} cells, near {near})");
-            assert!((found - truth).abs() <= 4e-4, "{found} is not {truth} at {x}, {y} ({cells} cells, near {near})");
+            assert_eq!(
+                picture.get(x, y)[3],
+                1.0,
+                "a hole at {x}, {y} ({cells} cells, near {near})"
+            );
+            assert!(
+                (found - truth).abs() <= 4e-4,
+                "{found} is not {truth} at {x}, {y} ({cells} cells, near {near})"
+            );
             compared += 1;
         }
         assert!(compared > 800, "{compared} rays");
@@ -129,10 +170,16 @@ fn clipped_neighbours_leave_no_hole_and_no_overlap() {
     let whole = covered_once(&scene(ground(1, 60.0), camera).frame().expect("a frame"));
     for cells in [2, 5, 16] {
         let counts = covered_once(&scene(ground(cells, 60.0), camera).frame().expect("a frame"));
-        assert!(counts.iter().all(|&c| c <= 1), "{cells} cells: a pixel is drawn twice");
+        assert!(
+            counts.iter().all(|&c| c <= 1),
+            "{cells} cells: a pixel is drawn twice"
+        );
         // The rim of the ground is the same edge cut into pieces, whose ends are snapped: only there may pixels differ.
         let differing = counts.iter().zip(&whole).filter(|(a, b)| a != b).count();
-        assert!(differing <= 80, "{cells} cells: {differing} pixels differ from the whole ground");
+        assert!(
+            differing <= 80,
+            "{cells} cells: {differing} pixels differ from the whole ground"
+        );
         assert!(counts.iter().sum::<u32>() > 2000);
     }
 }
@@ -141,25 +188,54 @@ fn clipped_neighbours_leave_no_hole_and_no_overlap() {
 /// colours of the whole.
 #[test]
 fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
-    let corners = [Vec3::new(-2.0, 0.0, -3.0), Vec3::new(2.0, 0.0, -3.0), Vec3::new(0.5, 0.0, -60.0)];
+    let corners = [
+        Vec3::new(-2.0, 0.0, -3.0),
+        Vec3::new(2.0, 0.0, -3.0),
+        Vec3::new(0.5, 0.0, -60.0),
+    ];
     let mut builder = MeshBuilder::new(corners.to_vec());
-    builder.polygon(&[0, 1, 2]).normals(GivenNormals { values: [0.2, 0.5, 1.0].map(normal).to_vec(), corners: None });
+    builder.polygon(&[0, 1, 2]).normals(GivenNormals {
+        values: [0.2, 0.5, 1.0].map(normal).to_vec(),
+        corners: None,
+    });
     let mesh = builder.finish().expect("a mesh");
     let draw = |far: f64| {
-        let mut scene = scene(mesh.clone(), Camera { far, ..above_ground(0.1) });
+        let mut scene = scene(
+            mesh.clone(),
+            Camera {
+                far,
+                ..above_ground(0.1)
+            },
+        );
         scene.interpolation = Interpolation::Screen;
         let frame = scene.frame().expect("a frame");
-        (frame.stats().clipped, Variant::parse("gouraud").expect("a method").render_linear(&frame))
+        (
+            frame.stats().clipped,
+            Variant::parse("gouraud")
+                .expect("a method")
+                .render_linear(&frame),
+        )
     };
     let ((uncut, whole), (cut, part)) = (draw(100.0), draw(20.0));
     assert_eq!((uncut, cut), (0, 1));
     let mut compared = 0;
-    for (a, b) in whole.texels().iter().zip(part.texels()).filter(|(_, b)| b[3] > 0.0) {
+    for (a, b) in whole
+        .texels()
+        .iter()
+        .zip(part.texels())
+        .filter(|(_, b)| b[3] > 0.0)
+    {
         // The new corners are snapped to 1/256 pixel, half of that off; intensities change by 0.8 over some 20 rows.
-        assert!((a[0] - b[0]).abs() < 0.8 / 20.0 / 256.0 + 1e-5, "{a:?} became {b:?}");
+        assert!(
+            (a[0] - b[0]).abs() < 0.8 / 20.0 / 256.0 + 1e-5,
+            "{a:?} became {b:?}"
+        );
         compared += 1;
     }
-    assert!(compared > 300 && whole.texels().iter().filter(|t| t[3] > 0.0).count() > compared, "{compared} pixels");
+    assert!(
+        compared > 300 && whole.texels().iter().filter(|t| t[3] > 0.0).count() > compared,
+        "{compared} pixels"
+    );
 }
 
 /// A concave comb whose teeth are cut off by the near plane falls into pieces that do not touch each other.
@@ -171,7 +247,11 @@ fn a_comb_is_cut_into_its_teeth() {
         let mut outline = vec![Vec3::new(-4.0, 0.0, -6.0), Vec3::new(-4.0, 0.0, -3.0)];
         for tooth in 0..teeth {
             let x = -4.0 + 2.0 * tooth as f32;
-            outline.extend([Vec3::new(x, 0.0, 2.0), Vec3::new(x + 1.0, 0.0, 2.0), Vec3::new(x + 1.0, 0.0, -3.0)]);
+            outline.extend([
+                Vec3::new(x, 0.0, 2.0),
+                Vec3::new(x + 1.0, 0.0, 2.0),
+                Vec3::new(x + 1.0, 0.0, -3.0),
+            ]);
             if tooth + 1 < teeth {
                 outline.push(Vec3::new(x + 2.0, 0.0, -3.0));
             }
@@ -189,8 +269,15 @@ fn a_comb_is_cut_into_its_teeth() {
             scene.camera.target = DVec3::new(0.0, 0.7, -1.5);
         }
         let frame = scene.frame().expect("a frame");
-        assert_eq!(frame.polygons().len(), if bar_in_front { 1 } else { teeth }, "pieces");
-        assert!(covered_once(&frame).iter().all(|&c| c <= 1), "pieces overlap");
+        assert_eq!(
+            frame.polygons().len(),
+            if bar_in_front { 1 } else { teeth },
+            "pieces"
+        );
+        assert!(
+            covered_once(&frame).iter().all(|&c| c <= 1),
+            "pieces overlap"
+        );
     }
 }
 
@@ -199,17 +286,30 @@ fn a_comb_is_cut_into_its_teeth() {
 #[test]
 fn odd_places_give_pictures() {
     for scale in [1e-6, 1.0, 1e6, 1e14] {
-        for eye in [DVec3::new(0.1, 0.2, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::ZERO] {
-            let mesh = fastphong::mesh::builtin::builtin("torus?segments=12&sides=8").expect("a built-in mesh");
+        for eye in [
+            DVec3::new(0.1, 0.2, 0.0),
+            DVec3::new(1.0, 0.0, 0.0),
+            DVec3::ZERO,
+        ] {
+            let mesh = fastphong::mesh::builtin::builtin("torus?segments=12&sides=8")
+                .expect("a built-in mesh");
             let mut camera = above_ground(1e-3 * scale);
-            (camera.eye, camera.target) = (eye * scale, eye * scale + DVec3::new(0.3, 0.1, -1.0) * scale);
+            (camera.eye, camera.target) = (
+                eye * scale,
+                eye * scale + DVec3::new(0.3, 0.1, -1.0) * scale,
+            );
             camera.far = 1e3 * scale;
             let mut scene = scene(mesh, camera);
             scene.objects[0].transform = DAffine3::from_scale(DVec3::splat(scale));
             let frame = scene.frame().expect("a frame");
             for entry in METHODS {
                 let picture = entry.variant().render_linear(&frame);
-                assert!(picture.texels().iter().all(|t| t.iter().all(|c| (0.0..=1.0).contains(c))));
+                assert!(
+                    picture
+                        .texels()
+                        .iter()
+                        .all(|t| t.iter().all(|c| (0.0..=1.0).contains(c)))
+                );
             }
             fastphong::reference::render(&frame, fastphong::reference::Model::Phong);
         }
@@ -221,19 +321,38 @@ fn odd_places_give_pictures() {
 #[test]
 fn inside_a_closed_mesh_every_pixel_is_covered_once() {
     let mut clipped = 0;
-    for spec in ["sphere?rings=12&segments=24", "cube", "sphere?polygons=3000&triangles=true"] {
+    for spec in [
+        "sphere?rings=12&segments=24",
+        "cube",
+        "sphere?polygons=3000&triangles=true",
+    ] {
         for (eye, direction) in [
             (DVec3::ZERO, DVec3::new(0.1, 0.2, -1.0)),
             (DVec3::new(0.3, -0.2, 0.1), DVec3::new(1.0, 0.0, 0.0)),
             (DVec3::new(-0.1, 0.1, 0.3), DVec3::new(-0.5, -1.0, 0.4)),
         ] {
             let mesh = fastphong::mesh::builtin::builtin(spec).expect("a built-in mesh");
-            let mut scene = scene(mesh, Camera { eye, target: eye + direction, ..above_ground(1e-3) });
+            let mut scene = scene(
+                mesh,
+                Camera {
+                    eye,
+                    target: eye + direction,
+                    ..above_ground(1e-3)
+                },
+            );
             let frame = scene.frame().expect("a frame");
             clipped += frame.stats().clipped;
-            assert!(covered_once(&frame).iter().all(|&c| c == 1), "{spec} from {eye} along {direction}");
+            assert!(
+                covered_once(&frame).iter().all(|&c| c == 1),
+                "{spec} from {eye} along {direction}"
+            );
             scene.culling = Culling::Back;
-            assert!(covered_once(&scene.frame().expect("a frame")).iter().all(|&c| c == 0), "{spec}: only insides");
+            assert!(
+                covered_once(&scene.frame().expect("a frame"))
+                    .iter()
+                    .all(|&c| c == 0),
+                "{spec}: only insides"
+            );
         }
     }
     assert!(clipped > 0, "polygons that are seen reach behind the eye");

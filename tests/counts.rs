@@ -206,7 +206,11 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 edge_step: numbers * ADD,
                 span: numbers * ramp() + 3 * DOT + ADD + 2 * ADD,
                 walk: (lights + 1) * ADD + 2 * ADD,
-                shade: ROOT + DIVIDE + (lights + 1) * MULTIPLY + MULTIPLY + lights * (MULTIPLY + ADD + light()),
+                shade: ROOT
+                    + DIVIDE
+                    + (lights + 1) * MULTIPLY
+                    + MULTIPLY
+                    + lights * (MULTIPLY + ADD + light()),
             }
         }
         // 4.4: normals along edges; on a span J of each light and K, at both ends and then by their weights. A pixel
@@ -238,7 +242,10 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
 fn every_method_takes_what_was_counted_by_hand() {
     for entry in METHODS {
         for lights in [1, 4] {
-            let (found, hand) = (entry.variant().operations(lights), by_hand(entry.info.name, lights as u32));
+            let (found, hand) = (
+                entry.variant().operations(lights),
+                by_hand(entry.info.name, lights as u32),
+            );
             let rates = [
                 ("vertex", found.vertex, hand.vertex),
                 ("polygon", found.polygon, hand.polygon),
@@ -261,7 +268,9 @@ fn every_method_takes_what_was_counted_by_hand() {
 }
 
 fn operations(variant: &str, lights: usize) -> OperationCounts {
-    Variant::parse(variant).expect("a method of the table").operations(lights)
+    Variant::parse(variant)
+        .expect("a method of the table")
+        .operations(lights)
 }
 
 /// L21 3: "we can update I_next by a single addition per pixel", here of each of three channels, whatever the lights.
@@ -291,7 +300,10 @@ fn fast_phong_trades_the_root_for_divisions() {
         let counts = operations(&format!("fast-phong:steps={steps}"), 1);
         assert_eq!(counts.walk.roots + counts.shade.roots, 0);
         assert_eq!(counts.walk.divisions + counts.shade.divisions, steps + 2);
-        assert_eq!(counts.span.roots, 1, "the first pixel of a span has a true root");
+        assert_eq!(
+            counts.span.roots, 1,
+            "the first pixel of a span has a true root"
+        );
     }
 }
 
@@ -312,13 +324,20 @@ fn duff_phong_steps_by_additions_only() {
 #[test]
 fn slerp_steps_by_four_additions_and_eight_multiplications() {
     for lights in [1, 4] {
-        let (scalar, vector) = (operations("slerp-phong", lights), operations("slerp-phong-vector", lights));
+        let (scalar, vector) = (
+            operations("slerp-phong", lights),
+            operations("slerp-phong-vector", lights),
+        );
         assert!(scalar.edge_step == rotation() && vector.edge_step == rotation());
         assert!(scalar.walk == rotation() + (lights as u32 + 1) * (2 * MULTIPLY + ADD));
         assert!(vector.walk == rotation() + weighted_normal());
         for counts in [scalar, vector] {
             let pixel = [counts.walk, counts.shade];
-            assert!(pixel.iter().all(|c| c.roots + c.divisions + c.trigonometric == 0));
+            assert!(
+                pixel
+                    .iter()
+                    .all(|c| c.roots + c.divisions + c.trigonometric == 0)
+            );
         }
     }
 }
@@ -332,7 +351,16 @@ fn lights_are_paid_for_where_they_are_lit() {
     };
     for entry in METHODS {
         let (one, four) = (pixel(entry, 1), pixel(entry, 4));
-        assert!(one <= four && four <= 4 * one, "{}: {one}, {four}", entry.info.name);
+        assert!(
+            one <= four && four <= 4 * one,
+            "{}: {one}, {four}",
+            entry.info.name
+        );
     }
-    assert!(METHODS.iter().any(|entry| pixel(entry, 4) > pixel(entry, 1)), "some method is lit at pixels");
+    assert!(
+        METHODS
+            .iter()
+            .any(|entry| pixel(entry, 4) > pixel(entry, 1)),
+        "some method is lit at pixels"
+    );
 }

@@ -26,7 +26,12 @@ fn counts(frame: &Frame) -> Vec<u32> {
 fn half_space(t: &[Corner], column: i32, row: i32) -> bool {
     let (x, y) = (i64::from(column) * 256 + 128, i64::from(row) * 256 + 128);
     let turn = |a: &Corner, b: &Corner, x: i64, y: i64| {
-        let (ax, ay, bx, by) = (i64::from(a.x), i64::from(a.y), i64::from(b.x), i64::from(b.y));
+        let (ax, ay, bx, by) = (
+            i64::from(a.x),
+            i64::from(a.y),
+            i64::from(b.x),
+            i64::from(b.y),
+        );
         (bx - ax) * (y - ay) - (by - ay) * (x - ax)
     };
     let area = turn(&t[0], &t[1], i64::from(t[2].x), i64::from(t[2].y));
@@ -51,7 +56,13 @@ fn triangles_follow_the_top_left_rule() {
         let counts = counts(&frame(48, 40, true, std::slice::from_ref(&triangle)));
         for (i, count) in counts.iter().enumerate() {
             let inside = half_space(&triangle, (i % 48) as i32, (i / 48) as i32);
-            assert_eq!(*count, u32::from(inside), "{triangle:?} at {}, {}", i % 48, i / 48);
+            assert_eq!(
+                *count,
+                u32::from(inside),
+                "{triangle:?} at {}, {}",
+                i % 48,
+                i / 48
+            );
         }
     }
 }
@@ -69,7 +80,11 @@ fn the_engine_covers_what_the_reference_covers() {
             })
             .collect();
         let frame = frame(64, 48, false, &polygons);
-        assert_eq!(raster::polygon_numbers(&frame), reference::visibility(&frame).polygons, "round {round}");
+        assert_eq!(
+            raster::polygon_numbers(&frame),
+            reference::visibility(&frame).polygons,
+            "round {round}"
+        );
     }
 }
 
@@ -89,9 +104,16 @@ fn tilings_cover_every_pixel_once() {
                 _ => cell * at + random.below(cell as u64 * 9 / 20) as i32 - cell * 9 / 40,
             };
             let (x, y) = (push(w, i, columns), push(h, j, rows));
-            Corner { x, y, depth: 0.5, intensity: 1.0 }
+            Corner {
+                x,
+                y,
+                depth: 0.5,
+                intensity: 1.0,
+            }
         };
-        let grid: Vec<Vec<Corner>> = (0..=rows).map(|j| (0..=columns).map(|i| corner(i, j)).collect()).collect();
+        let grid: Vec<Vec<Corner>> = (0..=rows)
+            .map(|j| (0..=columns).map(|i| corner(i, j)).collect())
+            .collect();
         let mut polygons = Vec::new();
         for j in 0..rows as usize {
             let mut i = 0;
@@ -102,8 +124,14 @@ fn tilings_cover_every_pixel_once() {
                 let bottom = (i..=i + wide).rev().map(|k| grid[j + 1][k]);
                 let cell: Vec<Corner> = top.chain(bottom).collect();
                 match (wide, random.below(3)) {
-                    (1, 0) => polygons.extend([vec![cell[0], cell[1], cell[2]], vec![cell[0], cell[2], cell[3]]]),
-                    (1, 1) => polygons.extend([vec![cell[1], cell[2], cell[3]], vec![cell[1], cell[3], cell[0]]]),
+                    (1, 0) => polygons.extend([
+                        vec![cell[0], cell[1], cell[2]],
+                        vec![cell[0], cell[2], cell[3]],
+                    ]),
+                    (1, 1) => polygons.extend([
+                        vec![cell[1], cell[2], cell[3]],
+                        vec![cell[1], cell[3], cell[0]],
+                    ]),
                     _ => polygons.push(cell),
                 }
                 i += wide;
@@ -127,17 +155,32 @@ fn seen(spec: &str, culling: Culling) -> Frame {
 /// A closed mesh covers every pixel an even number of times, half of them by polygons that face the eye.
 #[test]
 fn closed_meshes_have_no_holes_and_no_overlaps() {
-    for spec in ["sphere?rings=12&segments=24", "sphere?polygons=3000&triangles=true", "torus", "gear", "prism", "cube"]
-    {
-        let (front, back) = (counts(&seen(spec, Culling::Back)), counts(&seen(spec, Culling::Front)));
+    for spec in [
+        "sphere?rings=12&segments=24",
+        "sphere?polygons=3000&triangles=true",
+        "torus",
+        "gear",
+        "prism",
+        "cube",
+    ] {
+        let (front, back) = (
+            counts(&seen(spec, Culling::Back)),
+            counts(&seen(spec, Culling::Front)),
+        );
         let both = counts(&seen(spec, Culling::None));
         assert!(front.iter().any(|&c| c > 0));
         for i in 0..front.len() {
-            assert_eq!(front[i], back[i], "{spec}: what goes in must come out, at pixel {i}");
+            assert_eq!(
+                front[i], back[i],
+                "{spec}: what goes in must come out, at pixel {i}"
+            );
             assert_eq!(front[i] + back[i], both[i], "{spec} at pixel {i}");
         }
         if !["torus", "gear", "prism"].contains(&spec) {
-            assert!(front.iter().all(|&c| c <= 1), "{spec} is convex: one polygon a pixel");
+            assert!(
+                front.iter().all(|&c| c <= 1),
+                "{spec} is convex: one polygon a pixel"
+            );
         }
     }
 }
@@ -152,7 +195,10 @@ fn the_barycentric_renderer_covers_the_same_pixels() {
         let triangle = random_polygon(&mut random, 48, 40, 3);
         let frame = frame(48, 40, true, &[triangle]);
         let ours = flat.render(&frame);
-        let drawn = |edges| flat.render_barycentric(&frame, edges).expect("flat is one of its methods");
+        let drawn = |edges| {
+            flat.render_barycentric(&frame, edges)
+                .expect("flat is one of its methods")
+        };
         assert_eq!(ours, drawn(Edges::TopLeft));
         let closed = drawn(Edges::Closed);
         for (a, b) in ours.texels().iter().zip(closed.texels()) {
@@ -160,13 +206,21 @@ fn the_barycentric_renderer_covers_the_same_pixels() {
             more += usize::from(a[3] < b[3]);
         }
     }
-    assert!(more > 0, "on the grid of pixel centres closed edges draw more");
+    assert!(
+        more > 0,
+        "on the grid of pixel centres closed edges draw more"
+    );
 }
 
 /// Strictly less depth wins: of two equal polygons the first is seen, by every engine; without depth the last.
 #[test]
 fn at_equal_depth_the_first_polygon_is_seen() {
-    let corner = |x, y, depth| Corner { x: x * 256, y: y * 256, depth, intensity: 0.5 };
+    let corner = |x, y, depth| Corner {
+        x: x * 256,
+        y: y * 256,
+        depth,
+        intensity: 0.5,
+    };
     let triangle = vec![corner(3, 2, 0.2), corner(44, 9, 0.7), corner(17, 38, 0.4)];
     let flat = Variant::parse("flat").expect("a method");
     for (depth_test, seen) in [(true, 0), (false, 1)] {
@@ -178,7 +232,10 @@ fn at_equal_depth_the_first_polygon_is_seen() {
         ];
         assert!(flat.render(&frame).texels().iter().any(|t| t[3] > 0));
         for number in numbers.iter().flat_map(|picture| picture.texels()) {
-            assert!([seen, NOTHING].contains(number), "depth test {depth_test}: polygon {number} is seen");
+            assert!(
+                [seen, NOTHING].contains(number),
+                "depth test {depth_test}: polygon {number} is seen"
+            );
         }
     }
 }
@@ -189,7 +246,9 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
     let mut random = Random::new(23);
     let (mut differing, mut drawn) = (0, 0);
     for _ in 0..60 {
-        let polygons: Vec<_> = (0..20).map(|i| random_polygon(&mut random, 64, 48, 3 + i % 5)).collect();
+        let polygons: Vec<_> = (0..20)
+            .map(|i| random_polygon(&mut random, 64, 48, 3 + i % 5))
+            .collect();
         let frame = frame(64, 48, true, &polygons);
         let ours = raster::polygon_numbers(&frame);
         let truth = reference::visibility(&frame);
@@ -202,10 +261,16 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
                     // by half a unit in the last place (2^-24): 224 roundings in all, for each of the two surfaces; the
                     // starts of both walks add less than 32.
                     let gap = truth.depth_gap.get(x, y);
-                    assert!(gap <= 2.0 * 256.0 / f64::from(1 << 24), "depth differs by {gap} at {x}, {y}");
+                    assert!(
+                        gap <= 2.0 * 256.0 / f64::from(1 << 24),
+                        "depth differs by {gap} at {x}, {y}"
+                    );
                 }
             }
         }
     }
-    assert!(drawn > 20_000 && differing * 1000 < drawn, "{differing} of {drawn} pixels");
+    assert!(
+        drawn > 20_000 && differing * 1000 < drawn,
+        "{differing} of {drawn} pixels"
+    );
 }

@@ -3,11 +3,14 @@
 mod support;
 
 use fastphong::cs171::{
-    Corner, Grid, Inside, Reading, Shading, Ties, flat_shading, full_shading, gouraud_shading, lighting, ndc_to_screen,
-    phong_shading, raster_colored_ndc_triangle, raster_colored_triangle, raster_triangle, render, world_to_ndc,
+    Corner, Grid, Inside, Reading, Shading, Ties, flat_shading, full_shading, gouraud_shading,
+    lighting, ndc_to_screen, phong_shading, raster_colored_ndc_triangle, raster_colored_triangle,
+    raster_triangle, render, world_to_ndc,
 };
 use fastphong::frame::Frame;
-use fastphong::lighting::{Falloff, Light, LightTerm, Lighting, Material, Place, SpecularGate, SpecularModel};
+use fastphong::lighting::{
+    Falloff, Light, LightTerm, Lighting, Material, Place, SpecularGate, SpecularModel,
+};
 use fastphong::mesh::builtin::builtin;
 use fastphong::raster::{Edges, NOTHING, barycentric_polygon_numbers};
 use fastphong::reference::{self, Model};
@@ -25,14 +28,21 @@ fn lit(mut scene: Scene) -> Scene {
     scene.local_viewer = true;
     scene.lights = vec![
         Light::positional(DVec3::new(2.0, 3.0, 4.0), [0.9, 0.8, 0.3]),
-        Light { falloff: Falloff::Attenuation(0.05), ..Light::positional(DVec3::new(-4.0, 1.0, 2.0), [0.3, 0.5, 1.0]) },
+        Light {
+            falloff: Falloff::Attenuation(0.05),
+            ..Light::positional(DVec3::new(-4.0, 1.0, 2.0), [0.3, 0.5, 1.0])
+        },
     ];
     scene
 }
 
 fn sphere(interpolation: Interpolation, culling: Culling) -> Frame {
     let mesh = builtin("sphere?rings=8&segments=13").expect("a built-in mesh");
-    let scene = Scene { interpolation, culling, ..lit(Scene::of_mesh(mesh)) };
+    let scene = Scene {
+        interpolation,
+        culling,
+        ..lit(Scene::of_mesh(mesh))
+    };
     triangulated(&scene.frame().expect("a frame")).frame
 }
 
@@ -45,7 +55,9 @@ fn closed_cover(frame: &Frame) -> Vec<u32> {
             let v = &frame.vertices()[frame.corners(polygon)[i] as usize];
             DVec2::new(v.x.to_num(), v.y.to_num())
         });
-        raster_triangle(places, size, Inside::Closed, |x, y, _| counts[y * size[0] + x] += 1);
+        raster_triangle(places, size, Inside::Closed, |x, y, _| {
+            counts[y * size[0] + x] += 1
+        });
     }
     counts
 }
@@ -59,14 +71,24 @@ fn algorithm_1_covers_closed_triangles() {
         let triangle = random_polygon(&mut random, 48, 40, 3);
         let frame = frame(48, 40, true, &[triangle]);
         let covered = closed_cover(&frame);
-        let [closed, owned] = [Edges::Closed, Edges::TopLeft].map(|edges| barycentric_polygon_numbers(&frame, edges));
+        let [closed, owned] =
+            [Edges::Closed, Edges::TopLeft].map(|edges| barycentric_polygon_numbers(&frame, edges));
         for (i, &count) in covered.iter().enumerate() {
-            assert_eq!(count == 1, closed.texels()[i] != NOTHING, "at {}, {}", i % 48, i / 48);
+            assert_eq!(
+                count == 1,
+                closed.texels()[i] != NOTHING,
+                "at {}, {}",
+                i % 48,
+                i / 48
+            );
             on_edges += usize::from(closed.texels()[i] != owned.texels()[i]);
             filled += count;
         }
     }
-    assert!(filled > 20_000 && on_edges > 100, "{filled} pixels, {on_edges} on edges");
+    assert!(
+        filled > 20_000 && on_edges > 100,
+        "{filled} pixels, {on_edges} on edges"
+    );
 }
 
 /// As in the text, (0, 1), an edge between two triangles is a hole; as in the algorithms, [0, 1], it is drawn twice, and
@@ -74,21 +96,30 @@ fn algorithm_1_covers_closed_triangles() {
 #[test]
 fn shared_edges_are_holes_or_drawn_twice() {
     let place = |x: f64, y: f64| DVec2::new(x + 0.5, y + 0.5);
-    let square =
-        [[place(0.0, 0.0), place(4.0, 0.0), place(4.0, 4.0)], [place(0.0, 0.0), place(4.0, 4.0), place(0.0, 4.0)]];
+    let square = [
+        [place(0.0, 0.0), place(4.0, 0.0), place(4.0, 4.0)],
+        [place(0.0, 0.0), place(4.0, 4.0), place(0.0, 4.0)],
+    ];
     for (inside, expected) in [(Inside::Closed, (20, 5)), (Inside::Open, (6, 0))] {
         let mut counts = [0; 25];
         for triangle in square {
             raster_triangle(triangle, [5, 5], inside, |x, y, _| counts[5 * y + x] += 1);
         }
-        let (once, twice) = (counts.iter().filter(|c| **c == 1).count(), counts.iter().filter(|c| **c == 2).count());
+        let (once, twice) = (
+            counts.iter().filter(|c| **c == 1).count(),
+            counts.iter().filter(|c| **c == 2).count(),
+        );
         assert_eq!((once, twice), expected, "{inside:?}");
     }
     let mut grid = Grid::new(5, 5, DVec3::ZERO);
     for (triangle, colour) in square.into_iter().zip([DVec3::X, DVec3::Y]) {
         raster_colored_triangle(triangle, [colour; 3], Inside::Closed, &mut grid);
     }
-    assert_eq!(grid.colours.get(2, 2), [0.0, 1.0, 0.0, 1.0], "the diagonal is the second triangle's");
+    assert_eq!(
+        grid.colours.get(2, 2),
+        [0.0, 1.0, 0.0, 1.0],
+        "the diagonal is the second triangle's"
+    );
 }
 
 /// Algorithm 2 on CS171's right triangle from red, along the hypotenuse, to blue at the opposite corner.
@@ -96,18 +127,36 @@ fn shared_edges_are_holes_or_drawn_twice() {
 fn algorithm_2_mixes_red_and_blue() {
     let mut grid = Grid::new(9, 9, DVec3::ZERO);
     // The right angle at pixel (0, 8), the hypotenuse from (0, 0) to (8, 8).
-    let places = [DVec2::new(0.5, 0.5), DVec2::new(8.5, 8.5), DVec2::new(0.5, 8.5)];
-    raster_colored_triangle(places, [DVec3::X, DVec3::X, DVec3::Z], Inside::Closed, &mut grid);
+    let places = [
+        DVec2::new(0.5, 0.5),
+        DVec2::new(8.5, 8.5),
+        DVec2::new(0.5, 8.5),
+    ];
+    raster_colored_triangle(
+        places,
+        [DVec3::X, DVec3::X, DVec3::Z],
+        Inside::Closed,
+        &mut grid,
+    );
     for (x, y) in (0..9).flat_map(|y| (0..9).map(move |x| (x, y))) {
         // The distance from the hypotenuse, over that of the opposite corner: eighths are exact.
         let blue = (y as f64 - x as f64) / 8.0;
-        let expected = if blue >= 0.0 { [1.0 - blue, 0.0, blue, 1.0] } else { [0.0; 4] };
+        let expected = if blue >= 0.0 {
+            [1.0 - blue, 0.0, blue, 1.0]
+        } else {
+            [0.0; 4]
+        };
         assert_eq!(grid.colours.get(x, y), expected, "at {x}, {y}");
     }
 }
 
 fn white(place: Place<[f32; 3]>, diffuse: f32, specular: f32) -> LightTerm {
-    LightTerm { place, diffuse: [diffuse; 3], specular: [specular; 3], falloff: Falloff::None }
+    LightTerm {
+        place,
+        diffuse: [diffuse; 3],
+        specular: [specular; 3],
+        falloff: Falloff::None,
+    }
 }
 
 /// Algorithm 3 on numbers that can be followed by hand.
@@ -121,19 +170,37 @@ fn algorithm_3_by_hand() {
     light.shininess = 2.0;
     // Straight above: n · l = n · h = 1.
     light.lights = vec![white(Place::Local([0.0, 0.0, 3.0]), 0.25, 0.5)];
-    assert_eq!(lighting(DVec3::ZERO, DVec3::Z, &light), DVec3::new(0.875, 0.75, 1.0));
+    assert_eq!(
+        lighting(DVec3::ZERO, DVec3::Z, &light),
+        DVec3::new(0.875, 0.75, 1.0)
+    );
     // A second light is added; then the sum is clamped, once.
-    light.lights.push(white(Place::Local([0.0, 0.0, 9.0]), 0.125, 0.0));
-    assert_eq!(lighting(DVec3::ZERO, DVec3::Z, &light), DVec3::new(1.0, 0.875, 1.0));
+    light
+        .lights
+        .push(white(Place::Local([0.0, 0.0, 9.0]), 0.125, 0.0));
+    assert_eq!(
+        lighting(DVec3::ZERO, DVec3::Z, &light),
+        DVec3::new(1.0, 0.875, 1.0)
+    );
     // At the distance 3 a light with k = 1/9 has half of its strength, in both terms; ambient light has all of its.
-    light.lights =
-        vec![LightTerm { falloff: Falloff::Attenuation(1.0 / 9.0), ..white(Place::Local([0.0, 0.0, 3.0]), 0.25, 0.5) }];
+    light.lights = vec![LightTerm {
+        falloff: Falloff::Attenuation(1.0 / 9.0),
+        ..white(Place::Local([0.0, 0.0, 3.0]), 0.25, 0.5)
+    }];
     // 1/9 is rounded to f32: the strength is off by ¼ of 2⁻²⁴.
-    assert!((lighting(DVec3::ZERO, DVec3::Z, &light) - DVec3::new(0.5, 0.375, 0.625)).abs().max_element() < 2e-8);
+    assert!(
+        (lighting(DVec3::ZERO, DVec3::Z, &light) - DVec3::new(0.5, 0.375, 0.625))
+            .abs()
+            .max_element()
+            < 2e-8
+    );
     // l toward −x, e toward +x: e + l = 0, no h, no highlight. n · l = 0.
     light.view = Place::Local([5.0, 0.0, 0.0]);
     light.lights = vec![white(Place::Local([-3.0, 0.0, 0.0]), 1.0, 1.0)];
-    assert_eq!(lighting(DVec3::ZERO, DVec3::Z, &light), DVec3::new(0.125, 0.0, 0.25));
+    assert_eq!(
+        lighting(DVec3::ZERO, DVec3::Z, &light),
+        DVec3::new(0.125, 0.0, 0.25)
+    );
     // From behind, with the eye low: n · l < 0 and n · h > 0. As printed it shines.
     light.view = Place::Local([1.0, 0.0, 1.0]);
     light.lights = vec![white(Place::Local([1.0, 0.0, -0.5]), 0.0, 1.0)];
@@ -153,7 +220,12 @@ fn large_exponents_are_the_shiny_ones() {
         (0..90)
             .filter(|&k| {
                 let angle = (f64::from(k) + 0.5).to_radians();
-                lighting(DVec3::ZERO, DVec3::new(angle.sin(), 0.0, angle.cos()), &light).x > 0.5
+                lighting(
+                    DVec3::ZERO,
+                    DVec3::new(angle.sin(), 0.0, angle.cos()),
+                    &light,
+                )
+                .x > 0.5
             })
             .count()
     };
@@ -167,14 +239,21 @@ fn differ(frame: &Frame, shading: Shading, model: Model) -> (f64, usize) {
     let ours = render(frame, shading, Reading::default()).colours;
     let truth = reference::render(frame, model).picture;
     let (mut worst, mut pixels) = (0.0f64, 0);
-    for ((&count, a), b) in closed_cover(frame).iter().zip(ours.texels()).zip(truth.texels()) {
+    for ((&count, a), b) in closed_cover(frame)
+        .iter()
+        .zip(ours.texels())
+        .zip(truth.texels())
+    {
         match count {
             0 => assert_eq!((a[3], b[3]), (0.0, 0.0)),
             1 => {
                 assert_eq!(a[3], 1.0);
                 // On an outline that belongs to nobody the reference leaves the background.
                 if b[3] == 1.0 {
-                    worst = a.iter().zip(b).fold(worst, |worst, (a, b)| worst.max((a - b).abs()));
+                    worst = a
+                        .iter()
+                        .zip(b)
+                        .fold(worst, |worst, (a, b)| worst.max((a - b).abs()));
                     pixels += 1;
                 }
             }
@@ -189,14 +268,19 @@ fn differ(frame: &Frame, shading: Shading, model: Model) -> (f64, usize) {
 fn algorithm_8_is_the_reference() {
     for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
         let frame = sphere(interpolation, Culling::Back);
-        for (shading, model) in
-            [(Shading::Flat, Model::FlatAverage), (Shading::Gouraud, Model::Gouraud), (Shading::Phong, Model::Phong)]
-        {
+        for (shading, model) in [
+            (Shading::Flat, Model::FlatAverage),
+            (Shading::Gouraud, Model::Gouraud),
+            (Shading::Phong, Model::Phong),
+        ] {
             let (worst, pixels) = differ(&frame, shading, model);
             // Both round some ten times to a weight, a normal and a position, and some ten times more to each cosine:
             // forty half-ulps, in each of the two. A cosine to the power of 32 multiplies them by 32; two lights of at
             // most 1, diffuse and specular: 2 · 2 · 40 · 32 half-ulps at most.
-            assert!(worst <= 2.0 * 2.0 * 40.0 * 32.0 * f64::EPSILON, "{shading:?}, {interpolation:?}: {worst}");
+            assert!(
+                worst <= 2.0 * 2.0 * 40.0 * 32.0 * f64::EPSILON,
+                "{shading:?}, {interpolation:?}: {worst}"
+            );
             assert!(pixels > 3000, "{pixels}");
         }
     }
@@ -207,28 +291,60 @@ fn algorithm_8_is_the_reference() {
 #[test]
 fn algorithm_7_as_printed_is_darker() {
     let frame = sphere(Interpolation::Screen, Culling::Back);
-    let [unit, raw] = [true, false]
-        .map(|normalise| render(&frame, Shading::Phong, Reading { normalise, ..Reading::default() }).colours);
+    let [unit, raw] = [true, false].map(|normalise| {
+        render(
+            &frame,
+            Shading::Phong,
+            Reading {
+                normalise,
+                ..Reading::default()
+            },
+        )
+        .colours
+    });
     let sum = |c: [f64; 4]| c[0] + c[1] + c[2];
     let (mut darker, mut most) = (0, 0.0f64);
     for (a, b) in unit.texels().iter().zip(raw.texels()) {
-        assert!(sum(*b) <= sum(*a) + 1e-12, "a shorter normal lights no pixel more");
+        assert!(
+            sum(*b) <= sum(*a) + 1e-12,
+            "a shorter normal lights no pixel more"
+        );
         darker += usize::from(sum(*b) < sum(*a) - 1e-3);
         most = most.max(sum(*a) - sum(*b));
     }
-    assert!(darker > 1000 && most > 0.05, "{darker} pixels, by up to {most}");
+    assert!(
+        darker > 1000 && most > 0.05,
+        "{darker} pixels, by up to {most}"
+    );
 }
 
 /// Algorithm 8's cross product leaves out what the frame's own culling leaves out.
 #[test]
 fn algorithm_8_culls_back_faces() {
-    let (front, all) = (sphere(Interpolation::Screen, Culling::Back), sphere(Interpolation::Screen, Culling::None));
+    let (front, all) = (
+        sphere(Interpolation::Screen, Culling::Back),
+        sphere(Interpolation::Screen, Culling::None),
+    );
     assert!(all.polygons().len() > front.polygons().len() + 50);
-    let picture = |frame: &Frame, cull| render(frame, Shading::Gouraud, Reading { cull, ..Reading::default() }).colours;
+    let picture = |frame: &Frame, cull| {
+        render(
+            frame,
+            Shading::Gouraud,
+            Reading {
+                cull,
+                ..Reading::default()
+            },
+        )
+        .colours
+    };
     assert_eq!(picture(&all, true), picture(&front, true));
     // The depth buffer alone would hide them as well, all but the rim.
-    let other =
-        picture(&all, false).texels().iter().zip(picture(&front, true).texels()).filter(|(a, b)| a != b).count();
+    let other = picture(&all, false)
+        .texels()
+        .iter()
+        .zip(picture(&front, true).texels())
+        .filter(|(a, b)| a != b)
+        .count();
     assert!(other < 400, "{other}");
     // From inside, one sees back faces only: nothing.
     let inside = sphere(Interpolation::Screen, Culling::Front);
@@ -237,7 +353,12 @@ fn algorithm_8_culls_back_faces() {
 }
 
 fn corner(x: f64, y: f64, z: f64) -> Corner {
-    Corner { world: DVec3::new(x, y, z), normal: DVec3::Z, ndc: DVec3::new(x, y, z), inv_w: 1.0 }
+    Corner {
+        world: DVec3::new(x, y, z),
+        normal: DVec3::Z,
+        ndc: DVec3::new(x, y, z),
+        inv_w: 1.0,
+    }
 }
 
 /// A surface that shows its diffuse coefficient.
@@ -250,13 +371,26 @@ fn plain(diffuse: f32) -> Lighting {
 /// Of two points at one depth Algorithm 8 as printed shows the later one; "less than", as in the text, the earlier one.
 #[test]
 fn ties_go_to_the_later_or_to_the_earlier() {
-    let triangle = [corner(-0.9, -0.9, 0.0), corner(0.9, -0.9, 0.0), corner(0.0, 0.9, 0.0)];
+    let triangle = [
+        corner(-0.9, -0.9, 0.0),
+        corner(0.9, -0.9, 0.0),
+        corner(0.0, 0.9, 0.0),
+    ];
     let nearer = triangle.map(|c| corner(c.ndc.x, c.ndc.y, -0.5));
     for (ties, seen) in [(Ties::Later, 0.75), (Ties::Earlier, 0.25)] {
         let mut grid = Grid::new(16, 16, DVec3::ZERO);
-        let reading = Reading { ties, ..Reading::default() };
+        let reading = Reading {
+            ties,
+            ..Reading::default()
+        };
         for diffuse in [0.25, 0.75] {
-            full_shading(Shading::Flat, &triangle, &plain(diffuse), reading, &mut grid);
+            full_shading(
+                Shading::Flat,
+                &triangle,
+                &plain(diffuse),
+                reading,
+                &mut grid,
+            );
         }
         assert_eq!(grid.colours.get(8, 8)[0], seen, "{ties:?}");
         // What is nearer wins in both; then what is farther loses.
@@ -300,12 +434,20 @@ fn algorithms_4_6_and_7_are_8_without_hidden_surfaces() {
     let corners = [(-0.4, -0.3), (0.5, -0.4), (0.1, 0.6)].map(|(x, y)| {
         let v = scene.camera.target + right * x + up * y;
         let normal = (scene.camera.view() + right * x).normalize();
-        Corner { world: v - scene.camera.eye, normal, ndc: world_to_ndc(&matrix, v), inv_w: 1.0 }
+        Corner {
+            world: v - scene.camera.eye,
+            normal,
+            ndc: world_to_ndc(&matrix, v),
+            inv_w: 1.0,
+        }
     });
     let reading = Reading::default();
     type Algorithm = fn(&[Corner; 3], &Lighting, Reading, &mut Grid);
-    let all: [(Shading, Algorithm); 3] =
-        [(Shading::Gouraud, gouraud_shading), (Shading::Flat, flat_shading), (Shading::Phong, phong_shading)];
+    let all: [(Shading, Algorithm); 3] = [
+        (Shading::Gouraud, gouraud_shading),
+        (Shading::Flat, flat_shading),
+        (Shading::Phong, phong_shading),
+    ];
     for (shading, algorithm) in all {
         let [mut bare, mut full, mut back] = [(); 3].map(|()| Grid::new(120, 90, DVec3::ZERO));
         algorithm(&corners, light, reading, &mut bare);
@@ -314,25 +456,43 @@ fn algorithms_4_6_and_7_are_8_without_hidden_surfaces() {
         assert!(bare.colours.texels().iter().filter(|t| t[3] == 1.0).count() > 200);
         let turned = [corners[2], corners[1], corners[0]];
         full_shading(shading, &turned, light, reading, &mut back);
-        assert!(back.colours.texels().iter().all(|t| t[3] == 0.0), "{shading:?}: culled");
+        assert!(
+            back.colours.texels().iter().all(|t| t[3] == 0.0),
+            "{shading:?}: culled"
+        );
         algorithm(&turned, light, reading, &mut back);
-        assert!(back.colours.texels().iter().any(|t| t[3] == 1.0), "{shading:?}: as printed, drawn");
+        assert!(
+            back.colours.texels().iter().any(|t| t[3] == 1.0),
+            "{shading:?}: as printed, drawn"
+        );
     }
 }
 
 /// `cross.z < 0` lets a triangle without area through; it is drawn by nobody, and gives no colour that is not a number.
 #[test]
 fn triangles_without_area_draw_nothing() {
-    let line = [corner(-0.5, -0.5, 0.0), corner(0.0, 0.0, 0.0), corner(0.5, 0.5, 0.0)];
+    let line = [
+        corner(-0.5, -0.5, 0.0),
+        corner(0.0, 0.0, 0.0),
+        corner(0.5, 0.5, 0.0),
+    ];
     let point = [corner(0.0625, 0.0625, 0.0); 3];
     for triangle in [line, point] {
         let mut grid = Grid::new(16, 16, DVec3::ZERO);
         for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
-            full_shading(shading, &triangle, &plain(1.0), Reading::default(), &mut grid);
+            full_shading(
+                shading,
+                &triangle,
+                &plain(1.0),
+                Reading::default(),
+                &mut grid,
+            );
         }
         assert!(grid.colours.texels().iter().all(|t| *t == [0.0; 4]));
         let places = triangle.map(|corner| ndc_to_screen(corner.ndc, [16, 16]));
-        raster_triangle(places, [16, 16], Inside::Closed, |x, y, _| panic!("{x}, {y} is filled"));
+        raster_triangle(places, [16, 16], Inside::Closed, |x, y, _| {
+            panic!("{x}, {y} is filled")
+        });
     }
 }
 
@@ -347,7 +507,12 @@ fn places_are_those_of_the_frame() {
         let place = ndc_to_screen(world_to_ndc(&matrix, world), [120, 90]);
         // Positions are rounded to f32, 2⁻²⁴ of some 5 units, each some 50 pixels: a ten-thousandth of a sub-pixel, which
         // may be the one that turns the rounding.
-        assert!((place - DVec2::new(v.x.to_num(), v.y.to_num())).abs().max_element() <= 1.0 / 256.0);
+        assert!(
+            (place - DVec2::new(v.x.to_num(), v.y.to_num()))
+                .abs()
+                .max_element()
+                <= 1.0 / 256.0
+        );
     }
     assert!(frame.vertices().len() > 6);
 }

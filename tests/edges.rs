@@ -18,7 +18,10 @@ fn crossings(polygon: &[Corner], row: usize) -> Vec<(f64, f64)> {
                 let t = (centre - y1) / (y2 - y1);
                 let mix = |a: f64, b: f64| a + t * (b - a);
                 let x = mix(f64::from(top.x), f64::from(bottom.x));
-                (x, mix(f64::from(top.intensity), f64::from(bottom.intensity)))
+                (
+                    x,
+                    mix(f64::from(top.intensity), f64::from(bottom.intensity)),
+                )
             })
         })
         .collect();
@@ -44,7 +47,9 @@ fn span_ends_are_closed_edge_interpolation() {
             for x in [pixels.start, pixels.end - 1] {
                 let centre = x as f64 * 256.0 + 128.0;
                 let near_tie = crossings.iter().any(|c| (c.0 - centre).abs() < 1e-6);
-                let pair = crossings.chunks_exact(2).find(|pair| pair[0].0 <= centre && centre < pair[1].0);
+                let pair = crossings
+                    .chunks_exact(2)
+                    .find(|pair| pair[0].0 <= centre && centre < pair[1].0);
                 let Some(&[(x1, i1), (x2, i2)]) = pair else {
                     assert!(near_tie, "a pixel outside every pair of crossings");
                     continue;
@@ -59,7 +64,10 @@ fn span_ends_are_closed_edge_interpolation() {
                 // one for each step, and as much again for their rounded increments, of numbers up to 1 (2^-25 each,
                 // twice that at most for a start outside the picture).
                 let bound = (3.0 + 2.0 * (72.0 + 96.0)) / f64::from(1 << 24);
-                assert!((found - truth).abs() <= bound, "{polygon:?} at {x}, {row}: {found} is not {truth}");
+                assert!(
+                    (found - truth).abs() <= bound,
+                    "{polygon:?} at {x}, {row}: {found} is not {truth}"
+                );
                 spans += 1;
             }
         });
@@ -71,7 +79,12 @@ fn span_ends_are_closed_edge_interpolation() {
 #[test]
 fn neighbours_agree_along_their_edge() {
     let gouraud = Variant::parse("gouraud").expect("a method");
-    let corner = |x: i32, y: i32, intensity: f32| Corner { x: x * 256, y: y * 256, depth: 0.5, intensity };
+    let corner = |x: i32, y: i32, intensity: f32| Corner {
+        x: x * 256,
+        y: y * 256,
+        depth: 0.5,
+        intensity,
+    };
     // Two quads share the edge from (40, 5) to (56, 91); their other corners are dark on the left, bright on the right.
     let (upper, lower) = (corner(40, 5, 0.3), corner(56, 91, 0.9));
     let left = vec![corner(3, 8, 0.3), upper, lower, corner(6, 88, 0.9)];
@@ -80,7 +93,9 @@ fn neighbours_agree_along_their_edge() {
     let picture = gouraud.render_linear(&frame);
     let owners = raster::polygon_numbers(&frame);
     for row in 10..85 {
-        let border = (1..96).find(|&x| owners.get(x - 1, row) == 0 && owners.get(x, row) == 1).expect("a border");
+        let border = (1..96)
+            .find(|&x| owners.get(x - 1, row) == 0 && owners.get(x, row) == 1)
+            .expect("a border");
         let (a, b) = (picture.get(border - 1, row)[0], picture.get(border, row)[0]);
         // Between the last pixel of one and the first of the other lies at most one pixel; horizontally the intensity
         // changes by at most 0.6 over 33 pixels where the edges are not parallel.

@@ -8,7 +8,9 @@ use fastphong::mesh::builtin::builtin;
 use fastphong::painter::conflicts;
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
-use fastphong::scene::{Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Scene};
+use fastphong::scene::{
+    Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Scene,
+};
 use fastphong::triangulate::triangulated;
 use support::{Corner, Random, add, plain_lighting, random_polygon};
 
@@ -56,10 +58,16 @@ fn depth_per_sample_is_interpolated_depth() {
         for (i, (a, b)) in a.texels().iter().zip(b.texels()).enumerate() {
             assert_eq!(a.is_finite(), b.is_finite());
             if a.is_finite() {
-                assert!(f64::from((a - b).abs()) <= bound, "{a} and {b} at pixel {i}");
+                assert!(
+                    f64::from((a - b).abs()) <= bound,
+                    "{a} and {b} at pixel {i}"
+                );
                 differing += usize::from(a != b);
                 for (found, truth) in [(a, truth[0].texels()[i]), (b, truth[1].texels()[i])] {
-                    assert!((f64::from(*found) - truth).abs() <= bound, "{found} is not {truth} at pixel {i}");
+                    assert!(
+                        (f64::from(*found) - truth).abs() <= bound,
+                        "{found} is not {truth} at pixel {i}"
+                    );
                 }
             }
         }
@@ -72,7 +80,11 @@ fn depth_per_sample_is_interpolated_depth() {
 #[test]
 fn engines_and_reference_see_the_same_polygons() {
     for perspective in [false, true] {
-        for bits in [DepthBits::Sixteen, DepthBits::TwentyFour, DepthBits::ThirtyTwo] {
+        for bits in [
+            DepthBits::Sixteen,
+            DepthBits::TwentyFour,
+            DepthBits::ThirtyTwo,
+        ] {
             for source in [DepthSource::Interpolated, DepthSource::PerSample] {
                 let frame = torus(perspective, buffer(bits, source));
                 let frame = triangulated(&frame).frame;
@@ -82,11 +94,17 @@ fn engines_and_reference_see_the_same_polygons() {
                 let level = bits.most().map_or(0.0, |most| 1.0 / f64::from(most));
                 let margin = 2.0 * rounding.max(if level > 0.0 { rounding + level } else { 0.0 });
                 let truth = reference::visibility(&frame);
-                for seen in
-                    [raster::polygon_numbers(&frame), raster::barycentric_polygon_numbers(&frame, Edges::TopLeft)]
-                {
+                for seen in [
+                    raster::polygon_numbers(&frame),
+                    raster::barycentric_polygon_numbers(&frame, Edges::TopLeft),
+                ] {
                     let mut differing = 0;
-                    for (i, (seen, expected)) in seen.texels().iter().zip(truth.polygons.texels()).enumerate() {
+                    for (i, (seen, expected)) in seen
+                        .texels()
+                        .iter()
+                        .zip(truth.polygons.texels())
+                        .enumerate()
+                    {
                         if seen != expected {
                             let gap = truth.depth_gap.texels()[i];
                             assert!(gap <= margin, "{bits:?} {source:?}: {gap} at pixel {i}");
@@ -107,7 +125,12 @@ fn sixteen_bits_fight_where_more_do_not() {
     let apart = 0.4 / 65535.0;
     let layer = |depth: f32| -> Vec<Corner> {
         [(2, 2, 0.0), (62, 3, 2e-3), (9, 46, 1e-3)]
-            .map(|(x, y, more)| Corner { x: x * 256, y: y * 256, depth: depth + more, intensity: 0.5 })
+            .map(|(x, y, more)| Corner {
+                x: x * 256,
+                y: y * 256,
+                depth: depth + more,
+                intensity: 0.5,
+            })
             .to_vec()
     };
     let seen = |bits| {
@@ -149,7 +172,10 @@ fn the_painter_sorts_layers_as_depth_does() {
             .map(|_| {
                 let depth = random.unit();
                 let corners = random_polygon(&mut random, 64, 48, 3);
-                corners.into_iter().map(|corner| Corner { depth, ..corner }).collect()
+                corners
+                    .into_iter()
+                    .map(|corner| Corner { depth, ..corner })
+                    .collect()
             })
             .collect();
         let build = |how| {
@@ -162,15 +188,32 @@ fn the_painter_sorts_layers_as_depth_does() {
             builder.finish().expect("a frame")
         };
         let sources = |frame: &Frame| {
-            let source = |number: u32| frame.polygons().get(number as usize).map_or(NOTHING, |p| p.source);
+            let source = |number: u32| {
+                frame
+                    .polygons()
+                    .get(number as usize)
+                    .map_or(NOTHING, |p| p.source)
+            };
             let numbers = raster::polygon_numbers(frame);
-            assert_eq!(numbers, reference::visibility(frame).polygons, "round {round}");
-            assert_eq!(numbers, raster::barycentric_polygon_numbers(frame, Edges::TopLeft), "round {round}");
+            assert_eq!(
+                numbers,
+                reference::visibility(frame).polygons,
+                "round {round}"
+            );
+            assert_eq!(
+                numbers,
+                raster::barycentric_polygon_numbers(frame, Edges::TopLeft),
+                "round {round}"
+            );
             numbers.map(source)
         };
         let by_depth = sources(&build(HiddenSurfaces::default()));
         for key in [PainterKey::Mean, PainterKey::Farthest] {
-            assert_eq!(sources(&build(HiddenSurfaces::Painter(key))), by_depth, "round {round}, {key:?}");
+            assert_eq!(
+                sources(&build(HiddenSurfaces::Painter(key))),
+                by_depth,
+                "round {round}, {key:?}"
+            );
         }
     }
 }
@@ -182,7 +225,12 @@ fn the_painters_key_decides() {
     let strip = |depths: [f32; 3]| -> Vec<Corner> {
         let [a, b, c] = depths;
         [(0, 0, a), (40, 0, b), (0, 40, c)]
-            .map(|(x, y, depth)| Corner { x: x * 256, y: y * 256, depth, intensity: 0.5 })
+            .map(|(x, y, depth)| Corner {
+                x: x * 256,
+                y: y * 256,
+                depth,
+                intensity: 0.5,
+            })
             .to_vec()
     };
     let order = |first: [f32; 3], second: [f32; 3], key| {
@@ -196,8 +244,16 @@ fn the_painters_key_decides() {
         [polygons[0].source, polygons[1].source]
     };
     let (long, level) = ([0.0, 0.1, 0.8], [0.5; 3]);
-    assert_eq!(order(long, level, PainterKey::Mean), [1, 0], "0.3 is nearer than 0.5");
-    assert_eq!(order(long, level, PainterKey::Farthest), [0, 1], "0.8 is farther than 0.5");
+    assert_eq!(
+        order(long, level, PainterKey::Mean),
+        [1, 0],
+        "0.3 is nearer than 0.5"
+    );
+    assert_eq!(
+        order(long, level, PainterKey::Farthest),
+        [0, 1],
+        "0.8 is farther than 0.5"
+    );
     assert_eq!(order(level, long, PainterKey::Mean), [0, 1]);
     for key in [PainterKey::Mean, PainterKey::Farthest] {
         assert_eq!(order(level, level, key), [0, 1]);
@@ -206,16 +262,24 @@ fn the_painters_key_decides() {
 
 /// What hides what, by looking at every pixel of every pair of polygons drawn alone.
 fn pairs_pixel_by_pixel(frame: &Frame, alone: impl Fn(usize) -> Frame) -> Vec<(u32, u32)> {
-    let depths: Vec<_> = (0..frame.polygons().len()).map(|i| reference::visibility(&alone(i)).depth).collect();
+    let depths: Vec<_> = (0..frame.polygons().len())
+        .map(|i| reference::visibility(&alone(i)).depth)
+        .collect();
     let hides = |a: usize, b: usize| {
-        let mut both =
-            depths[a].texels().iter().zip(depths[b].texels()).filter(|(a, b)| a.is_finite() && b.is_finite());
+        let mut both = depths[a]
+            .texels()
+            .iter()
+            .zip(depths[b].texels())
+            .filter(|(a, b)| a.is_finite() && b.is_finite());
         // Corners are rounded to f32: what differs by a unit in the last place of 1 may be equal.
         both.any(|(a, b)| b - a > 1.0 / f64::from(1 << 24))
     };
     let count = depths.len();
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
-    pairs.filter(|&(a, b)| hides(a, b)).map(|(a, b)| (a as u32, b as u32)).collect()
+    pairs
+        .filter(|&(a, b)| hides(a, b))
+        .map(|(a, b)| (a as u32, b as u32))
+        .collect()
 }
 
 /// The pairs that are drawn in the wrong order, found from the ends of overlapping spans, are those found pixel by pixel:
@@ -225,10 +289,15 @@ fn wrong_pairs_are_those_of_the_pixels() {
     let mut random = Random::new(41);
     let (mut wrong, mut cutting) = (0, 0);
     for round in 0..30 {
-        let polygons: Vec<_> = (0..12).map(|i| random_polygon(&mut random, 48, 40, 3 + (i + round) % 4)).collect();
+        let polygons: Vec<_> = (0..12)
+            .map(|i| random_polygon(&mut random, 48, 40, 3 + (i + round) % 4))
+            .collect();
         let whole = support::frame(48, 40, false, &polygons);
         let found = conflicts(&whole);
-        assert_eq!(found.wrong, pairs_pixel_by_pixel(&whole, |i| support::frame(48, 40, false, &polygons[i..=i])));
+        assert_eq!(
+            found.wrong,
+            pairs_pixel_by_pixel(&whole, |i| support::frame(48, 40, false, &polygons[i..=i]))
+        );
         wrong += found.wrong.len();
         cutting += found.interpenetrating;
     }
@@ -237,7 +306,10 @@ fn wrong_pairs_are_those_of_the_pixels() {
 
 /// A shipped scene at 160 × 120, with hidden surfaces found in this way.
 fn shipped(name: &str, how: HiddenSurfaces) -> Frame {
-    let (_, path) = support::shipped().into_iter().find(|(found, _)| found == name).expect("a shipped scene");
+    let (_, path) = support::shipped()
+        .into_iter()
+        .find(|(found, _)| found == name)
+        .expect("a shipped scene");
     let mut scene = support::scene(&path, Some((160, 120)));
     scene.hidden_surfaces = how;
     scene.frame().expect("a frame")
@@ -247,11 +319,24 @@ fn shipped(name: &str, how: HiddenSurfaces) -> Frame {
 fn painted_wrong(name: &str) -> usize {
     let painted = shipped(name, HiddenSurfaces::Painter(PainterKey::Mean));
     let seen = |frame: &Frame| {
-        let source = |number: u32| frame.polygons().get(number as usize).map_or(NOTHING, |polygon| polygon.source);
+        let source = |number: u32| {
+            frame
+                .polygons()
+                .get(number as usize)
+                .map_or(NOTHING, |polygon| polygon.source)
+        };
         raster::polygon_numbers(frame).map(source)
     };
-    let (painted, buffered) = (seen(&painted), seen(&shipped(name, HiddenSurfaces::default())));
-    painted.texels().iter().zip(buffered.texels()).filter(|(a, b)| a != b).count()
+    let (painted, buffered) = (
+        seen(&painted),
+        seen(&shipped(name, HiddenSurfaces::default())),
+    );
+    painted
+        .texels()
+        .iter()
+        .zip(buffered.texels())
+        .filter(|(a, b)| a != b)
+        .count()
 }
 
 /// L5: *Can have unresolvable depth order*. The ring is one cycle of three, without polygons that cut each other, and both
@@ -260,14 +345,24 @@ fn painted_wrong(name: &str) -> usize {
 fn no_order_is_right_for_a_ring() {
     for key in [PainterKey::Mean, PainterKey::Farthest] {
         let ring = conflicts(&shipped("cyclic-triangles", HiddenSurfaces::Painter(key)));
-        assert_eq!((ring.cycles, ring.interpenetrating), (vec![vec![0, 1, 2]], 0));
-        assert!((1..=2).contains(&ring.wrong.len()), "a ring of three has one or two wrong pairs in any order");
+        assert_eq!(
+            (ring.cycles, ring.interpenetrating),
+            (vec![vec![0, 1, 2]], 0)
+        );
+        assert!(
+            (1..=2).contains(&ring.wrong.len()),
+            "a ring of three has one or two wrong pairs in any order"
+        );
         let cut = conflicts(&shipped("interpenetration", HiddenSurfaces::Painter(key)));
         assert_eq!((cut.cycles, cut.interpenetrating), (vec![vec![0, 1, 2]], 3));
     }
     assert!(painted_wrong("cyclic-triangles") > 100 && painted_wrong("interpenetration") > 100);
     let torus = conflicts(&torus_of_front_faces());
-    assert_eq!(torus, Default::default(), "what is seen of a torus can be sorted");
+    assert_eq!(
+        torus,
+        Default::default(),
+        "what is seen of a torus can be sorted"
+    );
 }
 
 fn torus_of_front_faces() -> Frame {
@@ -282,10 +377,17 @@ fn torus_of_front_faces() -> Frame {
 fn the_scene_of_z_fighting_fights() {
     let star = |bits| {
         let frame = shipped("z-fighting", buffer(bits, DepthSource::Interpolated));
-        raster::polygon_numbers(&frame).texels().iter().filter(|n| **n == 1).count()
+        raster::polygon_numbers(&frame)
+            .texels()
+            .iter()
+            .filter(|n| **n == 1)
+            .count()
     };
     let (fighting, whole) = (star(DepthBits::Sixteen), star(DepthBits::TwentyFour));
-    assert!(fighting * 10 > whole && fighting * 10 < whole * 9, "{fighting} of {whole} pixels");
+    assert!(
+        fighting * 10 > whole && fighting * 10 < whole * 9,
+        "{fighting} of {whole} pixels"
+    );
     assert_eq!(whole, star(DepthBits::ThirtyTwo));
 }
 
@@ -293,7 +395,10 @@ fn the_scene_of_z_fighting_fights() {
 /// between two levels that rounding decides on the level.
 #[test]
 fn fighting_is_the_same_outside_of_a_margin() {
-    let (_, path) = support::shipped().into_iter().find(|(name, _)| name == "z-fighting").expect("a shipped scene");
+    let (_, path) = support::shipped()
+        .into_iter()
+        .find(|(name, _)| name == "z-fighting")
+        .expect("a shipped scene");
     let fighting = support::scene(&path, Some((48, 36)));
     let frame = fighting.frame().expect("a frame");
     let depths = [0, 1].map(|object| {
@@ -306,7 +411,10 @@ fn fighting_is_the_same_outside_of_a_margin() {
     // and less than 16 operations before them. The increments are off by 2^-24 of all that depth rises by, 0.02.
     let margin = (48.0 + 36.0 + 16.0 + 2.0 * 0.02 * 84.0) * ROUNDING;
     let all = depths[0].texels().iter().filter(|z| z.is_finite());
-    assert!(all.clone().all(|z| (0.97..0.999).contains(z)), "depth rises by less than 0.02 on either side");
+    assert!(
+        all.clone().all(|z| (0.97..0.999).contains(z)),
+        "depth rises by less than 0.02 on either side"
+    );
     let truth = reference::visibility(&frame).polygons;
     let is_undecided = |x: usize, y: usize| {
         depths.iter().any(|depth| {
@@ -323,7 +431,11 @@ fn fighting_is_the_same_outside_of_a_margin() {
         let is_scanline = seen == raster::polygon_numbers(&frame);
         for (x, y) in (0..36).flat_map(|y| (0..48).map(move |x| (x, y))) {
             let number = seen.get(x, y);
-            let shown = if is_scanline || number == NOTHING { number } else { origins[number as usize] };
+            let shown = if is_scanline || number == NOTHING {
+                number
+            } else {
+                origins[number as usize]
+            };
             if is_undecided(x, y) {
                 differing += usize::from(shown != truth.get(x, y));
             } else {
@@ -334,7 +446,10 @@ fn fighting_is_the_same_outside_of_a_margin() {
             }
         }
     }
-    assert!(decided[0] > 100 && decided[1] > 10, "both are seen where it is decided: {decided:?}, {differing} differ");
+    assert!(
+        decided[0] > 100 && decided[1] > 10,
+        "both are seen where it is decided: {decided:?}, {differing} differ"
+    );
 }
 
 /// Under CS171's test of each sample two polygons may hide each other between the ends of their overlap, where one of them
@@ -342,7 +457,9 @@ fn fighting_is_the_same_outside_of_a_margin() {
 #[test]
 fn conflicts_are_those_of_samples_in_the_cube() {
     let mut builder = FrameBuilder::new(48, 48);
-    builder.clipping(Clipping::NdcCube).hidden_surfaces(HiddenSurfaces::DrawOrder);
+    builder
+        .clipping(Clipping::NdcCube)
+        .hidden_surfaces(HiddenSurfaces::DrawOrder);
     let material = builder.lighting(plain_lighting());
     let square = |left: f32, right: f32| {
         [(4, 4, left), (44, 4, right), (44, 44, right), (4, 44, left)].map(|(x, y, depth)| Corner {
@@ -364,19 +481,37 @@ fn conflicts_are_those_of_samples_in_the_cube() {
 #[test]
 fn the_painter_keeps_the_means_of_clipped_polygons() {
     let frame = |hidden_surfaces| {
-        let mut scene = Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
+        let mut scene =
+            Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
         scene.camera.projection = Projection::Perspective { fovy: 60.0 };
         scene.camera.eye = scene.camera.target + scene.camera.view() * 2.5;
         (scene.camera.near, scene.camera.far) = (1.6, 5.0);
         (scene.culling, scene.hidden_surfaces) = (Culling::None, hidden_surfaces);
         scene.frame().expect("a frame")
     };
-    let (drawn, painted) = (frame(HiddenSurfaces::DrawOrder), frame(HiddenSurfaces::Painter(PainterKey::Mean)));
+    let (drawn, painted) = (
+        frame(HiddenSurfaces::DrawOrder),
+        frame(HiddenSurfaces::Painter(PainterKey::Mean)),
+    );
     assert!(drawn.stats().clipped > 10, "the near plane cuts it");
-    let moved = drawn.polygons().iter().zip(painted.polygons()).filter(|(a, b)| a.source != b.source).count();
+    let moved = drawn
+        .polygons()
+        .iter()
+        .zip(painted.polygons())
+        .filter(|(a, b)| a.source != b.source)
+        .count();
     assert!(moved > 100, "the painter sorts");
     for polygon in painted.polygons() {
-        let same = drawn.polygons().iter().find(|other| other.source == polygon.source).expect("the same polygons");
-        assert_eq!(painted.mean(polygon), drawn.mean(same), "polygon {}", polygon.source);
+        let same = drawn
+            .polygons()
+            .iter()
+            .find(|other| other.source == polygon.source)
+            .expect("the same polygons");
+        assert_eq!(
+            painted.mean(polygon),
+            drawn.mean(same),
+            "polygon {}",
+            polygon.source
+        );
     }
 }

@@ -33,7 +33,12 @@ fn lighting() -> Lighting {
         specular: [SPECULAR as f32; 3],
         shininess: SHININESS as f32,
     };
-    Lighting::new(&material, [1.0; 3], &[Light::directional(LIGHT, [1.0; 3])], VIEW)
+    Lighting::new(
+        &material,
+        [1.0; 3],
+        &[Light::directional(LIGHT, [1.0; 3])],
+        VIEW,
+    )
 }
 
 fn frame_of(polygons: &[&[((f64, f64), DVec3)]]) -> Frame {
@@ -48,7 +53,10 @@ fn frame_of(polygons: &[&[((f64, f64), DVec3)]]) -> Frame {
             normal: normal.as_vec3().to_array(),
             material,
         };
-        let numbers: Vec<u32> = corners.iter().map(|corner| builder.vertex(vertex(corner))).collect();
+        let numbers: Vec<u32> = corners
+            .iter()
+            .map(|corner| builder.vertex(vertex(corner)))
+            .collect();
         builder.polygon(&numbers, Vec3::Z.to_array(), number as u32);
     }
     builder.finish().expect("all corners are on the picture")
@@ -63,12 +71,21 @@ fn leaning(right: f64, up: f64) -> DVec3 {
 /// Four rows over the whole picture, with one normal at the left and one at the right: t = (column + ½) / WIDTH.
 fn strip(left: DVec3, right: DVec3) -> Frame {
     let w = f64::from(WIDTH);
-    frame_of(&[&[((0.0, 0.0), left), ((w, 0.0), right), ((w, 4.0), right), ((0.0, 4.0), left)]])
+    frame_of(&[&[
+        ((0.0, 0.0), left),
+        ((w, 0.0), right),
+        ((w, 4.0), right),
+        ((0.0, 4.0), left),
+    ]])
 }
 
 /// (2.1) with the clamps, from L·N and R·V.
 fn intensity(l_n: f64, r_v: f64) -> f64 {
-    let specular = if l_n > 0.0 { SPECULAR * r_v.max(0.0).powi(SHININESS) } else { 0.0 };
+    let specular = if l_n > 0.0 {
+        SPECULAR * r_v.max(0.0).powi(SHININESS)
+    } else {
+        0.0
+    };
     AMBIENT + DIFFUSE * l_n.max(0.0) + specular
 }
 
@@ -91,11 +108,16 @@ fn check(variant: &str, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
         (leaning(0.0, 0.0), leaning(3.0, 40.0)),
         (leaning(-60.0, 10.0), leaning(5.0, 20.0)),
     ] {
-        let picture = Variant::parse(variant).unwrap().render_linear(&strip(n1, n2));
+        let picture = Variant::parse(variant)
+            .unwrap()
+            .render_linear(&strip(n1, n2));
         for row in 0..4 {
             for column in 0..WIDTH as usize {
                 let t = (column as f64 + 0.5) / f64::from(WIDTH);
-                let (found, expected) = (f64::from(picture.get(column, row)[0]), formula(n1, n2, t).min(1.0));
+                let (found, expected) = (
+                    f64::from(picture.get(column, row)[0]),
+                    formula(n1, n2, t).min(1.0),
+                );
                 assert!(
                     (found - expected).abs() < TOLERANCE,
                     "{variant} at {column}, {row}: {found} instead of {expected}"
@@ -108,13 +130,17 @@ fn check(variant: &str, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
 /// (3.5), (3.6): intensities by (2.1) at the ends, linear between them.
 #[test]
 fn gouraud_interpolates_intensities() {
-    check("gouraud", |n1, n2, t| (1.0 - t) * lit(n1).min(1.0) + t * lit(n2).min(1.0));
+    check("gouraud", |n1, n2, t| {
+        (1.0 - t) * lit(n1).min(1.0) + t * lit(n2).min(1.0)
+    });
 }
 
 /// (4.1), (4.2): normals linear, renormalised, (2.1) at every pixel.
 #[test]
 fn naive_phong_interpolates_normals() {
-    check("naive-phong", |n1, n2, t| lit(((1.0 - t) * n1 + t * n2).normalize()));
+    check("naive-phong", |n1, n2, t| {
+        lit(((1.0 - t) * n1 + t * n2).normalize())
+    });
 }
 
 /// (4.3), (4.4), (4.6): J and K linear, d = |N|, D = N · N. Three steps of Newton's method leave less than rounding:
@@ -126,7 +152,10 @@ fn fast_phong_is_equation_4_6() {
         let j = linear(LIGHT.dot(n1), LIGHT.dot(n2));
         let k = linear(VIEW.dot(n1), VIEW.dot(n2));
         let d_squared = ((1.0 - t) * n1 + t * n2).length_squared();
-        intensity(j / d_squared.sqrt(), 2.0 * j * k / d_squared - LIGHT.dot(VIEW))
+        intensity(
+            j / d_squared.sqrt(),
+            2.0 * j * k / d_squared - LIGHT.dot(VIEW),
+        )
     });
 }
 
@@ -158,8 +187,15 @@ fn the_summary_of_naive_phong_is_not_section_4_1() {
     }
     let t = 1.0 - 0.5 / f64::from(WIDTH);
     let section = ((1.0 - t) * n1 + t * n2).normalize();
-    assert!((lit(n) - lit(section)).abs() > 100.0 * TOLERANCE, "a test of nothing: {} {}", lit(n), lit(section));
-    let picture = Variant::parse("naive-phong").unwrap().render_linear(&strip(n1, n2));
+    assert!(
+        (lit(n) - lit(section)).abs() > 100.0 * TOLERANCE,
+        "a test of nothing: {} {}",
+        lit(n),
+        lit(section)
+    );
+    let picture = Variant::parse("naive-phong")
+        .unwrap()
+        .render_linear(&strip(n1, n2));
     let last = f64::from(picture.get(WIDTH as usize - 1, 0)[0]);
     assert!((last - lit(section)).abs() < TOLERANCE);
 }
@@ -176,33 +212,53 @@ fn square(turns: usize, normals: [DVec3; 4]) -> [((f64, f64), DVec3); 4] {
 /// The picture turned back by a quarter turn: what was drawn in the top row stands in the left column, upward.
 fn turned_back(picture: &LinearPicture) -> LinearPicture {
     let n = picture.width();
-    let texels = (0..n * n).map(|i| picture.get(n - 1 - i / n, i % n)).collect();
+    let texels = (0..n * n)
+        .map(|i| picture.get(n - 1 - i / n, i % n))
+        .collect();
     LinearPicture::from_texels(n, n, texels).expect("as many texels as before")
 }
 
 fn largest_difference(a: &LinearPicture, b: &LinearPicture) -> f64 {
     let difference = |(x, y): (&[f32; 4], &[f32; 4])| f64::from((x[0] - y[0]).abs());
-    a.texels().iter().zip(b.texels()).map(difference).fold(0.0, f64::max)
+    a.texels()
+        .iter()
+        .zip(b.texels())
+        .map(difference)
+        .fold(0.0, f64::max)
 }
 
 /// L21 3, Figure 5: a square with one corner apart is shaded differently when it is turned by 90°; cut into triangles it
 /// is not, as interpolation on triangles is barycentric (Figure 6). Slerp is not affine, so even triangles turn with it.
 #[test]
 fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
-    let normals = [leaning(0.0, 0.0), leaning(-50.0, 0.0), leaning(0.0, 30.0), leaning(20.0, -20.0)];
+    let normals = [
+        leaning(0.0, 0.0),
+        leaning(-50.0, 0.0),
+        leaning(0.0, 30.0),
+        leaning(20.0, -20.0),
+    ];
     let turned_difference = |entry: &'static Entry, triangles: bool| {
         let picture = |turns: usize| {
             let [a, b, c, d] = square(turns, normals);
-            let frame = if triangles { frame_of(&[&[a, b, c], &[a, c, d]]) } else { frame_of(&[&[a, b, c, d]]) };
+            let frame = if triangles {
+                frame_of(&[&[a, b, c], &[a, c, d]])
+            } else {
+                frame_of(&[&[a, b, c, d]])
+            };
             entry.variant().render_linear(&frame)
         };
         largest_difference(&picture(0), &turned_back(&picture(1)))
     };
     for entry in METHODS {
-        let (square, triangles) = (turned_difference(entry, false), turned_difference(entry, true));
+        let (square, triangles) = (
+            turned_difference(entry, false),
+            turned_difference(entry, true),
+        );
         match entry.info.name {
             "flat" | "flat-average" => assert_eq!((square, triangles), (0.0, 0.0)),
-            "slerp-phong" | "slerp-phong-vector" => assert!(square > 0.01 && triangles > 0.001, "{square} {triangles}"),
+            "slerp-phong" | "slerp-phong-vector" => {
+                assert!(square > 0.01 && triangles > 0.001, "{square} {triangles}")
+            }
             name => {
                 assert!(square > 0.01, "{name}: {square}");
                 // Both pictures are within the tolerance of the same formula; default steps of Newton's method leave
@@ -216,12 +272,21 @@ fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
 /// L21 3: different ways to cut a square into triangles give different pictures.
 #[test]
 fn the_picture_depends_on_the_diagonal() {
-    let normals = [leaning(0.0, 0.0), leaning(-50.0, 0.0), leaning(0.0, 30.0), leaning(20.0, -20.0)];
+    let normals = [
+        leaning(0.0, 0.0),
+        leaning(-50.0, 0.0),
+        leaning(0.0, 30.0),
+        leaning(20.0, -20.0),
+    ];
     let [a, b, c, d] = square(0, normals);
     let one = frame_of(&[&[a, b, c], &[a, c, d]]);
     let other = frame_of(&[&[a, b, d], &[b, c, d]]);
     for entry in METHODS.iter().filter(|entry| entry.info.name != "flat") {
         let draw = |frame: &Frame| entry.variant().render_linear(frame);
-        assert!(largest_difference(&draw(&one), &draw(&other)) > 0.01, "{}", entry.info.name);
+        assert!(
+            largest_difference(&draw(&one), &draw(&other)) > 0.01,
+            "{}",
+            entry.info.name
+        );
     }
 }

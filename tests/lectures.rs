@@ -17,13 +17,20 @@ const MOST: usize = 3;
 /// The rows of the table: number, what, where, shown by.
 fn items() -> Vec<[String; 4]> {
     let all = rows(&read("docs/lectures.md"));
-    let numbered = all.into_iter().filter(|row| row[0].parse::<usize>().is_ok());
-    numbered.map(|row| <[String; 4]>::try_from(row).expect("four cells a row")).collect()
+    let numbered = all
+        .into_iter()
+        .filter(|row| row[0].parse::<usize>().is_ok());
+    numbered
+        .map(|row| <[String; 4]>::try_from(row).expect("four cells a row"))
+        .collect()
 }
 
 #[test]
 fn every_item_stands_in_the_table_once_and_in_order() {
-    let numbers: Vec<usize> = items().iter().map(|[number, ..]| number.parse().expect("a number")).collect();
+    let numbers: Vec<usize> = items()
+        .iter()
+        .map(|[number, ..]| number.parse().expect("a number"))
+        .collect();
     assert_eq!(numbers, (1..=ITEMS).collect::<Vec<_>>());
 }
 
@@ -51,8 +58,14 @@ fn every_item_is_shown_by_a_test_or_a_figure_of_few_others() {
     let mut served: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for [number, _, _, shown] in items() {
         for part in shown.split("; ") {
-            if let Some(name) = part.strip_prefix("figure `").and_then(|rest| rest.strip_suffix('`')) {
-                assert!(Figure::named(name).is_some(), "{number}: there is no figure `{name}`");
+            if let Some(name) = part
+                .strip_prefix("figure `")
+                .and_then(|rest| rest.strip_suffix('`'))
+            {
+                assert!(
+                    Figure::named(name).is_some(),
+                    "{number}: there is no figure `{name}`"
+                );
                 served.entry(part.into()).or_default().push(number.clone());
                 continue;
             }
@@ -64,13 +77,23 @@ fn every_item_is_shown_by_a_test_or_a_figure_of_few_others() {
                         .find(&format!("fn {test}()"))
                         .unwrap_or_else(|| panic!("{number}: {file} has no `{test}`"));
                     let before = source[..at].trim_end();
-                    assert!(before.ends_with("#[test]"), "{number}: `{test}` of {file} is no test");
-                    served.entry(format!("{file}: {test}")).or_default().push(number.clone());
+                    assert!(
+                        before.ends_with("#[test]"),
+                        "{number}: `{test}` of {file} is no test"
+                    );
+                    served
+                        .entry(format!("{file}: {test}"))
+                        .or_default()
+                        .push(number.clone());
                 }
             }
         }
     }
     for (what, items) in served {
-        assert!(items.len() <= MOST, "{what} serves items {}: {MOST} at most", items.join(", "));
+        assert!(
+            items.len() <= MOST,
+            "{what} serves items {}: {MOST} at most",
+            items.join(", ")
+        );
     }
 }

@@ -14,7 +14,8 @@ use std::collections::BTreeMap;
 
 /// A sphere of n-gons from near by, with a light at infinity and two at places; nothing of it is clipped.
 fn scene(change: impl FnOnce(&mut Scene)) -> Scene {
-    let mut scene = Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
+    let mut scene =
+        Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
     (scene.width, scene.height) = (80, 60);
     scene.camera.projection = Projection::Perspective { fovy: 60.0 };
     scene.camera.eye = scene.camera.target + scene.camera.view() * 2.5;
@@ -36,14 +37,22 @@ fn frame(change: impl FnOnce(&mut Scene)) -> Frame {
 
 fn most(a: &LinearPicture, b: &LinearPicture) -> f64 {
     let difference = compare(a, b).expect("equal sizes");
-    assert_eq!((difference.coverage_mismatches, difference.not_finite), (0, 0));
+    assert_eq!(
+        (difference.coverage_mismatches, difference.not_finite),
+        (0, 0)
+    );
     difference.max
 }
 
 /// A change of a scene, with its name.
 type Change<'a> = (&'a str, &'a dyn Fn(&mut Scene));
 
-const FALLOFFS: [Falloff; 4] = [Falloff::None, Falloff::Attenuation(0.2), Falloff::InverseSquare, Falloff::Inverse];
+const FALLOFFS: [Falloff; 4] = [
+    Falloff::None,
+    Falloff::Attenuation(0.2),
+    Falloff::InverseSquare,
+    Falloff::Inverse,
+];
 
 /// Every falloff, highlight, gate and interpolation, near plane through the sphere or not: within the bound of each method.
 #[test]
@@ -52,11 +61,19 @@ fn every_mode_is_the_references() {
     let mut failures = Vec::new();
     for (i, falloff) in FALLOFFS.into_iter().enumerate() {
         for specular in [SpecularModel::Phong, SpecularModel::Blinn] {
-            for gate in [SpecularGate::Gated, SpecularGate::Ungated, SpecularGate::Weighted] {
+            for gate in [
+                SpecularGate::Gated,
+                SpecularGate::Ungated,
+                SpecularGate::Weighted,
+            ] {
                 for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
                     let frame = frame(|scene| {
-                        scene.lights.iter_mut().for_each(|light| light.falloff = falloff);
-                        (scene.specular, scene.gate, scene.interpolation) = (specular, gate, interpolation);
+                        scene
+                            .lights
+                            .iter_mut()
+                            .for_each(|light| light.falloff = falloff);
+                        (scene.specular, scene.gate, scene.interpolation) =
+                            (specular, gate, interpolation);
                         // With one falloff light and eye are far from the pixels that the near plane leaves.
                         scene.camera.near = if i == 1 { 1.55 } else { 0.5 };
                     });
@@ -65,12 +82,20 @@ fn every_mode_is_the_references() {
                         let truth = reference::render(&frame, entry.info.model).to_linear();
                         let error = most(&truth, &entry.variant().render_linear(&frame));
                         let bound = entry.info.bound(&frame);
-                        assert!(bound < 3.0 / 255.0, "{}: a bound of {bound:.2e} could hide a fault", entry.info.name);
+                        assert!(
+                            bound < 3.0 / 255.0,
+                            "{}: a bound of {bound:.2e} could hide a fault",
+                            entry.info.name
+                        );
                         let share = nearest.entry(entry.info.name).or_insert(0.0);
                         *share = share.max(error / bound);
                         if error > bound {
-                            let mode = format!("{falloff:?} {specular:?} {gate:?} {interpolation:?}");
-                            failures.push(format!("{} {mode}: {error:.2e} over {bound:.2e}", entry.info.name));
+                            let mode =
+                                format!("{falloff:?} {specular:?} {gate:?} {interpolation:?}");
+                            failures.push(format!(
+                                "{} {mode}: {error:.2e} over {bound:.2e}",
+                                entry.info.name
+                            ));
                         }
                     }
                 }
@@ -82,7 +107,10 @@ fn every_mode_is_the_references() {
     // The bounds take the worst polygon, light and weight together, which never meet: far from sharp, but still below what
     // can be seen.
     for (name, share) in nearest {
-        assert!(share > 0.0005, "{name}: its bound is two thousand times its largest error");
+        assert!(
+            share > 0.0005,
+            "{name}: its bound is two thousand times its largest error"
+        );
     }
 }
 
@@ -90,18 +118,26 @@ fn every_mode_is_the_references() {
 /// grey levels.
 #[test]
 fn every_mode_changes_the_picture() {
-    let render = |change: &dyn Fn(&mut Scene)| reference::render(&frame(change), Model::Phong).to_linear();
+    let render =
+        |change: &dyn Fn(&mut Scene)| reference::render(&frame(change), Model::Phong).to_linear();
     // A light behind the rim, where gates matter.
-    let base = render(&|scene| scene.lights[0] = Light::directional(-scene.camera.view(), [0.6; 3]));
+    let base =
+        render(&|scene| scene.lights[0] = Light::directional(-scene.camera.view(), [0.6; 3]));
     let changes: [Change; 8] = [
-        ("attenuation", &|s| s.lights[1].falloff = Falloff::Attenuation(0.2)),
-        ("inverse square", &|s| s.lights[1].falloff = Falloff::InverseSquare),
+        ("attenuation", &|s| {
+            s.lights[1].falloff = Falloff::Attenuation(0.2)
+        }),
+        ("inverse square", &|s| {
+            s.lights[1].falloff = Falloff::InverseSquare
+        }),
         ("inverse", &|s| s.lights[1].falloff = Falloff::Inverse),
         ("infinite viewer", &|s| s.local_viewer = false),
         ("Blinn", &|s| s.specular = SpecularModel::Blinn),
         ("ungated", &|s| s.gate = SpecularGate::Ungated),
         ("weighted", &|s| s.gate = SpecularGate::Weighted),
-        ("at infinity", &|s| s.lights[1] = Light::directional(DVec3::new(0.6, 0.5, 0.6).normalize(), [0.5, 0.4, 0.6])),
+        ("at infinity", &|s| {
+            s.lights[1] = Light::directional(DVec3::new(0.6, 0.5, 0.6).normalize(), [0.5, 0.4, 0.6])
+        }),
     ];
     for (name, change) in changes {
         let changed = render(&|scene: &mut Scene| {
@@ -117,10 +153,15 @@ fn every_mode_changes_the_picture() {
 #[test]
 fn what_constant_vectors_lose() {
     let frame = frame(|_| ());
-    let render = |name: &str| Variant::parse(name).expect("a method").render_linear(&frame);
+    let render = |name: &str| {
+        Variant::parse(name)
+            .expect("a method")
+            .render_linear(&frame)
+    };
     let naive = render("naive-phong");
     let exact = most(&naive, &render("duff-phong"));
-    let bounds = ["naive-phong", "duff-phong"].map(|name| Variant::parse(name).expect("a method").info().bound(&frame));
+    let bounds = ["naive-phong", "duff-phong"]
+        .map(|name| Variant::parse(name).expect("a method").info().bound(&frame));
     assert!(exact <= bounds[0] + bounds[1], "{exact} over {bounds:?}");
     let constant = most(&naive, &render("fast-phong"));
     assert!(constant > 4.0 / 255.0, "constant vectors lose {constant}");
@@ -131,8 +172,14 @@ fn what_constant_vectors_lose() {
 fn the_six_products_take_two_additions_each() {
     let duff = Variant::parse("duff-phong").expect("a method");
     let additions = |lights, falloff, interpolation| {
-        let walk = duff.operations_on(&SpanBench::local(20.0, lights, falloff, interpolation)).walk;
-        assert_eq!((walk.multiplications, walk.divisions, walk.roots), (0, 0, 0), "additions only");
+        let walk = duff
+            .operations_on(&SpanBench::local(20.0, lights, falloff, interpolation))
+            .walk;
+        assert_eq!(
+            (walk.multiplications, walk.divisions, walk.roots),
+            (0, 0, 0),
+            "additions only"
+        );
         walk.additions
     };
     let (none, attenuated) = (Falloff::None, Falloff::Attenuation(0.5));
@@ -159,7 +206,10 @@ fn a_light_far_away_is_one_at_infinity() {
         // Vectors to the light differ by the angle 2.5 / 1e6 (eye and sphere are within 2.5 of the origin), which the
         // model multiplies like any error of a cosine: 4 n k_s + k_d = 52.
         let bound = 52.0 * 2.5e-6 + entry.info.bound(&far) + entry.info.bound(&infinite);
-        let error = most(&entry.variant().render_linear(&far), &entry.variant().render_linear(&infinite));
+        let error = most(
+            &entry.variant().render_linear(&far),
+            &entry.variant().render_linear(&infinite),
+        );
         assert!(error <= bound, "{}: {error} over {bound}", entry.info.name);
     }
 }
@@ -181,7 +231,10 @@ fn converted_exponents_give_the_same_highlight() {
     // cos^n 2a and cos^4n a agree to second order: for n = 32 they are at most 0.0043 apart, at a = 10.1°. k_s is 0.4, and
     // rounding to f32 is far below the rest.
     assert!(converted <= 0.4 * 0.0044, "{converted}");
-    assert!(same_exponent > 10.0 * converted, "{same_exponent} against {converted}");
+    assert!(
+        same_exponent > 10.0 * converted,
+        "{same_exponent} against {converted}"
+    );
 }
 
 /// Light where it has no direction, or none halfway to the eye: numbers stay finite, channels without specular reflection
@@ -189,8 +242,10 @@ fn converted_exponents_give_the_same_highlight() {
 #[test]
 fn unlucky_places_make_no_artefacts() {
     let eye_inside = |s: &mut Scene| {
-        s.lights =
-            vec![Light { falloff: Falloff::InverseSquare, ..Light::positional(DVec3::new(0.1, 0.2, 0.05), [0.5; 3]) }];
+        s.lights = vec![Light {
+            falloff: Falloff::InverseSquare,
+            ..Light::positional(DVec3::new(0.1, 0.2, 0.05), [0.5; 3])
+        }];
         s.culling = Culling::None;
         s.camera.eye = DVec3::new(0.0, 0.1, 0.3);
         s.camera.target = DVec3::new(0.0, 0.0, -1.0);
@@ -199,30 +254,53 @@ fn unlucky_places_make_no_artefacts() {
     // The plane of the polygon nearest to the eye, a little beyond one of its corners.
     let in_the_plane = |s: &mut Scene| {
         let mesh = &s.objects[0].mesh;
-        let corner = |i: usize| mesh.positions()[mesh.corners()[mesh.corner_range(100).start + i] as usize].as_dvec3();
+        let corner = |i: usize| {
+            mesh.positions()[mesh.corners()[mesh.corner_range(100).start + i] as usize].as_dvec3()
+        };
         let beyond = corner(0) + 0.4 * (corner(0) - corner(1));
-        s.lights = vec![Light { falloff: Falloff::Inverse, ..Light::positional(beyond, [0.5; 3]) }];
+        s.lights = vec![Light {
+            falloff: Falloff::Inverse,
+            ..Light::positional(beyond, [0.5; 3])
+        }];
     };
     // Behind the sphere, on the line of sight to its middle: L and V are opposite there, and N·H is 0/0.
     let opposite = |s: &mut Scene| {
         s.culling = Culling::Front;
         s.lights = vec![Light::positional(-s.camera.eye, [0.5; 3])];
         (s.specular, s.gate) = (SpecularModel::Blinn, SpecularGate::Ungated);
-        s.objects[0].material = Some(Material { specular: [0.5, 0.0, 0.0], ..Material::default() });
+        s.objects[0].material = Some(Material {
+            specular: [0.5, 0.0, 0.0],
+            ..Material::default()
+        });
     };
-    let cases: [Change; 3] = [("eye inside", &eye_inside), ("in the plane", &in_the_plane), ("opposite", &opposite)];
+    let cases: [Change; 3] = [
+        ("eye inside", &eye_inside),
+        ("in the plane", &in_the_plane),
+        ("opposite", &opposite),
+    ];
     for (name, case) in cases {
         let frame = frame(case);
         for entry in METHODS {
             let picture = entry.variant().render_linear(&frame);
             // `most` refuses what is not finite.
-            let error = most(&reference::render(&frame, entry.info.model).to_linear(), &picture);
+            let error = most(
+                &reference::render(&frame, entry.info.model).to_linear(),
+                &picture,
+            );
             let bound = entry.info.bound(&frame);
             println!("{name}, {}: {error:.1e} of {bound:.1e}", entry.info.name);
-            assert!(bound >= 1.0 || error <= bound, "{name}, {}: {error} over {bound}", entry.info.name);
+            assert!(
+                bound >= 1.0 || error <= bound,
+                "{name}, {}: {error} over {bound}",
+                entry.info.name
+            );
             if name == "opposite" {
                 // Blue has no specular term: at most ambient and diffuse light, 0.06 + 0.5 · 0.3.
-                assert!(picture.texels().iter().all(|t| t[2] <= 0.22), "{}: a highlight without k_s", entry.info.name);
+                assert!(
+                    picture.texels().iter().all(|t| t[2] <= 0.22),
+                    "{}: a highlight without k_s",
+                    entry.info.name
+                );
             }
         }
     }

@@ -7,7 +7,9 @@ use fastphong::frame::{Frame, FrameError};
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
-use fastphong::scene::{Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Scene};
+use fastphong::scene::{
+    Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Scene,
+};
 use fastphong::shader::METHODS;
 use glam::{DVec3, Vec3};
 use support::Random;
@@ -41,7 +43,9 @@ fn scene_of(mesh: PolygonMesh, near: f64, far: f64) -> Scene {
 
 /// The ground from z = `from` to z = `to`, beyond both sides of the picture.
 fn ground(from: f32, to: f32) -> Vec<Vec3> {
-    [(-60.0, from), (60.0, from), (60.0, to), (-60.0, to)].map(|(x, z)| Vec3::new(x, 0.0, z)).to_vec()
+    [(-60.0, from), (60.0, from), (60.0, to), (-60.0, to)]
+        .map(|(x, z)| Vec3::new(x, 0.0, z))
+        .to_vec()
 }
 
 /// The depth of a polygon's plane at the centre of a sample, and how much it changes from sample to sample.
@@ -60,7 +64,10 @@ fn depth_at(frame: &Frame, polygon: u32, x: usize, y: usize) -> (f64, f64) {
 /// What a sample's depth may be off by in `f32`: twice a step along edge and span and less than 32 times before, half a
 /// unit in the last place each, of the largest depth of a corner.
 fn rounding(frame: &Frame) -> f64 {
-    let largest = frame.vertices().iter().fold(1.0f32, |most, v| most.max(v.depth.abs()));
+    let largest = frame
+        .vertices()
+        .iter()
+        .fold(1.0f32, |most, v| most.max(v.depth.abs()));
     (2.0 * (frame.width() + frame.height()) as f64 + 32.0) * f64::from(largest) / f64::from(1 << 24)
 }
 
@@ -88,11 +95,26 @@ fn wrong_pixels(scene: &Scene) -> (usize, usize, usize) {
 /// A polygon that passes near and far plane in front of the eye: no pixel is wrong that margins do not explain.
 #[test]
 fn in_front_of_the_eye_the_test_is_clipping() {
-    for (from, to, near, far) in [(-0.5, -40.0, 1.5, 20.0), (-1.0, -9.0, 2.0, 30.0), (-3.0, -70.0, 0.1, 25.0)] {
+    for (from, to, near, far) in [
+        (-0.5, -40.0, 1.5, 20.0),
+        (-1.0, -9.0, 2.0, 30.0),
+        (-3.0, -70.0, 0.1, 25.0),
+    ] {
         let scene = scene(&[ground(from, to)], near, far);
         let frame = scene.frame().expect("a frame");
-        assert_eq!((frame.stats().clipped, frame.stats().unprojected, frame.polygons().len()), (0, 0, 1));
-        let drawn = raster::polygon_numbers(&frame).texels().iter().filter(|n| **n == 0).count();
+        assert_eq!(
+            (
+                frame.stats().clipped,
+                frame.stats().unprojected,
+                frame.polygons().len()
+            ),
+            (0, 0, 1)
+        );
+        let drawn = raster::polygon_numbers(&frame)
+            .texels()
+            .iter()
+            .filter(|n| **n == 0)
+            .count();
         assert!(drawn > 800 && drawn < 4800, "{drawn}");
         let (missing, extra, unexplained) = wrong_pixels(&scene);
         assert_eq!(unexplained, 0, "{missing} missing, {extra} extra");
@@ -110,7 +132,11 @@ fn through_the_plane_of_the_eye_the_test_is_wrong() {
     assert_eq!(wrong_pixels(&scene), (3200, 400, 3600));
     scene.clipping = Clipping::Planes;
     let truth = raster::polygon_numbers(&scene.frame().expect("a frame"));
-    assert_eq!(truth.texels().iter().filter(|n| **n == 0).count(), 3200, "not one pixel of the ground is drawn");
+    assert_eq!(
+        truth.texels().iter().filter(|n| **n == 0).count(),
+        3200,
+        "not one pixel of the ground is drawn"
+    );
 }
 
 /// A corner in the plane of the eye has no place: the polygon is left out and counted.
@@ -118,9 +144,17 @@ fn through_the_plane_of_the_eye_the_test_is_wrong() {
 fn corners_without_a_place_are_counted() {
     // In the plane; at the eye itself; before it on the line of sight, where column and row are those of the middle of the
     // picture, but z/w is -1e5.
-    let [at_the_eye, before_it] =
-        [0.0, -1e-6].map(|z| [(0.0, 1.0, z), (1.0, 0.5, -3.0), (-1.0, 0.5, -3.0)].map(Vec3::from).to_vec());
-    let polygons = [ground(0.0, -10.0), at_the_eye, before_it, ground(-2.0, -10.0)];
+    let [at_the_eye, before_it] = [0.0, -1e-6].map(|z| {
+        [(0.0, 1.0, z), (1.0, 0.5, -3.0), (-1.0, 0.5, -3.0)]
+            .map(Vec3::from)
+            .to_vec()
+    });
+    let polygons = [
+        ground(0.0, -10.0),
+        at_the_eye,
+        before_it,
+        ground(-2.0, -10.0),
+    ];
     let mut scene = scene(&polygons, 0.1, 100.0);
     scene.camera.target = DVec3::new(0.0, 1.0, -1.0);
     let frame = scene.frame().expect("a frame");
@@ -137,8 +171,13 @@ fn anything_around_the_eye_gives_a_picture() {
     let mut place = || (random.unit() - 0.5) * 8.0;
     let (mut differing, mut drawn) = (0, 0);
     for round in 0..40 {
-        let triangles: Vec<Vec<Vec3>> =
-            (0..12).map(|_| (0..3).map(|_| Vec3::new(place(), place() + 1.0, place())).collect()).collect();
+        let triangles: Vec<Vec<Vec3>> = (0..12)
+            .map(|_| {
+                (0..3)
+                    .map(|_| Vec3::new(place(), place() + 1.0, place()))
+                    .collect()
+            })
+            .collect();
         let mut scene = scene(&triangles, 0.3, 9.0);
         let bits = [DepthBits::ThirtyTwo, DepthBits::Sixteen][round % 2];
         let source = [DepthSource::Interpolated, DepthSource::PerSample][round / 2 % 2];
@@ -148,7 +187,10 @@ fn anything_around_the_eye_gives_a_picture() {
         // n/w is at most as large as depth/(f/(f−n)) + 1, and f/(f−n) is 1.03 here.
         let margin = 2.1 * rounding(&frame);
         let level = bits.most().map_or(0.0, |most| 1.0 / f64::from(most));
-        for seen in [raster::polygon_numbers(&frame), raster::barycentric_polygon_numbers(&frame, Edges::TopLeft)] {
+        for seen in [
+            raster::polygon_numbers(&frame),
+            raster::barycentric_polygon_numbers(&frame, Edges::TopLeft),
+        ] {
             for (x, y) in (0..80).flat_map(|x| (0..60).map(move |y| (x, y))) {
                 let pair = [seen.get(x, y), truth.polygons.get(x, y)];
                 drawn += usize::from(pair[1] != NOTHING);
@@ -161,13 +203,26 @@ fn anything_around_the_eye_gives_a_picture() {
                     depth.abs() <= margin || (depth - 1.0).abs() <= margin
                 });
                 let gap = truth.depth_gap.get(x, y);
-                assert!(at_an_end || gap <= 2.0 * (margin + level), "{gap} at {x}, {y} of round {round}: {pair:?}");
+                assert!(
+                    at_an_end || gap <= 2.0 * (margin + level),
+                    "{gap} at {x}, {y} of round {round}: {pair:?}"
+                );
             }
         }
         for entry in METHODS {
             let picture = entry.variant().render_linear(&frame);
-            assert!(picture.texels().iter().all(|t| t.iter().all(|c| (0.0..=1.0).contains(c))), "{}", entry.info.name);
+            assert!(
+                picture
+                    .texels()
+                    .iter()
+                    .all(|t| t.iter().all(|c| (0.0..=1.0).contains(c))),
+                "{}",
+                entry.info.name
+            );
         }
     }
-    assert!(drawn > 20_000 && differing * 500 < drawn, "{differing} of {drawn} pixels");
+    assert!(
+        drawn > 20_000 && differing * 500 < drawn,
+        "{differing} of {drawn} pixels"
+    );
 }

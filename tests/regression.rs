@@ -24,7 +24,8 @@ fn folder(name: &str) -> PathBuf {
 
 fn store(path: &Path, picture: &Picture8) {
     fs::create_dir_all(path.parent().expect("a folder")).expect("a writable target folder");
-    write_file(path, &encode_png(picture).expect("a picture with pixels")).expect("a writable file");
+    write_file(path, &encode_png(picture).expect("a picture with pixels"))
+        .expect("a writable file");
 }
 
 /// What is wrong with `actual`, if anything; then the picture, and its difference from the blessed one, are written.
@@ -42,27 +43,43 @@ fn blessed(name: &str) -> PathBuf {
 }
 
 /// What is wrong with `actual` at the pixels where `counts` holds, and with what it covers anywhere.
-fn check_where(name: &str, blessed: &Path, actual: &Picture8, counts: impl Fn(usize, usize) -> bool) -> Option<String> {
+fn check_where(
+    name: &str,
+    blessed: &Path,
+    actual: &Picture8,
+    counts: impl Fn(usize, usize) -> bool,
+) -> Option<String> {
     let output = folder("target/regression").join(format!("{name}.actual.png"));
     let expected = match read_png(blessed) {
         Ok(expected) => expected,
         Err(error) => {
             store(&output, actual);
-            return Some(format!("{name}: {error}; the candidate is {}", output.display()));
+            return Some(format!(
+                "{name}: {error}; the candidate is {}",
+                output.display()
+            ));
         }
     };
     let difference = match compare_where(&expected, actual, counts) {
         Ok(difference) => difference,
         Err(sizes) => return Some(format!("{name}: {sizes}")),
     };
-    let uncovered = expected.texels().iter().zip(actual.texels()).filter(|(a, b)| a[3] != b[3]).count();
+    let uncovered = expected
+        .texels()
+        .iter()
+        .zip(actual.texels())
+        .filter(|(a, b)| a[3] != b[3])
+        .count();
     // One level, in units of 0..1, and half of another for rounding.
     if difference.max <= 1.5 / 255.0 && uncovered == 0 {
         return None;
     }
     let map = folder("target/regression").join(format!("{name}.difference.png"));
     store(&output, actual);
-    store(&map, &difference_map(&expected, actual, 16.0).expect("equal sizes"));
+    store(
+        &map,
+        &difference_map(&expected, actual, 16.0).expect("equal sizes"),
+    );
     Some(format!(
         "{name}: off by {:.0} levels, {uncovered} pixels drawn in one only; see {} and {}",
         255.0 * difference.max,
@@ -83,7 +100,10 @@ fn pictures_are_the_blessed_ones() {
             known.push(blessed(&name));
         };
         let visibility = reference::visibility(&frame);
-        let models = [(Model::Phong, "reference"), (Model::Slerp, "reference-slerp")];
+        let models = [
+            (Model::Phong, "reference"),
+            (Model::Slerp, "reference-slerp"),
+        ];
         for (model, name) in models {
             let linear = reference::shade(&frame, &visibility, model).to_linear();
             one(name, &fastphong::encoding::store(&linear, frame.encoding()));
@@ -92,34 +112,61 @@ fn pictures_are_the_blessed_ones() {
             one(entry.info.name, &entry.variant().render(&frame));
         }
         let decided = decided(&frame, &visibility);
-        for (entry, renderer) in METHODS.iter().flat_map(|entry| renderers().into_iter().map(move |r| (entry, r))) {
+        for (entry, renderer) in METHODS
+            .iter()
+            .flat_map(|entry| renderers().into_iter().map(move |r| (entry, r)))
+        {
             let name = format!("{scene}/{}", entry.info.name);
             let mut picture = Picture8::new(1, 1, [0; 4]);
             entry.variant().render_with(&frame, renderer, &mut picture);
             let by = format!("{name} by {}", renderers::name(renderer));
-            failures.extend(check_where(&by, &blessed(&name), &picture, |x, y| decided.get(x, y)));
+            failures.extend(check_where(&by, &blessed(&name), &picture, |x, y| {
+                decided.get(x, y)
+            }));
         }
     }
     // A blessed picture that nothing makes any more would never fail again.
-    for folder in fs::read_dir(folder("tests/references")).expect("the folder of blessed pictures").flatten() {
+    for folder in fs::read_dir(folder("tests/references"))
+        .expect("the folder of blessed pictures")
+        .flatten()
+    {
         for file in fs::read_dir(folder.path()).into_iter().flatten().flatten() {
             if !known.contains(&file.path()) {
-                failures.push(format!("{} belongs to no scene and method", file.path().display()));
+                failures.push(format!(
+                    "{} belongs to no scene and method",
+                    file.path().display()
+                ));
             }
         }
     }
-    assert!(failures.is_empty(), "{} pictures differ:\n{}", failures.len(), failures.join("\n"));
+    assert!(
+        failures.is_empty(),
+        "{} pictures differ:\n{}",
+        failures.len(),
+        failures.join("\n")
+    );
 }
 
 /// The comparison itself: one pixel moved by two levels, or a method taken for another, does not pass.
 #[test]
 fn the_comparison_catches_what_it_should() {
-    let (_, path) = support::shipped().into_iter().find(|(name, _)| name == "coarse-sphere").expect("shipped");
+    let (_, path) = support::shipped()
+        .into_iter()
+        .find(|(name, _)| name == "coarse-sphere")
+        .expect("shipped");
     let frame = support::scene(&path, Some(SIZE)).frame().expect("a frame");
-    let picture = |name: &str| fastphong::shader::Variant::parse(name).expect("a method").render(&frame);
+    let picture = |name: &str| {
+        fastphong::shader::Variant::parse(name)
+            .expect("a method")
+            .render(&frame)
+    };
     let naive = picture("naive-phong");
     let mut moved = naive.clone();
-    let lit = moved.texels().iter().position(|t| t[0] > 100 && t[0] < 250).expect("a lit pixel");
+    let lit = moved
+        .texels()
+        .iter()
+        .position(|t| t[0] > 100 && t[0] < 250)
+        .expect("a lit pixel");
     moved.texels_mut()[lit][0] += 2;
     let max = |other: &Picture8| compare(&naive, other).expect("equal sizes").max;
     assert!(max(&moved) > 1.5 / 255.0);

@@ -20,8 +20,18 @@ fn frame(side: u32, n: u32, encoding: Encoding, corners: &[(f64, f64)], intensit
     let mut builder = FrameBuilder::new(side * n, side * n);
     builder.samples(n).background(BACKGROUND).encoding(encoding);
     let material = builder.lighting(plain_lighting());
-    let corner = |&(x, y): &(f64, f64)| Corner { x: (x * 256.0) as i32, y: (y * 256.0) as i32, depth: 0.5, intensity };
-    add(&mut builder, material, 0, &corners.iter().map(corner).collect::<Vec<_>>());
+    let corner = |&(x, y): &(f64, f64)| Corner {
+        x: (x * 256.0) as i32,
+        y: (y * 256.0) as i32,
+        depth: 0.5,
+        intensity,
+    };
+    add(
+        &mut builder,
+        material,
+        0,
+        &corners.iter().map(corner).collect::<Vec<_>>(),
+    );
     builder.finish().expect("a frame")
 }
 
@@ -31,7 +41,9 @@ fn pictures(frame: &Frame) -> [LinearPicture; 3] {
     let triangles = triangulated(frame).frame;
     [
         gouraud.render_linear(frame),
-        gouraud.render_barycentric_linear(&triangles, Edges::TopLeft).expect("gouraud is one of its methods"),
+        gouraud
+            .render_barycentric_linear(&triangles, Edges::TopLeft)
+            .expect("gouraud is one of its methods"),
         reference::render(frame, Model::Gouraud).to_linear(),
     ]
 }
@@ -42,9 +54,16 @@ fn a_constant_picture_stays_constant() {
     for n in [1, 2, 4, 8] {
         let s = f64::from(6 * n);
         for intensity in [0.1, 1.0 / 3.0, 0.7, 1.0] {
-            let all = [(-1.0, -1.0), (s + 1.0, -1.0), (s + 1.0, s + 1.0), (-1.0, s + 1.0)];
+            let all = [
+                (-1.0, -1.0),
+                (s + 1.0, -1.0),
+                (s + 1.0, s + 1.0),
+                (-1.0, s + 1.0),
+            ];
             let frame = frame(6, n, Encoding::Linear, &all, intensity);
-            let picture = Variant::parse("flat").expect("a method").render_linear(&frame);
+            let picture = Variant::parse("flat")
+                .expect("a method")
+                .render_linear(&frame);
             assert_eq!((picture.width(), picture.height()), (6, 6));
             let face = picture.get(0, 0);
             // The face of `add` looks into the light; the corners do not.
@@ -54,12 +73,29 @@ fn a_constant_picture_stays_constant() {
                 let first = picture.get(0, 0);
                 // z of the normal, a rounding of `intensity`, goes through a few more roundings in each engine.
                 assert!((first[0] - intensity).abs() < 1e-6 && first[3] == 1.0);
-                assert!(picture.texels().iter().all(|t| (t[0] - first[0]).abs() < 1e-6 && t[3] == 1.0));
+                assert!(
+                    picture
+                        .texels()
+                        .iter()
+                        .all(|t| (t[0] - first[0]).abs() < 1e-6 && t[3] == 1.0)
+                );
             }
         }
-        let empty = frame(6, n, Encoding::Linear, &[(-9.0, -9.0), (-8.0, -9.0), (-8.0, -8.0)], 1.0);
+        let empty = frame(
+            6,
+            n,
+            Encoding::Linear,
+            &[(-9.0, -9.0), (-8.0, -9.0), (-8.0, -8.0)],
+            1.0,
+        );
         for picture in pictures(&empty) {
-            assert!(picture.texels().iter().all(|t| *t == [0.25, 0.5, 0.125, 0.0]), "{n}");
+            assert!(
+                picture
+                    .texels()
+                    .iter()
+                    .all(|t| *t == [0.25, 0.5, 0.125, 0.0]),
+                "{n}"
+            );
         }
     }
 }
@@ -73,11 +109,21 @@ fn a_pixel_on_an_edge_has_the_exact_share() {
         let mix = |share: f32, c: usize| share + (1.0 - share) * BACKGROUND[c];
         for k in 0..n {
             let x = f64::from(2 * n + k);
-            let frame = frame(6, n, Encoding::Linear, &[(x, 0.0), (s, 0.0), (s, s), (x, s)], 1.0);
+            let frame = frame(
+                6,
+                n,
+                Encoding::Linear,
+                &[(x, 0.0), (s, 0.0), (s, s), (x, s)],
+                1.0,
+            );
             let share = (n - k) as f32 / n as f32;
             for picture in pictures(&frame) {
                 // All numbers here are multiples of 1/64: nothing is rounded.
-                assert_eq!(picture.get(2, 3), [mix(share, 0), mix(share, 1), mix(share, 2), share], "{k} of {n}");
+                assert_eq!(
+                    picture.get(2, 3),
+                    [mix(share, 0), mix(share, 1), mix(share, 2), share],
+                    "{k} of {n}"
+                );
                 assert_eq!((picture.get(1, 3)[3], picture.get(3, 3)[3]), (0.0, 1.0));
             }
         }
@@ -85,7 +131,11 @@ fn a_pixel_on_an_edge_has_the_exact_share() {
         let share = (n * (n + 1) / 2) as f32 / (n * n) as f32;
         for picture in pictures(&frame) {
             for i in 0..6 {
-                assert_eq!(picture.get(i, i), [mix(share, 0), mix(share, 1), mix(share, 2), share], "{n}");
+                assert_eq!(
+                    picture.get(i, i),
+                    [mix(share, 0), mix(share, 1), mix(share, 2), share],
+                    "{n}"
+                );
             }
         }
     }
@@ -96,21 +146,38 @@ fn a_pixel_on_an_edge_has_the_exact_share() {
 fn samples_are_filtered_before_they_are_encoded() {
     let n = 4;
     let s = f64::from(6 * n);
-    let half = [(f64::from(2 * n + n / 2), 0.0), (s, 0.0), (s, s), (f64::from(2 * n + n / 2), s)];
+    let half = [
+        (f64::from(2 * n + n / 2), 0.0),
+        (s, 0.0),
+        (s, s),
+        (f64::from(2 * n + n / 2), s),
+    ];
     let frame = frame(6, n, Encoding::Srgb, &half, 1.0);
     let gouraud = Variant::parse("gouraud").expect("a method");
     let expected = [0, 1, 2].map(|c| quantise(srgb_encode(0.5 + 0.5 * BACKGROUND[c])));
     let means_of_encoded = [0, 1, 2].map(|c| quantise(0.5 + 0.5 * srgb_encode(BACKGROUND[c])));
-    assert!((0..3).all(|c| expected[c] != means_of_encoded[c]), "the two can be told apart");
-    let barycentric = gouraud.render_barycentric(&triangulated(&frame).frame, Edges::TopLeft).expect("has gouraud");
+    assert!(
+        (0..3).all(|c| expected[c] != means_of_encoded[c]),
+        "the two can be told apart"
+    );
+    let barycentric = gouraud
+        .render_barycentric(&triangulated(&frame).frame, Edges::TopLeft)
+        .expect("has gouraud");
     for picture in [gouraud.render(&frame), barycentric] {
         let [r, g, b, alpha] = picture.get(2, 3);
-        assert_eq!(([r, g, b], alpha), (expected, 128), "alpha has no transfer function");
+        assert_eq!(
+            ([r, g, b], alpha),
+            (expected, 128),
+            "alpha has no transfer function"
+        );
     }
 }
 
 fn supersampled(name: &str, size: (i64, i64), n: u32) -> Frame {
-    let (_, path) = support::shipped().into_iter().find(|(found, _)| found == name).expect("a shipped scene");
+    let (_, path) = support::shipped()
+        .into_iter()
+        .find(|(found, _)| found == name)
+        .expect("a shipped scene");
     let mut scene = support::scene(&path, Some(size));
     scene.samples = n;
     scene.frame().expect("a frame")
@@ -125,7 +192,10 @@ fn every_sample_is_shaded() {
         let (w, h) = (48 * n as i64, 36 * n as i64);
         let large = supersampled("coarse-sphere", (w, h), 1);
         for entry in METHODS {
-            let (small, large) = (entry.variant().render_linear(&frame), entry.variant().render_linear(&large));
+            let (small, large) = (
+                entry.variant().render_linear(&frame),
+                entry.variant().render_linear(&large),
+            );
             for (x, y) in (0..36).flat_map(|y| (0..48).map(move |x| (x, y))) {
                 let mut mean = [0.0f64; 4];
                 for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
@@ -137,7 +207,12 @@ fn every_sample_is_shaded() {
                 assert_eq!(small.get(x, y), mean, "{} at {x}, {y}", entry.info.name);
             }
             let stored = entry.variant().render(&frame);
-            assert_eq!(stored, small.map(|texel| texel.map(quantise)), "{}", entry.info.name);
+            assert_eq!(
+                stored,
+                small.map(|texel| texel.map(quantise)),
+                "{}",
+                entry.info.name
+            );
             let mut reused = Picture::new(48, 36, [9; 4]);
             entry.variant().render_into(&frame, &mut reused);
             assert_eq!(stored, reused, "{}", entry.info.name);
@@ -153,11 +228,17 @@ fn supersampled_methods_are_within_their_bounds() {
         let frame = supersampled(name, (64, 48), 2);
         let visible = reference::visibility(&frame);
         let seen = raster::polygon_numbers(&frame);
-        assert_eq!((seen.width(), seen.height()), (128, 96), "polygon numbers are those of samples");
+        assert_eq!(
+            (seen.width(), seen.height()),
+            (128, 96),
+            "polygon numbers are those of samples"
+        );
         // Where a sample shows another polygon, depths are within rounding, and the pixel is not compared.
         let same = |x: usize, y: usize| {
             let sample = |k: usize| (2 * x + k % 2, 2 * y + k / 2);
-            (0..4).map(sample).all(|(i, j)| seen.get(i, j) == visible.polygons.get(i, j))
+            (0..4)
+                .map(sample)
+                .all(|(i, j)| seen.get(i, j) == visible.polygons.get(i, j))
         };
         for entry in METHODS {
             let truth = reference::shade(&frame, &visible, entry.info.model).to_linear();
@@ -165,22 +246,47 @@ fn supersampled_methods_are_within_their_bounds() {
             let difference = compare_where(&truth, &ours, same).expect("equal sizes");
             // The reference's mean is rounded to f32 once more.
             let bound = entry.info.bound(&frame) + 1.0 / f64::from(1 << 25);
-            assert!(difference.max <= bound, "{name}, {}: {} over {bound}", entry.info.name, difference.max);
-            assert!(difference.excluded < 10 && difference.coverage_mismatches == 0, "{name}, {}", entry.info.name);
+            assert!(
+                difference.max <= bound,
+                "{name}, {}: {} over {bound}",
+                entry.info.name,
+                difference.max
+            );
+            assert!(
+                difference.excluded < 10 && difference.coverage_mismatches == 0,
+                "{name}, {}",
+                entry.info.name
+            );
         }
     }
 }
 
 #[test]
 fn numbers_of_samples_that_cannot_be() {
-    for (width, height, n) in [(12, 12, 3), (12, 12, 0), (12, 12, 16), (13, 12, 2), (12, 13, 2)] {
+    for (width, height, n) in [
+        (12, 12, 3),
+        (12, 12, 0),
+        (12, 12, 16),
+        (13, 12, 2),
+        (12, 13, 2),
+    ] {
         let mut builder = FrameBuilder::new(width, height);
         builder.samples(n);
-        assert_eq!(builder.finish().expect_err("no frame"), FrameError::Samples { samples: n });
+        assert_eq!(
+            builder.finish().expect_err("no frame"),
+            FrameError::Samples { samples: n }
+        );
     }
-    let mut scene = Scene::of_mesh(fastphong::mesh::builtin::builtin("cube").expect("a built-in mesh"));
+    let mut scene =
+        Scene::of_mesh(fastphong::mesh::builtin::builtin("cube").expect("a built-in mesh"));
     (scene.width, scene.samples) = (Scene::MAX_SIDE / 2, 4);
-    assert_eq!(scene.frame().expect_err("no frame"), FrameError::Samples { samples: 4 });
+    assert_eq!(
+        scene.frame().expect_err("no frame"),
+        FrameError::Samples { samples: 4 }
+    );
     scene.samples = 3;
-    assert_eq!(scene.frame().expect_err("no frame"), FrameError::Samples { samples: 3 });
+    assert_eq!(
+        scene.frame().expect_err("no frame"),
+        FrameError::Samples { samples: 3 }
+    );
 }

@@ -13,8 +13,8 @@ use std::process::Command;
 /// Files under `src` that may be longer than [`MOST_LINES`], and why.
 const LONG_FILES: &[(&str, &str)] = &[];
 
-/// Beyond this a file asks to be split by concept.
-const MOST_LINES: usize = 400;
+/// Lines of code, without comments and tests, beyond which a file asks to be split by concept.
+const MOST_LINES: usize = 700;
 
 /// Names of modules that say nothing of what is in them.
 const ATTICS: [&str; 3] = ["utils", "common", "helpers"];
@@ -25,19 +25,32 @@ const NUMBERED: [(u32, u32); 4] = [(1, 1), (2, 1), (3, 6), (4, 12)];
 /// The documents that people read.
 fn documents() -> Vec<PathBuf> {
     let mut all = files("docs", "md");
-    all.extend(["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "scenes/README.md"].map(PathBuf::from));
+    all.extend(
+        [
+            "README.md",
+            "CONTRIBUTING.md",
+            "CHANGELOG.md",
+            "scenes/README.md",
+        ]
+        .map(PathBuf::from),
+    );
     all
 }
 
 /// The numbers that an equation comment gives: those of "3.5, 4.1" and of the range "4.9–4.12".
 fn numbers(comment: &str) -> Vec<(u32, u32)> {
     let number = |text: &str| {
-        let (section, equation) = text.trim_matches(|c: char| !c.is_ascii_digit()).split_once('.')?;
+        let (section, equation) = text
+            .trim_matches(|c: char| !c.is_ascii_digit())
+            .split_once('.')?;
         Some((section.parse().ok()?, equation.parse().ok()?))
     };
     let mut found = Vec::new();
     for word in comment.split([' ', ',']) {
-        match word.split_once('–').and_then(|(from, to)| Some((number(from)?, number(to)?))) {
+        match word
+            .split_once('–')
+            .and_then(|(from, to)| Some((number(from)?, number(to)?)))
+        {
             Some((from, to)) => found.extend((from.1..=to.1).map(|equation| (from.0, equation))),
             None => found.extend(number(word)),
         }
@@ -47,18 +60,30 @@ fn numbers(comment: &str) -> Vec<(u32, u32)> {
 
 /// The comments at the ends of lines of code, of the code before the tests.
 fn line_comments(source: &str) -> Vec<&str> {
-    let code = source.split("#[cfg(test)]\nmod tests {").next().unwrap_or(source);
-    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
-    lines.filter_map(|line| Some(line.split_once("// ")?.1)).collect()
+    let code = source
+        .split("#[cfg(test)]\nmod tests {")
+        .next()
+        .unwrap_or(source);
+    let lines = code
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"));
+    lines
+        .filter_map(|line| Some(line.split_once("// ")?.1))
+        .collect()
 }
 
 #[test]
 fn every_equation_leads_to_its_line_and_its_test() {
     let table = read("docs/equations.md");
-    let table: Vec<_> = rows(&table).into_iter().filter(|row| row.len() == 5 && row[0] != "key").collect();
+    let table: Vec<_> = rows(&table)
+        .into_iter()
+        .filter(|row| row.len() == 5 && row[0] != "key")
+        .collect();
     let mut seen = BTreeSet::new();
     for row in &table {
-        let [key, _, _, code, tests] = &row[..] else { unreachable!("five cells") };
+        let [key, _, _, code, tests] = &row[..] else {
+            unreachable!("five cells")
+        };
         let number = numbers(key).first().copied().filter(|_| !key.contains('`'));
         seen.extend(number);
         for (file, items) in places(code) {
@@ -76,12 +101,21 @@ fn every_equation_leads_to_its_line_and_its_test() {
         for (file, names) in places(tests) {
             let source = read(&file);
             for name in names {
-                assert!(source.contains(&format!("fn {name}()")), "{key}: {file} has no test `{name}`");
+                assert!(
+                    source.contains(&format!("fn {name}()")),
+                    "{key}: {file} has no test `{name}`"
+                );
             }
         }
     }
-    let all: BTreeSet<_> = NUMBERED.iter().flat_map(|&(section, n)| (1..=n).map(move |e| (section, e))).collect();
-    assert_eq!(seen, all, "the numbered equations of docs/equations.md are not those of the lecture");
+    let all: BTreeSet<_> = NUMBERED
+        .iter()
+        .flat_map(|&(section, n)| (1..=n).map(move |e| (section, e)))
+        .collect();
+    assert_eq!(
+        seen, all,
+        "the numbered equations of docs/equations.md are not those of the lecture"
+    );
 }
 
 #[test]
@@ -96,8 +130,14 @@ fn every_numbered_line_stands_in_the_table() {
             }
             for (section, equation) in numbers(comment) {
                 let key = format!("{section}.{equation}");
-                let named = table.iter().any(|row| row[0] == key && row[3].contains(&*file.to_string_lossy()));
-                assert!(named, "{}: `// {comment}` is not in docs/equations.md under {key}", file.display());
+                let named = table
+                    .iter()
+                    .any(|row| row[0] == key && row[3].contains(&*file.to_string_lossy()));
+                assert!(
+                    named,
+                    "{}: `// {comment}` is not in docs/equations.md under {key}",
+                    file.display()
+                );
             }
         }
     }
@@ -106,7 +146,9 @@ fn every_numbered_line_stands_in_the_table() {
 /// A method's section of `docs/methods.md`.
 fn section<'a>(methods: &'a str, name: &str) -> &'a str {
     let heading = format!("\n## `{name}`");
-    let start = methods.find(&heading).unwrap_or_else(|| panic!("docs/methods.md has no section {heading:?}"));
+    let start = methods
+        .find(&heading)
+        .unwrap_or_else(|| panic!("docs/methods.md has no section {heading:?}"));
     let rest = &methods[start + heading.len()..];
     &rest[..rest.find("\n## ").unwrap_or(rest.len())]
 }
@@ -125,7 +167,11 @@ fn operations(entry: &'static Entry) -> String {
             |c| c.trigonometric,
             |c| c.powers,
         ];
-        assert_eq!(kinds[6](&a) + kinds[6](&b), 0, "the table has no column for powers");
+        assert_eq!(
+            kinds[6](&a) + kinds[6](&b),
+            0,
+            "the table has no column for powers"
+        );
         let cell = |kind: &fn(&Counts) -> u32| match (kind(&a), kind(&b)) {
             (0, 0) => " |".to_string(),
             (a, b) if a == b => format!(" {a} |"),
@@ -142,7 +188,9 @@ fn operations(entry: &'static Entry) -> String {
         ("pixel: walk", one.walk, four.walk),
         ("pixel: shade", one.shade, four.shade),
     ];
-    let mut table = String::from("| once a | + − | × | ÷ | √ | compare | sin, atan |\n|---|---|---|---|---|---|---|\n");
+    let mut table = String::from(
+        "| once a | + − | × | ÷ | √ | compare | sin, atan |\n|---|---|---|---|---|---|---|\n",
+    );
     for (rate, one, four) in rates {
         if (one, four) != Default::default() {
             table += &format!("| {rate} |{}\n", cells(one, four));
@@ -157,28 +205,57 @@ fn every_method_is_described_with_what_it_costs() {
     for entry in METHODS {
         let text = section(&methods, entry.info.name);
         let table = operations(entry);
-        assert!(text.contains(&table), "docs/methods.md, `{}`: expected\n{table}", entry.info.name);
-        for part in ["Formula", "Source", "Where it fails", "Perspective", "Degenerate cases"] {
-            assert!(text.contains(&format!("**{part}.**")), "docs/methods.md, `{}`: no {part}", entry.info.name);
+        assert!(
+            text.contains(&table),
+            "docs/methods.md, `{}`: expected\n{table}",
+            entry.info.name
+        );
+        for part in [
+            "Formula",
+            "Source",
+            "Where it fails",
+            "Perspective",
+            "Degenerate cases",
+        ] {
+            assert!(
+                text.contains(&format!("**{part}.**")),
+                "docs/methods.md, `{}`: no {part}",
+                entry.info.name
+            );
         }
         for parameter in entry.info.parameters {
             let named = format!("`{}`", parameter.name);
-            assert!(text.contains(&named), "docs/methods.md, `{}`: no {named}", entry.info.name);
+            assert!(
+                text.contains(&named),
+                "docs/methods.md, `{}`: no {named}",
+                entry.info.name
+            );
         }
     }
-    let headings = methods.lines().filter_map(|line| line.strip_prefix("## `")?.strip_suffix('`'));
+    let headings = methods
+        .lines()
+        .filter_map(|line| line.strip_prefix("## `")?.strip_suffix('`'));
     for name in headings {
-        assert!(Entry::named(name).is_some(), "docs/methods.md describes `{name}`, which does not exist");
+        assert!(
+            Entry::named(name).is_some(),
+            "docs/methods.md describes `{name}`, which does not exist"
+        );
     }
 }
 
 /// Whether a quoted text is meant as a path of the repository.
 fn is_path(text: &str) -> bool {
     let plain = !text.contains([' ', '*', '<', '$', '…', ':', '(', '{']) && !text.contains("NAME");
-    let folder = ["src", "tests", "docs", "examples", "benches", "scenes", ".ci"];
-    let ending = [".md", ".rs", ".toml", ".obj"].iter().any(|e| text.ends_with(e));
+    let folder = [
+        "src", "tests", "docs", "examples", "benches", "scenes", ".ci",
+    ];
+    let ending = [".md", ".rs", ".toml", ".obj"]
+        .iter()
+        .any(|e| text.ends_with(e));
     plain
-        && text.split_once('/').is_some_and(|(first, rest)| folder.contains(&first) && (ending || !rest.contains('=')))
+        && text
+            .split_once('/')
+            .is_some_and(|(first, rest)| folder.contains(&first) && (ending || !rest.contains('=')))
 }
 
 #[test]
@@ -187,20 +264,35 @@ fn every_file_that_is_named_exists() {
     for document in documents() {
         let text = read(&document);
         for name in quoted(&text).into_iter().filter(|name| is_path(name)) {
-            assert!(root().join(name).exists(), "{}: `{name}` does not exist", document.display());
+            assert!(
+                root().join(name).exists(),
+                "{}: `{name}` does not exist",
+                document.display()
+            );
             count += 1;
         }
-        for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+        for target in text
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next())
+        {
             let file = target.split('#').next().unwrap_or_default();
             if file.is_empty() || file.contains("://") {
                 continue;
             }
             let folder = document.parent().unwrap_or(Path::new(""));
-            assert!(root().join(folder).join(file).exists(), "{}: link to {file}", document.display());
+            assert!(
+                root().join(folder).join(file).exists(),
+                "{}: link to {file}",
+                document.display()
+            );
             count += 1;
         }
     }
-    assert!(count > 50, "only {count} files are named: are they looked for in the right way?");
+    assert!(
+        count > 50,
+        "only {count} files are named: are they looked for in the right way?"
+    );
 }
 
 /// The other way round: what stands in `src` stands in the code map.
@@ -214,8 +306,26 @@ fn every_module_stands_in_the_code_map() {
         if entry.path().is_dir() {
             name.push('/');
         }
-        assert!(named.contains(&&*name), "docs/architecture.md does not name `{name}`");
+        assert!(
+            named.contains(&&*name),
+            "docs/architecture.md does not name `{name}`"
+        );
     }
+}
+
+/// Counts the lines of a source file that are neither blank, comment nor test.
+fn lines_of_code(name: &str, source: &str) -> usize {
+    if name.contains("/tests") || name.ends_with("_tests.rs") {
+        return 0;
+    }
+    let code = source
+        .split("#[cfg(test)]\nmod tests {")
+        .next()
+        .unwrap_or(source);
+    let lines = code.lines().map(str::trim);
+    lines
+        .filter(|line| !line.is_empty() && !line.starts_with("//"))
+        .count()
 }
 
 #[test]
@@ -225,30 +335,46 @@ fn source_files_are_short_and_keep_the_rules() {
         for file in files(folder, "rs") {
             let source = read(&file);
             let name = file.to_string_lossy();
-            let lines = source.lines().count();
-            let allowed = LONG_FILES.iter().any(|(long, why)| *long == name && !why.is_empty());
+            let lines = lines_of_code(&name, &source);
+            let allowed = LONG_FILES
+                .iter()
+                .any(|(long, why)| *long == name && !why.is_empty());
             if folder == "src" && lines > MOST_LINES && !allowed {
-                too_long.push(format!("{name} has {lines} lines"));
+                too_long.push(format!("{name} has {lines} lines of code"));
             }
             // Written in two parts, so that this file keeps the rule as well.
-            for (head, tail) in
-                [("todo", "!("), ("unimplemented", "!("), ("unsafe", " {"), ("unsafe", " fn"), ("dbg", "!(")]
-            {
+            for (head, tail) in [
+                ("todo", "!("),
+                ("unimplemented", "!("),
+                ("unsafe", " {"),
+                ("unsafe", " fn"),
+                ("dbg", "!("),
+            ] {
                 let word = format!("{head}{tail}");
                 assert!(!source.contains(&word), "{name} has {word}");
             }
             for attic in ATTICS {
-                let named = file.file_stem().is_some_and(|s| s == attic) || file.iter().any(|part| part == attic);
+                let named = file.file_stem().is_some_and(|s| s == attic)
+                    || file.iter().any(|part| part == attic);
                 assert!(!named, "{name}: `{attic}` does not say what is in it");
             }
         }
     }
-    assert!(too_long.is_empty(), "over {MOST_LINES} lines, to be split by concept: {too_long:?}");
+    assert!(
+        too_long.is_empty(),
+        "over {MOST_LINES} lines of code, to be split by concept: {too_long:?}"
+    );
     for (file, _) in LONG_FILES {
-        assert!(read(file).lines().count() > MOST_LINES, "{file} is short now: take it off the list");
+        assert!(
+            lines_of_code(file, &read(file)) > MOST_LINES,
+            "{file} is short now: take it off the list"
+        );
     }
     let manifest = read("Cargo.toml");
-    assert!(manifest.contains("unsafe_code = \"forbid\""), "the compiler no longer forbids unsafe code");
+    assert!(
+        manifest.contains("unsafe_code = \"forbid\""),
+        "the compiler no longer forbids unsafe code"
+    );
 }
 
 /// The lines of the fenced shell blocks of a document, comments left out.
@@ -275,9 +401,17 @@ fn commands_in_the_documents_exist() {
         for command in commands(&read(document)) {
             checked += 1;
             let words: Vec<&str> = command.split(' ').collect();
-            let after = |word: &str| words.iter().position(|w| *w == word).and_then(|i| words.get(i + 1));
+            let after = |word: &str| {
+                words
+                    .iter()
+                    .position(|w| *w == word)
+                    .and_then(|i| words.get(i + 1))
+            };
             if let Some(example) = after("--example") {
-                assert!(root().join(format!("examples/{example}.rs")).exists(), "{document}: {command}");
+                assert!(
+                    root().join(format!("examples/{example}.rs")).exists(),
+                    "{document}: {command}"
+                );
             } else if let Some(test) = after("--test") {
                 let file = root().join(format!("tests/{test}.rs"));
                 assert!(
@@ -285,7 +419,10 @@ fn commands_in_the_documents_exist() {
                     "{document}: {command}"
                 );
             } else if let Some(bench) = after("--bench") {
-                assert!(root().join(format!("benches/{bench}.rs")).exists(), "{document}: {command}");
+                assert!(
+                    root().join(format!("benches/{bench}.rs")).exists(),
+                    "{document}: {command}"
+                );
             } else if let Some(start) = words.iter().position(|w| *w == "--" || *w == "fastphong") {
                 let is_ours = words[start] == "fastphong" || words.starts_with(&["cargo", "run"]);
                 if is_ours && words.get(1) != Some(&"install") {
@@ -302,30 +439,61 @@ fn commands_in_the_documents_exist() {
 /// Asks the program itself whether it knows a sub-command and its flags.
 #[track_caller]
 fn check_usage(document: &str, command: &str, words: &[&str]) {
-    let Some(program) = option_env!("CARGO_BIN_EXE_fastphong") else { return };
-    let Some(sub_command) = words.first() else { panic!("{document}: {command}: no sub-command") };
-    let help = Command::new(program).args([sub_command, "--help"]).output().expect("the program runs");
-    assert!(help.status.success(), "{document}: {command}: no sub-command {sub_command}");
+    let Some(program) = option_env!("CARGO_BIN_EXE_fastphong") else {
+        return;
+    };
+    let Some(sub_command) = words.first() else {
+        panic!("{document}: {command}: no sub-command")
+    };
+    let help = Command::new(program)
+        .args([sub_command, "--help"])
+        .output()
+        .expect("the program runs");
+    assert!(
+        help.status.success(),
+        "{document}: {command}: no sub-command {sub_command}"
+    );
     let help = String::from_utf8_lossy(&help.stdout).into_owned();
-    for flag in words.iter().filter(|word| word.starts_with('-') && word.len() > 1) {
+    for flag in words
+        .iter()
+        .filter(|word| word.starts_with('-') && word.len() > 1)
+    {
         let flag = flag.split('=').next().unwrap_or_default();
-        let known =
-            help.match_indices(flag).any(|(at, _)| !help[at + flag.len()..].starts_with(|c| is_word(c) || c == '-'));
+        let known = help
+            .match_indices(flag)
+            .any(|(at, _)| !help[at + flag.len()..].starts_with(|c| is_word(c) || c == '-'));
         assert!(known, "{document}: {command}: {sub_command} has no {flag}");
     }
-    let after = |flag: &str| words.windows(2).find(|pair| pair[0] == flag).map(|pair| pair[1]);
+    let after = |flag: &str| {
+        words
+            .windows(2)
+            .find(|pair| pair[0] == flag)
+            .map(|pair| pair[1])
+    };
     let methods = [after("--method"), after("--methods")];
-    for method in methods.into_iter().flatten().flat_map(|list| list.split(',')) {
+    for method in methods
+        .into_iter()
+        .flatten()
+        .flat_map(|list| list.split(','))
+    {
         let known = method == "reference" || fastphong::shader::Variant::parse(method).is_ok();
         assert!(known, "{document}: {command}: no method {method}");
     }
     let input = words.get(1).filter(|word| !word.starts_with('-'));
     match (*sub_command, input) {
-        ("render" | "compare" | "bench" | "report" | "info", Some(input)) if !input.contains([':', '.']) => {
-            assert!(root().join(format!("scenes/{input}.toml")).exists(), "{document}: {command}: no scene {input}");
+        ("render" | "compare" | "bench" | "report" | "info", Some(input))
+            if !input.contains([':', '.']) =>
+        {
+            assert!(
+                root().join(format!("scenes/{input}.toml")).exists(),
+                "{document}: {command}: no scene {input}"
+            );
         }
         ("list" | "explain", _) => {
-            let done = Command::new(program).args(words).output().expect("the program runs");
+            let done = Command::new(program)
+                .args(words)
+                .output()
+                .expect("the program runs");
             assert!(done.status.success(), "{document}: {command} fails");
         }
         _ => (),

@@ -47,7 +47,10 @@ fn views(change: impl Fn(&mut Scene)) -> [Frame; 2] {
         near: 0.05,
         far: 10.0,
     };
-    below.lights[0] = Light::directional(DVec3::new(0.2, -0.5, -1.0).normalize(), below.lights[0].colour);
+    below.lights[0] = Light::directional(
+        DVec3::new(0.2, -0.5, -1.0).normalize(),
+        below.lights[0].colour,
+    );
     [inside, below].map(|mut scene| {
         change(&mut scene);
         scene.frame().expect("a frame")
@@ -67,21 +70,37 @@ fn exchange(scene: &mut Scene) {
 fn inside_and_outside_are_lit_alike() {
     let pairs = views(|_| ()).into_iter().zip(views(exchange));
     for (number, (ours, exchanged)) in pairs.enumerate() {
-        assert_eq!(number == 1, ours.stats().clipped > 0, "the second view is cut by the near plane");
+        assert_eq!(
+            number == 1,
+            ours.stats().clipped > 0,
+            "the second view is cut by the near plane"
+        );
         for entry in METHODS {
             let draw = |frame: &Frame| entry.variant().render_linear(frame);
             let difference = compare(&draw(&ours), &draw(&exchanged)).expect("equal sizes");
             // Newell's sum and the averages are taken in another order: normals differ by a rounding, as from the
             // closed form, which each picture is within the bound of.
             let bound = 2.0 * entry.info.bound(&ours);
-            assert!(difference.max <= bound, "{}, view {number}: {}", entry.info.name, difference.max);
+            assert!(
+                difference.max <= bound,
+                "{}, view {number}: {}",
+                entry.info.name,
+                difference.max
+            );
             assert_eq!(difference.coverage_mismatches, 0);
         }
     }
     let one_sided = views(|scene| scene.two_sided = false);
     for (two, one) in views(|_| ()).iter().zip(&one_sided) {
-        let [two, one] = [two, one].map(|frame| Variant::parse("naive-phong").expect("a method").render_linear(frame));
-        assert!(compare(&two, &one).expect("equal sizes").max > 0.2, "seen from behind, and lit from there or not");
+        let [two, one] = [two, one].map(|frame| {
+            Variant::parse("naive-phong")
+                .expect("a method")
+                .render_linear(frame)
+        });
+        assert!(
+            compare(&two, &one).expect("equal sizes").max > 0.2,
+            "seen from behind, and lit from there or not"
+        );
     }
 }
 
@@ -95,11 +114,23 @@ fn the_silhouette_has_two_normals() {
     sphere.two_sided = false;
     let plain = sphere.frame().expect("a frame");
     let wide = |n: [f32; 3]| DVec3::from_array(n.map(f64::from));
-    assert!(frame.polygons().iter().all(|p| wide(frame.polygon_normal(p)).dot(view) > 0.0));
-    let behind = plain.polygons().iter().filter(|p| wide(plain.polygon_normal(p)).dot(view) < 0.0).count();
+    assert!(
+        frame
+            .polygons()
+            .iter()
+            .all(|p| wide(frame.polygon_normal(p)).dot(view) > 0.0)
+    );
+    let behind = plain
+        .polygons()
+        .iter()
+        .filter(|p| wide(plain.polygon_normal(p)).dot(view) < 0.0)
+        .count();
     assert!(behind > 100 && behind < plain.polygons().len() - 100);
     let used = |frame: &Frame| {
-        let corners = frame.polygons().iter().flat_map(|polygon| frame.corners(polygon));
+        let corners = frame
+            .polygons()
+            .iter()
+            .flat_map(|polygon| frame.corners(polygon));
         corners.copied().collect::<BTreeSet<u32>>().len()
     };
     let twice = used(&frame) - used(&plain);
@@ -119,9 +150,15 @@ fn methods_are_within_their_bounds() {
     for frame in views(|_| ()) {
         for entry in METHODS {
             let truth = reference::render(&frame, entry.info.model).to_linear();
-            let difference = compare(&truth, &entry.variant().render_linear(&frame)).expect("equal sizes");
+            let difference =
+                compare(&truth, &entry.variant().render_linear(&frame)).expect("equal sizes");
             let bound = entry.info.bound(&frame);
-            assert!(difference.max <= bound, "{}: {} over {bound}", entry.info.name, difference.max);
+            assert!(
+                difference.max <= bound,
+                "{}: {} over {bound}",
+                entry.info.name,
+                difference.max
+            );
         }
     }
 }

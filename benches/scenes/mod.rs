@@ -28,16 +28,34 @@ pub const TRIANGLES: &[(&str, &str)] = &[
 /// Name, mesh and number of lights of the scenes that are timed in whole frames only: four lights, a million triangles.
 #[allow(dead_code)] // not by every benchmark
 pub const LARGE: &[(&str, &str, usize)] = &[
-    ("sphere-5k-4-lights", "sphere?polygons=5000&triangles=true", 4),
-    ("sphere-100k-4-lights", "sphere?polygons=100000&triangles=true", 4),
+    (
+        "sphere-5k-4-lights",
+        "sphere?polygons=5000&triangles=true",
+        4,
+    ),
+    (
+        "sphere-100k-4-lights",
+        "sphere?polygons=100000&triangles=true",
+        4,
+    ),
     ("sphere-1m", "sphere?polygons=1000000&triangles=true", 1),
-    ("sphere-1m-4-lights", "sphere?polygons=1000000&triangles=true", 4),
+    (
+        "sphere-1m-4-lights",
+        "sphere?polygons=1000000&triangles=true",
+        4,
+    ),
 ];
 
 /// A camera before and above a mesh that fills 90 % of the picture.
 pub fn camera(mesh: &PolygonMesh, fovy: Option<f64>) -> Camera {
     let direction = DVec3::new(0.3, 0.5, 1.0);
-    let fit = Fit { direction, up: DVec3::Y, fraction: 0.9, fovy, aspect: 640.0 / 480.0 };
+    let fit = Fit {
+        direction,
+        up: DVec3::Y,
+        fraction: 0.9,
+        fovy,
+        aspect: 640.0 / 480.0,
+    };
     Camera::fit(mesh.positions().iter().map(|p| p.as_dvec3()), &fit).expect("a mesh with vertices")
 }
 
@@ -50,9 +68,15 @@ pub fn scene(mesh: &str) -> Scene {
 /// A mesh that fills 90 % of 640 × 480 pixels, seen and lit from the front and from above, by up to four lights. Vertex normals
 /// are averaged, so that they differ over every polygon, the prism's as well.
 pub fn lit(mesh: &str, lights: usize) -> Scene {
-    let directions = [(1.0, 1.0, 2.0), (-1.0, 1.0, 2.0), (1.0, -1.0, 2.0), (-1.0, -1.0, 2.0)];
-    let light =
-        |(x, y, z): (f64, f64, f64)| Light::directional(DVec3::new(x, y, z).normalize(), [1.0 / lights as f32; 3]);
+    let directions = [
+        (1.0, 1.0, 2.0),
+        (-1.0, 1.0, 2.0),
+        (1.0, -1.0, 2.0),
+        (-1.0, -1.0, 2.0),
+    ];
+    let light = |(x, y, z): (f64, f64, f64)| {
+        Light::directional(DVec3::new(x, y, z).normalize(), [1.0 / lights as f32; 3])
+    };
     let mesh = builtin(mesh).expect("a built-in mesh");
     let camera = camera(&mesh, None);
     Scene {

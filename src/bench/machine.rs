@@ -48,8 +48,19 @@ impl Machine {
 
     /// One line for people.
     pub fn line(&self) -> String {
-        let Machine { cpu, os, arch, rustc, profile, opt_level, version, .. } = self;
-        alloc::format!("{cpu}, {os} {arch}; {rustc}, {profile}, opt-level {opt_level}; fastphong {version}")
+        let Machine {
+            cpu,
+            os,
+            arch,
+            rustc,
+            profile,
+            opt_level,
+            version,
+            ..
+        } = self;
+        alloc::format!(
+            "{cpu}, {os} {arch}; {rustc}, {profile}, opt-level {opt_level}; fastphong {version}"
+        )
     }
 }
 
@@ -59,7 +70,9 @@ fn target_features() -> Vec<&'static str> {
     macro_rules! list {
         ($($name:literal),*) => { $(if cfg!(target_feature = $name) { features.push($name); })* };
     }
-    list!("sse2", "sse4.1", "avx", "avx2", "fma", "avx512f", "neon", "sve");
+    list!(
+        "sse2", "sse4.1", "avx", "avx2", "fma", "avx512f", "neon", "sve"
+    );
     features
 }
 
@@ -70,7 +83,10 @@ fn cpu_name() -> Option<String> {
 
 #[cfg(target_os = "macos")]
 fn cpu_name() -> Option<String> {
-    let out = std::process::Command::new("sysctl").args(["-n", "machdep.cpu.brand_string"]).output().ok()?;
+    let out = std::process::Command::new("sysctl")
+        .args(["-n", "machdep.cpu.brand_string"])
+        .output()
+        .ok()?;
     let name = String::from_utf8(out.stdout).ok()?.trim().to_string();
     (!name.is_empty()).then_some(name)
 }
@@ -85,9 +101,14 @@ fn cpu_name() -> Option<String> {
 fn name_in_cpuinfo(text: &str) -> Option<String> {
     let value = |key: &str| {
         let fields = text.lines().filter_map(|line| line.split_once(':'));
-        fields.map(|(k, v)| (k.trim(), v.trim())).find(|(k, v)| *k == key && !v.is_empty()).map(|(_, v)| v.to_string())
+        fields
+            .map(|(k, v)| (k.trim(), v.trim()))
+            .find(|(k, v)| *k == key && !v.is_empty())
+            .map(|(_, v)| v.to_string())
     };
-    ["model name", "Model", "Hardware"].into_iter().find_map(value)
+    ["model name", "Model", "Hardware"]
+        .into_iter()
+        .find_map(value)
 }
 
 #[cfg(test)]
@@ -97,22 +118,37 @@ mod tests {
     #[test]
     fn every_field_says_something() {
         let machine = Machine::this();
-        for text in [&machine.cpu, &machine.os, &machine.arch, &machine.opt_level, &machine.version] {
+        for text in [
+            &machine.cpu,
+            &machine.os,
+            &machine.arch,
+            &machine.opt_level,
+            &machine.version,
+        ] {
             assert!(!text.is_empty(), "{machine:?}");
         }
         assert!(machine.cores >= 1);
         assert!(machine.rustc.starts_with("rustc 1."), "{}", machine.rustc);
         assert!(machine.line().contains(&machine.cpu) && machine.line().contains(&machine.rustc));
-        assert_eq!(machine.profile, "debug", "tests are built with debug assertions");
+        assert_eq!(
+            machine.profile, "debug",
+            "tests are built with debug assertions"
+        );
     }
 
     #[cfg(any(target_os = "linux", target_os = "android"))]
     #[test]
     fn cpuinfo_of_x86_and_arm_is_understood() {
         let x86 = "processor\t: 0\nvendor_id\t: GenuineIntel\nmodel\t\t: 85\nmodel name\t: Intel(R) Xeon(R) CPU\n";
-        assert_eq!(name_in_cpuinfo(x86).as_deref(), Some("Intel(R) Xeon(R) CPU"));
+        assert_eq!(
+            name_in_cpuinfo(x86).as_deref(),
+            Some("Intel(R) Xeon(R) CPU")
+        );
         let arm = "processor\t: 0\nBogoMIPS\t: 108.00\n\nHardware\t: BCM2835\nModel\t\t: Raspberry Pi 4 Model B\n";
-        assert_eq!(name_in_cpuinfo(arm).as_deref(), Some("Raspberry Pi 4 Model B"));
+        assert_eq!(
+            name_in_cpuinfo(arm).as_deref(),
+            Some("Raspberry Pi 4 Model B")
+        );
         assert_eq!(name_in_cpuinfo("model name\t:\nprocessor: 0"), None);
         assert_eq!(name_in_cpuinfo(""), None);
     }

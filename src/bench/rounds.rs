@@ -27,7 +27,11 @@ impl Limits {
 impl Default for Limits {
     /// Up to 101 rounds within 5 seconds, after two rounds of warm-up.
     fn default() -> Self {
-        Limits { time_budget: Duration::from_secs(5), rounds: 101, warm_up_rounds: 2 }
+        Limits {
+            time_budget: Duration::from_secs(5),
+            rounds: 101,
+            warm_up_rounds: 2,
+        }
     }
 }
 
@@ -45,10 +49,19 @@ const MOST_CALLS: u64 = 10_000;
 /// has a neighbour or a place of its own. A candidate too short for the clock is called several times a sample.
 ///
 /// `progress` is told, between rounds only, the part of the limits that is used up, 0..=1; there is time to draw.
-pub fn time_interleaved(candidates: &mut [Candidate<'_>], limits: Limits, progress: impl FnMut(f32)) -> Vec<Timing> {
+pub fn time_interleaved(
+    candidates: &mut [Candidate<'_>],
+    limits: Limits,
+    progress: impl FnMut(f32),
+) -> Vec<Timing> {
     let start = Instant::now();
     // 584 years of nanoseconds fit.
-    run(candidates, limits, || start.elapsed().as_nanos() as u64, progress)
+    run(
+        candidates,
+        limits,
+        || start.elapsed().as_nanos() as u64,
+        progress,
+    )
 }
 
 /// As [`time_interleaved`], by any clock that counts nanoseconds.
@@ -69,7 +82,9 @@ fn run(
     let mut calls: Vec<u64> = candidates.iter().map(|_| 1).collect();
     for _ in 0..limits.warm_up_rounds.max(1) {
         for (candidate, calls) in candidates.iter_mut().zip(&mut calls) {
-            *calls = LEAST_SAMPLE_NS.div_ceil(sample(candidate, 1).max(1)).clamp(1, MOST_CALLS);
+            *calls = LEAST_SAMPLE_NS
+                .div_ceil(sample(candidate, 1).max(1))
+                .clamp(1, MOST_CALLS);
         }
     }
     let mut samples: Vec<Vec<f64>> = candidates.iter().map(|_| Vec::new()).collect();
@@ -79,7 +94,11 @@ fn run(
     let mut spent = 0.0;
     for round in 0..most {
         let part = (spent / budget).max(round as f64 / most as f64);
-        progress(if part.is_finite() { part.min(1.0) as f32 } else { 1.0 });
+        progress(if part.is_finite() {
+            part.min(1.0) as f32
+        } else {
+            1.0
+        });
         if round >= Limits::LEAST_ROUNDS && spent >= budget {
             break;
         }
@@ -91,13 +110,24 @@ fn run(
     }
     progress(1.0);
     let timings = samples.into_iter().zip(calls);
-    timings.map(|(samples, calls)| Timing::of(samples, calls as u32).expect("finite times of five rounds")).collect()
+    timings
+        .map(|(samples, calls)| {
+            Timing::of(samples, calls as u32).expect("finite times of five rounds")
+        })
+        .collect()
 }
 
 /// The order of the candidates in a round: turned by one more place each pair of rounds, and reversed in the second.
 fn order(candidates: usize, round: usize) -> impl Iterator<Item = usize> {
     let turn = round / 2;
-    (0..candidates).map(move |i| (if round.is_multiple_of(2) { i } else { candidates - 1 - i } + turn) % candidates)
+    (0..candidates).map(move |i| {
+        (if round.is_multiple_of(2) {
+            i
+        } else {
+            candidates - 1 - i
+        } + turn)
+            % candidates
+    })
 }
 
 #[cfg(test)]
@@ -108,7 +138,11 @@ mod tests {
     use alloc::vec;
     use core::cell::{Cell, RefCell};
 
-    const FOREVER: Limits = Limits { time_budget: Duration::MAX, rounds: 6, warm_up_rounds: 1 };
+    const FOREVER: Limits = Limits {
+        time_budget: Duration::MAX,
+        rounds: 6,
+        warm_up_rounds: 1,
+    };
 
     /// Candidates that take times of a clock that only they move, and the letters of those that ran.
     struct Stage {
@@ -118,10 +152,17 @@ mod tests {
 
     impl Stage {
         fn new() -> Self {
-            Stage { clock: Rc::default(), log: Rc::default() }
+            Stage {
+                clock: Rc::default(),
+                log: Rc::default(),
+            }
         }
 
-        fn candidate(&self, letter: char, mut ns: impl FnMut() -> u64 + 'static) -> Candidate<'static> {
+        fn candidate(
+            &self,
+            letter: char,
+            mut ns: impl FnMut() -> u64 + 'static,
+        ) -> Candidate<'static> {
             let (clock, log) = (self.clock.clone(), self.log.clone());
             Box::new(move || {
                 clock.set(clock.get() + ns());
@@ -130,16 +171,26 @@ mod tests {
         }
 
         fn run(&self, candidates: &mut [Candidate<'_>], limits: Limits) -> Vec<Timing> {
-            run(candidates, limits, || self.clock.get(), |_| self.log.borrow_mut().push(' '))
+            run(
+                candidates,
+                limits,
+                || self.clock.get(),
+                |_| self.log.borrow_mut().push(' '),
+            )
         }
     }
 
     #[test]
     fn rounds_run_forth_and_back_and_begin_with_each_in_turn() {
         let stage = Stage::new();
-        let mut candidates = ['A', 'B', 'C'].map(|letter| stage.candidate(letter, || LEAST_SAMPLE_NS));
+        let mut candidates =
+            ['A', 'B', 'C'].map(|letter| stage.candidate(letter, || LEAST_SAMPLE_NS));
         let timings = stage.run(&mut candidates, FOREVER);
-        assert_eq!(*stage.log.borrow(), "ABC ABC CBA BCA ACB CAB BAC ", "warm-up, then six rounds");
+        assert_eq!(
+            *stage.log.borrow(),
+            "ABC ABC CBA BCA ACB CAB BAC ",
+            "warm-up, then six rounds"
+        );
         assert!(timings.iter().all(|t| t.samples_ns.len() == 6));
     }
 
@@ -154,24 +205,45 @@ mod tests {
         let timings = stage.run(&mut [stage.candidate('S', || 500_000), growing], FOREVER);
         assert_eq!(timings[0].samples_ns, [500_000.0; 6]);
         // The first of them warmed up.
-        assert_eq!(timings[1].samples_ns, [300_002.0, 300_003.0, 300_004.0, 300_005.0, 300_006.0, 300_007.0]);
+        assert_eq!(
+            timings[1].samples_ns,
+            [
+                300_002.0, 300_003.0, 300_004.0, 300_005.0, 300_006.0, 300_007.0
+            ]
+        );
         assert_eq!(timings[1].calls_per_sample, 1);
     }
 
     #[test]
     fn short_calls_are_repeated_and_stated_each() {
         let stage = Stage::new();
-        let timings = stage.run(&mut [stage.candidate('a', || 60_000), stage.candidate('b', || 0)], FOREVER);
-        assert_eq!((timings[0].calls_per_sample, timings[0].median_ns), (4, 60_000.0), "4 · 60 µs ≥ 200 µs");
-        assert_eq!((u64::from(timings[1].calls_per_sample), timings[1].median_ns), (MOST_CALLS, 0.0));
+        let timings = stage.run(
+            &mut [stage.candidate('a', || 60_000), stage.candidate('b', || 0)],
+            FOREVER,
+        );
+        assert_eq!(
+            (timings[0].calls_per_sample, timings[0].median_ns),
+            (4, 60_000.0),
+            "4 · 60 µs ≥ 200 µs"
+        );
+        assert_eq!(
+            (u64::from(timings[1].calls_per_sample), timings[1].median_ns),
+            (MOST_CALLS, 0.0)
+        );
     }
 
     #[test]
     fn the_budget_ends_it_but_not_before_the_fifth_round() {
         let rounds = |budget_ms| {
             let stage = Stage::new();
-            let limits = Limits { time_budget: Duration::from_millis(budget_ms), rounds: 100, warm_up_rounds: 3 };
-            stage.run(&mut [stage.candidate('x', || 1_000_000)], limits)[0].samples_ns.len()
+            let limits = Limits {
+                time_budget: Duration::from_millis(budget_ms),
+                rounds: 100,
+                warm_up_rounds: 3,
+            };
+            stage.run(&mut [stage.candidate('x', || 1_000_000)], limits)[0]
+                .samples_ns
+                .len()
         };
         assert_eq!(rounds(0), Limits::LEAST_ROUNDS);
         assert_eq!(rounds(8), 8, "warm-up takes nothing from it");
@@ -182,14 +254,35 @@ mod tests {
     fn progress_climbs_to_one() {
         let stage = Stage::new();
         let mut told = vec![];
-        let limits = Limits { time_budget: Duration::from_millis(6), rounds: 100, warm_up_rounds: 1 };
-        run(&mut [stage.candidate('x', || 1_000_000)], limits, || stage.clock.get(), |part| told.push(part));
+        let limits = Limits {
+            time_budget: Duration::from_millis(6),
+            rounds: 100,
+            warm_up_rounds: 1,
+        };
+        run(
+            &mut [stage.candidate('x', || 1_000_000)],
+            limits,
+            || stage.clock.get(),
+            |part| told.push(part),
+        );
         assert_eq!((told[0], told[3], told.last()), (0.0, 0.5, Some(&1.0)));
         assert!(told.is_sorted());
         let mut none = vec![];
-        let limits = Limits { time_budget: Duration::ZERO, rounds: 0, warm_up_rounds: 0 };
-        run(&mut [stage.candidate('x', || 1)], limits, || stage.clock.get(), |part| none.push(part));
-        assert!(none.iter().all(|part| (0.0..=1.0).contains(part)), "{none:?}");
+        let limits = Limits {
+            time_budget: Duration::ZERO,
+            rounds: 0,
+            warm_up_rounds: 0,
+        };
+        run(
+            &mut [stage.candidate('x', || 1)],
+            limits,
+            || stage.clock.get(),
+            |part| none.push(part),
+        );
+        assert!(
+            none.iter().all(|part| (0.0..=1.0).contains(part)),
+            "{none:?}"
+        );
     }
 
     #[test]

@@ -43,8 +43,20 @@ impl Timing {
         let mut sorted = samples_ns.clone();
         sorted.sort_by(f64::total_cmp);
         let [p25_ns, median_ns, p75_ns] = [0.25, 0.5, 0.75].map(|p| quantile(&sorted, p));
-        let spread = if median_ns > 0.0 { (p75_ns - p25_ns) / median_ns } else { 0.0 };
-        Some(Timing { median_ns, min_ns: sorted[0], p25_ns, p75_ns, spread, samples_ns, calls_per_sample })
+        let spread = if median_ns > 0.0 {
+            (p75_ns - p25_ns) / median_ns
+        } else {
+            0.0
+        };
+        Some(Timing {
+            median_ns,
+            min_ns: sorted[0],
+            p25_ns,
+            p75_ns,
+            spread,
+            samples_ns,
+            calls_per_sample,
+        })
     }
 }
 
@@ -107,7 +119,11 @@ impl Ratio {
         let tail = (1.0 - CONFIDENCE) / 2.0;
         let (low, high) = (quantile(&medians, tail), quantile(&medians, 1.0 - tail));
         let mut ratios = ratios;
-        Some(Ratio { median: median(&mut ratios), low, high })
+        Some(Ratio {
+            median: median(&mut ratios),
+            low,
+            high,
+        })
     }
 
     /// Whether the interval holds 1: the samples do not tell which of the two is faster.
@@ -147,12 +163,37 @@ mod tests {
     fn medians_and_quartiles_are_those_of_numpy() {
         // numpy.percentile([40, 10, 30, 20], [25, 50, 75]) = [17.5, 25, 32.5]
         let timing = Timing::of(vec![40.0, 10.0, 30.0, 20.0], 1).unwrap();
-        assert_eq!((timing.min_ns, timing.p25_ns, timing.median_ns, timing.p75_ns), (10.0, 17.5, 25.0, 32.5));
+        assert_eq!(
+            (
+                timing.min_ns,
+                timing.p25_ns,
+                timing.median_ns,
+                timing.p75_ns
+            ),
+            (10.0, 17.5, 25.0, 32.5)
+        );
         assert_eq!(timing.spread, 15.0 / 25.0);
-        assert_eq!(timing.samples_ns, [40.0, 10.0, 30.0, 20.0], "in the order of their rounds");
+        assert_eq!(
+            timing.samples_ns,
+            [40.0, 10.0, 30.0, 20.0],
+            "in the order of their rounds"
+        );
         let one = Timing::of(vec![7.0], 3).unwrap();
-        assert_eq!((one.min_ns, one.p25_ns, one.median_ns, one.p75_ns, one.spread), (7.0, 7.0, 7.0, 7.0, 0.0));
-        assert_eq!(Timing::of(vec![0.0, 0.0], 1).unwrap().spread, 0.0, "not 0/0");
+        assert_eq!(
+            (
+                one.min_ns,
+                one.p25_ns,
+                one.median_ns,
+                one.p75_ns,
+                one.spread
+            ),
+            (7.0, 7.0, 7.0, 7.0, 0.0)
+        );
+        assert_eq!(
+            Timing::of(vec![0.0, 0.0], 1).unwrap().spread,
+            0.0,
+            "not 0/0"
+        );
     }
 
     #[test]
@@ -166,7 +207,10 @@ mod tests {
     fn one_disturbed_sample_moves_no_median() {
         let calm = Timing::of(vec![10.0, 11.0, 12.0, 13.0, 14.0], 1).unwrap();
         let disturbed = Timing::of(vec![10.0, 11.0, 12.0, 13.0, 9000.0], 1).unwrap();
-        assert_eq!((calm.median_ns, calm.p75_ns), (disturbed.median_ns, disturbed.p75_ns));
+        assert_eq!(
+            (calm.median_ns, calm.p75_ns),
+            (disturbed.median_ns, disturbed.p75_ns)
+        );
     }
 
     #[test]
@@ -174,7 +218,10 @@ mod tests {
         let baseline = [300.0, 330.0, 310.0, 290.0, 305.0, 320.0];
         let candidate = [100.0, 111.0, 102.0, 98.0, 103.0, 106.0];
         let faster = Ratio::paired(&baseline, &candidate).unwrap();
-        assert!(faster.median > 2.9 && faster.low > 2.9 && faster.high < 3.1, "{faster:?}");
+        assert!(
+            faster.median > 2.9 && faster.low > 2.9 && faster.high < 3.1,
+            "{faster:?}"
+        );
         assert!(!faster.is_tie());
         let slower = Ratio::paired(&candidate, &baseline).unwrap();
         assert!(slower.high < 0.35 && !slower.is_tie(), "{slower:?}");
@@ -185,16 +232,26 @@ mod tests {
         let baseline = [100.0; 8];
         let candidate = [90.0, 111.0, 95.0, 106.0, 93.0, 108.0, 97.0, 103.0];
         let ratio = Ratio::paired(&baseline, &candidate).unwrap();
-        assert!(ratio.low < 1.0 && ratio.high > 1.0 && ratio.is_tie(), "{ratio:?}");
+        assert!(
+            ratio.low < 1.0 && ratio.high > 1.0 && ratio.is_tie(),
+            "{ratio:?}"
+        );
         assert!(ratio.low <= ratio.median && ratio.median <= ratio.high);
-        assert_eq!(Ratio::paired(&baseline, &candidate), Some(ratio), "the seed is fixed");
+        assert_eq!(
+            Ratio::paired(&baseline, &candidate),
+            Some(ratio),
+            "the seed is fixed"
+        );
     }
 
     #[test]
     fn the_ratio_of_something_to_itself_is_one() {
         let samples = [100.0, 170.0, 90.0, 400.0, 110.0];
         let ratio = Ratio::paired(&samples, &samples).unwrap();
-        assert_eq!((ratio.low, ratio.median, ratio.high, ratio.is_tie()), (1.0, 1.0, 1.0, true));
+        assert_eq!(
+            (ratio.low, ratio.median, ratio.high, ratio.is_tie()),
+            (1.0, 1.0, 1.0, true)
+        );
     }
 
     #[test]
@@ -218,6 +275,9 @@ mod tests {
     fn random_numbers_are_those_of_the_paper() {
         // First values for seed 1234567 (Rosetta Code, "Pseudo-random numbers/Splitmix64").
         let mut random = SplitMix(1_234_567);
-        assert_eq!([random.next(), random.next()], [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]);
+        assert_eq!(
+            [random.next(), random.next()],
+            [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]
+        );
     }
 }

@@ -32,10 +32,12 @@ impl Aov {
             Aov::Checkerboard => raster::checkerboard(frame, square, BOARD),
             Aov::Normal => raster::normals(frame),
             Aov::Depth => raster::depth(frame).map(|depth| grey(depth, depth.is_finite())),
-            Aov::Polygon => raster::polygon_numbers(frame).map(|number| match frame.polygons().get(number as usize) {
-                // A scene holds at most 2^24 polygons an object: the number is exact.
-                Some(polygon) => grey(polygon.source as f32, true),
-                None => grey(-1.0, false),
+            Aov::Polygon => raster::polygon_numbers(frame).map(|number| {
+                match frame.polygons().get(number as usize) {
+                    // A scene holds at most 2^24 polygons an object: the number is exact.
+                    Some(polygon) => grey(polygon.source as f32, true),
+                    None => grey(-1.0, false),
+                }
             }),
         }
     }
@@ -43,12 +45,20 @@ impl Aov {
     /// In 8 bits, for eyes.
     pub fn stored(self, frame: &Frame, square: f64) -> Picture8 {
         match self {
-            Aov::Colours | Aov::Checkerboard => store(&self.linear(frame, square), frame.encoding()),
+            Aov::Colours | Aov::Checkerboard => {
+                store(&self.linear(frame, square), frame.encoding())
+            }
             Aov::Normal => raster::normals(frame).map(|texel| texel.map(quantise)),
             Aov::Depth => {
                 let depth = raster::depth(frame);
-                let drawn = depth.texels().iter().copied().filter(|depth| depth.is_finite());
-                let (near, far) = drawn.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
+                let drawn = depth
+                    .texels()
+                    .iter()
+                    .copied()
+                    .filter(|depth| depth.is_finite());
+                let (near, far) = drawn.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), d| {
+                    (a.min(d), b.max(d))
+                });
                 let range = if far > near { far - near } else { 1.0 };
                 depth.map(|depth| match depth.is_finite() {
                     true => {
@@ -59,7 +69,10 @@ impl Aov {
                 })
             }
             Aov::Polygon => raster::polygon_numbers(frame).map(|number| {
-                frame.polygons().get(number as usize).map_or([0; 4], |polygon| colour_of_number(polygon.source))
+                frame
+                    .polygons()
+                    .get(number as usize)
+                    .map_or([0; 4], |polygon| colour_of_number(polygon.source))
             }),
         }
     }

@@ -50,19 +50,40 @@ impl Bench {
         let talk = *talk;
         let inputs = named_or_shipped(&self.inputs);
         let (machine, renderers) = (Machine::this(), self.renderers());
-        let how = How { renderers: &renderers, threads: &self.threads };
+        let how = How {
+            renderers: &renderers,
+            threads: &self.threads,
+        };
         let (text, json) = if self.frame_times {
             let (scene, methods, count) = (&self.scene, &self.timing.methods.0, self.count);
-            let times = FrameTiming { inputs: &inputs, scene, methods, how, count }.take(talk)?;
+            let times = FrameTiming {
+                inputs: &inputs,
+                scene,
+                methods,
+                how,
+                count,
+            }
+            .take(talk)?;
             (times.text(), times.json(&machine, &command_line()))
         } else {
             let comparisons = self.timing.compare(&inputs, &self.scene, how, talk)?;
-            let tables = comparisons.iter().map(|comparison| table(comparison, TableKind::Bench));
-            let text = format!("{}\n\n{}", machine.line(), tables.collect::<Vec<_>>().join("\n"));
-            (text, format!("{:#}\n", to_json(&comparisons, &machine, &command_line())))
+            let tables = comparisons
+                .iter()
+                .map(|comparison| table(comparison, TableKind::Bench));
+            let text = format!(
+                "{}\n\n{}",
+                machine.line(),
+                tables.collect::<Vec<_>>().join("\n")
+            );
+            (
+                text,
+                format!("{:#}\n", to_json(&comparisons, &machine, &command_line())),
+            )
         };
         match &self.json {
-            Some(path) if path.as_os_str() == "-" => return to_stdout(json.as_bytes()).map(|()| Outcome::Done),
+            Some(path) if path.as_os_str() == "-" => {
+                return to_stdout(json.as_bytes()).map(|()| Outcome::Done);
+            }
             Some(path) => write_file(path, json.as_bytes())?,
             None => {}
         }
@@ -73,9 +94,21 @@ impl Bench {
     /// How to draw: by each instruction set that was asked for. The lecture's own form is what methods are compared in;
     /// whole frames are drawn the fastest way.
     fn renderers(&self) -> Vec<Renderer> {
-        let usual = if self.frame_times { Renderer::fastest() } else { Renderer::LECTURE };
-        let engine = self.engine.map_or(usual.engine, |ScanlineEngine(engine)| engine);
-        let levels = self.simd.as_ref().map_or(vec![usual.level], |Levels(levels)| levels.clone());
-        levels.into_iter().map(|level: Level| Renderer { engine, level }).collect()
+        let usual = if self.frame_times {
+            Renderer::fastest()
+        } else {
+            Renderer::LECTURE
+        };
+        let engine = self
+            .engine
+            .map_or(usual.engine, |ScanlineEngine(engine)| engine);
+        let levels = self
+            .simd
+            .as_ref()
+            .map_or(vec![usual.level], |Levels(levels)| levels.clone());
+        levels
+            .into_iter()
+            .map(|level: Level| Renderer { engine, level })
+            .collect()
     }
 }

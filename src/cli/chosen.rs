@@ -18,11 +18,20 @@ pub fn choices(frame: &Frame) -> Vec<Choice> {
         let variant = entry.variant();
         let plan = variant.plan(frame, Renderer::fastest());
         // Why it is not by rows, which are chosen where they can be.
-        let by_rows = Renderer { engine: Some(raster::Engine::Row), ..Renderer::fastest() };
-        let plan = Plan { reason: variant.plan(frame, by_rows).reason, ..plan };
+        let by_rows = Renderer {
+            engine: Some(raster::Engine::Row),
+            ..Renderer::fastest()
+        };
+        let plan = Plan {
+            reason: variant.plan(frame, by_rows).reason,
+            ..plan
+        };
         match choices.iter_mut().find(|choice| choice.plan == plan) {
             Some(choice) => choice.methods.push(entry.info.name),
-            None => choices.push(Choice { plan, methods: vec![entry.info.name] }),
+            None => choices.push(Choice {
+                plan,
+                methods: vec![entry.info.name],
+            }),
         }
     }
     choices
@@ -31,14 +40,22 @@ pub fn choices(frame: &Frame) -> Vec<Choice> {
 impl Choice {
     /// In words.
     pub fn text(&self) -> String {
-        let Plan { engine, level, reason } = self.plan;
+        let Plan {
+            engine,
+            level,
+            reason,
+        } = self.plan;
         let reason = reason.map_or(String::new(), |reason| format!(" ({reason})"));
         format!("{engine}, {level}: {}{reason}", self.methods.join(", "))
     }
 
     /// As data.
     pub fn json(&self) -> Value {
-        let Plan { engine, level, reason } = self.plan;
+        let Plan {
+            engine,
+            level,
+            reason,
+        } = self.plan;
         json!({ "engine": engine.name(), "level": level.name(), "reason": reason, "methods": self.methods })
     }
 }

@@ -27,8 +27,13 @@ pub struct Compare {
 impl Compare {
     /// Compares, times, and prints the table.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        let how = How { renderers: &[self.drawn.renderer()], threads: &self.drawn.threads };
-        let comparisons = self.timing.compare(&[&self.input], &self.scene, how, *talk)?;
+        let how = How {
+            renderers: &[self.drawn.renderer()],
+            threads: &self.drawn.threads,
+        };
+        let comparisons = self
+            .timing
+            .compare(&[&self.input], &self.scene, how, *talk)?;
         if self.json {
             json_to_stdout(&to_json(&comparisons, &Machine::this(), &command_line()))?;
         } else {

@@ -38,15 +38,25 @@ pub struct Diff {
 impl Diff {
     /// Compares, prints, and writes the map.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        let output = self.output.as_deref().map(|path| Output::new(path, None)).transpose()?;
+        let output = self
+            .output
+            .as_deref()
+            .map(|path| Output::new(path, None))
+            .transpose()?;
         let (reference, actual) = (read_picture(&self.reference)?, read_picture(&self.actual)?);
         let [r, a] = comparable(&reference, &actual);
         let difference = compare(&r, &a)?;
         if let Some(output) = &output {
-            let map = if self.signed { signed_difference_map } else { difference_map };
+            let map = if self.signed {
+                signed_difference_map
+            } else {
+                difference_map
+            };
             output.write(&FilePicture::stored(map(&r, &a, self.scale)?))?;
         }
-        let above = self.fail_above.is_some_and(|most| largest_difference(&difference) > most);
+        let above = self
+            .fail_above
+            .is_some_and(|most| largest_difference(&difference) > most);
         let on_stdout = matches!(&output, Some(Output { path: None, .. }));
         match (self.json, on_stdout) {
             (true, true) => to_stderr(&format!("{:#}\n", self.json(&difference, reference.size()))),
@@ -56,15 +66,23 @@ impl Diff {
         }
         if let (true, Some(most)) = (above, self.fail_above) {
             let found = largest_difference(&difference);
-            talk.note(&format!("the pictures differ by {found:.4} grey levels, more than {most}"));
+            talk.note(&format!(
+                "the pictures differ by {found:.4} grey levels, more than {most}"
+            ));
         }
-        Ok(if above { Outcome::Differs } else { Outcome::Done })
+        Ok(if above {
+            Outcome::Differs
+        } else {
+            Outcome::Done
+        })
     }
 
     fn json(&self, difference: &Difference, [width, height]: [usize; 2]) -> Value {
         // JSON has neither infinity nor NaN: they become null.
-        let metrics: Map<String, Value> =
-            METRICS.iter().map(|metric| (metric.name.to_owned(), json!((metric.value)(difference)))).collect();
+        let metrics: Map<String, Value> = METRICS
+            .iter()
+            .map(|metric| (metric.name.to_owned(), json!((metric.value)(difference))))
+            .collect();
         json!({
             "schema": "fastphong.diff/1",
             "reference": self.reference.display().to_string(),

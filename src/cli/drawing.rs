@@ -35,18 +35,30 @@ pub fn method(text: &str) -> Result<Method, String> {
         if rest.is_empty() {
             return Ok(Method::Reference(Model::Phong));
         }
-        let named = |name: &str| Model::ALL.into_iter().find(|model| model.name() == name).map(Method::Reference);
+        let named = |name: &str| {
+            Model::ALL
+                .into_iter()
+                .find(|model| model.name() == name)
+                .map(Method::Reference)
+        };
         return rest.strip_prefix("model=").and_then(named).ok_or_else(|| {
-            let models: Vec<String> = Model::ALL.iter().map(|model| format!("model={}", model.name())).collect();
+            let models: Vec<String> = Model::ALL
+                .iter()
+                .map(|model| format!("model={}", model.name()))
+                .collect();
             format!("`{rest}`: expected one of {}", models.join(", "))
         });
     }
     let is_method = METHODS.iter().any(|entry| entry.info.name == name);
     let means_method = nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some();
     if !is_method && !means_method && nearest(name, [REFERENCE]).is_some() {
-        return Err(format!("unknown method `{name}`: did you mean `{REFERENCE}`?"));
+        return Err(format!(
+            "unknown method `{name}`: did you mean `{REFERENCE}`?"
+        ));
     }
-    Variant::parse(text).map(Method::Variant).map_err(|error| error.to_string())
+    Variant::parse(text)
+        .map(Method::Variant)
+        .map_err(|error| error.to_string())
 }
 
 impl std::fmt::Display for Method {
@@ -80,7 +92,9 @@ impl Drawing {
     /// # Errors
     /// When the engine does not have the method or the instruction set.
     pub fn new(frame: Frame, content: Content, talk: Talk) -> Result<Drawing, Failure> {
-        let Content::Shaded(method, engine, simd) = &content else { return Ok(Drawing { frame, content }) };
+        let Content::Shaded(method, engine, simd) = &content else {
+            return Ok(Drawing { frame, content });
+        };
         let (name, title) = match (engine, method) {
             (Engine::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
             (Engine::Cs171 { .. }, _) => ("cs171", "CS171"),
@@ -95,37 +109,73 @@ impl Drawing {
             }
             _ => return Ok(Drawing { frame, content }),
         };
-        let has: Vec<&str> = ENGINES.iter().filter(|e| e.name == name).flat_map(|e| e.methods()).collect();
-        let known = matches!(method, Method::Variant(variant) if has.contains(&variant.info().name));
+        let has: Vec<&str> = ENGINES
+            .iter()
+            .filter(|e| e.name == name)
+            .flat_map(|e| e.methods())
+            .collect();
+        let known =
+            matches!(method, Method::Variant(variant) if has.contains(&variant.info().name));
         if !known {
-            return Err(format!("{title} does not have `{method}`: expected one of {}", has.join(", ")).into());
+            return Err(format!(
+                "{title} does not have `{method}`: expected one of {}",
+                has.join(", ")
+            )
+            .into());
         }
         pixel_by_pixel(title, *simd)?;
-        Ok(Drawing { frame: in_triangles(frame, title, talk), content })
+        Ok(Drawing {
+            frame: in_triangles(frame, title, talk),
+            content,
+        })
     }
 
     /// Says what draws the picture: in full to the curious, and to all where it is not what they asked for.
     pub fn tell(&self, threads: Option<usize>, talk: Talk) {
         let line = |engine: &str, level: &str, threads: usize| {
-            format!("drawn by {engine}, {level}, {threads} thread{}", if threads == 1 { "" } else { "s" })
+            format!(
+                "drawn by {engine}, {level}, {threads} thread{}",
+                if threads == 1 { "" } else { "s" }
+            )
         };
         let (text, used, reason) = match &self.content {
             Content::Aov(..) => (line("the span engine", "scalar", 1), 1, None),
             Content::Shaded(Method::Reference(_), ..) => (line("the reference", "f64", 1), 1, None),
-            Content::Shaded(_, Engine::Barycentric(_), _) => (line("the barycentric engine", "scalar", 1), 1, None),
-            Content::Shaded(_, Engine::Cs171 { .. }, _) => (line("the cs171 engine", "f64", 1), 1, None),
+            Content::Shaded(_, Engine::Barycentric(_), _) => {
+                (line("the barycentric engine", "scalar", 1), 1, None)
+            }
+            Content::Shaded(_, Engine::Cs171 { .. }, _) => {
+                (line("the cs171 engine", "f64", 1), 1, None)
+            }
             Content::Shaded(Method::Variant(variant), Engine::Scanlines(asked), simd) => {
-                let plan = variant.plan(&self.frame, Renderer { engine: *asked, level: simd.level() });
-                let text = line(&format!("the {} engine", plan.engine), plan.level.name(), plan.threads());
+                let plan = variant.plan(
+                    &self.frame,
+                    Renderer {
+                        engine: *asked,
+                        level: simd.level(),
+                    },
+                );
+                let text = line(
+                    &format!("the {} engine", plan.engine),
+                    plan.level.name(),
+                    plan.threads(),
+                );
                 // Where the choice was left, why it is not rows, which are taken where they can be.
-                let by_rows = Renderer { engine: Some(raster::Engine::Row), level: plan.level };
+                let by_rows = Renderer {
+                    engine: Some(raster::Engine::Row),
+                    level: plan.level,
+                };
                 let reason = plan.reason.or_else(|| match asked {
                     None => variant.plan(&self.frame, by_rows).reason,
                     Some(_) => None,
                 });
                 let is_other = asked.is_some_and(|asked| asked != plan.engine)
                     || matches!(simd, Simd::Level(level) if *level != plan.level);
-                (text, plan.threads(), reason.map(|reason| (reason, is_other)))
+                (
+                    text,
+                    plan.threads(),
+                    reason.map(|reason| (reason, is_other)),
+                )
             }
         };
         match reason {
@@ -134,7 +184,9 @@ impl Drawing {
             None => talk.detail(&text),
         }
         if let (Some(threads @ 2..), 1) = (threads, used) {
-            talk.note(&format!("--threads {threads} leaves the pixels on one thread: {text}"));
+            talk.note(&format!(
+                "--threads {threads} leaves the pixels on one thread: {text}"
+            ));
         }
     }
 
@@ -145,9 +197,15 @@ impl Drawing {
     /// Those of `take`.
     pub fn rows<E>(&self, mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>) -> Result<(), E> {
         match &self.content {
-            Content::Shaded(Method::Variant(variant), Engine::Scanlines(engine), simd) => {
-                variant.render_rows(&self.frame, Renderer { engine: *engine, level: simd.level() }, take)
-            }
+            Content::Shaded(Method::Variant(variant), Engine::Scanlines(engine), simd) => variant
+                .render_rows(
+                    &self.frame,
+                    Renderer {
+                        engine: *engine,
+                        level: simd.level(),
+                    },
+                    take,
+                ),
             _ => take(self.picture(false).to_stored().texels()),
         }
     }
@@ -163,19 +221,35 @@ impl Drawing {
         match (&self.content, linear) {
             (Content::Aov(aov, square), true) => FilePicture::linear(aov.linear(frame, *square)),
             (Content::Aov(aov, square), false) => FilePicture::stored(aov.stored(frame, *square)),
-            (Content::Shaded(Method::Reference(model), ..), linear) => {
-                wide(&reference::render(frame, *model).picture, frame.encoding(), linear)
-            }
+            (Content::Shaded(Method::Reference(model), ..), linear) => wide(
+                &reference::render(frame, *model).picture,
+                frame.encoding(),
+                linear,
+            ),
             (Content::Shaded(Method::Variant(variant), engine, simd), linear) => match engine {
-                Engine::Scanlines(engine) => {
-                    by_scanlines(frame, variant, Renderer { engine: *engine, level: simd.level() }, linear)
-                }
+                Engine::Scanlines(engine) => by_scanlines(
+                    frame,
+                    variant,
+                    Renderer {
+                        engine: *engine,
+                        level: simd.level(),
+                    },
+                    linear,
+                ),
                 Engine::Barycentric(edges) => barycentric(frame, variant, *edges, linear),
                 Engine::Cs171 { normalise } => {
                     // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
                     let shading = cs171_shading(variant.info()).unwrap_or(Shading::Phong);
-                    let reading = Reading { normalise: *normalise, cull: false, ..Reading::default() };
-                    wide(&cs171::render(frame, shading, reading).filtered(frame.samples()), frame.encoding(), linear)
+                    let reading = Reading {
+                        normalise: *normalise,
+                        cull: false,
+                        ..Reading::default()
+                    };
+                    wide(
+                        &cs171::render(frame, shading, reading).filtered(frame.samples()),
+                        frame.encoding(),
+                        linear,
+                    )
                 }
             },
         }
@@ -186,25 +260,36 @@ impl Drawing {
 fn pixel_by_pixel(what: &str, simd: Simd) -> Result<(), Failure> {
     match simd {
         Simd::Auto | Simd::Level(Level::Scalar) => Ok(()),
-        Simd::Level(level) => {
-            Err(format!("{what} goes pixel by pixel and has no `{level}`: expected --simd auto or scalar").into())
-        }
+        Simd::Level(level) => Err(format!(
+            "{what} goes pixel by pixel and has no `{level}`: expected --simd auto or scalar"
+        )
+        .into()),
     }
 }
 
 /// `frame` with its polygons cut into triangles, if it has others.
 fn in_triangles(frame: Frame, engine: &str, talk: Talk) -> Frame {
-    let with_more_corners = frame.polygons().iter().filter(|polygon| polygon.count > 3).count();
+    let with_more_corners = frame
+        .polygons()
+        .iter()
+        .filter(|polygon| polygon.count > 3)
+        .count();
     if with_more_corners == 0 {
         return frame;
     }
     let cut = triangulated(&frame);
-    let (of, into) = (grouped(with_more_corners), grouped(cut.frame.polygons().len()));
+    let (of, into) = (
+        grouped(with_more_corners),
+        grouped(cut.frame.polygons().len()),
+    );
     talk.note(&format!("{of} polygons of more than three corners are cut into triangles for {engine}: {into} in all"));
     if cut.not_simple > 0 {
         talk.warning(&match cut.not_simple {
             1 => "1 polygon crosses or overlaps itself and is left out".to_owned(),
-            n => format!("{} polygons cross or overlap themselves and are left out", grouped(n)),
+            n => format!(
+                "{} polygons cross or overlap themselves and are left out",
+                grouped(n)
+            ),
         });
     }
     cut.frame
@@ -215,7 +300,9 @@ fn wide(picture: &Picture<[f64; 4]>, encoding: Encoding, linear: bool) -> FilePi
     let single = || picture.map(|texel| texel.map(|c| c as f32));
     match (linear, encoding) {
         (true, _) => FilePicture::linear(single()),
-        (false, Encoding::Linear) => FilePicture::stored(picture.map(|texel| texel.map(|c| (255.0 * c).round() as u8))),
+        (false, Encoding::Linear) => {
+            FilePicture::stored(picture.map(|texel| texel.map(|c| (255.0 * c).round() as u8)))
+        }
         (false, Encoding::Srgb) => FilePicture::stored(store(&single(), Encoding::Srgb)),
     }
 }
@@ -233,8 +320,12 @@ fn by_scanlines(frame: &Frame, variant: &Variant, renderer: Renderer, linear: bo
 
 fn barycentric(frame: &Frame, variant: &Variant, edges: Edges, linear: bool) -> FilePicture {
     let picture = match linear {
-        true => variant.render_barycentric_linear(frame, edges).map(FilePicture::linear),
-        false => variant.render_barycentric(frame, edges).map(FilePicture::stored),
+        true => variant
+            .render_barycentric_linear(frame, edges)
+            .map(FilePicture::linear),
+        false => variant
+            .render_barycentric(frame, edges)
+            .map(FilePicture::stored),
     };
     // `Drawing::new` asked whether the barycentric renderer has the method; were it not so, the lecture's engine does.
     picture.unwrap_or_else(|| by_scanlines(frame, variant, Renderer::LECTURE, linear))

@@ -67,7 +67,11 @@ pub const ENGINES: [EngineInfo; 4] = [
 impl EngineInfo {
     /// The methods that it has.
     pub fn methods(&self) -> impl Iterator<Item = &'static str> {
-        METHODS.iter().map(|entry| entry.info).filter(|info| self.has(info)).map(|info| info.name)
+        METHODS
+            .iter()
+            .map(|entry| entry.info)
+            .filter(|info| self.has(info))
+            .map(|info| info.name)
     }
 
     fn has(&self, info: &Info) -> bool {
@@ -80,7 +84,12 @@ impl EngineInfo {
 
     /// All that is said about it.
     pub fn json(&self) -> Value {
-        let EngineInfo { name, title, draws, runs } = self;
+        let EngineInfo {
+            name,
+            title,
+            draws,
+            runs,
+        } = self;
         let methods: Vec<&str> = self.methods().collect();
         json!({ "name": name, "title": title, "draws": draws, "runs": runs, "methods": methods })
     }
@@ -88,17 +97,26 @@ impl EngineInfo {
 
 /// The engines that have a method, by their names.
 pub fn engines_with(info: &Info) -> String {
-    let names = ENGINES.iter().filter(|engine| engine.has(info)).map(|engine| engine.name);
+    let names = ENGINES
+        .iter()
+        .filter(|engine| engine.has(info))
+        .map(|engine| engine.name);
     names.collect::<Vec<_>>().join(", ")
 }
 
 /// The methods that CS171 has, by their names here.
-const CS171: [(&str, Shading); 3] =
-    [("flat-average", Shading::Flat), ("gouraud", Shading::Gouraud), ("naive-phong", Shading::Phong)];
+const CS171: [(&str, Shading); 3] = [
+    ("flat-average", Shading::Flat),
+    ("gouraud", Shading::Gouraud),
+    ("naive-phong", Shading::Phong),
+];
 
 /// What CS171 calls a method, if it has it.
 pub fn cs171_shading(info: &Info) -> Option<Shading> {
-    CS171.iter().find(|(name, _)| *name == info.name).map(|(_, shading)| *shading)
+    CS171
+        .iter()
+        .find(|(name, _)| *name == info.name)
+        .map(|(_, shading)| *shading)
 }
 
 /// `auto`, `span` (or `scanline`), `row`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or
@@ -116,10 +134,13 @@ pub fn engine(text: &str) -> Result<Engine, String> {
         _ => Err(match text.split_once(':') {
             Some(("barycentric", _)) => "expected edges=top-left or edges=closed".to_owned(),
             Some(("cs171", _)) => "expected normals=unit or normals=as-printed".to_owned(),
-            Some((name, _)) if NAMES.contains(&name) => format!("the engine `{name}` has no parameters"),
+            Some((name, _)) if NAMES.contains(&name) => {
+                format!("the engine `{name}` has no parameters")
+            }
             _ => match nearest(text, NAMES) {
                 Some(near) => format!("unknown engine: did you mean `{near}`?"),
-                None => "unknown engine: expected `auto`, `span`, `row`, `barycentric` or `cs171`".to_owned(),
+                None => "unknown engine: expected `auto`, `span`, `row`, `barycentric` or `cs171`"
+                    .to_owned(),
             },
         }),
     }
@@ -133,8 +154,12 @@ pub struct ScanlineEngine(pub Option<raster::Engine>);
 pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
     match engine(text) {
         Ok(Engine::Scanlines(engine)) => Ok(ScanlineEngine(engine)),
-        Ok(Engine::Barycentric(_)) => Err("it is always compared with: expected `auto`, `span` or `row`".to_owned()),
-        Ok(Engine::Cs171 { .. }) | Err(_) => Err("unknown engine: expected `auto`, `span` or `row`".to_owned()),
+        Ok(Engine::Barycentric(_)) => {
+            Err("it is always compared with: expected `auto`, `span` or `row`".to_owned())
+        }
+        Ok(Engine::Cs171 { .. }) | Err(_) => {
+            Err("unknown engine: expected `auto`, `span` or `row`".to_owned())
+        }
     }
 }
 
@@ -161,7 +186,10 @@ impl Simd {
 pub fn simd(text: &str) -> Result<Simd, String> {
     match text {
         "auto" => Ok(Simd::Auto),
-        name => name.parse().map(Simd::Level).map_err(|error: fastphong::number::LevelError| error.to_string()),
+        name => name
+            .parse()
+            .map(Simd::Level)
+            .map_err(|error: fastphong::number::LevelError| error.to_string()),
     }
 }
 
@@ -201,7 +229,10 @@ pub struct LectureFlags {
 impl LectureFlags {
     /// How to draw.
     pub fn renderer(&self) -> Renderer {
-        Renderer { engine: self.engine.0, level: self.simd.level() }
+        Renderer {
+            engine: self.engine.0,
+            level: self.simd.level(),
+        }
     }
 
     /// Does `work` on as many threads as asked for.
@@ -226,7 +257,10 @@ const STACK: usize = 8 << 20;
 
 /// A number of threads.
 pub fn threads(text: &str) -> Result<usize, String> {
-    let threads = text.parse().ok().filter(|threads| (1..=MOST_THREADS).contains(threads));
+    let threads = text
+        .parse()
+        .ok()
+        .filter(|threads| (1..=MOST_THREADS).contains(threads));
     threads.ok_or_else(|| format!("expected a number of threads from 1 to {MOST_THREADS}"))
 }
 
@@ -237,7 +271,10 @@ impl ThreadFlags {
     /// When the system does not give that many.
     pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
         // 0 stands for as many as there are processors.
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).stack_size(STACK).build();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads.unwrap_or(0))
+            .stack_size(STACK)
+            .build();
         let pool = pool.map_err(|error| match self.threads {
             Some(threads) => format!("{threads} threads cannot be started: {error}"),
             None => format!("threads cannot be started: {error}"),
@@ -250,8 +287,16 @@ impl ThreadFlags {
     ///
     /// # Errors
     /// As [`ThreadFlags::install`].
-    pub fn install_for<T: Send>(&self, renderer: Renderer, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-        let threads = if renderer == Renderer::LECTURE { Some(1) } else { self.threads };
+    pub fn install_for<T: Send>(
+        &self,
+        renderer: Renderer,
+        work: impl FnOnce() -> T + Send,
+    ) -> Result<T, Failure> {
+        let threads = if renderer == Renderer::LECTURE {
+            Some(1)
+        } else {
+            self.threads
+        };
         ThreadFlags { threads }.install(work)
     }
 }

@@ -71,15 +71,32 @@ impl Explain {
         let mut text = format!("{}: {}\n", self.method, info.title);
         let mut section = |title: &str, body: &str| text += &format!("\n{title}\n{body}");
         // Formulas keep their lines.
-        section("formula", &info.formula.lines().map(|line| format!("  {line}\n")).collect::<String>());
+        section(
+            "formula",
+            &info
+                .formula
+                .lines()
+                .map(|line| format!("  {line}\n"))
+                .collect::<String>(),
+        );
         section("source", &wrapped(info.source, 2));
         for lights in LIGHTS {
-            let title = format!("operations with {lights} light{}, as counted", if lights == 1 { "" } else { "s" });
+            let title = format!(
+                "operations with {lights} light{}, as counted",
+                if lights == 1 { "" } else { "s" }
+            );
             section(&title, &costs(&self.method.operations(lights)));
         }
         for lights in LIGHTS_AT_POSITIONS {
-            let what = if lights == 1 { "light and eye" } else { "lights and eye" };
-            section(&format!("operations with {lights} {what} at positions, as counted"), &costs(&self.near(lights)));
+            let what = if lights == 1 {
+                "light and eye"
+            } else {
+                "lights and eye"
+            };
+            section(
+                &format!("operations with {lights} {what} at positions, as counted"),
+                &costs(&self.near(lights)),
+            );
         }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
@@ -89,17 +106,32 @@ impl Explain {
         let parameters = info.parameters.iter().zip(self.method.parameters());
         let parameters: String = parameters
             .map(|(p, value)| {
-                format!("  {}={value}: {}; {} to {}, default {}\n", p.name, p.meaning, p.least, p.most, p.default)
+                format!(
+                    "  {}={value}: {}; {} to {}, default {}\n",
+                    p.name, p.meaning, p.least, p.most, p.default
+                )
             })
             .collect();
-        section("parameters", if parameters.is_empty() { "  none\n" } else { &parameters });
+        section(
+            "parameters",
+            if parameters.is_empty() {
+                "  none\n"
+            } else {
+                &parameters
+            },
+        );
         Ok(text)
     }
 
     /// The operations with `lights` lights and the eye at positions, no falloff, attributes linear on the screen.
     fn near(&self, lights: usize) -> OperationCounts {
         // The angle of the span's normals is not counted: any will do.
-        self.method.operations_on(&SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen))
+        self.method.operations_on(&SpanBench::local(
+            20.0,
+            lights,
+            Falloff::None,
+            Interpolation::Screen,
+        ))
     }
 
     fn tolerance(&self) -> Result<String, Failure> {
@@ -116,7 +148,11 @@ impl Explain {
         let info = self.method.info();
         let mut json = method_json(info);
         let by_lights = |lights: &[usize], of: &dyn Fn(usize) -> OperationCounts| -> Value {
-            lights.iter().map(|&n| (n.to_string(), costs_json(&of(n)))).collect::<Map<String, Value>>().into()
+            lights
+                .iter()
+                .map(|&n| (n.to_string(), costs_json(&of(n))))
+                .collect::<Map<String, Value>>()
+                .into()
         };
         json["variant"] = self.method.to_string().into();
         json["values"] = self.method.parameters().into();
@@ -126,7 +162,8 @@ impl Explain {
         json["fails"] = info.fails.into();
         json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(info)? });
         json["operations_by_lights"] = by_lights(&LIGHTS, &|lights| self.method.operations(lights));
-        json["operations_by_lights_at_positions"] = by_lights(&LIGHTS_AT_POSITIONS, &|lights| self.near(lights));
+        json["operations_by_lights_at_positions"] =
+            by_lights(&LIGHTS_AT_POSITIONS, &|lights| self.near(lights));
         Ok(json)
     }
 }
@@ -140,7 +177,12 @@ fn example_bound(info: &Info) -> Result<f64, Failure> {
 }
 
 fn costs(counts: &OperationCounts) -> String {
-    let mut rows = vec![std::iter::once("  once a").chain(KINDS.map(|(name, _)| name)).map(str::to_owned).collect()];
+    let mut rows = vec![
+        std::iter::once("  once a")
+            .chain(KINDS.map(|(name, _)| name))
+            .map(str::to_owned)
+            .collect(),
+    ];
     for (rate, of) in RATES {
         let counts = of(counts);
         let mut row = vec![format!("  {rate}")];
@@ -156,9 +198,19 @@ fn costs(counts: &OperationCounts) -> String {
 
 fn costs_json(counts: &OperationCounts) -> Value {
     let kinds = |counts: Counts| -> Map<String, Value> {
-        KINDS.iter().map(|(name, kind)| ((*name).to_owned(), json!(kind(&counts)))).collect()
+        KINDS
+            .iter()
+            .map(|(name, kind)| ((*name).to_owned(), json!(kind(&counts))))
+            .collect()
     };
-    let rates: Map<String, Value> =
-        RATES.iter().map(|(name, of)| (name.replace(": ", "_").replace(' ', "_"), kinds(of(counts)).into())).collect();
+    let rates: Map<String, Value> = RATES
+        .iter()
+        .map(|(name, of)| {
+            (
+                name.replace(": ", "_").replace(' ', "_"),
+                kinds(of(counts)).into(),
+            )
+        })
+        .collect();
     rates.into()
 }

@@ -34,7 +34,11 @@ fn named(name: &str) -> Result<&'static Figure, String> {
 impl DrawFigures {
     /// Draws, measures, and writes the page.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        let mut figures = if self.all { FIGURES.to_vec() } else { Vec::new() };
+        let mut figures = if self.all {
+            FIGURES.to_vec()
+        } else {
+            Vec::new()
+        };
         for figure in &self.names {
             if figures.iter().all(|other| other.name != figure.name) {
                 figures.push(figure);
@@ -42,7 +46,9 @@ impl DrawFigures {
         }
         let page = match (&self.output, &figures[..]) {
             (Some(file), _) => file.clone(),
-            (None, [one]) => Path::new("report/figures").join(one.name).with_extension("html"),
+            (None, [one]) => Path::new("report/figures")
+                .join(one.name)
+                .with_extension("html"),
             (None, _) => Path::new("report/figures/index.html").to_owned(),
         };
         page_folder(&page)?;
@@ -67,13 +73,20 @@ impl DrawFigures {
 }
 
 /// Makes `figures`; `told` hears which part is done and what comes next.
-pub fn drawn(figures: &[&'static Figure], told: &dyn Fn(f32, &str)) -> Result<Vec<LectureFigure>, Failure> {
+pub fn drawn(
+    figures: &[&'static Figure],
+    told: &dyn Fn(f32, &str),
+) -> Result<Vec<LectureFigure>, Failure> {
     let mut drawn = Vec::with_capacity(figures.len());
     for (number, figure) in figures.iter().enumerate() {
-        told(number as f32 / figures.len() as f32, &format!("figure {}", figure.name));
+        told(
+            number as f32 / figures.len() as f32,
+            &format!("figure {}", figure.name),
+        );
         let refused = |reason: String| Failure::from(format!("figure {}: {reason}", figure.name));
         let content = figure.make().map_err(|error| refused(error.to_string()))?;
-        drawn.push(LectureFigure::new(figure, content).map_err(|error| refused(error.to_string()))?);
+        drawn
+            .push(LectureFigure::new(figure, content).map_err(|error| refused(error.to_string()))?);
     }
     Ok(drawn)
 }
@@ -81,9 +94,12 @@ pub fn drawn(figures: &[&'static Figure], told: &dyn Fn(f32, &str)) -> Result<Ve
 /// The folder of a page, made if need be.
 pub fn page_folder(page: &Path) -> Result<PathBuf, Failure> {
     let folder = page.parent().unwrap_or(Path::new("")).to_owned();
-    let refused = |reason: &str| Failure::from(format!("{}: cannot be written: {reason}", page.display()));
+    let refused =
+        |reason: &str| Failure::from(format!("{}: cannot be written: {reason}", page.display()));
     if page.file_name().is_none() || page.is_dir() {
-        return Err(refused("it is a folder: expected a file, such as report/index.html"));
+        return Err(refused(
+            "it is a folder: expected a file, such as report/index.html",
+        ));
     }
     if !folder.as_os_str().is_empty() {
         std::fs::create_dir_all(&folder).map_err(|error| refused(&error.to_string()))?;

@@ -40,7 +40,10 @@ pub struct FrameCount {
 }
 
 fn count(text: &str, least: usize) -> Result<usize, String> {
-    let count = text.parse().ok().filter(|count| (least..=MOST_FRAMES).contains(count));
+    let count = text
+        .parse()
+        .ok()
+        .filter(|count| (least..=MOST_FRAMES).contains(count));
     count.ok_or_else(|| format!("expected a number of frames from {least} to {MOST_FRAMES}"))
 }
 
@@ -88,7 +91,11 @@ impl FrameTiming<'_> {
     pub fn take(&self, talk: Talk) -> Result<FrameTimes, Failure> {
         warn_of_debug_build(talk);
         // What can fail at once does so before the first minute is spent.
-        let files = self.inputs.iter().map(|name| self.scene.load(name)).collect::<Result<Vec<_>, _>>()?;
+        let files = self
+            .inputs
+            .iter()
+            .map(|name| self.scene.load(name))
+            .collect::<Result<Vec<_>, _>>()?;
         let progress = Progress::silent_between_moves(talk);
         let turns = files.len() * self.methods.len() * self.how.renderers.len();
         let mut times = Vec::with_capacity(turns);
@@ -99,19 +106,34 @@ impl FrameTiming<'_> {
             drop(resolved);
             for renderer in self.how.renderers {
                 for variant in self.methods {
-                    progress.at(times.len() as f32 / turns as f32, &format!("{name}: {variant}"));
+                    progress.at(
+                        times.len() as f32 / turns as f32,
+                        &format!("{name}: {variant}"),
+                    );
                     let draw = || time(&prepared, variant, *renderer, self.count);
-                    let Drawn { plan, threads, size, timing } = self.how.threads.install_for(*renderer, draw)??;
+                    let Drawn {
+                        plan,
+                        threads,
+                        size,
+                        timing,
+                    } = self.how.threads.install_for(*renderer, draw)??;
                     if let Some(reason) = plan.reason {
                         let Plan { engine, level, .. } = plan;
-                        let text = format!("{name}: {variant} is drawn by the {engine} engine, {level}: {reason}");
+                        let text = format!(
+                            "{name}: {variant} is drawn by the {engine} engine, {level}: {reason}"
+                        );
                         progress.aside(|| talk.note(&text));
                     }
                     let (input, method) = ((*name).to_owned(), variant.to_string());
                     times.push(FrameTime {
                         input,
                         method,
-                        drawn: Drawn { plan, threads, size, timing },
+                        drawn: Drawn {
+                            plan,
+                            threads,
+                            size,
+                            timing,
+                        },
                         count: self.count,
                     });
                 }
@@ -122,7 +144,12 @@ impl FrameTiming<'_> {
 }
 
 /// Draws frame after frame into one picture; only what belongs to a frame is between two looks at the clock.
-fn time(scene: &PreparedScene, variant: &Variant, renderer: Renderer, count: FrameCount) -> Result<Drawn, FrameError> {
+fn time(
+    scene: &PreparedScene,
+    variant: &Variant,
+    renderer: Renderer,
+    count: FrameCount,
+) -> Result<Drawn, FrameError> {
     let mut frame = scene.frame()?;
     let plan = variant.plan(&frame, renderer);
     let mut picture = Picture8::new(0, 0, [0; 4]);
@@ -138,7 +165,12 @@ fn time(scene: &PreparedScene, variant: &Variant, renderer: Renderer, count: Fra
         }
     }
     let timing = Timing::of(samples, 1).expect("one frame or more, each of a finite time");
-    Ok(Drawn { plan, threads: rayon::current_num_threads(), size: [picture.width(), picture.height()], timing })
+    Ok(Drawn {
+        plan,
+        threads: rayon::current_num_threads(),
+        size: [picture.width(), picture.height()],
+        timing,
+    })
 }
 
 impl FrameTime {
@@ -147,8 +179,18 @@ impl FrameTime {
     }
 
     fn line(&self) -> String {
-        let FrameTime { input, method, count, drawn } = self;
-        let Drawn { plan: Plan { engine, level, .. }, threads, size: [width, height], .. } = drawn;
+        let FrameTime {
+            input,
+            method,
+            count,
+            drawn,
+        } = self;
+        let Drawn {
+            plan: Plan { engine, level, .. },
+            threads,
+            size: [width, height],
+            ..
+        } = drawn;
         let [median, min] = self.milliseconds();
         format!(
             "{input} {width}x{height} {method} engine {engine} level {level} threads {threads} frames {} ms_median \
@@ -158,7 +200,12 @@ impl FrameTime {
     }
 
     fn json(&self) -> Value {
-        let Drawn { plan, threads, size: [width, height], .. } = &self.drawn;
+        let Drawn {
+            plan,
+            threads,
+            size: [width, height],
+            ..
+        } = &self.drawn;
         let [median, min] = self.milliseconds();
         json!({
             "input": self.input,
@@ -195,7 +242,11 @@ impl FrameTimes {
         for (name, value) in head {
             text += &format!("  \"{name}\": {value},\n");
         }
-        let lines: Vec<String> = self.0.iter().map(|time| format!("    {}", time.json())).collect();
+        let lines: Vec<String> = self
+            .0
+            .iter()
+            .map(|time| format!("    {}", time.json()))
+            .collect();
         text + &format!("  \"frame_times\": [\n{}\n  ]\n}}\n", lines.join(",\n"))
     }
 }

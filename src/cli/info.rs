@@ -45,17 +45,25 @@ impl Info {
         // A mesh that several objects share is looked at once.
         let mut seen = BTreeMap::new();
         let mut facts = |object: &Object| {
-            let facts = seen.entry(Arc::as_ptr(&object.mesh)).or_insert_with(|| MeshFacts::of(&object.mesh));
+            let facts = seen
+                .entry(Arc::as_ptr(&object.mesh))
+                .or_insert_with(|| MeshFacts::of(&object.mesh));
             facts.clone()
         };
         let objects = scene.objects.iter().zip(&file.object);
         let objects: Vec<Described> = objects
-            .map(|(object, section)| Described { name: &section.mesh.value, object, facts: facts(object) })
+            .map(|(object, section)| Described {
+                name: &section.mesh.value,
+                object,
+                facts: facts(object),
+            })
             .collect();
         let chosen = choices(&scene.frame()?);
         match self.json {
             true => json_to_stdout(&scene_json(&self.input, &file, scene, &objects, &chosen))?,
-            false => to_stdout(scene_text(&self.input, &file, scene, &objects, &chosen).as_bytes())?,
+            false => {
+                to_stdout(scene_text(&self.input, &file, scene, &objects, &chosen).as_bytes())?
+            }
         }
         Ok(Outcome::Done)
     }
@@ -65,7 +73,13 @@ fn row(name: &str, value: impl Into<String>) -> Vec<String> {
     vec![format!("  {name}"), value.into()]
 }
 
-fn scene_text(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described], chosen: &[Choice]) -> String {
+fn scene_text(
+    input: &str,
+    file: &SceneFile,
+    scene: &Scene,
+    objects: &[Described],
+    chosen: &[Choice],
+) -> String {
     let mut text = input.to_owned();
     if let Some(title) = &file.title {
         text += &format!(": {}", title.value);
@@ -76,15 +90,30 @@ fn scene_text(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described
     }
     let camera = &scene.camera;
     let projection = match camera.projection {
-        Projection::Orthographic { half_height } => format!("orthographic, half height {half_height:.6}"),
+        Projection::Orthographic { half_height } => {
+            format!("orthographic, half height {half_height:.6}")
+        }
         Projection::Perspective { fovy } => format!("perspective, {fovy} degrees"),
     };
-    let total: usize = objects.iter().map(|object| object.object.mesh.polygon_count()).sum();
+    let total: usize = objects
+        .iter()
+        .map(|object| object.object.mesh.polygon_count())
+        .sum();
     let mut rows = vec![
         row("picture", format!("{} x {}", scene.width, scene.height)),
-        row("camera", format!("at {}, toward {}; {projection}", point(camera.eye), point(camera.target))),
+        row(
+            "camera",
+            format!(
+                "at {}, toward {}; {projection}",
+                point(camera.eye),
+                point(camera.target)
+            ),
+        ),
         row("lights", scene.lights.len().to_string()),
-        row("objects", format!("{}, {} polygons in all", objects.len(), grouped(total))),
+        row(
+            "objects",
+            format!("{}, {} polygons in all", objects.len(), grouped(total)),
+        ),
     ];
     for (number, choice) in chosen.iter().enumerate() {
         rows.push(row(if number == 0 { "auto" } else { "" }, choice.text()));
@@ -102,19 +131,31 @@ fn point(p: DVec3) -> String {
 
 fn object_text(described: &Described) -> String {
     let facts = &described.facts;
-    let sides: Vec<String> =
-        facts.by_sides.iter().map(|(sides, count)| format!("{} of {sides} sides", grouped(*count))).collect();
+    let sides: Vec<String> = facts
+        .by_sides
+        .iter()
+        .map(|(sides, count)| format!("{} of {sides} sides", grouped(*count)))
+        .collect();
     let edges = match facts.is_closed() {
         true => format!("{}: closed", grouped(facts.edges)),
         false => {
             let odd = [
                 (facts.open_edges, "open"),
-                (facts.non_manifold_edges, "non-manifold (three polygons or more)"),
+                (
+                    facts.non_manifold_edges,
+                    "non-manifold (three polygons or more)",
+                ),
                 (facts.reversed_edges, "between polygons wound differently"),
             ];
-            let odd =
-                odd.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{} {what}", grouped(*count)));
-            format!("{}: {}", grouped(facts.edges), odd.collect::<Vec<_>>().join(", "))
+            let odd = odd
+                .iter()
+                .filter(|(count, _)| *count > 0)
+                .map(|(count, what)| format!("{} {what}", grouped(*count)));
+            format!(
+                "{}: {}",
+                grouped(facts.edges),
+                odd.collect::<Vec<_>>().join(", ")
+            )
         }
     };
     let materials = match (facts.materials, facts.without_material) {
@@ -123,15 +164,42 @@ fn object_text(described: &Described) -> String {
         (n, without) => format!("{n}; {} polygons have none of them", grouped(without)),
     };
     let mut rows = vec![
-        row("polygons", format!("{}: {}", grouped(described.object.mesh.polygon_count()), sides.join(", "))),
-        row("degenerate", format!("{} without area", grouped(facts.degenerate))),
+        row(
+            "polygons",
+            format!(
+                "{}: {}",
+                grouped(described.object.mesh.polygon_count()),
+                sides.join(", ")
+            ),
+        ),
+        row(
+            "degenerate",
+            format!("{} without area", grouped(facts.degenerate)),
+        ),
         row("concave", grouped(facts.concave)),
-        row("not planar", format!("{} by more than {} % of their extent", grouped(facts.not_planar), 100.0 * PLANAR)),
-        row("vertices", format!("{} places, {} positions", grouped(facts.vertices), grouped(facts.positions))),
+        row(
+            "not planar",
+            format!(
+                "{} by more than {} % of their extent",
+                grouped(facts.not_planar),
+                100.0 * PLANAR
+            ),
+        ),
+        row(
+            "vertices",
+            format!(
+                "{} places, {} positions",
+                grouped(facts.vertices),
+                grouped(facts.positions)
+            ),
+        ),
         row("edges", edges),
     ];
     if let Some((low, high)) = facts.bounds {
-        rows.push(row("bounds", format!("{} to {}", point(low.as_dvec3()), point(high.as_dvec3()))));
+        rows.push(row(
+            "bounds",
+            format!("{} to {}", point(low.as_dvec3()), point(high.as_dvec3())),
+        ));
     }
     rows.push(row("materials", materials));
     rows.push(row("normals", normals(described)));
@@ -145,11 +213,19 @@ fn normals(described: &Described) -> String {
         (NormalSource::Given, true) => "given with the mesh".to_owned(),
         (NormalSource::Given, false) => "averaged: the mesh has none".to_owned(),
         (NormalSource::Averaged, _) => "averaged".to_owned(),
-        (NormalSource::Crease(degrees), _) => format!("averaged up to a crease of {degrees} degrees"),
+        (NormalSource::Crease(degrees), _) => {
+            format!("averaged up to a crease of {degrees} degrees")
+        }
     }
 }
 
-fn scene_json(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described], chosen: &[Choice]) -> Value {
+fn scene_json(
+    input: &str,
+    file: &SceneFile,
+    scene: &Scene,
+    objects: &[Described],
+    chosen: &[Choice],
+) -> Value {
     let camera = &scene.camera;
     let (half_height, fovy) = match camera.projection {
         Projection::Orthographic { half_height } => (Some(half_height), None),
@@ -179,9 +255,14 @@ fn scene_json(input: &str, file: &SceneFile, scene: &Scene, objects: &[Described
 
 fn object_json(described: &Described) -> Value {
     let facts = &described.facts;
-    let by_sides: serde_json::Map<String, Value> =
-        facts.by_sides.iter().map(|(sides, count)| (sides.to_string(), json!(count))).collect();
-    let bounds = facts.bounds.map(|(low, high)| [low, high].map(|p: Vec3| p.as_dvec3().to_array()));
+    let by_sides: serde_json::Map<String, Value> = facts
+        .by_sides
+        .iter()
+        .map(|(sides, count)| (sides.to_string(), json!(count)))
+        .collect();
+    let bounds = facts
+        .bounds
+        .map(|(low, high)| [low, high].map(|p: Vec3| p.as_dvec3().to_array()));
     json!({
         "mesh": described.name,
         "polygons": described.object.mesh.polygon_count(),

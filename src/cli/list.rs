@@ -47,7 +47,10 @@ impl List {
     pub fn run(&self) -> Result<Outcome, Failure> {
         if self.json {
             let entries: Vec<Value> = match self.subject {
-                Subject::Methods => METHODS.iter().map(|entry| method_json(entry.info)).collect(),
+                Subject::Methods => METHODS
+                    .iter()
+                    .map(|entry| method_json(entry.info))
+                    .collect(),
                 Subject::Meshes => meshes_json(),
                 Subject::Scenes => scenes_json()?,
                 Subject::Metrics => metrics_json(),
@@ -82,7 +85,10 @@ fn methods() -> String {
         text += &format!("    {}\n", exactness(info));
         text += &format!("    engines: {}\n", engines_with(info));
         for p in info.parameters {
-            text += &format!("    {}={}..{}, default {}: {}\n", p.name, p.least, p.most, p.default, p.meaning);
+            text += &format!(
+                "    {}={}..{}, default {}: {}\n",
+                p.name, p.least, p.most, p.default, p.meaning
+            );
         }
     }
     text
@@ -93,7 +99,10 @@ pub fn exactness(info: &Info) -> String {
     let Roundings { start, step, of } = info.roundings;
     let model = info.model.name();
     match step {
-        0.0 => format!("off its closed form, {model}, by {start} roundings of 2^-24 in its {}", stepped(of)),
+        0.0 => format!(
+            "off its closed form, {model}, by {start} roundings of 2^-24 in its {}",
+            stepped(of)
+        ),
         _ => format!(
             "off its closed form, {model}, by {start} roundings of 2^-24 in its {} and {step} more at every step",
             stepped(of)
@@ -152,7 +161,11 @@ fn meshes() -> String {
         text += &format!("builtin:{}\n    {}\n", shape.name, shape.doc);
         let rows = shape.all_parameters().map(|p| {
             let default = default_text(p).map_or(String::new(), |value| format!("default {value}"));
-            let range = if p.kind == Kind::Bool { "true, false".to_owned() } else { format!("{} to {}", p.min, p.max) };
+            let range = if p.kind == Kind::Bool {
+                "true, false".to_owned()
+            } else {
+                format!("{} to {}", p.min, p.max)
+            };
             vec![format!("    {}", p.name), range, default, p.doc.to_owned()]
         });
         text += &columns(&rows.collect::<Vec<_>>(), false, &[]);
@@ -183,8 +196,12 @@ fn meshes_json() -> Vec<Value> {
 /// Each shipped scene with its title and description.
 fn described() -> Result<Vec<[String; 3]>, Failure> {
     let describe = |scene: &fastphong::input::ShippedScene| {
-        let SceneFile { title, description, .. } = scene.load()?;
-        let text = |value: Option<fastphong::scene::value::Located<String>>| value.map_or(String::new(), |v| v.value);
+        let SceneFile {
+            title, description, ..
+        } = scene.load()?;
+        let text = |value: Option<fastphong::scene::value::Located<String>>| {
+            value.map_or(String::new(), |v| v.value)
+        };
         Ok([scene.name.to_owned(), text(title), text(description)])
     };
     SCENES.iter().map(describe).collect()
@@ -199,8 +216,7 @@ fn scenes() -> Result<String, Failure> {
 }
 
 fn scenes_json() -> Result<Vec<Value>, Failure> {
-    let entry =
-        |[name, title, description]: [String; 3]| json!({ "name": name, "title": title, "description": description });
+    let entry = |[name, title, description]: [String; 3]| json!({ "name": name, "title": title, "description": description });
     Ok(described()?.into_iter().map(entry).collect())
 }
 
@@ -213,12 +229,21 @@ fn better(better: Better) -> &'static str {
 }
 
 fn metrics() -> String {
-    let mut rows = vec![["metric", "unit", "better", "meaning"].map(str::to_owned).to_vec()];
-    rows.extend(
-        METRICS.iter().map(|metric| {
-            [metric.name, metric.unit, better(metric.better), metric.meaning].map(str::to_owned).to_vec()
-        }),
-    );
+    let mut rows = vec![
+        ["metric", "unit", "better", "meaning"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    rows.extend(METRICS.iter().map(|metric| {
+        [
+            metric.name,
+            metric.unit,
+            better(metric.better),
+            metric.meaning,
+        ]
+        .map(str::to_owned)
+        .to_vec()
+    }));
     columns(&rows, true, &[])
 }
 
@@ -228,7 +253,15 @@ fn metrics_json() -> Vec<Value> {
 }
 
 fn figures() -> String {
-    FIGURES.iter().map(|figure| format!("{}\n    {}\n    {}\n", figure.name, figure.title, figure.lecture)).collect()
+    FIGURES
+        .iter()
+        .map(|figure| {
+            format!(
+                "{}\n    {}\n    {}\n",
+                figure.name, figure.title, figure.lecture
+            )
+        })
+        .collect()
 }
 
 fn figures_json() -> Vec<Value> {
@@ -239,9 +272,17 @@ fn figures_json() -> Vec<Value> {
 fn engines() -> String {
     let mut text = String::new();
     for engine in &ENGINES {
-        let EngineInfo { name, title, draws, runs } = engine;
+        let EngineInfo {
+            name,
+            title,
+            draws,
+            runs,
+        } = engine;
         let methods = engine.methods().collect::<Vec<_>>().join(", ");
-        let about = wrapped(&format!("{title}\ndraws: {draws}\non: {runs}\nmethods: {methods}"), 4);
+        let about = wrapped(
+            &format!("{title}\ndraws: {draws}\non: {runs}\nmethods: {methods}"),
+            4,
+        );
         text += &format!("{name}\n{about}");
     }
     text
@@ -254,7 +295,9 @@ fn simd() -> String {
             () if level.is_available() => "here",
             () => "not on this machine",
         };
-        [level.name(), here, level.title()].map(str::to_owned).to_vec()
+        [level.name(), here, level.title()]
+            .map(str::to_owned)
+            .to_vec()
     });
     columns(&rows, false, &[])
 }

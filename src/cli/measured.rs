@@ -19,12 +19,17 @@ pub struct Methods(pub Vec<Variant>);
 /// Methods between commas, each once, or `all`.
 pub fn methods(text: &str) -> Result<Methods, String> {
     if text == "all" {
-        return Ok(Methods(METHODS.iter().map(|entry| entry.variant()).collect()));
+        return Ok(Methods(
+            METHODS.iter().map(|entry| entry.variant()).collect(),
+        ));
     }
     let mut variants: Vec<Variant> = Vec::new();
     for name in text.split(',') {
         let variant = Variant::parse(name.trim()).map_err(|error| error.to_string())?;
-        if variants.iter().all(|other| other.to_string() != variant.to_string()) {
+        if variants
+            .iter()
+            .all(|other| other.to_string() != variant.to_string())
+        {
             variants.push(variant);
         }
     }
@@ -33,7 +38,10 @@ pub fn methods(text: &str) -> Result<Methods, String> {
 
 /// A length of time in seconds.
 pub fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    let seconds = text
+        .parse()
+        .ok()
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     seconds.ok_or_else(|| "expected seconds: a number, 0 or more".to_owned())
 }
 
@@ -58,7 +66,13 @@ pub struct TimingFlags {
 impl TimingFlags {
     /// How to draw, and how long to take times.
     pub fn options(&self, renderer: Renderer) -> Options {
-        Options { timing: Some(Limits { time_budget: self.time_budget, ..Limits::default() }), renderer }
+        Options {
+            timing: Some(Limits {
+                time_budget: self.time_budget,
+                ..Limits::default()
+            }),
+            renderer,
+        }
     }
 
     /// Draws, compares and times every input by every renderer, with a progress bar where it takes long.
@@ -72,23 +86,38 @@ impl TimingFlags {
         warn_of_debug_build(talk);
         let renderers = how.renderers;
         // What can fail at once does so before the first minute is spent.
-        let files = inputs.iter().map(|name| scene.load(name)).collect::<Result<Vec<_>, _>>()?;
+        let files = inputs
+            .iter()
+            .map(|name| scene.load(name))
+            .collect::<Result<Vec<_>, _>>()?;
         let progress = Progress::silent_between_moves(talk);
         let mut comparisons = Vec::with_capacity(files.len() * renderers.len());
         for (number, (name, file)) in inputs.iter().zip(&files).enumerate() {
             let told = |part: f32, what: &str| {
-                progress.at((number as f32 + part) / files.len() as f32, &format!("{name}: {what}"));
+                progress.at(
+                    (number as f32 + part) / files.len() as f32,
+                    &format!("{name}: {what}"),
+                );
             };
             told(0.0, "loading");
             let resolved = input::resolve(file)?;
             progress.aside(|| scene.warn(&resolved, talk));
             let frame = resolved.scene.frame()?;
             drop(resolved);
-            let input = Input { name: (*name).to_owned(), frame: &frame };
+            let input = Input {
+                name: (*name).to_owned(),
+                frame: &frame,
+            };
             for (turn, renderer) in renderers.iter().enumerate() {
-                let told = |part: f32, what: &str| told((turn as f32 + part) / renderers.len() as f32, what);
+                let told = |part: f32, what: &str| {
+                    told((turn as f32 + part) / renderers.len() as f32, what)
+                };
                 let (methods, options) = (&self.methods.0, self.options(*renderer));
-                let compare = || compare(&input, methods, &options, &mut |part, what| told(part, what));
+                let compare = || {
+                    compare(&input, methods, &options, &mut |part, what| {
+                        told(part, what)
+                    })
+                };
                 comparisons.push(how.threads.install_for(*renderer, compare)?);
             }
         }
@@ -113,6 +142,10 @@ pub fn named_or_shipped(inputs: &[String]) -> Vec<&str> {
 
 /// What was typed, with the program by its name and not by its place.
 pub fn command_line() -> Vec<String> {
-    let typed = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
-    std::iter::once("fastphong".to_owned()).chain(typed).collect()
+    let typed = std::env::args_os()
+        .skip(1)
+        .map(|word| word.to_string_lossy().into_owned());
+    std::iter::once("fastphong".to_owned())
+        .chain(typed)
+        .collect()
 }

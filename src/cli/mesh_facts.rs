@@ -72,7 +72,10 @@ impl MeshFacts {
                 facts.degenerate += 1;
                 continue;
             };
-            let points: Vec<DVec3> = corners.iter().map(|&c| mesh.positions()[c as usize].as_dvec3()).collect();
+            let points: Vec<DVec3> = corners
+                .iter()
+                .map(|&c| mesh.positions()[c as usize].as_dvec3())
+                .collect();
             facts.concave += usize::from(is_concave(&points, normal));
             facts.not_planar += usize::from(!is_planar(&points, normal));
         }
@@ -90,7 +93,10 @@ impl MeshFacts {
         let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(mesh.corners().len());
         for corners in mesh.polygons() {
             for (i, &from) in corners.iter().enumerate() {
-                let (a, b) = (vertex[from as usize], vertex[corners[(i + 1) % corners.len()] as usize]);
+                let (a, b) = (
+                    vertex[from as usize],
+                    vertex[corners[(i + 1) % corners.len()] as usize],
+                );
                 if a != b {
                     edges.push((a.min(b), a.max(b), a < b));
                 }
@@ -120,13 +126,22 @@ fn is_concave(points: &[DVec3], normal: DVec3) -> bool {
 
 fn is_planar(points: &[DVec3], normal: DVec3) -> bool {
     let middle = points.iter().sum::<DVec3>() / points.len() as f64;
-    let extent = points.iter().map(|p| (*p - middle).length()).fold(0.0, f64::max);
-    points.iter().all(|p| (*p - middle).dot(normal).abs() <= PLANAR * extent)
+    let extent = points
+        .iter()
+        .map(|p| (*p - middle).length())
+        .fold(0.0, f64::max);
+    points
+        .iter()
+        .all(|p| (*p - middle).dot(normal).abs() <= PLANAR * extent)
 }
 
 fn bytes(mesh: &PolygonMesh) -> usize {
     let normals = mesh.given_normals().map_or(0, |normals| {
-        size_of_val(&normals.values[..]) + normals.corners.as_ref().map_or(0, |corners| size_of_val(&corners[..]))
+        size_of_val(&normals.values[..])
+            + normals
+                .corners
+                .as_ref()
+                .map_or(0, |corners| size_of_val(&corners[..]))
     });
     let materials = match mesh.materials() {
         [] => 0,

@@ -23,14 +23,20 @@ impl Output {
     pub fn new(path: &Path, format: Option<Format>) -> Result<Output, Failure> {
         if path.as_os_str() != "-" {
             let format = format.map_or_else(|| Format::of_path(path), Ok)?;
-            return Ok(Output { path: Some(path.to_owned()), format });
+            return Ok(Output {
+                path: Some(path.to_owned()),
+                format,
+            });
         }
         if std::io::stdout().is_terminal() {
             return Err("a picture is not for a terminal: expected `-o FILE`, or `-o -` into a pipe or a file"
                 .to_owned()
                 .into());
         }
-        Ok(Output { path: None, format: format.unwrap_or(Format::Png) })
+        Ok(Output {
+            path: None,
+            format: format.unwrap_or(Format::Png),
+        })
     }
 
     /// Writes `picture`; a file whole or not at all.
@@ -38,7 +44,9 @@ impl Output {
     /// # Errors
     /// When it cannot be written.
     pub fn write(&self, picture: &FilePicture) -> Result<(), Failure> {
-        let encoder = picture.encoder(self.format).map_err(|error| error.to_string())?;
+        let encoder = picture
+            .encoder(self.format)
+            .map_err(|error| error.to_string())?;
         self.write_by(|out| encoder.write_to(out))
     }
 
@@ -58,7 +66,10 @@ impl Output {
         })
     }
 
-    fn write_by(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+    fn write_by(
+        &self,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
         match &self.path {
             Some(path) => Ok(write_file_by(path, write)?),
             None => to_stdout_by(write),
@@ -68,6 +79,8 @@ impl Output {
 
 /// `png`, `ppm` or `pfm`.
 pub fn format(text: &str) -> Result<Format, String> {
-    let format = Format::ALL.into_iter().find(|format| format.ending() == text);
+    let format = Format::ALL
+        .into_iter()
+        .find(|format| format.ending() == text);
     format.ok_or_else(|| "expected png, ppm or pfm".to_owned())
 }

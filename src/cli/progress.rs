@@ -46,7 +46,12 @@ impl Progress {
             bar.set_style(style.progress_chars("=> "));
         }
         let allowed = talk != Talk::Quiet && std::io::stderr().is_terminal();
-        Progress { bar, started: Instant::now(), allowed, _watcher: None }
+        Progress {
+            bar,
+            started: Instant::now(),
+            allowed,
+            _watcher: None,
+        }
     }
 
     /// Moves the bar to `share` (0 to 1) of the work, of which `stage` comes next.
@@ -57,7 +62,8 @@ impl Progress {
         if self.bar.is_hidden() && self.started.elapsed() > PATIENCE {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        self.bar.set_position((share.clamp(0.0, 1.0) * STEPS as f32) as u64);
+        self.bar
+            .set_position((share.clamp(0.0, 1.0) * STEPS as f32) as u64);
         self.bar.set_message(stage.to_owned());
     }
 

@@ -12,7 +12,11 @@ pub const SCALE: f32 = 16.0;
 
 /// The largest difference of a channel in grey levels; coverage is a channel too, which is either all there or not.
 pub fn largest_difference(difference: &Difference) -> f64 {
-    if difference.coverage_mismatches > 0 { 255.0 } else { 255.0 * difference.max }
+    if difference.coverage_mismatches > 0 {
+        255.0
+    } else {
+        255.0 * difference.max
+    }
 }
 
 /// What is to be compared with what.
@@ -43,7 +47,10 @@ impl ReferenceCheck<'_> {
         let format = Format::of_path(reference)?;
         let actual = drawing.picture(format == Format::Pfm);
         let shown = reference.display();
-        if !reference.try_exists().map_err(|error| format!("{shown}: cannot be read: {error}"))? {
+        if !reference
+            .try_exists()
+            .map_err(|error| format!("{shown}: cannot be read: {error}"))?
+        {
             let candidate = self.keep(&actual, format)?;
             let text = format!(
                 "no reference {shown} yet: the picture is in {}\nto accept it: cp {} {}\n",
@@ -51,7 +58,10 @@ impl ReferenceCheck<'_> {
                 quoted(&candidate),
                 quoted(reference)
             );
-            return Ok(Verdict { outcome: Outcome::Differs, text });
+            return Ok(Verdict {
+                outcome: Outcome::Differs,
+                text,
+            });
         }
         let accepted = read_picture(reference)?;
         let [r, a] = comparable(&accepted, &actual);
@@ -62,7 +72,10 @@ impl ReferenceCheck<'_> {
                     self.threshold,
                     largest_difference(&difference)
                 );
-                Ok(Verdict { outcome: Outcome::Done, text })
+                Ok(Verdict {
+                    outcome: Outcome::Done,
+                    text,
+                })
             }
             Ok(difference) => {
                 let candidate = self.keep(&actual, format)?;
@@ -70,16 +83,25 @@ impl ReferenceCheck<'_> {
                 let map_path = sibling(&candidate, reference, "diff", Format::Png);
                 write_picture(&map_path, &FilePicture::stored(map))?;
                 let text = self.difference_text(&difference, &candidate, &map_path);
-                Ok(Verdict { outcome: Outcome::Differs, text })
+                Ok(Verdict {
+                    outcome: Outcome::Differs,
+                    text,
+                })
             }
             Err(sizes) => {
                 let candidate = self.keep(&actual, format)?;
-                let SizeMismatch { reference: [rw, rh], actual: [aw, ah] } = sizes;
+                let SizeMismatch {
+                    reference: [rw, rh],
+                    actual: [aw, ah],
+                } = sizes;
                 let text = format!(
                     "{shown}: the sizes differ: the reference has {rw}x{rh} pixels, the picture {aw}x{ah}\nactual: {}\n",
                     candidate.display()
                 );
-                Ok(Verdict { outcome: Outcome::Differs, text })
+                Ok(Verdict {
+                    outcome: Outcome::Differs,
+                    text,
+                })
             }
         }
     }
@@ -87,7 +109,10 @@ impl ReferenceCheck<'_> {
     /// The file that holds the picture in the format of the reference: the one already written, or one beside the
     /// reference.
     fn keep(&self, actual: &FilePicture, format: Format) -> Result<PathBuf, Failure> {
-        if let Some(Output { path: Some(path), format: written }) = self.written
+        if let Some(Output {
+            path: Some(path),
+            format: written,
+        }) = self.written
             && *written == format
         {
             return Ok(path.clone());
@@ -105,10 +130,16 @@ impl ReferenceCheck<'_> {
             self.threshold
         );
         if difference.coverage_mismatches > 0 {
-            text += &format!(" ({} pixels are covered in one picture only)", difference.coverage_mismatches);
+            text += &format!(
+                " ({} pixels are covered in one picture only)",
+                difference.coverage_mismatches
+            );
         }
         if let Some([x, y]) = difference.worst {
-            text += &format!("; {} pixels differ, most at column {x}, row {y}", difference.differing);
+            text += &format!(
+                "; {} pixels differ, most at column {x}, row {y}",
+                difference.differing
+            );
         }
         text + &format!(
             "\nactual: {}\ndifference, {SCALE} levels from black to yellow: {}\nto accept it: cp {} {}\n",
@@ -131,5 +162,9 @@ fn sibling(beside: &Path, reference: &Path, word: &str, format: Format) -> PathB
 fn quoted(path: &Path) -> String {
     let text = path.display().to_string();
     let plain = |c: char| c.is_alphanumeric() || "-_./+=:@%,".contains(c);
-    if !text.is_empty() && text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
+    if !text.is_empty() && text.chars().all(plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
 }

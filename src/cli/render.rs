@@ -132,8 +132,14 @@ impl Render {
         if let Some(output) = &output {
             self.write(&drawing, output, &progress, talk)?;
         }
-        let Some(reference) = &self.reference else { return Ok(Outcome::Done) };
-        let check = ReferenceCheck { reference, threshold: self.reference_threshold, written: output.as_ref() };
+        let Some(reference) = &self.reference else {
+            return Ok(Outcome::Done);
+        };
+        let check = ReferenceCheck {
+            reference,
+            threshold: self.reference_threshold,
+            written: output.as_ref(),
+        };
         let verdict = check.run(&drawing)?;
         progress.aside(|| say(&verdict.text))?;
         Ok(verdict.outcome)
@@ -141,24 +147,44 @@ impl Render {
 
     /// Where the picture goes, if that is not where its reference is.
     fn checked_output(&self) -> Result<Option<Output>, Failure> {
-        let output = self.output.as_deref().map(|path| Output::new(path, self.format)).transpose()?;
-        let Some(reference) = &self.reference else { return Ok(output) };
+        let output = self
+            .output
+            .as_deref()
+            .map(|path| Output::new(path, self.format))
+            .transpose()?;
+        let Some(reference) = &self.reference else {
+            return Ok(output);
+        };
         Format::of_path(reference)?;
         match output.as_ref().and_then(|output| output.path.as_deref()) {
             Some(path) if same_file(path, reference) => {
                 let shown = reference.display();
-                Err(format!("`--output` is the reference itself, {shown}: expected another file").into())
+                Err(
+                    format!("`--output` is the reference itself, {shown}: expected another file")
+                        .into(),
+                )
             }
             _ => Ok(output),
         }
     }
 
-    fn write(&self, drawing: &Drawing, output: &Output, progress: &Progress, talk: Talk) -> Result<(), Failure> {
+    fn write(
+        &self,
+        drawing: &Drawing,
+        output: &Output,
+        progress: &Progress,
+        talk: Talk,
+    ) -> Result<(), Failure> {
         let started = Instant::now();
         if output.format == Format::Ppm {
             // Its rows can be written while others are not yet drawn.
             output.write_ppm(drawing.size(), |take| drawing.rows(take))?;
-            progress.aside(|| talk.detail(&format!("shaded and written in {:.1} ms", milliseconds(started))));
+            progress.aside(|| {
+                talk.detail(&format!(
+                    "shaded and written in {:.1} ms",
+                    milliseconds(started)
+                ))
+            });
         } else {
             let picture = drawing.picture(output.format == Format::Pfm);
             progress.aside(|| talk.detail(&format!("shaded in {:.1} ms", milliseconds(started))));
@@ -167,7 +193,13 @@ impl Render {
         }
         if let Some(path) = &output.path {
             let [width, height] = drawing.size();
-            progress.aside(|| talk.note(&format!("{}: {width}x{height}, {}", path.display(), self.what())));
+            progress.aside(|| {
+                talk.note(&format!(
+                    "{}: {width}x{height}, {}",
+                    path.display(),
+                    self.what()
+                ))
+            });
         }
         Ok(())
     }
@@ -203,7 +235,10 @@ fn milliseconds(started: Instant) -> f64 {
 fn warn_of_polygons_without_area(stats: FrameStats, talk: Talk) {
     match stats.zero_area {
         0 => {}
-        1 => talk.warning(&format!("1 of {} polygons has no area and is left out", grouped(stats.polygons))),
+        1 => talk.warning(&format!(
+            "1 of {} polygons has no area and is left out",
+            grouped(stats.polygons)
+        )),
         n => talk.warning(&format!(
             "{} of {} polygons have no area and are left out",
             grouped(n),
@@ -216,7 +251,10 @@ fn warn_of_polygons_without_place(stats: FrameStats, talk: Talk) {
     let left_out = match stats.unprojected {
         0 => return,
         1 => "1 polygon has a corner at the plane of the eye and is left out".to_owned(),
-        n => format!("{} polygons have a corner at the plane of the eye and are left out", grouped(n)),
+        n => format!(
+            "{} polygons have a corner at the plane of the eye and are left out",
+            grouped(n)
+        ),
     };
     talk.warning(&format!("{left_out}: --clipping planes draws what is seen"));
 }
@@ -230,34 +268,68 @@ fn tell_of_conflicts(found: &Conflicts, talk: Talk) {
 
 /// What the painter's algorithm draws wrongly, if anything.
 fn painter_text(conflicts: &Conflicts) -> Option<String> {
-    let counted = |n: usize, one: &str, more: &str| format!("{} {}", grouped(n), if n == 1 { one } else { more });
+    let counted = |n: usize, one: &str, more: &str| {
+        format!("{} {}", grouped(n), if n == 1 { one } else { more })
+    };
     if conflicts.wrong.is_empty() {
         // A cycle has a pair in the wrong order, whatever the order.
         return None;
     }
     let wrong = counted(conflicts.wrong.len(), "pair is drawn", "pairs are drawn");
     if conflicts.cycles.is_empty() {
-        return Some(format!("{wrong} in the wrong order by the painter's key, though an order exists that is right"));
+        return Some(format!(
+            "{wrong} in the wrong order by the painter's key, though an order exists that is right"
+        ));
     }
-    let in_cycles = counted(conflicts.cycles.iter().map(Vec::len).sum(), "polygon", "polygons");
+    let in_cycles = counted(
+        conflicts.cycles.iter().map(Vec::len).sum(),
+        "polygon",
+        "polygons",
+    );
     let cycles = counted(conflicts.cycles.len(), "cycle", "cycles");
     let cutting = match conflicts.interpenetrating {
         0 => String::new(),
         n => format!(", {} each other", counted(n, "pair cuts", "pairs cut")),
     };
-    Some(format!("{in_cycles} in {cycles}: no order draws them right; {wrong} in the wrong order{cutting}"))
+    Some(format!(
+        "{in_cycles} in {cycles}: no order draws them right; {wrong} in the wrong order{cutting}"
+    ))
 }
 
 fn stats_text(frame: &Frame) -> String {
     let stats = frame.stats();
     let rows = [
         ("polygons", stats.polygons, "of the scene"),
-        ("culled", stats.culled, "left out: seen from the culled side"),
-        ("zero-area", stats.zero_area, "left out: no area, in space or on the picture"),
+        (
+            "culled",
+            stats.culled,
+            "left out: seen from the culled side",
+        ),
+        (
+            "zero-area",
+            stats.zero_area,
+            "left out: no area, in space or on the picture",
+        ),
         ("outside", stats.outside, "left out: outside the view"),
-        ("clipped", stats.clipped, "cut by the near plane, the far plane or the guard band"),
-        ("unprojected", stats.unprojected, "left out: a corner has no place on the picture (--clipping ndc-cube)"),
-        ("drawn", frame.polygons().len(), "left, pieces of cut ones counted each"),
+        (
+            "clipped",
+            stats.clipped,
+            "cut by the near plane, the far plane or the guard band",
+        ),
+        (
+            "unprojected",
+            stats.unprojected,
+            "left out: a corner has no place on the picture (--clipping ndc-cube)",
+        ),
+        (
+            "drawn",
+            frame.polygons().len(),
+            "left, pieces of cut ones counted each",
+        ),
     ];
-    columns(&rows.map(|(name, count, what)| vec![name.to_owned(), grouped(count), what.to_owned()]), false, &[1])
+    columns(
+        &rows.map(|(name, count, what)| vec![name.to_owned(), grouped(count), what.to_owned()]),
+        false,
+        &[1],
+    )
 }

@@ -84,7 +84,10 @@ impl Report {
     fn make(&self, talk: Talk) -> Result<Outcome, Failure> {
         let names = named_or_shipped(&self.inputs);
         // What can fail at once does so before the first minute is spent.
-        let files = names.iter().map(|name| self.scene.load(name)).collect::<Result<Vec<_>, Failure>>()?;
+        let files = names
+            .iter()
+            .map(|name| self.scene.load(name))
+            .collect::<Result<Vec<_>, Failure>>()?;
         let folder = page_folder(&self.output)?;
         let figures = self.figures();
         let machine = Machine::this();
@@ -94,8 +97,12 @@ impl Report {
         // Figures take about as long as two scenes.
         let of_figures = if figures.is_empty() { 0.0 } else { 2.0 };
         let scenes = files.len() as f32 + of_figures + studies.scenes();
-        let lecture = drawn(&figures, &|part, what| progress.at(part * of_figures / scenes, what))?;
-        let told = |part: f32, what: &str| progress.at((of_figures + part * studies.scenes()) / scenes, what);
+        let lecture = drawn(&figures, &|part, what| {
+            progress.at(part * of_figures / scenes, what)
+        })?;
+        let told = |part: f32, what: &str| {
+            progress.at((of_figures + part * studies.scenes()) / scenes, what)
+        };
         let studies = studies.make(&self.timing, &told)?;
         let mut sections = Vec::with_capacity(files.len());
         for (number, (name, file)) in names.iter().zip(&files).enumerate() {
@@ -108,9 +115,18 @@ impl Report {
             sections.push(self.section(name, file, &warn, &told)?);
         }
         progress.at(1.0, "writing");
-        let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).ok();
+        let since_1970 = SystemTime::now()
+            .duration_since(SystemTime::UNIX_EPOCH)
+            .ok();
         let date = since_1970.map(|t| utc_date(t.as_secs()));
-        let page = Page { sections, lecture, studies, machine, command_line: command_line(), date };
+        let page = Page {
+            sections,
+            lecture,
+            studies,
+            machine,
+            command_line: command_line(),
+            date,
+        };
         let written = self.write(&page, &folder)?;
         drop(progress);
         to_stdout(written.as_bytes())?;
@@ -128,7 +144,11 @@ impl Report {
 
     /// The studies that were asked for.
     fn studies(&self) -> Chosen {
-        let usual = if self.inputs.is_empty() { Chosen::ALL } else { Chosen::default() };
+        let usual = if self.inputs.is_empty() {
+            Chosen::ALL
+        } else {
+            Chosen::default()
+        };
         self.studies.unwrap_or(usual)
     }
 
@@ -143,10 +163,18 @@ impl Report {
         warn(&resolved);
         let frame = resolved.scene.frame()?;
         drop(resolved);
-        let input = Input { name: name.to_owned(), frame: &frame };
+        let input = Input {
+            name: name.to_owned(),
+            frame: &frame,
+        };
         // Comparing is most of the work; pictures are encoded in the rest.
         let options = self.timing.options(self.drawn.renderer());
-        let comparison = compare(&input, &self.timing.methods.0, &options, &mut |part, what| told(0.9 * part, what));
+        let comparison = compare(
+            &input,
+            &self.timing.methods.0,
+            &options,
+            &mut |part, what| told(0.9 * part, what),
+        );
         told(0.9, "pictures");
         let triangles = triangulation(&frame, &comparison.reference);
         let text = |text: &Option<Located<String>>| text.as_ref().map(|t| t.value.clone());
@@ -154,7 +182,11 @@ impl Report {
             title: text(&file.title).unwrap_or_else(|| name.to_owned()),
             description: text(&file.description).unwrap_or_default(),
         };
-        let detail = if self.full { Detail::Full } else { Detail::Blocks };
+        let detail = if self.full {
+            Detail::Full
+        } else {
+            Detail::Blocks
+        };
         Section::new(caption, &comparison, triangles.as_ref(), detail)
             .map_err(|error| format!("{name}: {error}").into())
     }

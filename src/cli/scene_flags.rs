@@ -6,8 +6,8 @@ use super::values::{self, Normals};
 use fastphong::input;
 use fastphong::lighting::{SpecularGate, SpecularModel};
 use fastphong::scene::file::{
-    CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, SceneFile, ViewerChoice,
-    VisibilityChoice,
+    CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, SceneFile,
+    ViewerChoice, VisibilityChoice,
 };
 use fastphong::scene::resolve::Resolved;
 use fastphong::scene::value::{Located, OneOrThree};
@@ -54,7 +54,12 @@ pub struct SceneFlags {
     #[arg(long, value_name = "X,Y,Z[,I|,R,G,B]", value_parser = values::light_at, allow_hyphen_values = true)]
     light_at: Vec<LightSection>,
     /// Attenuation 1 / (1 + k d²) of the lights given by --light-at
-    #[arg(long, value_name = "K", allow_hyphen_values = true, requires = "light_at")]
+    #[arg(
+        long,
+        value_name = "K",
+        allow_hyphen_values = true,
+        requires = "light_at"
+    )]
     attenuation: Option<f64>,
     /// How they grow weaker instead: 1 / r² or 1 / r
     #[arg(long, value_name = "HOW", value_parser = values::word::<FalloffChoice>(), requires = "light_at")]
@@ -148,7 +153,12 @@ impl SceneFlags {
         for warning in &resolved.warnings {
             talk.warning(warning);
         }
-        let with_own = resolved.scene.objects.iter().filter(|object| !object.mesh.materials().is_empty()).count();
+        let with_own = resolved
+            .scene
+            .objects
+            .iter()
+            .filter(|object| !object.mesh.materials().is_empty())
+            .count();
         if with_own > 0 && !self.material().is_empty() {
             talk.note("the material given by flags replaces those of the mesh file");
         }
@@ -210,7 +220,13 @@ impl SceneFlags {
                 falloff: flag(self.falloff, "--falloff"),
                 ..light.clone()
             };
-            over.light = Some(self.light.iter().cloned().chain(self.light_at.iter().map(attenuated)).collect());
+            over.light = Some(
+                self.light
+                    .iter()
+                    .cloned()
+                    .chain(self.light_at.iter().map(attenuated))
+                    .collect(),
+            );
         }
         over
     }

@@ -41,11 +41,18 @@ pub fn studies(text: &str) -> Result<Chosen, String> {
 
 impl Chosen {
     /// Both.
-    pub const ALL: Chosen = Chosen { speedups: true, scaling: true };
+    pub const ALL: Chosen = Chosen {
+        speedups: true,
+        scaling: true,
+    };
 
     /// About how long they take, in scenes.
     pub fn scenes(self) -> f32 {
-        [(self.speedups, 3.0), (self.scaling, 6.0)].iter().filter(|(is, _)| *is).map(|(_, scenes)| scenes).sum()
+        [(self.speedups, 3.0), (self.scaling, 6.0)]
+            .iter()
+            .filter(|(is, _)| *is)
+            .map(|(_, scenes)| scenes)
+            .sum()
     }
 
     /// Makes them on one thread, with times of the length that scenes have; `told` hears which part is done and what comes
@@ -53,23 +60,44 @@ impl Chosen {
     ///
     /// # Errors
     /// When there is no thread, or no memory for a picture of that size.
-    pub fn make(self, timing: &TimingFlags, told: &(dyn Fn(f32, &str) + Sync)) -> Result<Studies, Failure> {
+    pub fn make(
+        self,
+        timing: &TimingFlags,
+        told: &(dyn Fn(f32, &str) + Sync),
+    ) -> Result<Studies, Failure> {
         let all = self.scenes();
         let one = ThreadFlags { threads: Some(1) };
         let made = one.install(|| -> Result<Studies, StudyError> {
             let (methods, mut studies) = (&timing.methods.0, Studies::default());
             if self.speedups {
                 let usual = SpeedupOptions::default();
-                let limits = Limits { time_budget: timing.time_budget.saturating_mul(3), ..usual.limits };
-                let told = &mut |part: f32, what: &str| told(3.0 * part / all, &format!("speedups: {what}"));
-                studies.speedups = Some(Speedups::measure(methods, &SpeedupOptions { limits, ..usual }, told)?);
+                let limits = Limits {
+                    time_budget: timing.time_budget.saturating_mul(3),
+                    ..usual.limits
+                };
+                let told = &mut |part: f32, what: &str| {
+                    told(3.0 * part / all, &format!("speedups: {what}"))
+                };
+                studies.speedups = Some(Speedups::measure(
+                    methods,
+                    &SpeedupOptions { limits, ..usual },
+                    told,
+                )?);
             }
             if self.scaling {
                 let usual = ScalingOptions::default();
-                let limits = Limits { time_budget: timing.time_budget / 8, ..usual.limits };
-                let told =
-                    &mut |part: f32, what: &str| told(1.0 - 6.0 / all * (1.0 - part), &format!("scaling: {what}"));
-                studies.scaling = Some(Scaling::measure(methods, &ScalingOptions { limits, ..usual }, told)?);
+                let limits = Limits {
+                    time_budget: timing.time_budget / 8,
+                    ..usual.limits
+                };
+                let told = &mut |part: f32, what: &str| {
+                    told(1.0 - 6.0 / all * (1.0 - part), &format!("scaling: {what}"))
+                };
+                studies.scaling = Some(Scaling::measure(
+                    methods,
+                    &ScalingOptions { limits, ..usual },
+                    told,
+                )?);
             }
             Ok(studies)
         })?;

@@ -6,16 +6,26 @@ const LINE: usize = 96;
 /// Rows of cells, of which the first row is the heading if `headed`; columns named in `right` are set flush right.
 pub fn columns(rows: &[Vec<String>], headed: bool, right: &[usize]) -> String {
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max();
-    let widths: Vec<usize> = (0..count).map(|column| width(column).unwrap_or(0)).collect();
+    let width = |column: usize| {
+        rows.iter()
+            .filter_map(|row| row.get(column))
+            .map(|cell| cell.chars().count())
+            .max()
+    };
+    let widths: Vec<usize> = (0..count)
+        .map(|column| width(column).unwrap_or(0))
+        .collect();
     let mut text = String::new();
     let mut push = |row: &[String]| {
         let mut line = String::new();
         for (column, cell) in row.iter().enumerate() {
             let width = widths[column];
             let gap = if column == 0 { "" } else { "  " };
-            line +=
-                &if right.contains(&column) { format!("{gap}{cell:>width$}") } else { format!("{gap}{cell:width$}") };
+            line += &if right.contains(&column) {
+                format!("{gap}{cell:>width$}")
+            } else {
+                format!("{gap}{cell:width$}")
+            };
         }
         text += line.trim_end();
         text.push('\n');
@@ -23,7 +33,12 @@ pub fn columns(rows: &[Vec<String>], headed: bool, right: &[usize]) -> String {
     for (i, row) in rows.iter().enumerate() {
         push(row);
         if i == 0 && headed {
-            push(&widths.iter().map(|&width| "-".repeat(width)).collect::<Vec<_>>());
+            push(
+                &widths
+                    .iter()
+                    .map(|&width| "-".repeat(width))
+                    .collect::<Vec<_>>(),
+            );
         }
     }
     text

@@ -29,7 +29,11 @@ impl Talk {
     /// Says what the user should know before trusting the result.
     pub fn warning(self, text: &str) {
         if self != Talk::Quiet {
-            let word = if colour() { "\x1b[1;33mwarning\x1b[0m" } else { "warning" };
+            let word = if colour() {
+                "\x1b[1;33mwarning\x1b[0m"
+            } else {
+                "warning"
+            };
             to_stderr(&format!("{word}: {text}\n"));
         }
     }

@@ -6,7 +6,9 @@ use fastphong::scene::value::{Choice, Located, OneOrThree};
 
 /// Numbers between commas. Whether they make sense is asked where scene files are checked too.
 fn list(text: &str) -> Option<Vec<f64>> {
-    text.split(',').map(|number| number.trim().parse().ok()).collect()
+    text.split(',')
+        .map(|number| number.trim().parse().ok())
+        .collect()
 }
 
 /// `x,y,z`.
@@ -39,25 +41,35 @@ pub fn size(text: &str) -> Result<[i64; 2], String> {
 
 /// `x,y,z` with an intensity or a colour after it.
 pub fn light(text: &str) -> Result<LightSection, String> {
-    light_of(text, "--light", LightSection::toward)
-        .ok_or_else(|| "expected a direction x,y,z, with an intensity or a colour r,g,b after it".to_owned())
+    light_of(text, "--light", LightSection::toward).ok_or_else(|| {
+        "expected a direction x,y,z, with an intensity or a colour r,g,b after it".to_owned()
+    })
 }
 
 /// The same for a light at a position.
 pub fn light_at(text: &str) -> Result<LightSection, String> {
-    light_of(text, "--light-at", LightSection::at)
-        .ok_or_else(|| "expected a position x,y,z, with an intensity or a colour r,g,b after it".to_owned())
+    light_of(text, "--light-at", LightSection::at).ok_or_else(|| {
+        "expected a position x,y,z, with an intensity or a colour r,g,b after it".to_owned()
+    })
 }
 
-fn light_of(text: &str, flag: &str, light: fn(Located<[f64; 3]>) -> LightSection) -> Option<LightSection> {
+fn light_of(
+    text: &str,
+    flag: &str,
+    light: fn(Located<[f64; 3]>) -> LightSection,
+) -> Option<LightSection> {
     let numbers = list(text).unwrap_or_default();
     let at = |[x, y, z]: [f64; 3]| light(Located::flag([x, y, z], flag));
     match numbers[..] {
         [x, y, z] => Some(at([x, y, z])),
-        [x, y, z, intensity] => Some(LightSection { intensity: Some(Located::flag(intensity, flag)), ..at([x, y, z]) }),
-        [x, y, z, r, g, b] => {
-            Some(LightSection { colour: Some(Located::flag(OneOrThree([r, g, b]), flag)), ..at([x, y, z]) })
-        }
+        [x, y, z, intensity] => Some(LightSection {
+            intensity: Some(Located::flag(intensity, flag)),
+            ..at([x, y, z])
+        }),
+        [x, y, z, r, g, b] => Some(LightSection {
+            colour: Some(Located::flag(OneOrThree([r, g, b]), flag)),
+            ..at([x, y, z])
+        }),
         _ => None,
     }
 }
@@ -73,9 +85,14 @@ pub enum Normals {
 
 /// `averaged`, `given` or `crease=DEGREES`.
 pub fn normals(text: &str) -> Result<Normals, String> {
-    let crease = text.strip_prefix("crease=").and_then(|degrees| degrees.parse().ok()).map(Normals::Crease);
+    let crease = text
+        .strip_prefix("crease=")
+        .and_then(|degrees| degrees.parse().ok())
+        .map(Normals::Crease);
     let choice = || NormalChoice::from_word(text).map(Normals::Choice);
-    crease.or_else(choice).ok_or_else(|| "expected `averaged`, `given` or `crease=DEGREES`".to_owned())
+    crease
+        .or_else(choice)
+        .ok_or_else(|| "expected `averaged`, `given` or `crease=DEGREES`".to_owned())
 }
 
 /// Grey levels of a threshold: 0 or more.
@@ -86,13 +103,19 @@ pub fn grey_levels(text: &str) -> Result<f64, String> {
 
 /// A scale of grey levels: more than 0.
 pub fn scale(text: &str) -> Result<f32, String> {
-    let scale = text.parse().ok().filter(|scale: &f32| *scale > 0.0 && scale.is_finite());
+    let scale = text
+        .parse()
+        .ok()
+        .filter(|scale: &f32| *scale > 0.0 && scale.is_finite());
     scale.ok_or_else(|| "expected grey levels: a number over 0".to_owned())
 }
 
 /// A length in world units: more than 0.
 pub fn length(text: &str) -> Result<f64, String> {
-    let length = text.parse().ok().filter(|length: &f64| *length > 0.0 && length.is_finite());
+    let length = text
+        .parse()
+        .ok()
+        .filter(|length: &f64| *length > 0.0 && length.is_finite());
     length.ok_or_else(|| "expected a length in world units: a number over 0".to_owned())
 }
 

@@ -80,17 +80,28 @@ impl Default for RendererData {
 impl RendererData {
     pub(super) fn new(renderer: Renderer, threads: usize) -> Self {
         let engine = renderer.engine.map_or("auto", Engine::name).to_string();
-        RendererData { engine, level: renderer.level.name().to_string(), threads }
+        RendererData {
+            engine,
+            level: renderer.level.name().to_string(),
+            threads,
+        }
     }
 
     /// The three in words: `the span engine, scalar, 1 thread`.
     pub fn line(&self) -> String {
-        let RendererData { engine, level, threads } = self;
+        let RendererData {
+            engine,
+            level,
+            threads,
+        } = self;
         let engine = match engine.as_str() {
             "auto" => "the engine that suits each".to_string(),
             engine => alloc::format!("the {engine} engine"),
         };
-        alloc::format!("{engine}, {level}, {threads} thread{}", if *threads == 1 { "" } else { "s" })
+        alloc::format!(
+            "{engine}, {level}, {threads} thread{}",
+            if *threads == 1 { "" } else { "s" }
+        )
     }
 }
 
@@ -188,7 +199,8 @@ pub struct RatioData {
 
 /// The document of `comparisons` as a JSON value.
 pub fn to_json(comparisons: &[Comparison], machine: &Machine, command_line: &[String]) -> Value {
-    serde_json::to_value(Document::new(comparisons, machine, command_line)).expect("numbers, texts and lists of them")
+    serde_json::to_value(Document::new(comparisons, machine, command_line))
+        .expect("numbers, texts and lists of them")
 }
 
 impl Document {
@@ -206,7 +218,8 @@ impl Document {
 
     /// Its text, indented, with fields in the order in which they are described.
     pub fn to_text(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self).expect("numbers, texts and lists of them");
+        let mut text =
+            serde_json::to_string_pretty(self).expect("numbers, texts and lists of them");
         text.push('\n');
         text
     }
@@ -222,7 +235,9 @@ impl Document {
         }
         let head: Head = serde_json::from_str(text).map_err(DocumentError::Json)?;
         match head.schema {
-            Some(schema) if schema == SCHEMA => serde_json::from_str(text).map_err(DocumentError::Json),
+            Some(schema) if schema == SCHEMA => {
+                serde_json::from_str(text).map_err(DocumentError::Json)
+            }
             found => Err(DocumentError::Schema { found }),
         }
     }
@@ -243,8 +258,12 @@ pub enum DocumentError {
 impl fmt::Display for DocumentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            DocumentError::Json(error) => write!(f, "{error}: expected a document of schema `{SCHEMA}`"),
-            DocumentError::Schema { found: Some(found) } => write!(f, "schema `{found}`: expected `{SCHEMA}`"),
+            DocumentError::Json(error) => {
+                write!(f, "{error}: expected a document of schema `{SCHEMA}`")
+            }
+            DocumentError::Schema { found: Some(found) } => {
+                write!(f, "schema `{found}`: expected `{SCHEMA}`")
+            }
             DocumentError::Schema { found: None } => write!(f, "no `schema`: expected `{SCHEMA}`"),
         }
     }
@@ -284,8 +303,22 @@ impl From<&Comparison> for ComparisonData {
 
 impl From<FrameStats> for StatsData {
     fn from(stats: FrameStats) -> Self {
-        let FrameStats { polygons, culled, zero_area, outside, clipped, unprojected } = stats;
-        StatsData { polygons, culled, zero_area, outside, clipped, unprojected }
+        let FrameStats {
+            polygons,
+            culled,
+            zero_area,
+            outside,
+            clipped,
+            unprojected,
+        } = stats;
+        StatsData {
+            polygons,
+            culled,
+            zero_area,
+            outside,
+            clipped,
+            unprojected,
+        }
     }
 }
 
@@ -296,7 +329,12 @@ impl From<&Row> for RowData {
         RowData {
             variant: row.name(),
             method: info.name.to_string(),
-            parameters: info.parameters.iter().map(|p| p.name.to_string()).zip(values.copied()).collect(),
+            parameters: info
+                .parameters
+                .iter()
+                .map(|p| p.name.to_string())
+                .zip(values.copied())
+                .collect(),
             engine: row.engine.name().to_string(),
             level: row.level.name().to_string(),
             threads: row.threads,
@@ -313,7 +351,10 @@ impl From<&Row> for RowData {
 
 impl From<Difference> for DifferenceData {
     fn from(difference: Difference) -> Self {
-        DifferenceData { equal: difference.is_none(), difference }
+        DifferenceData {
+            equal: difference.is_none(),
+            difference,
+        }
     }
 }
 
@@ -330,6 +371,9 @@ impl From<&Speed> for SpeedData {
 
 impl From<Ratio> for RatioData {
     fn from(ratio: Ratio) -> Self {
-        RatioData { ratio, tie: ratio.is_tie() }
+        RatioData {
+            ratio,
+            tie: ratio.is_tie(),
+        }
     }
 }

@@ -49,8 +49,8 @@ mod tests;
 mod triangulation;
 
 pub use document::{
-    ComparisonData, DifferenceData, Document, DocumentError, RatioData, RendererData, RowData, SCHEMA, SpeedData,
-    StatsData, to_json,
+    ComparisonData, DifferenceData, Document, DocumentError, RatioData, RendererData, RowData,
+    SCHEMA, SpeedData, StatsData, to_json,
 };
 pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
@@ -72,8 +72,7 @@ use pictures::References;
 pub const BASELINE: &str = "naive-phong";
 
 /// What the errors of a [`Row`] are, in one line.
-pub const WHAT_IS_COMPARED: &str =
-    "linear channels before rounding to 8 bits against the f64 reference, where both show the same polygon";
+pub const WHAT_IS_COMPARED: &str = "linear channels before rounding to 8 bits against the f64 reference, where both show the same polygon";
 
 /// What is to be compared on.
 #[derive(Clone, Debug)]
@@ -96,7 +95,10 @@ pub struct Options {
 impl Default for Options {
     /// With times, in the lecture's own form.
     fn default() -> Self {
-        Options { timing: Some(Limits::default()), renderer: Renderer::LECTURE }
+        Options {
+            timing: Some(Limits::default()),
+            renderer: Renderer::LECTURE,
+        }
     }
 }
 
@@ -226,7 +228,11 @@ pub fn compare(
     let frame = input.frame;
     let variants = with_baseline(variants);
     let counterparts = counterparts(&variants);
-    let pictures_part = if options.timing.is_some() { PICTURES_PART } else { 1.0 };
+    let pictures_part = if options.timing.is_some() {
+        PICTURES_PART
+    } else {
+        1.0
+    };
     let steps = (variants.len() + counterparts.len() + 1) as f32;
     let mut step = 0.0;
     let mut next = |what: &str| {
@@ -284,13 +290,23 @@ pub fn compare(
 
 /// What `renderer` does where it can do as it says.
 fn plan_of(renderer: Renderer) -> Plan {
-    Plan { engine: renderer.engine.unwrap_or(raster::Engine::Row), level: renderer.level, reason: None }
+    Plan {
+        engine: renderer.engine.unwrap_or(raster::Engine::Row),
+        level: renderer.level,
+        reason: None,
+    }
 }
 
 pub(crate) fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
-    let baseline = METHODS.iter().find(|entry| entry.info.name == BASELINE).map(|entry| entry.variant());
+    let baseline = METHODS
+        .iter()
+        .find(|entry| entry.info.name == BASELINE)
+        .map(|entry| entry.variant());
     let missing = baseline.filter(|_| !variants.iter().any(is_baseline));
-    missing.into_iter().chain(variants.iter().cloned()).collect()
+    missing
+        .into_iter()
+        .chain(variants.iter().cloned())
+        .collect()
 }
 
 fn is_baseline(variant: &Variant) -> bool {
@@ -299,11 +315,19 @@ fn is_baseline(variant: &Variant) -> bool {
 
 /// The name of the method that the barycentric renderer is to draw for a comparison with `variant`.
 fn counterpart(variant: &Variant) -> &'static str {
-    if variant.info().barycentric { variant.info().name } else { BASELINE }
+    if variant.info().barycentric {
+        variant.info().name
+    } else {
+        BASELINE
+    }
 }
 
 /// The methods of the barycentric renderer that `variants` are measured against, each once, in the order of the table.
 fn counterparts(variants: &[Variant]) -> Vec<Variant> {
     let wanted = |name| variants.iter().any(|variant| counterpart(variant) == name);
-    METHODS.iter().filter(|entry| wanted(entry.info.name)).map(|entry| entry.variant()).collect()
+    METHODS
+        .iter()
+        .filter(|entry| wanted(entry.info.name))
+        .map(|entry| entry.variant())
+        .collect()
 }

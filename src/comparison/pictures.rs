@@ -34,12 +34,16 @@ struct ClosedForms {
 
 impl ClosedForms {
     fn new(frame: &Frame) -> Self {
-        ClosedForms { visibility: reference::visibility(frame), pictures: Default::default() }
+        ClosedForms {
+            visibility: reference::visibility(frame),
+            pictures: Default::default(),
+        }
     }
 
     /// The picture of `frame`, the one that this was made for.
     fn picture(&self, frame: &Frame, model: Model) -> &LinearPicture {
-        self.pictures[model as usize].get_or_init(|| reference::shade(frame, &self.visibility, model).to_linear())
+        self.pictures[model as usize]
+            .get_or_init(|| reference::shade(frame, &self.visibility, model).to_linear())
     }
 }
 
@@ -60,7 +64,11 @@ impl References {
 
     /// Pixels that any polygon covers, in part at least where a pixel has several samples.
     pub fn covered_pixels(&self) -> usize {
-        self.phong.texels().iter().filter(|texel| texel[3] > 0.0).count()
+        self.phong
+            .texels()
+            .iter()
+            .filter(|texel| texel[3] > 0.0)
+            .count()
     }
 
     /// The row of a variant as `renderer` draws it, without times.
@@ -71,7 +79,15 @@ impl References {
         let (error, other_polygon) = difference(&self.phong, &linear, seen, &self.scanline);
         let own = match variant.info().model {
             Model::Phong => error,
-            model => difference(self.closed_forms.picture(frame, model), &linear, seen, &self.scanline).0,
+            model => {
+                difference(
+                    self.closed_forms.picture(frame, model),
+                    &linear,
+                    seen,
+                    &self.scanline,
+                )
+                .0
+            }
         };
         let mut picture = Picture::new(0, 0, [0; 4]);
         variant.render_with(frame, renderer, &mut picture);
@@ -94,13 +110,24 @@ impl References {
     pub fn barycentric_row(&self, variant: &Variant) -> Option<Row> {
         let frame = &self.triangulated.frame;
         let linear = variant.render_barycentric_linear(frame, Edges::TopLeft)?;
-        let origin = |triangle| self.triangulated.origins.get(triangle as usize).copied().unwrap_or(Visibility::NONE);
+        let origin = |triangle| {
+            self.triangulated
+                .origins
+                .get(triangle as usize)
+                .copied()
+                .unwrap_or(Visibility::NONE)
+        };
         let shown = self.barycentric.map(origin);
         let seen = &self.closed_forms.visibility.polygons;
         let (error, other_polygon) = difference(&self.phong, &linear, seen, &shown);
         let own_forms = self.on_triangles.as_ref().unwrap_or(&self.closed_forms);
         let closed_form = own_forms.picture(frame, variant.info().model);
-        let (own, _) = difference(closed_form, &linear, &own_forms.visibility.polygons, &self.barycentric);
+        let (own, _) = difference(
+            closed_form,
+            &linear,
+            &own_forms.visibility.polygons,
+            &self.barycentric,
+        );
         let picture = variant.render_barycentric(frame, Edges::TopLeft)?;
         Some(Row {
             variant: variant.clone(),
@@ -128,7 +155,8 @@ pub(super) fn same_polygons(
 ) -> bool {
     let side = seen.width() / picture.width();
     let columns = x * side..(x + 1) * side;
-    (y * side..(y + 1) * side).all(|row| seen.row(row)[columns.clone()] == shown.row(row)[columns.clone()])
+    (y * side..(y + 1) * side)
+        .all(|row| seen.row(row)[columns.clone()] == shown.row(row)[columns.clone()])
 }
 
 /// The difference where both show the same polygon, and the number of pixels where they do not.
@@ -138,7 +166,9 @@ fn difference(
     seen: &Picture<u32>,
     shown: &Picture<u32>,
 ) -> (Difference, usize) {
-    let difference = compare_where(reference, actual, |x, y| same_polygons(seen, shown, reference, x, y));
+    let difference = compare_where(reference, actual, |x, y| {
+        same_polygons(seen, shown, reference, x, y)
+    });
     let difference = difference.expect("pictures of one frame have one size");
     (difference, difference.excluded)
 }
@@ -162,7 +192,11 @@ mod tests {
             let mut other = samples.clone();
             other.texels_mut()[changed] = 9;
             let same = [0, 1].map(|x| same_polygons(&samples, &other, &picture, x, 0));
-            assert_eq!(same, [changed % 4 >= 2, changed % 4 < 2], "sample {changed}");
+            assert_eq!(
+                same,
+                [changed % 4 >= 2, changed % 4 < 2],
+                "sample {changed}"
+            );
         }
     }
 

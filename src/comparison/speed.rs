@@ -41,9 +41,11 @@ pub(super) fn take(
     for row in rows.iter().chain(barycentric.iter()) {
         let variant = &row.variant;
         candidates.push(match row.engine {
-            Engine::Scanlines(_) if variant.plan(frame, renderer).is_lectures_own() => Box::new(move || {
-                black_box(variant.render(black_box(frame)));
-            }),
+            Engine::Scanlines(_) if variant.plan(frame, renderer).is_lectures_own() => {
+                Box::new(move || {
+                    black_box(variant.render(black_box(frame)));
+                })
+            }
             Engine::Scanlines(_) => Box::new(move || {
                 let mut picture = Picture::new(0, 0, [0; 4]);
                 variant.render_with(black_box(frame), renderer, &mut picture);
@@ -57,21 +59,31 @@ pub(super) fn take(
     let timings = time_interleaved(&mut candidates, limits, progress);
     drop(candidates);
     let (of_rows, of_barycentric) = timings.split_at(rows.len());
-    let naive = rows.iter().position(|row| is_baseline(&row.variant)).map(|i| of_rows[i].clone());
+    let naive = rows
+        .iter()
+        .position(|row| is_baseline(&row.variant))
+        .map(|i| of_rows[i].clone());
     let counterpart = |row: &Row| {
         let name = counterpart(&row.variant);
-        barycentric.iter().position(|other| other.variant.info().name == name).map(|i| &of_barycentric[i])
+        barycentric
+            .iter()
+            .position(|other| other.variant.info().name == name)
+            .map(|i| &of_barycentric[i])
     };
     let speed = |row: &Row, timing: &Timing| {
         let ratio = |baseline: &Timing| Ratio::paired(&baseline.samples_ns, &timing.samples_ns);
         Speed {
             timing: timing.clone(),
-            ns_per_covered_pixel: (covered_pixels > 0).then(|| timing.median_ns / covered_pixels as f64),
+            ns_per_covered_pixel: (covered_pixels > 0)
+                .then(|| timing.median_ns / covered_pixels as f64),
             ratio_to_naive: naive.as_ref().and_then(ratio),
             ratio_to_barycentric: counterpart(row).and_then(ratio),
         }
     };
-    let both = rows.iter().zip(of_rows).chain(barycentric.iter().zip(of_barycentric));
+    let both = rows
+        .iter()
+        .zip(of_rows)
+        .chain(barycentric.iter().zip(of_barycentric));
     let speeds: Vec<Speed> = both.map(|(row, timing)| speed(row, timing)).collect();
     for (row, speed) in rows.iter_mut().chain(barycentric).zip(speeds) {
         row.speed = Some(speed);

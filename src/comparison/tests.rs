@@ -15,13 +15,22 @@ use glam::{DAffine3, DVec3};
 fn frame_of(mesh: &str) -> Frame {
     let mesh = builtin(mesh).unwrap();
     let direction = DVec3::new(0.3, 0.5, 1.0);
-    let fit = Fit { direction, up: DVec3::Y, fraction: 0.9, fovy: None, aspect: 4.0 / 3.0 };
+    let fit = Fit {
+        direction,
+        up: DVec3::Y,
+        fraction: 0.9,
+        fovy: None,
+        aspect: 4.0 / 3.0,
+    };
     let camera = Camera::fit(mesh.positions().iter().map(|p| p.as_dvec3()), &fit).unwrap();
     let scene = Scene {
         width: 48,
         height: 36,
         background: [0.1, 0.2, 0.3],
-        lights: vec![Light::directional(DVec3::new(1.0, 1.0, 2.0).normalize(), [1.0; 3])],
+        lights: vec![Light::directional(
+            DVec3::new(1.0, 1.0, 2.0).normalize(),
+            [1.0; 3],
+        )],
         objects: vec![Object {
             mesh: mesh.into(),
             transform: DAffine3::IDENTITY,
@@ -39,17 +48,30 @@ fn all() -> Vec<Variant> {
 
 fn errors_only(frame: &Frame, variants: &[Variant]) -> Comparison {
     compare(
-        &Input { name: "test".into(), frame },
+        &Input {
+            name: "test".into(),
+            frame,
+        },
         variants,
-        &Options { timing: None, ..Options::default() },
+        &Options {
+            timing: None,
+            ..Options::default()
+        },
         &mut |_, _| {},
     )
 }
 
 /// Five rounds, so that a comparison with times is quick.
 fn quick() -> Options {
-    let limits = Limits { time_budget: Duration::ZERO, rounds: 5, warm_up_rounds: 1 };
-    Options { timing: Some(limits), ..Options::default() }
+    let limits = Limits {
+        time_budget: Duration::ZERO,
+        rounds: 5,
+        warm_up_rounds: 1,
+    };
+    Options {
+        timing: Some(limits),
+        ..Options::default()
+    }
 }
 
 fn named<'a>(rows: &'a [Row], name: &str) -> &'a Row {
@@ -61,25 +83,57 @@ fn every_method_has_its_row_and_the_barycentric_renderer_its_own() {
     let frame = frame_of("sphere?rings=6&segments=12");
     let comparison = errors_only(&frame, &all());
     let names = |rows: &[Row]| rows.iter().map(Row::name).collect::<Vec<_>>();
-    assert_eq!(names(&comparison.rows), METHODS.iter().map(|e| String::from(e.info.name)).collect::<Vec<_>>());
+    assert_eq!(
+        names(&comparison.rows),
+        METHODS
+            .iter()
+            .map(|e| String::from(e.info.name))
+            .collect::<Vec<_>>()
+    );
     let in_barycentric = METHODS.iter().filter(|e| e.info.barycentric);
-    assert_eq!(names(&comparison.barycentric), in_barycentric.map(|e| String::from(e.info.name)).collect::<Vec<_>>());
+    assert_eq!(
+        names(&comparison.barycentric),
+        in_barycentric
+            .map(|e| String::from(e.info.name))
+            .collect::<Vec<_>>()
+    );
     assert!(
         comparison.rows.iter().all(|row| row.engine == Engine::Scanlines(raster::Engine::Span) && row.speed.is_none())
     );
-    assert!(comparison.barycentric.iter().all(|row| row.engine == Engine::Barycentric));
-    assert!(counterpart(&Variant::parse(BASELINE).unwrap()) == BASELINE, "what ratios fall back on exists");
+    assert!(
+        comparison
+            .barycentric
+            .iter()
+            .all(|row| row.engine == Engine::Barycentric)
+    );
+    assert!(
+        counterpart(&Variant::parse(BASELINE).unwrap()) == BASELINE,
+        "what ratios fall back on exists"
+    );
 }
 
 #[test]
 fn naive_phong_is_added_only_where_it_is_missing() {
     let frame = frame_of("triangle");
     let names = |variants: &[&str]| {
-        let variants: Vec<_> = variants.iter().map(|text| Variant::parse(text).unwrap()).collect();
-        errors_only(&frame, &variants).rows.iter().map(Row::name).collect::<Vec<_>>()
+        let variants: Vec<_> = variants
+            .iter()
+            .map(|text| Variant::parse(text).unwrap())
+            .collect();
+        errors_only(&frame, &variants)
+            .rows
+            .iter()
+            .map(Row::name)
+            .collect::<Vec<_>>()
     };
-    assert_eq!(names(&["fast-phong:steps=1", "flat"]), ["naive-phong", "fast-phong:steps=1", "flat"]);
-    assert_eq!(names(&["flat", "naive-phong", "flat"]), ["flat", "naive-phong", "flat"]);
+    assert_eq!(
+        names(&["fast-phong:steps=1", "flat"]),
+        ["naive-phong", "fast-phong:steps=1", "flat"]
+    );
+    assert_eq!(
+        names(&["flat", "naive-phong", "flat"]),
+        ["flat", "naive-phong", "flat"]
+    );
     assert_eq!(names(&[]), ["naive-phong"]);
 }
 
@@ -90,13 +144,25 @@ fn numbers_of_the_frame_are_those_of_a_hand_count() {
     // hypotenuse, which the top-left rule does not count.
     let mut builder = FrameBuilder::new(10, 8);
     let light = Light::directional(DVec3::Z, [1.0; 3]);
-    let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z));
+    let material = builder.lighting(Lighting::new(
+        &Material::default(),
+        [1.0; 3],
+        &[light],
+        DVec3::Z,
+    ));
     let mut polygon = |places: &[(i32, i32)], depth| {
         let corners: Vec<u32> = places
             .iter()
             .map(|&(x, y)| {
                 let (x, y) = (SubPixel::from_num(x), SubPixel::from_num(y));
-                builder.vertex(Vertex { x, y, depth, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+                builder.vertex(Vertex {
+                    x,
+                    y,
+                    depth,
+                    inv_w: 1.0,
+                    normal: [0.0, 0.0, 1.0],
+                    material,
+                })
             })
             .collect();
         builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
@@ -107,13 +173,22 @@ fn numbers_of_the_frame_are_those_of_a_hand_count() {
     polygon(&[(8, 2), (10, 4), (10, 2), (8, 4)], 0.5);
     let frame = builder.finish().unwrap();
     let comparison = errors_only(&frame, &all());
-    assert_eq!((comparison.polygons, comparison.triangles, comparison.lights), (3, 5, 1));
+    assert_eq!(
+        (comparison.polygons, comparison.triangles, comparison.lights),
+        (3, 5, 1)
+    );
     let bow_tie = comparison.covered_pixels - 6 * 4;
     assert!((1..=4).contains(&bow_tie), "{bow_tie} pixels");
     assert_eq!(comparison.fragments - comparison.covered_pixels, 6);
     assert_eq!(comparison.not_simple, 1);
     assert!(comparison.rows.iter().all(|row| row.other_polygon == 0));
-    assert!(comparison.barycentric.iter().all(|row| row.other_polygon == bow_tie), "the bow tie is not drawn");
+    assert!(
+        comparison
+            .barycentric
+            .iter()
+            .all(|row| row.other_polygon == bow_tie),
+        "the bow tie is not drawn"
+    );
     // Normals are all the same: every method computes the one colour, but for the rounding of single numbers. Slerped
     // and stepped values add at most as many roundings as there are pixels and scanlines, 16 of 2⁻²⁴, which the power
     // 32 multiplies by 32: 3.1e-5.
@@ -125,21 +200,37 @@ fn numbers_of_the_frame_are_those_of_a_hand_count() {
 #[test]
 fn own_closed_form_is_that_of_the_model() {
     // With all steps of Newton's method, of which short spans over large angles need more than the default.
-    let with_all_steps = |variant: Variant| match variant.info().parameters.iter().find(|p| p.name == "steps") {
-        Some(steps) => Variant::parse(&alloc::format!("{}:steps={}", variant.info().name, steps.most)).unwrap(),
-        None => variant,
-    };
+    let with_all_steps =
+        |variant: Variant| match variant.info().parameters.iter().find(|p| p.name == "steps") {
+            Some(steps) => Variant::parse(&alloc::format!(
+                "{}:steps={}",
+                variant.info().name,
+                steps.most
+            ))
+            .unwrap(),
+            None => variant,
+        };
     let variants: Vec<_> = all().into_iter().map(with_all_steps).collect();
     for mesh in ["sphere?rings=6&segments=12", "prism"] {
         let frame = frame_of(mesh);
         let comparison = errors_only(&frame, &variants);
         for row in comparison.all_rows() {
-            assert!(row.is_within_bound(), "{mesh}, {} {:?}: {}", row.name(), row.engine, row.own.max);
+            assert!(
+                row.is_within_bound(),
+                "{mesh}, {} {:?}: {}",
+                row.name(),
+                row.engine,
+                row.own.max
+            );
         }
         let naive = named(&comparison.rows, BASELINE);
         assert_eq!(naive.own, naive.error, "it means to be the reference");
         let gouraud = named(&comparison.rows, "gouraud");
-        assert!(gouraud.error.max > 10.0 * gouraud.own.max, "it is not Phong shading: {:?}", gouraud.error);
+        assert!(
+            gouraud.error.max > 10.0 * gouraud.own.max,
+            "it is not Phong shading: {:?}",
+            gouraud.error
+        );
     }
 }
 
@@ -153,7 +244,15 @@ fn a_comparison_without_times_is_the_same_at_every_run() {
 #[test]
 fn nothing_drawn_is_no_difference() {
     let frame = FrameBuilder::new(16, 16).finish().unwrap();
-    let comparison = compare(&Input { name: "empty".into(), frame: &frame }, &all(), &quick(), &mut |_, _| {});
+    let comparison = compare(
+        &Input {
+            name: "empty".into(),
+            frame: &frame,
+        },
+        &all(),
+        &quick(),
+        &mut |_, _| {},
+    );
     assert_eq!((comparison.covered_pixels, comparison.fragments), (0, 0));
     for row in comparison.all_rows() {
         assert!(row.error.is_none() && row.own.is_none(), "{}", row.name());
@@ -170,16 +269,25 @@ fn nothing_drawn_is_no_difference() {
 fn speeds_belong_to_their_rows() {
     let frame = frame_of("sphere?rings=6&segments=12");
     let mut told = vec![];
-    let input = Input { name: "sphere".into(), frame: &frame };
-    let comparison = compare(&input, &all(), &quick(), &mut |part, what| told.push((part, String::from(what))));
+    let input = Input {
+        name: "sphere".into(),
+        frame: &frame,
+    };
+    let comparison = compare(&input, &all(), &quick(), &mut |part, what| {
+        told.push((part, String::from(what)))
+    });
     for row in comparison.all_rows() {
         let speed = row.speed.as_ref().unwrap();
         assert_eq!(speed.timing.samples_ns.len(), 5);
         let per_pixel = speed.ns_per_covered_pixel.unwrap();
-        assert_eq!(per_pixel, speed.timing.median_ns / comparison.covered_pixels as f64);
+        assert_eq!(
+            per_pixel,
+            speed.timing.median_ns / comparison.covered_pixels as f64
+        );
         assert!(speed.ratio_to_naive.is_some() && speed.ratio_to_barycentric.is_some());
     }
-    let one = |ratio: Option<Ratio>| ratio.map(|r| (r.low, r.median, r.high)) == Some((1.0, 1.0, 1.0));
+    let one =
+        |ratio: Option<Ratio>| ratio.map(|r| (r.low, r.median, r.high)) == Some((1.0, 1.0, 1.0));
     let of = |row: &Row| row.speed.clone().unwrap();
     assert!(one(of(named(&comparison.rows, BASELINE)).ratio_to_naive));
     for row in &comparison.barycentric {
@@ -189,36 +297,72 @@ fn speeds_belong_to_their_rows() {
     let naive = of(named(&comparison.rows, BASELINE)).timing.samples_ns;
     for row in comparison.all_rows() {
         let speed = of(row);
-        let mut quotients: Vec<f64> = naive.iter().zip(&speed.timing.samples_ns).map(|(n, s)| n / s).collect();
+        let mut quotients: Vec<f64> = naive
+            .iter()
+            .zip(&speed.timing.samples_ns)
+            .map(|(n, s)| n / s)
+            .collect();
         quotients.sort_by(f64::total_cmp);
-        assert_eq!(speed.ratio_to_naive.unwrap().median, quotients[2], "{}", row.name());
+        assert_eq!(
+            speed.ratio_to_naive.unwrap().median,
+            quotients[2],
+            "{}",
+            row.name()
+        );
     }
     assert!(told.is_sorted_by(|a, b| a.0 <= b.0), "{told:?}");
-    assert_eq!((told[0].0, told.last().map(|(part, _)| *part)), (0.0, Some(1.0)));
+    assert_eq!(
+        (told[0].0, told.last().map(|(part, _)| *part)),
+        (0.0, Some(1.0))
+    );
     assert!(
-        told.iter().any(|(_, what)| what == "gouraud, barycentric") && told.iter().any(|(_, what)| what == "timing")
+        told.iter().any(|(_, what)| what == "gouraud, barycentric")
+            && told.iter().any(|(_, what)| what == "timing")
     );
 }
 
 #[test]
 fn documents_come_back_as_they_went() {
     let frame = frame_of("prism");
-    let input = Input { name: "a \"prism\"\n".into(), frame: &frame };
-    let variants = [Variant::parse("fast-phong:steps=3").unwrap(), Variant::parse("flat").unwrap()];
+    let input = Input {
+        name: "a \"prism\"\n".into(),
+        frame: &frame,
+    };
+    let variants = [
+        Variant::parse("fast-phong:steps=3").unwrap(),
+        Variant::parse("flat").unwrap(),
+    ];
     let comparison = compare(&input, &variants, &quick(), &mut |_, _| {});
     let command_line = ["fastphong", "bench", "prism"].map(String::from);
-    let document = Document::new(core::slice::from_ref(&comparison), &Machine::this(), &command_line);
+    let document = Document::new(
+        core::slice::from_ref(&comparison),
+        &Machine::this(),
+        &command_line,
+    );
     let text = document.to_text();
     assert!(text.starts_with("{\n  \"schema\": \"fastphong.bench/1\",\n"));
     assert_eq!(Document::parse(&text).unwrap(), document);
     let value = to_json(&[comparison], &Machine::this(), &command_line);
-    assert_eq!(value, serde_json::from_str::<serde_json::Value>(&text).unwrap());
+    assert_eq!(
+        value,
+        serde_json::from_str::<serde_json::Value>(&text).unwrap()
+    );
     let row = &value["comparisons"][0]["rows"][1];
-    assert_eq!((row["variant"].as_str(), row["parameters"]["steps"].as_u64()), (Some("fast-phong:steps=3"), Some(3)));
-    assert_eq!((row["model"].as_str(), row["engine"].as_str()), (Some("phong-constant"), Some("span")));
+    assert_eq!(
+        (row["variant"].as_str(), row["parameters"]["steps"].as_u64()),
+        (Some("fast-phong:steps=3"), Some(3))
+    );
+    assert_eq!(
+        (row["model"].as_str(), row["engine"].as_str()),
+        (Some("phong-constant"), Some("span"))
+    );
     assert!(row["speed"]["ratio_to_naive"]["tie"].is_boolean());
     assert!(row["error"]["psnr"].is_f64() && row["error"]["equal"] == false);
-    assert!(row["speed"]["timing"]["samples_ns"].as_array().is_some_and(|s| s.len() == 5));
+    assert!(
+        row["speed"]["timing"]["samples_ns"]
+            .as_array()
+            .is_some_and(|s| s.len() == 5)
+    );
 }
 
 /// Data from before there were other engines say nothing of them.
@@ -258,7 +402,10 @@ fn the_description_names_every_field() {
     while let Some(value) = left.pop() {
         if let Some(object) = value.as_object() {
             for (field, value) in object {
-                let (alone, in_timing) = (alloc::format!("`{field}`"), alloc::format!("`timing.{field}`"));
+                let (alone, in_timing) = (
+                    alloc::format!("`{field}`"),
+                    alloc::format!("`timing.{field}`"),
+                );
                 let is_named = description.contains(&alone) || description.contains(&in_timing);
                 assert!(is_named || field == "timing", "`{field}` is not described");
                 fields += 1;
@@ -282,7 +429,10 @@ fn what_is_no_document_is_refused() {
         message(r#"{"schema": "fastphong.bench/2"}"#),
         "schema `fastphong.bench/2`: expected `fastphong.bench/1`"
     );
-    assert!(message(r#"{"schema": "fastphong.bench/1"}"#).contains("missing field"), "a field is missing");
+    assert!(
+        message(r#"{"schema": "fastphong.bench/1"}"#).contains("missing field"),
+        "a field is missing"
+    );
     assert!(message("{\n]").contains("line 2 column 1"));
     assert!(message("").contains("fastphong.bench/1"));
 }
@@ -290,17 +440,29 @@ fn what_is_no_document_is_refused() {
 #[test]
 fn tables_have_a_row_a_method() {
     let frame = frame_of("sphere?rings=6&segments=12");
-    let input = Input { name: "sphere".into(), frame: &frame };
+    let input = Input {
+        name: "sphere".into(),
+        frame: &frame,
+    };
     let mut comparison = compare(&input, &all(), &quick(), &mut |_, _| {});
     for kind in [TableKind::Compare, TableKind::Bench] {
         let text = table(&comparison, kind);
         let (head, body) = text.split_once("\n\n").unwrap();
-        assert!(head.starts_with("sphere: 48×36, ") && head.contains("speed over 1: faster"), "{head}");
+        assert!(
+            head.starts_with("sphere: 48×36, ") && head.contains("speed over 1: faster"),
+            "{head}"
+        );
         let lines: Vec<&str> = body.lines().collect();
-        assert_eq!(lines.len(), 2 + comparison.rows.len() + comparison.barycentric.len());
+        assert_eq!(
+            lines.len(),
+            2 + comparison.rows.len() + comparison.barycentric.len()
+        );
         for (line, row) in lines[2..].iter().zip(comparison.all_rows()) {
             assert!(line.starts_with(&row.name()), "{line}");
-            let rms: Vec<f64> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
+            let rms: Vec<f64> = line
+                .split(' ')
+                .filter_map(|word| word.parse().ok())
+                .collect();
             // Three digits, down to the sixth place: within half of the last of them, which is 1/200 of the number, or of that
             // place.
             let rounded = (255.0 * row.error.rms / 200.0).max(0.5e-6);
@@ -314,9 +476,18 @@ fn tables_have_a_row_a_method() {
     }
     comparison.rows[0].own.max = 1.0;
     assert!(table(&comparison, TableKind::Compare).contains("!255"));
-    for row in comparison.rows.iter_mut().chain(&mut comparison.barycentric) {
+    for row in comparison
+        .rows
+        .iter_mut()
+        .chain(&mut comparison.barycentric)
+    {
         row.speed = None;
     }
     let text = table(&comparison, TableKind::Compare);
-    assert!(!text.contains("speed over 1") && text.lines().any(|line| line.starts_with("flat") && line.ends_with('-')));
+    assert!(
+        !text.contains("speed over 1")
+            && text
+                .lines()
+                .any(|line| line.starts_with("flat") && line.ends_with('-'))
+    );
 }

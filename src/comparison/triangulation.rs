@@ -32,11 +32,26 @@ pub fn triangulation(frame: &Frame, reference: &LinearPicture) -> Option<Triangu
     let cut = triangulated(frame);
     let visible = reference::visibility(&cut.frame);
     let picture = reference::shade(&cut.frame, &visible, Model::Phong).to_linear();
-    let origin = |triangle| cut.origins.get(triangle as usize).copied().unwrap_or(Visibility::NONE);
-    let (seen, shown) = (reference::visibility(frame).polygons, visible.polygons.map(origin));
-    let difference = compare_where(reference, &picture, |x, y| same_polygons(&seen, &shown, reference, x, y));
+    let origin = |triangle| {
+        cut.origins
+            .get(triangle as usize)
+            .copied()
+            .unwrap_or(Visibility::NONE)
+    };
+    let (seen, shown) = (
+        reference::visibility(frame).polygons,
+        visible.polygons.map(origin),
+    );
+    let difference = compare_where(reference, &picture, |x, y| {
+        same_polygons(&seen, &shown, reference, x, y)
+    });
     let difference = difference.expect("pictures of one frame have one size");
-    Some(Triangulation { triangles: cut.frame.polygons().len(), not_simple: cut.not_simple, difference, picture })
+    Some(Triangulation {
+        triangles: cut.frame.polygons().len(),
+        not_simple: cut.not_simple,
+        difference,
+        picture,
+    })
 }
 
 #[cfg(test)]
@@ -58,8 +73,15 @@ mod tests {
         assert!(of("triangle").is_none());
         let quadrangles = of("sphere?rings=4&segments=8").unwrap();
         assert!(quadrangles.triangles > 0 && quadrangles.not_simple == 0);
-        assert!(quadrangles.difference.max > 1.0 / 255.0, "{:?}", quadrangles.difference);
-        assert!(quadrangles.difference.coverage_mismatches == 0, "the same pixels");
+        assert!(
+            quadrangles.difference.max > 1.0 / 255.0,
+            "{:?}",
+            quadrangles.difference
+        );
+        assert!(
+            quadrangles.difference.coverage_mismatches == 0,
+            "the same pixels"
+        );
     }
 
     #[test]
@@ -67,8 +89,12 @@ mod tests {
         let mut scene = Scene::of_mesh(builtin("sphere?rings=4&segments=8").unwrap());
         (scene.width, scene.height) = (64, 48);
         let frame = scene.frame().unwrap();
-        let cut = triangulation(&frame, &reference::render(&frame, Model::Phong).to_linear()).unwrap();
-        assert_eq!(cut.picture, reference::render(&triangulated(&frame).frame, Model::Phong).to_linear());
+        let cut =
+            triangulation(&frame, &reference::render(&frame, Model::Phong).to_linear()).unwrap();
+        assert_eq!(
+            cut.picture,
+            reference::render(&triangulated(&frame).frame, Model::Phong).to_linear()
+        );
     }
 
     #[test]
@@ -82,6 +108,10 @@ mod tests {
         let reference = reference::render(&frame, Model::Phong).to_linear();
         let cut = triangulation(&frame, &reference).unwrap();
         // Results of f64 that agree but for its rounding may become neighbours in f32, 2⁻²⁴ apart below 1.
-        assert!(cut.difference.max <= f64::from(f32::EPSILON) / 2.0, "{:?}", cut.difference);
+        assert!(
+            cut.difference.max <= f64::from(f32::EPSILON) / 2.0,
+            "{:?}",
+            cut.difference
+        );
     }
 }

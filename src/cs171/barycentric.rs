@@ -86,7 +86,11 @@ pub fn signed_area([a, b, c]: [DVec2; 3]) -> f64 {
 /// a (CS171 1, Figure 3). The areas have signs, so that it holds outside of the triangle too.
 pub fn weights_of_areas([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     let whole = signed_area([a, b, c]);
-    [signed_area([p, b, c]) / whole, signed_area([a, p, c]) / whole, signed_area([a, b, p]) / whole]
+    [
+        signed_area([p, b, c]) / whole,
+        signed_area([a, p, c]) / whole,
+        signed_area([a, b, p]) / whole,
+    ]
 }
 
 /// The "weights" as L5 prints them, of areas without a sign:
@@ -142,7 +146,10 @@ mod tests {
     fn agree(found: Weights, expected: Weights) {
         let largest = expected.iter().fold(1.0f64, |m, w| m.max(w.abs()));
         for (a, b) in found.iter().zip(expected) {
-            assert!((a - b).abs() <= 4.0 * f64::EPSILON * largest, "{found:?} is not {expected:?}");
+            assert!(
+                (a - b).abs() <= 4.0 * f64::EPSILON * largest,
+                "{found:?} is not {expected:?}"
+            );
         }
     }
 
@@ -186,7 +193,11 @@ mod tests {
 
     #[test]
     fn the_printed_gamma_is_no_weight_and_the_corrected_one_is() {
-        let right = [DVec2::new(0.0, 0.0), DVec2::new(8.0, 0.0), DVec2::new(0.0, 4.0)];
+        let right = [
+            DVec2::new(0.0, 0.0),
+            DVec2::new(8.0, 0.0),
+            DVec2::new(0.0, 4.0),
+        ];
         // (2, 1) is half of b − a's quarter and c − a's quarter from a: (½, ¼, ¼).
         assert_eq!(weights(right, DVec2::new(2.0, 1.0)), [0.5, 0.25, 0.25]);
         assert_eq!(weights(right, right[2]), [0.0, 0.0, 1.0]);
@@ -199,9 +210,13 @@ mod tests {
             if beta != 0.0 {
                 // Three rounded quotients and a product, of exact numbers.
                 let expected = -gamma / beta;
-                assert!((printed_gamma(t, p) - expected).abs() <= 2.0 * f64::EPSILON * expected.abs());
+                assert!(
+                    (printed_gamma(t, p) - expected).abs() <= 2.0 * f64::EPSILON * expected.abs()
+                );
             }
-            let is_one = |gamma: f64| (alpha + beta + gamma - 1.0).abs() < 1e-9 * alpha.abs().max(beta.abs()).max(1.0);
+            let is_one = |gamma: f64| {
+                (alpha + beta + gamma - 1.0).abs() < 1e-9 * alpha.abs().max(beta.abs()).max(1.0)
+            };
             assert!(is_one(gamma));
             sums_to_one += usize::from(is_one(printed_gamma(t, p)));
             all += 1;
@@ -219,7 +234,11 @@ mod tests {
             assert_eq!(weights(t, c), [0.0, 0.0, 1.0]);
             // Halves of sums are exact on the grid of 1/512.
             let on_edge = weights(t, (a + b) / 2.0);
-            assert_eq!(on_edge, [0.5, 0.5, 0.0], "the weight of the corner across from an edge is 0 on it");
+            assert_eq!(
+                on_edge,
+                [0.5, 0.5, 0.0],
+                "the weight of the corner across from an edge is 0 on it"
+            );
             let inside = weights(t, (2.0 * a + b + c) / 4.0);
             assert_eq!(inside, [0.5, 0.25, 0.25]);
             // Over the edge from a: the mirror image of a in the middle of b and c.
@@ -238,7 +257,11 @@ mod tests {
                 let (a, b, c) = (whole(a), whole(b), whole(c));
                 (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
             };
-            let sides = [turn(t[0], t[1], p), turn(t[1], t[2], p), turn(t[2], t[0], p)];
+            let sides = [
+                turn(t[0], t[1], p),
+                turn(t[1], t[2], p),
+                turn(t[2], t[0], p),
+            ];
             let is_in = sides.iter().all(|&s| s >= 0) || sides.iter().all(|&s| s <= 0);
             assert_eq!(is_weighted_in, is_in, "{t:?} at {p}");
             *(if is_in { &mut inside } else { &mut outside }) += 1;
@@ -251,7 +274,10 @@ mod tests {
         let mut misled = 0;
         triangles(7, |t, p| {
             let (right, unsigned) = (weights(t, p), unsigned_weights(t, p));
-            assert!(unsigned.iter().all(|w| (0.0..=1.0).contains(w)), "always, wherever p is");
+            assert!(
+                unsigned.iter().all(|w| (0.0..=1.0).contains(w)),
+                "always, wherever p is"
+            );
             if right.iter().all(|w| (0.0..=1.0).contains(w)) {
                 agree(unsigned, right);
             } else {
@@ -263,7 +289,11 @@ mod tests {
 
     #[test]
     fn the_centre_of_mass_weighs_all_corners_alike() {
-        let t = [DVec2::new(0.0, 0.0), DVec2::new(6.0, 0.0), DVec2::new(1.5, 4.5)];
+        let t = [
+            DVec2::new(0.0, 0.0),
+            DVec2::new(6.0, 0.0),
+            DVec2::new(1.5, 4.5),
+        ];
         assert_eq!(centre_of_mass(t), DVec2::new(2.5, 1.5));
         assert_eq!(weights(t, centre_of_mass(t)), [1.0 / 3.0; 3]);
     }
@@ -274,7 +304,11 @@ mod tests {
         assert_eq!(weights_on_line(2.0, 10.0, 2.0), [1.0, 0.0]);
         assert_eq!(weights_on_line(10.0, 2.0, 2.0), [0.0, 1.0]);
         // On an edge of a triangle they are its weights: the distances along it are those of the line.
-        let t = [DVec2::new(2.0, 1.0), DVec2::new(10.0, 1.0), DVec2::new(3.0, 7.0)];
+        let t = [
+            DVec2::new(2.0, 1.0),
+            DVec2::new(10.0, 1.0),
+            DVec2::new(3.0, 7.0),
+        ];
         let [w_a, w_b] = weights_on_line(2.0, 10.0, 7.0);
         assert_eq!(weights(t, DVec2::new(7.0, 1.0)), [w_a, w_b, 0.0]);
     }

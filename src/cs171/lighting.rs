@@ -23,7 +23,10 @@ pub fn lighting(p: DVec3, n: DVec3, light: &Lighting) -> DVec3 {
             Place::Local(l_p) => {
                 // The distance is taken before the vector is normalised.
                 let vector = wide(l_p) - p;
-                (vector.normalize_or_zero(), attenuation(l.falloff, vector.length()))
+                (
+                    vector.normalize_or_zero(),
+                    attenuation(l.falloff, vector.length()),
+                )
             }
             Place::Infinite(direction) => (wide(direction), 1.0),
         };

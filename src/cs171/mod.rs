@@ -39,7 +39,8 @@ mod shading;
 
 pub use lighting::lighting;
 pub use rasterize::{
-    ndc_to_screen, raster_colored_ndc_triangle, raster_colored_triangle, raster_triangle, world_to_ndc,
+    ndc_to_screen, raster_colored_ndc_triangle, raster_colored_triangle, raster_triangle,
+    world_to_ndc,
 };
 pub use shading::{flat_shading, full_shading, gouraud_shading, phong_shading, render};
 
@@ -82,7 +83,12 @@ pub struct Reading {
 impl Default for Reading {
     /// The algorithms' lines, with unit normals.
     fn default() -> Self {
-        Reading { inside: Inside::Closed, ties: Ties::Later, normalise: true, cull: true }
+        Reading {
+            inside: Inside::Closed,
+            ties: Ties::Later,
+            normalise: true,
+            cull: true,
+        }
     }
 }
 
@@ -124,7 +130,10 @@ impl Grid {
     /// A grid of `width` × `height` pixels of this colour, on which nothing was drawn.
     pub fn new(width: usize, height: usize, background: DVec3) -> Grid {
         let [r, g, b] = background.to_array();
-        Grid { colours: Picture::new(width, height, [r, g, b, 0.0]), buffer: Picture::new(width, height, f64::MAX) }
+        Grid {
+            colours: Picture::new(width, height, [r, g, b, 0.0]),
+            buffer: Picture::new(width, height, f64::MAX),
+        }
     }
 
     /// Columns and rows.

@@ -44,7 +44,8 @@ pub fn raster_triangle(
     let (min, max) = (a.min(b).min(c), a.max(b).max(c));
     for x in centres(min.x, max.x, size[0]) {
         for y in centres(min.y, max.y, size[1]) {
-            let [alpha, beta, gamma] = weights(triangle, DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
+            let [alpha, beta, gamma] =
+                weights(triangle, DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
             let is_inside = |w: f64| match inside {
                 Inside::Closed => (0.0..=1.0).contains(&w),
                 Inside::Open => 0.0 < w && w < 1.0,
@@ -65,8 +66,15 @@ fn centres(min: f64, max: f64, count: usize) -> core::ops::Range<usize> {
 }
 
 /// Algorithm 2: fills a triangle with the colours between those of its corners. Places as in [`raster_triangle`].
-pub fn raster_colored_triangle(places: [DVec2; 3], colours: [DVec3; 3], inside: Inside, grid: &mut Grid) {
-    raster_triangle(places, grid.size(), inside, |x, y, weights| grid.fill(x, y, blend(weights, colours)));
+pub fn raster_colored_triangle(
+    places: [DVec2; 3],
+    colours: [DVec3; 3],
+    inside: Inside,
+    grid: &mut Grid,
+) {
+    raster_triangle(places, grid.size(), inside, |x, y, weights| {
+        grid.fill(x, y, blend(weights, colours))
+    });
 }
 
 /// α v_a + β v_b + γ v_c.
@@ -82,7 +90,12 @@ fn is_in_cube(ndc: DVec3) -> bool {
 /// Algorithm 5: fills what of a triangle lies in the cube with the colours between those of its corners.
 ///
 /// Algorithm 4 calls it with its corners a, b, c; what it needs of them is NDC and colours.
-pub fn raster_colored_ndc_triangle(corners: &[Corner; 3], colours: [DVec3; 3], reading: Reading, grid: &mut Grid) {
+pub fn raster_colored_ndc_triangle(
+    corners: &[Corner; 3],
+    colours: [DVec3; 3],
+    reading: Reading,
+    grid: &mut Grid,
+) {
     raster_ndc_triangle(corners, reading, grid, |weights| blend(weights, colours));
 }
 
@@ -96,7 +109,14 @@ pub(super) fn raster_ndc_triangle(
     let places = corners.map(|corner| ndc_to_screen(corner.ndc, grid.size()));
     raster_triangle(places, grid.size(), reading.inside, |x, y, weights| {
         if is_in_cube(blend(weights, corners.map(|corner| corner.ndc))) {
-            grid.fill(x, y, colour(weights_in_space(weights, corners.map(|corner| corner.inv_w))));
+            grid.fill(
+                x,
+                y,
+                colour(weights_in_space(
+                    weights,
+                    corners.map(|corner| corner.inv_w),
+                )),
+            );
         }
     });
 }
@@ -124,7 +144,14 @@ pub(super) fn raster_visible_triangle(
         };
         if is_in_cube(ndc) && is_seen {
             *buffer = ndc.z;
-            grid.fill(x, y, colour(weights_in_space(weights, corners.map(|corner| corner.inv_w))));
+            grid.fill(
+                x,
+                y,
+                colour(weights_in_space(
+                    weights,
+                    corners.map(|corner| corner.inv_w),
+                )),
+            );
         }
     });
 }

@@ -23,11 +23,19 @@ pub fn flat_shading(corners: &[Corner; 3], light: &Lighting, reading: Reading, g
 
 /// Algorithm 7: every pixel is lit, at the place and with the normal between those of the corners.
 pub fn phong_shading(corners: &[Corner; 3], light: &Lighting, reading: Reading, grid: &mut Grid) {
-    raster_ndc_triangle(corners, reading, grid, |weights| phong_colour(corners, weights, light, reading));
+    raster_ndc_triangle(corners, reading, grid, |weights| {
+        phong_colour(corners, weights, light, reading)
+    });
 }
 
 /// Algorithm 8, which stands for Gouraud shading, and the same for the other two: a depth buffer, and back faces left out.
-pub fn full_shading(shading: Shading, corners: &[Corner; 3], light: &Lighting, reading: Reading, grid: &mut Grid) {
+pub fn full_shading(
+    shading: Shading,
+    corners: &[Corner; 3],
+    light: &Lighting,
+    reading: Reading,
+    grid: &mut Grid,
+) {
     match shading {
         Shading::Flat => {
             let colour = flat_colour(average(corners), light, reading);
@@ -38,7 +46,9 @@ pub fn full_shading(shading: Shading, corners: &[Corner; 3], light: &Lighting, r
             raster_visible_triangle(corners, reading, grid, |weights| blend(weights, colours));
         }
         Shading::Phong => {
-            raster_visible_triangle(corners, reading, grid, |w| phong_colour(corners, w, light, reading));
+            raster_visible_triangle(corners, reading, grid, |w| {
+                phong_colour(corners, w, light, reading)
+            });
         }
     }
 }
@@ -46,19 +56,31 @@ pub fn full_shading(shading: Shading, corners: &[Corner; 3], light: &Lighting, r
 /// The average position and the average normal.
 fn average(corners: &[Corner; 3]) -> [DVec3; 2] {
     let [a, b, c] = corners;
-    [(a.world + b.world + c.world) / 3.0, (a.normal + b.normal + c.normal) / 3.0]
+    [
+        (a.world + b.world + c.world) / 3.0,
+        (a.normal + b.normal + c.normal) / 3.0,
+    ]
 }
 
 /// `n`, made a unit vector if the reading asks for it.
 fn read(n: DVec3, reading: Reading) -> DVec3 {
-    if reading.normalise { n.normalize_or_zero() } else { n }
+    if reading.normalise {
+        n.normalize_or_zero()
+    } else {
+        n
+    }
 }
 
 fn flat_colour([v_avg, n_avg]: [DVec3; 2], light: &Lighting, reading: Reading) -> DVec3 {
     lighting(v_avg, read(n_avg, reading), light)
 }
 
-fn phong_colour(corners: &[Corner; 3], weights: Weights, light: &Lighting, reading: Reading) -> DVec3 {
+fn phong_colour(
+    corners: &[Corner; 3],
+    weights: Weights,
+    light: &Lighting,
+    reading: Reading,
+) -> DVec3 {
     let n = blend(weights, corners.map(|corner| corner.normal));
     let v = blend(weights, corners.map(|corner| corner.world));
     lighting(v, read(n, reading), light)
@@ -77,7 +99,8 @@ pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Grid {
     let mut colours: Vec<DVec3> = match shading {
         Shading::Gouraud => {
             let lit = (0..).zip(&corners);
-            lit.map(|(number, corner)| lighting(corner.world, corner.normal, light(number))).collect()
+            lit.map(|(number, corner)| lighting(corner.world, corner.normal, light(number)))
+                .collect()
         }
         Shading::Flat | Shading::Phong => Vec::new(),
     };
@@ -89,7 +112,9 @@ pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Grid {
     }
     let mut grid = Grid::new(frame.width(), frame.height(), wide(frame.background()));
     for polygon in frame.polygons() {
-        let &[a, b, c] = frame.corners(polygon) else { continue };
+        let &[a, b, c] = frame.corners(polygon) else {
+            continue;
+        };
         let numbers = [a, b, c].map(|number| number as usize);
         let triangle = numbers.map(|number| corners[number]);
         let light = &frame.lightings()[polygon.material as usize];

@@ -58,7 +58,10 @@ fn strength(falloff: Falloff, r: f64) -> f64 {
 
 fn curve(label: &str, falloff: Falloff) -> Series {
     let distance = |i: i32| libm::pow(10.0, -1.5 + 2.5 * f64::from(i) / 60.0);
-    Series::new(label, (0..=60).map(|i| (distance(i), strength(falloff, distance(i)))))
+    Series::new(
+        label,
+        (0..=60).map(|i| (distance(i), strength(falloff, distance(i)))),
+    )
 }
 
 /// A white floor under one light close to it, seen from straight above.
@@ -69,7 +72,11 @@ fn floor(falloff: Falloff, intensity: f32) -> Result<LinearPicture, FigureError>
         object.transform = DAffine3::from_scale(DVec3::new(2.5, 2.5, 1.0));
     }
     let position = DVec3::new(0.0, 0.0, HEIGHT);
-    scene.lights = [Light { falloff, ..Light::positional(position, [intensity; 3]) }].into();
+    scene.lights = [Light {
+        falloff,
+        ..Light::positional(position, [intensity; 3])
+    }]
+    .into();
     drawn(&scene, "duff-phong")
 }
 
@@ -80,7 +87,11 @@ fn floors(content: &mut Content) -> Result<(), FigureError> {
         let clipped = share(&picture, |texel| texel[0] >= 1.0);
         let black = share(&picture, |texel| texel[0] < 1.0 / 255.0);
         let dark = share(&picture, |texel| texel[0] < 10.0 / 255.0);
-        pictures.push(shown("A floor seen from above, a light close above its middle", label, &picture));
+        pictures.push(shown(
+            "A floor seen from above, a light close above its middle",
+            label,
+            &picture,
+        ));
         shares.push((clipped, black, dark));
     }
     content.text(format!(
@@ -91,9 +102,23 @@ fn floors(content: &mut Content) -> Result<(), FigureError> {
     let percent = |share: f64| format!("{} %", written(100.0 * share));
     let row = |i: usize| {
         let (clipped, black, dark) = shares[i];
-        [FALLOFFS[i].0.to_string(), percent(clipped), percent(black), percent(dark)].into()
+        [
+            FALLOFFS[i].0.to_string(),
+            percent(clipped),
+            percent(black),
+            percent(dark),
+        ]
+        .into()
     };
-    content.table(&["falloff", "clipped to white", "under one level", "under ten levels"], (0..6).map(row).collect());
+    content.table(
+        &[
+            "falloff",
+            "clipped to white",
+            "under one level",
+            "under ten levels",
+        ],
+        (0..6).map(row).collect(),
+    );
     let of = |i: usize| shares[i];
     let looks_bad = of(OF_LECTURE).0 > 0.01;
     content.found(Finding::new(
@@ -112,7 +137,11 @@ fn floors(content: &mut Content) -> Result<(), FigureError> {
         "share of the floor that 1/(1 + d²) clips to white",
         (100.0 * of(OF_NOTES).0, "%"),
         Agreement::if_holds(of(OF_NOTES).0 == 0.0),
-        String::from(if of(OF_NOTES).0 == 0.0 { "None: it is at most 1." } else { "Some, though it is at most 1." }),
+        String::from(if of(OF_NOTES).0 == 0.0 {
+            "None: it is at most 1."
+        } else {
+            "Some, though it is at most 1."
+        }),
     ));
     dimmed(content)
 }

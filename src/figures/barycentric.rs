@@ -2,7 +2,9 @@
 
 use super::stage::{stored, written};
 use super::{Agreement, Content, Figure, FigureError, Finding, Shown};
-use crate::cs171::barycentric::{Weights, centre_of_mass, printed_gamma, signed_area, unsigned_weights, weights};
+use crate::cs171::barycentric::{
+    Weights, centre_of_mass, printed_gamma, signed_area, unsigned_weights, weights,
+};
 use crate::cs171::{Grid, Inside, raster_colored_triangle, raster_triangle};
 use crate::picture::{LinearPicture, Picture};
 use alloc::format;
@@ -19,11 +21,17 @@ pub(super) static FIGURE: Figure = Figure {
 const SIDE: usize = 72;
 
 /// The right triangle of the notes: the hypotenuse from `a` to `b`, the right angle at `c`.
-const TRIANGLE: [DVec2; 3] = [DVec2::new(8.0, 6.0), DVec2::new(66.0, 64.0), DVec2::new(8.0, 64.0)];
+const TRIANGLE: [DVec2; 3] = [
+    DVec2::new(8.0, 6.0),
+    DVec2::new(66.0, 64.0),
+    DVec2::new(8.0, 64.0),
+];
 
 /// Centres of all pixels.
 fn pixels() -> impl Iterator<Item = (usize, usize, DVec2)> {
-    (0..SIDE * SIDE).map(|i| (i % SIDE, i / SIDE)).map(|(x, y)| (x, y, DVec2::new(x as f64 + 0.5, y as f64 + 0.5)))
+    (0..SIDE * SIDE)
+        .map(|i| (i % SIDE, i / SIDE))
+        .map(|(x, y)| (x, y, DVec2::new(x as f64 + 0.5, y as f64 + 0.5)))
 }
 
 /// Whether Algorithm 1 fills a pixel of these weights.
@@ -53,7 +61,12 @@ fn painted(weights_at: impl Fn(DVec2) -> Weights) -> LinearPicture {
 fn make() -> Result<Content, FigureError> {
     let mut content = Content::default();
     let mut grid = Grid::new(SIDE, SIDE, DVec3::ZERO);
-    raster_colored_triangle(TRIANGLE, [DVec3::X, DVec3::X, DVec3::Z], Inside::Closed, &mut grid);
+    raster_colored_triangle(
+        TRIANGLE,
+        [DVec3::X, DVec3::X, DVec3::Z],
+        Inside::Closed,
+        &mut grid,
+    );
     let gradient = grid.colours.map(|texel| texel.map(|c| c as f32));
     let mut right = painted(|p| weights(TRIANGLE, p));
     let centre = centre_of_mass(TRIANGLE);
@@ -68,14 +81,32 @@ fn make() -> Result<Content, FigureError> {
          is divided by f_ac(p), as the notes print it, in place of f_ab(c); and what it fills if the weights are areas \
          without signs, as the slides of Lecture 5 print them: all there is.",
     );
-    let shown = |caption: &str, alt: &str, picture: &LinearPicture| Shown::new(caption, alt, stored(picture));
+    let shown = |caption: &str, alt: &str, picture: &LinearPicture| {
+        Shown::new(caption, alt, stored(picture))
+    };
     content.pictures(
         4,
         [
-            shown("from red to blue (Algorithm 2)", "A right triangle that goes from red to blue.", &gradient),
-            shown("the weights", "A triangle with a red, a green and a blue corner.", &right),
-            shown("γ as printed", "What of the triangle is filled with the wrong γ.", &printed),
-            shown("areas without signs", "A square that is coloured all over.", &unsigned),
+            shown(
+                "from red to blue (Algorithm 2)",
+                "A right triangle that goes from red to blue.",
+                &gradient,
+            ),
+            shown(
+                "the weights",
+                "A triangle with a red, a green and a blue corner.",
+                &right,
+            ),
+            shown(
+                "γ as printed",
+                "What of the triangle is filled with the wrong γ.",
+                &printed,
+            ),
+            shown(
+                "areas without signs",
+                "A square that is coloured all over.",
+                &unsigned,
+            ),
         ]
         .into(),
     );
@@ -141,18 +172,38 @@ fn measured(content: &mut Content) {
     let mut worst = [0.0f64; 2];
     let [a, b, c] = TRIANGLE;
     let leg = b.x - a.x;
-    raster_triangle(TRIANGLE, [SIDE, SIDE], Inside::Closed, |x, y, [_, beta, gamma]| {
-        let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-        let area = signed_area([a, p, c]) / signed_area(TRIANGLE);
-        // The distance from the hypotenuse, over that of the right angle: both along a leg.
-        let distance = ((p.y - a.y) - (p.x - a.x)) / leg;
-        worst = [worst[0].max((area - beta).abs()), worst[1].max((distance - gamma).abs())];
-    });
+    raster_triangle(
+        TRIANGLE,
+        [SIDE, SIDE],
+        Inside::Closed,
+        |x, y, [_, beta, gamma]| {
+            let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+            let area = signed_area([a, p, c]) / signed_area(TRIANGLE);
+            // The distance from the hypotenuse, over that of the right angle: both along a leg.
+            let distance = ((p.y - a.y) - (p.x - a.x)) / leg;
+            worst = [
+                worst[0].max((area - beta).abs()),
+                worst[1].max((distance - gamma).abs()),
+            ];
+        },
+    );
     let thirds = weights(TRIANGLE, centre_of_mass(TRIANGLE));
-    let centre = thirds.iter().fold(0.0f64, |worst, w| worst.max((w - 1.0 / 3.0).abs()));
+    let centre = thirds
+        .iter()
+        .fold(0.0f64, |worst, w| worst.max((w - 1.0 / 3.0).abs()));
     for (key, label, value, holds) in [
-        ("area", "largest difference of A_b / A from β", worst[0], "Areas are the weights."),
-        ("distance", "largest difference of the distance from ab from γ", worst[1], "Distances are the weights."),
+        (
+            "area",
+            "largest difference of A_b / A from β",
+            worst[0],
+            "Areas are the weights.",
+        ),
+        (
+            "distance",
+            "largest difference of the distance from ab from γ",
+            worst[1],
+            "Distances are the weights.",
+        ),
         (
             "centre",
             "largest difference of a weight at the centre of mass from ⅓",
@@ -162,7 +213,17 @@ fn measured(content: &mut Content) {
     ] {
         // Quotients of numbers below 2¹³ that round a few times each, about sums that cancel at most their last 13 bits.
         let is_so = value < 1e-12;
-        let verdict = if is_so { holds.into() } else { format!("It is off by {}.", written(value)) };
-        content.found(Finding::new(key, label, (value, ""), Agreement::if_holds(is_so), verdict));
+        let verdict = if is_so {
+            holds.into()
+        } else {
+            format!("It is off by {}.", written(value))
+        };
+        content.found(Finding::new(
+            key,
+            label,
+            (value, ""),
+            Agreement::if_holds(is_so),
+            verdict,
+        ));
     }
 }

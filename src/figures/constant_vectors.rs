@@ -36,11 +36,23 @@ fn make() -> Result<Content, FigureError> {
     let near = sphere(RINGS[1], DISTANCES[0])?;
     let (fast, duff) = (drawn(&near, "fast-phong")?, drawn(&near, "duff-phong")?);
     let map = difference_map(&stored(&duff), &stored(&fast), 64.0)?;
-    let mut pictures: Vec<Shown> =
-        [("constant along each polygon (fast-phong)", &fast), ("at each pixel (duff-phong)", &duff)]
-            .map(|(caption, picture)| shown("A sphere with a light close to it, vectors", caption, picture))
-            .into();
-    pictures.push(Shown::new("their difference, to 64 levels", "A map of the difference.", map));
+    let mut pictures: Vec<Shown> = [
+        ("constant along each polygon (fast-phong)", &fast),
+        ("at each pixel (duff-phong)", &duff),
+    ]
+    .map(|(caption, picture)| {
+        shown(
+            "A sphere with a light close to it, vectors",
+            caption,
+            picture,
+        )
+    })
+    .into();
+    pictures.push(Shown::new(
+        "their difference, to 64 levels",
+        "A map of the difference.",
+        map,
+    ));
     content.pictures(3, pictures);
     errors(&mut content)?;
     products(&mut content, &near)?;
@@ -51,7 +63,11 @@ fn make() -> Result<Content, FigureError> {
 fn sphere(rings: u32, distance: f64) -> Result<Scene, FigureError> {
     let mesh = builtin(&format!("sphere?rings={rings}&segments={}", 2 * rings))?;
     let mut scene = scene(mesh, grey(0.05, 0.5, 0.4, 24.0), DVec3::Z, 1.1, [96, 96]);
-    scene.lights = [Light::positional(TOWARD.normalize() * (1.0 + distance), [1.0; 3])].into();
+    scene.lights = [Light::positional(
+        TOWARD.normalize() * (1.0 + distance),
+        [1.0; 3],
+    )]
+    .into();
     scene.local_viewer = true;
     Ok(scene)
 }
@@ -67,7 +83,11 @@ fn errors(content: &mut Content) -> Result<(), FigureError> {
             let frame = sphere(rings, distance)?.frame()?;
             let truth = reference::render(&frame, Model::Phong).to_linear();
             let difference = crate::metrics::compare(&truth, &fast.render_linear(&frame))?;
-            row.push(format!("{} / {}", written(255.0 * difference.max), written(255.0 * difference.rms)));
+            row.push(format!(
+                "{} / {}",
+                written(255.0 * difference.max),
+                written(255.0 * difference.rms)
+            ));
             curve.push((f64::from(2 * rings * rings), 255.0 * difference.rms));
         }
         table.push(row);
@@ -107,14 +127,21 @@ fn errors(content: &mut Content) -> Result<(), FigureError> {
         "by which power of the polygons' size the error falls, nearest light",
         (steps, ""),
         Agreement::Adds,
-        if steps > 0.5 { "Finer polygons make up for it." } else { "Finer polygons do not make up for it." },
+        if steps > 0.5 {
+            "Finer polygons make up for it."
+        } else {
+            "Finer polygons do not make up for it."
+        },
     ));
     Ok(())
 }
 
 /// The six products: the same picture as naive Phong shading, by additions.
 fn products(content: &mut Content, near: &Scene) -> Result<(), FigureError> {
-    let [duff, naive] = [Variant::parse("duff-phong")?, Variant::parse("naive-phong")?];
+    let [duff, naive] = [
+        Variant::parse("duff-phong")?,
+        Variant::parse("naive-phong")?,
+    ];
     let frame = near.frame()?;
     let difference = levels(&naive.render_linear(&frame), &duff.render_linear(&frame));
     let holds = difference < 0.5;
@@ -123,19 +150,35 @@ fn products(content: &mut Content, near: &Scene) -> Result<(), FigureError> {
         "six quadratics against vectors at each pixel, largest difference",
         (difference, "grey levels"),
         Agreement::Adds,
-        if holds { "One picture: the products are exact, to rounding." } else { "Not the same picture." },
+        if holds {
+            "One picture: the products are exact, to rounding."
+        } else {
+            "Not the same picture."
+        },
     ));
     let bench = |lights| SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
     let rows = [("naive-phong", &naive), ("duff-phong", &duff)].map(|(name, variant)| {
         let cells = [1, 2].into_iter().flat_map(|lights| {
             let counts = variant.operations_on(&bench(lights));
             let sum = |of: fn(&crate::number::Counts) -> u32| of(&counts.walk) + of(&counts.shade);
-            [sum(|c| c.additions), sum(|c| c.multiplications), sum(|c| c.divisions) + sum(|c| c.roots)]
-                .map(|n| n.to_string())
+            [
+                sum(|c| c.additions),
+                sum(|c| c.multiplications),
+                sum(|c| c.divisions) + sum(|c| c.roots),
+            ]
+            .map(|n| n.to_string())
         });
         [name.to_string()].into_iter().chain(cells).collect()
     });
-    let head = ["operations a pixel", "+ (1 light)", "×", "÷ and √", "+ (2 lights)", "×", "÷ and √"];
+    let head = [
+        "operations a pixel",
+        "+ (1 light)",
+        "×",
+        "÷ and √",
+        "+ (2 lights)",
+        "×",
+        "÷ and √",
+    ];
     content.table(&head, rows.into());
     let additions = |lights| duff.operations_on(&bench(lights)).walk.additions;
     let (one, two) = (additions(1), additions(2));
@@ -144,7 +187,10 @@ fn products(content: &mut Content, near: &Scene) -> Result<(), FigureError> {
         "additions a pixel that step the six products of one light",
         (f64::from(one), ""),
         Agreement::Adds,
-        format!("Two each; {} more for a further light, whose L·L, L·N and L·V are new.", two - one),
+        format!(
+            "Two each; {} more for a further light, whose L·L, L·N and L·V are new.",
+            two - one
+        ),
     ));
     Ok(())
 }

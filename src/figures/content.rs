@@ -36,7 +36,10 @@ impl Content {
 
     /// Adds a table.
     pub fn table(&mut self, head: &[&str], rows: Vec<Vec<String>>) {
-        self.blocks.push(Block::Table { head: head.iter().map(|&cell| cell.into()).collect(), rows });
+        self.blocks.push(Block::Table {
+            head: head.iter().map(|&cell| cell.into()).collect(),
+            rows,
+        });
     }
 
     /// Adds what was measured.
@@ -82,7 +85,11 @@ pub struct Shown {
 impl Shown {
     /// A picture with what stands below it, and what it shows, for who cannot see it.
     pub fn new(caption: impl Into<String>, alt: impl Into<String>, picture: Picture8) -> Shown {
-        Shown { caption: caption.into(), alt: alt.into(), picture }
+        Shown {
+            caption: caption.into(),
+            alt: alt.into(),
+            picture,
+        }
     }
 }
 
@@ -124,7 +131,10 @@ pub struct Series {
 impl Series {
     /// A curve through `points`.
     pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Series {
-        Series { label: label.into(), points: points.into_iter().collect() }
+        Series {
+            label: label.into(),
+            points: points.into_iter().collect(),
+        }
     }
 }
 
@@ -142,7 +152,11 @@ pub enum Agreement {
 impl Agreement {
     /// [`Agreement::Confirms`] if what the lecture says `holds`, else [`Agreement::Contradicts`].
     pub fn if_holds(holds: bool) -> Agreement {
-        if holds { Agreement::Confirms } else { Agreement::Contradicts }
+        if holds {
+            Agreement::Confirms
+        } else {
+            Agreement::Contradicts
+        }
     }
 
     /// The word for it: `confirms`, `contradicts` or `adds`.
@@ -181,6 +195,13 @@ impl Finding {
         agreement: Agreement,
         verdict: impl Into<String>,
     ) -> Finding {
-        Finding { key: key.into(), label: label.into(), value, unit, agreement, verdict: verdict.into() }
+        Finding {
+            key: key.into(),
+            label: label.into(),
+            value,
+            unit,
+            agreement,
+            verdict: verdict.into(),
+        }
     }
 }

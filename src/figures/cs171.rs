@@ -40,8 +40,12 @@ fn sphere() -> Result<Frame, FigureError> {
     scene.gate = SpecularGate::Ungated;
     scene.local_viewer = true;
     scene.ambient = [1.0; 3];
-    let material =
-        Material { ambient: [0.06, 0.01, 0.01], diffuse: [0.7, 0.08, 0.06], specular: [0.5; 3], shininess: 60.0 };
+    let material = Material {
+        ambient: [0.06, 0.01, 0.01],
+        diffuse: [0.7, 0.08, 0.06],
+        specular: [0.5; 3],
+        shininess: 60.0,
+    };
     for object in &mut scene.objects {
         object.material = Some(material);
     }
@@ -60,15 +64,29 @@ fn make() -> Result<Content, FigureError> {
     let frame = sphere()?;
     let unit = Reading::default();
     let draw = |shading, reading| render(&frame, shading, reading).colours;
-    let (flat, gouraud, phong) = (draw(Shading::Flat, unit), draw(Shading::Gouraud, unit), draw(Shading::Phong, unit));
-    let raw = draw(Shading::Phong, Reading { normalise: false, ..unit });
+    let (flat, gouraud, phong) = (
+        draw(Shading::Flat, unit),
+        draw(Shading::Gouraud, unit),
+        draw(Shading::Phong, unit),
+    );
+    let raw = draw(
+        Shading::Phong,
+        Reading {
+            normalise: false,
+            ..unit
+        },
+    );
     content.text(
         "A red sphere, a yellow and a blue light at positions, all by Algorithm 8: once a triangle (Figure 10), once a \
          vertex (Figure 9), once a pixel (Figure 11). The last picture is Algorithm 7 as it is printed: the interpolated \
          normal goes to the lighting model as it is, though that asks for a unit normal.",
     );
     let shown = |caption: &str, picture: &Picture<[f64; 4]>| {
-        Shown::new(caption, format!("A red sphere under two coloured lights, {caption}."), eight_bits(picture))
+        Shown::new(
+            caption,
+            format!("A red sphere under two coloured lights, {caption}."),
+            eight_bits(picture),
+        )
     };
     content.pictures(
         4,
@@ -89,8 +107,11 @@ fn make() -> Result<Content, FigureError> {
 fn highlights(content: &mut Content, pictures: [&Picture<[f64; 4]>; 3]) {
     let green = |picture: &Picture<[f64; 4]>, i: usize| 255.0 * picture.texels()[i][1];
     let count = pictures[0].texels().len();
-    let [gouraud, phong, raw] = pictures.map(|p| (0..count).fold(0.0f64, |peak, i| peak.max(green(p, i))));
-    let lost = (0..count).fold(0.0f64, |lost, i| lost.max(green(pictures[1], i) - green(pictures[2], i)));
+    let [gouraud, phong, raw] =
+        pictures.map(|p| (0..count).fold(0.0f64, |peak, i| peak.max(green(p, i))));
+    let lost = (0..count).fold(0.0f64, |lost, i| {
+        lost.max(green(pictures[1], i) - green(pictures[2], i))
+    });
     let (label, all) = ("brightest pixel of the highlight, its green", "levels");
     content.found(Finding::new(
         "peak-phong",
@@ -149,15 +170,25 @@ fn floors(behind: f64) -> Result<[Picture<[f64; 4]>; 2], FigureError> {
         near: 1.5,
         far: 20.0,
     };
-    let material = Material { ambient: [0.2, 0.6, 0.3], ..Material::default() };
+    let material = Material {
+        ambient: [0.2, 0.6, 0.3],
+        ..Material::default()
+    };
     let corners = floor(behind);
     let light = Lighting::new(&material, [1.0; 3], &[], DVec3::Z);
     let matrix = camera.clip_matrix(1.0);
-    let [a, b, c, d] =
-        corners.map(|v| Corner { world: v, normal: DVec3::Y, ndc: world_to_ndc(&matrix, v), inv_w: 1.0 });
+    let [a, b, c, d] = corners.map(|v| Corner {
+        world: v,
+        normal: DVec3::Y,
+        ndc: world_to_ndc(&matrix, v),
+        inv_w: 1.0,
+    });
     let mut grid = Grid::new(SIDE as usize, SIDE as usize, DVec3::ZERO);
     for triangle in [[a, b, c], [a, c, d]] {
-        let reading = Reading { cull: false, ..Reading::default() };
+        let reading = Reading {
+            cull: false,
+            ..Reading::default()
+        };
         full_shading(Shading::Flat, &triangle, &light, reading, &mut grid);
     }
     let mut builder = MeshBuilder::new(corners.map(DVec3::as_vec3).to_vec());
@@ -168,16 +199,31 @@ fn floors(behind: f64) -> Result<[Picture<[f64; 4]>; 2], FigureError> {
         material: Some(material),
         normals: NormalSource::Averaged,
     };
-    let scene =
-        Scene { width: SIDE, height: SIDE, culling: Culling::None, objects: [object].into(), ..Scene::new(camera) };
-    let clipped =
-        render(&triangulated(&scene.frame()?).frame, Shading::Flat, Reading { cull: false, ..Reading::default() });
+    let scene = Scene {
+        width: SIDE,
+        height: SIDE,
+        culling: Culling::None,
+        objects: [object].into(),
+        ..Scene::new(camera)
+    };
+    let clipped = render(
+        &triangulated(&scene.frame()?).frame,
+        Shading::Flat,
+        Reading {
+            cull: false,
+            ..Reading::default()
+        },
+    );
     Ok([grid.colours, clipped.colours])
 }
 
 /// How many pixels one has and the other has not.
 fn only(a: &Picture<[f64; 4]>, b: &Picture<[f64; 4]>) -> usize {
-    a.texels().iter().zip(b.texels()).filter(|(a, b)| a[3] > b[3]).count()
+    a.texels()
+        .iter()
+        .zip(b.texels())
+        .filter(|(a, b)| a[3] > b[3])
+        .count()
 }
 
 /// The test against the cube at each pixel, and clipping.
@@ -191,7 +237,11 @@ fn cube(content: &mut Content) -> Result<(), FigureError> {
          must come first.",
     );
     let shown = |caption: &str, picture: &Picture<[f64; 4]>| {
-        Shown::new(caption, format!("A floor to the horizon: {caption}."), eight_bits(picture))
+        Shown::new(
+            caption,
+            format!("A floor to the horizon: {caption}."),
+            eight_bits(picture),
+        )
     };
     content.pictures(
         4,
@@ -211,11 +261,22 @@ fn cube(content: &mut Content) -> Result<(), FigureError> {
         "pixels in which the cube's test and clipping differ, all corners in front of the eye",
         (same as f64, "pixels"),
         Agreement::if_holds(holds),
-        if holds { "\"Parts within the cube\" are rendered, as the notes say." } else { "The test is not clipping." },
+        if holds {
+            "\"Parts within the cube\" are rendered, as the notes say."
+        } else {
+            "The test is not clipping."
+        },
     ));
-    let (missing, extra) = (only(&behind_clipped, &behind), only(&behind, &behind_clipped));
+    let (missing, extra) = (
+        only(&behind_clipped, &behind),
+        only(&behind, &behind_clipped),
+    );
     for (key, label, count) in [
-        ("cube-missing", "pixels that the cube's test loses, corners behind the eye", missing),
+        (
+            "cube-missing",
+            "pixels that the cube's test loses, corners behind the eye",
+            missing,
+        ),
         ("cube-extra", "pixels that it draws where nothing is", extra),
     ] {
         let holds = count == 0;
@@ -224,7 +285,13 @@ fn cube(content: &mut Content) -> Result<(), FigureError> {
         } else {
             "The cube's test is no clipping: corners behind the eye have no place."
         };
-        content.found(Finding::new(key, label, (count as f64, "pixels"), Agreement::if_holds(holds), verdict));
+        content.found(Finding::new(
+            key,
+            label,
+            (count as f64, "pixels"),
+            Agreement::if_holds(holds),
+            verdict,
+        ));
     }
     Ok(())
 }

@@ -20,11 +20,17 @@ pub(super) static FIGURE: Figure = Figure {
 const SIZE: [u32; 2] = [160, 120];
 
 /// The widths of L5, "16 to 32 bits".
-const BITS: [(&str, DepthBits); 3] =
-    [("16", DepthBits::Sixteen), ("24", DepthBits::TwentyFour), ("32", DepthBits::ThirtyTwo)];
+const BITS: [(&str, DepthBits); 3] = [
+    ("16", DepthBits::Sixteen),
+    ("24", DepthBits::TwentyFour),
+    ("32", DepthBits::ThirtyTwo),
+];
 
 fn with(scene: &Scene, bits: DepthBits, source: DepthSource) -> Scene {
-    Scene { hidden_surfaces: HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }), ..scene.clone() }
+    Scene {
+        hidden_surfaces: HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }),
+        ..scene.clone()
+    }
 }
 
 fn make() -> Result<Content, FigureError> {
@@ -48,7 +54,11 @@ fn fighting(content: &mut Content, scene: &Scene) -> Result<(), FigureError> {
          depths to one number the floor stays: z-fighting.",
     );
     let shown = |(bits, picture): &(&str, LinearPicture)| {
-        Shown::new(format!("{bits} bits"), format!("A star above a floor with {bits} bits of depth."), stored(picture))
+        Shown::new(
+            format!("{bits} bits"),
+            format!("A star above a floor with {bits} bits of depth."),
+            stored(picture),
+        )
     };
     content.pictures(3, pictures.iter().map(shown).collect());
     let finest = &pictures[2].1;
@@ -59,7 +69,11 @@ fn fighting(content: &mut Content, scene: &Scene) -> Result<(), FigureError> {
             format!("pixels that {bits} bits show differently than 32"),
             (wrong as f64, "pixels"),
             Agreement::Adds,
-            if wrong > 0 { format!("{bits} bits are too few here.") } else { format!("{bits} bits are enough here.") },
+            if wrong > 0 {
+                format!("{bits} bits are too few here.")
+            } else {
+                format!("{bits} bits are enough here.")
+            },
         ));
     }
     Ok(())
@@ -67,14 +81,23 @@ fn fighting(content: &mut Content, scene: &Scene) -> Result<(), FigureError> {
 
 /// The largest difference of depths where both are finite.
 fn apart(a: &crate::picture::Picture<f32>, b: &crate::picture::Picture<f32>) -> f64 {
-    let both = a.texels().iter().zip(b.texels()).filter(|(a, b)| a.is_finite() && b.is_finite());
-    both.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max)
+    let both = a
+        .texels()
+        .iter()
+        .zip(b.texels())
+        .filter(|(a, b)| a.is_finite() && b.is_finite());
+    both.map(|(a, b)| f64::from((a - b).abs()))
+        .fold(0.0, f64::max)
 }
 
 /// Depth interpolated between corners, and computed at each sample.
 fn ways(content: &mut Content, scene: &Scene) -> Result<(), FigureError> {
-    let of = |source| Ok::<_, FigureError>(depth(&with(scene, DepthBits::ThirtyTwo, source).frame()?));
-    let difference = apart(&of(DepthSource::Interpolated)?, &of(DepthSource::PerSample)?);
+    let of =
+        |source| Ok::<_, FigureError>(depth(&with(scene, DepthBits::ThirtyTwo, source).frame()?));
+    let difference = apart(
+        &of(DepthSource::Interpolated)?,
+        &of(DepthSource::PerSample)?,
+    );
     let steps = f64::from(SIZE[0] + SIZE[1]);
     // Corners, and each step along an edge and a span, round depths of up to 1 by 2⁻²⁵, on both ways; the second scales 1/w
     // by f/(f − n), which is close to 1.
@@ -102,10 +125,19 @@ fn lecture_depth(distance: f64, near: f64, far: f64) -> f64 {
 
 fn curve(content: &mut Content, scene: &Scene) {
     let far = scene.camera.far;
-    let nears = [scene.camera.near, 5.0 * scene.camera.near, 25.0 * scene.camera.near];
+    let nears = [
+        scene.camera.near,
+        5.0 * scene.camera.near,
+        25.0 * scene.camera.near,
+    ];
     let curve = |near: f64| {
         let distance = move |i: u32| near * libm::pow(far / near, f64::from(i) / 60.0);
-        let points = (0..=60).map(move |i| (distance(i), 0.5 + 0.5 * lecture_depth(distance(i), near, far)));
+        let points = (0..=60).map(move |i| {
+            (
+                distance(i),
+                0.5 + 0.5 * lecture_depth(distance(i), near, far),
+            )
+        });
         Series::new(format!("near = {}", written(near)), points)
     };
     content.plot(Plot {
@@ -138,7 +170,8 @@ fn curve(content: &mut Content, scene: &Scene) {
         let at = |i: u32| near + (far - near) * f64::from(i) / 1000.0;
         lecture_depth(at(i), near, far) < lecture_depth(at(i + 1), near, far)
     });
-    let moved = (lecture_depth(0.5 * far, near, far) - (0.5 * far - near) / (far - near) * 2.0 + 1.0).abs();
+    let moved =
+        (lecture_depth(0.5 * far, near, far) - (0.5 * far - near) / (far - near) * 2.0 + 1.0).abs();
     content.found(Finding::new(
         "preserved",
         "how far half-way to the far plane is from half-way in depth, of 2",

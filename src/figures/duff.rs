@@ -32,8 +32,11 @@ const ANGLES: [f64; 2] = [90.0, 20.0];
 /// From the normal at the joint to the light, in degrees.
 const LIGHT: f64 = 40.0;
 /// The methods, and what they are called here.
-const METHODS: [(&str, &str); 3] =
-    [("gouraud", "Gouraud"), ("naive-phong", "naive Phong"), ("slerp-phong", "slerp Phong")];
+const METHODS: [(&str, &str); 3] = [
+    ("gouraud", "Gouraud"),
+    ("naive-phong", "naive Phong"),
+    ("slerp-phong", "slerp Phong"),
+];
 
 /// Two facets of one circle that meet at an angle of 0, left and right of it, each as wide as its arc.
 fn circle([left, right]: [f64; 2]) -> Result<Frame, FigureError> {
@@ -41,10 +44,20 @@ fn circle([left, right]: [f64; 2]) -> Result<Frame, FigureError> {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         Corner::new([JOINT + PIXELS * degrees, y], DVec3::new(sin, 0.0, cos))
     };
-    let facet =
-        |from: f64, to: f64| Facet::new([corner(from, 0.0), corner(to, 0.0), corner(to, 24.0), corner(from, 24.0)]);
+    let facet = |from: f64, to: f64| {
+        Facet::new([
+            corner(from, 0.0),
+            corner(to, 0.0),
+            corner(to, 24.0),
+            corner(from, 24.0),
+        ])
+    };
     let (sin, cos) = libm::sincos(LIGHT.to_radians());
-    frame([WIDTH, 24], &Grey::dull(DVec3::new(sin, 0.0, cos)), &[facet(-left, 0.0), facet(0.0, right)])
+    frame(
+        [WIDTH, 24],
+        &Grey::dull(DVec3::new(sin, 0.0, cos)),
+        &[facet(-left, 0.0), facet(0.0, right)],
+    )
 }
 
 /// The jump of the slope of naive Phong shading at the joint in grey levels a pixel. Linear normals turn at the rate
@@ -81,8 +94,15 @@ fn make() -> Result<Content, FigureError> {
     for (method, name) in METHODS {
         let drawn = picture(method, ANGLES)?;
         let line = profile(&drawn, 12);
-        series.push(Series::new(name, seen.clone().map(|i| (i as f64 + 0.5, line[i]))));
-        shown.push(Shown::new(name, format!("The two facets shaded by {name}."), stored(&drawn)));
+        series.push(Series::new(
+            name,
+            seen.clone().map(|i| (i as f64 + 0.5, line[i])),
+        ));
+        shown.push(Shown::new(
+            name,
+            format!("The two facets shaded by {name}."),
+            stored(&drawn),
+        ));
     }
     content.pictures(2, shown);
     content.plot(Plot {
@@ -91,7 +111,8 @@ fn make() -> Result<Content, FigureError> {
         y: ("intensity, grey levels".into(), Scale::Linear),
         series,
         marks: [JOINT].into(),
-        caption: "Slerp Phong follows the circle itself: it turns at a uniform rate on both sides.".into(),
+        caption: "Slerp Phong follows the circle itself: it turns at a uniform rate on both sides."
+            .into(),
     });
     jumps(&mut content)?;
     sweep(&mut content)?;
@@ -130,7 +151,11 @@ fn jumps(content: &mut Content) -> Result<(), FigureError> {
         "slerp Phong: jump of the slope at the joint",
         (slerp, unit),
         Agreement::Adds,
-        if slerp.abs() < 0.01 * naive.abs() { "None: uniform speed follows the circle." } else { "There is one." },
+        if slerp.abs() < 0.01 * naive.abs() {
+            "None: uniform speed follows the circle."
+        } else {
+            "There is one."
+        },
     ));
     let is_near = (naive - expected).abs() < 0.02 * expected.abs();
     content.found(Finding::new(
@@ -138,7 +163,11 @@ fn jumps(content: &mut Content) -> Result<(), FigureError> {
         "naive Phong: the same by 255 sin θ (sin φ₂ / l₂ − sin φ₁ / l₁)",
         (expected, unit),
         Agreement::Adds,
-        if is_near { "The engine draws what the formula says." } else { "The engine draws something else." },
+        if is_near {
+            "The engine draws what the formula says."
+        } else {
+            "The engine draws something else."
+        },
     ));
     Ok(())
 }
@@ -148,10 +177,17 @@ fn sweep(content: &mut Content) -> Result<(), FigureError> {
     let angles: Vec<f64> = (1..=9).map(|i| 10.0 * f64::from(i)).collect();
     let mut series = Vec::new();
     for (method, name) in METHODS {
-        let points = angles.iter().map(|&left| Ok((left, slope_jump(method, [left, ANGLES[1]])?)));
-        series.push(Series::new(name, points.collect::<Result<Vec<_>, FigureError>>()?));
+        let points = angles
+            .iter()
+            .map(|&left| Ok((left, slope_jump(method, [left, ANGLES[1]])?)));
+        series.push(Series::new(
+            name,
+            points.collect::<Result<Vec<_>, FigureError>>()?,
+        ));
     }
-    let formula = angles.iter().map(|&left| (left, closed_form([left, ANGLES[1]])));
+    let formula = angles
+        .iter()
+        .map(|&left| (left, closed_form([left, ANGLES[1]])));
     series.push(Series::new("closed form of naive Phong", formula));
     content.plot(Plot {
         title: "Jump of the slope over the angle of the left facet".into(),

@@ -35,9 +35,17 @@ fn sine(content: &mut Content) -> Result<(), FigureError> {
     let normal = |z: f64| DVec3::new(libm::sqrt(1.0 - z * z), 0.0, z);
     let [(_, low), (_, high)] = TABLE;
     let at = |place, z| Corner::new(place, normal(z));
-    let strip = [at([0.5, 0.0], low), at([10.5, 0.0], high), at([10.5, 4.0], high), at([0.5, 4.0], low)];
-    let picture =
-        Variant::parse("gouraud")?.render_linear(&frame([11, 4], &Grey::dull(DVec3::Z), &[Facet::new(strip)])?);
+    let strip = [
+        at([0.5, 0.0], low),
+        at([10.5, 0.0], high),
+        at([10.5, 4.0], high),
+        at([0.5, 4.0], low),
+    ];
+    let picture = Variant::parse("gouraud")?.render_linear(&frame(
+        [11, 4],
+        &Grey::dull(DVec3::Z),
+        &[Facet::new(strip)],
+    )?);
     let found = f64::from(picture.get(3, 1)[0]);
     let truth = libm::sin(24.3_f64.to_radians());
     content.text(format!(
@@ -79,7 +87,10 @@ struct Exponential<F> {
 impl Exponential<f32> {
     /// Starts at `exp(start)` and goes on to `exp(start + step)`.
     fn new(start: f64, step: f64) -> Self {
-        Exponential { at: libm::exp(start) as f32, factor: libm::exp(step) as f32 }
+        Exponential {
+            at: libm::exp(start) as f32,
+            factor: libm::exp(step) as f32,
+        }
     }
 }
 
@@ -97,7 +108,10 @@ impl<F: Num> Walk for Exponential<F> {
 fn exponential(content: &mut Content) {
     let counter = Counter::default();
     let m = Counting(&counter);
-    let mut counted = Exponential { at: m.one(1.0), factor: m.one(0.5) };
+    let mut counted = Exponential {
+        at: m.one(1.0),
+        factor: m.one(0.5),
+    };
     counted.next();
     let counts = counter.counts();
     let others = counts.additions + counts.divisions + counts.powers + counts.trigonometric;
@@ -107,7 +121,11 @@ fn exponential(content: &mut Content) {
         "operations a pixel of e to the t",
         (f64::from(counts.multiplications + others), ""),
         Agreement::if_holds(is_one),
-        if is_one { "One multiplication and nothing else, counted." } else { "More than one multiplication, counted." },
+        if is_one {
+            "One multiplication and nothing else, counted."
+        } else {
+            "More than one multiplication, counted."
+        },
     ));
 
     const PIXELS: usize = 1024;
@@ -122,7 +140,10 @@ fn exponential(content: &mut Content) {
             })
             .collect();
         largest = errors.iter().copied().fold(largest, f64::max);
-        Series::new(format!("from 1 to e^−{fall}"), (8..PIXELS).step_by(8).map(|k| (k as f64, errors[k])))
+        Series::new(
+            format!("from 1 to e^−{fall}"),
+            (8..PIXELS).step_by(8).map(|k| (k as f64, errors[k])),
+        )
     });
     // Each of the products is rounded once, and the factor, rounded once, is in each of them.
     let bound = 2.0 * (PIXELS - 1) as f64 / (1 << 24) as f64;
@@ -159,10 +180,21 @@ const DENSITY: f64 = 2.5;
 /// Exponential fog over a tilted plane: depth is linear on the screen, so that the exponential can be stepped.
 fn fog(content: &mut Content) -> Result<(), FigureError> {
     // A plane: depth is a linear function of the place.
-    let at =
-        |x: f64, y: f64| Corner { place: [x, y], depth: 0.45 * x / 240.0 + 0.55 * (1.0 - y / 132.0), normal: DVec3::Z };
-    let plane = [at(20.0, 8.0), at(232.0, 24.0), at(220.0, 124.0), at(6.0, 110.0)];
-    let grey = Grey { diffuse: 0.15, ..Grey::dull(DVec3::Z) };
+    let at = |x: f64, y: f64| Corner {
+        place: [x, y],
+        depth: 0.45 * x / 240.0 + 0.55 * (1.0 - y / 132.0),
+        normal: DVec3::Z,
+    };
+    let plane = [
+        at(20.0, 8.0),
+        at(232.0, 24.0),
+        at(220.0, 124.0),
+        at(6.0, 110.0),
+    ];
+    let grey = Grey {
+        diffuse: 0.15,
+        ..Grey::dull(DVec3::Z)
+    };
     let frame = frame([240, 132], &grey, &[Facet::new(plane)])?;
     let surface = Variant::parse("flat")?.render_linear(&frame);
     let depth = depth(&frame);
@@ -170,14 +202,19 @@ fn fog(content: &mut Content) -> Result<(), FigureError> {
     let mut largest: f64 = 0.0;
     for y in 0..surface.height() {
         let covered = |x: &usize| depth.get(*x, y).is_finite();
-        let Some(start) = (0..surface.width()).find(covered) else { continue };
+        let Some(start) = (0..surface.width()).find(covered) else {
+            continue;
+        };
         let count = (start..surface.width()).take_while(covered).count();
         let first = f64::from(depth.get(start, y));
         let last = f64::from(depth.get(start + count - 1, y));
         let step = (last - first) / (count - 1).max(1) as f64;
         let mut walk = Exponential::new(-DENSITY * first, -DENSITY * step);
         for x in start..start + count {
-            let (left, truth) = (walk.next(), libm::exp(-DENSITY * f64::from(depth.get(x, y))));
+            let (left, truth) = (
+                walk.next(),
+                libm::exp(-DENSITY * f64::from(depth.get(x, y))),
+            );
             mix(&mut stepped, x, y, left);
             mix(&mut exact, x, y, truth as f32);
             largest = largest.max((f64::from(left) - truth).abs());
@@ -185,7 +222,11 @@ fn fog(content: &mut Content) -> Result<(), FigureError> {
     }
     let levels = 255.0 * largest;
     let shown = |caption: &str, picture: &LinearPicture| {
-        Shown::new(caption, format!("A tilted plane that fades into white fog, {caption}."), stored(picture))
+        Shown::new(
+            caption,
+            format!("A tilted plane that fades into white fog, {caption}."),
+            stored(picture),
+        )
     };
     content.text(format!(
         "Exercise 2 at work: a dark plane, tilted against the screen, in exponential fog. Under an orthographic camera \
@@ -193,15 +234,25 @@ fn fog(content: &mut Content) -> Result<(), FigureError> {
          aside. The two pictures differ by at most {} grey levels.",
         written(levels)
     ));
-    content
-        .pictures(2, [shown("one multiplication a pixel", &stepped), shown("one exponential a pixel", &exact)].into());
+    content.pictures(
+        2,
+        [
+            shown("one multiplication a pixel", &stepped),
+            shown("one exponential a pixel", &exact),
+        ]
+        .into(),
+    );
     let holds = levels < 0.5;
     content.found(Finding::new(
         "fog",
         "largest difference of the fog by steps from that by exponentials",
         (levels, "grey levels"),
         Agreement::if_holds(holds),
-        if holds { "The pictures cannot be told apart." } else { "The pictures can be told apart." },
+        if holds {
+            "The pictures cannot be told apart."
+        } else {
+            "The pictures can be told apart."
+        },
     ));
     Ok(())
 }

@@ -38,7 +38,12 @@ fn half_width(p: f64) -> f64 {
 
 fn powers(content: &mut Content) {
     let curve = |p: f32| {
-        let at = |i: i32| (f64::from(i), libm::pow(libm::cos(f64::from(i).to_radians()).max(0.0), f64::from(p)));
+        let at = |i: i32| {
+            (
+                f64::from(i),
+                libm::pow(libm::cos(f64::from(i).to_radians()).max(0.0), f64::from(p)),
+            )
+        };
         Series::new(format!("p = {p}"), (0..=90).map(at))
     };
     content.plot(Plot {
@@ -53,13 +58,19 @@ fn powers(content: &mut Content) {
             written(half_width(512.0))
         ),
     });
-    let narrows = EXPONENTS.windows(2).all(|p| half_width(f64::from(p[1])) < half_width(f64::from(p[0])));
+    let narrows = EXPONENTS
+        .windows(2)
+        .all(|p| half_width(f64::from(p[1])) < half_width(f64::from(p[0])));
     content.found(Finding::new(
         "narrows",
         "half width at p = 1 over that at p = 512",
         (half_width(1.0) / half_width(512.0), ""),
         Agreement::if_holds(narrows),
-        if narrows { "Increasing p narrows the lobe." } else { "Increasing p does not always narrow the lobe." },
+        if narrows {
+            "Increasing p narrows the lobe."
+        } else {
+            "Increasing p does not always narrow the lobe."
+        },
     ));
 }
 
@@ -72,7 +83,13 @@ fn sphere(
     side: u32,
 ) -> Result<LinearPicture, FigureError> {
     let material = grey(0.02, 0.2, strength, exponent);
-    let mut scene = scene(builtin("sphere?rings=32&segments=64")?, material, light, HALF_HEIGHT, [side; 2]);
+    let mut scene = scene(
+        builtin("sphere?rings=32&segments=64")?,
+        material,
+        light,
+        HALF_HEIGHT,
+        [side; 2],
+    );
     (scene.specular, scene.shininess_for) = (specular, specular);
     drawn(&scene, "naive-phong")
 }
@@ -83,13 +100,23 @@ fn grid(content: &mut Content) -> Result<(), FigureError> {
     let mut bright = Vec::new();
     for strength in STRENGTHS {
         for exponent in EXPONENTS {
-            let picture = sphere(strength, exponent, SpecularModel::Phong, DVec3::new(-0.4, 0.5, 0.8), 56)?;
+            let picture = sphere(
+                strength,
+                exponent,
+                SpecularModel::Phong,
+                DVec3::new(-0.4, 0.5, 0.8),
+                56,
+            )?;
             if strength == STRENGTHS[2] {
                 // Over what diffuse and ambient light give at most.
                 let lit = super::lit::share(&picture, |texel| texel[0] > 0.22 + strength / 2.0);
                 bright.push(lit);
             }
-            pictures.push(shown("A sphere with a highlight", &format!("k_s {strength}, p {exponent}"), &picture));
+            pictures.push(shown(
+                "A sphere with a highlight",
+                &format!("k_s {strength}, p {exponent}"),
+                &picture,
+            ));
         }
     }
     content.text("The strength k_s grows downward, the exponent p to the right.");
@@ -114,10 +141,17 @@ fn grid(content: &mut Content) -> Result<(), FigureError> {
 fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f64)>), FigureError> {
     const SIDE: u32 = 481;
     let material = grey(0.0, 0.0, 1.0, exponent);
-    let mut scene = scene(builtin("sphere?rings=96&segments=192")?, material, DVec3::Z, HALF_HEIGHT, [SIDE, 3]);
+    let mut scene = scene(
+        builtin("sphere?rings=96&segments=192")?,
+        material,
+        DVec3::Z,
+        HALF_HEIGHT,
+        [SIDE, 3],
+    );
     // Three rows of the picture of full height: the middle one passes through the middle of the sphere.
-    scene.camera.projection =
-        crate::camera::Projection::Orthographic { half_height: 3.0 * HALF_HEIGHT / f64::from(SIDE) };
+    scene.camera.projection = crate::camera::Projection::Orthographic {
+        half_height: 3.0 * HALF_HEIGHT / f64::from(SIDE),
+    };
     (scene.specular, scene.shininess_for) = (specular, specular);
     let picture = drawn(&scene, "naive-phong")?;
     let degrees = |x: f64| {
@@ -133,7 +167,11 @@ fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f6
     // Between the last pixel over a half and the next one, on the line through both.
     let last = points.iter().rposition(|p| p.1 >= 0.5).unwrap_or(0);
     let (a, b) = (points[last], points[(last + 1).min(points.len() - 1)]);
-    let part = if a.1 > b.1 { (a.1 - 0.5) / (a.1 - b.1) } else { 0.0 };
+    let part = if a.1 > b.1 {
+        (a.1 - 0.5) / (a.1 - b.1)
+    } else {
+        0.0
+    };
     Ok((a.0 + part * (b.0 - a.0), points))
 }
 
@@ -148,8 +186,15 @@ fn half_vector(content: &mut Content) -> Result<(), FigureError> {
     for (label, exponent, specular) in kinds {
         let (width, points) = measured(exponent, specular)?;
         widths.push(width);
-        series.push(Series::new(label, points.into_iter().filter(|p| p.0 < 60.0).step_by(3)));
-        pictures.push(shown("A sphere with a highlight", label, &sphere(0.75, exponent, specular, DVec3::Z, 80)?));
+        series.push(Series::new(
+            label,
+            points.into_iter().filter(|p| p.0 < 60.0).step_by(3),
+        ));
+        pictures.push(shown(
+            "A sphere with a highlight",
+            label,
+            &sphere(0.75, exponent, specular, DVec3::Z, 80)?,
+        ));
     }
     content.text(
         "The vector halfway between light and eye turns half as fast as R: the same exponent makes a wider highlight.",
@@ -161,7 +206,8 @@ fn half_vector(content: &mut Content) -> Result<(), FigureError> {
         y: ("highlight".into(), Scale::Linear),
         series,
         marks: Vec::new(),
-        caption: "The curves of R·V, of N·H with its exponent, and of N·H with four times it.".into(),
+        caption: "The curves of R·V, of N·H with its exponent, and of N·H with four times it."
+            .into(),
     });
     let [phong, same, converted] = [widths[0], widths[1], widths[2]];
     // Half of the angle, so that the width doubles where cos^p is a Gauss curve.

@@ -51,15 +51,30 @@ fn pictures(content: &mut Content, mesh: &str) -> Result<(), FigureError> {
     let [naive, one] = ["naive-phong", "fast-phong:steps=1"].map(Variant::parse);
     let (naive, one) = (naive?.render_linear(&frame), one?.render_linear(&frame));
     let map = difference_map(&naive, &one, MAP_SCALE)?;
-    let caption =
-        format!("their difference: purple to yellow is up to {MAP_SCALE} grey levels, black none, magenta more");
-    content.text(format!("The mesh on which one step is farthest from naive Phong: {mesh}."));
+    let caption = format!(
+        "their difference: purple to yellow is up to {MAP_SCALE} grey levels, black none, magenta more"
+    );
+    content.text(format!(
+        "The mesh on which one step is farthest from naive Phong: {mesh}."
+    ));
     content.pictures(
         3,
         Vec::from([
-            Shown::new("naive Phong", format!("{mesh} by naive Phong."), stored(&naive)),
-            Shown::new("fast Phong, 1 step", "The same by fast Phong with one step of Newton's.", stored(&one)),
-            Shown::new(caption, "Most pixels differ by almost nothing, few where spans turn far by more.", map),
+            Shown::new(
+                "naive Phong",
+                format!("{mesh} by naive Phong."),
+                stored(&naive),
+            ),
+            Shown::new(
+                "fast Phong, 1 step",
+                "The same by fast Phong with one step of Newton's.",
+                stored(&one),
+            ),
+            Shown::new(
+                caption,
+                "Most pixels differ by almost nothing, few where spans turn far by more.",
+                map,
+            ),
         ]),
     );
     Ok(())
@@ -68,16 +83,25 @@ fn pictures(content: &mut Content, mesh: &str) -> Result<(), FigureError> {
 /// The largest difference from naive Phong on every mesh, with the default number of steps and with one; the
 /// mesh on which one step is worst.
 fn meshes(content: &mut Content) -> Result<&'static str, FigureError> {
-    let [naive, fast, one] = ["naive-phong", "fast-phong", "fast-phong:steps=1"].map(Variant::parse);
+    let [naive, fast, one] =
+        ["naive-phong", "fast-phong", "fast-phong:steps=1"].map(Variant::parse);
     let (naive, fast, one) = (naive?, fast?, one?);
-    let (mut rows, mut worst, mut coarse, mut worst_by_one) = (Vec::new(), 0.0f64, 0.0, (0.0, MESHES[0]));
+    let (mut rows, mut worst, mut coarse, mut worst_by_one) =
+        (Vec::new(), 0.0f64, 0.0, (0.0, MESHES[0]));
     for mesh in MESHES {
         let frame = frame_of(mesh)?;
         let exact = naive.render_linear(&frame);
         let by = |variant: &Variant| compare(&exact, &variant.render_linear(&frame));
         let (by_default, by_one) = (by(&fast)?, by(&one)?);
-        let texts = [by_default.max, by_default.rms, by_one.max, by_one.rms].map(|error| written(255.0 * error));
-        rows.push([[mesh.to_string(), frame.polygons().len().to_string()].to_vec(), texts.to_vec()].concat());
+        let texts = [by_default.max, by_default.rms, by_one.max, by_one.rms]
+            .map(|error| written(255.0 * error));
+        rows.push(
+            [
+                [mesh.to_string(), frame.polygons().len().to_string()].to_vec(),
+                texts.to_vec(),
+            ]
+            .concat(),
+        );
         worst = worst.max(255.0 * by_default.max);
         if mesh == MESHES[0] {
             coarse = 255.0 * by_one.max;
@@ -100,10 +124,16 @@ fn meshes(content: &mut Content) -> Result<&'static str, FigureError> {
     );
     content.found(Finding::new(
         "default",
-        format!("fast Phong with {steps} steps: largest difference from naive Phong over all meshes"),
+        format!(
+            "fast Phong with {steps} steps: largest difference from naive Phong over all meshes"
+        ),
         (worst, "grey levels"),
         Agreement::if_holds(worst <= 1.0),
-        if worst <= 1.0 { "No pixel differs by more than a grey level." } else { "There are pixels that differ." },
+        if worst <= 1.0 {
+            "No pixel differs by more than a grey level."
+        } else {
+            "There are pixels that differ."
+        },
     ));
     let enough = |levels: f64| match levels <= 1.0 {
         true => "One step is enough there.",
@@ -132,7 +162,14 @@ fn operations(content: &mut Content) -> Result<(), FigureError> {
     let mut rows = Vec::new();
     for entry in METHODS {
         let counts = entry.variant().operations(1);
-        rows.push([[entry.info.name.to_string()].to_vec(), cells(&counts.walk), cells(&counts.shade)].concat());
+        rows.push(
+            [
+                [entry.info.name.to_string()].to_vec(),
+                cells(&counts.walk),
+                cells(&counts.shade),
+            ]
+            .concat(),
+        );
     }
     content.text(
         "Operations a pixel for one light and shininess 32, counted by running each method on numbers that count: to step \
@@ -140,13 +177,26 @@ fn operations(content: &mut Content) -> Result<(), FigureError> {
          but flat and Gouraud shading.",
     );
     content.table(
-        &["method", "walk: + −", "walk: ×", "walk: ÷", "walk: √", "shade: + −", "shade: ×", "shade: ÷", "shade: √"],
+        &[
+            "method",
+            "walk: + −",
+            "walk: ×",
+            "walk: ÷",
+            "walk: √",
+            "shade: + −",
+            "shade: ×",
+            "shade: ÷",
+            "shade: √",
+        ],
         rows,
     );
     let naive = Variant::parse("naive-phong")?.operations(1);
     let fast = Variant::parse("fast-phong")?.operations(1);
     let roots = |counts: &Counts| f64::from(counts.roots);
-    let (naive_roots, fast_roots) = (roots(&naive.walk) + roots(&naive.shade), roots(&fast.walk) + roots(&fast.shade));
+    let (naive_roots, fast_roots) = (
+        roots(&naive.walk) + roots(&naive.shade),
+        roots(&fast.walk) + roots(&fast.shade),
+    );
     content.found(Finding::new(
         "roots-naive",
         "naive Phong: square roots a pixel",
@@ -159,7 +209,11 @@ fn operations(content: &mut Content) -> Result<(), FigureError> {
         "fast Phong: square roots a pixel",
         (fast_roots, ""),
         Agreement::if_holds(fast_roots == 0.0),
-        if fast_roots == 0.0 { "None: Newton\u{2019}s steps take their place." } else { "There are still roots." },
+        if fast_roots == 0.0 {
+            "None: Newton\u{2019}s steps take their place."
+        } else {
+            "There are still roots."
+        },
     ));
     let additions = naive.walk.additions;
     content.found(Finding::new(
@@ -167,7 +221,11 @@ fn operations(content: &mut Content) -> Result<(), FigureError> {
         "naive Phong: additions to step the normal (4.2)",
         (f64::from(additions), ""),
         Agreement::if_holds(additions == 3),
-        if additions == 3 { "Three additions a pixel." } else { "Not three additions a pixel." },
+        if additions == 3 {
+            "Three additions a pixel."
+        } else {
+            "Not three additions a pixel."
+        },
     ));
     let gouraud = Variant::parse("gouraud")?.operations(1).walk.additions;
     content.found(Finding::new(
@@ -175,7 +233,11 @@ fn operations(content: &mut Content) -> Result<(), FigureError> {
         "Gouraud: additions a pixel, for three channels (3.6)",
         (f64::from(gouraud), ""),
         Agreement::if_holds(gouraud == 3),
-        if gouraud == 3 { "One addition a channel." } else { "Not one addition a channel." },
+        if gouraud == 3 {
+            "One addition a channel."
+        } else {
+            "Not one addition a channel."
+        },
     ));
     let slerp = Variant::parse("slerp-phong")?.operations(1).walk;
     let (additions, multiplications) = (slerp.additions, slerp.multiplications);
@@ -194,5 +256,12 @@ fn operations(content: &mut Content) -> Result<(), FigureError> {
 }
 
 fn cells(counts: &Counts) -> Vec<String> {
-    [counts.additions, counts.multiplications, counts.divisions, counts.roots].map(|n| n.to_string()).into()
+    [
+        counts.additions,
+        counts.multiplications,
+        counts.divisions,
+        counts.roots,
+    ]
+    .map(|n| n.to_string())
+    .into()
 }

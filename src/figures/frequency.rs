@@ -27,7 +27,11 @@ const FINEST: u32 = 200;
 /// Width and height of the pictures.
 const SIDE: u32 = 80;
 /// What is shaded once, by which method, and what its shading is called.
-const FREQUENCIES: [(&str, &str); 3] = [("flat", "face"), ("gouraud", "vertex"), ("naive-phong", "pixel")];
+const FREQUENCIES: [(&str, &str); 3] = [
+    ("flat", "face"),
+    ("gouraud", "vertex"),
+    ("naive-phong", "pixel"),
+];
 
 /// A sphere of so many rings, through one camera for all.
 fn sphere(rings: u32) -> Result<Frame, FigureError> {
@@ -43,7 +47,10 @@ fn sphere(rings: u32) -> Result<Frame, FigureError> {
 fn make() -> Result<Content, FigureError> {
     let mut content = Content::default();
     let truth = reference::render(&sphere(FINEST)?, Model::Phong).to_linear();
-    let frames = RINGS.iter().map(|&rings| sphere(rings)).collect::<Result<Vec<_>, _>>()?;
+    let frames = RINGS
+        .iter()
+        .map(|&rings| sphere(rings))
+        .collect::<Result<Vec<_>, _>>()?;
     content.text(format!(
         "One sphere in six resolutions, shaded once a face, a vertex, and a pixel. Errors are against the Phong reference \
          on {} polygons, over the pixels that both spheres cover.",
@@ -56,7 +63,11 @@ fn make() -> Result<Content, FigureError> {
             let drawn = variant.render_linear(frame);
             let polygons = 2 * rings * rings;
             let alt = format!("A sphere of {polygons} polygons shaded once a {frequency}.");
-            shown.push(Shown::new(format!("{frequency}, {polygons} polygons"), alt, stored(&drawn)));
+            shown.push(Shown::new(
+                format!("{frequency}, {polygons} polygons"),
+                alt,
+                stored(&drawn),
+            ));
             errors.push(inside(&truth, &drawn)?);
         }
     }
@@ -67,14 +78,18 @@ fn make() -> Result<Content, FigureError> {
 
 /// The difference over the pixels that both pictures cover.
 fn inside(truth: &LinearPicture, drawn: &LinearPicture) -> Result<Difference, FigureError> {
-    Ok(compare_where(truth, drawn, |x, y| truth.get(x, y)[3] > 0.0 && drawn.get(x, y)[3] > 0.0)?)
+    Ok(compare_where(truth, drawn, |x, y| {
+        truth.get(x, y)[3] > 0.0 && drawn.get(x, y)[3] > 0.0
+    })?)
 }
 
 fn numbers(content: &mut Content, errors: &[Difference]) {
     let of = |i: usize| &errors[i * RINGS.len()..][..RINGS.len()];
     let polygons = RINGS.map(|rings| 2 * rings * rings);
     let rows = FREQUENCIES.iter().enumerate().map(|(i, (_, frequency))| {
-        let cells = of(i).iter().map(|d| format!("{} / {}", written(255.0 * d.max), written(255.0 * d.rms)));
+        let cells = of(i)
+            .iter()
+            .map(|d| format!("{} / {}", written(255.0 * d.max), written(255.0 * d.rms)));
         [frequency.to_string()].into_iter().chain(cells).collect()
     });
     let rows = rows.collect();
@@ -83,7 +98,10 @@ fn numbers(content: &mut Content, errors: &[Difference]) {
     head.extend(heads.iter().map(|text| &text[..]));
     content.table(&head, rows);
     let curve = |i: usize| {
-        let points = polygons.iter().zip(of(i)).map(|(n, d)| (f64::from(*n), 255.0 * d.rms));
+        let points = polygons
+            .iter()
+            .zip(of(i))
+            .map(|(n, d)| (f64::from(*n), 255.0 * d.rms));
         Series::new(format!("once a {}", FREQUENCIES[i].1), points)
     };
     content.plot(Plot {
@@ -92,7 +110,9 @@ fn numbers(content: &mut Content, errors: &[Difference]) {
         y: ("RMS error, grey levels".into(), Scale::Log),
         series: (0..FREQUENCIES.len()).map(curve).collect(),
         marks: Vec::new(),
-        caption: "Finer meshes help every shading frequency; on the finest they are hard to tell apart.".to_string(),
+        caption:
+            "Finer meshes help every shading frequency; on the finest they are hard to tell apart."
+                .to_string(),
     });
     for (i, (_, frequency)) in FREQUENCIES.iter().enumerate() {
         for (end, place) in [("coarsest", 0), ("finest", RINGS.len() - 1)] {
@@ -101,11 +121,22 @@ fn numbers(content: &mut Content, errors: &[Difference]) {
             let is_better = before.is_none_or(|before| rms < before);
             content.found(Finding::new(
                 format!("{frequency}-{end}"),
-                format!("once a {frequency}, {} polygons: RMS error", polygons[place]),
+                format!(
+                    "once a {frequency}, {} polygons: RMS error",
+                    polygons[place]
+                ),
                 (rms, "grey levels"),
-                if before.is_none() { Agreement::Adds } else { Agreement::if_holds(is_better) },
+                if before.is_none() {
+                    Agreement::Adds
+                } else {
+                    Agreement::if_holds(is_better)
+                },
                 match before {
-                    None => String::from(if rms > 1.0 { "Visible facets." } else { "Facets can hardly be seen." }),
+                    None => String::from(if rms > 1.0 {
+                        "Visible facets."
+                    } else {
+                        "Facets can hardly be seen."
+                    }),
                     Some(_) if is_better => format!("Less than once a {}.", FREQUENCIES[i - 1].1),
                     Some(_) => format!("More than once a {}.", FREQUENCIES[i - 1].1),
                 },
@@ -115,7 +146,11 @@ fn numbers(content: &mut Content, errors: &[Difference]) {
     let (fine_faces, coarse_pixels) = (of(0)[RINGS.len() - 1].rms, of(2)[1].rms);
     content.found(Finding::new(
         "trade",
-        format!("faces of {} polygons by pixels of {}: ratio of RMS errors", polygons[RINGS.len() - 1], polygons[1]),
+        format!(
+            "faces of {} polygons by pixels of {}: ratio of RMS errors",
+            polygons[RINGS.len() - 1],
+            polygons[1]
+        ),
         (fine_faces / coarse_pixels, ""),
         Agreement::Adds,
         if fine_faces > coarse_pixels {

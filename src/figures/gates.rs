@@ -33,8 +33,15 @@ fn make() -> Result<Content, FigureError> {
 /// A torus in light from behind, its highlights by N·H as the lectures print them.
 fn torus(gate: SpecularGate, diffuse: f32) -> Result<Scene, FigureError> {
     let mesh = builtin("torus?segments=96&sides=48")?;
-    let mut scene = scene(mesh, grey(0.08, diffuse, 0.8, EXPONENT), BEHIND, 1.5, [112, 112]);
-    (scene.specular, scene.shininess_for, scene.gate) = (SpecularModel::Blinn, SpecularModel::Blinn, gate);
+    let mut scene = scene(
+        mesh,
+        grey(0.08, diffuse, 0.8, EXPONENT),
+        BEHIND,
+        1.5,
+        [112, 112],
+    );
+    (scene.specular, scene.shininess_for, scene.gate) =
+        (SpecularModel::Blinn, SpecularModel::Blinn, gate);
     Ok(scene)
 }
 
@@ -48,7 +55,11 @@ fn largest_step(picture: &LinearPicture, other: &LinearPicture) -> f64 {
             let covered = row[x][3] > 0.0 && row[x - 1][3] > 0.0;
             // The part of the step that the other picture does not have.
             let step = (row[x][0] - row[x - 1][0]).abs() - (smooth[x][0] - smooth[x - 1][0]).abs();
-            largest = if covered { largest.max(f64::from(255.0 * step)) } else { largest };
+            largest = if covered {
+                largest.max(f64::from(255.0 * step))
+            } else {
+                largest
+            };
         }
     }
     largest
@@ -65,17 +76,26 @@ fn gates(content: &mut Content) -> Result<(), FigureError> {
     let all: [LinearPicture; 3] = [gated?, ungated?, weighted?];
     // Diffuse light alone: where it is not over ambient light, the surface is turned away from the light.
     let mut matte = torus(SpecularGate::Gated, 0.4)?;
-    matte.objects.iter_mut().for_each(|object| object.material = Some(grey(0.08, 0.4, 0.0, 1.0)));
+    matte
+        .objects
+        .iter_mut()
+        .for_each(|object| object.material = Some(grey(0.08, 0.4, 0.0, 1.0)));
     let matte = drawn(&matte, "duff-phong")?;
     content.text(
         "A torus in light from behind it. The lectures raise a cosine to a power without asking whether the light reaches \
          the surface at all.",
     );
-    let shown_all =
-        kinds.iter().zip(&all).map(|(kind, picture)| shown("A torus lit from behind, highlights", kind.0, picture));
+    let shown_all = kinds
+        .iter()
+        .zip(&all)
+        .map(|(kind, picture)| shown("A torus lit from behind, highlights", kind.0, picture));
     content.pictures(3, shown_all.collect());
     let behind = |picture: &LinearPicture| {
-        let pairs = picture.texels().iter().zip(matte.texels()).filter(|(_, m)| m[3] > 0.0);
+        let pairs = picture
+            .texels()
+            .iter()
+            .zip(matte.texels())
+            .filter(|(_, m)| m[3] > 0.0);
         let away = pairs.filter(|(_, m)| f64::from(m[0]) <= 0.08 + 1e-6);
         let (mut count, mut shining) = (0usize, 0usize);
         for (texel, m) in away {
@@ -91,16 +111,27 @@ fn gates(content: &mut Content) -> Result<(), FigureError> {
         "share of the surface turned away from the light that shines, as printed",
         (from_behind, "%"),
         Agreement::if_holds(!shines),
-        if shines { "Light from behind shines through." } else { "No light from behind is seen." },
+        if shines {
+            "Light from behind shines through."
+        } else {
+            "No light from behind is seen."
+        },
     ));
     content.found(Finding::new(
         "behind-gated",
         "the same with a gate or a weight",
         (none, "%"),
         Agreement::Adds,
-        if none == 0.0 { "None." } else { "Some is left." },
+        if none == 0.0 {
+            "None."
+        } else {
+            "Some is left."
+        },
     ));
-    let (line, no_line) = (largest_step(&all[0], &all[2]), largest_step(&all[2], &all[0]));
+    let (line, no_line) = (
+        largest_step(&all[0], &all[2]),
+        largest_step(&all[2], &all[0]),
+    );
     let is_line = line > 2.0 * no_line;
     content.found(Finding::new(
         "line",
@@ -119,18 +150,30 @@ fn gates(content: &mut Content) -> Result<(), FigureError> {
 /// A coarse sphere with more light than a picture can hold.
 fn clamping(content: &mut Content) -> Result<(), FigureError> {
     let mesh = builtin("sphere?rings=8&segments=16")?;
-    let bright = scene(mesh, grey(0.2, 1.0, 0.6, 10.0), DVec3::new(-0.4, 0.5, 0.8), 1.1, [112, 112]);
+    let bright = scene(
+        mesh,
+        grey(0.2, 1.0, 0.6, 10.0),
+        DVec3::new(-0.4, 0.5, 0.8),
+        1.1,
+        [112, 112],
+    );
     let frame = bright.frame()?;
     let truth = reference::render(&frame, Model::Phong).to_linear();
-    let (clamped, separate) = (drawn(&bright, "gouraud")?, drawn(&bright, "gouraud-separate")?);
+    let (clamped, separate) = (
+        drawn(&bright, "gouraud")?,
+        drawn(&bright, "gouraud-separate")?,
+    );
     content.text(
         "An overexposed sphere: Gouraud's method with colours clamped at the vertices, with colours clamped at the pixels, \
          and shading at every pixel.",
     );
-    let pictures: Vec<_> =
-        [("clamped at the vertices", &clamped), ("clamped at the pixels", &separate), ("lit at each pixel", &truth)]
-            .map(|(caption, picture)| shown("An overexposed sphere", caption, picture))
-            .into();
+    let pictures: Vec<_> = [
+        ("clamped at the vertices", &clamped),
+        ("clamped at the pixels", &separate),
+        ("lit at each pixel", &truth),
+    ]
+    .map(|(caption, picture)| shown("An overexposed sphere", caption, picture))
+    .into();
     content.pictures(3, pictures);
     let difference = levels(&clamped, &separate);
     content.found(Finding::new(
@@ -144,7 +187,8 @@ fn clamping(content: &mut Content) -> Result<(), FigureError> {
             "It makes no difference here."
         },
     ));
-    let rms = |picture: &LinearPicture| compare(&truth, picture).map(|difference| 255.0 * difference.rms);
+    let rms =
+        |picture: &LinearPicture| compare(&truth, picture).map(|difference| 255.0 * difference.rms);
     let (first, last) = (rms(&clamped)?, rms(&separate)?);
     content.found(Finding::new(
         "nearer",

@@ -53,11 +53,19 @@ fn ellipse(content: &mut Content) {
         x: ("place on the circle, degrees".into(), Scale::Linear),
         y: ("error, degrees".into(), Scale::Linear),
         series: vec![
-            Series::new("by the matrix of the points", degrees().map(|d| (d, around(d).0))),
-            Series::new("by its inverse transpose", degrees().map(|d| (d, around(d).1))),
+            Series::new(
+                "by the matrix of the points",
+                degrees().map(|d| (d, around(d).0)),
+            ),
+            Series::new(
+                "by its inverse transpose",
+                degrees().map(|d| (d, around(d).1)),
+            ),
         ],
         marks: Vec::new(),
-        caption: "At the ends of the axes both are right: that is what the arrows of Figure 4 show.".into(),
+        caption:
+            "At the ends of the axes both are right: that is what the arrows of Figure 4 show."
+                .into(),
     });
     let largest = |of: fn((f64, f64)) -> f64| degrees().map(|d| of(around(d))).fold(0.0, f64::max);
     let (wrong, right) = (largest(|errors| errors.0), largest(|errors| errors.1));
@@ -67,7 +75,11 @@ fn ellipse(content: &mut Content) {
         "largest error of normals by the matrix of the points",
         (wrong, "degrees"),
         Agreement::if_holds(is_wrong),
-        if is_wrong { "They are no normals, as the notes say." } else { "They are normals." },
+        if is_wrong {
+            "They are no normals, as the notes say."
+        } else {
+            "They are normals."
+        },
     ));
     // Both vectors are computed from the same sine and cosine, in a few roundings of 2⁻⁵³ each.
     let is_right = right < 1e-6;
@@ -76,7 +88,11 @@ fn ellipse(content: &mut Content) {
         "largest error of normals by the inverse transpose",
         (right, "degrees"),
         Agreement::if_holds(is_right),
-        if is_right { "They are at right angles to the surface, to rounding." } else { "They are not normals either." },
+        if is_right {
+            "They are at right angles to the surface, to rounding."
+        } else {
+            "They are not normals either."
+        },
     ));
 }
 
@@ -93,7 +109,10 @@ fn stretched() -> Result<PolygonMesh, FigureError> {
         mesh.polygon(polygon);
     });
     // The normal of a unit sphere is its position, so that the stretched normal is the stretched position.
-    mesh.normals(GivenNormals { values: stretched.map(|n| n.normalize().as_vec3()).collect(), corners: None });
+    mesh.normals(GivenNormals {
+        values: stretched.map(|n| n.normalize().as_vec3()).collect(),
+        corners: None,
+    });
     Ok(mesh.finish()?)
 }
 
@@ -113,11 +132,22 @@ fn ellipsoid(content: &mut Content) -> Result<(), FigureError> {
     let draw = |scene: Scene| drawn(&scene, "naive-phong");
     let right = draw(lit(sphere()?, NormalSource::Given, by_scale)?)?;
     // Averages are taken before the transform: of the stretched polygons only where the mesh itself is stretched.
-    let polygons = draw(lit(stretched()?, NormalSource::Averaged, DAffine3::IDENTITY)?)?;
+    let polygons = draw(lit(
+        stretched()?,
+        NormalSource::Averaged,
+        DAffine3::IDENTITY,
+    )?)?;
     let wrong = draw(lit(stretched()?, NormalSource::Given, DAffine3::IDENTITY)?)?;
     content.text("A sphere stretched into an ellipsoid. The engine transforms its normals by the inverse transpose; beside it the normals that its matrix makes of them.");
     let what = "An ellipsoid with a highlight, normals";
-    content.pictures(2, [shown(what, "by the inverse transpose", &right), shown(what, "by the matrix", &wrong)].into());
+    content.pictures(
+        2,
+        [
+            shown(what, "by the inverse transpose", &right),
+            shown(what, "by the matrix", &wrong),
+        ]
+        .into(),
+    );
     let (near, far) = (levels(&right, &polygons), levels(&right, &wrong));
     let holds = near < far / 4.0;
     content.found(Finding::new(
@@ -140,7 +170,11 @@ fn ellipsoid(content: &mut Content) -> Result<(), FigureError> {
         "by the matrix against by the inverse transpose, largest difference",
         (far, "grey levels"),
         Agreement::if_holds(visible),
-        if visible { "The light is on the wrong part of the surface." } else { "The light hardly moves." },
+        if visible {
+            "The light is on the wrong part of the surface."
+        } else {
+            "The light hardly moves."
+        },
     ));
     Ok(())
 }

@@ -13,7 +13,12 @@ use glam::DVec3;
 
 /// A material that reflects all channels alike.
 pub(super) fn grey(ambient: f32, diffuse: f32, specular: f32, shininess: f32) -> Material {
-    Material { ambient: [ambient; 3], diffuse: [diffuse; 3], specular: [specular; 3], shininess }
+    Material {
+        ambient: [ambient; 3],
+        diffuse: [diffuse; 3],
+        specular: [specular; 3],
+        shininess,
+    }
 }
 
 /// `mesh` around the origin, seen from +z, `half_height` of space above the middle of the picture; one white light along
@@ -36,7 +41,10 @@ pub(super) fn scene(
     let mut scene = Scene::of_mesh(mesh);
     (scene.width, scene.height, scene.camera) = (width, height, camera);
     scene.lights = vec![Light::directional(light.normalize(), [1.0; 3])];
-    scene.objects.iter_mut().for_each(|object| object.material = Some(material));
+    scene
+        .objects
+        .iter_mut()
+        .for_each(|object| object.material = Some(material));
     scene
 }
 
@@ -58,6 +66,11 @@ pub(super) fn share(picture: &LinearPicture, is: impl Fn([f32; 4]) -> bool) -> f
 
 /// The largest difference of two pictures in grey levels, over the pixels that both cover.
 pub(super) fn levels(a: &LinearPicture, b: &LinearPicture) -> f64 {
-    let both = a.texels().iter().zip(b.texels()).filter(|(a, b)| a[3] > 0.0 && b[3] > 0.0);
-    both.flat_map(|(a, b)| (0..3).map(|c| 255.0 * f64::from((a[c] - b[c]).abs()))).fold(0.0, f64::max)
+    let both = a
+        .texels()
+        .iter()
+        .zip(b.texels())
+        .filter(|(a, b)| a[3] > 0.0 && b[3] > 0.0);
+    both.flat_map(|(a, b)| (0..3).map(|c| 255.0 * f64::from((a[c] - b[c]).abs())))
+        .fold(0.0, f64::max)
 }

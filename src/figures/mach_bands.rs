@@ -44,21 +44,45 @@ fn cylinder(angles: &[f64]) -> Result<Frame, FigureError> {
             let corner = |degrees: f64, y: f64| Corner::new([column(degrees), y], normal(degrees));
             let bottom = f64::from(SIZE[1]);
             let [left, right] = [pair[0], pair[1]];
-            let corners = [corner(left, 0.0), corner(right, 0.0), corner(right, bottom), corner(left, bottom)];
-            Facet { normal: normal((left + right) / 2.0), ..Facet::new(corners) }
+            let corners = [
+                corner(left, 0.0),
+                corner(right, 0.0),
+                corner(right, bottom),
+                corner(left, bottom),
+            ];
+            Facet {
+                normal: normal((left + right) / 2.0),
+                ..Facet::new(corners)
+            }
         })
         .collect();
     // No part of the cylinder is dark: a terminator would bend the profile of its own.
     let light = DVec3::new(0.2, 0.0, 0.98);
-    frame(SIZE, &Grey { light, ambient: 0.1, diffuse: 0.6, specular: 0.3, shininess: 12.0 }, &facets)
+    frame(
+        SIZE,
+        &Grey {
+            light,
+            ambient: 0.1,
+            diffuse: 0.6,
+            specular: 0.3,
+            shininess: 12.0,
+        },
+        &facets,
+    )
 }
 
 /// The largest jump of value, and of slope, over the edges between facets.
 fn largest(profile: &[f64]) -> Jump {
-    let mut most = Jump { value: 0.0, slope: 0.0 };
+    let mut most = Jump {
+        value: 0.0,
+        slope: 0.0,
+    };
     for degrees in &FACETS[1..FACETS.len() - 1] {
         let here = jump(profile, column(*degrees));
-        most = Jump { value: most.value.max(here.value.abs()), slope: most.slope.max(here.slope.abs()) };
+        most = Jump {
+            value: most.value.max(here.value.abs()),
+            slope: most.slope.max(here.slope.abs()),
+        };
     }
     most
 }
@@ -79,12 +103,18 @@ fn make() -> Result<Content, FigureError> {
          300 facets. Lines stand where facets meet. The eye exaggerates jumps of intensity, and also, less, jumps of its \
          slope: bands are seen there although no intensity jumps (Mach; Phong 1975).",
     );
-    let shown = pictures
-        .iter()
-        .map(|(name, picture)| Shown::new(*name, format!("A cylinder of five facets: {name}."), stored(picture)));
+    let shown = pictures.iter().map(|(name, picture)| {
+        Shown::new(
+            *name,
+            format!("A cylinder of five facets: {name}."),
+            stored(picture),
+        )
+    });
     content.pictures(2, shown.collect());
-    let profiles: Vec<(&str, Vec<f64>)> =
-        pictures.iter().map(|(name, picture)| (*name, profile(picture, SIZE[1] as usize / 2))).collect();
+    let profiles: Vec<(&str, Vec<f64>)> = pictures
+        .iter()
+        .map(|(name, picture)| (*name, profile(picture, SIZE[1] as usize / 2)))
+        .collect();
     curves(&mut content, &profiles);
     numbers(&mut content, &profiles);
     Ok(content)
@@ -93,9 +123,13 @@ fn make() -> Result<Content, FigureError> {
 fn curves(content: &mut Content, profiles: &[(&str, Vec<f64>)]) {
     // The background beside the cylinder is no part of it.
     let seen = libm::ceil(column(FACETS[0])) as usize..libm::floor(column(FACETS[5])) as usize;
-    let marks: Vec<f64> = FACETS[1..5].iter().map(|degrees| column(*degrees)).collect();
-    let line =
-        |(name, profile): &(&str, Vec<f64>)| Series::new(*name, seen.clone().map(|i| (i as f64 + 0.5, profile[i])));
+    let marks: Vec<f64> = FACETS[1..5]
+        .iter()
+        .map(|degrees| column(*degrees))
+        .collect();
+    let line = |(name, profile): &(&str, Vec<f64>)| {
+        Series::new(*name, seen.clone().map(|i| (i as f64 + 0.5, profile[i])))
+    };
     content.plot(Plot {
         title: "Intensity along a scan line".into(),
         x: ("column, pixels".into(), Scale::Linear),
@@ -106,7 +140,10 @@ fn curves(content: &mut Content, profiles: &[(&str, Vec<f64>)]) {
     });
     let bend = |(name, profile): &(&str, Vec<f64>)| {
         let second = |i: usize| profile[i - 1] - 2.0 * profile[i] + profile[i + 1];
-        Series::new(*name, (seen.start + 1..seen.end - 1).map(|i| (i as f64 + 0.5, second(i))))
+        Series::new(
+            *name,
+            (seen.start + 1..seen.end - 1).map(|i| (i as f64 + 0.5, second(i))),
+        )
     };
     content.plot(Plot {
         title: "Second difference along a scan line".into(),
@@ -114,12 +151,15 @@ fn curves(content: &mut Content, profiles: &[(&str, Vec<f64>)]) {
         y: ("second difference, grey levels".into(), Scale::Linear),
         series: profiles[1..].iter().map(bend).collect(),
         marks,
-        caption: "The spikes at the edges are jumps of the slope. The cylinder itself has none.".to_string(),
+        caption: "The spikes at the edges are jumps of the slope. The cylinder itself has none."
+            .to_string(),
     });
 }
 
 fn numbers(content: &mut Content, profiles: &[(&str, Vec<f64>)]) {
-    let [methods @ .., (_, smooth)] = profiles else { return };
+    let [methods @ .., (_, smooth)] = profiles else {
+        return;
+    };
     // What the measurement itself makes of a curve that does not bend.
     let control = largest(smooth);
     content.found(Finding::new(
@@ -132,21 +172,33 @@ fn numbers(content: &mut Content, profiles: &[(&str, Vec<f64>)]) {
     let mut rows = Vec::new();
     for (name, profile) in methods {
         let found = largest(profile);
-        rows.push(Vec::from([name.to_string(), written(found.value), written(found.slope)]));
+        rows.push(Vec::from([
+            name.to_string(),
+            written(found.value),
+            written(found.slope),
+        ]));
         let is_continuous = found.value < 0.5;
         content.found(Finding::new(
             format!("value-{name}"),
             format!("{name}: largest jump of the intensity"),
             (found.value, "grey levels"),
             Agreement::if_holds(is_continuous == (*name != "flat")),
-            if is_continuous { "Intensities agree along common edges." } else { "The intensity jumps at edges." },
+            if is_continuous {
+                "Intensities agree along common edges."
+            } else {
+                "The intensity jumps at edges."
+            },
         ));
         let is_smooth = found.slope < 4.0 * control.slope;
         content.found(Finding::new(
             format!("slope-{name}"),
             format!("{name}: largest jump of the slope"),
             (found.slope, "grey levels a pixel"),
-            if *name == "flat" { Agreement::Adds } else { Agreement::if_holds(is_smooth) },
+            if *name == "flat" {
+                Agreement::Adds
+            } else {
+                Agreement::if_holds(is_smooth)
+            },
             if is_smooth {
                 "No more than the cylinder itself has."
             } else {
@@ -154,5 +206,12 @@ fn numbers(content: &mut Content, profiles: &[(&str, Vec<f64>)]) {
             },
         ));
     }
-    content.table(&["at the edges of facets", "jump of intensity, levels", "jump of slope, levels a pixel"], rows);
+    content.table(
+        &[
+            "at the edges of facets",
+            "jump of intensity, levels",
+            "jump of slope, levels a pixel",
+        ],
+        rows,
+    );
 }

@@ -108,7 +108,10 @@ impl Figure {
             Some(near) => format!("unknown figure `{name}`: did you mean `{near}`?"),
             None => {
                 let all: Vec<String> = names().map(|name| format!("`{name}`")).collect();
-                format!("unknown figure `{name}`: expected one of {}", all.join(", "))
+                format!(
+                    "unknown figure `{name}`: expected one of {}",
+                    all.join(", ")
+                )
             }
         })
     }

@@ -27,7 +27,9 @@ struct Example {
 
 /// The regular hexagon of radius 1.
 fn hexagon() -> Vec<DVec2> {
-    (0..6).map(|k| DVec2::from_angle(f64::from(k) * core::f64::consts::FRAC_PI_3)).collect()
+    (0..6)
+        .map(|k| DVec2::from_angle(f64::from(k) * core::f64::consts::FRAC_PI_3))
+        .collect()
 }
 
 /// A hexagon with one more corner between the first two: at this part of their edge, and so far outside of it.
@@ -42,16 +44,36 @@ fn with_corner(part: f64, outside: f64) -> Vec<DVec2> {
 fn examples() -> [Example; 5] {
     let reflex = [(-1.0, -0.8), (0.0, -0.2), (1.0, -0.8), (0.0, 1.0)].map(DVec2::from);
     [
-        Example { key: "hexagon", what: "regular hexagon", corners: hexagon(), is_named: true },
-        Example { key: "short", what: "an edge of 10⁻⁶", corners: with_corner(1e-6, 2e-7), is_named: true },
-        Example { key: "collinear", what: "three collinear vertices", corners: with_corner(0.5, 0.0), is_named: true },
+        Example {
+            key: "hexagon",
+            what: "regular hexagon",
+            corners: hexagon(),
+            is_named: true,
+        },
+        Example {
+            key: "short",
+            what: "an edge of 10⁻⁶",
+            corners: with_corner(1e-6, 2e-7),
+            is_named: true,
+        },
+        Example {
+            key: "collinear",
+            what: "three collinear vertices",
+            corners: with_corner(0.5, 0.0),
+            is_named: true,
+        },
         Example {
             key: "nearly",
             what: "three nearly collinear vertices",
             corners: with_corner(0.5, 1e-7),
             is_named: true,
         },
-        Example { key: "reflex", what: "a reflex corner", corners: reflex.into(), is_named: false },
+        Example {
+            key: "reflex",
+            what: "a reflex corner",
+            corners: reflex.into(),
+            is_named: false,
+        },
     ]
 }
 
@@ -63,7 +85,11 @@ fn tilt() -> DQuat {
 /// The corners in space, rounded as a mesh stores them.
 fn placed(example: &Example) -> Vec<Vec3> {
     let tilt = tilt();
-    example.corners.iter().map(|corner| (tilt * corner.extend(0.0)).as_vec3()).collect()
+    example
+        .corners
+        .iter()
+        .map(|corner| (tilt * corner.extend(0.0)).as_vec3())
+        .collect()
 }
 
 /// (P_{i+1} − P_i) × (P_{i+2} − P_{i+1}), in `f32` as the corners are; zero may come out.
@@ -80,19 +106,23 @@ fn by_newell(corners: &[Vec3]) -> DVec3 {
 fn error(normal: DVec3) -> Option<f64> {
     let truth = tilt() * DVec3::Z;
     let unit = normal / normal.length();
-    unit.is_finite().then(|| 2.0 * libm::atan2((unit - truth).length(), (unit + truth).length()).to_degrees())
+    unit.is_finite()
+        .then(|| 2.0 * libm::atan2((unit - truth).length(), (unit + truth).length()).to_degrees())
 }
 
 /// Twice the area in the plane, by the shoelace formula.
 fn twice_the_area(corners: &[DVec2]) -> f64 {
-    (0..corners.len()).map(|k| corners[k].perp_dot(corners[(k + 1) % corners.len()])).sum()
+    (0..corners.len())
+        .map(|k| corners[k].perp_dot(corners[(k + 1) % corners.len()]))
+        .sum()
 }
 
 /// The corner at which the normal from two edges is worst, with that normal: one without a direction is the worst.
 fn worst(corners: &[Vec3]) -> DVec3 {
     let badness = |normal: &DVec3| error(*normal).unwrap_or(f64::INFINITY);
     let all = (0..corners.len()).map(|i| two_edges(corners, i));
-    all.max_by(|a, b| badness(a).total_cmp(&badness(b))).unwrap_or(DVec3::ZERO)
+    all.max_by(|a, b| badness(a).total_cmp(&badness(b)))
+        .unwrap_or(DVec3::ZERO)
 }
 
 fn make() -> Result<Content, FigureError> {
@@ -108,12 +138,16 @@ fn make() -> Result<Content, FigureError> {
     for example in &examples() {
         let corners = placed(example);
         let (edges, sum) = (worst(&corners), by_newell(&corners));
-        let good = (0..corners.len()).filter_map(|i| error(two_edges(&corners, i))).fold(f64::INFINITY, f64::min);
+        let good = (0..corners.len())
+            .filter_map(|i| error(two_edges(&corners, i)))
+            .fold(f64::INFINITY, f64::min);
         let twice = twice_the_area(&example.corners);
         let off = (sum.length() / twice - 1.0).abs();
         area = area.max(off);
         largest = largest.max(error(sum).unwrap_or(180.0));
-        let degrees = |error: Option<f64>| error.map_or(String::from("no direction"), |e| format!("{}°", written(e)));
+        let degrees = |error: Option<f64>| {
+            error.map_or(String::from("no direction"), |e| format!("{}°", written(e)))
+        };
         rows.push(Vec::from([
             example.what.to_string(),
             degrees(Some(good)),
@@ -124,20 +158,38 @@ fn make() -> Result<Content, FigureError> {
         ]));
         failure(&mut content, example, error(edges));
     }
-    content.table(&["polygon", "two edges: best corner", "worst corner", "Newell", "|N|", "2 Area"], rows);
+    content.table(
+        &[
+            "polygon",
+            "two edges: best corner",
+            "worst corner",
+            "Newell",
+            "|N|",
+            "2 Area",
+        ],
+        rows,
+    );
     content.found(Finding::new(
         "newell",
         "Newell's formula: largest error over all polygons",
         (largest, "degrees"),
         Agreement::if_holds(largest < 1e-4),
-        if largest < 1e-4 { "Rounding of the corners, and no more." } else { "More than rounding of the corners." },
+        if largest < 1e-4 {
+            "Rounding of the corners, and no more."
+        } else {
+            "More than rounding of the corners."
+        },
     ));
     content.found(Finding::new(
         "area",
         "|N| against 2 Area: largest relative difference",
         (area, ""),
         Agreement::if_holds(area < 1e-6),
-        if area < 1e-6 { "|N| = 2 Area, rounding aside." } else { "|N| is not 2 Area." },
+        if area < 1e-6 {
+            "|N| = 2 Area, rounding aside."
+        } else {
+            "|N| is not 2 Area."
+        },
     ));
     Ok(content)
 }
@@ -148,7 +200,9 @@ fn failure(content: &mut Content, example: &Example, error: Option<f64>) {
     let fails = degrees > 1.0;
     let verdict = match error {
         None => "The two edges have no normal: their cross product is zero.",
-        Some(e) if e > 90.0 => "It points to the other side: the polygon would be culled, or lit from behind.",
+        Some(e) if e > 90.0 => {
+            "It points to the other side: the polygon would be culled, or lit from behind."
+        }
         Some(_) if fails => "Visibly wrong.",
         Some(_) => "Good where nothing is degenerate.",
     };
@@ -159,7 +213,10 @@ fn failure(content: &mut Content, example: &Example, error: Option<f64>) {
     };
     content.found(Finding::new(
         example.key,
-        format!("two edges at the worst corner, {}: error (180 if there is no direction)", example.what),
+        format!(
+            "two edges at the worst corner, {}: error (180 if there is no direction)",
+            example.what
+        ),
         (degrees, "degrees"),
         agreement,
         verdict,
@@ -170,21 +227,37 @@ fn failure(content: &mut Content, example: &Example, error: Option<f64>) {
 fn pictures(content: &mut Content) -> Result<(), FigureError> {
     // Far from the normal, so that a few degrees are seen.
     let light = DVec3::new(-0.6, 0.3, 0.7);
-    let grey = Grey { ambient: 0.08, diffuse: 0.9, ..Grey::dull(light) };
+    let grey = Grey {
+        ambient: 0.08,
+        diffuse: 0.9,
+        ..Grey::dull(light)
+    };
     let draw = |normal: &dyn Fn(&[Vec3]) -> DVec3| {
         let facets: Vec<Facet> = examples()
             .iter()
             .enumerate()
             .map(|(i, example)| {
                 let middle = DVec2::new(24.0 + 48.0 * i as f64, 24.0);
-                let place = |corner: &DVec2| [middle.x + 21.0 * corner.x, middle.y - 21.0 * corner.y];
-                let corners: Vec<Corner> = example.corners.iter().map(|c| Corner::new(place(c), DVec3::Z)).collect();
+                let place =
+                    |corner: &DVec2| [middle.x + 21.0 * corner.x, middle.y - 21.0 * corner.y];
+                let corners: Vec<Corner> = example
+                    .corners
+                    .iter()
+                    .map(|c| Corner::new(place(c), DVec3::Z))
+                    .collect();
                 let normal = normal(&placed(example));
                 // No direction: no light but the ambient one.
-                Facet { corners, normal: normal.try_normalize().unwrap_or(DVec3::ZERO) }
+                Facet {
+                    corners,
+                    normal: normal.try_normalize().unwrap_or(DVec3::ZERO),
+                }
             })
             .collect();
-        Ok::<_, FigureError>(stored(&Variant::parse("flat")?.render_linear(&frame([240, 48], &grey, &facets)?)))
+        Ok::<_, FigureError>(stored(&Variant::parse("flat")?.render_linear(&frame(
+            [240, 48],
+            &grey,
+            &facets,
+        )?)))
     };
     let names: Vec<&str> = examples().iter().map(|example| example.what).collect();
     let names = names.join(", ");

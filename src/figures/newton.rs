@@ -29,7 +29,12 @@ fn errors(degrees: f64, steps: u32) -> Vec<f64> {
     let [from, to] = [DVec3::new(-sin, 0.0, cos), DVec3::new(sin, 0.0, cos)];
     let step = (to - from) / PIXELS as f64;
     let first = from + 0.5 * step;
-    let mut walk = Newton::new(Scalar, first.as_vec3().to_array(), step.as_vec3().to_array(), steps);
+    let mut walk = Newton::new(
+        Scalar,
+        first.as_vec3().to_array(),
+        step.as_vec3().to_array(),
+        steps,
+    );
     (0..PIXELS)
         .map(|k| {
             let exact = (first + k as f64 * step).length();
@@ -59,16 +64,22 @@ fn make() -> Result<Content, FigureError> {
 fn over_angles(content: &mut Content) {
     let angles: Vec<f64> = (1..=35).map(|i| 5.0 * f64::from(i)).collect();
     let curve = |steps: u32| {
-        let points = angles.iter().map(|&degrees| (degrees, largest(&errors(degrees, steps))));
+        let points = angles
+            .iter()
+            .map(|&degrees| (degrees, largest(&errors(degrees, steps))));
         Series::new(plural(steps), points)
     };
     content.plot(Plot {
         title: "Largest relative error of d over the angle of a span".into(),
-        x: ("angle between the end normals, degrees".into(), Scale::Linear),
+        x: (
+            "angle between the end normals, degrees".into(),
+            Scale::Linear,
+        ),
         y: ("relative error of d".into(), Scale::Log),
         series: STEPS.map(curve).into(),
         marks: Vec::new(),
-        caption: "Each step squares the error and halves it, until rounding is left (about 10⁻⁷).".to_string(),
+        caption: "Each step squares the error and halves it, until rounding is left (about 10⁻⁷)."
+            .to_string(),
     });
 }
 
@@ -76,7 +87,13 @@ fn along_a_span(content: &mut Content) {
     const DEGREES: f64 = 150.0;
     let curve = |steps: u32| {
         let errors = errors(DEGREES, steps);
-        Series::new(plural(steps), errors.into_iter().enumerate().map(|(k, e)| (k as f64, e.abs().max(1e-8))))
+        Series::new(
+            plural(steps),
+            errors
+                .into_iter()
+                .enumerate()
+                .map(|(k, e)| (k as f64, e.abs().max(1e-8))),
+        )
     };
     content.plot(Plot {
         title: "Relative error of d along a span".into(),
@@ -92,17 +109,28 @@ fn along_a_span(content: &mut Content) {
 }
 
 fn plural(steps: u32) -> alloc::string::String {
-    if steps == 1 { "1 step".into() } else { format!("{steps} steps") }
+    if steps == 1 {
+        "1 step".into()
+    } else {
+        format!("{steps} steps")
+    }
 }
 
 fn numbers(content: &mut Content) {
-    let first = STEPS.map(|steps| errors(150.0, steps)[0].abs()).into_iter().fold(0.0, f64::max);
+    let first = STEPS
+        .map(|steps| errors(150.0, steps)[0].abs())
+        .into_iter()
+        .fold(0.0, f64::max);
     content.found(Finding::new(
         "first-pixel",
         "first pixel of a span: relative error of d",
         (first, ""),
         Agreement::Adds,
-        if first < 2e-7 { "A true root, rounded." } else { "Not a true root." },
+        if first < 2e-7 {
+            "A true root, rounded."
+        } else {
+            "Not a true root."
+        },
     ));
     // Half a grey level of 255 is what rounding the picture hides.
     let invisible = 0.5 / 255.0;
@@ -111,7 +139,10 @@ fn numbers(content: &mut Content) {
         let is_good = error < invisible;
         content.found(Finding::new(
             format!("error-{steps}"),
-            format!("span of 60°, {}: largest relative error of d", plural(steps)),
+            format!(
+                "span of 60°, {}: largest relative error of d",
+                plural(steps)
+            ),
             (error, ""),
             Agreement::if_holds(is_good),
             if is_good {
@@ -145,12 +176,21 @@ fn numbers(content: &mut Content) {
         },
     ));
     let steps: Vec<f64> = (1..=35).map(|i| 5.0 * f64::from(i)).collect();
-    let limit = |count: u32| steps.iter().copied().take_while(|&d| largest(&errors(d, count)) < invisible).last();
+    let limit = |count: u32| {
+        steps
+            .iter()
+            .copied()
+            .take_while(|&d| largest(&errors(d, count)) < invisible)
+            .last()
+    };
     for count in STEPS {
         let degrees = limit(count).unwrap_or(0.0);
         content.found(Finding::new(
             format!("limit-{count}"),
-            format!("{}: largest angle over {PIXELS} pixels without a visible error", plural(count)),
+            format!(
+                "{}: largest angle over {PIXELS} pixels without a visible error",
+                plural(count)
+            ),
             (degrees, "degrees"),
             Agreement::Adds,
             format!(
@@ -167,19 +207,43 @@ fn opposed(content: &mut Content) -> Result<(), FigureError> {
     let (sin, cos) = libm::sincos(DEGREES.to_radians() / 2.0);
     let [from, to] = [DVec3::new(-sin, 0.0, cos), DVec3::new(sin, 0.0, cos)];
     let corner = |x: f64, y: f64, normal| Corner::new([x, y], normal);
-    let strip = [corner(0.0, 0.0, from), corner(31.0, 0.0, to), corner(31.0, 6.0, to), corner(0.0, 6.0, from)];
-    let frame = frame([31, 6], &Grey::dull(DVec3::new(1.0, 0.0, 0.6)), &[Facet::new(strip)])?;
+    let strip = [
+        corner(0.0, 0.0, from),
+        corner(31.0, 0.0, to),
+        corner(31.0, 6.0, to),
+        corner(0.0, 6.0, from),
+    ];
+    let frame = frame(
+        [31, 6],
+        &Grey::dull(DVec3::new(1.0, 0.0, 0.6)),
+        &[Facet::new(strip)],
+    )?;
     let naive = Variant::parse("naive-phong")?.render_linear(&frame);
-    let mut shown =
-        Vec::from([Shown::new("naive Phong", "Almost opposed normals, shaded by naive Phong.", stored(&naive))]);
+    let mut shown = Vec::from([Shown::new(
+        "naive Phong",
+        "Almost opposed normals, shaded by naive Phong.",
+        stored(&naive),
+    )]);
     let (mut worst, mut not_finite) = (Vec::new(), 0);
     for steps in STEPS {
         let fast = Variant::parse(&format!("fast-phong:steps={steps}"))?.render_linear(&frame);
-        let differences = fast.texels().iter().zip(naive.texels()).map(|(a, b)| 255.0 * f64::from((a[0] - b[0]).abs()));
+        let differences = fast
+            .texels()
+            .iter()
+            .zip(naive.texels())
+            .map(|(a, b)| 255.0 * f64::from((a[0] - b[0]).abs()));
         worst.push(differences.fold(0.0, f64::max));
-        not_finite += fast.texels().iter().filter(|texel| !texel[0].is_finite()).count();
+        not_finite += fast
+            .texels()
+            .iter()
+            .filter(|texel| !texel[0].is_finite())
+            .count();
         let alt = format!("The same by fast Phong with {}.", plural(steps));
-        shown.push(Shown::new(format!("fast Phong, {}", plural(steps)), alt, stored(&fast)));
+        shown.push(Shown::new(
+            format!("fast Phong, {}", plural(steps)),
+            alt,
+            stored(&fast),
+        ));
     }
     content.text(format!(
         "Where the normals at the ends are almost opposed ({DEGREES}° here, over 31 pixels, one of them in the middle), d falls to almost nothing in \
@@ -191,10 +255,17 @@ fn opposed(content: &mut Content) -> Result<(), FigureError> {
         let breaks = worst > 1.0;
         content.found(Finding::new(
             format!("opposed-{steps}"),
-            format!("normals {DEGREES}° apart, {}: largest difference from naive Phong", plural(steps)),
+            format!(
+                "normals {DEGREES}° apart, {}: largest difference from naive Phong",
+                plural(steps)
+            ),
             (worst, "grey levels"),
             Agreement::if_holds(!breaks),
-            if breaks { "Few iterations are not enough where normals nearly cancel." } else { "Still not visible." },
+            if breaks {
+                "Few iterations are not enough where normals nearly cancel."
+            } else {
+                "Still not visible."
+            },
         ));
     }
     content.found(Finding::new(
@@ -202,7 +273,11 @@ fn opposed(content: &mut Content) -> Result<(), FigureError> {
         "pixels there that are infinite or not a number",
         (not_finite as f64, "pixels"),
         Agreement::Adds,
-        if not_finite == 0 { "Wrong, but always a number." } else { "Some pixels are not numbers." },
+        if not_finite == 0 {
+            "Wrong, but always a number."
+        } else {
+            "Some pixels are not numbers."
+        },
     ));
     Ok(())
 }

@@ -33,27 +33,53 @@ fn angles(spec: &str) -> Result<(f64, f64, usize), FigureError> {
     let of = |source: NormalSource| -> Result<Vec<DVec3>, FigureError> {
         let mut scene = Scene::of_mesh(builtin(spec)?);
         scene.culling = crate::scene::Culling::None;
-        scene.objects.iter_mut().for_each(|object| object.normals = source);
+        scene
+            .objects
+            .iter_mut()
+            .for_each(|object| object.normals = source);
         let frame = scene.frame()?;
         let normal = |v: &u32| DVec3::from_array(frame.normal(*v).map(f64::from));
-        Ok(frame.polygons().iter().flat_map(|polygon| frame.corners(polygon)).map(normal).collect())
+        Ok(frame
+            .polygons()
+            .iter()
+            .flat_map(|polygon| frame.corners(polygon))
+            .map(normal)
+            .collect())
     };
     let (averaged, given) = (of(NormalSource::Averaged)?, of(NormalSource::Given)?);
-    let angle = |(a, b): (&DVec3, &DVec3)| 2.0 * libm::atan2((*a - *b).length(), (*a + *b).length()).to_degrees();
+    let angle = |(a, b): (&DVec3, &DVec3)| {
+        2.0 * libm::atan2((*a - *b).length(), (*a + *b).length()).to_degrees()
+    };
     let all: Vec<f64> = averaged.iter().zip(&given).map(angle).collect();
     let most = all.iter().copied().fold(0.0, f64::max);
     Ok((
         most,
         all.iter().sum::<f64>() / all.len().max(1) as f64,
-        Scene::of_mesh(builtin(spec)?).objects[0].mesh.polygon_count(),
+        Scene::of_mesh(builtin(spec)?).objects[0]
+            .mesh
+            .polygon_count(),
     ))
 }
 
 /// L5: "best to get vertex normals from the underlying geometry".
 fn sources(content: &mut Content) -> Result<(), FigureError> {
     let families: [(&str, [&str; 3]); 3] = [
-        ("sphere", ["sphere?rings=6&segments=12", "sphere?rings=12&segments=24", "sphere?rings=24&segments=48"]),
-        ("torus", ["torus?segments=12&sides=8", "torus?segments=24&sides=16", "torus?segments=48&sides=32"]),
+        (
+            "sphere",
+            [
+                "sphere?rings=6&segments=12",
+                "sphere?rings=12&segments=24",
+                "sphere?rings=24&segments=48",
+            ],
+        ),
+        (
+            "torus",
+            [
+                "torus?segments=12&sides=8",
+                "torus?segments=24&sides=16",
+                "torus?segments=48&sides=32",
+            ],
+        ),
         ("teapot", ["teapot?res=2", "teapot?res=4", "teapot?res=8"]),
     ];
     let (mut rows, mut curves) = (Vec::new(), Vec::new());
@@ -62,14 +88,22 @@ fn sources(content: &mut Content) -> Result<(), FigureError> {
         let mut points = Vec::new();
         for spec in specs {
             let (most, mean, polygons) = angles(spec)?;
-            rows.push(vec![name.to_string(), polygons.to_string(), written(most), written(mean)]);
+            rows.push(vec![
+                name.to_string(),
+                polygons.to_string(),
+                written(most),
+                written(mean),
+            ]);
             points.push((polygons as f64, mean));
         }
         means.push(points.iter().map(|p| p.1).collect::<Vec<_>>());
         curves.push(Series::new(name, points));
     }
     content.text("The angle between a vertex normal averaged over the polygons around it (3.1) and the normal of the surface there.");
-    content.table(&["surface", "polygons", "largest, degrees", "mean, degrees"], rows);
+    content.table(
+        &["surface", "polygons", "largest, degrees", "mean, degrees"],
+        rows,
+    );
     content.plot(Plot {
         title: "Averaged normals: mean angle from the normals of the surface".into(),
         x: ("polygons".into(), Scale::Log),
@@ -78,7 +112,9 @@ fn sources(content: &mut Content) -> Result<(), FigureError> {
         marks: Vec::new(),
         caption: "Finer meshes have better averages.".into(),
     });
-    let falls = means.iter().all(|of| of.windows(2).all(|pair| pair[1] < pair[0]));
+    let falls = means
+        .iter()
+        .all(|of| of.windows(2).all(|pair| pair[1] < pair[0]));
     content.found(Finding::new(
         "averaged",
         "mean angle of averaged normals, teapot of fewest polygons",
@@ -118,7 +154,10 @@ fn sources(content: &mut Content) -> Result<(), FigureError> {
 /// The squared length of the normal between two that enclose `degrees`, as Duff's forward differences step it.
 fn squares(degrees: f64, pixels: usize) -> Vec<f64> {
     let (sin, cos) = libm::sincos(degrees.to_radians() / 2.0);
-    let (from, to) = ([-sin as f32, 0.0, cos as f32], [sin as f32, 0.0, cos as f32]);
+    let (from, to) = (
+        [-sin as f32, 0.0, cos as f32],
+        [sin as f32, 0.0, cos as f32],
+    );
     let step = [0, 1, 2].map(|i: usize| (to[i] - from[i]) / pixels as f32);
     let mut walk = Quadratic::square(Scalar, from, step);
     (0..=pixels).map(|_| f64::from(walk.next())).collect()
@@ -130,9 +169,16 @@ fn lengths(content: &mut Content) -> Result<(), FigureError> {
     let angles = [30.0, 60.0, 90.0, 120.0];
     let mut worst: f64 = 0.0;
     let curves = angles.map(|degrees| {
-        let lengths: Vec<f64> = squares(degrees, PIXELS).into_iter().map(libm::sqrt).collect();
+        let lengths: Vec<f64> = squares(degrees, PIXELS)
+            .into_iter()
+            .map(libm::sqrt)
+            .collect();
         worst = worst.max((lengths[PIXELS / 2] - libm::cos(degrees.to_radians() / 2.0)).abs());
-        let points = lengths.iter().enumerate().step_by(2).map(|(k, l)| (k as f64 / PIXELS as f64, *l));
+        let points = lengths
+            .iter()
+            .enumerate()
+            .step_by(2)
+            .map(|(k, l)| (k as f64 / PIXELS as f64, *l));
         Series::new(format!("{degrees}° between the ends"), points)
     });
     content.plot(Plot {
@@ -162,14 +208,33 @@ fn lengths(content: &mut Content) -> Result<(), FigureError> {
 /// Gouraud's method on a dull surface is the light of normals that are not normalised: L·N is linear in N.
 fn darkened(content: &mut Content) -> Result<(), FigureError> {
     let mesh = builtin("sphere?rings=6&segments=8")?;
-    let dull = scene(mesh, grey(0.0, 1.0, 0.0, 1.0), DVec3::new(-0.3, 0.4, 0.9), 1.1, [112, 112]);
+    let dull = scene(
+        mesh,
+        grey(0.0, 1.0, 0.0, 1.0),
+        DVec3::new(-0.3, 0.4, 0.9),
+        1.1,
+        [112, 112],
+    );
     let (shortened, unit) = (drawn(&dull, "gouraud")?, drawn(&dull, "naive-phong")?);
     content.text("On a dull surface Gouraud's method shows what normals do that are not normalised: L·N is linear in N, so that interpolating it is interpolating N and leaving its length.");
     let what = "A coarse sphere, interpolated normals";
-    content.pictures(2, [shown(what, "as they are", &shortened), shown(what, "normalised", &unit)].into());
+    content.pictures(
+        2,
+        [
+            shown(what, "as they are", &shortened),
+            shown(what, "normalised", &unit),
+        ]
+        .into(),
+    );
     // Where the light is in front of all corners of a polygon no clamp interferes; elsewhere Gouraud's clamp brightens.
-    let lit = shortened.texels().iter().zip(unit.texels()).filter(|(a, b)| a[3] > 0.0 && b[0] > 0.5);
-    let largest = lit.map(|(a, b)| f64::from(1.0 - a[0] / b[0])).fold(0.0, f64::max);
+    let lit = shortened
+        .texels()
+        .iter()
+        .zip(unit.texels())
+        .filter(|(a, b)| a[3] > 0.0 && b[0] > 0.5);
+    let largest = lit
+        .map(|(a, b)| f64::from(1.0 - a[0] / b[0]))
+        .fold(0.0, f64::max);
     let visible = largest > 0.01;
     content.found(Finding::new(
         "darkened",

@@ -20,7 +20,14 @@ pub(super) static FIGURE: Figure = Figure {
 const SIZE: [u32; 2] = [160, 120];
 
 /// All orders of three objects.
-const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+const ORDERS: [[usize; 3]; 6] = [
+    [0, 1, 2],
+    [0, 2, 1],
+    [1, 0, 2],
+    [1, 2, 0],
+    [2, 0, 1],
+    [2, 1, 0],
+];
 
 fn make() -> Result<Content, FigureError> {
     let mut content = Content::default();
@@ -36,13 +43,22 @@ fn make() -> Result<Content, FigureError> {
 }
 
 fn drawn(scene: &Scene, hidden_surfaces: HiddenSurfaces) -> Result<LinearPicture, FigureError> {
-    let scene = Scene { hidden_surfaces, ..scene.clone() };
+    let scene = Scene {
+        hidden_surfaces,
+        ..scene.clone()
+    };
     Ok(Variant::parse("naive-phong")?.render_linear(&scene.frame()?))
 }
 
 /// The objects of a scene in another order.
 fn reordered(scene: &Scene, order: [usize; 3]) -> Scene {
-    Scene { objects: order.iter().filter_map(|&i| scene.objects.get(i).cloned()).collect(), ..scene.clone() }
+    Scene {
+        objects: order
+            .iter()
+            .filter_map(|&i| scene.objects.get(i).cloned())
+            .collect(),
+        ..scene.clone()
+    }
 }
 
 /// A scene by depth buffer and by painter, side by side; the pixels that differ.
@@ -51,9 +67,20 @@ fn by_both(content: &mut Content, scene: &Scene, what: &str) -> Result<usize, Fi
     let by_painter = drawn(scene, HiddenSurfaces::Painter(PainterKey::Mean))?;
     let wrong = differing(&by_depth, &by_painter);
     let shown = |how: &str, picture: &LinearPicture| {
-        Shown::new(format!("{what}: {how}"), format!("{what}, by {how}."), stored(picture))
+        Shown::new(
+            format!("{what}: {how}"),
+            format!("{what}, by {how}."),
+            stored(picture),
+        )
     };
-    content.pictures(2, [shown("depth buffer", &by_depth), shown("painter", &by_painter)].into());
+    content.pictures(
+        2,
+        [
+            shown("depth buffer", &by_depth),
+            shown("painter", &by_painter),
+        ]
+        .into(),
+    );
     Ok(wrong)
 }
 
@@ -65,7 +92,11 @@ fn ring(content: &mut Content) -> Result<(), FigureError> {
         "pixels of the ring that the painter draws wrongly",
         (wrong as f64, "pixels"),
         Agreement::if_holds(wrong > 0),
-        if wrong > 0 { "The painter cannot draw the ring." } else { "The painter draws the ring right." },
+        if wrong > 0 {
+            "The painter cannot draw the ring."
+        } else {
+            "The painter draws the ring right."
+        },
     ));
     let by_depth = drawn(&scene, HiddenSurfaces::ZBuffer(DepthBuffer::default()))?;
     let mut least = usize::MAX;
@@ -78,7 +109,11 @@ fn ring(content: &mut Content) -> Result<(), FigureError> {
         "wrong pixels in the best of all six orders",
         (least as f64, "pixels"),
         Agreement::if_holds(least > 0),
-        if least > 0 { "No order is right, all were tried." } else { "There is an order that is right." },
+        if least > 0 {
+            "No order is right, all were tried."
+        } else {
+            "There is an order that is right."
+        },
     ));
     let cycles = conflicts(&scene.frame()?).cycles;
     let members: usize = cycles.iter().map(Vec::len).sum();
@@ -87,7 +122,10 @@ fn ring(content: &mut Content) -> Result<(), FigureError> {
         "polygons that are found to hide each other in a ring",
         (members as f64, "polygons"),
         Agreement::Adds,
-        format!("The program finds {} such ring before it draws, and says so.", cycles.len()),
+        format!(
+            "The program finds {} such ring before it draws, and says so.",
+            cycles.len()
+        ),
     ));
     Ok(())
 }
@@ -100,7 +138,11 @@ fn cutting(content: &mut Content) -> Result<(), FigureError> {
         "pixels of polygons that cut each other which the painter draws wrongly",
         (wrong as f64, "pixels"),
         Agreement::if_holds(wrong > 0),
-        if wrong > 0 { "Only the depth buffer shows where they meet." } else { "The painter shows where they meet." },
+        if wrong > 0 {
+            "Only the depth buffer shows where they meet."
+        } else {
+            "The painter shows where they meet."
+        },
     ));
     let pairs = conflicts(&scene.frame()?).interpenetrating;
     content.found(Finding::new(

@@ -76,10 +76,15 @@ fn board(triangles: bool, interpolation: Interpolation) -> Result<LinearPicture,
 /// The colour of the board where the ray of each pixel meets the floor.
 fn ray(x: usize, y: usize) -> Option<[f32; 3]> {
     let camera = camera();
-    let Projection::Perspective { fovy } = camera.projection else { return None };
+    let Projection::Perspective { fovy } = camera.projection else {
+        return None;
+    };
     let [right, up, forward] = camera.axes();
     let scale = libm::tan(fovy.to_radians() / 2.0);
-    let (u, v) = ((2 * x + 1) as f64 / WIDTH as f64 - 1.0, 1.0 - (2 * y + 1) as f64 / HEIGHT as f64);
+    let (u, v) = (
+        (2 * x + 1) as f64 / WIDTH as f64 - 1.0,
+        1.0 - (2 * y + 1) as f64 / HEIGHT as f64,
+    );
     let ray = forward + right * (u * scale * WIDTH as f64 / HEIGHT as f64) + up * (v * scale);
     let p = camera.eye - camera.eye.y / ray.y * ray;
     let is_met = ray.y < 0.0 && p.x.abs() < REACH && p.z.abs() < REACH;
@@ -102,9 +107,21 @@ fn wrong(picture: &LinearPicture) -> f64 {
 fn make() -> Result<Content, FigureError> {
     let mut content = Content::default();
     let pictures = [
-        ("screen", "linear on the screen", board(false, Interpolation::Screen)?),
-        ("screen-triangles", "the same, cut into two triangles", board(true, Interpolation::Screen)?),
-        ("space", "linear in space", board(true, Interpolation::Perspective)?),
+        (
+            "screen",
+            "linear on the screen",
+            board(false, Interpolation::Screen)?,
+        ),
+        (
+            "screen-triangles",
+            "the same, cut into two triangles",
+            board(true, Interpolation::Screen)?,
+        ),
+        (
+            "space",
+            "linear in space",
+            board(true, Interpolation::Perspective)?,
+        ),
     ];
     content.text(
         "A floor of eight by eight squares, its world coordinates interpolated and the board computed at each pixel. Linear \
@@ -112,14 +129,20 @@ fn make() -> Result<Content, FigureError> {
          those that the rays of the pixels meet.",
     );
     let shown = |(_, caption, picture): &(&str, &str, LinearPicture)| {
-        Shown::new(*caption, format!("A checkerboard seen in perspective, {caption}."), stored(picture))
+        Shown::new(
+            *caption,
+            format!("A checkerboard seen in perspective, {caption}."),
+            stored(picture),
+        )
     };
     content.pictures(3, pictures.iter().map(shown).collect());
     for (key, how, picture) in &pictures {
         let wrong = wrong(picture);
         let is_space = *key == "space";
         let verdict = match (wrong < 0.5, is_space) {
-            (true, _) => "The board is right: only pixels on the rim of a square may fall to either side.",
+            (true, _) => {
+                "The board is right: only pixels on the rim of a square may fall to either side."
+            }
             (false, true) => "The board is wrong.",
             (false, false) => "The board is wrong, as the slide shows it.",
         };
@@ -167,11 +190,22 @@ fn weight(content: &mut Content) -> Result<(), FigureError> {
     let [z_a, z_b] = ENDS;
     let drawn = vertex_colours(&strip()?);
     let alpha = |x: usize| 1.0 - (x as f64 + 0.5) / STRIP as f64;
-    let engine: Vec<(f64, f64)> = (0..STRIP).map(|x| (alpha(x), f64::from(drawn.get(x, 0)[0]))).collect();
-    let curve = |of: &dyn Fn(f64) -> f64| (0..STRIP).map(|x| (alpha(x), of(alpha(x)))).collect::<Vec<_>>();
+    let engine: Vec<(f64, f64)> = (0..STRIP)
+        .map(|x| (alpha(x), f64::from(drawn.get(x, 0)[0])))
+        .collect();
+    let curve = |of: &dyn Fn(f64) -> f64| {
+        (0..STRIP)
+            .map(|x| (alpha(x), of(alpha(x))))
+            .collect::<Vec<_>>()
+    };
     let corrected = curve(&|alpha| weight_in_space(alpha, z_a, z_b));
     let printed = curve(&|alpha| printed_weight_in_space(alpha, z_a, z_b));
-    let off = |curve: &[(f64, f64)]| engine.iter().zip(curve).fold(0.0f64, |m, (e, c)| m.max((e.1 - c.1).abs()));
+    let off = |curve: &[(f64, f64)]| {
+        engine
+            .iter()
+            .zip(curve)
+            .fold(0.0f64, |m, (e, c)| m.max((e.1 - c.1).abs()))
+    };
     let (right, wrong) = (off(&corrected), off(&printed));
     content.plot(Plot {
         title: "The weight in space of the end A of an edge".into(),
@@ -218,7 +252,14 @@ fn weight(content: &mut Content) -> Result<(), FigureError> {
 /// "Z-value is preserved after projection."
 fn depth(content: &mut Content) {
     let Camera { near, far, .. } = camera();
-    let frustum = Frustum { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0, near, far };
+    let frustum = Frustum {
+        left: -1.0,
+        right: 1.0,
+        bottom: -1.0,
+        top: 1.0,
+        near,
+        far,
+    };
     let middle = frustum.ndc_depth(-(near + far) / 2.0);
     let is_preserved = middle.abs() < 0.01;
     content.found(Finding::new(

@@ -8,7 +8,11 @@ const APART: usize = 2;
 
 /// The grey levels of a row, from left to right.
 pub(super) fn profile(picture: &LinearPicture, row: usize) -> Vec<f64> {
-    picture.row(row).iter().map(|texel| 255.0 * f64::from(texel[0])).collect()
+    picture
+        .row(row)
+        .iter()
+        .map(|texel| 255.0 * f64::from(texel[0]))
+        .collect()
 }
 
 /// How much more there is on the right side of an edge than on its left.
@@ -28,7 +32,10 @@ pub(super) fn jump(profile: &[f64], edge: f64) -> Jump {
     let side = |pixels: [usize; 3]| at(pixels.map(|i| (i as f64 + 0.5 - edge, profile[i])));
     let (value, slope) = side([first, first + APART, first + 2 * APART]);
     let (value_left, slope_left) = side([first - 1, first - 1 - APART, first - 1 - 2 * APART]);
-    Jump { value: value - value_left, slope: slope - slope_left }
+    Jump {
+        value: value - value_left,
+        slope: slope - slope_left,
+    }
 }
 
 /// Value and slope at 0 of the parabola through three points (Lagrange's form).
@@ -52,9 +59,16 @@ mod tests {
         let edge = 10.25;
         let curve = |i: usize| {
             let x = i as f64 + 0.5 - edge;
-            if x < 0.0 { 3.0 + 2.0 * x - 0.5 * x * x } else { 7.0 - 1.0 * x + 0.25 * x * x }
+            if x < 0.0 {
+                3.0 + 2.0 * x - 0.5 * x * x
+            } else {
+                7.0 - 1.0 * x + 0.25 * x * x
+            }
         };
         let found = jump(&(0..20).map(curve).collect::<Vec<_>>(), edge);
-        assert!((found.value - 4.0).abs() < 1e-12 && (found.slope + 3.0).abs() < 1e-12, "{found:?}");
+        assert!(
+            (found.value - 4.0).abs() < 1e-12 && (found.slope + 3.0).abs() < 1e-12,
+            "{found:?}"
+        );
     }
 }

@@ -35,10 +35,25 @@ fn ends(degrees: f64) -> [DVec3; 2] {
 fn strip(degrees: f64) -> Result<Frame, FigureError> {
     let [from, to] = ends(degrees);
     let w = SPAN as f64;
-    let corners = [((0.0, 0.0), from), ((w, 0.0), to), ((w, 4.0), to), ((0.0, 4.0), from)];
+    let corners = [
+        ((0.0, 0.0), from),
+        ((w, 0.0), to),
+        ((w, 4.0), to),
+        ((0.0, 4.0), from),
+    ];
     let facet = Facet::new(corners.map(|((x, y), normal)| Corner::new([x, y], normal)));
     let light = DVec3::new(0.3, 0.4, 0.8);
-    frame([SPAN as u32, 4], &Grey { light, ambient: 0.1, diffuse: 0.5, specular: 0.4, shininess: 20.0 }, &[facet])
+    frame(
+        [SPAN as u32, 4],
+        &Grey {
+            light,
+            ambient: 0.1,
+            diffuse: 0.5,
+            specular: 0.4,
+            shininess: 20.0,
+        },
+        &[facet],
+    )
 }
 
 fn make() -> Result<Content, FigureError> {
@@ -52,8 +67,12 @@ fn make() -> Result<Content, FigureError> {
 
 /// The angles between neighbouring vectors, in degrees.
 fn turns(vectors: &[DVec3]) -> Vec<f64> {
-    let angle = |a: DVec3, b: DVec3| 2.0 * libm::atan2((b - a).length(), (a + b).length()).to_degrees();
-    vectors.windows(2).map(|pair| angle(pair[0].normalize(), pair[1].normalize())).collect()
+    let angle =
+        |a: DVec3, b: DVec3| 2.0 * libm::atan2((b - a).length(), (a + b).length()).to_degrees();
+    vectors
+        .windows(2)
+        .map(|pair| angle(pair[0].normalize(), pair[1].normalize()))
+        .collect()
 }
 
 /// Degrees a pixel of the two ways to interpolate.
@@ -75,7 +94,13 @@ fn speed(content: &mut Content) -> Result<(), FigureError> {
         })
         .collect();
     let [linear, great] = [turns(&linear), turns(&great)];
-    let points = |turns: &[f64]| turns.iter().enumerate().map(|(k, turn)| (k as f64 + 1.0, *turn)).collect::<Vec<_>>();
+    let points = |turns: &[f64]| {
+        turns
+            .iter()
+            .enumerate()
+            .map(|(k, turn)| (k as f64 + 1.0, *turn))
+            .collect::<Vec<_>>()
+    };
     content.text(format!(
         "Between normals {DEGREES}° apart, over {SPAN} pixels: how far the unit normal turns from pixel to pixel.",
     ));
@@ -92,7 +117,11 @@ fn speed(content: &mut Content) -> Result<(), FigureError> {
                 .into(),
     });
     let ratio = |turns: &[f64]| {
-        let (least, most) = turns.iter().fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), t| (a.min(*t), b.max(*t)));
+        let (least, most) = turns
+            .iter()
+            .fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), t| {
+                (a.min(*t), b.max(*t))
+            });
         most / least
     };
     let (slerp, lerp) = (ratio(&great), ratio(&linear));
@@ -102,7 +131,11 @@ fn speed(content: &mut Content) -> Result<(), FigureError> {
         "great circle: fastest turn by slowest turn",
         (slerp, ""),
         Agreement::if_holds(is_uniform),
-        if is_uniform { "Uniform speed, as the lecture says." } else { "Not a uniform speed." },
+        if is_uniform {
+            "Uniform speed, as the lecture says."
+        } else {
+            "Not a uniform speed."
+        },
     ));
     content.found(Finding::new(
         "speed-linear",
@@ -125,8 +158,11 @@ fn operations(content: &mut Content) {
     let before = counter.counts();
     sines.step();
     let step = counter.counts() - before;
-    let is_as_said =
-        (step.additions, step.multiplications, step.divisions + step.roots + step.trigonometric) == (4, 8, 0);
+    let is_as_said = (
+        step.additions,
+        step.multiplications,
+        step.divisions + step.roots + step.trigonometric,
+    ) == (4, 8, 0);
     content.found(Finding::new(
         "step",
         "additions and multiplications of (4.9) to (4.12)",
@@ -147,13 +183,20 @@ fn recurrences(degrees: f64) -> [Vec<f64>; 3] {
     let delta = phi / LONG as f64;
     // L stands 40° from the first normal, in the plane of both; J(k) = cos(kδ − 40°).
     let j = |k: f64| libm::cos(k * delta - 40f64.to_radians());
-    let (first, last) = ((j(0.0) / libm::sin(phi)) as f32, (j(LONG as f64) / libm::sin(phi)) as f32);
+    let (first, last) = (
+        (j(0.0) / libm::sin(phi)) as f32,
+        (j(LONG as f64) / libm::sin(phi)) as f32,
+    );
     let mut sines = Sines::new(Scalar, phi as f32, 0.0, 1.0 / LONG as f32);
     let goldman = || {
         let (s_first, s_last) = sines.next();
         first * s_first + last * s_last
     };
-    let (mut here, mut next, twice) = (j(0.0) as f32, j(1.0) as f32, (2.0 * libm::cos(delta)) as f32);
+    let (mut here, mut next, twice) = (
+        j(0.0) as f32,
+        j(1.0) as f32,
+        (2.0 * libm::cos(delta)) as f32,
+    );
     let chebyshev = || {
         let out = here;
         (here, next) = (next, twice * next - here);
@@ -167,21 +210,46 @@ fn recurrences(degrees: f64) -> [Vec<f64>; 3] {
         step -= alpha * value;
         out
     };
-    let errors = |walk: &mut dyn FnMut() -> f32| (0..LONG).map(|k| (f64::from(walk()) - j(k as f64)).abs()).collect();
+    let errors = |walk: &mut dyn FnMut() -> f32| {
+        (0..LONG)
+            .map(|k| (f64::from(walk()) - j(k as f64)).abs())
+            .collect()
+    };
     let (mut goldman, mut chebyshev, mut difference) = (goldman, chebyshev, difference);
-    [errors(&mut goldman), errors(&mut chebyshev), errors(&mut difference)]
+    [
+        errors(&mut goldman),
+        errors(&mut chebyshev),
+        errors(&mut difference),
+    ]
 }
 
 fn drift(content: &mut Content) {
     const DEGREES: f64 = 30.0;
     let names = [
-        ("goldman", "rotation (4.9)–(4.12)", "The walk of slerp Phong"),
-        ("chebyshev", "2 cos δ F_k − F_(k−1)", "Chebyshev\u{2019}s recurrence as it is"),
-        ("difference", "F += dF; dF −= α F", "Its difference form, α = 4 sin²(δ/2)"),
+        (
+            "goldman",
+            "rotation (4.9)–(4.12)",
+            "The walk of slerp Phong",
+        ),
+        (
+            "chebyshev",
+            "2 cos δ F_k − F_(k−1)",
+            "Chebyshev\u{2019}s recurrence as it is",
+        ),
+        (
+            "difference",
+            "F += dF; dF −= α F",
+            "Its difference form, α = 4 sin²(δ/2)",
+        ),
     ];
     let all = recurrences(DEGREES);
     let series = names.iter().zip(&all).map(|((_, name, _), errors)| {
-        Series::new(*name, (8..LONG).step_by(8).map(|k| (k as f64, errors[k].max(1e-9))))
+        Series::new(
+            *name,
+            (8..LONG)
+                .step_by(8)
+                .map(|k| (k as f64, errors[k].max(1e-9))),
+        )
     });
     content.plot(Plot {
         title: "Error of J along a long span, by recurrence, in f32".into(),
@@ -202,7 +270,15 @@ fn drift(content: &mut Content) {
             format!("{name}: largest error over {LONG} pixels"),
             (most, ""),
             Agreement::Adds,
-            format!("{meaning}: {}.", if is_visible { "a visible error" } else { "not visible" }).to_string(),
+            format!(
+                "{meaning}: {}.",
+                if is_visible {
+                    "a visible error"
+                } else {
+                    "not visible"
+                }
+            )
+            .to_string(),
         ));
     }
 }
@@ -218,16 +294,40 @@ fn ends_of_range(content: &mut Content) -> Result<(), FigureError> {
         let exact = reference::render(&frame, Model::Slerp);
         let pairs = drawn.texels().iter().zip(exact.picture.texels());
         // A pixel that is not a number counts as wrong by white.
-        let off = pairs.map(|(a, b)| (255.0 * (f64::from(a[0]) - b[0]).abs()).min(255.0)).fold(0.0, f64::max);
+        let off = pairs
+            .map(|(a, b)| (255.0 * (f64::from(a[0]) - b[0]).abs()).min(255.0))
+            .fold(0.0, f64::max);
         worst = worst.max(off);
         let printed = printed_angle(ends(degrees));
-        let error = if degrees > 0.0 { printed / degrees - 1.0 } else { printed };
+        let error = if degrees > 0.0 {
+            printed / degrees - 1.0
+        } else {
+            printed
+        };
         if (0.01..=90.0).contains(&degrees) {
             printed_worst = printed_worst.max(error.abs());
         }
-        let says = |value: f64| if value.is_finite() { written(value) } else { String::from("not a number") };
-        let digits = if printed.is_finite() { format!("{printed:.4}") } else { says(printed) };
-        rows.push([format!("{degrees}°"), digits, says(100.0 * error), written(off)].into());
+        let says = |value: f64| {
+            if value.is_finite() {
+                written(value)
+            } else {
+                String::from("not a number")
+            }
+        };
+        let digits = if printed.is_finite() {
+            format!("{printed:.4}")
+        } else {
+            says(printed)
+        };
+        rows.push(
+            [
+                format!("{degrees}°"),
+                digits,
+                says(100.0 * error),
+                written(off),
+            ]
+            .into(),
+        );
     }
     content.text(
         "The lecture divides by sin φ and takes φ from the inverse cosine. In f32 the cosine of a small angle is 1, or a \
@@ -236,7 +336,12 @@ fn ends_of_range(content: &mut Content) -> Result<(), FigureError> {
          the polygon above 179°.",
     );
     content.table(
-        &["angle of the span", "φ as printed, in f32, degrees", "its error, %", "slerp Phong, off by levels"],
+        &[
+            "angle of the span",
+            "φ as printed, in f32, degrees",
+            "its error, %",
+            "slerp Phong, off by levels",
+        ],
         rows,
     );
     content.found(Finding::new(
@@ -255,7 +360,11 @@ fn ends_of_range(content: &mut Content) -> Result<(), FigureError> {
         "slerp Phong from 0° to 180°: largest difference from the reference",
         (worst, "grey levels"),
         Agreement::Adds,
-        if worst < 0.5 { "Never visible, at neither end." } else { "There are angles at which it is visible." },
+        if worst < 0.5 {
+            "Never visible, at neither end."
+        } else {
+            "There are angles at which it is visible."
+        },
     ));
     Ok(())
 }

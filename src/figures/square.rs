@@ -38,7 +38,12 @@ const DARK_BELOW: Normals = [DVec3::Z, DVec3::Z, DVec3::NEG_Y, DVec3::Z];
 /// Normals of which no three lie on one great circle: what is interpolated between three that do is the same by every
 /// way there is.
 fn apart() -> Normals {
-    [leaning(10.0, 60.0), leaning(65.0, -10.0), leaning(-15.0, -60.0), leaning(-60.0, 20.0)]
+    [
+        leaning(10.0, 60.0),
+        leaning(65.0, -10.0),
+        leaning(-15.0, -60.0),
+        leaning(-60.0, 20.0),
+    ]
 }
 
 /// How the square is made of polygons.
@@ -58,7 +63,10 @@ fn square(degrees: f64, cut: Cut, normals: Normals) -> Result<Frame, FigureError
     let middle = f64::from(SIDE) / 2.0;
     let (sin, cos) = sine_and_cosine(degrees);
     let corner = |x: f64, y: f64, normal| {
-        let place = [middle + REACH * (cos * x - sin * y), middle + REACH * (sin * x + cos * y)];
+        let place = [
+            middle + REACH * (cos * x - sin * y),
+            middle + REACH * (sin * x + cos * y),
+        ];
         Corner::new(place, normal)
     };
     let [above, beside, below, opposite] = normals;
@@ -66,15 +74,25 @@ fn square(degrees: f64, cut: Cut, normals: Normals) -> Result<Frame, FigureError
     let [dark, left] = [corner(0.0, 1.0, below), corner(-1.0, 0.0, opposite)];
     let facets = match cut {
         Cut::Whole => vec![Facet::new([top, right, dark, left])],
-        Cut::ThroughDark => vec![Facet::new([top, right, dark]), Facet::new([top, dark, left])],
-        Cut::PastDark => vec![Facet::new([top, right, left]), Facet::new([right, dark, left])],
+        Cut::ThroughDark => vec![
+            Facet::new([top, right, dark]),
+            Facet::new([top, dark, left]),
+        ],
+        Cut::PastDark => vec![
+            Facet::new([top, right, left]),
+            Facet::new([right, dark, left]),
+        ],
     };
     frame([SIDE, SIDE], &Grey::dull(DVec3::Z), &facets)
 }
 
 /// Exact at quarter turns.
 fn sine_and_cosine(degrees: f64) -> (f64, f64) {
-    if degrees == 90.0 { (1.0, 0.0) } else { libm::sincos(degrees.to_radians()) }
+    if degrees == 90.0 {
+        (1.0, 0.0)
+    } else {
+        libm::sincos(degrees.to_radians())
+    }
 }
 
 /// `turned` turned back by `degrees`: the texel that stood there, or one between its neighbours; alpha 0 where one of
@@ -99,7 +117,10 @@ fn between(picture: &LinearPicture, place: [f64; 2]) -> Option<[f32; 4]> {
     let along = |at: f64| {
         let first = libm::floor(at + 1e-9);
         let part = (at - first).max(0.0);
-        [(first, 1.0 - part), (first + 1.0, if part < 1e-9 { 0.0 } else { part })]
+        [
+            (first, 1.0 - part),
+            (first + 1.0, if part < 1e-9 { 0.0 } else { part }),
+        ]
     };
     let mut sum = [0.0f64; 3];
     for (y, part_y) in along(place[1]) {
@@ -108,8 +129,11 @@ fn between(picture: &LinearPicture, place: [f64; 2]) -> Option<[f32; 4]> {
             if part == 0.0 {
                 continue;
             }
-            let is_inside = x >= 0.0 && y >= 0.0 && x < picture.width() as f64 && y < picture.height() as f64;
-            let texel = is_inside.then(|| picture.get(x as usize, y as usize)).filter(|texel| texel[3] > 0.0)?;
+            let is_inside =
+                x >= 0.0 && y >= 0.0 && x < picture.width() as f64 && y < picture.height() as f64;
+            let texel = is_inside
+                .then(|| picture.get(x as usize, y as usize))
+                .filter(|texel| texel[3] > 0.0)?;
             for (sum, channel) in sum.iter_mut().zip(texel) {
                 *sum += part * f64::from(channel);
             }
@@ -121,7 +145,11 @@ fn between(picture: &LinearPicture, place: [f64; 2]) -> Option<[f32; 4]> {
 
 /// The largest value of `of` over the pixels that both pictures cover.
 fn largest(a: &LinearPicture, b: &LinearPicture, of: impl Fn([f32; 4], [f32; 4]) -> f64) -> f64 {
-    let both = a.texels().iter().zip(b.texels()).filter(|(a, b)| a[3] > 0.0 && b[3] > 0.0);
+    let both = a
+        .texels()
+        .iter()
+        .zip(b.texels())
+        .filter(|(a, b)| a[3] > 0.0 && b[3] > 0.0);
     both.map(|(a, b)| of(*a, *b)).fold(0.0, f64::max)
 }
 
@@ -131,7 +159,8 @@ fn levels(a: [f32; 4], b: [f32; 4]) -> f64 {
 
 /// The angle between two normals that are stored as (N + 1)/2, in degrees.
 fn angle(a: [f32; 4], b: [f32; 4]) -> f64 {
-    let normal = |texel: [f32; 4]| DVec3::from_array([0, 1, 2].map(|i| 2.0 * f64::from(texel[i]) - 1.0));
+    let normal =
+        |texel: [f32; 4]| DVec3::from_array([0, 1, 2].map(|i| 2.0 * f64::from(texel[i]) - 1.0));
     let (a, b) = (normal(a), normal(b));
     (2.0 * libm::atan2((a - b).length(), (a + b).length())).to_degrees()
 }
@@ -145,7 +174,11 @@ fn change(
     of: fn([f32; 4], [f32; 4]) -> f64,
 ) -> Result<f64, FigureError> {
     let upright = draw(&square(0.0, cut, normals)?);
-    Ok(largest(&upright, &turned_back(&draw(&square(degrees, cut, normals)?), degrees), of))
+    Ok(largest(
+        &upright,
+        &turned_back(&draw(&square(degrees, cut, normals)?), degrees),
+        of,
+    ))
 }
 
 fn make() -> Result<Content, FigureError> {
@@ -185,7 +218,8 @@ fn numbers(content: &mut Content) -> Result<(), FigureError> {
         let draw = |frame: &Frame| variant.render_linear(frame);
         let whole = |degrees| change(degrees, Cut::Whole, DARK_BELOW, &draw, levels);
         let cut = |degrees| change(degrees, Cut::ThroughDark, apart(), &draw, levels);
-        let [square_45, square_90, cut_45, cut_90] = [whole(45.0)?, whole(90.0)?, cut(45.0)?, cut(90.0)?];
+        let [square_45, square_90, cut_45, cut_90] =
+            [whole(45.0)?, whole(90.0)?, cut(45.0)?, cut(90.0)?];
         let cuts = [Cut::ThroughDark, Cut::PastDark].map(|cut| square(0.0, cut, DARK_BELOW));
         let [one, other] = cuts;
         let diagonal = largest(&draw(&one?), &draw(&other?), levels);
@@ -197,7 +231,11 @@ fn numbers(content: &mut Content) -> Result<(), FigureError> {
             format!("{method}, square turned by 90°: largest difference"),
             (square_90, "grey levels"),
             Agreement::if_holds(turns),
-            if turns { "The shading depends on the orientation." } else { "The shading does not depend on it." },
+            if turns {
+                "The shading depends on the orientation."
+            } else {
+                "The shading does not depend on it."
+            },
         ));
         // Half a grey level is the least that can be seen in a stored picture.
         let agrees = cut_90 < 0.5;
@@ -213,7 +251,11 @@ fn numbers(content: &mut Content) -> Result<(), FigureError> {
             format!("{method}, one diagonal or the other: largest difference"),
             (diagonal, "grey levels"),
             Agreement::if_holds(diagonal > 1.0),
-            if diagonal > 1.0 { "Different subdivisions give different pixels." } else { "Both cuts look the same." },
+            if diagonal > 1.0 {
+                "Different subdivisions give different pixels."
+            } else {
+                "Both cuts look the same."
+            },
         ));
     }
     content.table(
@@ -253,7 +295,11 @@ fn directions(content: &mut Content) -> Result<(), FigureError> {
         "interpolated normals, square turned by 90°: largest angle",
         (square, "degrees"),
         Agreement::if_holds(square > 1.0),
-        if square > 1.0 { "Normals depend on the orientation as intensities do." } else { "Normals agree." },
+        if square > 1.0 {
+            "Normals depend on the orientation as intensities do."
+        } else {
+            "Normals agree."
+        },
     ));
     let agrees = triangles < 0.1;
     content.found(Finding::new(
@@ -261,7 +307,11 @@ fn directions(content: &mut Content) -> Result<(), FigureError> {
         "interpolated normals, triangles turned by 90°: largest angle",
         (triangles, "degrees"),
         Agreement::if_holds(agrees),
-        if agrees { "On triangles normals are barycentric as well." } else { "Normals of triangles disagree." },
+        if agrees {
+            "On triangles normals are barycentric as well."
+        } else {
+            "Normals of triangles disagree."
+        },
     ));
     Ok(())
 }
@@ -303,7 +353,10 @@ fn diagonals(content: &mut Content) -> Result<(), FigureError> {
 fn great_circles(content: &mut Content) -> Result<(), FigureError> {
     let slerp = Variant::parse("slerp-phong")?;
     let upright = slerp.render_linear(&square(0.0, Cut::ThroughDark, apart())?);
-    let turned = turned_back(&slerp.render_linear(&square(90.0, Cut::ThroughDark, apart())?), 90.0);
+    let turned = turned_back(
+        &slerp.render_linear(&square(90.0, Cut::ThroughDark, apart())?),
+        90.0,
+    );
     let map = difference_map(&upright, &turned, MAP_SCALES[1])?;
     content.text(
         "Interpolation along great circles is not barycentric, so that cutting into triangles does not help it: first \
@@ -312,20 +365,30 @@ fn great_circles(content: &mut Content) -> Result<(), FigureError> {
     content.pictures(
         3,
         vec![
-            Shown::new("slerp Phong, triangles, 0°", "The triangles shaded by slerp Phong.", stored(&upright)),
+            Shown::new(
+                "slerp Phong, triangles, 0°",
+                "The triangles shaded by slerp Phong.",
+                stored(&upright),
+            ),
             Shown::new(
                 "90°, turned back",
                 "The same, drawn when turned by 90 degrees and turned back.",
                 stored(&turned),
             ),
-            Shown::new(scale(MAP_SCALES[1]), "Where both differ: over the whole of both triangles.", map),
+            Shown::new(
+                scale(MAP_SCALES[1]),
+                "Where both differ: over the whole of both triangles.",
+                map,
+            ),
         ],
     );
     Ok(())
 }
 
 fn scale(levels: f32) -> String {
-    format!("their difference: purple to yellow is up to {levels} grey levels, black none, magenta more")
+    format!(
+        "their difference: purple to yellow is up to {levels} grey levels, black none, magenta more"
+    )
 }
 
 #[cfg(test)]
@@ -336,7 +399,8 @@ mod tests {
     fn turning_back_undoes_a_quarter_turn_to_the_bit() {
         // Row 0 of the turned picture, left to right, is the left column of the original, upward.
         let texel = |n: usize| [n as f32 / 9.0, 0.0, 0.0, 1.0];
-        let upright = LinearPicture::from_texels(3, 3, (0..9).map(texel).collect()).expect("nine texels");
+        let upright =
+            LinearPicture::from_texels(3, 3, (0..9).map(texel).collect()).expect("nine texels");
         let turned = [6, 3, 0, 7, 4, 1, 8, 5, 2].map(texel).to_vec();
         let turned = LinearPicture::from_texels(3, 3, turned).expect("nine texels");
         assert_eq!(turned_back(&turned, 90.0), upright);
@@ -346,11 +410,17 @@ mod tests {
     fn what_lies_between_texels_is_linear_and_needs_all_of_them() {
         let mut picture = LinearPicture::new(2, 2, [0.0, 0.0, 0.0, 1.0]);
         picture.row_mut(0)[1] = [1.0, 0.5, 0.0, 1.0];
-        assert_eq!(between(&picture, [0.25, 0.5]), Some([0.125, 0.0625, 0.0, 1.0]));
+        assert_eq!(
+            between(&picture, [0.25, 0.5]),
+            Some([0.125, 0.0625, 0.0, 1.0])
+        );
         assert_eq!(between(&picture, [1.0, 0.0]), Some([1.0, 0.5, 0.0, 1.0]));
         assert_eq!(between(&picture, [1.5, 0.0]), None);
         picture.row_mut(1)[0][3] = 0.0;
         assert_eq!(between(&picture, [0.25, 0.5]), None);
-        assert!(between(&picture, [0.25, 0.0]).is_some(), "a row that does not count need not be covered");
+        assert!(
+            between(&picture, [0.25, 0.0]).is_some(),
+            "a row that does not count need not be covered"
+        );
     }
 }

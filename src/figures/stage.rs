@@ -26,7 +26,11 @@ pub(super) struct Corner {
 impl Corner {
     /// A corner half-way between near and far plane.
     pub fn new(place: [f64; 2], normal: DVec3) -> Corner {
-        Corner { place, depth: 0.5, normal }
+        Corner {
+            place,
+            depth: 0.5,
+            normal,
+        }
     }
 }
 
@@ -42,7 +46,10 @@ pub(super) struct Facet {
 impl Facet {
     /// A polygon that faces the eye.
     pub fn new(corners: impl Into<Vec<Corner>>) -> Facet {
-        Facet { corners: corners.into(), normal: DVec3::Z }
+        Facet {
+            corners: corners.into(),
+            normal: DVec3::Z,
+        }
     }
 }
 
@@ -64,7 +71,13 @@ pub(super) struct Grey {
 impl Grey {
     /// A dull white surface: its intensity is L · N.
     pub fn dull(light: DVec3) -> Grey {
-        Grey { light, ambient: 0.0, diffuse: 1.0, specular: 0.0, shininess: 1.0 }
+        Grey {
+            light,
+            ambient: 0.0,
+            diffuse: 1.0,
+            specular: 0.0,
+            shininess: 1.0,
+        }
     }
 
     /// As the methods take it, seen from +z.
@@ -75,7 +88,12 @@ impl Grey {
             specular: [self.specular; 3],
             shininess: self.shininess,
         };
-        Lighting::new(&material, [1.0; 3], &[Light::directional(self.light.normalize(), [1.0; 3])], DVec3::Z)
+        Lighting::new(
+            &material,
+            [1.0; 3],
+            &[Light::directional(self.light.normalize(), [1.0; 3])],
+            DVec3::Z,
+        )
     }
 }
 
@@ -83,7 +101,11 @@ impl Grey {
 ///
 /// # Errors
 /// If a coordinate is beyond the guard band, or the size is not one.
-pub(super) fn frame([width, height]: [u32; 2], grey: &Grey, polygons: &[Facet]) -> Result<Frame, FigureError> {
+pub(super) fn frame(
+    [width, height]: [u32; 2],
+    grey: &Grey,
+    polygons: &[Facet],
+) -> Result<Frame, FigureError> {
     let mut builder = FrameBuilder::new(width, height);
     builder.hidden_surfaces(HiddenSurfaces::DrawOrder);
     let material = builder.lighting(grey.lighting());
@@ -96,7 +118,11 @@ pub(super) fn frame([width, height]: [u32; 2], grey: &Grey, polygons: &[Facet]) 
             normal: corner.normal.as_vec3().to_array(),
             material,
         };
-        let numbers: Vec<u32> = facet.corners.iter().map(|corner| builder.vertex(vertex(corner))).collect();
+        let numbers: Vec<u32> = facet
+            .corners
+            .iter()
+            .map(|corner| builder.vertex(vertex(corner)))
+            .collect();
         builder.polygon(&numbers, facet.normal.as_vec3().to_array(), number as u32);
     }
     Ok(builder.finish()?)
@@ -114,7 +140,9 @@ pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene, Fi
 
 /// How many pixels of two pictures of one size differ by more than half a grey level.
 pub(super) fn differing(a: &LinearPicture, b: &LinearPicture) -> usize {
-    let differ = |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.5 / 255.0);
+    let differ = |(a, b): &(&[f32; 4], &[f32; 4])| {
+        a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.5 / 255.0)
+    };
     a.texels().iter().zip(b.texels()).filter(differ).count()
 }
 
@@ -125,7 +153,12 @@ pub(super) fn stored(picture: &LinearPicture) -> Picture8 {
 
 /// The unit normal that leans so many degrees to the right and so many upward.
 pub(super) fn leaning(right: f64, up: f64) -> DVec3 {
-    DVec3::new(libm::tan(right.to_radians()), libm::tan(up.to_radians()), 1.0).normalize()
+    DVec3::new(
+        libm::tan(right.to_radians()),
+        libm::tan(up.to_radians()),
+        1.0,
+    )
+    .normalize()
 }
 
 /// A number as it stands in a sentence: three significant digits, a power of ten if it is very small.
@@ -133,12 +166,26 @@ pub(crate) fn written(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && size < 1e-3 {
         let exponent = libm::floor(libm::log10(size)) as i32;
-        let digits: String = exponent.unsigned_abs().to_string().chars().map(superscript).collect();
-        return format!("{:.1}·10⁻{digits}", value / libm::pow(10.0, f64::from(exponent)));
+        let digits: String = exponent
+            .unsigned_abs()
+            .to_string()
+            .chars()
+            .map(superscript)
+            .collect();
+        return format!(
+            "{:.1}·10⁻{digits}",
+            value / libm::pow(10.0, f64::from(exponent))
+        );
     }
-    let decimals = (0..5).find(|&digits| size >= 100.0 / libm::pow(10.0, f64::from(digits))).unwrap_or(5);
+    let decimals = (0..5)
+        .find(|&digits| size >= 100.0 / libm::pow(10.0, f64::from(digits)))
+        .unwrap_or(5);
     let text = format!("{value:.*}", decimals as usize);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').into()
+    } else {
+        text
+    }
 }
 
 fn superscript(digit: char) -> char {
@@ -151,7 +198,23 @@ mod tests {
 
     #[test]
     fn numbers_in_sentences_are_short() {
-        let texts = [1234.4, 100.0, 12.345, 1.0, 0.1234, 0.5, 0.00012, -0.0000031, 0.0].map(written);
-        assert_eq!(texts, ["1234", "100", "12.3", "1", "0.123", "0.5", "1.2·10⁻⁴", "-3.1·10⁻⁶", "0"]);
+        let texts = [
+            1234.4, 100.0, 12.345, 1.0, 0.1234, 0.5, 0.00012, -0.0000031, 0.0,
+        ]
+        .map(written);
+        assert_eq!(
+            texts,
+            [
+                "1234",
+                "100",
+                "12.3",
+                "1",
+                "0.123",
+                "0.5",
+                "1.2·10⁻⁴",
+                "-3.1·10⁻⁶",
+                "0"
+            ]
+        );
     }
 }

@@ -38,8 +38,13 @@ fn make() -> Result<Content, FigureError> {
         let error = share_error(&picture);
         points.push((f64::from(samples), error));
         let caption = format!("{samples} × {samples}: {}", written(error));
-        let alt = format!("The edge of a green triangle with {samples} by {samples} samples a pixel.");
-        shown.push(Shown::new(caption, alt, crate::encoding::store(&picture, Encoding::Srgb)));
+        let alt =
+            format!("The edge of a green triangle with {samples} by {samples} samples a pixel.");
+        shown.push(Shown::new(
+            caption,
+            alt,
+            crate::encoding::store(&picture, Encoding::Srgb),
+        ));
     }
     content.pictures(SAMPLES.len(), shown);
     let falls = points.windows(2).all(|pair| pair[1].1 < pair[0].1);
@@ -50,7 +55,8 @@ fn make() -> Result<Content, FigureError> {
         y: ("RMS error of shares".into(), Scale::Log),
         series: [Series::new("measured", points.iter().copied())].into(),
         marks: Vec::new(),
-        caption: "Against the exact area of the triangle in each pixel that its edges cross.".into(),
+        caption: "Against the exact area of the triangle in each pixel that its edges cross."
+            .into(),
     });
     content.found(Finding::new(
         "share",
@@ -74,17 +80,33 @@ fn edge(samples: u32) -> Result<Frame, FigureError> {
     let mut builder = FrameBuilder::new(width, height);
     builder.samples(samples);
     let whole = [[-1.0, -1.0], [25.0, -1.0], [25.0, 19.0], [-1.0, 19.0]];
-    for (number, (colour, depth, corners)) in
-        [([1.0, 1.0, 0.0], 0.8, &whole[..]), ([0.0, 1.0, 0.0], 0.2, &TRIANGLE[..])].into_iter().enumerate()
+    for (number, (colour, depth, corners)) in [
+        ([1.0, 1.0, 0.0], 0.8, &whole[..]),
+        ([0.0, 1.0, 0.0], 0.2, &TRIANGLE[..]),
+    ]
+    .into_iter()
+    .enumerate()
     {
-        let material = Material { ambient: colour, diffuse: [0.0; 3], specular: [0.0; 3], shininess: 1.0 };
+        let material = Material {
+            ambient: colour,
+            diffuse: [0.0; 3],
+            specular: [0.0; 3],
+            shininess: 1.0,
+        };
         let material = builder.lighting(Lighting::new(&material, [1.0; 3], &[], DVec3::Z));
         let place = |c: f64| SubPixel::from_num(c * f64::from(samples));
         let vertices: Vec<u32> = corners
             .iter()
             .map(|&[x, y]| {
                 let normal = [0.0, 0.0, 1.0];
-                builder.vertex(Vertex { x: place(x), y: place(y), depth, inv_w: 1.0, normal, material })
+                builder.vertex(Vertex {
+                    x: place(x),
+                    y: place(y),
+                    depth,
+                    inv_w: 1.0,
+                    normal,
+                    material,
+                })
             })
             .collect();
         builder.polygon(&vertices, [0.0, 0.0, 1.0], number as u32);
@@ -113,7 +135,11 @@ fn share([x, y]: [f64; 2]) -> f64 {
         shape = cut;
     }
     let following = shape.iter().cycle().skip(1);
-    0.5 * shape.iter().zip(following).map(|(p, q)| p[0] * q[1] - q[0] * p[1]).sum::<f64>()
+    0.5 * shape
+        .iter()
+        .zip(following)
+        .map(|(p, q)| p[0] * q[1] - q[0] * p[1])
+        .sum::<f64>()
 }
 
 /// The root mean square error of the triangle's share of the pixels that its edges cross: 1 less red is the share of green.
@@ -133,9 +159,13 @@ fn share_error(picture: &LinearPicture) -> f64 {
 
 /// Half of black and half of white: in linear light, and as stored values would be averaged.
 fn filtering(content: &mut Content) -> Result<(), FigureError> {
-    let grey = Grey { ambient: 1.0, diffuse: 0.0, ..Grey::dull(DVec3::Z) };
-    let half =
-        [[0.0, 0.0], [1.5, 0.0], [1.5, 2.0], [0.0, 2.0]].map(|place| Corner::new(place.map(|c| 2.0 * c), DVec3::Z));
+    let grey = Grey {
+        ambient: 1.0,
+        diffuse: 0.0,
+        ..Grey::dull(DVec3::Z)
+    };
+    let half = [[0.0, 0.0], [1.5, 0.0], [1.5, 2.0], [0.0, 2.0]]
+        .map(|place| Corner::new(place.map(|c| 2.0 * c), DVec3::Z));
     let mut builder = FrameBuilder::new(4, 4);
     builder.samples(2);
     let material = builder.lighting(grey.lighting());
@@ -145,7 +175,14 @@ fn filtering(content: &mut Content) -> Result<(), FigureError> {
         .iter()
         .map(|c| {
             let [x, y] = c.place.map(SubPixel::from_num);
-            builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+            builder.vertex(Vertex {
+                x,
+                y,
+                depth: 0.5,
+                inv_w: 1.0,
+                normal: [0.0, 0.0, 1.0],
+                material,
+            })
         })
         .collect();
     builder.polygon(&vertices, [0.0, 0.0, 1.0], 0);
@@ -173,7 +210,10 @@ fn inside(content: &mut Content) -> Result<(), FigureError> {
     let scene = shipped("interpenetration", [120, 90])?;
     let mut shown = Vec::new();
     for samples in [1, 4] {
-        let scene = Scene { samples, ..scene.clone() };
+        let scene = Scene {
+            samples,
+            ..scene.clone()
+        };
         let picture = Variant::parse("flat")?.render(&scene.frame()?);
         let caption = format!("{samples} × {samples}, polygons that cut each other");
         shown.push(Shown::new(caption.clone(), format!("{caption}."), picture));

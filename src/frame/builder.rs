@@ -1,7 +1,8 @@
 //! Making a frame, and checking it once.
 
 use super::{
-    ClipCorner, DepthRange, Frame, FrameError, FrameStats, Geometry, Mean, Polygon, ScreenVertex, SubPixel, Vertex,
+    ClipCorner, DepthRange, Frame, FrameError, FrameStats, Geometry, Mean, Polygon, ScreenVertex,
+    SubPixel, Vertex,
 };
 use crate::lighting::{Falloff, LightTerm, Lighting, Place, Rgb};
 use crate::painter::back_to_front;
@@ -20,7 +21,9 @@ impl FrameBuilder {
     /// An empty frame of `width` × `height` samples, each of them a pixel, black, with a depth buffer of floats, linear on
     /// the screen.
     pub fn new(width: u32, height: u32) -> Self {
-        FrameBuilder { frame: Frame::empty(width, height) }
+        FrameBuilder {
+            frame: Frame::empty(width, height),
+        }
     }
 
     /// Sets how many samples of the frame make a pixel along each side, 1 (as it is), 2, 4 or 8: a divisor of its width and
@@ -86,8 +89,17 @@ impl FrameBuilder {
 
     /// Adds a vertex; returns its number.
     pub fn vertex(&mut self, vertex: Vertex) -> u32 {
-        let Vertex { x, y, depth, inv_w, normal, material } = vertex;
-        self.frame.vertices.push(ScreenVertex { x, y, depth, inv_w });
+        let Vertex {
+            x,
+            y,
+            depth,
+            inv_w,
+            normal,
+            material,
+        } = vertex;
+        self.frame
+            .vertices
+            .push(ScreenVertex { x, y, depth, inv_w });
         let geometry = self.geometry();
         geometry.normals.push(normal);
         geometry.materials.push(material);
@@ -133,7 +145,9 @@ impl FrameBuilder {
 
     /// Says what the mean of the corners of the polygon that comes next is.
     pub fn mean(&mut self, mean: Mean) -> &mut Self {
-        self.frame.means.push((self.frame.geometry.corners.len() as u32, mean));
+        self.frame
+            .means
+            .push((self.frame.geometry.corners.len() as u32, mean));
         self
     }
 
@@ -147,11 +161,24 @@ impl FrameBuilder {
     /// its first corner.
     pub fn polygon(&mut self, corners: &[u32], normal: [f32; 3], source: u32) -> &mut Self {
         let geometry = self.geometry();
-        let material = corners.first().and_then(|&v| geometry.materials.get(v as usize)).map_or(u32::MAX, |m| *m);
-        let (first, count, face) = (geometry.corners.len() as u32, corners.len() as u32, geometry.faces.len() as u32);
+        let material = corners
+            .first()
+            .and_then(|&v| geometry.materials.get(v as usize))
+            .map_or(u32::MAX, |m| *m);
+        let (first, count, face) = (
+            geometry.corners.len() as u32,
+            corners.len() as u32,
+            geometry.faces.len() as u32,
+        );
         geometry.faces.push(normal);
         geometry.corners.extend_from_slice(corners);
-        self.frame.polygons.push(Polygon { first, count, material, source, face });
+        self.frame.polygons.push(Polygon {
+            first,
+            count,
+            material,
+            source,
+            face,
+        });
         self
     }
 
@@ -177,7 +204,11 @@ impl FrameBuilder {
         if let Some(index) = (0..frame.vertices.len()).find(|&v| !frame.vertex_is_valid(v)) {
             return Err(FrameError::Vertex { index });
         }
-        if let Some(index) = frame.polygons.iter().position(|p| !frame.polygon_is_valid(p)) {
+        if let Some(index) = frame
+            .polygons
+            .iter()
+            .position(|p| !frame.polygon_is_valid(p))
+        {
             return Err(FrameError::Polygon { index });
         }
         let mut previous = None;
@@ -227,11 +258,20 @@ impl Frame {
     /// Whether size, samples, eye and depth make sense together.
     pub(crate) fn check_settings(&self) -> Result<(), FrameError> {
         let side = 1..=Scene::MAX_SIDE;
-        let &Frame { width, height, samples, .. } = self;
+        let &Frame {
+            width,
+            height,
+            samples,
+            ..
+        } = self;
         if !side.contains(&width) || !side.contains(&height) {
             return Err(FrameError::Size { width, height });
         }
-        if ![1, 2, 4, 8].contains(&samples) || ![width, height].iter().all(|side| side.is_multiple_of(samples)) {
+        if ![1, 2, 4, 8].contains(&samples)
+            || ![width, height]
+                .iter()
+                .all(|side| side.is_multiple_of(samples))
+        {
             return Err(FrameError::Samples { samples });
         }
         if self.clipping == Clipping::NdcCube && self.interpolation == Interpolation::Perspective {
@@ -248,10 +288,16 @@ impl Frame {
         let lights = self.light_count();
         for lighting in &self.lightings {
             if lighting.lights.len() != lights || lights > Scene::MAX_LIGHTS {
-                return Err(FrameError::Lights { found: lighting.lights.len() });
+                return Err(FrameError::Lights {
+                    found: lighting.lights.len(),
+                });
             }
         }
-        match self.lightings.iter().position(|lighting| !is_valid(lighting)) {
+        match self
+            .lightings
+            .iter()
+            .position(|lighting| !is_valid(lighting))
+        {
             Some(index) => Err(FrameError::Lighting { index }),
             None => Ok(()),
         }
@@ -282,10 +328,9 @@ impl Frame {
         polygon.count >= 3
             && (polygon.material as usize) < self.lightings.len()
             && self.polygon_normal(polygon).iter().all(|n| n.is_finite())
-            && self
-                .corners(polygon)
-                .iter()
-                .all(|&v| (v as usize) < self.vertices.len() && self.material(v) == polygon.material)
+            && self.corners(polygon).iter().all(|&v| {
+                (v as usize) < self.vertices.len() && self.material(v) == polygon.material
+            })
     }
 }
 
@@ -296,7 +341,8 @@ fn is_valid(lighting: &Lighting) -> bool {
         Place::Infinite(v) | Place::Local(v) => v,
     };
     let is_light = |light: &LightTerm| {
-        let falls = !matches!(light.falloff, Falloff::Attenuation(k) if !(k.is_finite() && k >= 0.0));
+        let falls =
+            !matches!(light.falloff, Falloff::Attenuation(k) if !(k.is_finite() && k >= 0.0));
         finite(vector(light.place)) && finite(light.diffuse) && finite(light.specular) && falls
     };
     finite(lighting.ambient)

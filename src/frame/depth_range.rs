@@ -23,14 +23,20 @@ impl DepthRange {
     /// Near and far.
     pub fn ends(self) -> (f64, f64) {
         match self {
-            DepthRange::Orthographic { near, far } | DepthRange::Perspective { near, far } => (near, far),
+            DepthRange::Orthographic { near, far } | DepthRange::Perspective { near, far } => {
+                (near, far)
+            }
         }
     }
 
     /// Whether near and far are finite numbers in order, over 0 under perspective.
     pub(super) fn is_valid(self) -> bool {
         let (near, far) = self.ends();
-        let least = if matches!(self, DepthRange::Perspective { .. }) { 0.0 } else { f64::NEG_INFINITY };
+        let least = if matches!(self, DepthRange::Perspective { .. }) {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        };
         near > least && near < far && far.is_finite()
     }
 }
@@ -38,6 +44,9 @@ impl DepthRange {
 impl Default for DepthRange {
     /// The distance is the depth.
     fn default() -> Self {
-        DepthRange::Orthographic { near: 0.0, far: 1.0 }
+        DepthRange::Orthographic {
+            near: 0.0,
+            far: 1.0,
+        }
     }
 }

@@ -52,7 +52,11 @@ impl fmt::Display for FrameError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             FrameError::Size { width, height } => {
-                write!(f, "the picture size {width}x{height} is outside 1x1 to {0}x{0}", Scene::MAX_SIDE)
+                write!(
+                    f,
+                    "the picture size {width}x{height} is outside 1x1 to {0}x{0}",
+                    Scene::MAX_SIDE
+                )
             }
             FrameError::Samples { samples } => write!(
                 f,
@@ -73,17 +77,26 @@ impl fmt::Display for FrameError {
                 f,
                 "the light on material {index} has a number that is not finite, or a negative exponent or attenuation"
             ),
-            FrameError::TooLarge => write!(f, "the scene has more corners than 32-bit numbers can name"),
+            FrameError::TooLarge => {
+                write!(f, "the scene has more corners than 32-bit numbers can name")
+            }
             FrameError::Camera => write!(
                 f,
                 "the camera gives no picture: the eye must differ from the target, up must not be along the view, and \
                  near must be less than far (and over 0 under perspective)"
             ),
             FrameError::Vertex { index } => {
-                write!(f, "vertex {index} is outside the guard band of {} pixels or not finite", Frame::GUARD)
+                write!(
+                    f,
+                    "vertex {index} is outside the guard band of {} pixels or not finite",
+                    Frame::GUARD
+                )
             }
             FrameError::Polygon { index } => {
-                write!(f, "polygon {index} has fewer than three corners or names something that does not exist")
+                write!(
+                    f,
+                    "polygon {index} has fewer than three corners or names something that does not exist"
+                )
             }
         }
     }

@@ -54,7 +54,11 @@ impl Models {
     /// The position of a vertex in model space.
     #[inline(always)]
     pub fn position(&self, vertex: usize) -> DVec3 {
-        DVec3::new(self.x[vertex].into(), self.y[vertex].into(), self.z[vertex].into())
+        DVec3::new(
+            self.x[vertex].into(),
+            self.y[vertex].into(),
+            self.z[vertex].into(),
+        )
     }
 
     /// The object that a vertex belongs to.
@@ -75,7 +79,9 @@ impl Geometry {
     pub fn normal(&self, vertex: u32) -> [f32; 3] {
         match self.normals.get(vertex as usize) {
             Some(normal) => *normal,
-            None => self.front(vertex).map_or([0.0, 0.0, 1.0], |front| self.normals[front].map(|n| -n)),
+            None => self
+                .front(vertex)
+                .map_or([0.0, 0.0, 1.0], |front| self.normals[front].map(|n| -n)),
         }
     }
 
@@ -93,8 +99,15 @@ impl Geometry {
         if self.colours.is_empty() {
             return [1.0; 3];
         }
-        let front = if (vertex as usize) < self.normals.len() { Some(vertex as usize) } else { self.front(vertex) };
-        front.and_then(|front| self.colours.get(front)).copied().unwrap_or([1.0; 3])
+        let front = if (vertex as usize) < self.normals.len() {
+            Some(vertex as usize)
+        } else {
+            self.front(vertex)
+        };
+        front
+            .and_then(|front| self.colours.get(front))
+            .copied()
+            .unwrap_or([1.0; 3])
     }
 
     /// The position of a vertex as seen from the eye.
@@ -108,10 +121,18 @@ impl Geometry {
 
     fn position_of_model(&self, vertex: u32, eye: [f64; 3]) -> [f32; 3] {
         let vertex = vertex as usize;
-        let front = if vertex < self.models.len() { Some(vertex) } else { self.front(vertex as u32) };
-        let Some(front) = front.filter(|&front| front < self.models.len()) else { return [0.0; 3] };
+        let front = if vertex < self.models.len() {
+            Some(vertex)
+        } else {
+            self.front(vertex as u32)
+        };
+        let Some(front) = front.filter(|&front| front < self.models.len()) else {
+            return [0.0; 3];
+        };
         let transform = &self.models.objects[self.models.object_of(front)].transform;
-        (transform.transform_point3(self.models.position(front)) - DVec3::from_array(eye)).as_vec3().to_array()
+        (transform.transform_point3(self.models.position(front)) - DVec3::from_array(eye))
+            .as_vec3()
+            .to_array()
     }
 
     /// The vertex whose second side a number past the first sides names.
@@ -124,6 +145,10 @@ impl Geometry {
     #[inline(always)]
     pub fn face(&self, face: u32) -> [f32; 3] {
         let normal = self.faces[(face & !Polygon::FLIPPED) as usize];
-        if face & Polygon::FLIPPED == 0 { normal } else { normal.map(|n| -n) }
+        if face & Polygon::FLIPPED == 0 {
+            normal
+        } else {
+            normal.map(|n| -n)
+        }
     }
 }

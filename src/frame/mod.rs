@@ -144,7 +144,8 @@ impl Frame {
     /// clip corners and no second sides then.
     pub(crate) fn normals_on_screen(&self) -> Option<&[[f32; 3]]> {
         let normals = &self.geometry.normals;
-        (self.interpolation == Interpolation::Screen && normals.len() == self.vertices.len()).then_some(normals)
+        (self.interpolation == Interpolation::Screen && normals.len() == self.vertices.len())
+            .then_some(normals)
     }
 
     /// The material of a vertex: its entry in [`Frame::lightings`].
@@ -162,7 +163,14 @@ impl Frame {
     /// When there is no such vertex.
     pub fn vertex(&self, vertex: u32) -> Vertex {
         let ScreenVertex { x, y, depth, inv_w } = self.vertices[vertex as usize];
-        Vertex { x, y, depth, inv_w, normal: self.normal(vertex), material: self.material(vertex) }
+        Vertex {
+            x,
+            y,
+            depth,
+            inv_w,
+            normal: self.normal(vertex),
+            material: self.material(vertex),
+        }
     }
 
     /// Where a vertex is, in world units along the axes of the world, from the eye: so that what is near the eye, where
@@ -182,7 +190,9 @@ impl Frame {
     /// The mean of a polygon's corners, as they were before it was clipped or cut into triangles.
     pub fn mean(&self, polygon: &Polygon) -> Mean {
         // Corner lists do not overlap, so the first corner tells polygons apart.
-        let place = self.means.binary_search_by_key(&polygon.first, |&(first, _)| first);
+        let place = self
+            .means
+            .binary_search_by_key(&polygon.first, |&(first, _)| first);
         match place {
             Ok(place) => self.means[place].1,
             Err(_) => self.mean_of(self.corners(polygon)),
@@ -193,7 +203,10 @@ impl Frame {
         let share = 1.0 / corners.len() as f64;
         let mut sum = [[0.0f64; 3]; 2];
         for &corner in corners {
-            for (sum, v) in sum.iter_mut().zip([self.position(corner), self.normal(corner)]) {
+            for (sum, v) in sum
+                .iter_mut()
+                .zip([self.position(corner), self.normal(corner)])
+            {
                 for (sum, c) in sum.iter_mut().zip(v) {
                     *sum += share * f64::from(c);
                 }
@@ -253,28 +266,46 @@ impl Frame {
 
     /// Puts the polygons into another order: `order` has the number of each once.
     pub(crate) fn reorder(&mut self, order: &[u32]) {
-        self.polygons = order.iter().map(|&number| self.polygons[number as usize]).collect();
+        self.polygons = order
+            .iter()
+            .map(|&number| self.polygons[number as usize])
+            .collect();
     }
 
     /// The same frame with other polygons over the same vertices: `pieces` gives the corner lists that replace each
     /// polygon.
-    pub(crate) fn with_pieces(&self, mut pieces: impl FnMut(&Polygon, &mut dyn FnMut(&[u32]))) -> Frame {
+    pub(crate) fn with_pieces(
+        &self,
+        mut pieces: impl FnMut(&Polygon, &mut dyn FnMut(&[u32])),
+    ) -> Frame {
         let shared = self.geometry.corners.len();
         let mut cut_corners = Vec::new();
         let mut polygons = Vec::new();
         let mut means = Vec::new();
         for polygon in &self.polygons {
             let mean = self.mean(polygon);
-            let is_whole = self.means.binary_search_by_key(&polygon.first, |&(first, _)| first).is_err();
+            let is_whole = self
+                .means
+                .binary_search_by_key(&polygon.first, |&(first, _)| first)
+                .is_err();
             pieces(polygon, &mut |piece| {
                 let first = (shared + cut_corners.len()) as u32;
                 if !is_whole || piece.len() != polygon.count as usize {
                     means.push((first, mean));
                 }
-                polygons.push(Polygon { first, count: piece.len() as u32, ..*polygon });
+                polygons.push(Polygon {
+                    first,
+                    count: piece.len() as u32,
+                    ..*polygon
+                });
                 cut_corners.extend_from_slice(piece);
             });
         }
-        Frame { cut_corners, polygons, means, ..self.clone() }
+        Frame {
+            cut_corners,
+            polygons,
+            means,
+            ..self.clone()
+        }
     }
 }

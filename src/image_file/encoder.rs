@@ -41,7 +41,8 @@ impl<'a> Encoder<'a> {
         match &self.0 {
             Form::Png(bytes) => out.write_all(bytes),
             Form::Ppm(picture) => {
-                let mut file = PpmWriter::new(out, picture.width(), picture.height()).map_err(io::Error::other)?;
+                let mut file = PpmWriter::new(out, picture.width(), picture.height())
+                    .map_err(io::Error::other)?;
                 file.texels(picture.texels())?;
                 file.finish()
             }
@@ -55,7 +56,8 @@ impl<'a> Encoder<'a> {
             return bytes;
         }
         let mut bytes = Vec::new();
-        self.write_to(&mut bytes).expect("memory takes all that is written");
+        self.write_to(&mut bytes)
+            .expect("memory takes all that is written");
         bytes
     }
 }

@@ -49,12 +49,20 @@ impl fmt::Display for ImageFileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ImageFileError::UnknownEnding { path } => {
-                write!(f, "{}: no picture format has this ending: expected .png, .ppm or .pfm", path.display())
+                write!(
+                    f,
+                    "{}: no picture format has this ending: expected .png, .ppm or .pfm",
+                    path.display()
+                )
             }
-            ImageFileError::Read { path, source } => write!(f, "{}: cannot be read: {source}", path.display()),
+            ImageFileError::Read { path, source } => {
+                write!(f, "{}: cannot be read: {source}", path.display())
+            }
             ImageFileError::Decode { path, source } => write!(f, "{}: {source}", path.display()),
             ImageFileError::Encode { path, source } => write!(f, "{}: {source}", path.display()),
-            ImageFileError::Write { path, source } => write!(f, "{}: cannot be written: {source}", path.display()),
+            ImageFileError::Write { path, source } => {
+                write!(f, "{}: cannot be written: {source}", path.display())
+            }
         }
     }
 }
@@ -87,20 +95,36 @@ pub enum DecodeError {
 
 impl DecodeError {
     pub(super) fn malformed(format: Format, problem: &str) -> DecodeError {
-        DecodeError::Malformed { format, problem: problem.to_owned() }
+        DecodeError::Malformed {
+            format,
+            problem: problem.to_owned(),
+        }
     }
 }
 
 impl fmt::Display for DecodeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            DecodeError::NotAPicture => write!(f, "not a picture that can be read: expected PNG, PPM (P6) or PFM"),
-            DecodeError::NotPng => write!(f, "not a PNG file: expected the PNG signature in its first 8 bytes"),
+            DecodeError::NotAPicture => write!(
+                f,
+                "not a picture that can be read: expected PNG, PPM (P6) or PFM"
+            ),
+            DecodeError::NotPng => write!(
+                f,
+                "not a PNG file: expected the PNG signature in its first 8 bytes"
+            ),
             DecodeError::TooLarge { width, height } => {
-                write!(f, "{width}×{height} pixels are too many: expected at most {MAX_PIXELS}")
+                write!(
+                    f,
+                    "{width}×{height} pixels are too many: expected at most {MAX_PIXELS}"
+                )
             }
             DecodeError::Malformed { format, problem } => {
-                write!(f, "broken {} file: {problem}", format.ending().to_uppercase())
+                write!(
+                    f,
+                    "broken {} file: {problem}",
+                    format.ending().to_uppercase()
+                )
             }
         }
     }
@@ -120,7 +144,10 @@ pub struct EncodeError {
 impl fmt::Display for EncodeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let EncodeError { width, height } = self;
-        write!(f, "a picture of {width}×{height} pixels does not fit: expected 1 to 2147483647 pixels a side")
+        write!(
+            f,
+            "a picture of {width}×{height} pixels does not fit: expected 1 to 2147483647 pixels a side"
+        )
     }
 }
 

@@ -81,11 +81,16 @@ impl Format {
     /// # Errors
     /// If there is no ending, or one of no format.
     pub fn of_path(path: &Path) -> Result<Format, ImageFileError> {
-        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
+        let ending = path
+            .extension()
+            .and_then(|ending| ending.to_str())
+            .unwrap_or("");
         Format::ALL
             .into_iter()
             .find(|format| format.ending().eq_ignore_ascii_case(ending))
-            .ok_or_else(|| ImageFileError::UnknownEnding { path: path.to_owned() })
+            .ok_or_else(|| ImageFileError::UnknownEnding {
+                path: path.to_owned(),
+            })
     }
 }
 
@@ -110,12 +115,18 @@ pub struct FilePicture {
 impl FilePicture {
     /// A picture of grey levels with alpha, as it goes into a PNG file.
     pub fn stored(picture: Picture8) -> FilePicture {
-        FilePicture { texels: FileTexels::Stored(picture), has_alpha: true }
+        FilePicture {
+            texels: FileTexels::Stored(picture),
+            has_alpha: true,
+        }
     }
 
     /// A picture of floats with alpha, as it is before it goes into a file.
     pub fn linear(picture: LinearPicture) -> FilePicture {
-        FilePicture { texels: FileTexels::Linear(picture), has_alpha: true }
+        FilePicture {
+            texels: FileTexels::Linear(picture),
+            has_alpha: true,
+        }
     }
 
     /// Width and height in pixels.
@@ -137,7 +148,9 @@ impl FilePicture {
     /// The picture in floats; a grey level is 1/255.
     pub fn to_linear(&self) -> LinearPicture {
         match &self.texels {
-            FileTexels::Stored(picture) => picture.map(|texel| texel.map(|level| f32::from(level) / 255.0)),
+            FileTexels::Stored(picture) => {
+                picture.map(|texel| texel.map(|level| f32::from(level) / 255.0))
+            }
             FileTexels::Linear(picture) => picture.clone(),
         }
     }
@@ -170,7 +183,11 @@ impl FilePicture {
             FileTexels::Stored(picture) => picture.map(Texel::levels),
             FileTexels::Linear(picture) => picture.map(Texel::levels),
         };
-        if with_alpha { levels } else { levels.map(|Levels([r, g, b, _])| Levels([r, g, b, 255.0])) }
+        if with_alpha {
+            levels
+        } else {
+            levels.map(|Levels([r, g, b, _])| Levels([r, g, b, 255.0]))
+        }
     }
 }
 
@@ -188,7 +205,12 @@ pub fn comparable(reference: &FilePicture, actual: &FilePicture) -> [Picture<Lev
 /// If the ending names no format, the format cannot hold the picture, or the file cannot be written.
 pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFileError> {
     let format = Format::of_path(path)?;
-    let encoder = picture.encoder(format).map_err(|source| ImageFileError::Encode { path: path.to_owned(), source })?;
+    let encoder = picture
+        .encoder(format)
+        .map_err(|source| ImageFileError::Encode {
+            path: path.to_owned(),
+            source,
+        })?;
     write_file_by(path, |file| encoder.write_to(file))
 }
 
@@ -197,7 +219,10 @@ pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFile
 /// # Errors
 /// If the file cannot be read, is none of the formats, is broken or cut off, or has more than [`MAX_PIXELS`] pixels.
 pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
-    decode_picture(&read_file(path)?).map_err(|source| ImageFileError::Decode { path: path.to_owned(), source })
+    decode_picture(&read_file(path)?).map_err(|source| ImageFileError::Decode {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// Reads a PNG file of any colour type as 8 bits of red, green, blue, alpha.
@@ -209,7 +234,10 @@ pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
 pub fn read_png(path: &Path) -> Result<Picture8, ImageFileError> {
     match png::decode(&read_file(path)?) {
         Ok((picture, _)) => Ok(picture),
-        Err(source) => Err(ImageFileError::Decode { path: path.to_owned(), source }),
+        Err(source) => Err(ImageFileError::Decode {
+            path: path.to_owned(),
+            source,
+        }),
     }
 }
 
@@ -244,23 +272,34 @@ fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
         let mut bytes = Vec::new();
         // One byte more than is allowed, to see that there is more: some files, such as devices, never end.
         let mut file = File::open(path)?.take(MAX_BYTES + 1);
-        file.by_ref().take(png::SIGNATURE.len() as u64).read_to_end(&mut bytes)?;
+        file.by_ref()
+            .take(png::SIGNATURE.len() as u64)
+            .read_to_end(&mut bytes)?;
         // What does not begin like a picture is told by its beginning, and need not be read to its end.
         if announced(&bytes).is_some() {
             file.read_to_end(&mut bytes)?;
         }
         if bytes.len() as u64 > MAX_BYTES {
-            return Err(io::Error::new(io::ErrorKind::FileTooLarge, "the file is too large for a picture"));
+            return Err(io::Error::new(
+                io::ErrorKind::FileTooLarge,
+                "the file is too large for a picture",
+            ));
         }
         Ok(bytes)
     };
-    read().map_err(|source| ImageFileError::Read { path: path.to_owned(), source })
+    read().map_err(|source| ImageFileError::Read {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// Width and height as `usize`, if a picture of that size may be read.
 fn checked_size(format: Format, width: u64, height: u64) -> Result<[usize; 2], DecodeError> {
     if width == 0 || height == 0 {
-        return Err(DecodeError::malformed(format, "it has no pixels: expected a width and a height of at least 1"));
+        return Err(DecodeError::malformed(
+            format,
+            "it has no pixels: expected a width and a height of at least 1",
+        ));
     }
     match width.checked_mul(height) {
         Some(pixels) if pixels <= MAX_PIXELS => Ok([width as usize, height as usize]),

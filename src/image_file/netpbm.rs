@@ -43,7 +43,10 @@ impl<W: Write> PpmWriter<W> {
     pub fn new(out: W, width: usize, height: usize) -> Result<Self, EncodeError> {
         check_size(width, height)?;
         let pieces = Pieces::new(out, &format!("P6\n{width} {height}\n255\n"));
-        Ok(PpmWriter { pieces, missing: width as u64 * height as u64 })
+        Ok(PpmWriter {
+            pieces,
+            missing: width as u64 * height as u64,
+        })
     }
 
     /// The next texels, row by row; alpha is dropped.
@@ -51,8 +54,16 @@ impl<W: Write> PpmWriter<W> {
     /// # Errors
     /// If they cannot be written, or are more than the file has pixels.
     pub fn texels(&mut self, texels: &[[u8; 4]]) -> io::Result<()> {
-        let wrong = || io::Error::new(io::ErrorKind::InvalidInput, "there are more texels than pixels of the picture");
-        self.missing = self.missing.checked_sub(texels.len() as u64).ok_or_else(wrong)?;
+        let wrong = || {
+            io::Error::new(
+                io::ErrorKind::InvalidInput,
+                "there are more texels than pixels of the picture",
+            )
+        };
+        self.missing = self
+            .missing
+            .checked_sub(texels.len() as u64)
+            .ok_or_else(wrong)?;
         for texels in texels.chunks(RUN) {
             without_alpha(texels, self.pieces.room(3 * texels.len())?);
         }
@@ -66,7 +77,10 @@ impl<W: Write> PpmWriter<W> {
     pub fn finish(self) -> io::Result<()> {
         match self.missing {
             0 => self.pieces.finish(),
-            n => Err(io::Error::new(io::ErrorKind::UnexpectedEof, format!("{n} pixels of the picture are missing"))),
+            n => Err(io::Error::new(
+                io::ErrorKind::UnexpectedEof,
+                format!("{n} pixels of the picture are missing"),
+            )),
         }
     }
 }
@@ -74,10 +88,18 @@ impl<W: Write> PpmWriter<W> {
 /// Writes the bytes of [`encode_pfm`], of a picture that fits.
 pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<()> {
     // The sign of the scale tells the order of bytes: negative is little-endian.
-    let mut pieces = Pieces::new(out, &format!("PF\n{} {}\n-1.0\n", picture.width(), picture.height()));
+    let mut pieces = Pieces::new(
+        out,
+        &format!("PF\n{} {}\n-1.0\n", picture.width(), picture.height()),
+    );
     for y in (0..picture.height()).rev() {
         for texels in picture.row(y).chunks(RUN) {
-            let samples = pieces.room(12 * texels.len())?.as_chunks_mut::<4>().0.as_chunks_mut::<3>().0;
+            let samples = pieces
+                .room(12 * texels.len())?
+                .as_chunks_mut::<4>()
+                .0
+                .as_chunks_mut::<3>()
+                .0;
             for (samples, &[r, g, b, _]) in samples.iter_mut().zip(texels) {
                 *samples = [r, g, b].map(f32::to_le_bytes);
             }
@@ -91,7 +113,14 @@ fn without_alpha(texels: &[[u8; 4]], bytes: &mut [u8]) {
     // Four texels fill three words.
     let (fours, last_texels) = texels.as_chunks::<4>();
     let (words, last_bytes) = bytes.split_at_mut(12 * fours.len());
-    for (words, &four) in words.as_chunks_mut::<4>().0.as_chunks_mut::<3>().0.iter_mut().zip(fours) {
+    for (words, &four) in words
+        .as_chunks_mut::<4>()
+        .0
+        .as_chunks_mut::<3>()
+        .0
+        .iter_mut()
+        .zip(fours)
+    {
         let [a, b, c, d] = four.map(|[r, g, b, _]| u32::from_le_bytes([r, g, b, 0]));
         *words = [a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8].map(u32::to_le_bytes);
     }
@@ -120,7 +149,11 @@ impl<W: Write> Pieces<W> {
     fn new(out: W, header: &str) -> Self {
         let mut bytes = vec![0; PIECE + 12 * RUN];
         bytes[..header.len()].copy_from_slice(header.as_bytes());
-        Pieces { out, bytes, filled: header.len() }
+        Pieces {
+            out,
+            bytes,
+            filled: header.len(),
+        }
     }
 
     /// The next `count` bytes, at most those of a run, to be filled.
@@ -142,28 +175,45 @@ impl<W: Write> Pieces<W> {
 /// Whether both sides can be written down.
 pub(super) fn check_size(width: usize, height: usize) -> Result<(), EncodeError> {
     let fits = |side| (1..=MAX_SIDE).contains(&side);
-    if fits(width) && fits(height) { Ok(()) } else { Err(EncodeError { width, height }) }
+    if fits(width) && fits(height) {
+        Ok(())
+    } else {
+        Err(EncodeError { width, height })
+    }
 }
 
 /// The picture in a binary PPM file (P6); samples of another range than 255 are scaled to it and rounded.
 pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
-    let mut header = Header { format: Format::Ppm, rest: &bytes[2..] };
+    let mut header = Header {
+        format: Format::Ppm,
+        rest: &bytes[2..],
+    };
     let [width, height] = header.size()?;
     let range: u32 = header.number("the largest sample")?;
     if !(1..=65_535).contains(&range) {
-        return Err(header.broken(&format!("the largest sample is {range}: expected 1 to 65535")));
+        return Err(header.broken(&format!(
+            "the largest sample is {range}: expected 1 to 65535"
+        )));
     }
     let sample_bytes = if range < 256 { 1 } else { 2 };
     let samples = header.samples(width * height * 3 * sample_bytes)?;
     let level = |sample: &[u8]| {
-        let value = sample.iter().fold(0, |value, &byte| value << 8 | u32::from(byte));
+        let value = sample
+            .iter()
+            .fold(0, |value, &byte| value << 8 | u32::from(byte));
         if value > range {
-            return Err(header.broken(&format!("a sample is {value}: expected at most {range}, as its header says")));
+            return Err(header.broken(&format!(
+                "a sample is {value}: expected at most {range}, as its header says"
+            )));
         }
         Ok(((510 * value + range) / (2 * range)) as u8)
     };
     let mut picture = Picture8::new(width, height, [255; 4]);
-    for (texel, samples) in picture.texels_mut().iter_mut().zip(samples.chunks_exact(3 * sample_bytes)) {
+    for (texel, samples) in picture
+        .texels_mut()
+        .iter_mut()
+        .zip(samples.chunks_exact(3 * sample_bytes))
+    {
         for (channel, sample) in texel.iter_mut().zip(samples.chunks_exact(sample_bytes)) {
             *channel = level(sample)?;
         }
@@ -176,18 +226,31 @@ pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
 /// The size of the scale is a unit that nobody agrees on, and is passed over.
 pub(super) fn decode_pfm(bytes: &[u8]) -> Result<LinearPicture, DecodeError> {
     let channels = if bytes[1] == b'F' { 3 } else { 1 };
-    let mut header = Header { format: Format::Pfm, rest: &bytes[2..] };
+    let mut header = Header {
+        format: Format::Pfm,
+        rest: &bytes[2..],
+    };
     let [width, height] = header.size()?;
     let scale: f32 = header.number("the scale")?;
     if scale == 0.0 || !scale.is_finite() {
-        return Err(header.broken("the scale tells no order of bytes: expected a negative or a positive number"));
+        return Err(header.broken(
+            "the scale tells no order of bytes: expected a negative or a positive number",
+        ));
     }
-    let from_bytes = if scale < 0.0 { f32::from_le_bytes } else { f32::from_be_bytes };
+    let from_bytes = if scale < 0.0 {
+        f32::from_le_bytes
+    } else {
+        f32::from_be_bytes
+    };
     let samples = header.samples(width * height * channels * 4)?;
     let (samples, _) = samples.as_chunks::<4>();
     let mut picture = LinearPicture::new(width, height, [1.0; 4]);
     for (row, samples) in samples.chunks_exact(width * channels).rev().enumerate() {
-        for (texel, samples) in picture.row_mut(row).iter_mut().zip(samples.chunks_exact(channels)) {
+        for (texel, samples) in picture
+            .row_mut(row)
+            .iter_mut()
+            .zip(samples.chunks_exact(channels))
+        {
             for (i, channel) in texel[..3].iter_mut().enumerate() {
                 *channel = from_bytes(samples[i % channels]);
             }
@@ -225,10 +288,18 @@ impl<'a> Header<'a> {
             if self.rest.first() != Some(&b'#') {
                 break;
             }
-            let end = self.rest.iter().position(|&byte| byte == b'\n').unwrap_or(self.rest.len());
+            let end = self
+                .rest
+                .iter()
+                .position(|&byte| byte == b'\n')
+                .unwrap_or(self.rest.len());
             self.rest = &self.rest[end..];
         }
-        let end = self.rest.iter().position(u8::is_ascii_whitespace).unwrap_or(self.rest.len());
+        let end = self
+            .rest
+            .iter()
+            .position(u8::is_ascii_whitespace)
+            .unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
         word
@@ -240,8 +311,14 @@ impl<'a> Header<'a> {
         match samples.len() {
             found if found == expected => Ok(samples),
             found => {
-                let problem = if found < expected { "it ends too early" } else { "it goes on after its last pixel" };
-                Err(self.broken(&format!("{problem}: expected {expected} bytes of samples, found {found}")))
+                let problem = if found < expected {
+                    "it ends too early"
+                } else {
+                    "it goes on after its last pixel"
+                };
+                Err(self.broken(&format!(
+                    "{problem}: expected {expected} bytes of samples, found {found}"
+                )))
             }
         }
     }

@@ -28,7 +28,12 @@ pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
     }
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
-        .write_image(picture.texels().as_flattened(), width as u32, height as u32, ExtendedColorType::Rgba8)
+        .write_image(
+            picture.texels().as_flattened(),
+            width as u32,
+            height as u32,
+            ExtendedColorType::Rgba8,
+        )
         .map_err(|_| unfit)?;
     Ok(bytes)
 }
@@ -40,9 +45,15 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Picture8, bool), DecodeError> {
     }
     // The decoder is content once it has all pixels; a file without its end has been cut off all the same.
     if !has_end(bytes) {
-        return Err(DecodeError::malformed(Format::Png, "it ends too early: expected an IEND chunk"));
+        return Err(DecodeError::malformed(
+            Format::Png,
+            "it ends too early: expected an IEND chunk",
+        ));
     }
-    let broken = |error: image::ImageError| DecodeError::Malformed { format: Format::Png, problem: format!("{error}") };
+    let broken = |error: image::ImageError| DecodeError::Malformed {
+        format: Format::Png,
+        problem: format!("{error}"),
+    };
     let mut limits = Limits::no_limits();
     // Four channels of 16 bits, and the same picture again in 8.
     limits.max_alloc = Some(12 * MAX_PIXELS);
@@ -50,17 +61,27 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Picture8, bool), DecodeError> {
     let (width, height) = decoder.dimensions();
     let [width, height] = checked_size(Format::Png, width.into(), height.into())?;
     let has_alpha = decoder.color_type().has_alpha();
-    let image = DynamicImage::from_decoder(decoder).map_err(broken)?.into_rgba8();
+    let image = DynamicImage::from_decoder(decoder)
+        .map_err(broken)?
+        .into_rgba8();
     Picture8::from_texels(width, height, image.as_raw().as_chunks().0.to_vec())
         .map(|picture| (picture, has_alpha))
-        .ok_or_else(|| DecodeError::malformed(Format::Png, "the number of its pixels is not width × height"))
+        .ok_or_else(|| {
+            DecodeError::malformed(
+                Format::Png,
+                "the number of its pixels is not width × height",
+            )
+        })
 }
 
 /// Whether the chunks lead to a complete IEND (ISO/IEC 15948, 5.3: length, type, data, CRC).
 fn has_end(bytes: &[u8]) -> bool {
     let mut rest = &bytes[SIGNATURE.len()..];
     while let Some((&[a, b, c, d, ref kind @ ..], data)) = rest.split_first_chunk::<8>() {
-        let Some(next) = data.get(u32::from_be_bytes([a, b, c, d]) as usize..).and_then(|crc| crc.get(4..)) else {
+        let Some(next) = data
+            .get(u32::from_be_bytes([a, b, c, d]) as usize..)
+            .and_then(|crc| crc.get(4..))
+        else {
             return false;
         };
         if kind == b"IEND" {

@@ -26,8 +26,14 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
 ///
 /// # Errors
 /// As [`write_file`], and if `write` fails.
-pub fn write_file_by(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), ImageFileError> {
-    replace(path, |file| write(file)).map_err(|source| ImageFileError::Write { path: path.to_owned(), source })
+pub fn write_file_by(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), ImageFileError> {
+    replace(path, |file| write(file)).map_err(|source| ImageFileError::Write {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
@@ -45,10 +51,17 @@ fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
         }
         // A rename would not ask.
         if old.permissions().readonly() {
-            return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file there is read-only"));
+            return Err(io::Error::new(
+                io::ErrorKind::PermissionDenied,
+                "the file there is read-only",
+            ));
         }
     }
-    let place = if old.is_some() { fs::canonicalize(path)? } else { path.to_owned() };
+    let place = if old.is_some() {
+        fs::canonicalize(path)?
+    } else {
+        path.to_owned()
+    };
     let (draft, mut file) = Draft::beside(&place)?;
     write(&mut file)?;
     if let Some(old) = old {
@@ -73,7 +86,9 @@ impl Draft {
             match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Ok(file) => return Ok((Draft { path: Some(path) }, file)),
                 // Another thread's, or left by a process that was killed.
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => attempt += 1,
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => {
+                    attempt += 1
+                }
                 Err(error) => return Err(error),
             }
         }
@@ -116,7 +131,10 @@ mod tests {
         }
 
         fn names(&self) -> Vec<std::ffi::OsString> {
-            fs::read_dir(&self.0).unwrap().map(|entry| entry.unwrap().file_name()).collect()
+            fs::read_dir(&self.0)
+                .unwrap()
+                .map(|entry| entry.unwrap().file_name())
+                .collect()
         }
     }
 
@@ -158,10 +176,17 @@ mod tests {
         let directory = Directory::new("places");
         let plain = directory.0.join("plain");
         fs::write(&plain, "old").unwrap();
-        let cases = [directory.0.join("missing/out.bin"), plain.join("out.bin"), directory.0.clone()];
+        let cases = [
+            directory.0.join("missing/out.bin"),
+            plain.join("out.bin"),
+            directory.0.clone(),
+        ];
         for path in cases {
             let message = write_file(&path, b"new").unwrap_err().to_string();
-            assert!(message.starts_with(&format!("{}: cannot be written: ", path.display())), "{message}");
+            assert!(
+                message.starts_with(&format!("{}: cannot be written: ", path.display())),
+                "{message}"
+            );
         }
         assert!(write_file(Path::new(""), b"new").is_err());
         assert_eq!(fs::read(&plain).unwrap(), b"old");
@@ -184,7 +209,10 @@ mod tests {
         permissions.set_readonly(true);
         fs::set_permissions(&path, permissions).unwrap();
         let message = write_file(&path, b"new").unwrap_err().to_string();
-        assert!(message.ends_with("out.bin: cannot be written: the file there is read-only"), "{message}");
+        assert!(
+            message.ends_with("out.bin: cannot be written: the file there is read-only"),
+            "{message}"
+        );
         assert_eq!(fs::read(&path).unwrap(), b"old");
     }
 
@@ -200,7 +228,10 @@ mod tests {
         write_file(&link, b"new").unwrap();
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read(&file).unwrap(), b"new");
-        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+        assert_eq!(
+            fs::metadata(&file).unwrap().permissions().mode() & 0o777,
+            0o640
+        );
 
         // A socket stands for pipes and devices: it is opened as it is, which fails, and not replaced.
         let socket = directory.0.join("socket");

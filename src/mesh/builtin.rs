@@ -105,7 +105,10 @@ struct Values {
 
 impl Values {
     fn new(shape: &'static Builtin) -> Self {
-        Values { shape, numbers: shape.parameters.iter().map(|p| p.default).collect() }
+        Values {
+            shape,
+            numbers: shape.parameters.iter().map(|p| p.default).collect(),
+        }
     }
 
     /// Where parameter `name` stands. Names come from the shape's own table entry, or were found in it before.
@@ -158,18 +161,25 @@ fn parse(spec: &str) -> Result<Values, BuiltinError> {
     let (name, settings) = spec.split_once('?').unwrap_or((spec, ""));
     let Some(shape) = BUILTINS.iter().find(|b| b.name == name) else {
         let suggestion = nearest(name, BUILTINS.iter().map(|b| b.name));
-        return Err(BuiltinError::UnknownShape { name: name.to_string(), suggestion });
+        return Err(BuiltinError::UnknownShape {
+            name: name.to_string(),
+            suggestion,
+        });
     };
     let mut values = Values::new(shape);
     let mut set: Vec<&'static str> = Vec::new();
     let mut polygons = None;
     for setting in settings.split('&').filter(|s| !s.is_empty()) {
         let Some((key, value)) = setting.split_once('=') else {
-            return Err(BuiltinError::NoValue { found: setting.to_string() });
+            return Err(BuiltinError::NoValue {
+                found: setting.to_string(),
+            });
         };
         let parameter = find_parameter(shape, key)?;
         if set.contains(&parameter.name) {
-            return Err(BuiltinError::Repeated { key: parameter.name });
+            return Err(BuiltinError::Repeated {
+                key: parameter.name,
+            });
         }
         set.push(parameter.name);
         let number = parameter.parse(value)?;
@@ -214,11 +224,19 @@ impl Builtin {
 }
 
 fn find_parameter(shape: &'static Builtin, key: &str) -> Result<&'static Parameter, BuiltinError> {
-    shape.all_parameters().find(|p| p.name == key).ok_or_else(|| {
-        let valid: Vec<_> = shape.all_parameters().map(|p| p.name).collect();
-        let suggestion = nearest(key, valid.iter().copied());
-        BuiltinError::UnknownKey { shape: shape.name, key: key.to_string(), valid, suggestion }
-    })
+    shape
+        .all_parameters()
+        .find(|p| p.name == key)
+        .ok_or_else(|| {
+            let valid: Vec<_> = shape.all_parameters().map(|p| p.name).collect();
+            let suggestion = nearest(key, valid.iter().copied());
+            BuiltinError::UnknownKey {
+                shape: shape.name,
+                key: key.to_string(),
+                valid,
+                suggestion,
+            }
+        })
 }
 
 impl Parameter {
@@ -230,9 +248,18 @@ impl Parameter {
             Kind::Bool => text.parse().ok().map(|b: bool| b as u8 as f64),
         };
         let value = || text.to_string();
-        let number = number.ok_or_else(|| BuiltinError::NotA { kind: self.kind, key: self.name, value: value() })?;
+        let number = number.ok_or_else(|| BuiltinError::NotA {
+            kind: self.kind,
+            key: self.name,
+            value: value(),
+        })?;
         if number < self.min || number > self.max {
-            return Err(BuiltinError::OutOfRange { key: self.name, value: value(), min: self.min, max: self.max });
+            return Err(BuiltinError::OutOfRange {
+                key: self.name,
+                value: value(),
+                min: self.min,
+                max: self.max,
+            });
         }
         Ok(number)
     }
@@ -249,7 +276,11 @@ fn common_factor(a: usize, b: usize) -> usize {
 fn choose_resolution(values: &mut Values, resolution: Resolution, target: u64) {
     let (rows, columns) = match resolution {
         Resolution::Single(rows) => (rows, None),
-        Resolution::Grid { rows, columns, ratio } => (rows, Some((columns, ratio))),
+        Resolution::Grid {
+            rows,
+            columns,
+            ratio,
+        } => (rows, Some((columns, ratio))),
     };
     let range = values.shape.parameters[values.index(rows)];
     let at = |n: u64| {
@@ -264,16 +295,28 @@ fn choose_resolution(values: &mut Values, resolution: Resolution, target: u64) {
     let (mut low, mut high) = (range.min as u64, range.max as u64);
     while low < high {
         let middle = (low + high) / 2;
-        if at(middle).polygon_count() < target { low = middle + 1 } else { high = middle }
+        if at(middle).polygon_count() < target {
+            low = middle + 1
+        } else {
+            high = middle
+        }
     }
-    let reach = if columns.is_some() { (low / 10).clamp(1, 1000) } else { 1 };
+    let reach = if columns.is_some() {
+        (low / 10).clamp(1, 1000)
+    } else {
+        1
+    };
     let candidates = (low.saturating_sub(reach)..=low + reach).map(|n| {
         let mut candidate = at(n);
         if let Some((columns, _)) = columns {
             let each = candidate.polygon_count() as f64 / candidate.real(columns);
             candidate.set_within(columns, libm::round(target as f64 / each) as u64);
         }
-        (candidate.polygon_count().abs_diff(target), n.abs_diff(low), candidate)
+        (
+            candidate.polygon_count().abs_diff(target),
+            n.abs_diff(low),
+            candidate,
+        )
     });
     let fits = candidates.filter(|(_, _, c)| c.polygon_count() <= PolygonMesh::MAX_POLYGONS as u64);
     if let Some((_, _, best)) = fits.min_by_key(|&(miss, away, _)| (miss, away)) {

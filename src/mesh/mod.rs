@@ -91,7 +91,10 @@ impl PolygonMesh {
 
     /// The material of polygon `p`: an index into [`PolygonMesh::materials`], `None` for the default material.
     pub fn polygon_material(&self, p: usize) -> Option<usize> {
-        self.polygon_materials.get(p).map(|&m| m as usize).filter(|&m| m < self.materials.len())
+        self.polygon_materials
+            .get(p)
+            .map(|&m| m as usize)
+            .filter(|&m| m < self.materials.len())
     }
 
     /// Smallest and largest coordinates over all positions that polygons use; `None` without polygons.
@@ -145,17 +148,26 @@ impl fmt::Display for MeshError {
         match *self {
             MeshError::NotFinite { index } => write!(f, "vector {index} is not finite"),
             MeshError::IndexOutOfRange { polygon, index } => {
-                write!(f, "polygon {polygon} names index {index}, which does not exist")
+                write!(
+                    f,
+                    "polygon {polygon} names index {index}, which does not exist"
+                )
             }
-            MeshError::TooFewCorners { polygon } => write!(f, "polygon {polygon} has fewer than three corners"),
+            MeshError::TooFewCorners { polygon } => {
+                write!(f, "polygon {polygon} has fewer than three corners")
+            }
             MeshError::TooLarge => write!(
                 f,
                 "the mesh is over the limit of {} polygons or {} corners",
                 PolygonMesh::MAX_POLYGONS,
                 PolygonMesh::MAX_CORNERS
             ),
-            MeshError::ColourCount { found, expected } => write!(f, "{found} colours where {expected} were expected"),
-            MeshError::NormalCount { found, expected } => write!(f, "{found} normals where {expected} were expected"),
+            MeshError::ColourCount { found, expected } => {
+                write!(f, "{found} colours where {expected} were expected")
+            }
+            MeshError::NormalCount { found, expected } => {
+                write!(f, "{found} normals where {expected} were expected")
+            }
         }
     }
 }
@@ -224,7 +236,9 @@ impl MeshBuilder {
     /// the mesh is over its limits.
     pub fn finish(self) -> Result<PolygonMesh, MeshError> {
         let mesh = self.mesh;
-        if mesh.ends.len() > PolygonMesh::MAX_POLYGONS || mesh.corners.len() > PolygonMesh::MAX_CORNERS {
+        if mesh.ends.len() > PolygonMesh::MAX_POLYGONS
+            || mesh.corners.len() > PolygonMesh::MAX_CORNERS
+        {
             return Err(MeshError::TooLarge);
         }
         check_finite(&mesh.positions)?;
@@ -236,7 +250,10 @@ impl MeshBuilder {
         }
         check_finite(&mesh.colours)?;
         if !mesh.colours.is_empty() && mesh.colours.len() != mesh.positions.len() {
-            return Err(MeshError::ColourCount { found: mesh.colours.len(), expected: mesh.positions.len() });
+            return Err(MeshError::ColourCount {
+                found: mesh.colours.len(),
+                expected: mesh.positions.len(),
+            });
         }
         if let Some(normals) = &mesh.given_normals {
             check_finite(&normals.values)?;
@@ -249,7 +266,11 @@ impl MeshBuilder {
             }
             if let Some(corners) = &normals.corners {
                 for polygon in 0..mesh.polygon_count() {
-                    check_indices(polygon, &corners[mesh.corner_range(polygon)], normals.values.len())?;
+                    check_indices(
+                        polygon,
+                        &corners[mesh.corner_range(polygon)],
+                        normals.values.len(),
+                    )?;
                 }
             }
         }

@@ -18,7 +18,9 @@ use glam::{DVec3, Vec3};
 #[inline]
 pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let mut corners = corners.into_iter();
-    let Some(origin) = corners.next() else { return DVec3::ZERO };
+    let Some(origin) = corners.next() else {
+        return DVec3::ZERO;
+    };
     let mut previous = DVec3::ZERO;
     let mut normal = DVec3::ZERO;
     for corner in corners {
@@ -55,7 +57,11 @@ fn normal_of(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     let normal = newell(corners.iter().map(|&c| positions[c as usize].as_dvec3()));
     let bound = input_rounding(positions, corners);
     // Written so that a bound or a sum that is not a number counts as no normal.
-    if normal.length_squared() > bound.length_squared() { normal } else { DVec3::ZERO }
+    if normal.length_squared() > bound.length_squared() {
+        normal
+    } else {
+        DVec3::ZERO
+    }
 }
 
 /// The normals of all polygons of a mesh, as [`polygon_normal`] gives them.
@@ -76,7 +82,9 @@ pub fn unit_normal(normal: DVec3) -> Option<DVec3> {
 #[inline(always)]
 fn input_rounding(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     let corner = |k: usize| positions[corners[k] as usize];
-    let (Some(last), true) = (corners.len().checked_sub(1), corners.len() >= 3) else { return DVec3::ZERO };
+    let (Some(last), true) = (corners.len().checked_sub(1), corners.len() >= 3) else {
+        return DVec3::ZERO;
+    };
     let mut largest = Vec3::ZERO;
     let mut spread = DVec3::ZERO;
     let (mut before, mut here) = (corner(last), corner(0));
@@ -86,7 +94,11 @@ fn input_rounding(positions: &[Vec3], corners: &[u32]) -> DVec3 {
         spread += (after.as_dvec3() - before.as_dvec3()).abs();
         (before, here) = (here, after);
     }
-    let delta = DVec3::new(half_step(largest.x), half_step(largest.y), half_step(largest.z));
+    let delta = DVec3::new(
+        half_step(largest.x),
+        half_step(largest.y),
+        half_step(largest.z),
+    );
     DVec3::new(
         delta.y * spread.z + delta.z * spread.y,
         delta.z * spread.x + delta.x * spread.z,
@@ -118,7 +130,12 @@ mod tests {
         polygon_normal(&mesh_of(&points), 0)
     }
 
-    const SQUARE: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    const SQUARE: [[f32; 3]; 4] = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+    ];
 
     #[test]
     fn length_is_twice_the_area_from_any_first_corner_and_either_side() {
@@ -143,10 +160,20 @@ mod tests {
     #[test]
     fn concave_polygons_have_their_area() {
         // An L of three unit squares: its first three corners turn the wrong way at the notch.
-        let l = [[1.0, 1.0, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0]];
+        let l = [
+            [1.0, 1.0, 0.0],
+            [1.0, 2.0, 0.0],
+            [0.0, 2.0, 0.0],
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [2.0, 1.0, 0.0],
+        ];
         assert_eq!(normal_of(&l), DVec3::new(0.0, 0.0, 6.0));
         // Two adjacent edges, as the lecture warns: at the notch their product points to the other side.
-        let notch: Vec<DVec3> = [5, 0, 1].iter().map(|&k: &usize| Vec3::from(l[k]).as_dvec3()).collect();
+        let notch: Vec<DVec3> = [5, 0, 1]
+            .iter()
+            .map(|&k: &usize| Vec3::from(l[k]).as_dvec3())
+            .collect();
         assert!((notch[1] - notch[0]).cross(notch[2] - notch[1]).z < 0.0);
     }
 
@@ -167,9 +194,24 @@ mod tests {
         let zero: [&[[f32; 3]]; 5] = [
             &[[1.0, 2.0, 3.0]; 3],
             &[[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]],
-            &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
-            &[[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            &[[1.0, 0.0, 0.0], [1.0, 5.0, 0.0], [1.0, 7.0, 0.0], [1.0, 5.0, 0.0]],
+            &[
+                [0.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [0.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+            ],
+            &[
+                [0.0, 0.0, 0.0],
+                [1.0, 1.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+            ],
+            &[
+                [1.0, 0.0, 0.0],
+                [1.0, 5.0, 0.0],
+                [1.0, 7.0, 0.0],
+                [1.0, 5.0, 0.0],
+            ],
         ];
         for points in zero {
             assert_eq!(normal_of(points), DVec3::ZERO, "{points:?}");
@@ -183,11 +225,22 @@ mod tests {
         for step in 1..200 {
             let along = DVec3::new(1.0 / 3.0, 2.0 / 7.0, -1.0 / 11.0) * step as f64;
             let start = DVec3::new(1e4 + 1.0 / 3.0, -2e3 / 7.0, 5e4 / 9.0);
-            let points: Vec<Vec3> = [0.0, 1.0, 1.7, 0.4].iter().map(|&t| (start + along * t).as_vec3()).collect();
-            with_remainder += usize::from(newell(points.iter().map(|p| p.as_dvec3())) != DVec3::ZERO);
-            assert_eq!(polygon_normal(&mesh_of(&points), 0), DVec3::ZERO, "step {step}");
+            let points: Vec<Vec3> = [0.0, 1.0, 1.7, 0.4]
+                .iter()
+                .map(|&t| (start + along * t).as_vec3())
+                .collect();
+            with_remainder +=
+                usize::from(newell(points.iter().map(|p| p.as_dvec3())) != DVec3::ZERO);
+            assert_eq!(
+                polygon_normal(&mesh_of(&points), 0),
+                DVec3::ZERO,
+                "step {step}"
+            );
         }
-        assert!(with_remainder > 100, "the test asks nothing: only {with_remainder} sums are not zero");
+        assert!(
+            with_remainder > 100,
+            "the test asks nothing: only {with_remainder} sums are not zero"
+        );
     }
 
     #[test]

@@ -63,20 +63,28 @@ impl CornerNormals {
     pub fn by_corner(self, mesh: &PolygonMesh) -> VertexNormals {
         match self {
             CornerNormals::ByCorner(normals) => normals,
-            CornerNormals::ByPosition { values, positions } => {
-                VertexNormals { values, corners: corners_of(mesh, &positions) }
-            }
+            CornerNormals::ByPosition { values, positions } => VertexNormals {
+                values,
+                corners: corners_of(mesh, &positions),
+            },
         }
     }
 }
 
 /// What each corner has when each position has what `positions` says.
 fn corners_of(mesh: &PolygonMesh, positions: &[u32]) -> Vec<u32> {
-    mesh.corners().iter().map(|&c| positions[c as usize]).collect()
+    mesh.corners()
+        .iter()
+        .map(|&c| positions[c as usize])
+        .collect()
 }
 
 /// What [`vertex_normals`] gives, where the normals of all polygons may be known already.
-pub(crate) fn corner_normals(mesh: &PolygonMesh, source: NormalSource, polygons: Option<&[DVec3]>) -> CornerNormals {
+pub(crate) fn corner_normals(
+    mesh: &PolygonMesh,
+    source: NormalSource,
+    polygons: Option<&[DVec3]>,
+) -> CornerNormals {
     let own;
     let polygons = match (source, mesh.given_normals(), polygons) {
         (_, _, Some(normals)) => normals,
@@ -89,7 +97,9 @@ pub(crate) fn corner_normals(mesh: &PolygonMesh, source: NormalSource, polygons:
     };
     match (source, mesh.given_normals()) {
         (NormalSource::Given, Some(given)) => from_given(mesh, given, polygons),
-        (NormalSource::Crease(degrees), _) => CornerNormals::ByCorner(creased(mesh, degrees, polygons)),
+        (NormalSource::Crease(degrees), _) => {
+            CornerNormals::ByCorner(creased(mesh, degrees, polygons))
+        }
         _ => averaged(mesh, polygons),
     }
 }
@@ -107,13 +117,20 @@ fn direction(sum: DVec3, count: u32) -> Option<DVec3> {
 fn averaged(mesh: &PolygonMesh, polygons: &[DVec3]) -> CornerNormals {
     let (vertex, count) = weld(mesh.positions());
     let sums = sums(mesh, polygons, &vertex, count);
-    let mut values = collect(count, 4096, |v| direction(sums[v].normal, sums[v].count).unwrap_or(NO_NORMAL).as_vec3()); // 3.1
+    let mut values = collect(count, 4096, |v| {
+        direction(sums[v].normal, sums[v].count)
+            .unwrap_or(NO_NORMAL)
+            .as_vec3()
+    }); // 3.1
     // Where nothing was added every corner is one of a polygon without a normal, which has none of its own to take.
     let vanishes = |sum: &Sum| sum.count > 0 && direction(sum.normal, sum.count).is_none();
     let vanishes = collect(count, 4096, |v| vanishes(&sums[v]));
     drop(sums);
     if !vanishes.contains(&true) {
-        return CornerNormals::ByPosition { values, positions: vertex };
+        return CornerNormals::ByPosition {
+            values,
+            positions: vertex,
+        };
     }
     let mut corners = corners_of(mesh, &vertex);
     for p in 0..mesh.polygon_count() {
@@ -133,11 +150,17 @@ fn averaged(mesh: &PolygonMesh, polygons: &[DVec3]) -> CornerNormals {
 fn from_given(mesh: &PolygonMesh, given: &GivenNormals, polygons: &[DVec3]) -> CornerNormals {
     let corners = given.corners.as_deref().unwrap_or(mesh.corners());
     let missing = |n: u32| given.values[n as usize] == Vec3::ZERO;
-    let mut values: Vec<Vec3> =
-        given.values.iter().map(|n| unit_normal(n.as_dvec3()).unwrap_or(NO_NORMAL).as_vec3()).collect();
+    let mut values: Vec<Vec3> = given
+        .values
+        .iter()
+        .map(|n| unit_normal(n.as_dvec3()).unwrap_or(NO_NORMAL).as_vec3())
+        .collect();
     let is_any_missing = corners.iter().any(|&n| missing(n));
     if given.corners.is_none() && !is_any_missing {
-        return CornerNormals::ByPosition { values, positions: (0..mesh.positions().len() as u32).collect() };
+        return CornerNormals::ByPosition {
+            values,
+            positions: (0..mesh.positions().len() as u32).collect(),
+        };
     }
     let mut corners = corners.to_vec();
     if is_any_missing {
@@ -212,7 +235,10 @@ fn creased(mesh: &PolygonMesh, degrees: f64, polygons: &[DVec3]) -> VertexNormal
                     counted += 1;
                 }
             }
-            let value = direction(sum, counted).or(own).unwrap_or(NO_NORMAL).as_vec3();
+            let value = direction(sum, counted)
+                .or(own)
+                .unwrap_or(NO_NORMAL)
+                .as_vec3();
             let shared = values[first..].iter().position(|&other| other == value);
             corners[corner as usize] = (first + shared.unwrap_or(values.len() - first)) as u32;
             if shared.is_none() {
@@ -231,9 +257,18 @@ mod tests {
 
     /// The cube from −1 to 1, six quads, outward.
     fn cube() -> PolygonMesh {
-        let positions = (0..8).map(|i| Vec3::new(sign(i & 1), sign(i >> 1 & 1), sign(i >> 2 & 1))).collect();
+        let positions = (0..8)
+            .map(|i| Vec3::new(sign(i & 1), sign(i >> 1 & 1), sign(i >> 2 & 1)))
+            .collect();
         let mut builder = MeshBuilder::new(positions);
-        for face in [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]] {
+        for face in [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ] {
             builder.polygon(&face);
         }
         builder.finish().expect("a cube")
@@ -248,7 +283,9 @@ mod tests {
     }
 
     fn face_normal(mesh: &PolygonMesh, p: usize) -> Vec3 {
-        unit_normal(polygon_normal(mesh, p)).expect("a normal").as_vec3()
+        unit_normal(polygon_normal(mesh, p))
+            .expect("a normal")
+            .as_vec3()
     }
 
     #[test]
@@ -277,16 +314,29 @@ mod tests {
         assert_eq!(smooth.values.len(), 8);
         let averaged = vertex_normals(&mesh, NormalSource::Averaged);
         (0..24).for_each(|k| assert_eq!(at(&smooth, k), at(&averaged, k)));
-        assert_eq!(vertex_normals(&mesh, NormalSource::Crease(89.999)).values.len(), 24);
+        assert_eq!(
+            vertex_normals(&mesh, NormalSource::Crease(89.999))
+                .values
+                .len(),
+            24
+        );
     }
 
     #[test]
     fn a_sheet_with_two_sides_keeps_both() {
-        let positions = vec![Vec3::ZERO, Vec3::new(0.9, 0.1, 0.2), Vec3::new(0.3, 0.7, -0.4)];
+        let positions = vec![
+            Vec3::ZERO,
+            Vec3::new(0.9, 0.1, 0.2),
+            Vec3::new(0.3, 0.7, -0.4),
+        ];
         let mut builder = MeshBuilder::new(positions);
         builder.polygon(&[0, 1, 2]).polygon(&[0, 2, 1]);
         let mesh = builder.finish().expect("a sheet");
-        for source in [NormalSource::Averaged, NormalSource::Crease(180.0), NormalSource::Crease(60.0)] {
+        for source in [
+            NormalSource::Averaged,
+            NormalSource::Crease(180.0),
+            NormalSource::Crease(60.0),
+        ] {
             let normals = vertex_normals(&mesh, source);
             for k in 0..6 {
                 assert_eq!(at(&normals, k), face_normal(&mesh, k / 3), "{source:?}");
@@ -323,11 +373,24 @@ mod tests {
 
     #[test]
     fn a_polygon_without_a_normal_does_not_count_but_takes_the_average() {
-        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(2.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 9.0)];
+        let positions = vec![
+            Vec3::ZERO,
+            Vec3::X,
+            Vec3::Y,
+            Vec3::new(2.0, 0.0, 0.0),
+            Vec3::new(0.0, 0.0, 9.0),
+        ];
         let mut builder = MeshBuilder::new(positions);
-        builder.polygon(&[0, 1, 2]).polygon(&[0, 1, 3]).polygon(&[4, 4, 4]);
+        builder
+            .polygon(&[0, 1, 2])
+            .polygon(&[0, 1, 3])
+            .polygon(&[4, 4, 4]);
         let mesh = builder.finish().expect("triangles");
-        for source in [NormalSource::Averaged, NormalSource::Given, NormalSource::Crease(10.0)] {
+        for source in [
+            NormalSource::Averaged,
+            NormalSource::Given,
+            NormalSource::Crease(10.0),
+        ] {
             let normals = vertex_normals(&mesh, source);
             for k in 0..9 {
                 assert_eq!(at(&normals, k), Vec3::Z, "{source:?} {k}");
@@ -361,17 +424,29 @@ mod tests {
     fn given_normals_are_normalised_and_completed() {
         let mut builder = MeshBuilder::new(vec![Vec3::ZERO, Vec3::Y, Vec3::Z]);
         builder.polygon(&[0, 1, 2]);
-        builder.normals(GivenNormals { values: vec![Vec3::new(0.0, 3.0, 4.0), Vec3::ZERO, -Vec3::X], corners: None });
+        builder.normals(GivenNormals {
+            values: vec![Vec3::new(0.0, 3.0, 4.0), Vec3::ZERO, -Vec3::X],
+            corners: None,
+        });
         let mesh = builder.finish().expect("a triangle");
         let normals = vertex_normals(&mesh, NormalSource::Given);
         // The zero at the second corner is replaced by the average, the triangle's own normal.
-        assert_eq!([0, 1, 2].map(|k| at(&normals, k)), [Vec3::new(0.0, 0.6, 0.8), Vec3::X, -Vec3::X]);
+        assert_eq!(
+            [0, 1, 2].map(|k| at(&normals, k)),
+            [Vec3::new(0.0, 0.6, 0.8), Vec3::X, -Vec3::X]
+        );
 
         let mut builder = MeshBuilder::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y]);
         builder.polygon(&[0, 1, 2]);
-        builder.normals(GivenNormals { values: vec![Vec3::Y, Vec3::X], corners: Some(vec![1, 0, 1]) });
+        builder.normals(GivenNormals {
+            values: vec![Vec3::Y, Vec3::X],
+            corners: Some(vec![1, 0, 1]),
+        });
         let mesh = builder.finish().expect("a triangle");
         let normals = vertex_normals(&mesh, NormalSource::Given);
-        assert_eq!([0, 1, 2].map(|k| at(&normals, k)), [Vec3::X, Vec3::Y, Vec3::X]);
+        assert_eq!(
+            [0, 1, 2].map(|k| at(&normals, k)),
+            [Vec3::X, Vec3::Y, Vec3::X]
+        );
     }
 }

@@ -18,7 +18,12 @@ pub(super) struct Sum {
 }
 
 /// The sums of unit normals at all vertices; each in the order of the polygons, on however many threads.
-pub(super) fn sums(mesh: &PolygonMesh, polygons: &[DVec3], vertex: &[u32], count: usize) -> Vec<Sum> {
+pub(super) fn sums(
+    mesh: &PolygonMesh,
+    polygons: &[DVec3],
+    vertex: &[u32],
+    count: usize,
+) -> Vec<Sum> {
     const RUN: usize = 1024;
     let runs = polygons.len().div_ceil(RUN);
     let corners = |run: usize| {
@@ -27,26 +32,36 @@ pub(super) fn sums(mesh: &PolygonMesh, polygons: &[DVec3], vertex: &[u32], count
     };
     // Each thread has vertices of its own, and passes over runs of polygons that have none of them.
     let reaches = collect(runs, 8, |run| {
-        let vertices = mesh.corners()[corners(run)].iter().map(|&corner| vertex[corner as usize] as usize);
+        let vertices = mesh.corners()[corners(run)]
+            .iter()
+            .map(|&corner| vertex[corner as usize] as usize);
         vertices.fold((usize::MAX, 0), |(low, high), v| (low.min(v), high.max(v)))
     });
     let mut sums = vec![Sum::default(); count];
-    for_each_chunk(&mut sums[..], count.div_ceil(threads()).max(1), &|first, own: &mut [Sum]| {
-        let end = first + own.len();
-        for run in (0..runs).filter(|&run| reaches[run].0 < end && reaches[run].1 >= first) {
-            let range = run * RUN..polygons.len().min(run * RUN + RUN);
-            for (p, &normal) in range.clone().zip(&polygons[range]) {
-                let Some(unit) = unit_normal(normal) else { continue };
-                for &corner in mesh.polygon(p) {
-                    let place = (vertex[corner as usize] as usize).wrapping_sub(first);
-                    if let Some(sum) = own.get_mut(place).filter(|sum| sum.latest != p as u32 + 1) {
-                        sum.latest = p as u32 + 1;
-                        sum.normal += unit; // 3.1
-                        sum.count += 1;
+    for_each_chunk(
+        &mut sums[..],
+        count.div_ceil(threads()).max(1),
+        &|first, own: &mut [Sum]| {
+            let end = first + own.len();
+            for run in (0..runs).filter(|&run| reaches[run].0 < end && reaches[run].1 >= first) {
+                let range = run * RUN..polygons.len().min(run * RUN + RUN);
+                for (p, &normal) in range.clone().zip(&polygons[range]) {
+                    let Some(unit) = unit_normal(normal) else {
+                        continue;
+                    };
+                    for &corner in mesh.polygon(p) {
+                        let place = (vertex[corner as usize] as usize).wrapping_sub(first);
+                        if let Some(sum) =
+                            own.get_mut(place).filter(|sum| sum.latest != p as u32 + 1)
+                        {
+                            sum.latest = p as u32 + 1;
+                            sum.normal += unit; // 3.1
+                            sum.count += 1;
+                        }
                     }
                 }
             }
-        }
-    });
+        },
+    );
     sums
 }

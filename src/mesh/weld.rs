@@ -21,7 +21,10 @@ fn key(p: &Vec3) -> [u32; 3] {
 fn by_hash(positions: &[Vec3]) -> Option<(Vec<u32>, usize)> {
     const NONE: u32 = u32::MAX;
     // At most half full.
-    let bits = (2 * positions.len()).next_power_of_two().trailing_zeros().max(1);
+    let bits = (2 * positions.len())
+        .next_power_of_two()
+        .trailing_zeros()
+        .max(1);
     let mask = (1usize << bits) - 1;
     // The first position of each kind.
     let mut table = vec![NONE; mask + 1];
@@ -90,7 +93,14 @@ mod tests {
 
     #[test]
     fn equal_positions_share_a_number_in_order_of_first_occurrence() {
-        let p = [Vec3::Z, Vec3::new(0.0, 1.0, -0.0), Vec3::Z, Vec3::X, Vec3::new(-0.0, 1.0, 0.0), Vec3::Z];
+        let p = [
+            Vec3::Z,
+            Vec3::new(0.0, 1.0, -0.0),
+            Vec3::Z,
+            Vec3::X,
+            Vec3::new(-0.0, 1.0, 0.0),
+            Vec3::Z,
+        ];
         assert_eq!(weld(&p), (vec![0, 1, 0, 2, 1, 0], 3));
         assert_eq!(weld(&[]), (Vec::new(), 0));
     }
@@ -100,8 +110,11 @@ mod tests {
         let mut random = crate::test_random::Random::new(5);
         for count in [1, 2, 10, 1000, 5000] {
             // Few different coordinates, of either sign, zero among them.
-            let mut coordinate = || (random.signed() * 6.0) as i32 as f32 * random.signed().signum();
-            let all: Vec<Vec3> = (0..count).map(|_| Vec3::new(coordinate(), coordinate(), coordinate())).collect();
+            let mut coordinate =
+                || (random.signed() * 6.0) as i32 as f32 * random.signed().signum();
+            let all: Vec<Vec3> = (0..count)
+                .map(|_| Vec3::new(coordinate(), coordinate(), coordinate()))
+                .collect();
             let by_hash = by_hash(&all).expect("no collisions were sought");
             assert!(count < 1000 || by_hash.1 < count, "nothing to weld");
             assert_eq!(by_hash, by_sorting(&all));

@@ -59,9 +59,14 @@ pub fn difference_map_of_blocks<A: Texel, B: Texel>(
         }
     };
     let mut map = Picture8::new(width, height, EQUAL);
-    for (top, left) in (0..height).step_by(side).flat_map(|y| (0..width).step_by(side).map(move |x| (y, x))) {
+    for (top, left) in (0..height)
+        .step_by(side)
+        .flat_map(|y| (0..width).step_by(side).map(move |x| (y, x)))
+    {
         let (rows, columns) = (top..height.min(top + side), left..width.min(left + side));
-        let errors = rows.clone().flat_map(|y| columns.clone().map(move |x| error(x, y)));
+        let errors = rows
+            .clone()
+            .flat_map(|y| columns.clone().map(move |x| error(x, y)));
         let colour = match errors.fold(Error::Channels(0.0), Error::larger) {
             Error::Coverage => COVERAGE,
             Error::Channels(error) => absolute_colour(error, f64::from(scale)),
@@ -130,9 +135,17 @@ fn paint<A: Texel, B: Texel>(
 ) -> Result<Picture8, SizeMismatch> {
     SizeMismatch::check(reference, actual)?;
     let mut map = Picture8::new(reference.width(), reference.height(), EQUAL);
-    for (out, (r, a)) in map.texels_mut().iter_mut().zip(reference.texels().iter().zip(actual.texels())) {
+    for (out, (r, a)) in map
+        .texels_mut()
+        .iter_mut()
+        .zip(reference.texels().iter().zip(actual.texels()))
+    {
         let (r, a) = (r.levels(), a.levels());
-        *out = if r.alpha() == a.alpha() { colour(r, a) } else { COVERAGE };
+        *out = if r.alpha() == a.alpha() {
+            colour(r, a)
+        } else {
+            COVERAGE
+        };
     }
     Ok(map)
 }
@@ -166,7 +179,11 @@ fn signed_colour(error: f64, scale: f64) -> [u8; 4] {
     if error == 0.0 {
         return EQUAL;
     }
-    let ([from, to], beyond) = if error > 0.0 { (BRIGHTER, BEYOND) } else { (DARKER, BEYOND_DARKER) };
+    let ([from, to], beyond) = if error > 0.0 {
+        (BRIGHTER, BEYOND)
+    } else {
+        (DARKER, BEYOND_DARKER)
+    };
     if error.abs() <= scale {
         let share = error.abs() / scale;
         let [r, g, b] = core::array::from_fn(|i| (from[i] + share * (to[i] - from[i]) + 0.5) as u8);
@@ -217,18 +234,30 @@ mod tests {
     }
 
     fn absolute(reference: u8, actual: u8, scale: f32) -> [u8; 4] {
-        difference_map(&grey(reference), &grey(actual), scale).unwrap().get(0, 0)
+        difference_map(&grey(reference), &grey(actual), scale)
+            .unwrap()
+            .get(0, 0)
     }
 
     fn signed(reference: u8, actual: u8, scale: f32) -> [u8; 4] {
-        signed_difference_map(&grey(reference), &grey(actual), scale).unwrap().get(0, 0)
+        signed_difference_map(&grey(reference), &grey(actual), scale)
+            .unwrap()
+            .get(0, 0)
     }
 
     #[test]
     fn absolute_map_has_its_colours_where_the_scale_says() {
         assert_eq!(absolute(100, 100, 16.0), EQUAL);
-        assert_eq!(absolute(100, 116, 16.0), [0xfd, 0xe7, 0x25, 255], "viridis ends in yellow, at the scale itself");
-        assert_eq!(absolute(116, 100, 16.0), [0xfd, 0xe7, 0x25, 255], "whatever the sign");
+        assert_eq!(
+            absolute(100, 116, 16.0),
+            [0xfd, 0xe7, 0x25, 255],
+            "viridis ends in yellow, at the scale itself"
+        );
+        assert_eq!(
+            absolute(116, 100, 16.0),
+            [0xfd, 0xe7, 0x25, 255],
+            "whatever the sign"
+        );
         assert_eq!(absolute(100, 117, 16.0), BEYOND);
         // 8/16 of the way: entry 128 of 0..=255, teal.
         assert_eq!(absolute(100, 108, 16.0), [0x21, 0x91, 0x8c, 255]);
@@ -238,8 +267,18 @@ mod tests {
     fn the_smallest_difference_is_not_black() {
         let reference = Picture::new(1, 1, [0.5f32, 0.5, 0.5, 1.0]);
         let actual = Picture::new(1, 1, [0.5f32, 0.5, 0.5 + 6e-8, 1.0]);
-        assert_eq!(difference_map(&reference, &actual, 255.0).unwrap().get(0, 0), [0x44, 0x01, 0x54, 255]);
-        assert_eq!(signed_difference_map(&reference, &actual, 255.0).unwrap().get(0, 0), [80, 32, 8, 255]);
+        assert_eq!(
+            difference_map(&reference, &actual, 255.0)
+                .unwrap()
+                .get(0, 0),
+            [0x44, 0x01, 0x54, 255]
+        );
+        assert_eq!(
+            signed_difference_map(&reference, &actual, 255.0)
+                .unwrap()
+                .get(0, 0),
+            [80, 32, 8, 255]
+        );
     }
 
     #[test]
@@ -248,7 +287,10 @@ mod tests {
         assert_eq!(signed(100, 105, 4.0), BEYOND);
         assert_eq!(signed(105, 100, 4.0), BEYOND_DARKER);
         let (bright, dark) = (signed(100, 103, 4.0), signed(103, 100, 4.0));
-        assert!(bright[0] > bright[2] && dark[2] > dark[0], "{bright:?} is orange, {dark:?} is blue");
+        assert!(
+            bright[0] > bright[2] && dark[2] > dark[0],
+            "{bright:?} is orange, {dark:?} is blue"
+        );
     }
 
     #[test]
@@ -264,7 +306,10 @@ mod tests {
         for (x, y) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             assert_eq!(blocks.get(x, y), single.get(0, 1));
         }
-        assert_eq!((blocks.get(2, 0), blocks.get(1, 2), blocks.get(2, 2)), (EQUAL, EQUAL, COVERAGE));
+        assert_eq!(
+            (blocks.get(2, 0), blocks.get(1, 2), blocks.get(2, 2)),
+            (EQUAL, EQUAL, COVERAGE)
+        );
     }
 
     #[test]
@@ -277,8 +322,14 @@ mod tests {
             assert_eq!(map(&covered, &lost, 255.0).unwrap().get(0, 0), BEYOND);
         }
         for scale in [0.0, -1.0, f32::NAN] {
-            assert_eq!([absolute(1, 1, scale), absolute(1, 2, scale)], [EQUAL, BEYOND]);
-            assert_eq!([signed(1, 1, scale), signed(2, 1, scale)], [EQUAL, BEYOND_DARKER]);
+            assert_eq!(
+                [absolute(1, 1, scale), absolute(1, 2, scale)],
+                [EQUAL, BEYOND]
+            );
+            assert_eq!(
+                [signed(1, 1, scale), signed(2, 1, scale)],
+                [EQUAL, BEYOND_DARKER]
+            );
         }
         assert!(difference_map(&covered, &Picture::new(2, 1, [0.0f32; 4]), 1.0).is_err());
     }
@@ -286,8 +337,14 @@ mod tests {
     #[test]
     fn bars_run_over_the_whole_scale() {
         let row = |bar: Picture8| [bar.get(0, 1), bar.get(50, 1), bar.get(100, 1)];
-        assert_eq!(row(colour_bar(101, 2)), [EQUAL, [0x21, 0x91, 0x8c, 255], [0xfd, 0xe7, 0x25, 255]]);
-        assert_eq!(row(signed_colour_bar(101, 2)), [[136, 200, 255, 255], EQUAL, [255, 196, 120, 255]]);
+        assert_eq!(
+            row(colour_bar(101, 2)),
+            [EQUAL, [0x21, 0x91, 0x8c, 255], [0xfd, 0xe7, 0x25, 255]]
+        );
+        assert_eq!(
+            row(signed_colour_bar(101, 2)),
+            [[136, 200, 255, 255], EQUAL, [255, 196, 120, 255]]
+        );
         assert_eq!(colour_bar(1, 1).get(0, 0), EQUAL);
         assert_eq!(colour_bar(0, 3).texels(), &[] as &[[u8; 4]]);
     }
@@ -296,8 +353,15 @@ mod tests {
     fn no_colour_of_the_scale_is_one_with_another_meaning() {
         for level in 1..=1000 {
             let at = f64::from(level) / 1000.0;
-            for colour in [absolute_colour(at, 1.0), signed_colour(at, 1.0), signed_colour(-at, 1.0)] {
-                assert!(![EQUAL, BEYOND, BEYOND_DARKER, COVERAGE].contains(&colour), "{colour:?} at {at}");
+            for colour in [
+                absolute_colour(at, 1.0),
+                signed_colour(at, 1.0),
+                signed_colour(-at, 1.0),
+            ] {
+                assert!(
+                    ![EQUAL, BEYOND, BEYOND_DARKER, COVERAGE].contains(&colour),
+                    "{colour:?} at {at}"
+                );
             }
         }
     }

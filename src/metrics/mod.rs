@@ -39,8 +39,8 @@ mod texel;
 
 pub use list::{Better, METRICS, MetricInfo};
 pub use map::{
-    BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, colour_bar, difference_map, difference_map_of_blocks, signed_colour_bar,
-    signed_difference_map,
+    BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, colour_bar, difference_map, difference_map_of_blocks,
+    signed_colour_bar, signed_difference_map,
 };
 pub use texel::{Levels, Texel};
 
@@ -102,7 +102,11 @@ impl Difference {
 
     /// The share of the compared pixels that `count` pixels are, in 0..=1; 0 if none was compared.
     pub fn share(&self, count: usize) -> f64 {
-        if self.compared == 0 { 0.0 } else { count as f64 / self.compared as f64 }
+        if self.compared == 0 {
+            0.0
+        } else {
+            count as f64 / self.compared as f64
+        }
     }
 }
 
@@ -112,7 +116,10 @@ mod infinite_as_null {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub fn serialize<S: Serializer>(decibels: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-        decibels.is_finite().then_some(*decibels).serialize(serializer)
+        decibels
+            .is_finite()
+            .then_some(*decibels)
+            .serialize(serializer)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
@@ -130,19 +137,29 @@ pub struct SizeMismatch {
 }
 
 impl SizeMismatch {
-    fn check<A: Copy, B: Copy>(reference: &Picture<A>, actual: &Picture<B>) -> Result<(), SizeMismatch> {
+    fn check<A: Copy, B: Copy>(
+        reference: &Picture<A>,
+        actual: &Picture<B>,
+    ) -> Result<(), SizeMismatch> {
         let sizes = SizeMismatch {
             reference: [reference.width(), reference.height()],
             actual: [actual.width(), actual.height()],
         };
-        if sizes.reference == sizes.actual { Ok(()) } else { Err(sizes) }
+        if sizes.reference == sizes.actual {
+            Ok(())
+        } else {
+            Err(sizes)
+        }
     }
 }
 
 impl fmt::Display for SizeMismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([rw, rh], [aw, ah]) = (self.reference, self.actual);
-        write!(f, "the reference is {rw}×{rh} pixels, the other picture {aw}×{ah}: expected the same size")
+        write!(
+            f,
+            "the reference is {rw}×{rh} pixels, the other picture {aw}×{ah}: expected the same size"
+        )
     }
 }
 
@@ -166,7 +183,10 @@ impl core::error::Error for SizeMismatch {}
 ///
 /// # Errors
 /// If the sizes differ.
-pub fn compare<A: Texel, B: Texel>(reference: &Picture<A>, actual: &Picture<B>) -> Result<Difference, SizeMismatch> {
+pub fn compare<A: Texel, B: Texel>(
+    reference: &Picture<A>,
+    actual: &Picture<B>,
+) -> Result<Difference, SizeMismatch> {
     compare_where(reference, actual, |_, _| true)
 }
 
@@ -185,7 +205,10 @@ pub fn compare_where<A: Texel, B: Texel>(
     SizeMismatch::check(reference, actual)?;
     let (width, height) = (reference.width(), reference.height());
     let mut tally = Tally::default();
-    let mut luminance = [Vec::with_capacity(width * height), Vec::with_capacity(width * height)];
+    let mut luminance = [
+        Vec::with_capacity(width * height),
+        Vec::with_capacity(width * height),
+    ];
     for y in 0..height {
         for (x, (r, a)) in reference.row(y).iter().zip(actual.row(y)).enumerate() {
             let (r, a) = (r.levels(), a.levels());
@@ -247,7 +270,13 @@ impl Tally {
 
     fn finish(mut self, ssim: Option<f64>) -> Difference {
         let compared = self.errors.len();
-        let mean = |sum: f64, pixels: usize| if pixels == 0 { 0.0 } else { sum / pixels as f64 };
+        let mean = |sum: f64, pixels: usize| {
+            if pixels == 0 {
+                0.0
+            } else {
+                sum / pixels as f64
+            }
+        };
         let frame_rms = libm::sqrt(mean(self.squares, 3 * self.frame)) / 255.0;
         Difference {
             frame: self.frame,
@@ -280,7 +309,10 @@ struct ChannelErrors {
 /// The errors of one pixel; what is not finite is off by the full range, so that no mean is lost and none hides it.
 fn channel_errors(reference: Levels, actual: Levels) -> ChannelErrors {
     let (r, a) = (reference.rgb(), actual.rgb());
-    let mut of = ChannelErrors { errors: [0.0; 3], not_finite: false };
+    let mut of = ChannelErrors {
+        errors: [0.0; 3],
+        not_finite: false,
+    };
     for i in 0..3 {
         let error = (a[i] - r[i]).abs();
         of.not_finite |= !error.is_finite();

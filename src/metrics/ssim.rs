@@ -47,7 +47,11 @@ pub(super) fn mean_ssim(reference: &[f64], actual: &[f64], width: usize) -> Opti
     let mut moments = vec![0.0; MOMENTS * places];
     let mut products: [Vec<f64>; MOMENTS] = core::array::from_fn(|_| vec![0.0; width]);
     let mut sum = 0.0;
-    for (y, (x_row, y_row)) in reference.chunks_exact(width).zip(actual.chunks_exact(width)).enumerate() {
+    for (y, (x_row, y_row)) in reference
+        .chunks_exact(width)
+        .zip(actual.chunks_exact(width))
+        .enumerate()
+    {
         multiply(x_row, y_row, &mut products);
         let slot = &mut filtered[y % WINDOW * MOMENTS * places..][..MOMENTS * places];
         for (product, out) in products.iter().zip(slot.chunks_exact_mut(places)) {
@@ -55,7 +59,11 @@ pub(super) fn mean_ssim(reference: &[f64], actual: &[f64], width: usize) -> Opti
         }
         if y + 1 >= WINDOW {
             // y + 1 is the slot of the oldest row.
-            weigh(&weights, |k| &filtered[(y + 1 + k) % WINDOW * MOMENTS * places..], &mut moments);
+            weigh(
+                &weights,
+                |k| &filtered[(y + 1 + k) % WINDOW * MOMENTS * places..],
+                &mut moments,
+            );
             sum += row_sum(&moments, places);
         }
     }
@@ -92,7 +100,8 @@ fn row_sum(moments: &[f64], places: usize) -> f64 {
         let (mx, my) = (mean_x[i], mean_y[i]);
         let variances = square[i] - mx * mx - my * my;
         let covariance = cross[i] - mx * my;
-        sum += (2.0 * mx * my + C1) * (2.0 * covariance + C2) / ((mx * mx + my * my + C1) * (variances + C2));
+        sum += (2.0 * mx * my + C1) * (2.0 * covariance + C2)
+            / ((mx * mx + my * my + C1) * (variances + C2));
     }
     sum
 }
@@ -104,11 +113,21 @@ mod tests {
     #[test]
     fn weights_are_a_normalised_bell() {
         let weights = weights();
-        assert_eq!(weights.iter().zip(weights.iter().rev()).find(|(a, b)| a != b), None, "symmetric");
+        assert_eq!(
+            weights
+                .iter()
+                .zip(weights.iter().rev())
+                .find(|(a, b)| a != b),
+            None,
+            "symmetric"
+        );
         // Eleven quotients, each off by half a unit in the last place of at most 2^-2, and ten sums: below 21 * 2^-53.
         assert!((weights.iter().sum::<f64>() - 1.0).abs() < 21.0 * f64::EPSILON / 2.0);
         // exp(-1/(2 * 1.5²)): the ratio of neighbours at the top.
-        assert!((weights[4] / weights[5] - 0.800_737_402_916_808_1).abs() < 4.0 * f64::EPSILON, "four roundings");
+        assert!(
+            (weights[4] / weights[5] - 0.800_737_402_916_808_1).abs() < 4.0 * f64::EPSILON,
+            "four roundings"
+        );
     }
 
     #[test]

@@ -5,7 +5,10 @@ use crate::picture::{LinearPicture, Picture8};
 
 /// A pair of opaque pictures; `noise` of column, row, channel is added to the reference, then clamped.
 fn pair(width: usize, height: usize, noise: fn(i64, i64, i64) -> i64) -> [Picture8; 2] {
-    let mut pair = [Picture8::new(width, height, [255; 4]), Picture8::new(width, height, [255; 4])];
+    let mut pair = [
+        Picture8::new(width, height, [255; 4]),
+        Picture8::new(width, height, [255; 4]),
+    ];
     for y in 0..height {
         for x in 0..width {
             for c in 0..3 {
@@ -68,7 +71,10 @@ static KNOWN: [Known; 4] = [
 ];
 
 fn near(got: f64, expected: f64, tolerance: f64) {
-    assert!((got - expected).abs() <= tolerance, "{got} is not {expected} ± {tolerance:e}");
+    assert!(
+        (got - expected).abs() <= tolerance,
+        "{got} is not {expected} ± {tolerance:e}"
+    );
 }
 
 #[test]
@@ -104,7 +110,10 @@ fn linear_and_stored_pictures_have_the_same_numbers() {
     near(d.signed_mean, stored.signed_mean, rounding);
     assert_eq!(d.differing, stored.differing);
     let mixed = compare(&reference, &linear(&reference)).unwrap();
-    assert!(mixed.max <= rounding, "a stored picture against the linear one it was rounded from");
+    assert!(
+        mixed.max <= rounding,
+        "a stored picture against the linear one it was rounded from"
+    );
 }
 
 #[test]
@@ -112,17 +121,26 @@ fn equal_pictures_have_no_difference() {
     let [picture, _] = pair(20, 20, |_, _, _| 0);
     let d = compare(&picture, &picture).unwrap();
     assert!(d.is_none());
-    assert_eq!((d.max, d.worst, d.rms, d.p99, d.signed_mean), (0.0, None, 0.0, 0.0, 0.0));
+    assert_eq!(
+        (d.max, d.worst, d.rms, d.p99, d.signed_mean),
+        (0.0, None, 0.0, 0.0, 0.0)
+    );
     assert_eq!(d.psnr, f64::INFINITY);
     assert_eq!(d.ssim, Some(1.0));
-    assert_eq!((d.frame, d.compared, d.differing, d.over_half_level), (400, 400, 0, 0));
+    assert_eq!(
+        (d.frame, d.compared, d.differing, d.over_half_level),
+        (400, 400, 0, 0)
+    );
 }
 
 #[test]
 fn nothing_at_all_is_equal_to_itself() {
     let nothing = Picture8::new(0, 0, [0; 4]);
     let d = compare(&nothing, &nothing).unwrap();
-    assert_eq!((d.frame, d.compared, d.rms, d.p99, d.psnr, d.ssim), (0, 0, 0.0, 0.0, f64::INFINITY, None));
+    assert_eq!(
+        (d.frame, d.compared, d.rms, d.p99, d.psnr, d.ssim),
+        (0, 0, 0.0, 0.0, f64::INFINITY, None)
+    );
     assert_eq!(d.share(0), 0.0);
 }
 
@@ -141,7 +159,11 @@ fn background_does_not_dilute() {
 
     actual.row_mut(0)[0] = [9, 9, 13, 0];
     let d = compare(&reference, &actual).unwrap();
-    assert_eq!((d.compared, d.differing), (2, 2), "no colour that differs is background");
+    assert_eq!(
+        (d.compared, d.differing),
+        (2, 2),
+        "no colour that differs is background"
+    );
 }
 
 #[test]
@@ -150,25 +172,51 @@ fn coverage_is_counted_on_its_own() {
     let mut actual = reference.clone();
     actual.row_mut(0)[1] = [9, 9, 9, 255];
     let d = compare(&reference, &actual).unwrap();
-    assert_eq!((d.coverage_mismatches, d.compared, d.differing, d.max), (1, 1, 0, 0.0));
+    assert_eq!(
+        (d.coverage_mismatches, d.compared, d.differing, d.max),
+        (1, 1, 0, 0.0)
+    );
     assert!(!d.is_none());
 }
 
 #[test]
 fn thresholds_bite_beyond_whole_and_half_levels() {
     let reference = Picture8::new(3, 1, [200, 200, 200, 255]);
-    let actual = Picture8::from_texels(3, 1, [[200, 201, 200, 255], [202, 200, 200, 255], [200; 4]].to_vec()).unwrap();
+    let actual = Picture8::from_texels(
+        3,
+        1,
+        [[200, 201, 200, 255], [202, 200, 200, 255], [200; 4]].to_vec(),
+    )
+    .unwrap();
     let d = compare(&reference, &actual).unwrap();
-    assert_eq!((d.over_half_level, d.over_one_level), (2, 1), "one level is not more than one level");
+    assert_eq!(
+        (d.over_half_level, d.over_one_level),
+        (2, 1),
+        "one level is not more than one level"
+    );
     assert_eq!(d.coverage_mismatches, 1, "any difference of alpha");
 
     let linear = |c: f32| LinearPicture::new(1, 1, [c, 0.0, 0.0, 1.0]);
     let levels = |c: f64| Picture::new(1, 1, Levels([c, 0.0, 0.0, 255.0]));
-    assert_eq!(compare(&levels(0.0), &levels(0.5)).unwrap().over_half_level, 0, "half a level is not more than half");
+    assert_eq!(
+        compare(&levels(0.0), &levels(0.5)).unwrap().over_half_level,
+        0,
+        "half a level is not more than half"
+    );
 
     // 0.5/255 = 0.0019607… : on either side of it.
-    assert_eq!(compare(&linear(0.0), &linear(0.001_960)).unwrap().over_half_level, 0);
-    assert_eq!(compare(&linear(0.0), &linear(0.001_961)).unwrap().over_half_level, 1);
+    assert_eq!(
+        compare(&linear(0.0), &linear(0.001_960))
+            .unwrap()
+            .over_half_level,
+        0
+    );
+    assert_eq!(
+        compare(&linear(0.0), &linear(0.001_961))
+            .unwrap()
+            .over_half_level,
+        1
+    );
 }
 
 #[test]
@@ -183,7 +231,12 @@ fn worst_is_the_first_of_the_largest() {
 
 #[test]
 fn percentile_is_the_nearest_rank() {
-    let errors = |n: usize| (0..n).rev().map(|i| i as f64).collect::<alloc::vec::Vec<_>>();
+    let errors = |n: usize| {
+        (0..n)
+            .rev()
+            .map(|i| i as f64)
+            .collect::<alloc::vec::Vec<_>>()
+    };
     // Of 100, the 99th smallest; of 101, rank ceil(99.99) = 100.
     assert_eq!(percentile(&mut errors(100)), 98.0);
     assert_eq!(percentile(&mut errors(101)), 99.0);
@@ -197,11 +250,21 @@ fn what_is_not_finite_is_a_full_error_and_spoils_no_mean() {
     for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let mut actual = reference.clone();
         actual.row_mut(3)[4][1] = wrong;
-        for d in [compare(&reference, &actual).unwrap(), compare(&actual, &reference).unwrap()] {
-            assert_eq!((d.not_finite, d.max, d.worst, d.over_one_level), (1, 1.0, Some([4, 3]), 1));
+        for d in [
+            compare(&reference, &actual).unwrap(),
+            compare(&actual, &reference).unwrap(),
+        ] {
+            assert_eq!(
+                (d.not_finite, d.max, d.worst, d.over_one_level),
+                (1, 1.0, Some([4, 3]), 1)
+            );
             assert!(d.rms.is_finite() && d.signed_mean.is_finite() && d.ssim.unwrap() < 1.0);
         }
-        assert_eq!(compare(&actual, &actual).unwrap().not_finite, 1, "agreeing on nonsense is not agreement");
+        assert_eq!(
+            compare(&actual, &actual).unwrap().not_finite,
+            1,
+            "agreeing on nonsense is not agreement"
+        );
     }
 }
 
@@ -212,7 +275,10 @@ fn excluded_pixels_enter_nothing() {
     actual.row_mut(9)[9][0] ^= 1;
     let d = compare_where(&reference, &actual, |x, y| (x, y) != (4, 3)).unwrap();
     assert_eq!((d.frame, d.excluded, d.compared), (299, 1, 299));
-    assert_eq!((d.differing, d.coverage_mismatches, d.max, d.worst), (1, 0, 1.0 / 255.0, Some([9, 9])));
+    assert_eq!(
+        (d.differing, d.coverage_mismatches, d.max, d.worst),
+        (1, 0, 1.0 / 255.0, Some([9, 9]))
+    );
     let mut repaired = actual.clone();
     repaired.row_mut(3)[4] = reference.get(4, 3);
     assert_eq!(d.ssim, compare(&reference, &repaired).unwrap().ssim);
@@ -221,9 +287,22 @@ fn excluded_pixels_enter_nothing() {
 
 #[test]
 fn sizes_must_agree() {
-    let mismatch = compare(&Picture8::new(4, 3, [0; 4]), &LinearPicture::new(3, 4, [0.0; 4])).unwrap_err();
-    assert_eq!(mismatch, SizeMismatch { reference: [4, 3], actual: [3, 4] });
-    assert_eq!(mismatch.to_string(), "the reference is 4×3 pixels, the other picture 3×4: expected the same size");
+    let mismatch = compare(
+        &Picture8::new(4, 3, [0; 4]),
+        &LinearPicture::new(3, 4, [0.0; 4]),
+    )
+    .unwrap_err();
+    assert_eq!(
+        mismatch,
+        SizeMismatch {
+            reference: [4, 3],
+            actual: [3, 4]
+        }
+    );
+    assert_eq!(
+        mismatch.to_string(),
+        "the reference is 4×3 pixels, the other picture 3×4: expected the same size"
+    );
 }
 
 #[test]
@@ -231,7 +310,11 @@ fn every_metric_states_its_value_and_names_are_unique() {
     let [reference, actual] = pair(40, 16, |x, y, c| (3 * x + 7 * y + c) % 5 - 2);
     let d = compare(&reference, &actual).unwrap();
     for metric in METRICS {
-        assert!(std::ptr::eq(MetricInfo::named(metric.name).unwrap(), metric), "{} is there twice", metric.name);
+        assert!(
+            std::ptr::eq(MetricInfo::named(metric.name).unwrap(), metric),
+            "{} is there twice",
+            metric.name
+        );
         assert!((metric.value)(&d).is_some(), "{}", metric.name);
     }
     let value = |name| (MetricInfo::named(name).unwrap().value)(&d).unwrap();
@@ -253,6 +336,9 @@ fn differences_survive_json() {
         let back: Difference = serde_json::from_str(&json).unwrap();
         // A decimal number may be read as a neighbouring float: one unit in the last place of 16..32.
         assert!(back.psnr == d.psnr || (back.psnr - d.psnr).abs() <= 16.0 * f64::EPSILON);
-        assert_eq!((back.worst, back.compared, back.ssim.is_some()), (d.worst, d.compared, true));
+        assert_eq!(
+            (back.worst, back.compared, back.ssim.is_some()),
+            (d.worst, d.compared, true)
+        );
     }
 }

@@ -23,7 +23,11 @@ impl Levels {
 
     /// Luminance in grey levels, Rec. 709 weights on the values as they are stored; a channel that is not finite counts as 0.
     pub fn luminance(self) -> f64 {
-        LUMINANCE.iter().zip(self.rgb()).map(|(weight, c)| if c.is_finite() { weight * c } else { 0.0 }).sum()
+        LUMINANCE
+            .iter()
+            .zip(self.rgb())
+            .map(|(weight, c)| if c.is_finite() { weight * c } else { 0.0 })
+            .sum()
     }
 }
 

@@ -46,16 +46,47 @@ pub struct Counter([AtomicU32; 7]);
 impl Counter {
     /// What was counted so far.
     pub fn counts(&self) -> Counts {
-        let [additions, multiplications, divisions, roots, comparisons, trigonometric, powers] =
-            [0, 1, 2, 3, 4, 5, 6].map(|kind: usize| self.0[kind].load(Ordering::Relaxed));
-        Counts { additions, multiplications, divisions, roots, comparisons, trigonometric, powers }
+        let [
+            additions,
+            multiplications,
+            divisions,
+            roots,
+            comparisons,
+            trigonometric,
+            powers,
+        ] = [0, 1, 2, 3, 4, 5, 6].map(|kind: usize| self.0[kind].load(Ordering::Relaxed));
+        Counts {
+            additions,
+            multiplications,
+            divisions,
+            roots,
+            comparisons,
+            trigonometric,
+            powers,
+        }
     }
 
     fn note(&self, add: impl FnOnce(&mut Counts)) {
         let mut one = Counts::default();
         add(&mut one);
-        let Counts { additions, multiplications, divisions, roots, comparisons, trigonometric, powers } = one;
-        let all = [additions, multiplications, divisions, roots, comparisons, trigonometric, powers];
+        let Counts {
+            additions,
+            multiplications,
+            divisions,
+            roots,
+            comparisons,
+            trigonometric,
+            powers,
+        } = one;
+        let all = [
+            additions,
+            multiplications,
+            divisions,
+            roots,
+            comparisons,
+            trigonometric,
+            powers,
+        ];
         for (sum, more) in self.0.iter().zip(all) {
             sum.fetch_add(more, Ordering::Relaxed);
         }
@@ -76,7 +107,10 @@ pub struct Counted<'a> {
 impl<'a> Counted<'a> {
     fn with(self, value: f32, add: impl FnOnce(&mut Counts)) -> Self {
         self.counter.note(add);
-        Counted { value, counter: self.counter }
+        Counted {
+            value,
+            counter: self.counter,
+        }
     }
 }
 
@@ -115,7 +149,10 @@ impl Div for Counted<'_> {
 impl Neg for Counted<'_> {
     type Output = Self;
     fn neg(self) -> Self {
-        Counted { value: -self.value, counter: self.counter }
+        Counted {
+            value: -self.value,
+            counter: self.counter,
+        }
     }
 }
 
@@ -148,7 +185,13 @@ impl Real for Counted<'_> {
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = Real::sin_cos(self.value);
         let sin = self.with(sin, |c| c.trigonometric += 1);
-        (sin, Counted { value: cos, counter: self.counter })
+        (
+            sin,
+            Counted {
+                value: cos,
+                counter: self.counter,
+            },
+        )
     }
     fn atan2(self, x: Self) -> Self {
         self.with(Real::atan2(self.value, x.value), |c| c.trigonometric += 1)
@@ -164,7 +207,10 @@ impl<'a> Machine for Counting<'a> {
     const WIDTH: usize = 1;
 
     fn one(self, x: f32) -> Counted<'a> {
-        Counted { value: x, counter: self.0 }
+        Counted {
+            value: x,
+            counter: self.0,
+        }
     }
     fn splat(self, x: Counted<'a>) -> Counted<'a> {
         x

@@ -60,7 +60,13 @@ pub trait Lanes: Machine<One = f32> {
     /// `background` elsewhere, over the first `WIDTH` texels of `to`.
     fn pack(self, rgb: [Self::F; 3], covered: Self::Mask, background: [u8; 4], to: &mut [[u8; 4]]);
     /// The same of colours in levels, 255 for 1, whose magnitudes are below 2³¹; NaN becomes 0.
-    fn pack_levels(self, levels: [Self::F; 3], covered: Self::Mask, background: [u8; 4], to: &mut [[u8; 4]]);
+    fn pack_levels(
+        self,
+        levels: [Self::F; 3],
+        covered: Self::Mask,
+        background: [u8; 4],
+        to: &mut [[u8; 4]],
+    );
 }
 
 /// Whole numbers of 32 bits, of which no result may need more.

@@ -64,8 +64,12 @@ impl Level {
         match self {
             Level::Scalar => "one pixel at a time, the same bits on every platform",
             Level::Sse42 => "eight pixels at a time in two registers (x86-64-v2)",
-            Level::Avx2 => "eight pixels at a time in one register, with fused multiply-add (x86-64-v3)",
-            Level::Neon => "eight pixels at a time in two registers, with fused multiply-add (64 bit ARM)",
+            Level::Avx2 => {
+                "eight pixels at a time in one register, with fused multiply-add (x86-64-v3)"
+            }
+            Level::Neon => {
+                "eight pixels at a time in two registers, with fused multiply-add (64 bit ARM)"
+            }
         }
     }
 }
@@ -87,7 +91,9 @@ impl FromStr for Level {
         match Level::ALL.into_iter().find(|level| level.name() == name) {
             Some(level) if level.is_available() => Ok(level),
             Some(level) => Err(LevelError::Unavailable { level }),
-            None => Err(LevelError::Unknown { name: name.to_string() }),
+            None => Err(LevelError::Unknown {
+                name: name.to_string(),
+            }),
         }
     }
 }
@@ -112,7 +118,10 @@ impl fmt::Display for LevelError {
         let names = || Level::ALL.into_iter().map(Level::name).chain(["auto"]);
         match self {
             LevelError::Unknown { name } => match nearest(name, names()) {
-                Some(near) => write!(f, "unknown instruction set `{name}`: did you mean `{near}`?")?,
+                Some(near) => write!(
+                    f,
+                    "unknown instruction set `{name}`: did you mean `{near}`?"
+                )?,
                 None => write!(f, "unknown instruction set `{name}`")?,
             },
             LevelError::Unavailable { level } => write!(f, "this machine does not have `{level}`")?,
@@ -133,7 +142,9 @@ mod tests {
         for level in Level::ALL {
             match level.name().parse::<Level>() {
                 Ok(read) => assert!(read == level && level.is_available()),
-                Err(error) => assert!(error == LevelError::Unavailable { level } && !level.is_available()),
+                Err(error) => {
+                    assert!(error == LevelError::Unavailable { level } && !level.is_available())
+                }
             }
             assert_eq!(level.to_string(), level.name());
         }
@@ -153,15 +164,30 @@ mod tests {
     #[test]
     fn what_is_no_level_is_said_to_be_none() {
         // No processor has both.
-        let other = if cfg!(target_arch = "x86_64") { Level::Neon } else { Level::Avx2 };
+        let other = if cfg!(target_arch = "x86_64") {
+            Level::Neon
+        } else {
+            Level::Avx2
+        };
         let error = other.name().parse::<Level>().unwrap_err();
         assert_eq!(error, LevelError::Unavailable { level: other });
         let text = error.to_string();
-        assert!(text.starts_with("this machine does not have `") && text.ends_with(&names_of_this_machine()), "{text}");
+        assert!(
+            text.starts_with("this machine does not have `")
+                && text.ends_with(&names_of_this_machine()),
+            "{text}"
+        );
         let text = "avx".parse::<Level>().unwrap_err().to_string();
-        assert!(text.starts_with("unknown instruction set `avx`: did you mean `avx2`?"), "{text}");
+        assert!(
+            text.starts_with("unknown instruction set `avx`: did you mean `avx2`?"),
+            "{text}"
+        );
         let text = "".parse::<Level>().unwrap_err().to_string();
-        assert!(text.starts_with("unknown instruction set ``") && text.contains("expected `auto`, `scalar`"), "{text}");
+        assert!(
+            text.starts_with("unknown instruction set ``")
+                && text.contains("expected `auto`, `scalar`"),
+            "{text}"
+        );
     }
 
     fn names_of_this_machine() -> String {

@@ -60,11 +60,17 @@ impl<F: Num> Num for Pair<F> {
     }
     #[inline(always)]
     fn mul_add(self, factor: Self, summand: Self) -> Self {
-        Pair(self.0.mul_add(factor.0, summand.0), self.1.mul_add(factor.1, summand.1))
+        Pair(
+            self.0.mul_add(factor.0, summand.0),
+            self.1.mul_add(factor.1, summand.1),
+        )
     }
     #[inline(always)]
     fn mul_sub(self, factor: Self, subtrahend: Self) -> Self {
-        Pair(self.0.mul_sub(factor.0, subtrahend.0), self.1.mul_sub(factor.1, subtrahend.1))
+        Pair(
+            self.0.mul_sub(factor.0, subtrahend.0),
+            self.1.mul_sub(factor.1, subtrahend.1),
+        )
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {

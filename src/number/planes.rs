@@ -136,7 +136,10 @@ mod tests {
         assert_eq!(stored, expected);
         assert_eq!(P::COUNT, Some(stored.len()));
         let mut stored = stored.into_iter();
-        assert_eq!(get_each::<f32, P>(|| stored.next().expect("as many numbers as were put")), value);
+        assert_eq!(
+            get_each::<f32, P>(|| stored.next().expect("as many numbers as were put")),
+            value
+        );
         assert_eq!(stored.next(), None, "all numbers are taken");
     }
 
@@ -148,7 +151,10 @@ mod tests {
         round_trip([[1.0, 2.0], [3.0, 4.0]], &[1.0, 2.0, 3.0, 4.0]);
         round_trip(([1.0; 0], 5.0), &[5.0]);
         round_trip(([1.0, 2.0], 3.0, (4.0, 5.0)), &[1.0, 2.0, 3.0, 4.0, 5.0]);
-        round_trip((([1.0], (), 2.0), [(3.0, 4.0), (5.0, 6.0)], 7.0, ()), &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        round_trip(
+            (([1.0], (), 2.0), [(3.0, 4.0), (5.0, 6.0)], 7.0, ()),
+            &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0],
+        );
     }
 
     #[test]
@@ -156,7 +162,11 @@ mod tests {
         assert_eq!(<Option<f32> as Planes<f32>>::COUNT, None);
         assert_eq!(<(f32, Option<f32>) as Planes<f32>>::COUNT, None);
         assert_eq!(<[Option<f32>; 2] as Planes<f32>>::COUNT, None);
-        assert_eq!(<[Option<f32>; 0] as Planes<f32>>::COUNT, Some(0), "none of them is there");
+        assert_eq!(
+            <[Option<f32>; 0] as Planes<f32>>::COUNT,
+            Some(0),
+            "none of them is there"
+        );
         assert_eq!(planes((1.0, Some(2.0))), vec![1.0]);
     }
 }

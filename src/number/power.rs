@@ -42,7 +42,15 @@ pub(super) fn powf<S: Simd>(x: f32x8<S>, n: f32) -> f32x8<S> {
     let nearest = y.round_ties_even();
     let f = (y - nearest) * core::f32::consts::LN_2;
     let mut power = of(1.0 / 5040.0);
-    for term in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+    for term in [
+        1.0 / 720.0,
+        1.0 / 120.0,
+        1.0 / 24.0,
+        1.0 / 6.0,
+        0.5,
+        1.0,
+        1.0,
+    ] {
         power = SimdFloat::mul_add(power, f, of(term));
     }
     let shift: i32x8<S> = fearless_simd::SimdCvtTruncate::truncate_from(nearest);
@@ -77,8 +85,17 @@ mod tests {
     /// Numbers of 0..=1 that are 0 or normal: near 0, near 1, on both sides of where the logarithm is cut, and in between.
     fn numbers() -> Vec<f32> {
         let cut = core::f32::consts::FRAC_1_SQRT_2;
-        let mut all =
-            vec![0.0, f32::MIN_POSITIVE, 1e-30, 1.0, 1.0f32.next_down(), 0.5, cut, cut.next_down(), cut.next_up()];
+        let mut all = vec![
+            0.0,
+            f32::MIN_POSITIVE,
+            1e-30,
+            1.0,
+            1.0f32.next_down(),
+            0.5,
+            cut,
+            cut.next_down(),
+            cut.next_up(),
+        ];
         let mut random = Random::new(13);
         all.extend((0..1000).map(|_| random.signed().abs().max(f32::MIN_POSITIVE)));
         all.extend((0..400).map(|_| 1.0 - random.signed().abs() / 64.0));
@@ -90,7 +107,9 @@ mod tests {
     #[test]
     fn powers_are_as_near_as_the_documentation_says() {
         let numbers = numbers();
-        for n in [0.1f32, 0.5, 0.999, 1.0, 1.5, 2.0, 7.5, 20.25, 63.9, 128.0, 333.3, 1000.0] {
+        for n in [
+            0.1f32, 0.5, 0.999, 1.0, 1.5, 2.0, 7.5, 20.25, 63.9, 128.0, 333.3, 1000.0,
+        ] {
             for level in Level::available().filter(|level| level.width() > 1) {
                 let mut worst = 0.0f64;
                 for (x, power) in numbers.iter().zip(on_level(level, Powers(&numbers, n))) {
@@ -98,10 +117,14 @@ mod tests {
                     let truth = x.powf(n);
                     let logarithm = if x > 0.0 { x.log2().abs() * n } else { 0.0 };
                     let reduced = f64::min(logarithm, 0.5 * n);
-                    let bound = truth * (0.7 * (logarithm + 3.0 * reduced) + 2.0) * f64::powi(2.0, -23);
+                    let bound =
+                        truth * (0.7 * (logarithm + 3.0 * reduced) + 2.0) * f64::powi(2.0, -23);
                     let error = (f64::from(power) - truth).abs();
                     // Below the normal numbers there is nothing to be near to.
-                    assert!(error <= bound + f64::powi(2.0, -126), "{level}: {x:e}^{n}: {power:e}, {truth:e}");
+                    assert!(
+                        error <= bound + f64::powi(2.0, -126),
+                        "{level}: {x:e}^{n}: {power:e}, {truth:e}"
+                    );
                     if truth > 1e-30 {
                         worst = worst.max(error / bound);
                     }
@@ -116,9 +139,17 @@ mod tests {
         let ends = [0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0];
         for level in Level::available() {
             for n in [0.1, 1.0, 37.5] {
-                assert_eq!(on_level(level, Powers(&ends, n)), ends, "{level}: 0 and 1 to the power {n}");
+                assert_eq!(
+                    on_level(level, Powers(&ends, n)),
+                    ends,
+                    "{level}: 0 and 1 to the power {n}"
+                );
             }
-            assert_eq!(on_level(level, Powers(&ends, 0.0)), [1.0; 8], "{level}: anything to the power 0");
+            assert_eq!(
+                on_level(level, Powers(&ends, 0.0)),
+                [1.0; 8],
+                "{level}: anything to the power 0"
+            );
         }
     }
 }

@@ -29,8 +29,9 @@ pub(super) fn is_available(level: Level) -> bool {
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
     use core::arch::x86_64::{
-        __m256, __m256i, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_packs_epi32, _mm256_packus_epi16,
-        _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_setr_epi8, _mm256_shuffle_epi8,
+        __m256, __m256i, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_packs_epi32,
+        _mm256_packus_epi16, _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_setr_epi8,
+        _mm256_shuffle_epi8,
     };
 
     fearless_simd::kernel!(
@@ -59,9 +60,16 @@ mod avx2 {
         #[inline(always)]
         pub fn texels(avx2: Avx2, r: __m256, g: __m256, b: __m256) -> __m256i {
             let _ = avx2;
-            let (r, g, b) = (_mm256_cvtps_epi32(r), _mm256_cvtps_epi32(g), _mm256_cvtps_epi32(b));
+            let (r, g, b) = (
+                _mm256_cvtps_epi32(r),
+                _mm256_cvtps_epi32(g),
+                _mm256_cvtps_epi32(b),
+            );
             // Of each half of the pixels four bytes of red, then of blue, of green, and of alpha: now by pixel.
-            let (rb, ga) = (_mm256_packs_epi32(r, b), _mm256_packs_epi32(g, _mm256_set1_epi32(255)));
+            let (rb, ga) = (
+                _mm256_packs_epi32(r, b),
+                _mm256_packs_epi32(g, _mm256_set1_epi32(255)),
+            );
             #[rustfmt::skip]
             let by_pixel = _mm256_setr_epi8(
                 0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15,
@@ -239,7 +247,8 @@ impl<S: Simd> Lanes for Wide<S> {
     #[inline(always)]
     fn lanes(self, from: usize, to: usize) -> mask32x8<S> {
         let k = i32x8::simd_from(self.0, COUNTED_INTEGERS);
-        k.simd_ge(i32x8::splat(self.0, from.min(8) as i32)) & k.simd_lt(i32x8::splat(self.0, to.min(8) as i32))
+        k.simd_ge(i32x8::splat(self.0, from.min(8) as i32))
+            & k.simd_lt(i32x8::splat(self.0, to.min(8) as i32))
     }
 
     #[inline(always)]
@@ -272,7 +281,10 @@ impl<S: Simd> Lanes for Wide<S> {
         let (old, new) = (bits(old), bits(new));
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = self.0.level().as_avx2() {
-            return from_bits(i32x8::simd_from(self.0, avx2::choose(avx2, kept.into(), old.into(), new.into())));
+            return from_bits(i32x8::simd_from(
+                self.0,
+                avx2::choose(avx2, kept.into(), old.into(), new.into()),
+            ));
         }
         from_bits(new ^ ((new ^ old) & kept))
     }
@@ -318,7 +330,13 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 
     #[inline(always)]
-    fn pack(self, rgb: [f32x8<S>; 3], covered: mask32x8<S>, background: [u8; 4], to: &mut [[u8; 4]]) {
+    fn pack(
+        self,
+        rgb: [f32x8<S>; 3],
+        covered: mask32x8<S>,
+        background: [u8; 4],
+        to: &mut [[u8; 4]],
+    ) {
         let most = self.splat(255.0);
         let levels = super::each(
             #[inline(always)]
@@ -335,7 +353,13 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 
     #[inline(always)]
-    fn pack_levels(self, levels: [f32x8<S>; 3], covered: mask32x8<S>, background: [u8; 4], to: &mut [[u8; 4]]) {
+    fn pack_levels(
+        self,
+        levels: [f32x8<S>; 3],
+        covered: mask32x8<S>,
+        background: [u8; 4],
+        to: &mut [[u8; 4]],
+    ) {
         let empty = i32x8::splat(self.0, i32::from_le_bytes(background));
         let to = &mut to[..8].as_flattened_mut()[..32];
         #[cfg(target_arch = "x86_64")]

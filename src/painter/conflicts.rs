@@ -70,11 +70,19 @@ struct Row<'a> {
 
 impl<'a> Row<'a> {
     fn new(frame: &'a Frame) -> Self {
-        Row { frame, open: Vec::new() }
+        Row {
+            frame,
+            open: Vec::new(),
+        }
     }
 
     /// Adds what the spans of row `y` say to `hides`.
-    fn compare(&mut self, y: usize, spans: &mut [(Range<usize>, u32)], hides: &mut BTreeSet<(u32, u32)>) {
+    fn compare(
+        &mut self,
+        y: usize,
+        spans: &mut [(Range<usize>, u32)],
+        hides: &mut BTreeSet<(u32, u32)>,
+    ) {
         let frame = self.frame;
         let tests_samples = frame.clipping() == Clipping::NdcCube;
         spans.sort_unstable_by_key(|(pixels, polygon)| (pixels.start, *polygon));
@@ -86,9 +94,15 @@ impl<'a> Row<'a> {
             for (open, other, others_scanline) in &self.open {
                 let (first, last) = (pixels.start, pixels.end.min(open.end) - 1);
                 // Under the test of each sample the ends need not be seen.
-                let step = if tests_samples { 1 } else { (last - first).max(1) };
+                let step = if tests_samples {
+                    1
+                } else {
+                    (last - first).max(1)
+                };
                 for x in (first..=last).step_by(step) {
-                    let (Some(a), Some(b)) = (depth(frame, &scanline, x), depth(frame, others_scanline, x)) else {
+                    let (Some(a), Some(b)) =
+                        (depth(frame, &scanline, x), depth(frame, others_scanline, x))
+                    else {
                         continue;
                     };
                     if b - a > SAME_DEPTH {
@@ -105,7 +119,9 @@ impl<'a> Row<'a> {
 
 /// The depth of a polygon at a pixel that shows it when nothing hides it.
 fn depth(frame: &Frame, scanline: &Scanline, x: usize) -> Option<f64> {
-    let depth = scanline.weights(x).map(|weights| weights.sum(|v| f64::from(frame.vertices()[v].depth)));
+    let depth = scanline
+        .weights(x)
+        .map(|weights| weights.sum(|v| f64::from(frame.vertices()[v].depth)));
     depth.filter(|z| frame.clipping() == Clipping::Planes || (0.0..=1.0).contains(z))
 }
 
@@ -148,7 +164,9 @@ fn cycles(hides: &BTreeSet<(u32, u32)>, count: usize) -> Vec<Vec<u32>> {
             if lowest[at] == found[at] {
                 let start = waiting.iter().rposition(|p| *p == polygon).unwrap_or(0);
                 let mut component = waiting.split_off(start);
-                component.iter().for_each(|p| is_waiting[*p as usize] = false);
+                component
+                    .iter()
+                    .for_each(|p| is_waiting[*p as usize] = false);
                 if component.len() > 1 {
                     component.sort_unstable();
                     cycles.push(component);
@@ -171,7 +189,9 @@ mod tests {
     /// The same by definition: two polygons are in one cycle if each leads to the other.
     fn by_reachability(hides: &BTreeSet<(u32, u32)>, count: usize) -> Vec<Vec<u32>> {
         let mut leads = vec![vec![false; count]; count];
-        hides.iter().for_each(|&(a, b)| leads[a as usize][b as usize] = true);
+        hides
+            .iter()
+            .for_each(|&(a, b)| leads[a as usize][b as usize] = true);
         for via in 0..count {
             for from in 0..count {
                 for to in 0..count {
@@ -180,8 +200,16 @@ mod tests {
             }
         }
         let together = |a: usize, b: usize| a == b || leads[a][b] && leads[b][a];
-        let group = |a: usize| (0..count).filter(|&b| together(a, b)).map(|b| b as u32).collect::<Vec<_>>();
-        let groups: BTreeSet<Vec<u32>> = (0..count).map(group).filter(|group| group.len() > 1).collect();
+        let group = |a: usize| {
+            (0..count)
+                .filter(|&b| together(a, b))
+                .map(|b| b as u32)
+                .collect::<Vec<_>>()
+        };
+        let groups: BTreeSet<Vec<u32>> = (0..count)
+            .map(group)
+            .filter(|group| group.len() > 1)
+            .collect();
         groups.into_iter().collect()
     }
 
@@ -194,7 +222,11 @@ mod tests {
             let mut number = || random.below(count as u64) as u32;
             let pairs = (0..count * 3 / 2).map(|_| (number(), number()));
             let hides: BTreeSet<(u32, u32)> = pairs.filter(|(a, b)| a != b).collect();
-            assert_eq!(cycles(&hides, count), by_reachability(&hides, count), "{hides:?}");
+            assert_eq!(
+                cycles(&hides, count),
+                by_reachability(&hides, count),
+                "{hides:?}"
+            );
             found += cycles(&hides, count).len();
         }
         assert!(found > 200, "{found}");
@@ -206,6 +238,9 @@ mod tests {
         let mut hides: BTreeSet<(u32, u32)> = (0..count - 1).map(|i| (i, i + 1)).collect();
         assert!(cycles(&hides, count as usize).is_empty());
         hides.insert((count - 1, 0));
-        assert_eq!(cycles(&hides, count as usize), [(0..count).collect::<Vec<u32>>()]);
+        assert_eq!(
+            cycles(&hides, count as usize),
+            [(0..count).collect::<Vec<u32>>()]
+        );
     }
 }

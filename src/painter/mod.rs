@@ -27,7 +27,11 @@ use alloc::vec::Vec;
 
 /// The numbers of the polygons of `frame` from back to front by `key`; of equal keys the order of drawing stays.
 pub(crate) fn back_to_front(frame: &Frame, key: PainterKey) -> Vec<u32> {
-    let keys: Vec<f64> = frame.polygons().iter().map(|polygon| key_of(frame, polygon, key)).collect();
+    let keys: Vec<f64> = frame
+        .polygons()
+        .iter()
+        .map(|polygon| key_of(frame, polygon, key))
+        .collect();
     let mut order: Vec<u32> = (0..keys.len() as u32).collect();
     // A stable sort.
     order.sort_by(|&a, &b| keys[b as usize].total_cmp(&keys[a as usize]));
@@ -36,7 +40,10 @@ pub(crate) fn back_to_front(frame: &Frame, key: PainterKey) -> Vec<u32> {
 
 /// What a polygon is sorted by.
 fn key_of(frame: &Frame, polygon: &Polygon, key: PainterKey) -> f64 {
-    let depths = frame.corners(polygon).iter().map(|&v| f64::from(frame.vertices()[v as usize].depth));
+    let depths = frame
+        .corners(polygon)
+        .iter()
+        .map(|&v| f64::from(frame.vertices()[v as usize].depth));
     match key {
         PainterKey::Mean => depths.sum::<f64>() / f64::from(polygon.count),
         PainterKey::Farthest => depths.fold(f64::NEG_INFINITY, f64::max),

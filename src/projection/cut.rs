@@ -28,18 +28,37 @@ impl Cutting<'_> {
         let matrix = self.view.clip_matrix * DMat4::from(object.transform);
         let clip_position = |&v: &u32| matrix * geometry.models.position(v as usize).extend(1.0);
         let is_behind = eye_side(corners.iter().map(clip_position)) < 0.0;
-        let side = if self.view.scene.two_sided && is_behind { Side::Back } else { Side::Front };
-        let other_side = if side == Side::Back { geometry.models.len() as u32 } else { 0 };
+        let side = if self.view.scene.two_sided && is_behind {
+            Side::Back
+        } else {
+            Side::Front
+        };
+        let other_side = if side == Side::Back {
+            geometry.models.len() as u32
+        } else {
+            0
+        };
         let whole: Vec<u32> = corners.iter().map(|v| v + other_side).collect();
         let mut face = geometry.faces[polygon];
         side.turn(&mut face);
-        let edge = EdgeOf { material: self.table.material(polygon), face };
+        let edge = EdgeOf {
+            material: self.table.material(polygon),
+            face,
+        };
         let ends = corners.iter().map(clip_position).zip(&whole);
-        let mut pieces = vec![ends.map(|(position, &vertex)| Corner { position, vertex }).collect::<Vec<_>>()];
+        let mut pieces = vec![
+            ends.map(|(position, &vertex)| Corner { position, vertex })
+                .collect::<Vec<_>>(),
+        ];
         for plane in self.view.planes {
             let mut inside = Vec::new();
             for piece in &pieces {
-                clip(piece, &plane, |cut| self.vertex(cut, &plane, &edge), |part| inside.push(part.to_vec()));
+                clip(
+                    piece,
+                    &plane,
+                    |cut| self.vertex(cut, &plane, &edge),
+                    |part| inside.push(part.to_vec()),
+                );
             }
             pieces = inside;
         }
@@ -68,9 +87,16 @@ impl Cutting<'_> {
         let frame = &mut *self.frame;
         let first = (frame.geometry.corners.len() + frame.cut_corners.len()) as u32;
         frame.means.push((first, mean));
-        frame.cut_corners.extend(corners.iter().map(|corner| corner.vertex));
+        frame
+            .cut_corners
+            .extend(corners.iter().map(|corner| corner.vertex));
         let (source, count) = (polygon as u32, corners.len() as u32);
-        self.pieces.push(Piece { source, first, count, is_back: side == Side::Back });
+        self.pieces.push(Piece {
+            source,
+            first,
+            count,
+            is_back: side == Side::Back,
+        });
     }
 
     /// The vertex where a plane cuts an edge: its attributes lie between those of the edge's ends.
@@ -82,7 +108,13 @@ impl Cutting<'_> {
         let on_screen = self.view.scene.interpolation == Interpolation::Screen && plane.in_front;
         let t = if on_screen { cut.t_on_screen() } else { cut.t };
         let (a, b) = (cut.a.vertex, cut.b.vertex);
-        self.frame.clip_corners.push(ClipCorner { vertex: number, a, b, t: t as f32, face: edge.face });
+        self.frame.clip_corners.push(ClipCorner {
+            vertex: number,
+            a,
+            b,
+            t: t as f32,
+            face: edge.face,
+        });
         number
     }
 }

@@ -10,7 +10,10 @@ impl Scene {
     fn lights_from_eye(&self) -> Vec<Light> {
         let from_eye = |light: &Light| match light.place {
             Place::Infinite(_) => *light,
-            Place::Local(p) => Light { place: Place::Local(p - self.camera.eye), ..*light },
+            Place::Local(p) => Light {
+                place: Place::Local(p - self.camera.eye),
+                ..*light
+            },
         };
         self.lights.iter().map(from_eye).collect()
     }
@@ -19,7 +22,11 @@ impl Scene {
     pub(super) fn light(&self, materials: &[Material], lightings: &mut Vec<Lighting>) {
         let (lights, view) = (self.lights_from_eye(), self.camera.view());
         lightings.clear();
-        lightings.extend(materials.iter().map(|material| self.lighting(material, &lights, view)));
+        lightings.extend(
+            materials
+                .iter()
+                .map(|material| self.lighting(material, &lights, view)),
+        );
     }
 
     /// What falls on `material`; `lights` as [`Scene::lights_from_eye`] gives them.
@@ -29,7 +36,11 @@ impl Scene {
             shininess: self.specular.exponent(far.shininess, self.shininess_for),
             specular: self.specular,
             gate: self.gate,
-            view: if self.local_viewer { Place::Local([0.0; 3]) } else { far.view },
+            view: if self.local_viewer {
+                Place::Local([0.0; 3])
+            } else {
+                far.view
+            },
             ..far
         }
     }

@@ -69,10 +69,23 @@ impl Scene {
     /// [`FrameError`] as [`Scene::frame`], for the scene's own camera.
     pub fn prepare(&self) -> Result<PreparedScene, FrameError> {
         View::new(self)?;
-        let Preparation { geometry, table, materials } = Preparation::new(self)?;
+        let Preparation {
+            geometry,
+            table,
+            materials,
+        } = Preparation::new(self)?;
         // What is left of the scene are its settings.
-        let settings = Scene { objects: Vec::new(), lights: self.lights.clone(), ..*self };
-        Ok(PreparedScene { settings, geometry: Arc::new(geometry), table, materials })
+        let settings = Scene {
+            objects: Vec::new(),
+            lights: self.lights.clone(),
+            ..*self
+        };
+        Ok(PreparedScene {
+            settings,
+            geometry: Arc::new(geometry),
+            table,
+            materials,
+        })
     }
 }
 
@@ -158,7 +171,11 @@ impl PreparedScene {
         frame.check_lightings()?;
         self.check_positions()?;
         let is_any_beyond = self.vertices(frame, &view, &mut scratch.codes)?;
-        let Scratch { codes, chunks, pieces } = scratch;
+        let Scratch {
+            codes,
+            chunks,
+            pieces,
+        } = scratch;
         let half = self.geometry.corners.len() / if self.settings.two_sided { 2 } else { 1 };
         let sight = Sight {
             scene: &self.settings,
@@ -171,12 +188,21 @@ impl PreparedScene {
         frame.stats = FrameStats::default();
         pieces.clear();
         if is_any_beyond {
-            let mut cutting = Cutting { view: &view, table: &self.table, frame, pieces };
+            let mut cutting = Cutting {
+                view: &view,
+                table: &self.table,
+                frame,
+                pieces,
+            };
             for_each_cut(chunks, |polygon| cutting.polygon(polygon));
         }
         let count = add_up(chunks, pieces, &mut frame.stats);
         frame.polygons.resize(count, Polygon::default());
-        let filling = Filling { table: &self.table, corner_count: half as u32, pieces };
+        let filling = Filling {
+            table: &self.table,
+            corner_count: half as u32,
+            pieces,
+        };
         filling.fill(0, chunks, &mut frame.polygons);
         frame.sort();
         Ok(())
@@ -201,9 +227,16 @@ impl PreparedScene {
     }
 
     /// Places all vertices; whether any is beyond a plane.
-    fn vertices(&self, frame: &mut Frame, view: &View<'_>, codes: &mut Vec<Codes>) -> Result<bool, FrameError> {
+    fn vertices(
+        &self,
+        frame: &mut Frame,
+        view: &View<'_>,
+        codes: &mut Vec<Codes>,
+    ) -> Result<bool, FrameError> {
         let count = self.geometry.models.len();
-        frame.vertices.resize(self.geometry.vertex_count(), Default::default());
+        frame
+            .vertices
+            .resize(self.geometry.vertex_count(), Default::default());
         codes.resize(count, 0);
         let (front, back) = frame.vertices.split_at_mut(count);
         let is_any_beyond = vertices::place(view, &self.geometry.models, front, codes)?;
@@ -227,7 +260,12 @@ impl PreparedScene {
                 continue;
             }
             let eye = self.settings.camera.eye.to_array();
-            let is_finite = |v: &usize| self.geometry.position(*v as u32, eye).iter().all(|c| c.is_finite());
+            let is_finite = |v: &usize| {
+                self.geometry
+                    .position(*v as u32, eye)
+                    .iter()
+                    .all(|c| c.is_finite())
+            };
             if let Some(index) = (object.first..object.end).find(|v| !is_finite(v)) {
                 return Err(FrameError::Vertex { index });
             }

@@ -10,8 +10,9 @@ impl View<'_> {
     pub(super) fn codes_unclipped(&self, clip: DVec4) -> Codes {
         let [x, y, z] = [clip.x, clip.y, clip.z].map(|c| c / clip.w);
         // Comparisons with NaN are false: 0/0 has no place either.
-        let has_place =
-            x.abs() <= reach(self.width) && y.abs() <= reach(self.height) && z.abs() <= f64::from(Frame::GUARD);
+        let has_place = x.abs() <= reach(self.width)
+            && y.abs() <= reach(self.height)
+            && z.abs() <= f64::from(Frame::GUARD);
         if !has_place {
             return 1 << 8;
         }

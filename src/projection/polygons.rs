@@ -110,7 +110,13 @@ impl Sight<'_> {
 
     /// Finds out of up to 64 polygons from `first` on.
     #[inline(always)]
-    fn word(&self, first: usize, count: usize, places: &mut Places, stats: &mut FrameStats) -> Word {
+    fn word(
+        &self,
+        first: usize,
+        count: usize,
+        places: &mut Places,
+        stats: &mut FrameStats,
+    ) -> Word {
         let all = u64::MAX >> (64 - count);
         let (clockwise, counter_clockwise) = if self.table.starts.is_empty() {
             winding::of_triangles(self.triangles(first, count), self.vertices, places)
@@ -123,7 +129,9 @@ impl Sight<'_> {
                 places,
             )
         };
-        let (outside, beyond) = self.codes.map_or((0, 0), |codes| self.beyond(codes, first, count));
+        let (outside, beyond) = self
+            .codes
+            .map_or((0, 0), |codes| self.beyond(codes, first, count));
         let has_normal = self.table.has_normal[first / 64];
         let number = |bits: u64| bits.count_ones() as usize;
         stats.polygons += count;
@@ -147,7 +155,11 @@ impl Sight<'_> {
         stats.zero_area += number(whole & !(clockwise | counter_clockwise));
         // y points downward on the picture: what runs clockwise there has an area over 0, and is seen from behind.
         let back = if self.scene.two_sided { clockwise } else { 0 };
-        Word { drawn: whole & (clockwise | counter_clockwise) & !culled, back, cut }
+        Word {
+            drawn: whole & (clockwise | counter_clockwise) & !culled,
+            back,
+            cut,
+        }
     }
 
     /// Which of some polygons are outside the view, and which have a corner beyond a plane.
@@ -207,8 +219,15 @@ pub(super) fn add_up(chunks: &mut [Chunk], pieces: &[Piece], stats: &mut FrameSt
     let (mut total, mut piece) = (0, 0);
     for (number, chunk) in chunks.iter_mut().enumerate() {
         (chunk.before, chunk.first_piece) = (total, piece);
-        total += chunk.words.iter().map(|word| word.drawn.count_ones() as usize).sum::<usize>();
-        let own = pieces[piece..].iter().take_while(|p| (p.source as usize) < (number + 1) * CHUNK).count();
+        total += chunk
+            .words
+            .iter()
+            .map(|word| word.drawn.count_ones() as usize)
+            .sum::<usize>();
+        let own = pieces[piece..]
+            .iter()
+            .take_while(|p| (p.source as usize) < (number + 1) * CHUNK)
+            .count();
         (total, piece) = (total + own, piece + own);
         for (sum, count) in [
             (&mut stats.polygons, chunk.stats.polygons),
@@ -245,7 +264,10 @@ impl Filling<'_> {
                 let (left, right) = chunks.split_at(chunks.len() / 2);
                 let (left_out, right_out) = out.split_at_mut(right[0].before - left[0].before);
                 let middle = first + left.len();
-                crate::parallel::join(|| self.fill(first, left, left_out), || self.fill(middle, right, right_out));
+                crate::parallel::join(
+                    || self.fill(first, left, left_out),
+                    || self.fill(middle, right, right_out),
+                );
             }
         }
     }
@@ -300,7 +322,11 @@ impl Filling<'_> {
                 put(self.whole(polygon, word.back >> bit & 1 != 0));
                 continue;
             }
-            while let Some(piece) = pieces.as_slice().first().filter(|piece| piece.source as usize == polygon) {
+            while let Some(piece) = pieces
+                .as_slice()
+                .first()
+                .filter(|piece| piece.source as usize == polygon)
+            {
                 put(self.piece(piece));
                 pieces.next();
             }
@@ -322,8 +348,19 @@ impl Filling<'_> {
     }
 
     fn piece(&self, piece: &Piece) -> Polygon {
-        let &Piece { source, first, count, is_back } = piece;
-        Polygon { first, count, material: self.table.material(source as usize), source, face: face(source, is_back) }
+        let &Piece {
+            source,
+            first,
+            count,
+            is_back,
+        } = piece;
+        Polygon {
+            first,
+            count,
+            material: self.table.material(source as usize),
+            source,
+            face: face(source, is_back),
+        }
     }
 }
 
@@ -334,7 +371,13 @@ fn fill_plain(first: usize, drawn: u64, out: &mut [Polygon]) {
     for place in out {
         let source = first as u32 + left.trailing_zeros();
         left &= left.wrapping_sub(1);
-        *place = Polygon { first: 3 * source, count: 3, material: 0, source, face: source };
+        *place = Polygon {
+            first: 3 * source,
+            count: 3,
+            material: 0,
+            source,
+            face: source,
+        };
     }
 }
 
@@ -346,8 +389,13 @@ fn face(source: u32, is_back: bool) -> u32 {
 
 /// Twice the signed area on the picture in sub-pixels: y points downward, so counter-clockwise polygons have a negative
 /// one. Products have at most 2⁴⁷; 2²⁷ corners of them need more than 64 bits.
-pub(super) fn doubled_area(corners: impl Iterator<Item = [crate::frame::SubPixel; 2]> + Clone) -> i128 {
+pub(super) fn doubled_area(
+    corners: impl Iterator<Item = [crate::frame::SubPixel; 2]> + Clone,
+) -> i128 {
     let following = corners.clone().skip(1).chain(corners.clone().take(1));
     let bits = |c: crate::frame::SubPixel| i64::from(c.to_bits());
-    corners.zip(following).map(|([x0, y0], [x1, y1])| i128::from(bits(x0) * bits(y1) - bits(x1) * bits(y0))).sum()
+    corners
+        .zip(following)
+        .map(|([x0, y0], [x1, y1])| i128::from(bits(x0) * bits(y1) - bits(x1) * bits(y0)))
+        .sum()
 }

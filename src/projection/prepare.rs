@@ -42,7 +42,11 @@ impl Preparation {
         let sides = if scene.two_sided { 2 } else { 1 };
         let meshes = || scene.objects.iter().map(|object| &object.mesh);
         let (corners, polygons, positions) = meshes().fold((0, 0, 0), |(c, p, v), mesh| {
-            (c + mesh.corners().len(), p + mesh.polygon_count(), v + mesh.positions().len())
+            (
+                c + mesh.corners().len(),
+                p + mesh.polygon_count(),
+                v + mesh.positions().len(),
+            )
         });
         // Clipping adds vertices and corners: the second half of the numbers is left for them.
         if sides * (corners.max(positions)) >= 1 << 31 || polygons >= Polygon::FLIPPED as usize {
@@ -71,17 +75,24 @@ impl Preparation {
         let sign = if determinant < 0.0 { -1.0 } else { 1.0 };
         let source = Source {
             mesh,
-            normal_matrix: DMat3::from_cols(y.cross(z) * sign, z.cross(x) * sign, x.cross(y) * sign),
+            normal_matrix: DMat3::from_cols(
+                y.cross(z) * sign,
+                z.cross(x) * sign,
+                x.cross(y) * sign,
+            ),
             mirrored: determinant < 0.0,
             first_material: self.materials.len() as u32,
         };
         let default = Material::default();
         let of_mesh = mesh.materials().iter().chain([&default]);
-        self.materials.extend(of_mesh.map(|material| *object.material.as_ref().unwrap_or(material)));
+        self.materials
+            .extend(of_mesh.map(|material| *object.material.as_ref().unwrap_or(material)));
         let normals = polygon_normals(mesh);
         self.faces(&source, &normals);
         let normals = corner_normals(mesh, object.normals, Some(&normals));
-        self.table.materials.extend((0..mesh.polygon_count()).map(|p| source.material(p)));
+        self.table
+            .materials
+            .extend((0..mesh.polygon_count()).map(|p| source.material(p)));
         let first = self.geometry.normals.len();
         let first_corner = self.geometry.corners.len();
         match normals {
@@ -93,14 +104,26 @@ impl Preparation {
         if source.mirrored {
             for polygon in 0..mesh.polygon_count() {
                 let range = mesh.corner_range(polygon);
-                self.geometry.corners[first_corner + range.start..first_corner + range.end].reverse();
+                self.geometry.corners[first_corner + range.start..first_corner + range.end]
+                    .reverse();
             }
         }
         let models = &mut self.geometry.models;
-        let extent = |all: &[f32]| f64::from(all[first..].iter().fold(0.0f32, |most, c| most.max(c.abs())));
+        let extent = |all: &[f32]| {
+            f64::from(
+                all[first..]
+                    .iter()
+                    .fold(0.0f32, |most, c| most.max(c.abs())),
+            )
+        };
         let extent = DVec3::new(extent(&models.x), extent(&models.y), extent(&models.z));
         let end = models.x.len();
-        models.objects.push(PlacedModel { first, end, transform: object.transform, extent });
+        models.objects.push(PlacedModel {
+            first,
+            end,
+            transform: object.transform,
+            extent,
+        });
     }
 
     /// Unit normals of polygons in the world; zero where there is none.
@@ -108,7 +131,11 @@ impl Preparation {
         let first = self.geometry.faces.len();
         self.geometry.faces.resize(first + normals.len(), [0.0; 3]);
         let all = (&mut self.geometry.faces[first..], normals);
-        for_each_chunk(all, CHUNK, &|_, (faces, normals): (&mut [[f32; 3]], &[DVec3])| {
+        for_each_chunk(all, CHUNK, &|_,
+                                     (faces, normals): (
+            &mut [[f32; 3]],
+            &[DVec3],
+        )| {
             for (face, &normal) in faces.iter_mut().zip(normals) {
                 // Newell's sum is one of cross products, which the cofactor matrix carries to world space.
                 let in_world = unit_normal(source.normal_matrix * normal).unwrap_or(DVec3::ZERO);
@@ -123,16 +150,37 @@ impl Preparation {
         let geometry = &mut self.geometry;
         let first = geometry.normals.len();
         let in_world = collect(values.len(), CHUNK, |i| source.normal(values[i]));
-        geometry.normals.extend(normal_of.iter().map(|&n| in_world[n as usize]));
-        let material = if mesh.polygon_count() == 0 { source.first_material } else { source.material(0) };
+        geometry
+            .normals
+            .extend(normal_of.iter().map(|&n| in_world[n as usize]));
+        let material = if mesh.polygon_count() == 0 {
+            source.first_material
+        } else {
+            source.material(0)
+        };
         geometry.materials.resize(first + normal_of.len(), material);
-        geometry.models.x.extend(mesh.positions().iter().map(|p| p.x));
-        geometry.models.y.extend(mesh.positions().iter().map(|p| p.y));
-        geometry.models.z.extend(mesh.positions().iter().map(|p| p.z));
-        geometry.corners.extend(mesh.corners().iter().map(|&position| first as u32 + position));
+        geometry
+            .models
+            .x
+            .extend(mesh.positions().iter().map(|p| p.x));
+        geometry
+            .models
+            .y
+            .extend(mesh.positions().iter().map(|p| p.y));
+        geometry
+            .models
+            .z
+            .extend(mesh.positions().iter().map(|p| p.z));
+        geometry.corners.extend(
+            mesh.corners()
+                .iter()
+                .map(|&position| first as u32 + position),
+        );
         if !mesh.colours().is_empty() {
             geometry.colours.resize(first, [1.0; 3]);
-            geometry.colours.extend(mesh.colours().iter().map(|colour| colour.to_array()));
+            geometry
+                .colours
+                .extend(mesh.colours().iter().map(|colour| colour.to_array()));
         }
     }
 
@@ -152,7 +200,9 @@ impl Preparation {
                 let mut vertex = latest[position];
                 while vertex != NO_VERTEX {
                     let (its_normal, before) = made[vertex as usize];
-                    if its_normal == normal && geometry.materials[first + vertex as usize] == material {
+                    if its_normal == normal
+                        && geometry.materials[first + vertex as usize] == material
+                    {
                         break;
                     }
                     vertex = before;
@@ -172,8 +222,12 @@ impl Preparation {
             }
         }
         drop(latest);
-        let in_world = collect(normals.values.len(), CHUNK, |i| source.normal(normals.values[i]));
-        geometry.normals.extend(made.iter().map(|&(normal, _)| in_world[normal as usize]));
+        let in_world = collect(normals.values.len(), CHUNK, |i| {
+            source.normal(normals.values[i])
+        });
+        geometry
+            .normals
+            .extend(made.iter().map(|&(normal, _)| in_world[normal as usize]));
     }
 
     fn finish(&mut self) {
@@ -181,7 +235,10 @@ impl Preparation {
         let faces = &geometry.faces;
         self.table.has_normal = collect(faces.len().div_ceil(64), CHUNK / 64, |word| {
             let faces = &faces[64 * word..faces.len().min(64 * word + 64)];
-            faces.iter().rev().fold(0, |bits, face| bits << 1 | u64::from(*face != [0.0; 3]))
+            faces
+                .iter()
+                .rev()
+                .fold(0, |bits, face| bits << 1 | u64::from(*face != [0.0; 3]))
         });
         if self.table.materials.iter().all(|&material| material == 0) {
             self.table.materials = Vec::new();
@@ -193,7 +250,9 @@ impl Preparation {
             let second = geometry.normals.len() as u32;
             geometry.corners.extend_from_within(..);
             let half = geometry.corners.len() / 2;
-            geometry.corners[half..].iter_mut().for_each(|vertex| *vertex += second);
+            geometry.corners[half..]
+                .iter_mut()
+                .for_each(|vertex| *vertex += second);
         }
     }
 }
@@ -201,12 +260,16 @@ impl Preparation {
 impl Source<'_> {
     /// The lighting of a polygon.
     fn material(&self, polygon: usize) -> u32 {
-        let own = self.mesh.polygon_material(polygon).unwrap_or(self.mesh.materials().len());
+        let own = self
+            .mesh
+            .polygon_material(polygon)
+            .unwrap_or(self.mesh.materials().len());
         self.first_material + own as u32
     }
 
     fn has_one_material(&self) -> bool {
-        self.mesh.materials().is_empty() || (1..self.mesh.polygon_count()).all(|p| self.material(p) == self.material(0))
+        self.mesh.materials().is_empty()
+            || (1..self.mesh.polygon_count()).all(|p| self.material(p) == self.material(0))
     }
 
     /// A vertex normal in the world.

@@ -26,6 +26,10 @@ pub(super) fn eye_side(corners: impl Iterator<Item = DVec4> + Clone) -> f64 {
     // Without z, clip space is space seen from the eye, up to scales of its axes: Newell's normal against a corner.
     let flat = |clip: DVec4| DVec3::new(clip.x, clip.y, clip.w);
     let following = corners.clone().skip(1).chain(corners.clone().take(1));
-    let normal: DVec3 = corners.clone().zip(following).map(|(a, b)| flat(a).cross(flat(b))).sum();
+    let normal: DVec3 = corners
+        .clone()
+        .zip(following)
+        .map(|(a, b)| flat(a).cross(flat(b)))
+        .sum();
     normal.dot(corners.map(flat).sum())
 }

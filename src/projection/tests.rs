@@ -38,7 +38,13 @@ struct Plainly<'a> {
 impl<'a> Plainly<'a> {
     fn of(scene: &'a Scene) -> Self {
         let view = View::new(scene).expect("a valid camera");
-        let mut all = Plainly { view, scene, polygons: Vec::new(), cut: BTreeSet::new(), stats: FrameStats::default() };
+        let mut all = Plainly {
+            view,
+            scene,
+            polygons: Vec::new(),
+            cut: BTreeSet::new(),
+            stats: FrameStats::default(),
+        };
         let mut materials = 0;
         for object in &scene.objects {
             all.object(object, materials);
@@ -53,7 +59,8 @@ impl<'a> Plainly<'a> {
         let linear = object.transform.matrix3;
         let mirrored = linear.determinant() < 0.0;
         let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
-        let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * if mirrored { -1.0 } else { 1.0 };
+        let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
+            * if mirrored { -1.0 } else { 1.0 };
         let matrix = self.view.clip_matrix * DMat4::from(object.transform);
         for p in 0..mesh.polygon_count() {
             let source = self.stats.polygons as u32;
@@ -63,25 +70,59 @@ impl<'a> Plainly<'a> {
                 places.reverse();
             }
             let position = |k: usize| mesh.positions()[mesh.corners()[k] as usize].as_dvec3();
-            let clips: Vec<_> = places.iter().map(|&k| matrix * position(k).extend(1.0)).collect();
+            let clips: Vec<_> = places
+                .iter()
+                .map(|&k| matrix * position(k).extend(1.0))
+                .collect();
             let face = unit_normal(cofactors * polygon_normal(mesh, p));
-            let (Some(area), Some(face)) = (self.area_of_drawn(source, &clips, face), face) else { continue };
-            let sign = if self.scene.two_sided && area > 0 { -1.0 } else { 1.0 };
-            let material = first_material + mesh.polygon_material(p).unwrap_or(mesh.materials().len()) as u32;
+            let (Some(area), Some(face)) = (self.area_of_drawn(source, &clips, face), face) else {
+                continue;
+            };
+            let sign = if self.scene.two_sided && area > 0 {
+                -1.0
+            } else {
+                1.0
+            };
+            let material =
+                first_material + mesh.polygon_material(p).unwrap_or(mesh.materials().len()) as u32;
             let corner = |(&k, &clip): (&usize, &DVec4)| {
                 let normal = normals.values[normals.corners[k] as usize].as_dvec3();
                 let normal = sign * (cofactors * normal).normalize_or(DVec3::Z);
                 let [x, y] = self.view.snap(clip);
-                let from_eye = object.transform.transform_point3(position(k)) - self.scene.camera.eye;
-                let colour = mesh.colours().get(mesh.corners()[k] as usize).map_or([1.0; 3], |c| c.to_array());
+                let from_eye =
+                    object.transform.transform_point3(position(k)) - self.scene.camera.eye;
+                let colour = mesh
+                    .colours()
+                    .get(mesh.corners()[k] as usize)
+                    .map_or([1.0; 3], |c| c.to_array());
                 let screen = self.view.vertex(clip);
-                assert_eq!((screen.x, screen.y, screen.depth), (x, y, (clip.z / clip.w) as f32));
-                let (depth, inv_w, normal) = (screen.depth, screen.inv_w, normal.as_vec3().to_array());
-                (Vertex { x, y, depth, inv_w, normal, material }, from_eye.as_vec3().to_array(), colour)
+                assert_eq!(
+                    (screen.x, screen.y, screen.depth),
+                    (x, y, (clip.z / clip.w) as f32)
+                );
+                let (depth, inv_w, normal) =
+                    (screen.depth, screen.inv_w, normal.as_vec3().to_array());
+                (
+                    Vertex {
+                        x,
+                        y,
+                        depth,
+                        inv_w,
+                        normal,
+                        material,
+                    },
+                    from_eye.as_vec3().to_array(),
+                    colour,
+                )
             };
             let corners = places.iter().zip(&clips).map(corner).collect();
             let normal = (sign * face).as_vec3().to_array();
-            self.polygons.push(PlainPolygon { source, material, normal, corners });
+            self.polygons.push(PlainPolygon {
+                source,
+                material,
+                normal,
+                corners,
+            });
         }
     }
 
@@ -113,10 +154,14 @@ impl<'a> Plainly<'a> {
     }
 
     fn doubled_area(&self, clips: &[DVec4]) -> i128 {
-        let places: Vec<[i128; 2]> =
-            clips.iter().map(|&clip| self.view.snap(clip).map(|c| i128::from(c.to_bits()))).collect();
+        let places: Vec<[i128; 2]> = clips
+            .iter()
+            .map(|&clip| self.view.snap(clip).map(|c| i128::from(c.to_bits())))
+            .collect();
         let next = |k: usize| places[(k + 1) % places.len()];
-        (0..places.len()).map(|k| places[k][0] * next(k)[1] - next(k)[0] * places[k][1]).sum()
+        (0..places.len())
+            .map(|k| places[k][0] * next(k)[1] - next(k)[0] * places[k][1])
+            .sum()
     }
 }
 
@@ -130,11 +175,25 @@ fn variants(scene: &Scene) -> Vec<Scene> {
         projection: Projection::Perspective { fovy },
         ..camera
     };
-    let planes = Scene { clipping: Clipping::Planes, ..scene.clone() };
+    let planes = Scene {
+        clipping: Clipping::Planes,
+        ..scene.clone()
+    };
     vec![
-        Scene { culling: Culling::None, ..planes.clone() },
-        Scene { culling: Culling::None, two_sided: !scene.two_sided, ..planes.clone() },
-        Scene { camera: nearer(0.0, 0.97, 30.0), culling: Culling::Front, ..planes.clone() },
+        Scene {
+            culling: Culling::None,
+            ..planes.clone()
+        },
+        Scene {
+            culling: Culling::None,
+            two_sided: !scene.two_sided,
+            ..planes.clone()
+        },
+        Scene {
+            camera: nearer(0.0, 0.97, 30.0),
+            culling: Culling::Front,
+            ..planes.clone()
+        },
         Scene {
             camera: nearer(0.9, 0.001, 70.0),
             interpolation: Interpolation::Perspective,
@@ -146,8 +205,13 @@ fn variants(scene: &Scene) -> Vec<Scene> {
 }
 
 fn shipped(name: &str) -> Scene {
-    let scene = SCENES.iter().find(|scene| scene.name == name).expect("a shipped scene");
-    let mut scene = resolve(&scene.load().expect("a scene file")).expect("a scene").scene;
+    let scene = SCENES
+        .iter()
+        .find(|scene| scene.name == name)
+        .expect("a shipped scene");
+    let mut scene = resolve(&scene.load().expect("a scene file"))
+        .expect("a scene")
+        .scene;
     // Drawing order is the order of the scene.
     scene.hidden_surfaces = HiddenSurfaces::default();
     scene
@@ -155,7 +219,9 @@ fn shipped(name: &str) -> Scene {
 
 fn corners(frame: &Frame, polygon: usize) -> Vec<PlainCorner> {
     let corners = frame.corners(&frame.polygons()[polygon]).iter();
-    corners.map(|&v| (frame.vertex(v), frame.position(v), frame.colour(v))).collect()
+    corners
+        .map(|&v| (frame.vertex(v), frame.position(v), frame.colour(v)))
+        .collect()
 }
 
 /// Places, weights, normals and numbers are those of each polygon on its own, to the bit; and pieces of those that are cut
@@ -189,7 +255,10 @@ fn frames_are_what_polygon_by_polygon_gives() {
                 (found.polygons, found.outside, found.clipped),
                 (expected.polygons, expected.outside, expected.clipped)
             );
-            assert!(found.culled >= expected.culled && found.zero_area >= expected.zero_area, "{name}");
+            assert!(
+                found.culled >= expected.culled && found.zero_area >= expected.zero_area,
+                "{name}"
+            );
             if plainly.cut.is_empty() {
                 assert_eq!(found, expected, "{name}");
             }
@@ -201,15 +270,26 @@ fn frames_are_what_polygon_by_polygon_gives() {
 
 /// Everything that anyone can ask a frame.
 fn assert_same(a: &Frame, b: &Frame, name: &str) {
-    assert_eq!((a.width(), a.height(), a.stats(), a.eye()), (b.width(), b.height(), b.stats(), b.eye()), "{name}");
+    assert_eq!(
+        (a.width(), a.height(), a.stats(), a.eye()),
+        (b.width(), b.height(), b.stats(), b.eye()),
+        "{name}"
+    );
     assert_eq!(a.lightings(), b.lightings(), "{name}");
     assert!(a.vertices() == b.vertices(), "{name}");
     assert!(a.polygons() == b.polygons(), "{name}");
     assert!(a.clip_corners() == b.clip_corners(), "{name}");
-    assert!((0..a.vertices().len() as u32).all(|v| a.vertex(v) == b.vertex(v)), "{name}");
+    assert!(
+        (0..a.vertices().len() as u32).all(|v| a.vertex(v) == b.vertex(v)),
+        "{name}"
+    );
     for (p, q) in a.polygons().iter().zip(b.polygons()) {
         assert_eq!(a.corners(p), b.corners(q), "{name}");
-        assert_eq!((a.polygon_normal(p), a.mean(p)), (b.polygon_normal(q), b.mean(q)), "{name}");
+        assert_eq!(
+            (a.polygon_normal(p), a.mean(p)),
+            (b.polygon_normal(q), b.mean(q)),
+            "{name}"
+        );
     }
 }
 
@@ -217,17 +297,37 @@ fn assert_same(a: &Frame, b: &Frame, name: &str) {
 #[test]
 fn a_frame_used_again_is_as_good_as_a_new_one() {
     let mut frame = Frame::empty(1, 1);
-    for name in ["teapot", "football", "mirrored", "cyclic-triangles", "terrain"] {
+    for name in [
+        "teapot",
+        "football",
+        "mirrored",
+        "cyclic-triangles",
+        "terrain",
+    ] {
         for scene in variants(&shipped(name)) {
             let mut prepared = scene.prepare().expect("a scene");
-            let cameras: Vec<Camera> = variants(&scene).iter().map(|variant| variant.camera).collect();
+            let cameras: Vec<Camera> = variants(&scene)
+                .iter()
+                .map(|variant| variant.camera)
+                .collect();
             for (number, &camera) in cameras.iter().chain(&cameras).enumerate() {
                 prepared.set_camera(camera);
                 prepared.frame_into(&mut frame).expect("a frame");
-                let new = Scene { camera, ..scene.clone() }.frame().expect("a frame");
+                let new = Scene {
+                    camera,
+                    ..scene.clone()
+                }
+                .frame()
+                .expect("a frame");
                 assert_same(&frame, &new, &alloc::format!("{name}, camera {number}"));
             }
-            let memory = |frame: &Frame| (frame.vertices.as_ptr(), frame.polygons.as_ptr(), frame.cut_corners.as_ptr());
+            let memory = |frame: &Frame| {
+                (
+                    frame.vertices.as_ptr(),
+                    frame.polygons.as_ptr(),
+                    frame.cut_corners.as_ptr(),
+                )
+            };
             let before = memory(&frame);
             for camera in cameras {
                 prepared.set_camera(camera);
@@ -246,15 +346,31 @@ fn a_frame_used_again_is_sorted_again() {
     let mut prepared = scene.prepare().expect("a scene");
     let mut frame = prepared.frame().expect("a frame");
     let depth = |frame: &Frame, polygon: &Polygon| {
-        let depths = frame.corners(polygon).iter().map(|&v| f64::from(frame.vertices()[v as usize].depth));
+        let depths = frame
+            .corners(polygon)
+            .iter()
+            .map(|&v| f64::from(frame.vertices()[v as usize].depth));
         depths.sum::<f64>() / f64::from(polygon.count)
     };
     let first = frame.polygons().to_vec();
-    for camera in [Camera { eye: scene.camera.eye + scene.camera.up, ..scene.camera }, scene.camera] {
+    for camera in [
+        Camera {
+            eye: scene.camera.eye + scene.camera.up,
+            ..scene.camera
+        },
+        scene.camera,
+    ] {
         prepared.set_camera(camera);
         prepared.frame_into(&mut frame).expect("a frame");
-        assert!(frame.polygons().is_sorted_by(|a, b| depth(&frame, a) >= depth(&frame, b)));
-        assert!(!frame.polygons().is_sorted_by_key(|p| p.source), "the scene has no such order of its own");
+        assert!(
+            frame
+                .polygons()
+                .is_sorted_by(|a, b| depth(&frame, a) >= depth(&frame, b))
+        );
+        assert!(
+            !frame.polygons().is_sorted_by_key(|p| p.source),
+            "the scene has no such order of its own"
+        );
     }
     assert_eq!(frame.polygons(), first);
 }
@@ -265,15 +381,27 @@ fn a_camera_that_sees_nothing_leaves_an_empty_frame() {
     let mut prepared = scene.prepare().expect("a scene");
     let mut frame = prepared.frame().expect("a frame");
     assert!(!frame.polygons().is_empty());
-    prepared.set_camera(Camera { eye: scene.camera.target, ..scene.camera });
+    prepared.set_camera(Camera {
+        eye: scene.camera.target,
+        ..scene.camera
+    });
     assert_eq!(prepared.frame_into(&mut frame), Err(FrameError::Camera));
     assert!(frame.polygons().is_empty() && frame.vertices().is_empty());
     prepared.set_camera(scene.camera);
     prepared.set_size(0, 10);
-    assert_eq!(prepared.frame_into(&mut frame), Err(FrameError::Size { width: 0, height: 10 }));
+    assert_eq!(
+        prepared.frame_into(&mut frame),
+        Err(FrameError::Size {
+            width: 0,
+            height: 10
+        })
+    );
     prepared.set_size(10, 8);
     prepared.set_lights(vec![scene.lights[0]; Scene::MAX_LIGHTS + 1]);
-    assert!(matches!(prepared.frame_into(&mut frame), Err(FrameError::Lights { .. })));
+    assert!(matches!(
+        prepared.frame_into(&mut frame),
+        Err(FrameError::Lights { .. })
+    ));
     prepared.set_lights(Vec::new());
     assert_eq!(prepared.frame_into(&mut frame), Ok(()));
     assert_eq!((frame.width(), frame.light_count()), (10, 0));
@@ -286,7 +414,12 @@ fn both_ways_to_tell_the_side_agree() {
     let view = View::new(&scene).expect("a camera");
     let mesh = &scene.objects[0].mesh;
     let matrix = view.clip_matrix * DMat4::from(scene.objects[0].transform);
-    let frame = Scene { culling: Culling::Back, ..scene.clone() }.frame().expect("a frame");
+    let frame = Scene {
+        culling: Culling::Back,
+        ..scene.clone()
+    }
+    .frame()
+    .expect("a frame");
     assert!(frame.polygons().len() > 100);
     for polygon in frame.polygons() {
         let corners = mesh.polygon(polygon.source as usize).iter();
@@ -301,7 +434,10 @@ fn threads_change_nothing() {
     for name in ["knot-100k", "football", "terrain", "mirrored", "corrugated"] {
         for scene in variants(&shipped(name)) {
             let on = |threads| {
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+                let pool = rayon::ThreadPoolBuilder::new()
+                    .num_threads(threads)
+                    .build()
+                    .expect("threads");
                 pool.install(|| scene.frame().expect("a frame"))
             };
             let one = on(1);

@@ -29,7 +29,11 @@ pub(super) fn place(
     codes: &mut [Codes],
 ) -> Result<bool, FrameError> {
     let (is_any_beyond, first_invalid) = (AtomicBool::new(false), AtomicUsize::new(usize::MAX));
-    for_each_chunk((vertices, codes), CHUNK, &|first, (vertices, codes): (&mut [ScreenVertex], &mut [Codes])| {
+    for_each_chunk((vertices, codes), CHUNK, &|first,
+                                               (vertices, codes): (
+        &mut [ScreenVertex],
+        &mut [Codes],
+    )| {
         codes.fill(0);
         let end = first + vertices.len();
         let mut at = first;
@@ -81,14 +85,26 @@ impl<'a> Placing<'a> {
         let near = view.scene.camera.near;
         let (is_perspective, least_w, most_w) = match view.scene.camera.projection {
             Projection::Orthographic { .. } => (false, 1.0, 1.0),
-            Projection::Perspective { .. } => {
-                (true, (near * 1e-30).max(f64::MIN_POSITIVE), (near * 1e30).min(f64::MAX))
-            }
+            Projection::Perspective { .. } => (
+                true,
+                (near * 1e-30).max(f64::MIN_POSITIVE),
+                (near * 1e30).min(f64::MAX),
+            ),
         };
         let size = [view.width, view.height].map(f64::from);
         let clips = view.scene.clipping == Clipping::Planes;
         let guard = [view.width, view.height].map(reach);
-        Placing { view, matrix, size, is_perspective, clips, guard, near, least_w, most_w }
+        Placing {
+            view,
+            matrix,
+            size,
+            is_perspective,
+            clips,
+            guard,
+            near,
+            least_w,
+            most_w,
+        }
     }
 
     /// Places vertices from `first` on; whether any is beyond a plane, or the number of one that is nowhere.
@@ -108,9 +124,12 @@ impl<'a> Placing<'a> {
             let (out, codes) = (&mut vertices[at..], &mut codes[at..]);
             let count = out.len().min(BLOCK);
             match (out.first_chunk_mut(), codes.first_chunk_mut()) {
-                (Some(out), Some(codes)) => is_any_beyond |= self.block(models, first + at, BLOCK, out, codes)?,
+                (Some(out), Some(codes)) => {
+                    is_any_beyond |= self.block(models, first + at, BLOCK, out, codes)?
+                }
                 _ => {
-                    is_any_beyond |= self.block(models, first + at, count, &mut last, &mut last_codes)?;
+                    is_any_beyond |=
+                        self.block(models, first + at, count, &mut last, &mut last_codes)?;
                     out.copy_from_slice(&last[..count]);
                     codes.copy_from_slice(&last_codes[..count]);
                 }
@@ -130,7 +149,11 @@ impl<'a> Placing<'a> {
         out: &mut [ScreenVertex; BLOCK],
         codes: &mut [Codes; BLOCK],
     ) -> Result<bool, usize> {
-        let (x, y, z) = (lanes(&models.x, from, count), lanes(&models.y, from, count), lanes(&models.z, from, count));
+        let (x, y, z) = (
+            lanes(&models.x, from, count),
+            lanes(&models.y, from, count),
+            lanes(&models.z, from, count),
+        );
         let (c_x, c_y) = (self.row(0, &x, &y, &z), self.row(1, &x, &y, &z));
         let (c_z, c_w) = (self.row(2, &x, &y, &z), self.row(3, &x, &y, &z));
         let is_inside = self.all_inside([1.0; 2], &c_x, &c_y, &c_z, &c_w);
@@ -177,7 +200,8 @@ impl<'a> Placing<'a> {
         for i in 0..BLOCK {
             // As the planes compute it: the sign of a difference is exact.
             let (right, bottom) = (reach[0] * w[i], reach[1] * w[i]);
-            inside &= (x[i].abs() <= right) & (y[i].abs() <= bottom) & (z[i] >= 0.0) & (z[i] <= w[i]);
+            inside &=
+                (x[i].abs() <= right) & (y[i].abs() <= bottom) & (z[i] >= 0.0) & (z[i] <= w[i]);
             inside &= (w[i] >= self.least_w) & (w[i] <= self.most_w);
         }
         inside

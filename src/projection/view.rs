@@ -28,29 +28,45 @@ pub(super) struct View<'a> {
 }
 
 /// A vertex without a place on the picture stands in its first corner.
-const NOWHERE: ScreenVertex = ScreenVertex { x: SubPixel::ZERO, y: SubPixel::ZERO, depth: 0.0, inv_w: 1.0 };
+const NOWHERE: ScreenVertex = ScreenVertex {
+    x: SubPixel::ZERO,
+    y: SubPixel::ZERO,
+    depth: 0.0,
+    inv_w: 1.0,
+};
 
 impl<'a> View<'a> {
     pub fn new(scene: &'a Scene) -> Result<Self, FrameError> {
         let sides = 1..=Scene::MAX_SIDE;
         if !sides.contains(&scene.width) || !sides.contains(&scene.height) {
-            return Err(FrameError::Size { width: scene.width, height: scene.height });
+            return Err(FrameError::Size {
+                width: scene.width,
+                height: scene.height,
+            });
         }
         let samples = scene.samples;
         let [width, height] = [scene.width, scene.height].map(|side| side.saturating_mul(samples));
         if ![1, 2, 4, 8].contains(&samples) || !sides.contains(&width) || !sides.contains(&height) {
             return Err(FrameError::Samples { samples });
         }
-        let clip_matrix = scene.camera.clip_matrix(f64::from(scene.width) / f64::from(scene.height));
+        let clip_matrix = scene
+            .camera
+            .clip_matrix(f64::from(scene.width) / f64::from(scene.height));
         let ordered = scene.camera.near < scene.camera.far;
         if !clip_matrix.is_finite() || !scene.camera.view().is_finite() || !ordered {
             return Err(FrameError::Camera);
         }
         let (x, y) = (DVec4::X, DVec4::Y);
         let (w_x, w_y) = (DVec4::W * reach(width), DVec4::W * reach(height));
-        let guard = |normal| Plane { normal, in_front: true };
+        let guard = |normal| Plane {
+            normal,
+            in_front: true,
+        };
         let planes = [
-            Plane { normal: DVec4::Z, in_front: false },
+            Plane {
+                normal: DVec4::Z,
+                in_front: false,
+            },
             guard(DVec4::W - DVec4::Z),
             guard(w_x + x),
             guard(w_x - x),
@@ -60,7 +76,14 @@ impl<'a> View<'a> {
         let per_sample = |buffer: DepthBuffer| buffer.source == DepthSource::PerSample;
         let needs_inv_w = scene.interpolation == Interpolation::Perspective
             || matches!(scene.hidden_surfaces, HiddenSurfaces::ZBuffer(buffer) if per_sample(buffer));
-        Ok(View { scene, width, height, clip_matrix, planes, needs_inv_w })
+        Ok(View {
+            scene,
+            width,
+            height,
+            clip_matrix,
+            planes,
+            needs_inv_w,
+        })
     }
 
     /// The planes that a position is beyond.
@@ -79,7 +102,10 @@ impl<'a> View<'a> {
             // Cuts are rounded, and may lie beyond the plane that made them.
             Clipping::Planes => {
                 let least = -1e-9 * clip.abs().max_element();
-                self.planes.iter().all(|plane| plane.normal.dot(clip) >= least) && clip.w > 0.0
+                self.planes
+                    .iter()
+                    .all(|plane| plane.normal.dot(clip) >= least)
+                    && clip.w > 0.0
             }
             Clipping::NdcCube => self.codes_unclipped(clip) & BEYOND_PLANES == 0,
         };
@@ -87,15 +113,25 @@ impl<'a> View<'a> {
             return NOWHERE;
         }
         let [x, y] = self.snap(clip);
-        let inv_w = if self.needs_inv_w { self.weight(clip.w) } else { 1.0 };
-        ScreenVertex { x, y, depth: (clip.z / clip.w) as f32, inv_w }
+        let inv_w = if self.needs_inv_w {
+            self.weight(clip.w)
+        } else {
+            1.0
+        };
+        ScreenVertex {
+            x,
+            y,
+            depth: (clip.z / clip.w) as f32,
+            inv_w,
+        }
     }
 
     /// Whether all numbers of a vertex are such as a frame may have.
     pub fn is_valid(&self, v: &ScreenVertex) -> bool {
         let guard = SubPixel::from_num(Frame::GUARD);
         let inside = |c: SubPixel| -guard <= c && c <= guard;
-        let weighs = v.inv_w.is_finite() && (v.inv_w > 0.0 || self.scene.clipping == Clipping::NdcCube);
+        let weighs =
+            v.inv_w.is_finite() && (v.inv_w > 0.0 || self.scene.clipping == Clipping::NdcCube);
         inside(v.x) && inside(v.y) && v.depth.is_finite() && weighs
     }
 
@@ -125,5 +161,8 @@ pub(super) fn reach(side: u32) -> f64 {
 
 /// One bit each, the first the lowest.
 pub(super) fn bits(beyond: &[bool]) -> Codes {
-    beyond.iter().rev().fold(0, |bits, &b| bits << 1 | Codes::from(b))
+    beyond
+        .iter()
+        .rev()
+        .fold(0, |bits, &b| bits << 1 | Codes::from(b))
 }

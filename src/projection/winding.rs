@@ -19,7 +19,11 @@ pub(super) const NO_PLACES: Places = [[0; MOST]; 4];
 /// Which of up to 64 triangles run clockwise on the picture, and which counter-clockwise: a bit each, the first the lowest.
 /// Bits past the last triangle mean nothing.
 #[inline(always)]
-pub(super) fn of_triangles(triangles: &[[u32; 3]], vertices: &[ScreenVertex], places: &mut Places) -> (u64, u64) {
+pub(super) fn of_triangles(
+    triangles: &[[u32; 3]],
+    vertices: &[ScreenVertex],
+    places: &mut Places,
+) -> (u64, u64) {
     #[allow(clippy::needless_range_loop)] // bounded once for all four arrays
     for k in 0..triangles.len().min(MOST) {
         let triangle = triangles[k];
@@ -49,7 +53,8 @@ pub(super) fn of_polygons<'a>(
             _ => {
                 // A quadrangle whose area is 1, 0 or −1.
                 let sign = area(corners, vertices).signum() as i32;
-                (places[0][k], places[1][k], places[2][k], places[3][k]) = (0, 0, 1, u64::from(sign as u32) << 32);
+                (places[0][k], places[1][k], places[2][k], places[3][k]) =
+                    (0, 0, 1, u64::from(sign as u32) << 32);
                 continue;
             }
         };
@@ -66,7 +71,11 @@ pub(super) fn of_polygons<'a>(
 /// Twice the area of a polygon of any shape.
 #[inline(never)]
 fn area(corners: &[u32], vertices: &[ScreenVertex]) -> i128 {
-    doubled_area(corners.iter().map(|&v| [vertices[v as usize].x, vertices[v as usize].y]))
+    doubled_area(
+        corners
+            .iter()
+            .map(|&v| [vertices[v as usize].x, vertices[v as usize].y]),
+    )
 }
 
 /// Where the cross product of two vectors, each from one place to another, is over 0, and where it is below.
@@ -115,7 +124,9 @@ mod tests {
     /// The definition, in as many bits as it needs.
     fn plainly(polygons: &[Vec<u32>], vertices: &[ScreenVertex]) -> (u64, u64) {
         let all = |of: fn(i128) -> bool| {
-            polygons.iter().rev().fold(0, |bits, corners| bits << 1 | u64::from(of(area(corners, vertices))))
+            polygons.iter().rev().fold(0, |bits, corners| {
+                bits << 1 | u64::from(of(area(corners, vertices)))
+            })
         };
         (all(|area| area > 0), all(|area| area < 0))
     }
@@ -123,10 +134,21 @@ mod tests {
     /// Vertices close together, of which many polygons have no area; up to the whole guard band; and only its corners.
     fn vertices(random: &mut Random, round: usize) -> Vec<ScreenVertex> {
         let guard = 256 * Frame::GUARD;
-        let (origin, unit, reach) =
-            [(100, 1, 3), (-200, 1, 400), (-guard, 1, 2 * guard as u64 + 1), (-guard, 2 * guard, 2)][round % 4];
+        let (origin, unit, reach) = [
+            (100, 1, 3),
+            (-200, 1, 400),
+            (-guard, 1, 2 * guard as u64 + 1),
+            (-guard, 2 * guard, 2),
+        ][round % 4];
         let mut at = || SubPixel::from_bits(origin + unit * random.below(reach) as i32);
-        (0..40).map(|_| ScreenVertex { x: at(), y: at(), depth: 0.5, inv_w: 1.0 }).collect()
+        (0..40)
+            .map(|_| ScreenVertex {
+                x: at(),
+                y: at(),
+                depth: 0.5,
+                inv_w: 1.0,
+            })
+            .collect()
     }
 
     #[test]
@@ -137,7 +159,11 @@ mod tests {
             let vertices = vertices(&mut random, round);
             let count = 1 + random.below(64) as usize;
             let most = if round % 3 == 0 { 1 } else { 4 };
-            let mut corners = |_| (0..3 + random.below(most)).map(|_| random.below(40) as u32).collect();
+            let mut corners = |_| {
+                (0..3 + random.below(most))
+                    .map(|_| random.below(40) as u32)
+                    .collect()
+            };
             let polygons: Vec<Vec<u32>> = (0..count).map(&mut corners).collect();
             // What was there before must not matter.
             let mut places = [[u64::MAX / 3; MOST]; 4];
@@ -149,7 +175,8 @@ mod tests {
                     || of_polygons(count, polygon, &vertices, &mut places),
                 ),
             ];
-            let triangles: Option<Vec<[u32; 3]>> = polygons.iter().map(|p| p[..].try_into().ok()).collect();
+            let triangles: Option<Vec<[u32; 3]>> =
+                polygons.iter().map(|p| p[..].try_into().ok()).collect();
             let of_triangles = triangles.map(|triangles| {
                 [
                     of_triangles(&triangles, &vertices, &mut places),
@@ -168,7 +195,10 @@ mod tests {
             some += (expected.0 | expected.1).count_ones();
             none += (all & !(expected.0 | expected.1)).count_ones();
         }
-        assert!(none > 1000 && some > 1000, "the test asks little: {none} without, {some} with an area");
+        assert!(
+            none > 1000 && some > 1000,
+            "the test asks little: {none} without, {some} with an area"
+        );
     }
 
     #[test]

@@ -57,7 +57,11 @@ pub struct ActiveEdges<E> {
 
 impl<E: Copy> ActiveEdges<E> {
     pub fn new(depth: SampleDepth) -> Self {
-        ActiveEdges { depth, edges: Vec::new(), merged: Vec::new() }
+        ActiveEdges {
+            depth,
+            edges: Vec::new(),
+            merged: Vec::new(),
+        }
     }
 
     /// The edges, in order.
@@ -66,8 +70,14 @@ impl<E: Copy> ActiveEdges<E> {
     }
 
     /// Takes in the edges that begin on scanline `row`.
-    pub fn enter<M, A>(&mut self, m: M, frame: &Frame, table: &EdgeTable, attributes: &[A], row: usize)
-    where
+    pub fn enter<M, A>(
+        &mut self,
+        m: M,
+        frame: &Frame,
+        table: &EdgeTable,
+        attributes: &[A],
+        row: usize,
+    ) where
         M: Machine,
         A: Attribute<M::One, Edge = E>,
     {
@@ -82,7 +92,8 @@ impl<E: Copy> ActiveEdges<E> {
             while let Some(active) = old.next_if(|active| active.polygon <= edge.polygon) {
                 self.merged.push(*active);
             }
-            self.merged.push(start(m, frame, &self.depth, attributes, edge, row as i32));
+            self.merged
+                .push(start(m, frame, &self.depth, attributes, edge, row as i32));
         }
         self.merged.extend(old);
         core::mem::swap(&mut self.edges, &mut self.merged);
@@ -100,7 +111,9 @@ impl<E: Copy> ActiveEdges<E> {
             order(&mut self.edges[first..end]);
             // A closed polygon crosses a scanline an even number of times.
             for left in (first..end - 1).step_by(2) {
-                if let Some(span) = span(&self.edges[left], &self.edges[left + 1], left as u32, width) {
+                if let Some(span) =
+                    span(&self.edges[left], &self.edges[left + 1], left as u32, width)
+                {
                     visit(span);
                 }
             }
@@ -165,7 +178,10 @@ where
     A: Attribute<M::One>,
 {
     let vertices = frame.vertices();
-    let (top, bottom) = (&vertices[edge.top as usize], &vertices[edge.bottom as usize]);
+    let (top, bottom) = (
+        &vertices[edge.top as usize],
+        &vertices[edge.bottom as usize],
+    );
     let place = |v: &ScreenVertex| [v.x, v.y];
     // Exact: both differences have at most 24 bits.
     let height = (bottom.y - top.y).to_bits() as f32;
@@ -175,19 +191,30 @@ where
     let from = depth.of_corner(frame, top);
     let rise = depth.of_corner(frame, bottom) - from;
     let face = m.three(frame.polygon_normal(&frame.polygons()[edge.polygon as usize]));
-    let (a, b) = (attributes[edge.top as usize], attributes[edge.bottom as usize]);
+    let (a, b) = (
+        attributes[edge.top as usize],
+        attributes[edge.bottom as usize],
+    );
     ActiveEdge {
         polygon: edge.polygon,
         corner: edge.corner,
         end: first_centre(bottom.y),
         crossing: Crossing::new(place(top), place(bottom), row),
-        depth: Ramp { at: from + rise * t0, step: rise * dt }, // 3.4
+        depth: Ramp {
+            at: from + rise * t0,
+            step: rise * dt,
+        }, // 3.4
         attribute: A::edge(m, face, a, b, m.one(t0), m.one(dt)),
     }
 }
 
 #[inline(always)]
-pub(super) fn span<E>(left: &ActiveEdge<E>, right: &ActiveEdge<E>, number: u32, width: u32) -> Option<Span> {
+pub(super) fn span<E>(
+    left: &ActiveEdge<E>,
+    right: &ActiveEdge<E>,
+    number: u32,
+    width: u32,
+) -> Option<Span> {
     let (from, to) = (left.crossing.pixel(), right.crossing.pixel());
     let (start, end) = (from.max(0), to.min(width as i32));
     if start >= end {

@@ -80,7 +80,12 @@ impl Shader for Normals {
     #[inline(always)]
     fn polygon<M: Machine>(_: &[M::One; 2], _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &[M::One; 2], _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(
+        m: M,
+        _: &[M::One; 2],
+        _: &(),
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
         each(
             #[inline(always)]
             |i| Linear::new(m, span.attribute.at[i], span.attribute.step[i]),

@@ -23,7 +23,8 @@ pub(crate) struct Scratch {
 }
 
 /// Draws one band: its number, its scanlines, memory, and where its rows go.
-pub(crate) type DrawBand<'a> = dyn Fn(usize, Range<usize>, &mut Scratch, &mut dyn RowSink) + Sync + 'a;
+pub(crate) type DrawBand<'a> =
+    dyn Fn(usize, Range<usize>, &mut Scratch, &mut dyn RowSink) + Sync + 'a;
 
 /// A picture that takes bands, whatever its texels are: engines are compiled once for all kinds.
 pub(crate) trait Bands {
@@ -40,7 +41,13 @@ pub(crate) struct PictureBands<'a, T> {
 
 impl<T: Texel> Bands for PictureBands<'_, T> {
     fn each(&mut self, height: usize, draw: &DrawBand<'_>) {
-        draw_bands(self.frame, self.level, (height, 0), self.picture.texels_mut(), draw);
+        draw_bands(
+            self.frame,
+            self.level,
+            (height, 0),
+            self.picture.texels_mut(),
+            draw,
+        );
     }
 }
 
@@ -58,8 +65,10 @@ pub(crate) struct StreamedBands<'a> {
 impl Bands for StreamedBands<'_> {
     fn each(&mut self, height: usize, draw: &DrawBand<'_>) {
         let frame = self.frame;
-        let (texels_a_band, all) =
-            (height / frame.samples() * frame.picture_width(), frame.picture_width() * frame.picture_height());
+        let (texels_a_band, all) = (
+            height / frame.samples() * frame.picture_width(),
+            frame.picture_width() * frame.picture_height(),
+        );
         let bands = BANDS_A_THREAD * threads();
         let mut window = vec![[0; 4]; (bands * texels_a_band).min(all)];
         for first in (0..all.div_ceil(texels_a_band)).step_by(bands) {
@@ -88,7 +97,17 @@ fn draw_bands<T: Texel>(
         let number = first + start / texels_a_band;
         let rows = number * height..((number + 1) * height).min(frame.height());
         with_scratch(|scratch| match samples {
-            1 => draw(number, rows, scratch, &mut Stored { texels, width, background, level }),
+            1 => draw(
+                number,
+                rows,
+                scratch,
+                &mut Stored {
+                    texels,
+                    width,
+                    background,
+                    level,
+                },
+            ),
             _ => draw(number, rows, scratch, &mut Filtered::new(frame, texels)),
         });
     });

@@ -38,7 +38,11 @@ impl EdgeFunction {
     fn new(i: &ScreenVertex, j: &ScreenVertex) -> Self {
         let bits = |v: &ScreenVertex| (i64::from(v.x.to_bits()), i64::from(v.y.to_bits()));
         let ((xi, yi), (xj, yj)) = (bits(i), bits(j));
-        EdgeFunction { across: yi - yj, down: xj - xi, constant: xi * yj - xj * yi }
+        EdgeFunction {
+            across: yi - yj,
+            down: xj - xi,
+            constant: xi * yj - xj * yi,
+        }
     }
 
     #[inline(always)]
@@ -65,7 +69,9 @@ pub(crate) fn draw<S: Shader, M: Machine>(
     let depth = SampleDepth::new(frame);
     let mut depth_buffer = vec![f32::INFINITY; frame.width() * frame.height()];
     for (number, polygon) in frame.polygons().iter().enumerate() {
-        let &[a, mut b, mut c] = frame.corners(polygon) else { continue };
+        let &[a, mut b, mut c] = frame.corners(polygon) else {
+            continue;
+        };
         let vertex = |v: u32| &frame.vertices()[v as usize];
         let doubled_area = EdgeFunction::new(vertex(a), vertex(b)).at_vertex(vertex(c));
         if doubled_area == 0 {
@@ -81,7 +87,8 @@ pub(crate) fn draw<S: Shader, M: Machine>(
             EdgeFunction::new(corners[0], corners[1]),
         ];
         // f ≥ 1 is f > 0 in integers: the edges that do not own their pixels need that.
-        let least: [i64; 3] = each(|i| i64::from(edges == Edges::TopLeft && !functions[i].owns_its_pixels()));
+        let least: [i64; 3] =
+            each(|i| i64::from(edges == Edges::TopLeft && !functions[i].owns_its_pixels()));
         let scale = 1.0 / doubled_area.abs() as f32;
         let attributes: [_; 3] = each(|i| setup.attributes[[a, b, c][i] as usize]);
         let depths = corners.map(|corner| depth.of_corner(frame, corner));
@@ -99,12 +106,18 @@ pub(crate) fn draw<S: Shader, M: Machine>(
                 let weights: [f32; 3] = each(|i| f[i] as f32 * scale);
                 let q = weights[0] * depths[0] + weights[1] * depths[1] + weights[2] * depths[2];
                 let nearest = &mut depth_buffer[row * frame.width() + column];
-                let Some(kept) = depth.seen(q, *nearest) else { continue };
+                let Some(kept) = depth.seen(q, *nearest) else {
+                    continue;
+                };
                 *nearest = kept;
                 let start = Span {
                     x: m.one(column as f32 + 0.5),
                     y: m.one(row as f32 + 0.5),
-                    attribute: S::Attribute::barycentric(m, each(|i| m.one(weights[i])), attributes),
+                    attribute: S::Attribute::barycentric(
+                        m,
+                        each(|i| m.one(weights[i])),
+                        attributes,
+                    ),
                 };
                 let mut walk = S::walk(m, &setup.consts[material], &setup.polygons[number], &start);
                 let rgb = S::shade(&setup.pixel_consts[material], walk.next());
@@ -121,7 +134,10 @@ impl EdgeFunction {
 }
 
 /// The pixels whose centres may lie in a triangle: columns and rows.
-fn bounding_box(frame: &Frame, corners: &[&ScreenVertex; 3]) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
+fn bounding_box(
+    frame: &Frame,
+    corners: &[&ScreenVertex; 3],
+) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
     let range = |coordinates: [i32; 3], limit: usize| {
         let (mut low, mut high) = (coordinates[0], coordinates[0]);
         for c in coordinates {
@@ -132,5 +148,8 @@ fn bounding_box(frame: &Frame, corners: &[&ScreenVertex; 3]) -> (core::ops::Rang
         let last = (high - 128).div_euclid(256) + 1;
         first.min(limit)..(last.max(0) as usize).min(limit)
     };
-    (range(corners.map(|v| v.x.to_bits()), frame.width()), range(corners.map(|v| v.y.to_bits()), frame.height()))
+    (
+        range(corners.map(|v| v.x.to_bits()), frame.width()),
+        range(corners.map(|v| v.y.to_bits()), frame.height()),
+    )
 }

@@ -16,9 +16,15 @@ use alloc::vec::Vec;
 ///
 /// That of [`polygon_numbers`](super::polygon_numbers), but where depths agree to within rounding.
 pub fn barycentric_polygon_numbers(frame: &Frame, edges: Edges) -> Picture<u32> {
-    let mut by_first: Vec<_> = (0..).zip(frame.polygons()).map(|(number, polygon)| (polygon.first, number)).collect();
+    let mut by_first: Vec<_> = (0..)
+        .zip(frame.polygons())
+        .map(|(number, polygon)| (polygon.first, number))
+        .collect();
     by_first.sort_unstable();
-    let mut target = Numbers { by_first, picture: Picture::new(frame.width(), frame.height(), NOTHING) };
+    let mut target = Numbers {
+        by_first,
+        picture: Picture::new(frame.width(), frame.height(), NOTHING),
+    };
     barycentric::draw::<FirstCorner, Scalar>(Scalar, frame, &[], edges, &mut target);
     target.picture
 }
@@ -61,10 +67,19 @@ impl Shader for FirstCorner {
     #[inline(always)]
     fn polygon<M: Machine>(zero: &M::One, corners: &Corners<'_, M, Lerp<()>>) -> [M::One; 3] {
         let first = corners.polygon.first;
-        [corners.machine.one((first >> 16) as f32), corners.machine.one((first & 0xFFFF) as f32), *zero]
+        [
+            corners.machine.one((first >> 16) as f32),
+            corners.machine.one((first & 0xFFFF) as f32),
+            *zero,
+        ]
     }
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &M::One, number: &[M::One; 3], _: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(
+        m: M,
+        _: &M::One,
+        number: &[M::One; 3],
+        _: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
         Constant(number.map(|half| m.splat(half)))
     }
     #[inline(always)]
@@ -86,13 +101,25 @@ mod tests {
     fn triangles(count: usize, side: u32) -> Frame {
         let mut random = Random::new(7);
         let mut builder = FrameBuilder::new(side, side);
-        let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
+        let material =
+            builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
         for number in 0..count {
             let depth = 0.5 + 0.5 * random.signed();
-            let centre = [random.below(u64::from(256 * side)) as i32, random.below(u64::from(256 * side)) as i32];
+            let centre = [
+                random.below(u64::from(256 * side)) as i32,
+                random.below(u64::from(256 * side)) as i32,
+            ];
             let corners = [(); 3].map(|()| {
-                let [x, y] = centre.map(|c| SubPixel::from_bits(c + random.below(1024) as i32 - 512));
-                builder.vertex(Vertex { x, y, depth, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+                let [x, y] =
+                    centre.map(|c| SubPixel::from_bits(c + random.below(1024) as i32 - 512));
+                builder.vertex(Vertex {
+                    x,
+                    y,
+                    depth,
+                    inv_w: 1.0,
+                    normal: [0.0, 0.0, 1.0],
+                    material,
+                })
             });
             builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
         }
@@ -105,9 +132,17 @@ mod tests {
         let frame = triangles(30_000, 300);
         let scanline = polygon_numbers(&frame);
         let seen = scanline.texels().iter().filter(|n| **n != NOTHING);
-        assert!(seen.clone().any(|n| *n > 65_536 / 3), "numbers of over 16 bits are among them");
+        assert!(
+            seen.clone().any(|n| *n > 65_536 / 3),
+            "numbers of over 16 bits are among them"
+        );
         let barycentric = barycentric_polygon_numbers(&frame, Edges::TopLeft);
-        let other = scanline.texels().iter().zip(barycentric.texels()).filter(|(a, b)| a != b).count();
+        let other = scanline
+            .texels()
+            .iter()
+            .zip(barycentric.texels())
+            .filter(|(a, b)| a != b)
+            .count();
         assert_eq!(other, 0, "of {} pixels", seen.count());
     }
 }

@@ -77,7 +77,11 @@ impl<E: Entry> Bins<E> {
     /// The polygons of `frame` in bands of `height` scanlines, a power of two.
     pub fn new(frame: &Frame, height: usize) -> Self {
         let chunks = frame.polygons().len().div_ceil(CHUNK);
-        Bins { chunks: collect(chunks, 1, |number| Chunk::new(frame, height, number * CHUNK)) }
+        Bins {
+            chunks: collect(chunks, 1, |number| {
+                Chunk::new(frame, height, number * CHUNK)
+            }),
+        }
     }
 
     /// Whether all polygons of the frame are triangles.
@@ -87,9 +91,9 @@ impl<E: Entry> Bins<E> {
 
     /// The polygons that may cover pixels of band `band`, by ascending numbers from list to list and within each.
     pub fn band(&self, band: usize) -> impl Iterator<Item = &[E]> {
-        self.chunks
-            .iter()
-            .map(move |chunk| &chunk.polygons[chunk.starts[band] as usize..chunk.starts[band + 1] as usize])
+        self.chunks.iter().map(move |chunk| {
+            &chunk.polygons[chunk.starts[band] as usize..chunk.starts[band + 1] as usize]
+        })
     }
 }
 
@@ -125,7 +129,11 @@ impl<E: Entry> Chunk<E> {
                 put(band, entry);
             }
         }
-        Chunk { starts, polygons, are_triangles }
+        Chunk {
+            starts,
+            polygons,
+            are_triangles,
+        }
     }
 }
 
@@ -158,25 +166,46 @@ fn find_ranges<E: Entry>(
 ) -> bool {
     let mut corners = [[[0; 2]; GROUP]; 4];
     let mut read_entries = [E::default(); GROUP];
-    let (limit, log_height) = ([[frame.width() as i32, frame.height() as i32]; GROUP], height.trailing_zeros());
+    let (limit, log_height) = (
+        [[frame.width() as i32, frame.height() as i32]; GROUP],
+        height.trailing_zeros(),
+    );
     let nowhere = frame.height().div_ceil(height) as i32;
     let mut are_triangles = true;
     let mut first = 0;
     while first < polygons.len() {
         let polygons = &polygons[first..];
         let polygons = &polygons[..polygons.len().min(GROUP)];
-        let these_are = read(frame, (number + first) as u32, polygons, &mut corners, &mut read_entries);
+        let these_are = read(
+            frame,
+            (number + first) as u32,
+            polygons,
+            &mut corners,
+            &mut read_entries,
+        );
         entries.extend_from_slice(&read_entries[..polygons.len()]);
         // The fourth corner of a triangle is its third one.
-        let (begin, end) = if these_are { pixels::<3>(&corners, &limit) } else { pixels::<4>(&corners, &limit) };
+        let (begin, end) = if these_are {
+            pixels::<3>(&corners, &limit)
+        } else {
+            pixels::<4>(&corners, &limit)
+        };
         are_triangles &= these_are;
         let [from, to] = ranges;
-        let (from, to) = (&mut from[first..first + GROUP], &mut to[first..first + GROUP]);
+        let (from, to) = (
+            &mut from[first..first + GROUP],
+            &mut to[first..first + GROUP],
+        );
         for k in 0..GROUP {
             let ([left, top], [right, bottom]) = (begin[k], end[k]);
             let is_there = (left < right) & (top < bottom);
             from[k] = (if is_there { top >> log_height } else { nowhere }) as u16;
-            to[k] = (if is_there { (bottom - 1) >> log_height } else { nowhere }) as u16 + 1;
+            to[k] = (if is_there {
+                (bottom - 1) >> log_height
+            } else {
+                nowhere
+            }) as u16
+                + 1;
         }
         first += GROUP;
     }
@@ -192,8 +221,17 @@ type Places = [[i32; 2]; GROUP];
 fn pixels<const MOST: usize>(corners: &[Places; 4], limit: &Places) -> (Places, Places) {
     let (mut begin, mut end) = ([[0; 2]; GROUP], [[0; 2]; GROUP]);
     // Columns and rows alike, one after the other as they stand in memory.
-    let (a, b, c, d) = (flat(&corners[0]), flat(&corners[1]), flat(&corners[2]), flat(&corners[3]));
-    let (limit, to_begin, to_end) = (flat(limit), begin.as_flattened_mut(), end.as_flattened_mut());
+    let (a, b, c, d) = (
+        flat(&corners[0]),
+        flat(&corners[1]),
+        flat(&corners[2]),
+        flat(&corners[3]),
+    );
+    let (limit, to_begin, to_end) = (
+        flat(limit),
+        begin.as_flattened_mut(),
+        end.as_flattened_mut(),
+    );
     for i in 0..2 * GROUP {
         let (mut least, mut most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
         if MOST > 3 {
@@ -247,7 +285,8 @@ fn read<E: Entry>(
             are_triangles = false;
         } else {
             let [least, most] = bounds(frame, polygon);
-            (corners[0][k], corners[1][k], corners[2][k], corners[3][k]) = (least, most, most, most);
+            (corners[0][k], corners[1][k], corners[2][k], corners[3][k]) =
+                (least, most, most, most);
             listed = *frame.corners(polygon).as_array().unwrap_or(&Listed::OTHER);
             are_triangles &= polygon.count == 3;
         }
@@ -267,7 +306,10 @@ fn bounds(frame: &Frame, polygon: &Polygon) -> [[i32; 2]; 2] {
     let (mut least, mut most) = ([i32::MAX; 2], [i32::MIN; 2]);
     for &corner in frame.corners(polygon) {
         let [x, y] = place(&frame.vertices()[corner as usize]);
-        (least, most) = ([least[0].min(x), least[1].min(y)], [most[0].max(x), most[1].max(y)]);
+        (least, most) = (
+            [least[0].min(x), least[1].min(y)],
+            [most[0].max(x), most[1].max(y)],
+        );
     }
     [least, most]
 }

@@ -37,16 +37,23 @@ impl SampleDepth {
             HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => None,
         };
         let (near, far) = frame.depth_range().ends();
-        let (quantity, origin, factor) = match (buffer.unwrap_or_default().source, frame.depth_range()) {
-            (DepthSource::Interpolated, _) => (Quantity::Depth, 0.0, 1.0),
-            (DepthSource::PerSample, DepthRange::Perspective { .. }) => (Quantity::InverseW, 1.0, -far / (far - near)),
-            (DepthSource::PerSample, DepthRange::Orthographic { .. }) => (Quantity::Distance, near, 1.0 / (far - near)),
-        };
+        let (quantity, origin, factor) =
+            match (buffer.unwrap_or_default().source, frame.depth_range()) {
+                (DepthSource::Interpolated, _) => (Quantity::Depth, 0.0, 1.0),
+                (DepthSource::PerSample, DepthRange::Perspective { .. }) => {
+                    (Quantity::InverseW, 1.0, -far / (far - near))
+                }
+                (DepthSource::PerSample, DepthRange::Orthographic { .. }) => {
+                    (Quantity::Distance, near, 1.0 / (far - near))
+                }
+            };
         SampleDepth {
             quantity,
             origin: origin as f32,
             factor: factor as f32,
-            most: buffer.map_or(DepthBits::ThirtyTwo, |buffer| buffer.bits).most(),
+            most: buffer
+                .map_or(DepthBits::ThirtyTwo, |buffer| buffer.bits)
+                .most(),
             hides: buffer.is_some(),
             cube: frame.clipping() == Clipping::NdcCube,
         }
@@ -112,21 +119,41 @@ mod tests {
     use super::*;
 
     fn keeping(bits: DepthBits) -> SampleDepth {
-        SampleDepth { quantity: Quantity::Depth, origin: 0.0, factor: 1.0, most: bits.most(), hides: true, cube: false }
+        SampleDepth {
+            quantity: Quantity::Depth,
+            origin: 0.0,
+            factor: 1.0,
+            most: bits.most(),
+            hides: true,
+            cube: false,
+        }
     }
 
     #[test]
     fn what_is_kept_is_rounded_to_the_nearest_level() {
         let sixteen = keeping(DepthBits::Sixteen);
-        assert_eq!([0.0, 0.5, 1.0].map(|z| sixteen.kept(z)), [0.0, 32768.0, 65535.0], "0.5 is 32767.5, and goes up");
-        assert_eq!([-1e-9, 1.000_001, -3.0, 9.0].map(|z| sixteen.kept(z)), [0.0, 65535.0, 0.0, 65535.0]);
+        assert_eq!(
+            [0.0, 0.5, 1.0].map(|z| sixteen.kept(z)),
+            [0.0, 32768.0, 65535.0],
+            "0.5 is 32767.5, and goes up"
+        );
+        assert_eq!(
+            [-1e-9, 1.000_001, -3.0, 9.0].map(|z| sixteen.kept(z)),
+            [0.0, 65535.0, 0.0, 65535.0]
+        );
         // Every level of 24 bits is an f32, and is kept as itself; neighbouring floats below 1 are different levels.
         let fine = keeping(DepthBits::TwentyFour);
-        for level in (0..1 << 24).step_by(9973).chain([(1 << 24) - 2, (1 << 24) - 1]) {
+        for level in (0..1 << 24)
+            .step_by(9973)
+            .chain([(1 << 24) - 2, (1 << 24) - 1])
+        {
             let z = (f64::from(level) / f64::from((1 << 24) - 1)) as f32;
             assert_eq!(fine.kept(z), level as f32);
         }
         assert_eq!(keeping(DepthBits::ThirtyTwo).kept(1.5), 1.5);
-        assert_eq!([0.0, 65535.0, f32::INFINITY].map(|kept| sixteen.shown(kept)), [0.0, 1.0, f32::INFINITY]);
+        assert_eq!(
+            [0.0, 65535.0, f32::INFINITY].map(|kept| sixteen.shown(kept)),
+            [0.0, 1.0, f32::INFINITY]
+        );
     }
 }

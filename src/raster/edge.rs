@@ -102,7 +102,11 @@ mod tests {
 
     #[test]
     fn first_centre_is_half_open() {
-        assert_eq!(first_centre(at(128)), 0, "a centre belongs to what begins on it");
+        assert_eq!(
+            first_centre(at(128)),
+            0,
+            "a centre belongs to what begins on it"
+        );
         assert_eq!(first_centre(at(129)), 1);
         assert_eq!(first_centre(at(0)), 0);
         assert_eq!(first_centre(at(-128)), -1);
@@ -136,7 +140,11 @@ mod tests {
                 };
                 assert!(not_left(crossing.pixel()) && !not_left(crossing.pixel() - 1));
                 let again = Crossing::new(top, bottom, row);
-                assert_eq!(crossing.compare(&again), Ordering::Equal, "any scanline may be the first");
+                assert_eq!(
+                    crossing.compare(&again),
+                    Ordering::Equal,
+                    "any scanline may be the first"
+                );
                 crossing.advance();
             }
         }

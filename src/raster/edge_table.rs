@@ -52,7 +52,11 @@ impl EdgeTable {
             edges[next[row] as usize] = edge;
             next[row] += 1;
         });
-        EdgeTable { rows, starts, edges }
+        EdgeTable {
+            rows,
+            starts,
+            edges,
+        }
     }
 
     /// The scanlines that it is for.
@@ -68,7 +72,12 @@ impl EdgeTable {
     }
 }
 
-fn for_each_edge(frame: &Frame, rows: &Range<usize>, numbers: &[&[u32]], mut visit: impl FnMut(usize, TableEdge)) {
+fn for_each_edge(
+    frame: &Frame,
+    rows: &Range<usize>,
+    numbers: &[&[u32]],
+    mut visit: impl FnMut(usize, TableEdge),
+) {
     let (first_row, end_row) = (rows.start as i32, rows.end as i32);
     let vertices = frame.vertices();
     for &number in numbers.iter().copied().flatten() {
@@ -84,7 +93,15 @@ fn for_each_edge(frame: &Frame, rows: &Range<usize>, numbers: &[&[u32]], mut vis
             let first = first_centre(vertices[top as usize].y).max(first_row);
             let end = first_centre(vertices[bottom as usize].y).min(end_row);
             if first < end {
-                visit((first - first_row) as usize, TableEdge { polygon: number, corner, top, bottom });
+                visit(
+                    (first - first_row) as usize,
+                    TableEdge {
+                        polygon: number,
+                        corner,
+                        top,
+                        bottom,
+                    },
+                );
             }
         }
     }

@@ -50,9 +50,11 @@ impl FromStr for Engine {
 
     fn from_str(name: &str) -> Result<Engine, String> {
         let named = |engine: &Engine| engine.name() == name;
-        Engine::ALL.into_iter().find(named).ok_or_else(|| match nearest(name, Engine::ALL.map(Engine::name)) {
-            Some(near) => format!("unknown engine `{name}`: did you mean `{near}`?"),
-            None => format!("unknown engine `{name}`: expected `span` or `row`"),
+        Engine::ALL.into_iter().find(named).ok_or_else(|| {
+            match nearest(name, Engine::ALL.map(Engine::name)) {
+                Some(near) => format!("unknown engine `{name}`: did you mean `{near}`?"),
+                None => format!("unknown engine `{name}`: expected `span` or `row`"),
+            }
         })
     }
 }
@@ -70,11 +72,17 @@ pub struct Renderer {
 impl Renderer {
     /// The lecture's own form: spans, one pixel at a time, on one thread. Its pictures are the same bits on every platform,
     /// and it is what every other is measured against.
-    pub const LECTURE: Renderer = Renderer { engine: Some(Engine::Span), level: Level::Scalar };
+    pub const LECTURE: Renderer = Renderer {
+        engine: Some(Engine::Span),
+        level: Level::Scalar,
+    };
 
     /// The fastest that this machine has.
     pub fn fastest() -> Renderer {
-        Renderer { engine: None, level: Level::best() }
+        Renderer {
+            engine: None,
+            level: Level::best(),
+        }
     }
 }
 
@@ -98,6 +106,10 @@ impl Plan {
     /// How many threads walk and shade its pixels: one in the lecture's own form, in any other those of the current pool of
     /// `rayon`, which is one without the feature `threads`. Vertices are lit on all of the pool in every form.
     pub fn threads(self) -> usize {
-        if self.is_lectures_own() { 1 } else { crate::parallel::threads() }
+        if self.is_lectures_own() {
+            1
+        } else {
+            crate::parallel::threads()
+        }
     }
 }

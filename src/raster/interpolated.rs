@@ -42,12 +42,27 @@ pub fn checkerboard(frame: &Frame, size: f64, colours: [Rgb; 2]) -> LinearPictur
 }
 
 /// [`checkerboard`] by the barycentric renderer, which passes over polygons of more than three corners.
-pub fn barycentric_checkerboard(frame: &Frame, edges: Edges, size: f64, colours: [Rgb; 2]) -> LinearPicture {
+pub fn barycentric_checkerboard(
+    frame: &Frame,
+    edges: Edges,
+    size: f64,
+    colours: [Rgb; 2],
+) -> LinearPicture {
     board(frame, Some(edges), size, colours)
 }
 
 fn board(frame: &Frame, edges: Option<Edges>, size: f64, colours: [Rgb; 2]) -> LinearPicture {
-    shown(frame, edges, |target| draw::<World>(frame, edges, &mut Squares { target, size, colours }))
+    shown(frame, edges, |target| {
+        draw::<World>(
+            frame,
+            edges,
+            &mut Squares {
+                target,
+                size,
+                colours,
+            },
+        )
+    })
 }
 
 /// What `draw` gives, sample by sample, as a picture. The barycentric renderer comes back to samples that it drew.
@@ -81,8 +96,12 @@ impl Target for Squares<'_> {
 
 fn draw<Q: Quantity>(frame: &Frame, edges: Option<Edges>, target: &mut dyn Target) {
     match (edges, frame.interpolation()) {
-        (None, Interpolation::Screen) => scanline::draw::<OnScreen<Q>, Scalar>(Scalar, frame, &[], target),
-        (None, Interpolation::Perspective) => scanline::draw::<Weighted<Q>, Scalar>(Scalar, frame, &[], target),
+        (None, Interpolation::Screen) => {
+            scanline::draw::<OnScreen<Q>, Scalar>(Scalar, frame, &[], target)
+        }
+        (None, Interpolation::Perspective) => {
+            scanline::draw::<Weighted<Q>, Scalar>(Scalar, frame, &[], target)
+        }
         (Some(edges), Interpolation::Screen) => {
             barycentric::draw::<OnScreen<Q>, Scalar>(Scalar, frame, &[], edges, target);
         }

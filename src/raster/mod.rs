@@ -33,7 +33,9 @@ pub use barycentric::Edges;
 pub use barycentric_numbers::barycentric_polygon_numbers;
 pub use edge::Crossing;
 pub use engine::{Engine, Plan, Renderer};
-pub use interpolated::{barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours};
+pub use interpolated::{
+    barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours,
+};
 pub use visibility::NOTHING;
 
 pub(crate) use bands::{Bands, PictureBands, StreamedBands};

@@ -55,7 +55,12 @@ pub(super) fn scan_all<M: Machine, A: Attribute<M::One>>(
 }
 
 /// Draws `frame` with a shader into `target`.
-pub(crate) fn draw<S: Shader, M: Machine>(m: M, frame: &Frame, parameters: &[u32], target: &mut dyn Target) {
+pub(crate) fn draw<S: Shader, M: Machine>(
+    m: M,
+    frame: &Frame,
+    parameters: &[u32],
+    target: &mut dyn Target,
+) {
     const { assert!(M::WIDTH == 1, "this engine walks pixel by pixel") };
     let setup = SetUp::<S, M>::new(m, frame, parameters);
     let mut colours = vec![[0.0f32; 3]; frame.width()];
@@ -67,13 +72,21 @@ pub(crate) fn draw<S: Shader, M: Machine>(m: M, frame: &Frame, parameters: &[u32
             // A run that begins inside its span starts at its own first pixel's parameter.
             let t0 = span.t0 + (pixels.start as u32 - span.start) as f32 * span.dt;
             let (left, right) = (&edges[span.left as usize], &edges[span.right as usize]);
-            let (left, right) = (S::Attribute::at(&left.attribute), S::Attribute::at(&right.attribute));
+            let (left, right) = (
+                S::Attribute::at(&left.attribute),
+                S::Attribute::at(&right.attribute),
+            );
             let start = Span {
                 x: m.one(pixels.start as f32 + 0.5),
                 y: m.one(row as f32 + 0.5),
                 attribute: S::Attribute::span(m, face, left, right, m.one(t0), m.one(span.dt)),
             };
-            let mut walk = S::walk(m, &setup.consts[material], &setup.polygons[span.polygon as usize], &start);
+            let mut walk = S::walk(
+                m,
+                &setup.consts[material],
+                &setup.polygons[span.polygon as usize],
+                &start,
+            );
             let consts = &setup.pixel_consts[material];
             let run = &mut colours[..pixels.len()];
             for colour in run.iter_mut() {

@@ -38,7 +38,10 @@ impl<T: Texel> RowSink for Stored<'_, T> {
     }
 
     fn bytes(&mut self, row: usize) -> Option<(&mut [[u8; 4]], [u8; 4])> {
-        T::bytes(&mut self.texels[row * self.width..][..self.width], self.background)
+        T::bytes(
+            &mut self.texels[row * self.width..][..self.width],
+            self.background,
+        )
     }
 }
 
@@ -57,7 +60,12 @@ impl LanesJob for Pack<'_> {
         m.vectorize(
             #[inline(always)]
             || {
-                let Pack { background, depth, rgb: [r, g, b], texels } = self;
+                let Pack {
+                    background,
+                    depth,
+                    rgb: [r, g, b],
+                    texels,
+                } = self;
                 let nothing = m.splat(f32::INFINITY);
                 let whole = texels.len() / M::WIDTH * M::WIDTH;
                 let mut x = 0;
@@ -96,7 +104,13 @@ impl<'a, T: Texel> Filtered<'a, T> {
     pub fn new(frame: &Frame, texels: &'a mut [T]) -> Self {
         let width = frame.picture_width();
         let sums = vec![([0.0; 3], 0); width];
-        Filtered { texels, width, samples: frame.samples(), background: frame.background(), sums }
+        Filtered {
+            texels,
+            width,
+            samples: frame.samples(),
+            background: frame.background(),
+            sums,
+        }
     }
 }
 

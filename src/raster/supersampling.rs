@@ -24,12 +24,23 @@ impl<'a, T: Texel> BoxFilter<'a, T> {
     fn new(frame: &Frame, picture: &'a mut Picture<T>) -> Self {
         let sums = vec![([0.0; 3], 0); picture.width()];
         let background = frame.background();
-        BoxFilter { picture, samples: frame.samples(), background, row: 0, sums }
+        BoxFilter {
+            picture,
+            samples: frame.samples(),
+            background,
+            row: 0,
+            sums,
+        }
     }
 
     /// Stores the row that was being collected.
     fn flush(&mut self) {
-        for (texel, (sum, covered)) in self.picture.row_mut(self.row).iter_mut().zip(&mut self.sums) {
+        for (texel, (sum, covered)) in self
+            .picture
+            .row_mut(self.row)
+            .iter_mut()
+            .zip(&mut self.sums)
+        {
             if *covered == 0 {
                 continue;
             }
@@ -40,7 +51,11 @@ impl<'a, T: Texel> BoxFilter<'a, T> {
 }
 
 /// The texel of a pixel from the sum of its covered samples and their number, of `samples` × `samples` in all.
-pub(super) fn mean<T: Texel>((sum, covered): &([f64; 3], u32), samples: usize, background: [f32; 3]) -> T {
+pub(super) fn mean<T: Texel>(
+    (sum, covered): &([f64; 3], u32),
+    samples: usize,
+    background: [f32; 3],
+) -> T {
     if *covered == 0 {
         return T::background(background);
     }
@@ -67,7 +82,11 @@ impl<T: Texel> Target for BoxFilter<'_, T> {
 }
 
 /// Draws into `picture`, which has the size of the frame's picture, what `draw` gives sample by sample, row by row.
-pub(crate) fn draw_rows<T: Texel>(frame: &Frame, picture: &mut Picture<T>, draw: impl FnOnce(&mut dyn Target)) {
+pub(crate) fn draw_rows<T: Texel>(
+    frame: &Frame,
+    picture: &mut Picture<T>,
+    draw: impl FnOnce(&mut dyn Target),
+) {
     if frame.samples() == 1 {
         return draw(picture);
     }
@@ -77,7 +96,11 @@ pub(crate) fn draw_rows<T: Texel>(frame: &Frame, picture: &mut Picture<T>, draw:
 }
 
 /// The same for a `draw` that comes back to what it drew: all samples are kept until it is done.
-pub(crate) fn draw_anyhow<T: Texel>(frame: &Frame, picture: &mut Picture<T>, draw: impl FnOnce(&mut dyn Target)) {
+pub(crate) fn draw_anyhow<T: Texel>(
+    frame: &Frame,
+    picture: &mut Picture<T>,
+    draw: impl FnOnce(&mut dyn Target),
+) {
     if frame.samples() == 1 {
         return draw(picture);
     }

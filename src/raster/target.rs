@@ -37,7 +37,15 @@ impl Texel for [u8; 4] {
         [r, g, b, 0]
     }
     fn pack(level: Level, background: Self, depth: &[f32], rgb: [&[f32]; 3], texels: &mut [Self]) {
-        on_level(level, Pack { background, depth, rgb, texels });
+        on_level(
+            level,
+            Pack {
+                background,
+                depth,
+                rgb,
+                texels,
+            },
+        );
     }
     fn bytes(texels: &mut [Self], background: Self) -> Option<(&mut [[u8; 4]], [u8; 4])> {
         Some((texels, background))
@@ -57,9 +65,19 @@ impl Texel for [f32; 4] {
         let [r, g, b, _] = Self::drawn(rgb);
         [r, g, b, 0.0]
     }
-    fn pack(_: Level, background: Self, depth: &[f32], [r, g, b]: [&[f32]; 3], texels: &mut [Self]) {
+    fn pack(
+        _: Level,
+        background: Self,
+        depth: &[f32],
+        [r, g, b]: [&[f32]; 3],
+        texels: &mut [Self],
+    ) {
         for (i, texel) in texels.iter_mut().enumerate() {
-            *texel = if depth[i] < f32::INFINITY { Self::drawn([r[i], g[i], b[i]]) } else { background };
+            *texel = if depth[i] < f32::INFINITY {
+                Self::drawn([r[i], g[i], b[i]])
+            } else {
+                background
+            };
         }
     }
 }
@@ -81,20 +99,34 @@ impl<T: Texel> Target for Picture<T> {
 
 /// An empty stored picture for `frame`: its background, alpha 0.
 pub(crate) fn picture8(frame: &Frame) -> Picture8 {
-    Picture::new(frame.picture_width(), frame.picture_height(), Texel::background(frame.background()))
+    Picture::new(
+        frame.picture_width(),
+        frame.picture_height(),
+        Texel::background(frame.background()),
+    )
 }
 
 /// An empty linear picture for `frame`: its background, alpha 0.
 pub(crate) fn linear_picture(frame: &Frame) -> LinearPicture {
-    Picture::new(frame.picture_width(), frame.picture_height(), Texel::background(frame.background()))
+    Picture::new(
+        frame.picture_width(),
+        frame.picture_height(),
+        Texel::background(frame.background()),
+    )
 }
 
 /// As [`linear_picture`], with a texel for each sample.
 pub(crate) fn linear_samples(frame: &Frame) -> LinearPicture {
-    Picture::new(frame.width(), frame.height(), Texel::background(frame.background()))
+    Picture::new(
+        frame.width(),
+        frame.height(),
+        Texel::background(frame.background()),
+    )
 }
 
 /// Empties a stored picture of the size of the frame's picture.
 pub(crate) fn clear(frame: &Frame, picture: &mut Picture8) {
-    picture.texels_mut().fill(Texel::background(frame.background()));
+    picture
+        .texels_mut()
+        .fill(Texel::background(frame.background()));
 }

@@ -67,7 +67,9 @@ impl VisibleLine {
         } else {
             self.drawn.start.min(pixels.start)..self.drawn.end.max(pixels.end)
         };
-        let line = self.depth[pixels.clone()].iter_mut().zip(&mut self.seen[pixels]);
+        let line = self.depth[pixels.clone()]
+            .iter_mut()
+            .zip(&mut self.seen[pixels]);
         let rule = self.rule;
         // The usual way has a loop of its own, in which nothing is left to be asked.
         if rule.hides() && rule.is_plain() {
@@ -80,7 +82,9 @@ impl VisibleLine {
 
     /// Depth at each pixel, as finely as it is kept; infinite where nothing was drawn.
     pub fn depth(&self) -> impl Iterator<Item = f32> {
-        self.depth[..self.seen.len()].iter().map(|kept| self.rule.shown(*kept))
+        self.depth[..self.seen.len()]
+            .iter()
+            .map(|kept| self.rule.shown(*kept))
     }
 
     /// The pixels between which anything was drawn.
@@ -95,7 +99,9 @@ impl VisibleLine {
 
     /// The polygon seen at pixel `x`, or [`NOTHING`].
     pub fn polygon(&self, x: usize) -> u32 {
-        self.spans.get(self.seen[x] as usize).map_or(NOTHING, |span| span.polygon)
+        self.spans
+            .get(self.seen[x] as usize)
+            .map_or(NOTHING, |span| span.polygon)
     }
 
     /// The spans that were drawn on this line, hidden ones too.

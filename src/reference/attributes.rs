@@ -39,7 +39,11 @@ fn slerp(a: DVec3, b: DVec3, t: f64, face: DVec3) -> DVec3 {
 /// The direction of `n`, or zero where it has none.
 fn unit(n: DVec3) -> DVec3 {
     let length = n.length();
-    if length > 0.0 { n / length } else { DVec3::ZERO }
+    if length > 0.0 {
+        n / length
+    } else {
+        DVec3::ZERO
+    }
 }
 
 /// What a model interpolates, at every vertex of a frame.
@@ -62,10 +66,17 @@ impl<'a> VertexAttributes<'a> {
     pub fn new(frame: &'a Frame, model: Model) -> Self {
         let position = |number: u32| wide(frame.position(number));
         let normal = |number: u32| wide(frame.normal(number));
-        let unclamped =
-            |number: u32| sum(&frame.lightings()[frame.material(number) as usize], normal(number), position(number));
+        let unclamped = |number: u32| {
+            sum(
+                &frame.lightings()[frame.material(number) as usize],
+                normal(number),
+                position(number),
+            )
+        };
         let colour = |number: u32| unclamped(number).clamp(DVec3::ZERO, DVec3::ONE);
-        let all = |of: &dyn Fn(u32) -> DVec3| -> Vec<DVec3> { (0..frame.vertices().len() as u32).map(of).collect() };
+        let all = |of: &dyn Fn(u32) -> DVec3| -> Vec<DVec3> {
+            (0..frame.vertices().len() as u32).map(of).collect()
+        };
         let mut values: Vec<DVec3> = match model {
             Model::Flat | Model::FlatAverage => Vec::new(),
             Model::Gouraud => all(&colour),
@@ -74,18 +85,39 @@ impl<'a> VertexAttributes<'a> {
         };
         let is_local = frame.is_local();
         let is_followed = model == Model::Phong && is_local;
-        let mut positions = if is_followed { all(&position) } else { Vec::new() };
-        for &ClipCorner { vertex, a, b, t, face } in frame.clip_corners() {
+        let mut positions = if is_followed {
+            all(&position)
+        } else {
+            Vec::new()
+        };
+        for &ClipCorner {
+            vertex,
+            a,
+            b,
+            t,
+            face,
+        } in frame.clip_corners()
+        {
             let (to, a, b, t) = (vertex as usize, a as usize, b as usize, f64::from(t));
             if !values.is_empty() {
                 let (a, b) = (values[a], values[b]);
-                values[to] = if model == Model::Slerp { slerp(a, b, t, wide(face)) } else { lerp(a, b, t) };
+                values[to] = if model == Model::Slerp {
+                    slerp(a, b, t, wide(face))
+                } else {
+                    lerp(a, b, t)
+                };
             }
             if is_followed {
                 positions[to] = lerp(positions[a], positions[b], t);
             }
         }
-        VertexAttributes { frame, model, values, is_local, positions }
+        VertexAttributes {
+            frame,
+            model,
+            values,
+            is_local,
+            positions,
+        }
     }
 
     /// The colour of the pixel `x` on a scanline of `polygon`; `None` where the polygon does not cover it.
@@ -93,7 +125,13 @@ impl<'a> VertexAttributes<'a> {
         let lighting = &self.frame.lightings()[polygon.material as usize];
         let mean = || self.frame.mean(polygon);
         // Where all is at infinity every point is as good as the mean.
-        let place = || if self.is_local { wide(mean().position) } else { DVec3::ZERO };
+        let place = || {
+            if self.is_local {
+                wide(mean().position)
+            } else {
+                DVec3::ZERO
+            }
+        };
         let at_mean = |n: DVec3| illuminate(lighting, n, place());
         Some(match self.model {
             Model::Flat => {
@@ -105,17 +143,29 @@ impl<'a> VertexAttributes<'a> {
                 at_mean(unit(wide(mean().normal)))
             }
             Model::Gouraud => self.interpolated(&self.values, &scanline.weights(x)?),
-            Model::GouraudSeparate => {
-                self.interpolated(&self.values, &scanline.weights(x)?).clamp(DVec3::ZERO, DVec3::ONE)
-            }
+            Model::GouraudSeparate => self
+                .interpolated(&self.values, &scanline.weights(x)?)
+                .clamp(DVec3::ZERO, DVec3::ONE),
             Model::Phong => {
                 let weights = scanline.weights(x)?;
-                let position =
-                    if self.positions.is_empty() { DVec3::ZERO } else { self.interpolated(&self.positions, &weights) };
-                illuminate(lighting, unit(self.interpolated(&self.values, &weights)), position)
+                let position = if self.positions.is_empty() {
+                    DVec3::ZERO
+                } else {
+                    self.interpolated(&self.positions, &weights)
+                };
+                illuminate(
+                    lighting,
+                    unit(self.interpolated(&self.values, &weights)),
+                    position,
+                )
             }
-            Model::PhongConstant => at_mean(unit(self.interpolated(&self.values, &scanline.weights(x)?))),
-            Model::Slerp => at_mean(self.slerped(&scanline.place(x)?, wide(self.frame.polygon_normal(polygon)))),
+            Model::PhongConstant => {
+                at_mean(unit(self.interpolated(&self.values, &scanline.weights(x)?)))
+            }
+            Model::Slerp => at_mean(self.slerped(
+                &scanline.place(x)?,
+                wide(self.frame.polygon_normal(polygon)),
+            )),
         })
     }
 
@@ -133,8 +183,14 @@ impl<'a> VertexAttributes<'a> {
 
     /// Slerp along both edges, then along the span between them (L21 4.4).
     fn slerped(&self, place: &SpanPlace, face: DVec3) -> DVec3 {
-        let on_edge =
-            |edge: &Crossing| slerp(self.values[edge.top as usize], self.values[edge.bottom as usize], edge.t(), face);
+        let on_edge = |edge: &Crossing| {
+            slerp(
+                self.values[edge.top as usize],
+                self.values[edge.bottom as usize],
+                edge.t(),
+                face,
+            )
+        };
         slerp(on_edge(&place.left), on_edge(&place.right), place.u, face)
     }
 }
@@ -150,7 +206,8 @@ mod tests {
             let n = slerp(DVec3::X, DVec3::Y, f64::from(k) / 18.0, DVec3::Z);
             // φ = π/2 and each sine round a few times, all values are at most 1: 4 ε is ample and 1° is 8e13 times more.
             assert!(
-                (n - DVec3::new(libm::cos(angle), libm::sin(angle), 0.0)).length() < 4.0 * f64::EPSILON,
+                (n - DVec3::new(libm::cos(angle), libm::sin(angle), 0.0)).length()
+                    < 4.0 * f64::EPSILON,
                 "{k}: {n}"
             );
         }
@@ -159,15 +216,30 @@ mod tests {
     #[test]
     fn slerp_of_close_vectors_is_the_chord() {
         let near = DVec3::new(0.0, libm::sin(9e-4), libm::cos(9e-4));
-        assert_eq!(slerp(DVec3::Z, near, 0.25, DVec3::X), lerp(DVec3::Z, near, 0.25));
-        assert_eq!(slerp(DVec3::Z, DVec3::Z, 0.7, DVec3::X), lerp(DVec3::Z, DVec3::Z, 0.7));
+        assert_eq!(
+            slerp(DVec3::Z, near, 0.25, DVec3::X),
+            lerp(DVec3::Z, near, 0.25)
+        );
+        assert_eq!(
+            slerp(DVec3::Z, DVec3::Z, 0.7, DVec3::X),
+            lerp(DVec3::Z, DVec3::Z, 0.7)
+        );
         let apart = DVec3::new(0.0, libm::sin(1.1e-3), libm::cos(1.1e-3));
-        assert_ne!(slerp(DVec3::Z, apart, 0.25, DVec3::X), lerp(DVec3::Z, apart, 0.25));
+        assert_ne!(
+            slerp(DVec3::Z, apart, 0.25, DVec3::X),
+            lerp(DVec3::Z, apart, 0.25)
+        );
     }
 
     #[test]
     fn slerp_of_opposite_vectors_is_the_face_normal() {
-        let at = |degrees: f64| DVec3::new(libm::sin(degrees.to_radians()), 0.0, libm::cos(degrees.to_radians()));
+        let at = |degrees: f64| {
+            DVec3::new(
+                libm::sin(degrees.to_radians()),
+                0.0,
+                libm::cos(degrees.to_radians()),
+            )
+        };
         for t in [0.0, 0.3, 1.0] {
             assert_eq!(slerp(DVec3::Z, at(180.0), t, DVec3::Y), DVec3::Y);
             assert_eq!(slerp(DVec3::Z, at(179.1), t, DVec3::Y), DVec3::Y);

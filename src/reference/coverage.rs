@@ -31,7 +31,10 @@ pub(crate) fn bounding_box(frame: &Frame, corners: &[u32]) -> (Range<usize>, Ran
         let clipped = |pixel: i64| pixel.clamp(0, side as i64) as usize;
         clipped(lowest.div_euclid(PIXEL))..clipped(highest.div_euclid(PIXEL) + 1)
     };
-    (pixels(&|v| position(frame, v).0, frame.width()), pixels(&|v| position(frame, v).1, frame.height()))
+    (
+        pixels(&|v| position(frame, v).0, frame.width()),
+        pixels(&|v| position(frame, v).1, frame.height()),
+    )
 }
 
 /// Where a scanline crosses an edge of a polygon: at `x_height / height`, exactly.
@@ -53,13 +56,24 @@ impl Crossing {
     /// The crossing of the edge between two vertices (in any order) with the scanline `yc`: an edge holds its upper end
     /// and not its lower one, so that a corner between two edges is crossed once, and a horizontal edge never.
     fn of_edge(frame: &Frame, from: u32, to: u32, yc: i64) -> Option<Crossing> {
-        let (top, bottom) = if position(frame, from).1 <= position(frame, to).1 { (from, to) } else { (to, from) };
-        let ((x_top, y_top), (x_bottom, y_bottom)) = (position(frame, top), position(frame, bottom));
+        let (top, bottom) = if position(frame, from).1 <= position(frame, to).1 {
+            (from, to)
+        } else {
+            (to, from)
+        };
+        let ((x_top, y_top), (x_bottom, y_bottom)) =
+            (position(frame, top), position(frame, bottom));
         if !(y_top <= yc && yc < y_bottom) {
             return None;
         }
         let (fall, height) = (yc - y_top, y_bottom - y_top);
-        Some(Crossing { top, bottom, fall, height, x_height: x_top * height + fall * (x_bottom - x_top) })
+        Some(Crossing {
+            top,
+            bottom,
+            fall,
+            height,
+            x_height: x_top * height + fall * (x_bottom - x_top),
+        })
     }
 
     /// Whether the crossing lies at the column `xc` or left of it.
@@ -140,8 +154,13 @@ impl Weights {
     }
 
     /// The weighted sum of what `value` gives for each vertex number.
-    pub fn sum<T: Default + Add<Output = T> + Mul<f64, Output = T>>(&self, value: impl Fn(usize) -> T) -> T {
-        self.0.iter().fold(T::default(), |sum, &(vertex, weight)| sum + value(vertex as usize) * weight)
+    pub fn sum<T: Default + Add<Output = T> + Mul<f64, Output = T>>(
+        &self,
+        value: impl Fn(usize) -> T,
+    ) -> T {
+        self.0.iter().fold(T::default(), |sum, &(vertex, weight)| {
+            sum + value(vertex as usize) * weight
+        })
     }
 }
 
@@ -158,7 +177,12 @@ pub(crate) struct Scanline<'a> {
 impl<'a> Scanline<'a> {
     /// A scanline that crosses nothing yet.
     pub fn new(frame: &'a Frame) -> Self {
-        Scanline { frame, corners: &[], yc: 0, crossings: Vec::new() }
+        Scanline {
+            frame,
+            corners: &[],
+            yc: 0,
+            crossings: Vec::new(),
+        }
     }
 
     /// Makes this the scanline through the pixel centres of row `y` of the polygon with these corners.
@@ -167,7 +191,9 @@ impl<'a> Scanline<'a> {
         self.yc = centre(y);
         let ends = corners.iter().zip(corners.iter().cycle().skip(1));
         self.crossings.clear();
-        self.crossings.extend(ends.filter_map(|(&from, &to)| Crossing::of_edge(self.frame, from, to, self.yc)));
+        self.crossings.extend(
+            ends.filter_map(|(&from, &to)| Crossing::of_edge(self.frame, from, to, self.yc)),
+        );
         self.crossings.sort_by(Crossing::compare);
     }
 
@@ -175,19 +201,25 @@ impl<'a> Scanline<'a> {
     ///
     /// It is inside if the number of crossings at it or left of it is odd.
     pub fn edges(&self, x: usize) -> Option<(Crossing, Crossing)> {
-        let passed = self.crossings.iter().filter(|crossing| crossing.is_not_right_of(centre(x))).count();
+        let passed = self
+            .crossings
+            .iter()
+            .filter(|crossing| crossing.is_not_right_of(centre(x)))
+            .count();
         (passed % 2 == 1).then(|| (self.crossings[passed - 1], self.crossings[passed]))
     }
 
     /// The place of the pixel `x` between two edges; `None` where the polygon does not cover it.
     pub fn place(&self, x: usize) -> Option<SpanPlace> {
-        self.edges(x).map(|(left, right)| SpanPlace::new(left, right, centre(x)))
+        self.edges(x)
+            .map(|(left, right)| SpanPlace::new(left, right, centre(x)))
     }
 
     /// What the attributes at the pixel `x` are made of; `None` where the polygon does not cover it.
     pub fn weights(&self, x: usize) -> Option<Weights> {
         if let &[a, b, c] = self.corners {
-            self.edges(x).map(|_| Weights::of_triangle(self.frame, [a, b, c], centre(x), self.yc))
+            self.edges(x)
+                .map(|_| Weights::of_triangle(self.frame, [a, b, c], centre(x), self.yc))
         } else {
             self.place(x).map(|place| Weights::of_span(&place))
         }
@@ -216,9 +248,18 @@ mod tests {
         // Four triangles meet at the centre of the middle pixel; the corners are pixel centres as well.
         let (a, b, c, d, m) = ((0.5, 0.5), (4.5, 0.5), (4.5, 4.5), (0.5, 4.5), (2.5, 2.5));
         let [up, right, down, left] = [[a, b, m], [b, c, m], [c, d, m], [d, a, m]];
-        assert_eq!(drawing(5, 5, &[&up]), ["1111.", ".11..", ".....", ".....", "....."]);
-        assert_eq!(drawing(5, 5, &[&right]), [".....", "...1.", "..11.", "...1.", "....."]);
-        assert_eq!(drawing(5, 5, &[&up, &right, &down, &left]), ["1111.", "1111.", "1111.", "1111.", "....."]);
+        assert_eq!(
+            drawing(5, 5, &[&up]),
+            ["1111.", ".11..", ".....", ".....", "....."]
+        );
+        assert_eq!(
+            drawing(5, 5, &[&right]),
+            [".....", "...1.", "..11.", "...1.", "....."]
+        );
+        assert_eq!(
+            drawing(5, 5, &[&up, &right, &down, &left]),
+            ["1111.", "1111.", "1111.", "1111.", "....."]
+        );
     }
 
     #[test]
@@ -244,16 +285,30 @@ mod tests {
             (1.0, 4.0),
             (1.0, 1.0),
         ];
-        assert_eq!(drawing(5, 5, &[&ring]), ["11111", "1...1", "1...1", "1...1", "11111"]);
+        assert_eq!(
+            drawing(5, 5, &[&ring]),
+            ["11111", "1...1", "1...1", "1...1", "11111"]
+        );
         // A comb: two spans on one scanline.
-        let comb = [(0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (3.0, 2.0), (3.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)];
+        let comb = [
+            (0.0, 0.0),
+            (1.0, 0.0),
+            (1.0, 2.0),
+            (3.0, 2.0),
+            (3.0, 0.0),
+            (4.0, 0.0),
+            (4.0, 3.0),
+            (0.0, 3.0),
+        ];
         assert_eq!(drawing(5, 3, &[&comb]), ["1..1.", "1..1.", "1111."]);
     }
 
     /// The top-left rule as half-space tests, the other usual text of it: on the inner side of each edge, or on an edge
     /// that is a left one (it runs upward when the corners run clockwise) or a top one (level and to the right).
     fn half_space_rule(corners: [(i64, i64); 3], p: (i64, i64)) -> bool {
-        let area = |a: (i64, i64), b: (i64, i64), c: (i64, i64)| (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
+        let area = |a: (i64, i64), b: (i64, i64), c: (i64, i64)| {
+            (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
+        };
         let [a, mut b, mut c] = corners;
         if area(a, b, c) < 0 {
             core::mem::swap(&mut b, &mut c);
@@ -271,8 +326,13 @@ mod tests {
         let (mut inside, mut outside) = (0, 0);
         for _ in 0..2000 {
             // A grid of half pixels: half of all corners, and many edges, lie on pixel centres.
-            let corners: [(i64, i64); 3] = core::array::from_fn(|_| (dice.below(16) * 128, dice.below(16) * 128));
-            let frame = shape(7, 7, &[&corners.map(|(x, y)| (x as f64 / 256.0, y as f64 / 256.0))]);
+            let corners: [(i64, i64); 3] =
+                core::array::from_fn(|_| (dice.below(16) * 128, dice.below(16) * 128));
+            let frame = shape(
+                7,
+                7,
+                &[&corners.map(|(x, y)| (x as f64 / 256.0, y as f64 / 256.0))],
+            );
             let counts = covered(&frame);
             for (y, x) in (0..7).flat_map(|y| (0..7).map(move |x| (y, x))) {
                 let expected = half_space_rule(corners, (centre(x), centre(y)));
@@ -287,8 +347,14 @@ mod tests {
     fn the_guard_band_is_within_the_integers() {
         let g = f64::from(Frame::GUARD);
         // Overflow checks are on in tests. The diagonal runs through the pixels' centres and belongs to the right side.
-        assert_eq!(drawing(3, 3, &[&[(-g, -g), (g, -g), (g, g)]]), ["111", ".11", "..1"]);
-        assert_eq!(drawing(3, 3, &[&[(-g, -g), (g, g), (-g, g)]]), ["...", "1..", "11."]);
+        assert_eq!(
+            drawing(3, 3, &[&[(-g, -g), (g, -g), (g, g)]]),
+            ["111", ".11", "..1"]
+        );
+        assert_eq!(
+            drawing(3, 3, &[&[(-g, -g), (g, g), (-g, g)]]),
+            ["...", "1..", "11."]
+        );
         let four = [(-g, -g), (g, -g + 1.0), (g, g), (-g, g - 1.0)];
         assert_eq!(drawing(3, 3, &[&four]), ["111", "111", "111"]);
         let frame = shape(1, 1, &[&four]);
@@ -305,7 +371,10 @@ mod tests {
         let mut scanline = Scanline::new(&frame);
         scanline.cut(frame.corners(&frame.polygons()[0]), 1);
         let Weights(weights) = scanline.weights(2).unwrap();
-        assert_eq!(weights, [(0, 1.0 / 3.0), (1, 1.0 / 3.0), (2, 1.0 / 3.0), (2, 0.0)]);
+        assert_eq!(
+            weights,
+            [(0, 1.0 / 3.0), (1, 1.0 / 3.0), (2, 1.0 / 3.0), (2, 0.0)]
+        );
         assert!(scanline.weights(6).is_none());
     }
 
@@ -320,7 +389,9 @@ mod tests {
         for y in 0..32 {
             scanline.cut(corners, y);
             for x in 0..32 {
-                let Some(place) = scanline.place(x) else { continue };
+                let Some(place) = scanline.place(x) else {
+                    continue;
+                };
                 let three = [corners[0], corners[1], corners[2]];
                 let areas = Weights::of_triangle(&frame, three, centre(x), centre(y)).sum(value);
                 worst = worst.max((areas - Weights::of_span(&place).sum(value)).abs());
@@ -335,8 +406,12 @@ mod tests {
         let mut dice = Dice::new(2);
         let mut pixels = 0;
         for _ in 0..500 {
-            let corners: [(f64, f64); 3] =
-                core::array::from_fn(|_| (dice.below(8192) as f64 / 256.0, dice.below(8192) as f64 / 256.0));
+            let corners: [(f64, f64); 3] = core::array::from_fn(|_| {
+                (
+                    dice.below(8192) as f64 / 256.0,
+                    dice.below(8192) as f64 / 256.0,
+                )
+            });
             // Barycentric: areas are exact, one rounding a quotient, then 3 products and sums of values up to 1: at
             // most 7 half-ulps of 1. Span: s and t round once, u three times, 1−u and 1−t once each, the product once,
             // then 4 products and sums: at most 20. Together below 27 · 2⁻⁵³ < 14 ε.
@@ -355,7 +430,11 @@ mod tests {
         let frame = shape(4, 3, &[&[(0.0, 1.0), (4.0, 2.0), (0.0, 2.0), (4.0, 1.0)]]);
         let mut scanline = Scanline::new(&frame);
         scanline.cut(frame.corners(&frame.polygons()[0]), 1);
-        let ends: Vec<_> = scanline.crossings.iter().map(|c| (c.top, c.bottom)).collect();
+        let ends: Vec<_> = scanline
+            .crossings
+            .iter()
+            .map(|c| (c.top, c.bottom))
+            .collect();
         assert_eq!(ends, vec![(0, 1), (3, 2)]);
     }
 }

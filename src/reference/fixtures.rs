@@ -10,13 +10,30 @@ use glam::DVec3;
 
 /// A light along z that shows the z of a unit normal as a grey: no ambient, no specular light.
 pub(crate) fn z_light() -> Lighting {
-    let material = Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 };
-    Lighting::new(&material, [0.0; 3], &[Light::directional(DVec3::Z, [1.0; 3])], DVec3::Z)
+    let material = Material {
+        ambient: [0.0; 3],
+        diffuse: [1.0; 3],
+        specular: [0.0; 3],
+        shininess: 1.0,
+    };
+    Lighting::new(
+        &material,
+        [0.0; 3],
+        &[Light::directional(DVec3::Z, [1.0; 3])],
+        DVec3::Z,
+    )
 }
 
 /// A vertex at a place of the picture, of the first material.
 pub(crate) fn vertex((x, y): (f64, f64), normal: [f32; 3]) -> Vertex {
-    Vertex { x: SubPixel::from_num(x), y: SubPixel::from_num(y), depth: 0.5, inv_w: 1.0, normal, material: 0 }
+    Vertex {
+        x: SubPixel::from_num(x),
+        y: SubPixel::from_num(y),
+        depth: 0.5,
+        inv_w: 1.0,
+        normal,
+        material: 0,
+    }
 }
 
 /// Polygons of these corners (pixels) and nothing more to them.
@@ -24,14 +41,21 @@ pub(crate) fn shape(width: u32, height: u32, polygons: &[&[(f64, f64)]]) -> Fram
     let mut builder = FrameBuilder::new(width, height);
     builder.lighting(z_light());
     for (source, polygon) in (0..).zip(polygons) {
-        let corners: Vec<u32> = polygon.iter().map(|&p| builder.vertex(vertex(p, [0.0, 0.0, 1.0]))).collect();
+        let corners: Vec<u32> = polygon
+            .iter()
+            .map(|&p| builder.vertex(vertex(p, [0.0, 0.0, 1.0])))
+            .collect();
         builder.polygon(&corners, [0.0, 0.0, 1.0], source);
     }
     builder.finish().unwrap()
 }
 
 /// One polygon over these vertices under [`z_light`], its face along y.
-pub(crate) fn polygon_of(side: u32, vertices: &[Vertex], change: impl FnOnce(&mut FrameBuilder)) -> Frame {
+pub(crate) fn polygon_of(
+    side: u32,
+    vertices: &[Vertex],
+    change: impl FnOnce(&mut FrameBuilder),
+) -> Frame {
     let mut builder = FrameBuilder::new(side, side);
     builder.lighting(z_light());
     let corners: Vec<u32> = vertices.iter().map(|&v| builder.vertex(v)).collect();
@@ -42,7 +66,13 @@ pub(crate) fn polygon_of(side: u32, vertices: &[Vertex], change: impl FnOnce(&mu
 
 /// The vertex `vertex` halfway or so between `a` and `b`, cut from a face along x.
 pub(crate) fn between(vertex: u32, a: u32, b: u32, t: f32) -> ClipCorner {
-    ClipCorner { vertex, a, b, t, face: [1.0, 0.0, 0.0] }
+    ClipCorner {
+        vertex,
+        a,
+        b,
+        t,
+        face: [1.0, 0.0, 0.0],
+    }
 }
 
 /// How many polygons cover each pixel.
@@ -64,8 +94,16 @@ pub(crate) fn covered(frame: &Frame) -> Picture<u32> {
 /// [`covered`] by [`shape`], one text a row: a dot where it is 0.
 pub(crate) fn drawing(width: u32, height: u32, polygons: &[&[(f64, f64)]]) -> Vec<String> {
     let counts = covered(&shape(width, height, polygons));
-    let sign = |&n: &u32| if n == 0 { '.' } else { char::from_digit(n, 36).unwrap_or('#') };
-    (0..counts.height()).map(|y| counts.row(y).iter().map(sign).collect()).collect()
+    let sign = |&n: &u32| {
+        if n == 0 {
+            '.'
+        } else {
+            char::from_digit(n, 36).unwrap_or('#')
+        }
+    };
+    (0..counts.height())
+        .map(|y| counts.row(y).iter().map(sign).collect())
+        .collect()
 }
 
 /// Random numbers that are the same on every run: xorshift64* (Vigna, *An experimental exploration of Marsaglia's xorshift

@@ -38,7 +38,11 @@ fn strength(falloff: Falloff, r: f64) -> f64 {
 fn halfway(l: DVec3, v: DVec3) -> DVec3 {
     let sum = l + v;
     let is_sum = sum.length_squared() > f64::from(SpecularModel::LEAST_SUM);
-    if is_sum { sum / sum.length() } else { DVec3::ZERO }
+    if is_sum {
+        sum / sum.length()
+    } else {
+        DVec3::ZERO
+    }
 }
 
 /// The colour of a surface with the unit normal `n` at the point `p` under all lights, not clamped:
@@ -65,8 +69,13 @@ pub(crate) fn sum(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
             SpecularGate::Ungated => highlight,
             SpecularGate::Weighted => highlight * l_n.max(0.0),
         };
-        let falloff = if light.place.is_local() { strength(light.falloff, r) } else { 1.0 };
-        intensity += (wide(light.diffuse) * l_n.max(0.0) + wide(light.specular) * highlight) * falloff; // 2.1
+        let falloff = if light.place.is_local() {
+            strength(light.falloff, r)
+        } else {
+            1.0
+        };
+        intensity +=
+            (wide(light.diffuse) * l_n.max(0.0) + wide(light.specular) * highlight) * falloff; // 2.1
     }
     intensity
 }
@@ -107,15 +116,27 @@ mod tests {
 
     #[test]
     fn light_from_the_front_adds_both_terms_per_channel() {
-        let light = LightTerm { diffuse: [0.5, 0.25, 0.0], specular: [0.0, 0.5, 0.5], ..white(Z, 0.0, 0.0) };
+        let light = LightTerm {
+            diffuse: [0.5, 0.25, 0.0],
+            specular: [0.0, 0.5, 0.5],
+            ..white(Z, 0.0, 0.0)
+        };
         // L = V = N: L·N = R·V = 1.
-        assert_eq!(illuminate(&lighting(vec![light], Z, 7.0), DVec3::Z, DVec3::ZERO), DVec3::new(0.625, 0.75, 0.75));
+        assert_eq!(
+            illuminate(&lighting(vec![light], Z, 7.0), DVec3::Z, DVec3::ZERO),
+            DVec3::new(0.625, 0.75, 0.75)
+        );
     }
 
     #[test]
     fn the_highlight_is_a_power_of_the_reflected_ray() {
         // L = (0.6, 0, 0.8) about N = z gives R = (−0.6, 0, 0.8): R·V = 0.8 for V = z, cubed 0.512. L·N = 0.8.
-        let i = illuminate(&lighting(vec![white([0.6, 0.0, 0.8], 0.25, 0.5)], Z, 3.0), DVec3::Z, DVec3::ZERO).y;
+        let i = illuminate(
+            &lighting(vec![white([0.6, 0.0, 0.8], 0.25, 0.5)], Z, 3.0),
+            DVec3::Z,
+            DVec3::ZERO,
+        )
+        .y;
         // 0.8 and 0.6 are rounded to f32, 2⁻²⁵ each: (0.25 + 3 · 0.64 · 0.5) · 2⁻²⁵ < 2⁻²⁴.
         assert!((i - (0.2 + 0.256)).abs() < 6e-8, "{i}");
         // Seen along L, R·V = 0.64 − 0.36 = 0.28.
@@ -128,11 +149,19 @@ mod tests {
     fn a_light_behind_the_surface_leaves_ambient_light() {
         let ambient = DVec3::new(0.125, 0.0, 0.25);
         assert_eq!(
-            illuminate(&lighting(vec![white([0.0, 0.0, -1.0], 1.0, 0.0)], Z, 2.0), DVec3::Z, DVec3::ZERO),
+            illuminate(
+                &lighting(vec![white([0.0, 0.0, -1.0], 1.0, 0.0)], Z, 2.0),
+                DVec3::Z,
+                DVec3::ZERO
+            ),
             ambient
         );
         // R·V = 1 here: a specular term without gate would light the back.
-        let back = lighting(vec![white([0.0, 0.0, -1.0], 0.0, 1.0)], [0.0, 0.0, -1.0], 2.0);
+        let back = lighting(
+            vec![white([0.0, 0.0, -1.0], 0.0, 1.0)],
+            [0.0, 0.0, -1.0],
+            2.0,
+        );
         assert_eq!(illuminate(&back, DVec3::Z, DVec3::ZERO), ambient);
         // A grazing light, L·N = 0, is behind: n = 0 would add k_s.
         let grazing = lighting(vec![white([1.0, 0.0, 0.0], 1.0, 1.0)], Z, 0.0);
@@ -142,27 +171,42 @@ mod tests {
     #[test]
     fn the_far_side_of_the_highlight_is_dark_even_for_even_exponents() {
         // R = z, V = −z: R·V = −1, squared 1.
-        let i = illuminate(&lighting(vec![white(Z, 0.0, 1.0)], [0.0, 0.0, -1.0], 2.0), DVec3::Z, DVec3::ZERO);
+        let i = illuminate(
+            &lighting(vec![white(Z, 0.0, 1.0)], [0.0, 0.0, -1.0], 2.0),
+            DVec3::Z,
+            DVec3::ZERO,
+        );
         assert_eq!(i, DVec3::new(0.125, 0.0, 0.25));
     }
 
     #[test]
     fn zero_to_the_power_of_zero_is_one() {
-        let i = illuminate(&lighting(vec![white(Z, 0.0, 0.5)], [0.0, 0.0, -1.0], 0.0), DVec3::Z, DVec3::ZERO);
+        let i = illuminate(
+            &lighting(vec![white(Z, 0.0, 0.5)], [0.0, 0.0, -1.0], 0.0),
+            DVec3::Z,
+            DVec3::ZERO,
+        );
         assert_eq!(i, DVec3::new(0.625, 0.5, 0.75));
     }
 
     #[test]
     fn lights_are_summed_then_clamped() {
         let two = lighting(vec![white(Z, 0.25, 0.0), white(Z, 0.5, 0.0)], Z, 1.0);
-        assert_eq!(illuminate(&two, DVec3::Z, DVec3::ZERO), DVec3::new(0.875, 0.75, 1.0));
+        assert_eq!(
+            illuminate(&two, DVec3::Z, DVec3::ZERO),
+            DVec3::new(0.875, 0.75, 1.0)
+        );
         let bright = lighting(vec![white(Z, 0.75, 0.0), white(Z, 0.75, 0.0)], Z, 1.0);
         assert_eq!(illuminate(&bright, DVec3::Z, DVec3::ZERO), DVec3::ONE);
     }
 
     #[test]
     fn no_direction_no_light() {
-        let i = illuminate(&lighting(vec![white(Z, 1.0, 1.0)], Z, 0.0), DVec3::ZERO, DVec3::ZERO);
+        let i = illuminate(
+            &lighting(vec![white(Z, 1.0, 1.0)], Z, 0.0),
+            DVec3::ZERO,
+            DVec3::ZERO,
+        );
         assert_eq!(i, DVec3::new(0.125, 0.0, 0.25));
     }
 }

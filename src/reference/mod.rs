@@ -106,7 +106,8 @@ impl ReferencePicture {
 
     /// The picture in eight bits: round(255 c), with no transfer function.
     pub fn to_picture8(&self) -> Picture8 {
-        self.picture.map(|texel| texel.map(|c| libm::round(255.0 * c) as u8))
+        self.picture
+            .map(|texel| texel.map(|c| libm::round(255.0 * c) as u8))
     }
 }
 
@@ -115,7 +116,8 @@ fn filtered(samples: &Picture<[f64; 4]>, side: usize) -> Picture<[f64; 4]> {
     let mut picture = Picture::new(samples.width() / side, samples.height() / side, [0.0; 4]);
     for y in 0..picture.height() {
         for (x, texel) in picture.row_mut(y).iter_mut().enumerate() {
-            let rows = (y * side..(y + 1) * side).map(|row| &samples.row(row)[x * side..(x + 1) * side]);
+            let rows =
+                (y * side..(y + 1) * side).map(|row| &samples.row(row)[x * side..(x + 1) * side]);
             for sample in rows.flatten() {
                 *texel = core::array::from_fn(|c| texel[c] + sample[c]);
             }
@@ -143,7 +145,9 @@ pub fn shade(frame: &Frame, visibility: &Visibility, model: Model) -> ReferenceP
         // Pixels of one polygon side by side share its scanline.
         let mut cut = Visibility::NONE;
         for (x, &number) in visibility.polygons.row(y).iter().enumerate() {
-            let Some(polygon) = frame.polygons().get(number as usize) else { continue };
+            let Some(polygon) = frame.polygons().get(number as usize) else {
+                continue;
+            };
             if number != cut {
                 scanline.cut(frame.corners(polygon), y);
                 cut = number;
@@ -154,7 +158,11 @@ pub fn shade(frame: &Frame, visibility: &Visibility, model: Model) -> ReferenceP
         }
     }
     ReferencePicture {
-        picture: if frame.samples() == 1 { picture } else { filtered(&picture, frame.samples()) },
+        picture: if frame.samples() == 1 {
+            picture
+        } else {
+            filtered(&picture, frame.samples())
+        },
         polygons: visibility.polygons.clone(),
         depth: visibility.depth.clone(),
         depth_gap: visibility.depth_gap.clone(),

@@ -25,7 +25,10 @@ fn grey(picture: &ReferencePicture, x: usize, y: usize) -> f64 {
 
 #[track_caller]
 fn assert_near(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{found} instead of {expected}");
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{found} instead of {expected}"
+    );
 }
 
 /// A square whose edges lie on the pixel centres of columns and rows 0 and `side`, with these normals at its corners:
@@ -33,7 +36,12 @@ fn assert_near(found: f64, expected: f64, tolerance: f64) {
 fn square(side: f64, normals: [[f32; 3]; 4]) -> [Vertex; 4] {
     let (near, far) = (0.5, side + 0.5);
     let [a, b, c, d] = normals;
-    [vertex((near, near), a), vertex((far, near), b), vertex((far, far), c), vertex((near, far), d)]
+    [
+        vertex((near, near), a),
+        vertex((far, near), b),
+        vertex((far, far), c),
+        vertex((near, far), d),
+    ]
 }
 
 #[test]
@@ -41,9 +49,17 @@ fn exercise_1_sine_of_24_3_degrees() {
     // L21 exercise 1: sin 24° = 0.40674, sin 25° = 0.42262; 0.3 of the way lies 0.411504.
     let (sin24, sin25) = (tilted(0.40674), tilted(0.42262));
     let along_the_span = polygon_of(12, &square(10.0, [sin24, sin25, sin25, sin24]), |_| ());
-    assert_near(grey(&render(&along_the_span, Model::Gouraud), 3, 6), 0.411504, F32);
+    assert_near(
+        grey(&render(&along_the_span, Model::Gouraud), 3, 6),
+        0.411504,
+        F32,
+    );
     let along_the_edge = polygon_of(12, &square(10.0, [sin24, sin24, sin25, sin25]), |_| ());
-    assert_near(grey(&render(&along_the_edge, Model::Gouraud), 0, 3), 0.411504, F32);
+    assert_near(
+        grey(&render(&along_the_edge, Model::Gouraud), 0, 3),
+        0.411504,
+        F32,
+    );
     // The same on a triangle: along its left edge and along its top edge.
     let [a, b, _, d] = square(10.0, [sin24, sin25, sin25, sin25]);
     let triangle = render(&polygon_of(12, &[a, b, d], |_| ()), Model::Gouraud);
@@ -53,12 +69,20 @@ fn exercise_1_sine_of_24_3_degrees() {
 
 #[test]
 fn the_centroid_of_a_triangle_has_the_mean_of_its_corners() {
-    let corners = [vertex((0.0, 0.0), tilted(0.25)), vertex((6.0, 0.0), tilted(0.5)), vertex((1.5, 4.5), tilted(0.75))];
+    let corners = [
+        vertex((0.0, 0.0), tilted(0.25)),
+        vertex((6.0, 0.0), tilted(0.5)),
+        vertex((1.5, 4.5), tilted(0.75)),
+    ];
     let frame = polygon_of(6, &corners, |_| ());
     assert_near(grey(&render(&frame, Model::Gouraud), 2, 1), 0.5, F64);
     // The mean normal has z = ½ as well, and is shorter than 1.
     let x: f64 = corners.iter().map(|v| f64::from(v.normal[0])).sum::<f64>() / 3.0;
-    assert_near(grey(&render(&frame, Model::Phong), 2, 1), 0.5 / libm::sqrt(0.25 + x * x), F64);
+    assert_near(
+        grey(&render(&frame, Model::Phong), 2, 1),
+        0.5 / libm::sqrt(0.25 + x * x),
+        F64,
+    );
 }
 
 #[test]
@@ -91,13 +115,24 @@ fn flat_shading_uses_the_normal_of_the_polygon() {
 #[test]
 fn slerp_on_a_triangle_goes_along_the_edges_then_along_the_span() {
     let apex = vertex((3.5, 0.5), [1.0, 0.0, 0.0]);
-    let (left, right) = (vertex((0.5, 6.5), [0.0, 1.0, 0.0]), vertex((6.5, 6.5), [0.0, 0.0, 1.0]));
+    let (left, right) = (
+        vertex((0.5, 6.5), [0.0, 1.0, 0.0]),
+        vertex((6.5, 6.5), [0.0, 0.0, 1.0]),
+    );
     let frame = polygon_of(8, &[apex, left, right], |_| ());
     // Row 2 is a third of the way down: 30° along both edges, (cos 30°, sin 30°, 0) and (cos 30°, 0, sin 30°). Half of
     // the way between them lies their mean, (√3/2, 1/4, 1/4), made a unit vector: z = (1/4) / √(7/8).
-    assert_near(grey(&render(&frame, Model::Slerp), 3, 2), 0.25 / libm::sqrt(0.875), F64);
+    assert_near(
+        grey(&render(&frame, Model::Slerp), 3, 2),
+        0.25 / libm::sqrt(0.875),
+        F64,
+    );
     // Barycentric (2/3, 1/6, 1/6): z = 1/√18.
-    assert_near(grey(&render(&frame, Model::Phong), 3, 2), 1.0 / libm::sqrt(18.0), F64);
+    assert_near(
+        grey(&render(&frame, Model::Phong), 3, 2),
+        1.0 / libm::sqrt(18.0),
+        F64,
+    );
 }
 
 #[test]
@@ -136,7 +171,11 @@ fn gouraud_clamps_vertices_before_it_interpolates() {
     let corners = square(4.0, [bright, dark, dark, bright]).map(|v| builder.vertex(v));
     builder.polygon(&corners, bright, 0);
     // An intensity of 2 would stand at 1 in the middle.
-    assert_near(grey(&render(&builder.finish().unwrap(), Model::Gouraud), 2, 2), 0.5, F64);
+    assert_near(
+        grey(&render(&builder.finish().unwrap(), Model::Gouraud), 2, 2),
+        0.5,
+        F64,
+    );
 }
 
 /// [`square`] from dark at w = 1 on the left to bright at w = 3 on the right.
@@ -156,13 +195,28 @@ fn perspective_weighs_the_near_side_more() {
     let frame = receding(Interpolation::Perspective, 4.0);
     assert_near(grey(&render(&frame, Model::Gouraud), 2, 1), 0.25, F32);
     // Normals in the same shares, (¾, 0, ¼): z = 1/√10.
-    assert_near(grey(&render(&frame, Model::Phong), 2, 1), 1.0 / libm::sqrt(10.0), F32);
+    assert_near(
+        grey(&render(&frame, Model::Phong), 2, 1),
+        1.0 / libm::sqrt(10.0),
+        F32,
+    );
     let screen = receding(Interpolation::Screen, 4.0);
     assert_near(grey(&render(&screen, Model::Gouraud), 2, 1), 0.5, F64);
     // Slerp knows no w.
-    assert_eq!(render(&frame, Model::Slerp).picture, render(&screen, Model::Slerp).picture);
+    assert_eq!(
+        render(&frame, Model::Slerp).picture,
+        render(&screen, Model::Slerp).picture
+    );
     // A triangle: half of the way along its top edge.
-    let mut corners = square(4.0, [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+    let mut corners = square(
+        4.0,
+        [
+            [1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [0.0, 0.0, 1.0],
+            [1.0, 0.0, 0.0],
+        ],
+    );
     corners[1].inv_w = 1.0 / 3.0;
     let triangle = polygon_of(8, &[corners[0], corners[1], corners[3]], |builder| {
         builder.interpolation(Interpolation::Perspective);
@@ -195,13 +249,21 @@ fn a_clip_corner_has_what_lies_between_its_parents() {
     let at = |model, x, y| grey(&shade(&frame, &seen, model), x, y);
     // Colours 0, ½, ¾.
     assert_near(at(Model::Gouraud, 2, 0), 0.25, F64);
-    assert_near(at(Model::Gouraud, 2, 2), 0.5 * (0.5 * 0.5 + 0.5 * 0.75), F64);
+    assert_near(
+        at(Model::Gouraud, 2, 2),
+        0.5 * (0.5 * 0.5 + 0.5 * 0.75),
+        F64,
+    );
     // Normals (1, 0, 0), (½, 0, ½): half of the way (¾, 0, ¼). A normalised clip corner would give another direction.
     assert_near(at(Model::Phong, 2, 0), 1.0 / libm::sqrt(10.0), F64);
     // 0° and 45°: half of the way 22.5°.
     assert_near(at(Model::Slerp, 2, 0), libm::sin(22.5f64.to_radians()), F64);
     // Halfway down, the edge between 45° and 67.5° is at 56.25°; half of the way along the span 28.125°.
-    assert_near(at(Model::Slerp, 2, 2), libm::sin(28.125f64.to_radians()), F64);
+    assert_near(
+        at(Model::Slerp, 2, 2),
+        libm::sin(28.125f64.to_radians()),
+        F64,
+    );
 }
 
 #[test]
@@ -209,14 +271,22 @@ fn a_clip_corner_between_opposite_normals_has_the_face_that_was_clipped() {
     // The clipped face lies along x (`between`): the new corner has x, then z is 0 there and 1 at the left.
     let frame = clipped([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.6, 0.8]);
     // z to x is 90°, half of the way 45°.
-    assert_near(grey(&render(&frame, Model::Slerp), 2, 0), libm::sqrt(0.5), F64);
+    assert_near(
+        grey(&render(&frame, Model::Slerp), 2, 0),
+        libm::sqrt(0.5),
+        F64,
+    );
 }
 
 /// Two squares over the same pixels, at these depths on their left and right sides.
 fn two_layers(depth_test: bool, first: (f32, f32), second: (f32, f32)) -> Frame {
     let mut builder = FrameBuilder::new(6, 6);
     builder.lighting(z_light());
-    builder.hidden_surfaces(if depth_test { HiddenSurfaces::default() } else { HiddenSurfaces::DrawOrder });
+    builder.hidden_surfaces(if depth_test {
+        HiddenSurfaces::default()
+    } else {
+        HiddenSurfaces::DrawOrder
+    });
     for (source, (left, right)) in (0..).zip([first, second]) {
         let mut corners = square(4.0, [[0.0, 0.0, 1.0]; 4]);
         for (vertex, depth) in corners.iter_mut().zip([left, right, right, left]) {
@@ -231,11 +301,23 @@ fn two_layers(depth_test: bool, first: (f32, f32), second: (f32, f32)) -> Frame 
 #[test]
 fn the_nearest_polygon_is_seen_and_the_first_of_equal_ones() {
     let crossing = visibility(&two_layers(true, (0.25, 0.75), (0.5, 0.5)));
-    assert_eq!(crossing.polygons.row(1), [0, 0, 0, 1, Visibility::NONE, Visibility::NONE]);
-    assert_eq!(crossing.depth.row(1), [0.25, 0.375, 0.5, 0.5, f64::INFINITY, f64::INFINITY]);
-    assert_eq!(crossing.depth_gap.row(1), [0.25, 0.125, 0.0, 0.125, f64::INFINITY, f64::INFINITY]);
+    assert_eq!(
+        crossing.polygons.row(1),
+        [0, 0, 0, 1, Visibility::NONE, Visibility::NONE]
+    );
+    assert_eq!(
+        crossing.depth.row(1),
+        [0.25, 0.375, 0.5, 0.5, f64::INFINITY, f64::INFINITY]
+    );
+    assert_eq!(
+        crossing.depth_gap.row(1),
+        [0.25, 0.125, 0.0, 0.125, f64::INFINITY, f64::INFINITY]
+    );
     let other_order = visibility(&two_layers(true, (0.5, 0.5), (0.25, 0.75)));
-    assert_eq!(other_order.polygons.row(1), [1, 1, 0, 0, Visibility::NONE, Visibility::NONE]);
+    assert_eq!(
+        other_order.polygons.row(1),
+        [1, 1, 0, 0, Visibility::NONE, Visibility::NONE]
+    );
     assert_eq!(other_order.depth_gap, crossing.depth_gap);
 }
 
@@ -244,11 +326,19 @@ fn the_gap_is_to_the_next_polygon_behind() {
     let mut builder = FrameBuilder::new(6, 6);
     builder.lighting(z_light());
     for depth in [0.75, 0.25, 0.5, 0.875] {
-        let corners = square(4.0, [[0.0, 0.0, 1.0]; 4]).map(|v| builder.vertex(Vertex { depth, ..v }));
+        let corners =
+            square(4.0, [[0.0, 0.0, 1.0]; 4]).map(|v| builder.vertex(Vertex { depth, ..v }));
         builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
     }
     let seen = visibility(&builder.finish().unwrap());
-    assert_eq!((seen.polygons.get(1, 1), seen.depth.get(1, 1), seen.depth_gap.get(1, 1)), (1, 0.25, 0.25));
+    assert_eq!(
+        (
+            seen.polygons.get(1, 1),
+            seen.depth.get(1, 1),
+            seen.depth_gap.get(1, 1)
+        ),
+        (1, 0.25, 0.25)
+    );
 }
 
 #[test]

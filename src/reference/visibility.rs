@@ -28,7 +28,11 @@ impl Visibility {
         if depth_test {
             // All others are behind the one seen so far: a new nearest has that one next behind it.
             let gap = &mut self.depth_gap.row_mut(y)[x];
-            *gap = if is_visible { *seen - depth } else { gap.min(depth - *seen) };
+            *gap = if is_visible {
+                *seen - depth
+            } else {
+                gap.min(depth - *seen)
+            };
         }
         if is_visible {
             *seen = depth;

@@ -31,14 +31,23 @@ pub(super) fn bars(title: &str, bars: &[Bar]) -> String {
     const LEFT: f64 = 180.0;
     const RIGHT: f64 = WIDTH - 54.0;
     const ROW: f64 = 24.0;
-    let most = bars.iter().map(|bar| bar.high.max(bar.value)).filter(|v| v.is_finite()).fold(1.0, f64::max);
+    let most = bars
+        .iter()
+        .map(|bar| bar.high.max(bar.value))
+        .filter(|v| v.is_finite())
+        .fold(1.0, f64::max);
     let x = |value: f64| LEFT + (RIGHT - LEFT) * (value / most).clamp(0.0, 1.0);
     let bottom = 8.0 + ROW * bars.len() as f64;
     let mut svg = open("bars", title, bottom + 24.0);
     let step = nice_step(most);
-    for tick in (0..).map(|i| f64::from(i) * step).take_while(|tick| *tick <= most) {
+    for tick in (0..)
+        .map(|i| f64::from(i) * step)
+        .take_while(|tick| *tick <= most)
+    {
         let at = x(tick);
-        svg += &format!("<line class=\"grid\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"4\" y2=\"{bottom:.1}\"/>");
+        svg += &format!(
+            "<line class=\"grid\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"4\" y2=\"{bottom:.1}\"/>"
+        );
         svg += &format!(
             "<text class=\"tick\" x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{tick}</text>",
             bottom + 16.0
@@ -49,7 +58,11 @@ pub(super) fn bars(title: &str, bars: &[Bar]) -> String {
         let (middle, end) = (top + ROW / 2.0 - 1.0, x(bar.value));
         let class = format!(
             "{}{}",
-            if bar.is_barycentric { "bar barycentric" } else { "bar" },
+            if bar.is_barycentric {
+                "bar barycentric"
+            } else {
+                "bar"
+            },
             if bar.is_tie { " tie" } else { "" }
         );
         svg += &format!(
@@ -71,11 +84,16 @@ pub(super) fn bars(title: &str, bars: &[Bar]) -> String {
             middle - 3.0
         );
         let value = format!("{}{:.2}", if bar.is_tie { "=" } else { "" }, bar.value);
-        svg +=
-            &format!("<text class=\"value\" x=\"{:.1}\" y=\"{:.1}\">{value}</text>", high.max(end) + 6.0, middle + 4.5);
+        svg += &format!(
+            "<text class=\"value\" x=\"{:.1}\" y=\"{:.1}\">{value}</text>",
+            high.max(end) + 6.0,
+            middle + 4.5
+        );
     }
     let one = x(1.0);
-    svg += &format!("<line class=\"one\" x1=\"{one:.1}\" x2=\"{one:.1}\" y1=\"2\" y2=\"{bottom:.1}\"/></svg>");
+    svg += &format!(
+        "<line class=\"one\" x1=\"{one:.1}\" x2=\"{one:.1}\" y1=\"2\" y2=\"{bottom:.1}\"/></svg>"
+    );
     svg
 }
 
@@ -92,7 +110,11 @@ fn label(text: &str) -> String {
 /// 1, 2 or 5 times a power of ten, so that `most` has about five steps of it.
 pub(super) fn nice_step(most: f64) -> f64 {
     let decade = libm::pow(10.0, libm::floor(libm::log10(most / 5.0)));
-    [1.0, 2.0, 5.0].into_iter().map(|n| n * decade).find(|step| most / step <= 6.0).unwrap_or(10.0 * decade)
+    [1.0, 2.0, 5.0]
+        .into_iter()
+        .map(|n| n * decade)
+        .find(|step| most / step <= 6.0)
+        .unwrap_or(10.0 * decade)
 }
 
 /// A method: what it costs and how wrong it is.
@@ -129,22 +151,47 @@ pub(super) fn scatter(title: &str, [x_name, y_name]: [&str; 2], points: &[Point]
         (bottom + top) / 2.0,
         escape(y_name)
     );
-    let places: Vec<[f64; 2]> = points.iter().map(|p| [plot.x.at(p.time), plot.y.at(p.error)]).collect();
+    let places: Vec<[f64; 2]> = points
+        .iter()
+        .map(|p| [plot.x.at(p.time), plot.y.at(p.error)])
+        .collect();
     let front = front(points);
     if front.len() > 1 {
-        let line: Vec<String> = front.iter().map(|&i| format!("{:.1},{:.1}", places[i][0], places[i][1])).collect();
+        let line: Vec<String> = front
+            .iter()
+            .map(|&i| format!("{:.1},{:.1}", places[i][0], places[i][1]))
+            .collect();
         svg += &format!("<polyline class=\"front\" points=\"{}\"/>", line.join(" "));
     }
-    let mut taken: Vec<Rectangle> = places.iter().map(|&[x, y]| Rectangle::around(x, y, 6.0)).collect();
+    let mut taken: Vec<Rectangle> = places
+        .iter()
+        .map(|&[x, y]| Rectangle::around(x, y, 6.0))
+        .collect();
     for (i, point) in points.iter().enumerate() {
         let [x, y] = places[i];
-        let class = if point.is_barycentric { "point barycentric" } else { "point" };
+        let class = if point.is_barycentric {
+            "point barycentric"
+        } else {
+            "point"
+        };
         svg += &format!("<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5\"/>");
-        let room = Rectangle { left: left + 2.0, right: WIDTH - 2.0, top: 2.0, bottom: bottom - 2.0 };
-        let text = if point.error > 0.0 { point.label.clone() } else { format!("{} (0)", point.label) };
+        let room = Rectangle {
+            left: left + 2.0,
+            right: WIDTH - 2.0,
+            top: 2.0,
+            bottom: bottom - 2.0,
+        };
+        let text = if point.error > 0.0 {
+            point.label.clone()
+        } else {
+            format!("{} (0)", point.label)
+        };
         let label = placed([x, y], LETTER * text.chars().count() as f64, &room, &taken);
         // A label that found no room beside its point is tied to it.
-        let [near_x, near_y] = [x.clamp(label.left, label.right), y.clamp(label.top, label.bottom)];
+        let [near_x, near_y] = [
+            x.clamp(label.left, label.right),
+            y.clamp(label.top, label.bottom),
+        ];
         if (near_x - x).abs().max((near_y - y).abs()) > 10.0 {
             svg += &format!("<path class=\"lead\" d=\"M{x:.1} {y:.1}L{near_x:.1} {near_y:.1}\"/>");
         }
@@ -193,7 +240,9 @@ impl Plot {
         let mut svg = String::new();
         for value in self.x.ticks() {
             let at = self.x.at(value);
-            svg += &format!("<line class=\"grid\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/>");
+            svg += &format!(
+                "<line class=\"grid\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/>"
+            );
             svg += &format!(
                 "<text class=\"tick\" x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{value}</text>",
                 bottom + 16.0
@@ -201,7 +250,9 @@ impl Plot {
         }
         for value in self.y.ticks() {
             let at = self.y.at(value);
-            svg += &format!("<line class=\"grid\" x1=\"{left:.1}\" x2=\"{right:.1}\" y1=\"{at:.1}\" y2=\"{at:.1}\"/>");
+            svg += &format!(
+                "<line class=\"grid\" x1=\"{left:.1}\" x2=\"{right:.1}\" y1=\"{at:.1}\" y2=\"{at:.1}\"/>"
+            );
             svg += &format!(
                 "<text class=\"tick\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
                 left - 6.0,
@@ -220,7 +271,12 @@ pub(super) fn power(value: f64) -> String {
     }
     // The tiny part keeps 0.0001, whose logarithm may come out as -4.000…1, in its decade.
     let exponent = libm::floor(libm::log10(value) + 1e-9) as i32;
-    let digits: String = exponent.unsigned_abs().to_string().chars().map(superscript).collect();
+    let digits: String = exponent
+        .unsigned_abs()
+        .to_string()
+        .chars()
+        .map(superscript)
+        .collect();
     let sign = if exponent < 0 { "⁻" } else { "" };
     match libm::round(value / libm::pow(10.0, f64::from(exponent))) {
         1.0 => format!("10{sign}{digits}"),
@@ -245,19 +301,35 @@ impl Axis {
     /// An axis over the values that have a logarithm, with some room at both ends.
     pub(super) fn over(values: impl Iterator<Item = f64>, place: [f64; 2]) -> Axis {
         const ROOM: f64 = 0.15;
-        let logarithms = values.filter(|v| *v > 0.0 && v.is_finite()).map(libm::log10);
-        let (from, to) = logarithms.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+        let logarithms = values
+            .filter(|v| *v > 0.0 && v.is_finite())
+            .map(libm::log10);
+        let (from, to) = logarithms.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+            (a.min(v), b.max(v))
+        });
         if from > to {
-            return Axis { from: -1.0, to: 1.0, place };
+            return Axis {
+                from: -1.0,
+                to: 1.0,
+                place,
+            };
         }
         // An eighth of a decade at least, so that equal values stand in the middle and not nowhere.
         let room = ((to - from) * ROOM).max(0.125);
-        Axis { from: from - room, to: to + room, place }
+        Axis {
+            from: from - room,
+            to: to + room,
+            place,
+        }
     }
 
     /// Where `value` stands; what has no logarithm stands at the lower end.
     pub(super) fn at(&self, value: f64) -> f64 {
-        let part = if value > 0.0 { (libm::log10(value) - self.from) / (self.to - self.from) } else { 0.0 };
+        let part = if value > 0.0 {
+            (libm::log10(value) - self.from) / (self.to - self.from)
+        } else {
+            0.0
+        };
         self.place[0] + (self.place[1] - self.place[0]) * part.clamp(0.0, 1.0)
     }
 
@@ -265,7 +337,11 @@ impl Axis {
     pub(super) fn ticks(&self) -> Vec<f64> {
         let decades = self.to - self.from;
         let every = libm::ceil(decades / 8.0).max(1.0) as i32;
-        let multiples: &[f64] = if decades < 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let multiples: &[f64] = if decades < 3.0 {
+            &[1.0, 2.0, 5.0]
+        } else {
+            &[1.0]
+        };
         let range = libm::floor(self.from) as i32..=libm::ceil(self.to) as i32;
         let all = range.filter(|decade| decade.rem_euclid(every) == 0);
         // Quotients for negative exponents: 1/10 is the number nearest to a tenth, and is written as 0.1.
@@ -274,7 +350,9 @@ impl Axis {
             if decade < 0 { m / power } else { m * power }
         };
         let values = all.flat_map(|decade| multiples.iter().map(move |m| multiple(*m, decade)));
-        values.filter(|v| (self.from..=self.to).contains(&libm::log10(*v))).collect()
+        values
+            .filter(|v| (self.from..=self.to).contains(&libm::log10(*v)))
+            .collect()
     }
 }
 
@@ -288,15 +366,26 @@ struct Rectangle {
 
 impl Rectangle {
     fn around(x: f64, y: f64, radius: f64) -> Self {
-        Rectangle { left: x - radius, right: x + radius, top: y - radius, bottom: y + radius }
+        Rectangle {
+            left: x - radius,
+            right: x + radius,
+            top: y - radius,
+            bottom: y + radius,
+        }
     }
 
     fn overlaps(&self, other: &Rectangle) -> bool {
-        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+        self.left < other.right
+            && other.left < self.right
+            && self.top < other.bottom
+            && other.top < self.bottom
     }
 
     fn contains(&self, other: &Rectangle) -> bool {
-        self.left <= other.left && other.right <= self.right && self.top <= other.top && other.bottom <= self.bottom
+        self.left <= other.left
+            && other.right <= self.right
+            && self.top <= other.top
+            && other.bottom <= self.bottom
     }
 }
 
@@ -321,7 +410,9 @@ fn placed([x, y]: [f64; 2], width: f64, room: &Rectangle, taken: &[Rectangle]) -
     }
     let overlaps = |place: &Rectangle| taken.iter().filter(|other| other.overlaps(place)).count();
     let inside = places.iter().filter(|place| room.contains(place));
-    *inside.min_by_key(|place| overlaps(place)).unwrap_or(&places[0])
+    *inside
+        .min_by_key(|place| overlaps(place))
+        .unwrap_or(&places[0])
 }
 
 #[cfg(test)]
@@ -329,7 +420,12 @@ mod tests {
     use super::*;
 
     fn point(label: &str, time: f64, error: f64) -> Point {
-        Point { label: label.to_string(), time, error, is_barycentric: false }
+        Point {
+            label: label.to_string(),
+            time,
+            error,
+            is_barycentric: false,
+        }
     }
 
     #[test]
@@ -352,20 +448,27 @@ mod tests {
             (axis.at(1.0) - 15.0).abs() < 1e-9 && (axis.at(100.0) - 115.0).abs() < 1e-9,
             "a room of 0.3 of 2.6 decades"
         );
-        assert_eq!((axis.at(0.0), axis.at(1e-300), axis.at(1e300)), (0.0, 0.0, 130.0));
+        assert_eq!(
+            (axis.at(0.0), axis.at(1e-300), axis.at(1e300)),
+            (0.0, 0.0, 130.0)
+        );
         let one = Axis::over([7.0].into_iter(), [0.0, 10.0]);
         assert!((one.at(7.0) - 5.0).abs() < 1e-9);
         let none = Axis::over(core::iter::empty(), [0.0, 10.0]);
         assert!(none.at(1.0) == 5.0 && !none.ticks().is_empty());
         let values: Vec<f64> = Axis::over([0.03, 4.0].into_iter(), [0.0, 1.0]).ticks();
         assert_eq!(values, [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0]);
-        let many = Axis::over([1e-9, 1e9].into_iter(), [0.0, 1.0]).ticks().len();
+        let many = Axis::over([1e-9, 1e9].into_iter(), [0.0, 1.0])
+            .ticks()
+            .len();
         assert!((4..=9).contains(&many), "{many} ticks");
     }
 
     #[test]
     fn labels_do_not_overlap() {
-        let points: Vec<Point> = (0..6).map(|i| point("slerp-phong-vector", 1.0 + 0.001 * f64::from(i), 0.5)).collect();
+        let points: Vec<Point> = (0..6)
+            .map(|i| point("slerp-phong-vector", 1.0 + 0.001 * f64::from(i), 0.5))
+            .collect();
         let svg = scatter("t", ["ms", "levels"], &points);
         let number = |text: &str, key: &str| -> f64 {
             let from = text.find(key).unwrap() + key.len();
@@ -376,7 +479,12 @@ mod tests {
             .skip(1)
             .map(|text| {
                 let (x, y) = (number(text, " x=\""), number(text, " y=\""));
-                Rectangle { left: x - 9.0 * LETTER, right: x + 9.0 * LETTER, top: y - 11.0, bottom: y + 3.0 }
+                Rectangle {
+                    left: x - 9.0 * LETTER,
+                    right: x + 9.0 * LETTER,
+                    top: y - 11.0,
+                    bottom: y + 3.0,
+                }
             })
             .collect();
         assert_eq!(labels.len(), 6);
@@ -387,12 +495,18 @@ mod tests {
 
     #[test]
     fn steps_are_round() {
-        assert_eq!([1.0, 1.3, 4.0, 9.9, 60.0].map(nice_step), [0.2, 0.5, 1.0, 2.0, 10.0]);
+        assert_eq!(
+            [1.0, 1.3, 4.0, 9.9, 60.0].map(nice_step),
+            [0.2, 0.5, 1.0, 2.0, 10.0]
+        );
     }
 
     #[test]
     fn small_and_large_numbers_are_powers() {
-        assert_eq!([0.001, 1e-4, 5e-5, 1e-12].map(power), ["0.001", "10⁻⁴", "5·10⁻⁵", "10⁻¹²"]);
+        assert_eq!(
+            [0.001, 1e-4, 5e-5, 1e-12].map(power),
+            ["0.001", "10⁻⁴", "5·10⁻⁵", "10⁻¹²"]
+        );
         assert_eq!([5e4, 1e5, 2e6].map(power), ["50000", "10⁵", "2·10⁶"]);
     }
 }

@@ -49,13 +49,18 @@ pub(super) fn data_uri(png: &[u8]) -> String {
 /// `picture` at a part of its size: every texel the mean of a square of `factor` × `factor`, cut off at the edges.
 pub(super) fn shrunk(picture: &Picture8, factor: usize) -> Picture8 {
     let factor = factor.max(1);
-    let (width, height) = (picture.width().div_ceil(factor), picture.height().div_ceil(factor));
+    let (width, height) = (
+        picture.width().div_ceil(factor),
+        picture.height().div_ceil(factor),
+    );
     let mut small = Picture8::new(width, height, SEE_THROUGH);
     for y in 0..height {
         let rows = y * factor..picture.height().min((y + 1) * factor);
         for (x, out) in small.row_mut(y).iter_mut().enumerate() {
             let columns = x * factor..picture.width().min((x + 1) * factor);
-            let texels = rows.clone().flat_map(|row| &picture.row(row)[columns.clone()]);
+            let texels = rows
+                .clone()
+                .flat_map(|row| &picture.row(row)[columns.clone()]);
             let mut sum = [0usize; 4];
             for texel in texels {
                 for (sum, channel) in sum.iter_mut().zip(solid(*texel)) {
@@ -77,16 +82,37 @@ fn smallest(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
     let is_opaque = picture.texels().iter().all(|texel| texel[3] == 255);
     let mut attempts = Vec::new();
     if let Some((palette, indices)) = with_palette(picture) {
-        attempts.push(Attempt { texels: indices, kind: Kind::Palette(palette), filter: Filter::NoFilter });
+        attempts.push(Attempt {
+            texels: indices,
+            kind: Kind::Palette(palette),
+            filter: Filter::NoFilter,
+        });
     }
     let kind = || if is_opaque { Kind::Rgb } else { Kind::Rgba };
     let channels = if is_opaque { 3 } else { 4 };
-    let texels: Vec<u8> = picture.texels().iter().flat_map(|texel| &texel[..channels]).copied().collect();
+    let texels: Vec<u8> = picture
+        .texels()
+        .iter()
+        .flat_map(|texel| &texel[..channels])
+        .copied()
+        .collect();
     // Smooth shading is best guessed from its neighbours, flat areas and repeated colours are not.
-    for filter in [Filter::Adaptive, Filter::Paeth, Filter::Avg, Filter::NoFilter] {
-        attempts.push(Attempt { texels: texels.clone(), kind: kind(), filter });
+    for filter in [
+        Filter::Adaptive,
+        Filter::Paeth,
+        Filter::Avg,
+        Filter::NoFilter,
+    ] {
+        attempts.push(Attempt {
+            texels: texels.clone(),
+            kind: kind(),
+            filter,
+        });
     }
-    let unfit = EncodeError { width: picture.width(), height: picture.height() };
+    let unfit = EncodeError {
+        width: picture.width(),
+        height: picture.height(),
+    };
     let files = attempts.iter().map(|attempt| attempt.encode(picture));
     let files = files.collect::<Result<Vec<_>, _>>().map_err(|_| unfit)?;
     files.into_iter().min_by_key(Vec::len).ok_or(unfit)
@@ -137,7 +163,13 @@ impl Attempt {
         match &self.kind {
             Kind::Palette(palette) => {
                 encoder.set_color(ColorType::Indexed);
-                encoder.set_palette(palette.iter().flat_map(|texel| &texel[..3]).copied().collect::<Vec<u8>>());
+                encoder.set_palette(
+                    palette
+                        .iter()
+                        .flat_map(|texel| &texel[..3])
+                        .copied()
+                        .collect::<Vec<u8>>(),
+                );
                 if palette.iter().any(|texel| texel[3] < 255) {
                     encoder.set_trns(palette.iter().map(|texel| texel[3]).collect::<Vec<u8>>());
                 }
@@ -180,7 +212,11 @@ mod tests {
     fn pictures_come_back_whatever_the_way_of_writing_them() {
         for colours in [1, 2, 255, 256, 257, 1200] {
             let picture = colourful(colours);
-            assert_eq!(decoded(&opaque(&picture).unwrap()), picture, "{colours} colours");
+            assert_eq!(
+                decoded(&opaque(&picture).unwrap()),
+                picture,
+                "{colours} colours"
+            );
         }
         assert!(with_palette(&colourful(256)).is_some() && with_palette(&colourful(257)).is_none());
     }
@@ -188,7 +224,10 @@ mod tests {
     #[test]
     fn coverage_is_not_kept_and_colours_are() {
         let transparent = Picture8::new(3, 2, [9, 8, 7, 0]);
-        assert_eq!(decoded(&opaque(&transparent).unwrap()), Picture8::new(3, 2, [9, 8, 7, 255]));
+        assert_eq!(
+            decoded(&opaque(&transparent).unwrap()),
+            Picture8::new(3, 2, [9, 8, 7, 255])
+        );
     }
 
     #[test]
@@ -196,12 +235,24 @@ mod tests {
         for colours in [100, 1000] {
             let below = colourful(colours);
             let mut picture = below.clone();
-            for (i, texel) in picture.texels_mut().iter_mut().enumerate().filter(|(i, _)| i % 5 == 0) {
+            for (i, texel) in picture
+                .texels_mut()
+                .iter_mut()
+                .enumerate()
+                .filter(|(i, _)| i % 5 == 0)
+            {
                 *texel = [(i % 251) as u8, 200, (i / 251) as u8, 255];
             }
             let over = decoded(&overlay(&below, &picture).unwrap());
-            let laid = over.texels().iter().zip(below.texels()).map(|(o, b)| if o[3] == 255 { *o } else { *b });
-            assert_eq!(Picture8::from_texels(40, 30, laid.collect()).unwrap(), picture);
+            let laid = over
+                .texels()
+                .iter()
+                .zip(below.texels())
+                .map(|(o, b)| if o[3] == 255 { *o } else { *b });
+            assert_eq!(
+                Picture8::from_texels(40, 30, laid.collect()).unwrap(),
+                picture
+            );
             assert!(over.texels().iter().filter(|texel| texel[3] == 0).count() >= 1200 * 4 / 5);
         }
     }
@@ -217,17 +268,32 @@ mod tests {
     #[test]
     fn pictures_without_pixels_are_errors() {
         let empty = Picture8::new(0, 5, [0; 4]);
-        assert_eq!(opaque(&empty), Err(EncodeError { width: 0, height: 5 }));
+        assert_eq!(
+            opaque(&empty),
+            Err(EncodeError {
+                width: 0,
+                height: 5
+            })
+        );
     }
 
     #[test]
     fn shrinking_takes_means() {
-        let texels =
-            [[0, 10, 100, 255], [2, 10, 101, 255], [4, 10, 9, 0], [6, 10, 0, 255], [8, 10, 0, 255], [9, 11, 12, 9]];
+        let texels = [
+            [0, 10, 100, 255],
+            [2, 10, 101, 255],
+            [4, 10, 9, 0],
+            [6, 10, 0, 255],
+            [8, 10, 0, 255],
+            [9, 11, 12, 9],
+        ];
         let picture = Picture8::from_texels(3, 2, texels.into()).unwrap();
         // (0 + 2 + 6 + 8) / 4, (100 + 101) / 4 = 50.25; and the column that is left over.
         let small = [[4, 10, 50, 255], [7, 11, 11, 255]];
-        assert_eq!(shrunk(&picture, 2), Picture8::from_texels(2, 1, small.into()).unwrap());
+        assert_eq!(
+            shrunk(&picture, 2),
+            Picture8::from_texels(2, 1, small.into()).unwrap()
+        );
         assert_eq!(shrunk(&picture, 1), picture.map(solid));
         assert_eq!(shrunk(&picture, 9).texels().len(), 1);
     }

@@ -29,7 +29,15 @@ pub(super) fn escape_script(json: &str) -> String {
 
 /// `text` as it may stand in `id` and in a fragment: letters and digits of ASCII, and `-` for all else.
 pub(super) fn identifier(text: &str) -> String {
-    text.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '-' }).collect()
+    text.chars()
+        .map(|letter| {
+            if letter.is_ascii_alphanumeric() {
+                letter
+            } else {
+                '-'
+            }
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -38,7 +46,10 @@ mod tests {
 
     #[test]
     fn nothing_ends_a_text_or_an_attribute() {
-        assert_eq!(escape("<a href='x' b=\"&\">\0é"), "&lt;a href=&#39;x&#39; b=&quot;&amp;&quot;&gt;\u{FFFD}é");
+        assert_eq!(
+            escape("<a href='x' b=\"&\">\0é"),
+            "&lt;a href=&#39;x&#39; b=&quot;&amp;&quot;&gt;\u{FFFD}é"
+        );
         assert_eq!(escape("&lt;"), "&amp;lt;");
     }
 
@@ -47,7 +58,10 @@ mod tests {
         let json = serde_json::to_string("</script><!--").unwrap();
         let escaped = escape_script(&json);
         assert!(!escaped.contains('<'));
-        assert_eq!(serde_json::from_str::<String>(&escaped).unwrap(), "</script><!--");
+        assert_eq!(
+            serde_json::from_str::<String>(&escaped).unwrap(),
+            "</script><!--"
+        );
     }
 
     #[test]

@@ -35,14 +35,23 @@ impl LectureFigure {
             Block::Pictures { shown, .. } => &shown[..],
             _ => &[],
         });
-        let files = shown.map(|shown| opaque(&shown.picture)).collect::<Result<_, _>>()?;
-        Ok(LectureFigure { figure, content, files })
+        let files = shown
+            .map(|shown| opaque(&shown.picture))
+            .collect::<Result<_, _>>()?;
+        Ok(LectureFigure {
+            figure,
+            content,
+            files,
+        })
     }
 
     /// Its pictures as PNG files with their names, `NAME-1.png` and so on.
     pub fn files(&self) -> impl Iterator<Item = (String, &[u8])> {
         let name = |i: usize| format!("{}-{}.png", self.figure.name, i + 1);
-        self.files.iter().enumerate().map(move |(i, png)| (name(i), &png[..]))
+        self.files
+            .iter()
+            .enumerate()
+            .map(move |(i, png)| (name(i), &png[..]))
     }
 
     /// What the page calls its element.
@@ -53,21 +62,35 @@ impl LectureFigure {
 
 /// A page of figures alone: one file that loads nothing. `command_line` is what was typed, program first.
 pub fn figures_page(figures: &[LectureFigure], command_line: &[String]) -> String {
-    let mut html = String::from("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+    let mut html =
+        String::from("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
     html += &format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
     html += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
     let title = match figures {
         [one] => one.figure.title,
         _ => TITLE,
     };
-    html += &format!("<title>fastphong: {}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n", escape(title));
+    html += &format!(
+        "<title>fastphong: {}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n",
+        escape(title)
+    );
     html += STYLE;
-    html += &format!("</style>\n</head>\n<body id=\"top\">\n<main>\n{}</main>\n", section(figures, "h1"));
+    html += &format!(
+        "</style>\n</head>\n<body id=\"top\">\n<main>\n{}</main>\n",
+        section(figures, "h1")
+    );
     let made_by = escape(&command(command_line));
     html += &format!("<footer><p class=\"facts\">made by <code>{made_by}</code></p></footer>\n");
-    let data = Document { schema: FIGURES_SCHEMA, command_line, figures: data(figures) };
+    let data = Document {
+        schema: FIGURES_SCHEMA,
+        command_line,
+        figures: data(figures),
+    };
     let json = serde_json::to_string(&data).expect("numbers, texts and lists of them");
-    html += &format!("<script type=\"application/json\" id=\"fastphong-data\">{}</script>\n", escape_script(&json));
+    html += &format!(
+        "<script type=\"application/json\" id=\"fastphong-data\">{}</script>\n",
+        escape_script(&json)
+    );
     html + "</body>\n</html>\n"
 }
 
@@ -81,8 +104,9 @@ const OPENING: &str = "What the lectures draw and say, drawn by the engines of t
 
 /// The part of the lecture: its figures, with a list of them.
 pub(super) fn section(figures: &[LectureFigure], heading: &str) -> String {
-    let mut html =
-        format!("<section id=\"lecture\" aria-labelledby=\"lecture-title\"><{heading} id=\"lecture-title\">");
+    let mut html = format!(
+        "<section id=\"lecture\" aria-labelledby=\"lecture-title\"><{heading} id=\"lecture-title\">"
+    );
     html += &format!("{TITLE}</{heading}><p>{OPENING}</p>");
     html += "<nav aria-label=\"Figures\"><ul>";
     for figure in figures {
@@ -96,8 +120,13 @@ pub(super) fn section(figures: &[LectureFigure], heading: &str) -> String {
 
 fn article(made: &LectureFigure) -> String {
     let (id, figure) = (made.id(), made.figure);
-    let mut html = format!("<article id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">");
-    html += &format!("{} <code>{}</code></h2>", escape(figure.title), escape(figure.name));
+    let mut html =
+        format!("<article id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">");
+    html += &format!(
+        "{} <code>{}</code></h2>",
+        escape(figure.title),
+        escape(figure.name)
+    );
     html += &format!("<p class=\"facts\">{}</p>", escape(figure.lecture));
     let mut files = made.files.iter();
     for block in &made.content.blocks {
@@ -117,13 +146,20 @@ fn article(made: &LectureFigure) -> String {
 }
 
 /// Pictures in a grid, their pixels as squares.
-fn pictures<'a>(columns: usize, shown: &[Shown], files: &mut impl Iterator<Item = &'a Vec<u8>>) -> String {
+fn pictures<'a>(
+    columns: usize,
+    shown: &[Shown],
+    files: &mut impl Iterator<Item = &'a Vec<u8>>,
+) -> String {
     let widest = shown.iter().map(|s| s.picture.width()).max().unwrap_or(1);
     // As many page pixels a pixel as there is room for, but whole ones: squares of one size.
     let columns = columns.max(1);
     let room = (720 / columns).max(300).min(1300 / columns);
     let scale = (room / widest.max(1)).max(1);
-    let mut html = format!("<div class=\"shown\" style=\"--columns:{columns};--widest:{}px\">", widest * scale);
+    let mut html = format!(
+        "<div class=\"shown\" style=\"--columns:{columns};--widest:{}px\">",
+        widest * scale
+    );
     for (shown, png) in shown.iter().zip(files) {
         let (width, height) = (shown.picture.width(), shown.picture.height());
         html += &format!(
@@ -138,7 +174,10 @@ fn pictures<'a>(columns: usize, shown: &[Shown], files: &mut impl Iterator<Item 
 }
 
 pub(super) fn table(title: &str, head: &[String], rows: &[Vec<String>]) -> String {
-    let mut html = format!("<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">", escape(title));
+    let mut html = format!(
+        "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">",
+        escape(title)
+    );
     html += "<table><thead><tr>";
     for cell in head {
         html += &format!("<th scope=\"col\">{}</th>", escape(cell));
@@ -148,7 +187,11 @@ pub(super) fn table(title: &str, head: &[String], rows: &[Vec<String>]) -> Strin
         html += "<tr>";
         for (i, cell) in row.iter().enumerate() {
             let cell = escape(cell);
-            html += &if i == 0 { format!("<th scope=\"row\">{cell}</th>") } else { format!("<td>{cell}</td>") };
+            html += &if i == 0 {
+                format!("<th scope=\"row\">{cell}</th>")
+            } else {
+                format!("<td>{cell}</td>")
+            };
         }
         html += "</tr>";
     }
@@ -181,9 +224,15 @@ fn value(value: f64) -> String {
     if size != 0.0 && size < 1e-3 {
         return crate::figures::written(value);
     }
-    let decimals = (0..6).find(|&digits| size >= libm::pow(10.0, f64::from(3 - digits))).unwrap_or(6);
+    let decimals = (0..6)
+        .find(|&digits| size >= libm::pow(10.0, f64::from(3 - digits)))
+        .unwrap_or(6);
     let text = format!("{value:.*}", decimals as usize);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        text
+    }
 }
 
 #[derive(Serialize)]
@@ -215,8 +264,22 @@ struct FindingData<'a> {
 /// The findings of `figures`.
 pub(super) fn data(figures: &[LectureFigure]) -> Vec<FigureData<'_>> {
     fn finding(finding: &Finding) -> FindingData<'_> {
-        let Finding { key, label, value, unit, agreement, verdict } = finding;
-        FindingData { key, label, value: *value, unit, agreement: agreement.word(), verdict }
+        let Finding {
+            key,
+            label,
+            value,
+            unit,
+            agreement,
+            verdict,
+        } = finding;
+        FindingData {
+            key,
+            label,
+            value: *value,
+            unit,
+            agreement: agreement.word(),
+            verdict,
+        }
     }
     figures
         .iter()

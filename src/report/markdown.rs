@@ -38,14 +38,22 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
         text += &format!("{}\n\n", escape(&paragraph));
     }
     let is_unfit = |c: char| c == '`' || c.is_control();
-    text += &format!("Made by `{}`", command(&report.command_line).replace(is_unfit, "\u{FFFD}"));
+    text += &format!(
+        "Made by `{}`",
+        command(&report.command_line).replace(is_unfit, "\u{FFFD}")
+    );
     if let Some(date) = &report.date {
         text += &format!(" on {date}");
     }
     text += &format!(
         ", on {}. Drawn by {}. A time is {WHAT_IS_TIMED}. An error is of {WHAT_IS_COMPARED}; a level is 1/255.\n\n",
         escape(&report.machine.line()),
-        report.sections.first().map(|section| section.data.renderer.clone()).unwrap_or_default().line()
+        report
+            .sections
+            .first()
+            .map(|section| section.data.renderer.clone())
+            .unwrap_or_default()
+            .line()
     );
     text += &four_corners(report);
     text += &project(&report.sections);
@@ -76,14 +84,21 @@ fn escape(text: &str) -> String {
 }
 
 fn head(text: &mut String, columns: &[&str]) {
-    *text += &format!("| {} |\n|---|{}\n", columns.join(" | "), "---:|".repeat(columns.len() - 1));
+    *text += &format!(
+        "| {} |\n|---|{}\n",
+        columns.join(" | "),
+        "---:|".repeat(columns.len() - 1)
+    );
 }
 
 /// A table, all of which is text.
 fn table(columns: &[String], rows: &[Vec<String>]) -> String {
     let mut text = String::new();
     let columns: Vec<String> = columns.iter().map(|column| escape(column)).collect();
-    head(&mut text, &columns.iter().map(String::as_str).collect::<Vec<_>>());
+    head(
+        &mut text,
+        &columns.iter().map(String::as_str).collect::<Vec<_>>(),
+    );
     for row in rows {
         let cells: Vec<String> = row.iter().map(|cell| escape(cell)).collect();
         text += &format!("| {} |\n", cells.join(" | "));
@@ -92,9 +107,16 @@ fn table(columns: &[String], rows: &[Vec<String>]) -> String {
 }
 
 fn four_corners(report: &Report) -> String {
-    let Some(speedups) = &report.studies.speedups else { return String::new() };
+    let Some(speedups) = &report.studies.speedups else {
+        return String::new();
+    };
     let (before, columns, rows, after) = speedups::grid(speedups);
-    let mut text = format!("## {}\n\n{}\n\n{}", speedups::TITLE, escape(&before), table(&columns, &rows));
+    let mut text = format!(
+        "## {}\n\n{}\n\n{}",
+        speedups::TITLE,
+        escape(&before),
+        table(&columns, &rows)
+    );
     if !after.is_empty() {
         text += &format!("{}\n\n", escape(after));
     }
@@ -102,7 +124,9 @@ fn four_corners(report: &Report) -> String {
 }
 
 fn growth(report: &Report) -> String {
-    let Some(scaling) = &report.studies.scaling else { return String::new() };
+    let Some(scaling) = &report.studies.scaling else {
+        return String::new();
+    };
     let (paragraphs, tables) = scaling::grids(scaling);
     let mut text = format!("## {}\n\n", scaling::TITLE);
     for paragraph in paragraphs {
@@ -120,14 +144,25 @@ fn project(sections: &[Section]) -> String {
                                  naive Phong with their 95 % interval: over 1 is faster, = is a tie.\n\n",
     );
     let names = PROJECT.map(|(_, name)| name);
-    head(&mut text, &["scene", "polygons", names[0], names[1], names[2], names[3]]);
+    head(
+        &mut text,
+        &["scene", "polygons", names[0], names[1], names[2], names[3]],
+    );
     for section in sections {
-        text += &format!("| {} | {} |", escape(&section.caption.title), grouped(section.data.polygons));
+        text += &format!(
+            "| {} | {} |",
+            escape(&section.caption.title),
+            grouped(section.data.polygons)
+        );
         for (method, _) in PROJECT {
             text += &match section.row(method).and_then(|row| row.speed.as_ref()) {
                 None => format!(" {} |", tables::NONE),
                 Some(speed) if method == BASELINE => format!(" {} |", tables::time(speed)),
-                Some(speed) => format!(" {}; {} |", tables::time(speed), tables::ratio(speed.ratio_to_naive)),
+                Some(speed) => format!(
+                    " {}; {} |",
+                    tables::time(speed),
+                    tables::ratio(speed.ratio_to_naive)
+                ),
             };
         }
         text.push('\n');
@@ -135,8 +170,8 @@ fn project(sections: &[Section]) -> String {
     if sections.len() > 1 {
         text += "| geometric mean | |";
         for (method, _) in PROJECT {
-            let mean =
-                Tally::of(method, sections).map_or_else(|| tables::NONE.to_string(), |t| format!("{:.2}", t.mean));
+            let mean = Tally::of(method, sections)
+                .map_or_else(|| tables::NONE.to_string(), |t| format!("{:.2}", t.mean));
             text += &format!(" {} |", if method == BASELINE { "1" } else { &mean });
         }
         text.push('\n');
@@ -151,19 +186,45 @@ fn scene(section: &Section, number: usize, folder: &str, images: &mut Vec<Image>
         text += &format!("{}\n\n", escape(&section.caption.description));
     }
     text += &format!("{}\n\n", escape(&facts(section)));
-    let shown: Vec<(String, &Figure)> =
-        section.figures.iter().filter_map(|f| Some((shown_name(f, section)?, f))).collect();
+    let shown: Vec<(String, &Figure)> = section
+        .figures
+        .iter()
+        .filter_map(|f| Some((shown_name(f, section)?, f)))
+        .collect();
     let mut pictures = Vec::new();
     for (name, figure) in &shown {
-        let file = format!("{:02}-{}-{}.png", number + 1, identifier(&section.data.name), identifier(name));
-        pictures.push(format!("![{}]({folder}/{file})", escape(&format!("{}: {name}", section.caption.title))));
-        images.push(Image { name: file, png: figure.small.clone() });
+        let file = format!(
+            "{:02}-{}-{}.png",
+            number + 1,
+            identifier(&section.data.name),
+            identifier(name)
+        );
+        pictures.push(format!(
+            "![{}]({folder}/{file})",
+            escape(&format!("{}: {name}", section.caption.title))
+        ));
+        images.push(Image {
+            name: file,
+            png: figure.small.clone(),
+        });
     }
     let names: Vec<String> = shown.iter().map(|(name, _)| escape(name)).collect();
-    text += &format!("| {} |\n|{}\n| {} |\n\n", names.join(" | "), ":---:|".repeat(names.len()), pictures.join(" | "));
+    text += &format!(
+        "| {} |\n|{}\n| {} |\n\n",
+        names.join(" | "),
+        ":---:|".repeat(names.len()),
+        pictures.join(" | ")
+    );
     head(
         &mut text,
-        &["method", "max, levels", "RMS, levels", "other polygon, pixels", "time, ms", "speed to naive Phong"],
+        &[
+            "method",
+            "max, levels",
+            "RMS, levels",
+            "other polygon, pixels",
+            "time, ms",
+            "speed to naive Phong",
+        ],
     );
     for row in section.all_rows() {
         let (time, ratio) = match &row.speed {
@@ -192,7 +253,10 @@ fn shown_name(figure: &Figure, section: &Section) -> Option<String> {
         FigureKind::Reference => Some("reference".to_string()),
         FigureKind::Row(number) => {
             let name = &section.data.rows[number].variant;
-            PROJECT.iter().any(|(method, _)| method == name).then(|| name.clone())
+            PROJECT
+                .iter()
+                .any(|(method, _)| method == name)
+                .then(|| name.clone())
         }
         FigureKind::Triangles => None,
     }
@@ -207,7 +271,11 @@ fn operation_counts() -> String {
         for lights in operations::LIGHTS {
             let counts = entry.variant().operations(lights);
             let cells = operations::RATES.map(|(_, of)| escape(&operations::cell(&of(&counts))));
-            text += &format!("| {} | {lights} | {} |\n", entry.info.name, cells.join(" | "));
+            text += &format!(
+                "| {} | {lights} | {} |\n",
+                entry.info.name,
+                cells.join(" | ")
+            );
         }
     }
     text

@@ -41,13 +41,22 @@ pub(super) fn cell(counts: &Counts) -> String {
         (counts.powers, '^'),
     ];
     // A space that does not break keeps a number with its sign.
-    let parts: Vec<String> = kinds.iter().filter(|(n, _)| *n > 0).map(|(n, sign)| format!("{n}\u{A0}{sign}")).collect();
-    if parts.is_empty() { "–".to_string() } else { parts.join(" ") }
+    let parts: Vec<String> = kinds
+        .iter()
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, sign)| format!("{n}\u{A0}{sign}"))
+        .collect();
+    if parts.is_empty() {
+        "–".to_string()
+    } else {
+        parts.join(" ")
+    }
 }
 
 /// The table of all methods, for one light and for four.
 pub(super) fn html() -> String {
-    let mut html = String::from("<thead><tr><th scope=\"col\">method</th><th scope=\"col\">lights</th>");
+    let mut html =
+        String::from("<thead><tr><th scope=\"col\">method</th><th scope=\"col\">lights</th>");
     for (rate, _) in RATES {
         html += &format!("<th scope=\"col\">{rate}</th>");
     }
@@ -58,8 +67,11 @@ pub(super) fn html() -> String {
             let operations = entry.variant().operations(lights);
             html += "<tr>";
             if i == 0 {
-                html +=
-                    &format!("<th scope=\"rowgroup\" rowspan=\"{}\">{}</th>", LIGHTS.len(), escape(entry.info.name));
+                html += &format!(
+                    "<th scope=\"rowgroup\" rowspan=\"{}\">{}</th>",
+                    LIGHTS.len(),
+                    escape(entry.info.name)
+                );
             }
             html += &format!("<td class=\"number\">{lights}</td>");
             for (_, counts) in RATES {
@@ -78,7 +90,12 @@ mod tests {
 
     #[test]
     fn cells_tell_what_there_is() {
-        let counts = Counts { additions: 14, multiplications: 9, roots: 1, ..Counts::default() };
+        let counts = Counts {
+            additions: 14,
+            multiplications: 9,
+            roots: 1,
+            ..Counts::default()
+        };
         assert_eq!(cell(&counts), "14\u{A0}+ 9\u{A0}× 1\u{A0}√");
         assert_eq!(cell(&Counts::default()), "–");
     }
@@ -86,7 +103,10 @@ mod tests {
     #[test]
     fn every_method_has_a_row_for_each_number_of_lights() {
         let html = html();
-        assert_eq!(html.matches("<tr>").count(), 1 + METHODS.len() * LIGHTS.len());
+        assert_eq!(
+            html.matches("<tr>").count(),
+            1 + METHODS.len() * LIGHTS.len()
+        );
         for entry in METHODS {
             assert!(html.contains(&format!(">{}</th>", entry.info.name)));
         }

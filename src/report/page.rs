@@ -20,7 +20,8 @@ pub(super) const POLICY: &str = "default-src 'none'; img-src data:; style-src 'u
 pub(super) fn page(report: &Report) -> String {
     let ids = ids(&report.sections);
     let scenes = || report.sections.iter().zip(&ids);
-    let mut html = String::from("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+    let mut html =
+        String::from("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
     html += &format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
     html += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
     html += "<title>fastphong: shading methods compared</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n";
@@ -32,9 +33,19 @@ pub(super) fn page(report: &Report) -> String {
     }
     html += &navigation(report, &ids);
     html += "</header>\n<main>\n";
-    html += &report.studies.speedups.as_ref().map(speedups::section).unwrap_or_default();
+    html += &report
+        .studies
+        .speedups
+        .as_ref()
+        .map(speedups::section)
+        .unwrap_or_default();
     html += &project(report, &ids);
-    html += &report.studies.scaling.as_ref().map(scaling::section).unwrap_or_default();
+    html += &report
+        .studies
+        .scaling
+        .as_ref()
+        .map(scaling::section)
+        .unwrap_or_default();
     html += &operation_counts();
     html += &measurement(report);
     if !report.lecture.is_empty() {
@@ -54,9 +65,17 @@ pub(super) fn page(report: &Report) -> String {
 
 /// What stands before all else: where naive Phong wins, then what was found in the scenes.
 pub(super) fn paragraphs(report: &Report) -> Vec<String> {
-    let corners = report.studies.speedups.as_ref().map(speedups::opening).unwrap_or_default();
+    let corners = report
+        .studies
+        .speedups
+        .as_ref()
+        .map(speedups::opening)
+        .unwrap_or_default();
     let all = [corners, opening(&report.sections, &report.machine)];
-    all.iter().filter(|sentences| !sentences.is_empty()).map(|sentences| sentences.join(" ")).collect()
+    all.iter()
+        .filter(|sentences| !sentences.is_empty())
+        .map(|sentences| sentences.join(" "))
+        .collect()
 }
 
 /// The names of the sections' elements, each once.
@@ -65,7 +84,9 @@ fn ids(sections: &[Section]) -> Vec<String> {
     for section in sections {
         let name = format!("scene-{}", identifier(&section.data.name));
         let others = (2..).map(|n| format!("{name}-{n}"));
-        let free = core::iter::once(name.clone()).chain(others).find(|id| !ids.contains(id));
+        let free = core::iter::once(name.clone())
+            .chain(others)
+            .find(|id| !ids.contains(id));
         ids.extend(free);
     }
     ids
@@ -83,23 +104,35 @@ fn navigation(report: &Report, ids: &[String]) -> String {
         html += &format!("<li><a href=\"#lecture\">{}</a></li>", lecture::TITLE);
     }
     for (section, id) in report.sections.iter().zip(ids) {
-        html += &format!("<li><a href=\"#{id}\">{}</a></li>", escape(&section.caption.title));
+        html += &format!(
+            "<li><a href=\"#{id}\">{}</a></li>",
+            escape(&section.caption.title)
+        );
     }
     html + "</ul></nav>\n"
 }
 
 /// The lecture's Programming Project, and the chart over all scenes.
 fn project(report: &Report, ids: &[String]) -> String {
-    let mut html = String::from("<section id=\"project\"><h2>The Programming Project of the lecture</h2>");
+    let mut html =
+        String::from("<section id=\"project\"><h2>The Programming Project of the lecture</h2>");
     html += "<p>Lecture 21 asks to compare the speeds of Gouraud, naive Phong, fast Phong and slerp Phong shading on several \
              large models. Times are medians of whole pictures ± half the interquartile range. Ratios are speeds as \
              multiples of that of naive Phong, round by round, with their 95 % interval: over 1 is faster; = is a tie, the \
              interval holds 1.</p>";
     html += "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"The Programming Project\">";
-    html += &format!("<table>{}</table></div>", tables::project(&report.sections, |i| ids[i].clone()));
+    html += &format!(
+        "<table>{}</table></div>",
+        tables::project(&report.sections, |i| ids[i].clone())
+    );
     let points: Vec<Point> = overall(&report.sections)
         .into_iter()
-        .map(|o| Point { label: o.name, time: o.time, error: 255.0 * o.rms, is_barycentric: o.is_barycentric })
+        .map(|o| Point {
+            label: o.name,
+            time: o.time,
+            error: 255.0 * o.rms,
+            is_barycentric: o.is_barycentric,
+        })
         .collect();
     if !points.is_empty() {
         let axes = ["time, naive Phong = 1", "RMS error, grey levels"];
@@ -108,7 +141,11 @@ fn project(report: &Report, ids: &[String]) -> String {
              Phong, quadratic mean of the RMS errors, both on logarithmic axes; lower left is better. The dashed line \
              joins the methods that no other one beats in both.</figcaption></figure></div>",
             scatter("Error over time in all scenes", axes, &points),
-            if points.is_empty() { String::new() } else { count(report.sections.len(), "scene") }
+            if points.is_empty() {
+                String::new()
+            } else {
+                count(report.sections.len(), "scene")
+            }
         );
     }
     html + "</section>\n"
@@ -126,15 +163,40 @@ fn operation_counts() -> String {
 /// What was measured, on what, and how to do it again.
 fn measurement(report: &Report) -> String {
     let m = &report.machine;
-    let renderer = report.sections.first().map(|section| section.data.renderer.clone()).unwrap_or_default();
-    let cores = format!("{}; {}", count(m.cores, "logical processor"), count(renderer.threads, "thread"));
+    let renderer = report
+        .sections
+        .first()
+        .map(|section| section.data.renderer.clone())
+        .unwrap_or_default();
+    let cores = format!(
+        "{}; {}",
+        count(m.cores, "logical processor"),
+        count(renderer.threads, "thread")
+    );
     let rows = [
         ("processor", m.cpu.clone()),
         ("", cores),
         ("system", format!("{} {}", m.os, m.arch)),
-        ("compiled by", format!("{}, {}, opt-level {}", m.rustc, m.profile, m.opt_level)),
-        ("for", if m.target_features.is_empty() { String::new() } else { m.target_features.join(", ") }),
-        ("fastphong", m.version.clone() + &m.commit.as_ref().map(|c| format!(", commit {c}")).unwrap_or_default()),
+        (
+            "compiled by",
+            format!("{}, {}, opt-level {}", m.rustc, m.profile, m.opt_level),
+        ),
+        (
+            "for",
+            if m.target_features.is_empty() {
+                String::new()
+            } else {
+                m.target_features.join(", ")
+            },
+        ),
+        (
+            "fastphong",
+            m.version.clone()
+                + &m.commit
+                    .as_ref()
+                    .map(|c| format!(", commit {c}"))
+                    .unwrap_or_default(),
+        ),
         ("date", report.date.clone().unwrap_or_default()),
         ("drawn by", renderer.line()),
         ("a time", WHAT_IS_TIMED.to_string()),
@@ -148,7 +210,10 @@ fn measurement(report: &Report) -> String {
             format!("<dt>{term}</dt><dd>{}</dd>", escape(text))
         };
     }
-    html += &format!("<dt>made by</dt><dd><code>{}</code></dd></dl>", escape(&command(&report.command_line)));
+    html += &format!(
+        "<dt>made by</dt><dd><code>{}</code></dd></dl>",
+        escape(&command(&report.command_line))
+    );
     html + "<p>All numbers, with every sample, are in this file: the JSON in its element <code>fastphong-data</code>.</p></section>\n"
 }
 

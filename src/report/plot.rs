@@ -27,7 +27,12 @@ pub(super) fn plot(plot: &Plot) -> String {
 pub(super) fn plot_with_fits(plot: &Plot, fits: &[Vec<(f64, f64)>]) -> String {
     let legend = Legend::of(&plot.series);
     let top = legend.height() + 8.0;
-    let measured = || plot.series.iter().flat_map(|series| &series.points).chain(fits.iter().flatten());
+    let measured = || {
+        plot.series
+            .iter()
+            .flat_map(|series| &series.points)
+            .chain(fits.iter().flatten())
+    };
     let points = || measured().filter(|(x, y)| x.is_finite() && y.is_finite());
     let x = Extent::over(points().map(|p| p.0), plot.x.1, [64.0, WIDTH - 22.0]);
     let y = Extent::over(points().map(|p| p.1), plot.y.1, [top + HEIGHT - 44.0, top]);
@@ -37,7 +42,9 @@ pub(super) fn plot_with_fits(plot: &Plot, fits: &[Vec<(f64, f64)>]) -> String {
     svg += &grid(&x, &y);
     for mark in plot.marks.iter().filter(|mark| mark.is_finite()) {
         let at = x.at(*mark);
-        svg += &format!("<line class=\"one\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/>");
+        svg += &format!(
+            "<line class=\"one\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/>"
+        );
     }
     svg += &format!(
         "<text class=\"axis\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
@@ -51,7 +58,10 @@ pub(super) fn plot_with_fits(plot: &Plot, fits: &[Vec<(f64, f64)>]) -> String {
         escape(&plot.y.0)
     );
     for (i, series) in plot.series.iter().enumerate() {
-        let line = fits.get(i).filter(|fit| !fit.is_empty()).unwrap_or(&series.points);
+        let line = fits
+            .get(i)
+            .filter(|fit| !fit.is_empty())
+            .unwrap_or(&series.points);
         svg += &curve(i, line, &x, &y);
         if series.points.len() <= MARKED {
             svg += &marks(i, &series.points, &x, &y);
@@ -66,7 +76,9 @@ fn grid(x: &Extent, y: &Extent) -> String {
     let mut svg = String::new();
     for (value, text) in x.ticks() {
         let at = x.at(value);
-        svg += &format!("<line class=\"grid\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/>");
+        svg += &format!(
+            "<line class=\"grid\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/>"
+        );
         svg += &format!(
             "<text class=\"tick\" x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{text}</text>",
             bottom + 16.0
@@ -74,7 +86,9 @@ fn grid(x: &Extent, y: &Extent) -> String {
     }
     for (value, text) in y.ticks() {
         let at = y.at(value);
-        svg += &format!("<line class=\"grid\" x1=\"{left:.1}\" x2=\"{right:.1}\" y1=\"{at:.1}\" y2=\"{at:.1}\"/>");
+        svg += &format!(
+            "<line class=\"grid\" x1=\"{left:.1}\" x2=\"{right:.1}\" y1=\"{at:.1}\" y2=\"{at:.1}\"/>"
+        );
         svg += &format!(
             "<text class=\"tick\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{text}</text>",
             left - 6.0,
@@ -97,7 +111,12 @@ fn curve(i: usize, points: &[(f64, f64)], x: &Extent, y: &Extent) -> String {
         if last.as_ref() == Some(&place) {
             continue;
         }
-        path += &format!("{}{} {}", if last.is_none() { "M" } else { "L" }, place.0, place.1);
+        path += &format!(
+            "{}{} {}",
+            if last.is_none() { "M" } else { "L" },
+            place.0,
+            place.1
+        );
         last = Some(place);
     }
     let style = i % STYLES;
@@ -106,8 +125,12 @@ fn curve(i: usize, points: &[(f64, f64)], x: &Extent, y: &Extent) -> String {
 
 /// The marks of those points that have a place.
 fn marks(i: usize, points: &[(f64, f64)], x: &Extent, y: &Extent) -> String {
-    let finite = points.iter().filter(|(at_x, at_y)| at_x.is_finite() && at_y.is_finite());
-    finite.map(|&(at_x, at_y)| mark(i, x.at(at_x), y.at(at_y))).collect()
+    let finite = points
+        .iter()
+        .filter(|(at_x, at_y)| at_x.is_finite() && at_y.is_finite());
+    finite
+        .map(|&(at_x, at_y)| mark(i, x.at(at_x), y.at(at_y)))
+        .collect()
 }
 
 /// The mark of a point, whose shape tells its curve.
@@ -147,19 +170,28 @@ impl<'a> Legend<'a> {
     }
 
     fn height(&self) -> f64 {
-        self.entries.last().map_or(0.0, |entry| LINE * (entry.3 + 1) as f64)
+        self.entries
+            .last()
+            .map_or(0.0, |entry| LINE * (entry.3 + 1) as f64)
     }
 
     fn svg(&self) -> String {
         let mut svg = String::new();
         for &(i, series, left, line) in &self.entries {
             let middle = LINE * line as f64 + 10.0;
-            svg += &format!("<path class=\"curve s{}\" fill=\"none\" d=\"M{left:.1} {middle:.1}h36\"/>", i % STYLES);
+            svg += &format!(
+                "<path class=\"curve s{}\" fill=\"none\" d=\"M{left:.1} {middle:.1}h36\"/>",
+                i % STYLES
+            );
             if series.points.len() <= MARKED {
                 svg += &mark(i, left + 18.0, middle);
             }
-            svg +=
-                &format!("<text x=\"{:.1}\" y=\"{:.1}\">{}</text>", left + 42.0, middle + 4.5, escape(&series.label));
+            svg += &format!(
+                "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
+                left + 42.0,
+                middle + 4.5,
+                escape(&series.label)
+            );
         }
         svg
     }
@@ -178,17 +210,35 @@ struct Extent {
 impl Extent {
     /// An axis over `values`, with some room at both ends.
     fn over(values: impl Iterator<Item = f64>, scale: Scale, place: [f64; 2]) -> Extent {
-        let measured = values.filter(|v| v.is_finite() && (scale == Scale::Linear || *v > 0.0)).map(|v| match scale {
-            Scale::Linear => v,
-            Scale::Log => libm::log10(v),
+        let measured = values
+            .filter(|v| v.is_finite() && (scale == Scale::Linear || *v > 0.0))
+            .map(|v| match scale {
+                Scale::Linear => v,
+                Scale::Log => libm::log10(v),
+            });
+        let (from, to) = measured.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+            (a.min(v), b.max(v))
         });
-        let (from, to) = measured.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
         if from > to {
-            return Extent { scale, from: 0.0, to: 1.0, place };
+            return Extent {
+                scale,
+                from: 0.0,
+                to: 1.0,
+                place,
+            };
         }
         // Equal values stand in the middle, and not nowhere.
-        let room = if to > from { 0.04 * (to - from) } else { 0.5 * to.abs().max(0.25) };
-        Extent { scale, from: from - room, to: to + room, place }
+        let room = if to > from {
+            0.04 * (to - from)
+        } else {
+            0.5 * to.abs().max(0.25)
+        };
+        Extent {
+            scale,
+            from: from - room,
+            to: to + room,
+            place,
+        }
     }
 
     /// Where `value` stands; what has no logarithm stands at the lower end.
@@ -204,19 +254,29 @@ impl Extent {
 
     /// Where lines are, and what stands beside them.
     fn ticks(&self) -> Vec<(f64, String)> {
-        let Extent { scale, from, to, .. } = *self;
+        let Extent {
+            scale, from, to, ..
+        } = *self;
         match scale {
             Scale::Linear => linear_ticks(from, to),
             Scale::Log => {
                 let decades = to - from;
                 let every = libm::ceil(decades / 8.0).max(1.0) as i32;
-                let multiples: &[f64] = if decades < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+                let multiples: &[f64] = if decades < 2.5 {
+                    &[1.0, 2.0, 5.0]
+                } else {
+                    &[1.0]
+                };
                 let range = libm::floor(from) as i32..=libm::ceil(to) as i32;
                 let mut ticks = Vec::new();
                 for decade in range.filter(|decade| decade.rem_euclid(every) == 0) {
                     let unit = libm::pow(10.0, f64::from(decade.abs()));
                     for multiple in multiples {
-                        let value = if decade < 0 { multiple / unit } else { multiple * unit };
+                        let value = if decade < 0 {
+                            multiple / unit
+                        } else {
+                            multiple * unit
+                        };
                         if (from..=to).contains(&libm::log10(value)) {
                             ticks.push((value, power(value)));
                         }
@@ -242,13 +302,25 @@ fn linear_ticks(from: f64, to: f64) -> Vec<(f64, String)> {
         -3..0 => format!("{value:.*}", exponent.unsigned_abs() as usize),
         _ if value == 0.0 => "0".into(),
         _ => {
-            let digits: String = exponent.unsigned_abs().to_string().chars().map(superscript).collect();
+            let digits: String = exponent
+                .unsigned_abs()
+                .to_string()
+                .chars()
+                .map(superscript)
+                .collect();
             format!("{:.0}·10⁻{digits}", value * unit)
         }
     };
     let count = libm::ceil(from / step) as i64..=libm::floor(to / step) as i64;
     // A minus as long as the plus, and none before zero.
-    count.map(|n| (n as f64 * step, text(n as f64 * step + 0.0).replace('-', "−"))).collect()
+    count
+        .map(|n| {
+            (
+                n as f64 * step,
+                text(n as f64 * step + 0.0).replace('-', "−"),
+            )
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -256,26 +328,48 @@ mod tests {
     use super::*;
 
     fn texts(from: f64, to: f64, scale: Scale) -> Vec<String> {
-        let extent = Extent { scale, from, to, place: [0.0, 1.0] };
+        let extent = Extent {
+            scale,
+            from,
+            to,
+            place: [0.0, 1.0],
+        };
         extent.ticks().into_iter().map(|(_, text)| text).collect()
     }
 
     #[test]
     fn ticks_are_round_numbers_however_small() {
-        assert_eq!(texts(-1.0, 1.0, Scale::Linear), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
+        assert_eq!(
+            texts(-1.0, 1.0, Scale::Linear),
+            ["−1.0", "−0.5", "0.0", "0.5", "1.0"]
+        );
         assert_eq!(texts(0.0, 640.0, Scale::Linear), ["0", "200", "400", "600"]);
-        assert_eq!(texts(-2.6e-6, 2.5e-6, Scale::Linear), ["−2·10⁻⁶", "−1·10⁻⁶", "0", "1·10⁻⁶", "2·10⁻⁶"]);
-        assert_eq!(texts(-5.2, -0.9, Scale::Log), ["10⁻⁵", "10⁻⁴", "0.001", "0.01", "0.1"]);
+        assert_eq!(
+            texts(-2.6e-6, 2.5e-6, Scale::Linear),
+            ["−2·10⁻⁶", "−1·10⁻⁶", "0", "1·10⁻⁶", "2·10⁻⁶"]
+        );
+        assert_eq!(
+            texts(-5.2, -0.9, Scale::Log),
+            ["10⁻⁵", "10⁻⁴", "0.001", "0.01", "0.1"]
+        );
         assert_eq!(texts(0.5, 0.5, Scale::Linear), ["0.5"]);
     }
 
     #[test]
     fn values_stand_between_the_ends_of_their_axis() {
-        let linear = Extent::over([2.0, 12.0, f64::NAN].into_iter(), Scale::Linear, [0.0, 108.0]);
+        let linear = Extent::over(
+            [2.0, 12.0, f64::NAN].into_iter(),
+            Scale::Linear,
+            [0.0, 108.0],
+        );
         assert!((linear.at(2.0) - 4.0).abs() < 1e-9 && (linear.at(12.0) - 104.0).abs() < 1e-9);
         let log = Extent::over([0.0, 0.01, 1.0].into_iter(), Scale::Log, [108.0, 0.0]);
         assert!((log.at(0.1) - 54.0).abs() < 1e-9, "upward");
-        assert_eq!((log.at(0.0), log.at(1e9)), (108.0, 0.0), "beyond the ends is at them");
+        assert_eq!(
+            (log.at(0.0), log.at(1e9)),
+            (108.0, 0.0),
+            "beyond the ends is at them"
+        );
         let one = Extent::over([7.0].into_iter(), Scale::Linear, [0.0, 10.0]);
         assert!((one.at(7.0) - 5.0).abs() < 1e-9);
         let none = Extent::over(core::iter::empty(), Scale::Log, [0.0, 10.0]);
@@ -285,24 +379,51 @@ mod tests {
     /// Points stand where they were measured and are not joined: the line is that of the fit, and the axes reach over both.
     #[test]
     fn points_with_a_fitted_line_are_marked_and_not_joined() {
-        let series = vec![Series::new("a", [(1.0, 1.0), (10.0, 30.0), (100.0, 100.0)]), Series::new("b", [(1.0, 2.0)])];
+        let series = vec![
+            Series::new("a", [(1.0, 1.0), (10.0, 30.0), (100.0, 100.0)]),
+            Series::new("b", [(1.0, 2.0)]),
+        ];
         let axis = || ("n".to_string(), Scale::Log);
-        let whole = Plot { title: "t".into(), x: axis(), y: axis(), series, marks: vec![], caption: String::new() };
+        let whole = Plot {
+            title: "t".into(),
+            x: axis(),
+            y: axis(),
+            series,
+            marks: vec![],
+            caption: String::new(),
+        };
         let drawn = plot_with_fits(&whole, &[vec![(1.0, 1.0), (100.0, 1000.0)], vec![]]);
-        let line =
-            drawn.split("<path class=\"curve s0\" fill=\"none\" d=\"M").nth(1).unwrap().split('"').next().unwrap();
+        let line = drawn
+            .split("<path class=\"curve s0\" fill=\"none\" d=\"M")
+            .nth(1)
+            .unwrap()
+            .split('"')
+            .next()
+            .unwrap();
         let ends: Vec<f64> = line.split(['L', ' ']).map(|n| n.parse().unwrap()).collect();
-        let [left, low, right, high] = ends[..] else { panic!("a line of two points: {line}") };
+        let [left, low, right, high] = ends[..] else {
+            panic!("a line of two points: {line}")
+        };
         // The middle one of three points is halfway along the axis of x and, on one of three decades, log 30 of three up.
-        let middle = (0.5 * (left + right), low + (high - low) * libm::log10(30.0) / 3.0);
+        let middle = (
+            0.5 * (left + right),
+            low + (high - low) * libm::log10(30.0) / 3.0,
+        );
         let circles: Vec<(f64, f64)> = drawn
             .split("<circle class=\"mark s0\" cx=\"")
             .skip(1)
             .map(|text| text.split_once("\" cy=\"").unwrap())
-            .map(|(x, rest)| (x.parse().unwrap(), rest.split('"').next().unwrap().parse().unwrap()))
+            .map(|(x, rest)| {
+                (
+                    x.parse().unwrap(),
+                    rest.split('"').next().unwrap().parse().unwrap(),
+                )
+            })
             .collect();
         assert_eq!(circles.len(), 4, "three points, and one in the legend");
-        let near = circles.iter().filter(|(x, y)| (x - middle.0).abs() < 0.11 && (y - middle.1).abs() < 0.11);
+        let near = circles
+            .iter()
+            .filter(|(x, y)| (x - middle.0).abs() < 0.11 && (y - middle.1).abs() < 0.11);
         assert_eq!(near.count(), 1, "{circles:?} {middle:?}");
     }
 
@@ -312,14 +433,30 @@ mod tests {
             title: "<t>".into(),
             x: ("x & y".into(), Scale::Linear),
             y: ("y".into(), Scale::Linear),
-            series: vec![Series::new("a<b", [(0.0, 0.0), (1.0, f64::NAN), (2.0, 1.0), (3.0, 2.0)])],
+            series: vec![Series::new(
+                "a<b",
+                [(0.0, 0.0), (1.0, f64::NAN), (2.0, 1.0), (3.0, 2.0)],
+            )],
             marks: vec![1.5],
             caption: String::new(),
         });
-        let path =
-            drawn.split("<path class=\"curve s0\" fill=\"none\" d=\"").nth(1).unwrap().split('"').next().unwrap();
-        assert_eq!((path.matches('M').count(), path.matches('L').count()), (2, 1), "{path}");
-        assert!(drawn.contains("<title>&lt;t&gt;</title>") && drawn.contains("a&lt;b") && drawn.contains("x &amp; y"));
+        let path = drawn
+            .split("<path class=\"curve s0\" fill=\"none\" d=\"")
+            .nth(1)
+            .unwrap()
+            .split('"')
+            .next()
+            .unwrap();
+        assert_eq!(
+            (path.matches('M').count(), path.matches('L').count()),
+            (2, 1),
+            "{path}"
+        );
+        assert!(
+            drawn.contains("<title>&lt;t&gt;</title>")
+                && drawn.contains("a&lt;b")
+                && drawn.contains("x &amp; y")
+        );
         assert_eq!(drawn.matches("class=\"one\"").count(), 1);
     }
 }

@@ -36,22 +36,34 @@ pub(super) fn ratio_bars(title: &str, series: &[String], groups: &[Group]) -> St
     let mut svg = open("ratios", title, bottom + 24.0);
     for (i, name) in series.iter().enumerate() {
         let (left, line) = (8.0 + ENTRY * (i % 2) as f64, LINE * (i / 2) as f64);
-        svg +=
-            &format!("<rect class=\"ratio r{i}\" x=\"{left:.1}\" y=\"{:.1}\" width=\"24\" height=\"10\"/>", line + 4.0);
-        svg += &format!("<text x=\"{:.1}\" y=\"{:.1}\">{}</text>", left + 30.0, line + 13.5, escape(name));
+        svg += &format!(
+            "<rect class=\"ratio r{i}\" x=\"{left:.1}\" y=\"{:.1}\" width=\"24\" height=\"10\"/>",
+            line + 4.0
+        );
+        svg += &format!(
+            "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
+            left + 30.0,
+            line + 13.5,
+            escape(name)
+        );
     }
     for tick in axis.ticks() {
         let at = axis.at(tick);
-        svg += &format!("<line class=\"grid\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/>");
+        svg += &format!(
+            "<line class=\"grid\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/>"
+        );
         let low = bottom + 16.0;
-        svg += &format!("<text class=\"tick\" x=\"{at:.1}\" y=\"{low:.1}\" text-anchor=\"middle\">{tick}</text>");
+        svg += &format!(
+            "<text class=\"tick\" x=\"{at:.1}\" y=\"{low:.1}\" text-anchor=\"middle\">{tick}</text>"
+        );
     }
     for (i, one) in groups.iter().enumerate() {
         let top = top + group * i as f64 + GAP / 2.0;
         let middle = top + BAR * series.len() as f64 / 2.0 + 4.0;
         let end = LEFT - 8.0;
         let label = label(&one.label);
-        svg += &format!("<text x=\"{end:.1}\" y=\"{middle:.1}\" text-anchor=\"end\">{label}</text>");
+        svg +=
+            &format!("<text x=\"{end:.1}\" y=\"{middle:.1}\" text-anchor=\"end\">{label}</text>");
         for (j, ratio) in one.ratios.iter().enumerate() {
             if let Some(ratio) = ratio {
                 svg += &bar(&axis, j, top + BAR * j as f64, ratio);
@@ -59,11 +71,14 @@ pub(super) fn ratio_bars(title: &str, series: &[String], groups: &[Group]) -> St
         }
     }
     let one = axis.at(1.0);
-    svg + &format!("<line class=\"one\" x1=\"{one:.1}\" x2=\"{one:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/></svg>")
+    svg + &format!(
+        "<line class=\"one\" x1=\"{one:.1}\" x2=\"{one:.1}\" y1=\"{top:.1}\" y2=\"{bottom:.1}\"/></svg>"
+    )
 }
 
 fn bar(axis: &Axis, series: usize, top: f64, RatioData { ratio, tie }: &RatioData) -> String {
-    let [one, low, median, high] = [1.0, ratio.low, ratio.median, ratio.high].map(|value| axis.at(value));
+    let [one, low, median, high] =
+        [1.0, ratio.low, ratio.median, ratio.high].map(|value| axis.at(value));
     let (left, right) = (one.min(median), one.max(median));
     let middle = top + (BAR - 2.0) / 2.0;
     let mut svg = format!(
@@ -101,7 +116,11 @@ mod tests {
     use alloc::vec;
 
     fn ratio(median: f64) -> Option<RatioData> {
-        Some(RatioData::from(Ratio { median, low: 0.9 * median, high: 1.1 * median }))
+        Some(RatioData::from(Ratio {
+            median,
+            low: 0.9 * median,
+            high: 1.1 * median,
+        }))
     }
 
     fn number(text: &str, key: &str) -> f64 {
@@ -112,7 +131,10 @@ mod tests {
     #[test]
     fn bars_reach_from_one_to_their_ratio() {
         let series = ["a", "b"].map(String::from);
-        let groups = [Group { label: "x<y".into(), ratios: vec![ratio(2.0), ratio(0.5)] }];
+        let groups = [Group {
+            label: "x<y".into(),
+            ratios: vec![ratio(2.0), ratio(0.5)],
+        }];
         let svg = ratio_bars("t", &series, &groups);
         let bars: Vec<(f64, f64)> = svg
             .split("<rect class=\"ratio ")
@@ -121,19 +143,34 @@ mod tests {
             .collect();
         let one = number(svg.split("<line class=\"one\"").nth(1).unwrap(), " x1=\"");
         // Twice and half as fast are equally long on a logarithmic axis; coordinates have one decimal each.
-        assert!((bars[0].0 - one).abs() < 0.11 && (bars[1].0 + bars[1].1 - one).abs() < 0.21, "{bars:?} {one}");
-        assert!((bars[0].1 - bars[1].1).abs() < 0.21 && bars[0].1 > 50.0, "{bars:?}");
+        assert!(
+            (bars[0].0 - one).abs() < 0.11 && (bars[1].0 + bars[1].1 - one).abs() < 0.21,
+            "{bars:?} {one}"
+        );
+        assert!(
+            (bars[0].1 - bars[1].1).abs() < 0.21 && bars[0].1 > 50.0,
+            "{bars:?}"
+        );
         assert!(svg.contains("x&lt;y") && svg.contains(">2.00<") && svg.contains(">0.50<"));
     }
 
     #[test]
     fn gaps_ties_and_nothing_at_all_are_drawn() {
         let groups = [
-            Group { label: "a method with a very long name".into(), ratios: vec![None, ratio(1.02)] },
-            Group { label: "b".into(), ratios: vec![None, None] },
+            Group {
+                label: "a method with a very long name".into(),
+                ratios: vec![None, ratio(1.02)],
+            },
+            Group {
+                label: "b".into(),
+                ratios: vec![None, None],
+            },
         ];
         let svg = ratio_bars("t", &["one".into(), "two".into()], &groups);
-        assert!(svg.contains(">=1.02<") && svg.matches("class=\"interval\"").count() == 1, "{svg}");
+        assert!(
+            svg.contains(">=1.02<") && svg.matches("class=\"interval\"").count() == 1,
+            "{svg}"
+        );
         for svg in [svg, ratio_bars("t", &[], &[])] {
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         }

@@ -16,7 +16,8 @@ use alloc::vec::Vec;
 pub(super) const TITLE: &str = "How cost grows";
 
 /// What the costs are, for the captions of both tables.
-const COSTS: &str = "Nanoseconds of one of each, and how far the worst least time is from what they add up to.";
+const COSTS: &str =
+    "Nanoseconds of one of each, and how far the worst least time is from what they add up to.";
 const TIMES: &str = "How often each cost arises, and least times of whole frames in ms.";
 
 /// The largest error of the fitted lines up to which cost grows linearly, and nearly so.
@@ -25,10 +26,14 @@ const NEARLY: f64 = 0.35;
 
 /// Whether cost grows linearly: words by how far the worst time is from its fitted line.
 pub(super) fn growth(scaling: &Scaling) -> String {
-    let costs = scaling.curves.iter().filter_map(|curve| Some((curve, curve.costs?)));
+    let costs = scaling
+        .curves
+        .iter()
+        .filter_map(|curve| Some((curve, curve.costs?)));
     let worst = costs.max_by(|a, b| a.1.worst.abs().total_cmp(&b.1.worst.abs()));
     let Some((curve, costs)) = worst else {
-        return "There are too few points to tell what a triangle, a span and a pixel cost.".to_string();
+        return "There are too few points to tell what a triangle, a span and a pixel cost."
+            .to_string();
     };
     let verdict = match costs.worst.abs() {
         worst if worst <= LINEAR => "Cost grows linearly",
@@ -86,12 +91,21 @@ fn is_lectures_own(curve: &Curve) -> bool {
 /// What a point shows.
 fn view(point: &Point) -> String {
     let [width, height] = point.size;
-    format!("{}{}, {width} × {height}", count(point.triangles, "triangle"), if point.away { " from afar" } else { "" })
+    format!(
+        "{}{}, {width} × {height}",
+        count(point.triangles, "triangle"),
+        if point.away { " from afar" } else { "" }
+    )
 }
 
 /// How it was measured, and how costs are told apart.
 fn legend(scaling: &Scaling) -> [String; 2] {
-    let Scaling { mesh, at: [width, height], of, .. } = scaling;
+    let Scaling {
+        mesh,
+        at: [width, height],
+        of,
+        ..
+    } = scaling;
     let measured = format!(
         "Frames of {mesh}, N from row to row, on {width} × {height} pixels, and of about {} triangles in other sizes: \
          {WHAT_A_FRAME_IS}. Times are the least of their rounds: points cannot be timed in turns with one another, and what \
@@ -111,7 +125,10 @@ fn legend(scaling: &Scaling) -> [String; 2] {
 
 /// The part of the page.
 pub(super) fn section(scaling: &Scaling) -> String {
-    let mut html = format!("<section id=\"scaling\"><h2>{TITLE}</h2><p>{}</p>", escape(&growth(scaling)));
+    let mut html = format!(
+        "<section id=\"scaling\"><h2>{TITLE}</h2><p>{}</p>",
+        escape(&growth(scaling))
+    );
     for paragraph in legend(scaling) {
         html += &format!("<p>{}</p>", escape(&paragraph));
     }
@@ -121,7 +138,11 @@ pub(super) fn section(scaling: &Scaling) -> String {
     }
     html += "</div>";
     for (caption, (head, rows)) in [(COSTS, costs_grid(scaling)), (TIMES, times_grid(scaling))] {
-        html += &format!("<p class=\"facts\">{}</p>{}", escape(caption), table(caption, &head, &rows));
+        html += &format!(
+            "<p class=\"facts\">{}</p>{}",
+            escape(caption),
+            table(caption, &head, &rows)
+        );
     }
     html + "</section>\n"
 }
@@ -129,7 +150,10 @@ pub(super) fn section(scaling: &Scaling) -> String {
 /// The parts of the Markdown: sentences, then each table with what it holds.
 pub(super) fn grids(scaling: &Scaling) -> ([String; 3], [(&'static str, Grid); 2]) {
     let [measured, told_apart] = legend(scaling);
-    ([growth(scaling), measured, told_apart], [(COSTS, costs_grid(scaling)), (TIMES, times_grid(scaling))])
+    (
+        [growth(scaling), measured, told_apart],
+        [(COSTS, costs_grid(scaling)), (TIMES, times_grid(scaling))],
+    )
 }
 
 /// The head of a table and its rows.
@@ -143,20 +167,40 @@ fn chart(scaling: &Scaling, axis: Axis) -> String {
         Axis::Pixels => point.picture_pixels(),
     };
     let measured = |curve: &Curve| {
-        let time = |i: &usize| Some((place(&scaling.points[*i]), curve.times.get(*i)?.as_ref()?.min_ns / 1e6));
+        let time = |i: &usize| {
+            Some((
+                place(&scaling.points[*i]),
+                curve.times.get(*i)?.as_ref()?.min_ns / 1e6,
+            ))
+        };
         Series::new(name(curve), numbers.iter().filter_map(time))
     };
     let fitted = |curve: &Curve| match curve.costs {
         Some(costs) => {
-            let timed = numbers.iter().filter(|i| curve.times.get(**i).is_some_and(Option::is_some));
-            timed.map(|i| (place(&scaling.points[*i]), costs.explain(&scaling.points[*i]) / 1e6)).collect()
+            let timed = numbers
+                .iter()
+                .filter(|i| curve.times.get(**i).is_some_and(Option::is_some));
+            timed
+                .map(|i| {
+                    (
+                        place(&scaling.points[*i]),
+                        costs.explain(&scaling.points[*i]) / 1e6,
+                    )
+                })
+                .collect()
         }
         None => Vec::new(),
     };
     let [width, height] = scaling.at;
     let (x, of) = match axis {
-        Axis::Triangles => ("triangles of the mesh", format!("on {width} × {height} pixels")),
-        Axis::Pixels => ("pixels of the picture", format!("of a sphere of about {} triangles", grouped(scaling.of))),
+        Axis::Triangles => (
+            "triangles of the mesh",
+            format!("on {width} × {height} pixels"),
+        ),
+        Axis::Pixels => (
+            "pixels of the picture",
+            format!("of a sphere of about {} triangles", grouped(scaling.of)),
+        ),
     };
     let plot = Plot {
         title: format!("Time of a frame against {x}"),
@@ -169,43 +213,90 @@ fn chart(scaling: &Scaling, axis: Axis) -> String {
         ),
     };
     let fits: Vec<Vec<(f64, f64)>> = scaling.curves.iter().map(fitted).collect();
-    format!("<figure>{}<figcaption>{}</figcaption></figure>", plot_with_fits(&plot, &fits), escape(&plot.caption))
+    format!(
+        "<figure>{}<figcaption>{}</figcaption></figure>",
+        plot_with_fits(&plot, &fits),
+        escape(&plot.caption)
+    )
 }
 
 /// A row a curve: what one of each costs.
 fn costs_grid(scaling: &Scaling) -> Grid {
-    let head =
-        ["method", "drawn by", "vertex", "triangle", "span", "pixel of a span", "pixel of the picture", "worst error"];
+    let head = [
+        "method",
+        "drawn by",
+        "vertex",
+        "triangle",
+        "span",
+        "pixel of a span",
+        "pixel of the picture",
+        "worst error",
+    ];
     let row = |curve: &Curve| {
-        let mut cells = Vec::from([name(curve), format!("{} engine, {}", curve.engine, curve.level)]);
+        let mut cells = Vec::from([
+            name(curve),
+            format!("{} engine, {}", curve.engine, curve.level),
+        ]);
         match curve.costs {
             None => cells.extend([(); 6].map(|()| NONE.to_string())),
             Some(costs) => {
-                let Costs { vertex_ns, triangle_ns, span_ns, pixel_ns, background_ns, worst, worst_point } = costs;
-                cells.extend([vertex_ns, triangle_ns, span_ns, pixel_ns, background_ns].map(nanoseconds));
+                let Costs {
+                    vertex_ns,
+                    triangle_ns,
+                    span_ns,
+                    pixel_ns,
+                    background_ns,
+                    worst,
+                    worst_point,
+                } = costs;
+                cells.extend(
+                    [vertex_ns, triangle_ns, span_ns, pixel_ns, background_ns].map(nanoseconds),
+                );
                 let sign = if worst < 0.0 { "−" } else { "+" };
-                cells.push(format!("{sign}{} ({})", percent(worst.abs()), view(&scaling.points[worst_point])));
+                cells.push(format!(
+                    "{sign}{} ({})",
+                    percent(worst.abs()),
+                    view(&scaling.points[worst_point])
+                ));
             }
         }
         cells
     };
-    (head.map(String::from).to_vec(), scaling.curves.iter().map(row).collect())
+    (
+        head.map(String::from).to_vec(),
+        scaling.curves.iter().map(row).collect(),
+    )
 }
 
 fn nanoseconds(ns: f64) -> String {
-    if ns == 0.0 { "0".to_string() } else { significant(ns) }
+    if ns == 0.0 {
+        "0".to_string()
+    } else {
+        significant(ns)
+    }
 }
 
 /// A row a point: its counts and times.
 fn times_grid(scaling: &Scaling) -> Grid {
-    let mut head: Vec<String> = ["triangles", "picture", "vertices", "drawn", "spans", "pixels of spans", "projection"]
-        .map(String::from)
-        .to_vec();
+    let mut head: Vec<String> = [
+        "triangles",
+        "picture",
+        "vertices",
+        "drawn",
+        "spans",
+        "pixels of spans",
+        "projection",
+    ]
+    .map(String::from)
+    .to_vec();
     head.extend(scaling.curves.iter().map(name));
     let row = |(i, point): (usize, &Point)| {
         let [width, height] = point.size;
         let afar = if point.away { ", from afar" } else { "" };
-        let mut cells = Vec::from([grouped(point.triangles), format!("{width} × {height}{afar}")]);
+        let mut cells = Vec::from([
+            grouped(point.triangles),
+            format!("{width} × {height}{afar}"),
+        ]);
         cells.extend([point.vertices, point.drawn, point.spans, point.pixels].map(grouped));
         cells.push(milliseconds(point.projection.min_ns));
         cells.extend(scaling.curves.iter().map(|curve| match curve.times.get(i) {

@@ -110,25 +110,48 @@ impl Section {
         detail: Detail,
     ) -> Result<Section, EncodeError> {
         let reference = store(&comparison.reference, comparison.encoding);
-        let base = Base { linear: &comparison.reference, stored: &reference, block: detail.block() };
-        let mut jobs: Vec<Job<'_>> = Vec::from([Job { kind: FigureKind::Reference, shot: None }]);
+        let base = Base {
+            linear: &comparison.reference,
+            stored: &reference,
+            block: detail.block(),
+        };
+        let mut jobs: Vec<Job<'_>> = Vec::from([Job {
+            kind: FigureKind::Reference,
+            shot: None,
+        }]);
         // Rows with a picture of their own, and those without one beside the row that shows theirs.
-        let (mut shown, mut shown_by_others): (Vec<usize>, Vec<(usize, usize)>) = Default::default();
-        for (number, Row { linear, picture, .. }) in comparison.rows.iter().enumerate() {
-            let is_like = |other: &Picture8| detail == Detail::Blocks && within_a_level(other, picture);
+        let (mut shown, mut shown_by_others): (Vec<usize>, Vec<(usize, usize)>) =
+            Default::default();
+        for (
+            number,
+            Row {
+                linear, picture, ..
+            },
+        ) in comparison.rows.iter().enumerate()
+        {
+            let is_like =
+                |other: &Picture8| detail == Detail::Blocks && within_a_level(other, picture);
             // What hardly differs from the reference is stored as that little.
-            let twin = shown.iter().find(|row| !is_like(&reference) && is_like(&comparison.rows[**row].picture));
+            let twin = shown
+                .iter()
+                .find(|row| !is_like(&reference) && is_like(&comparison.rows[**row].picture));
             match twin {
                 Some(twin) => shown_by_others.push((*twin, number)),
                 None => {
                     shown.push(number);
-                    jobs.push(Job { kind: FigureKind::Row(number), shot: Some((linear, picture)) });
+                    jobs.push(Job {
+                        kind: FigureKind::Row(number),
+                        shot: Some((linear, picture)),
+                    });
                 }
             }
         }
         let triangles = triangulation.map(|t| (t, store(&t.picture, comparison.encoding)));
         if let Some((triangulation, stored)) = &triangles {
-            jobs.push(Job { kind: FigureKind::Triangles, shot: Some((&triangulation.picture, stored)) });
+            jobs.push(Job {
+                kind: FigureKind::Triangles,
+                shot: Some((&triangulation.picture, stored)),
+            });
         }
         let mut figures = encoded(&base, &jobs)?;
         for (twin, number) in shown_by_others {
@@ -158,13 +181,21 @@ impl Section {
 
 impl From<&Triangulation> for TriangulationData {
     fn from(t: &Triangulation) -> Self {
-        TriangulationData { triangles: t.triangles, not_simple: t.not_simple, difference: t.difference.into() }
+        TriangulationData {
+            triangles: t.triangles,
+            not_simple: t.not_simple,
+            difference: t.difference.into(),
+        }
     }
 }
 
 /// The name of a row that tells it from all others.
 pub(super) fn row_name(row: &RowData) -> String {
-    if row.is_barycentric() { alloc::format!("{}, {}", row.variant, row.engine) } else { row.variant.to_string() }
+    if row.is_barycentric() {
+        alloc::format!("{}, {}", row.variant, row.engine)
+    } else {
+        row.variant.to_string()
+    }
 }
 
 /// Whether no channel of two pictures of one size is more than a grey level apart.
@@ -194,7 +225,14 @@ impl Job<'_> {
         let small = |picture| opaque(&shrunk(picture, SHRINKING));
         let Some((linear, stored)) = self.shot else {
             let (picture, small) = (opaque(base.stored)?, small(base.stored)?);
-            return Ok(Figure { kind, picture, is_overlay: false, map: None, small, also: Vec::new() });
+            return Ok(Figure {
+                kind,
+                picture,
+                is_overlay: false,
+                map: None,
+                small,
+                also: Vec::new(),
+            });
         };
         let map = difference_map_of_blocks(base.linear, linear, MAP_SCALE, base.block);
         let map = map.expect("pictures of one frame have one size");
@@ -202,20 +240,41 @@ impl Job<'_> {
         // To lay one over the other is worth a good part of the file only.
         let is_overlay = over.len() < whole.len() / 4 * 3;
         let picture = if is_overlay { over } else { whole };
-        Ok(Figure { kind, picture, is_overlay, map: Some(opaque(&map)?), small: small(stored)?, also: Vec::new() })
+        Ok(Figure {
+            kind,
+            picture,
+            is_overlay,
+            map: Some(opaque(&map)?),
+            small: small(stored)?,
+            also: Vec::new(),
+        })
     }
 }
 
 /// The figures of `jobs`, in their order, made by all processors.
 fn encoded(base: &Base<'_>, jobs: &[Job<'_>]) -> Result<Vec<Figure>, EncodeError> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(jobs.len());
-    let share = |thread: usize| jobs.iter().skip(thread).step_by(threads).map(|job| job.run(base)).collect::<Vec<_>>();
+    let threads = std::thread::available_parallelism()
+        .map_or(1, usize::from)
+        .min(jobs.len());
+    let share = |thread: usize| {
+        jobs.iter()
+            .skip(thread)
+            .step_by(threads)
+            .map(|job| job.run(base))
+            .collect::<Vec<_>>()
+    };
     let mut shares = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|thread| scope.spawn(move || share(thread))).collect();
-        let joined = workers.into_iter().map(|worker| worker.join().expect("encoding does not panic").into_iter());
+        let workers: Vec<_> = (0..threads)
+            .map(|thread| scope.spawn(move || share(thread)))
+            .collect();
+        let joined = workers
+            .into_iter()
+            .map(|worker| worker.join().expect("encoding does not panic").into_iter());
         joined.collect::<Vec<_>>()
     });
-    (0..jobs.len()).filter_map(|job| shares[job % threads].next()).collect()
+    (0..jobs.len())
+        .filter_map(|job| shares[job % threads].next())
+        .collect()
 }
 
 #[cfg(test)]
@@ -232,12 +291,27 @@ mod tests {
         let mut scene = Scene::of_mesh(builtin("sphere?rings=3&segments=5").unwrap());
         (scene.width, scene.height) = (40, 30);
         let frame = scene.frame().unwrap();
-        let variants = ["slerp-phong", "slerp-phong-vector"].map(|name| Variant::parse(name).unwrap());
-        let input = Input { name: "sphere".into(), frame: &frame };
-        let comparison = compare(&input, &variants, &Options { timing: None, ..Options::default() }, &mut |_, _| {});
+        let variants =
+            ["slerp-phong", "slerp-phong-vector"].map(|name| Variant::parse(name).unwrap());
+        let input = Input {
+            name: "sphere".into(),
+            frame: &frame,
+        };
+        let comparison = compare(
+            &input,
+            &variants,
+            &Options {
+                timing: None,
+                ..Options::default()
+            },
+            &mut |_, _| {},
+        );
         let rows = |detail| {
             let section = Section::new(Caption::default(), &comparison, None, detail).unwrap();
-            (section.figures.len(), section.figures.last().map(|figure| figure.also.clone()))
+            (
+                section.figures.len(),
+                section.figures.last().map(|figure| figure.also.clone()),
+            )
         };
         // The reference, naive Phong, which is always among them, and one or two of slerp.
         assert_eq!(rows(Detail::Blocks), (3, Some([2].into())));

@@ -11,7 +11,10 @@ use alloc::vec::Vec;
 /// should know before the numbers.
 pub(super) fn opening(sections: &[Section], machine: &Machine) -> Vec<String> {
     let mut sentences = Vec::new();
-    for (method, name) in [("fast-phong", "Fast Phong shading"), ("slerp-phong", "Slerp Phong shading")] {
+    for (method, name) in [
+        ("fast-phong", "Fast Phong shading"),
+        ("slerp-phong", "Slerp Phong shading"),
+    ] {
         if let Some(tally) = Tally::of(method, sections) {
             sentences.push(against_naive(name, &tally));
             sentences.extend(error(method, sections));
@@ -20,11 +23,16 @@ pub(super) fn opening(sections: &[Section], machine: &Machine) -> Vec<String> {
     if let Some(tally) = Tally::of("gouraud", sections) {
         sentences.extend(gouraud(&tally, sections));
     }
-    if sections.iter().all(|section| section.all_rows().all(|row| row.speed.is_none())) {
+    if sections
+        .iter()
+        .all(|section| section.all_rows().all(|row| row.speed.is_none()))
+    {
         sentences.push("No times were taken: this report tells of errors only.".to_string());
     } else if machine.profile != "release" {
-        sentences
-            .push("This program was built without optimisation: its times say nothing of the methods.".to_string());
+        sentences.push(
+            "This program was built without optimisation: its times say nothing of the methods."
+                .to_string(),
+        );
     } else {
         sentences.extend(unrest(sections));
     }
@@ -36,7 +44,9 @@ pub(super) fn opening(sections: &[Section], machine: &Machine) -> Vec<String> {
 fn unrest(sections: &[Section]) -> Option<String> {
     const QUIET: f64 = 0.1;
     let rows = sections.iter().flat_map(|section| section.all_rows());
-    let mut spreads: Vec<f64> = rows.filter_map(|row| Some(row.speed.as_ref()?.timing.spread)).collect();
+    let mut spreads: Vec<f64> = rows
+        .filter_map(|row| Some(row.speed.as_ref()?.timing.spread))
+        .collect();
     spreads.sort_by(f64::total_cmp);
     let median = *spreads.get(spreads.len() / 2)?;
     (median > QUIET).then(|| {
@@ -53,7 +63,9 @@ fn against_naive(name: &str, tally: &Tally<'_>) -> String {
     let scenes = tally.scenes();
     let verdict = match tally {
         _ if 2 * tally.faster > scenes && tally.mean > 1.0 => "beats naive Phong shading here",
-        _ if 2 * tally.slower > scenes && tally.mean < 1.0 => "does not beat naive Phong shading here",
+        _ if 2 * tally.slower > scenes && tally.mean < 1.0 => {
+            "does not beat naive Phong shading here"
+        }
         _ if tally.ties == scenes => "cannot be told from naive Phong shading by its speed here",
         _ => "neither clearly beats naive Phong shading here nor clearly loses to it",
     };
@@ -61,18 +73,25 @@ fn against_naive(name: &str, tally: &Tally<'_>) -> String {
     let detail = match (tally.faster, tally.slower, tally.ties) {
         (f, 0, 0) if f > 1 => format!("it is faster in all {scene_count}"),
         (0, s, 0) if s > 1 => format!("it is slower in all {scene_count}"),
-        (0, 0, t) if t > 1 => format!("the 95 % interval of the ratio holds 1 in all {scene_count}"),
+        (0, 0, t) if t > 1 => {
+            format!("the 95 % interval of the ratio holds 1 in all {scene_count}")
+        }
         (1, 0, 0) => "it is faster in the one scene compared".to_string(),
         (0, 1, 0) => "it is slower in the one scene compared".to_string(),
         (0, 0, 1) => "the 95 % interval of the ratio holds 1 in the one scene compared".to_string(),
         (faster, slower, ties) => {
             let parts = [(faster, "faster"), (slower, "slower"), (ties, "level")];
-            let parts: Vec<String> =
-                parts.iter().filter(|(n, _)| *n > 0).map(|(n, word)| format!("{word} in {n}")).collect();
+            let parts: Vec<String> = parts
+                .iter()
+                .filter(|(n, _)| *n > 0)
+                .map(|(n, word)| format!("{word} in {n}"))
+                .collect();
             format!("of {scene_count} it is {}", enumeration(&parts))
         }
     };
-    let Tally { mean, best, worst, .. } = tally;
+    let Tally {
+        mean, best, worst, ..
+    } = tally;
     if scenes == 1 {
         return format!("{name} {verdict}: {detail}, {}.", times_as_fast(*mean));
     }
@@ -96,18 +115,35 @@ fn error(method: &str, sections: &[Section]) -> Option<String> {
     let (naive, _) = worst_error("naive-phong", sections)?;
     let off = levels(worst);
     Some(if sections.len() == 1 {
-        format!("Its largest error is {off} (naive Phong: {}).", levels(naive))
+        format!(
+            "Its largest error is {off} (naive Phong: {}).",
+            levels(naive)
+        )
     } else {
-        format!("Its largest error in any of them is {off} ({scene}; naive Phong at most {}).", levels(naive))
+        format!(
+            "Its largest error in any of them is {off} ({scene}; naive Phong at most {}).",
+            levels(naive)
+        )
     })
 }
 
 fn gouraud(tally: &Tally<'_>, sections: &[Section]) -> Option<String> {
     let (worst, scene) = worst_error("gouraud", sections)?;
     let speed = times_as_fast(tally.mean);
-    let price = if tally.mean > 1.0 { "for errors of up to" } else { "and has errors of up to" };
-    let place = if sections.len() == 1 { String::new() } else { format!(" ({scene})") };
-    Some(format!("Gouraud shading is {speed} as naive Phong, {price} {}{place}.", levels(worst)))
+    let price = if tally.mean > 1.0 {
+        "for errors of up to"
+    } else {
+        "and has errors of up to"
+    };
+    let place = if sections.len() == 1 {
+        String::new()
+    } else {
+        format!(" ({scene})")
+    };
+    Some(format!(
+        "Gouraud shading is {speed} as naive Phong, {price} {}{place}.",
+        levels(worst)
+    ))
 }
 
 /// An error in grey levels, with as many digits as it deserves.
@@ -152,7 +188,12 @@ pub(super) fn enumeration(parts: &[String]) -> String {
 pub(super) fn facts(section: &Section) -> String {
     let d = &section.data;
     let share = 100.0 * d.covered_pixels as f64 / (d.width * d.height).max(1) as f64;
-    let mut text = format!("{} × {} pixels, {}", d.width, d.height, count(d.polygons, "polygon"));
+    let mut text = format!(
+        "{} × {} pixels, {}",
+        d.width,
+        d.height,
+        count(d.polygons, "polygon")
+    );
     if d.triangles != d.polygons {
         text.push_str(&format!(" worth {}", count(d.triangles, "triangle")));
     }
@@ -162,11 +203,18 @@ pub(super) fn facts(section: &Section) -> String {
         count(d.covered_pixels, "pixel")
     ));
     if d.covered_pixels > 0 {
-        text.push_str(&format!(", {:.2} times on average", d.fragments as f64 / d.covered_pixels as f64));
+        text.push_str(&format!(
+            ", {:.2} times on average",
+            d.fragments as f64 / d.covered_pixels as f64
+        ));
     }
     text.push_str(&format!(
         ". Attributes vary linearly {}",
-        if d.interpolation == "screen" { "on the screen" } else { "in space" }
+        if d.interpolation == "screen" {
+            "on the screen"
+        } else {
+            "in space"
+        }
     ));
     if d.encoding == "srgb" {
         text.push_str("; pictures are stored as sRGB, errors are of linear light");
@@ -178,8 +226,11 @@ pub(super) fn facts(section: &Section) -> String {
         (d.stats.outside, "outside the view"),
         (d.stats.unprojected, "with a corner at the plane of the eye"),
     ];
-    let left_out: Vec<String> =
-        left_out.iter().filter(|(n, _)| *n > 0).map(|(n, why)| format!("{} {why}", grouped(*n))).collect();
+    let left_out: Vec<String> = left_out
+        .iter()
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, why)| format!("{} {why}", grouped(*n)))
+        .collect();
     if !left_out.is_empty() {
         text.push_str(&format!(
             " Of {} in the scene were left out: {}.",
@@ -198,7 +249,10 @@ pub(super) fn orientation(section: &Section) -> Option<String> {
     let t = section.triangulation?;
     let d = &t.difference.difference;
     let polygons = count(section.data.polygons, "polygon");
-    let cut = format!("Cut into {}, the {polygons} of this scene", count(t.triangles, "triangle"));
+    let cut = format!(
+        "Cut into {}, the {polygons} of this scene",
+        count(t.triangles, "triangle")
+    );
     let mut text = if t.difference.equal || 255.0 * d.max < 0.01 {
         format!("{cut} keep their reference picture: nothing here depends on their orientation.")
     } else {
@@ -209,7 +263,10 @@ pub(super) fn orientation(section: &Section) -> Option<String> {
         )
     };
     if t.not_simple > 0 {
-        text.push_str(&format!(" {} crossing themselves were left out.", count(t.not_simple, "polygon")));
+        text.push_str(&format!(
+            " {} crossing themselves were left out.",
+            count(t.not_simple, "polygon")
+        ));
     }
     Some(text)
 }

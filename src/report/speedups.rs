@@ -18,10 +18,17 @@ pub(super) const TITLE: &str = "What fast Phong gained, and what is left of it";
 /// Where naive Phong wins and where it does not, then what is left of the lecture's fast Phong; a sentence each.
 pub(super) fn opening(speedups: &Speedups) -> Vec<String> {
     let (mut wins, mut unbeaten, mut others) = (Vec::new(), Vec::new(), Vec::new());
-    for (i, corner) in speedups.corners.iter().enumerate().filter(|(_, corner)| corner.lights == 1) {
+    for (i, corner) in speedups
+        .corners
+        .iter()
+        .enumerate()
+        .filter(|(_, corner)| corner.lights == 1)
+    {
         let place = place(corner, speedups);
         let fast = fast(speedups, i).map(|ratio| format!("fast Phong {}", against(ratio)));
-        let aside = fast.as_ref().map_or_else(String::new, |fast| format!(" ({fast})"));
+        let aside = fast
+            .as_ref()
+            .map_or_else(String::new, |fast| format!(" ({fast})"));
         match Verdict::of(speedups, i) {
             None => {}
             Some(Verdict::Wins) => wins.push(format!("{place}{aside}")),
@@ -53,14 +60,17 @@ pub(super) fn opening(speedups: &Speedups) -> Vec<String> {
         ));
     }
     if sentences.is_empty() && !others.is_empty() {
-        let nowhere =
-            "Naive Phong wins nowhere: it is in no corner the fastest method that draws its picture to one grey level.";
+        let nowhere = "Naive Phong wins nowhere: it is in no corner the fastest method that draws its picture to one grey level.";
         sentences.push(nowhere.to_string());
     }
     sentences.extend(others);
     if !sentences.is_empty() {
         sentences.extend(left(speedups));
-        let Speedups { mesh, size: [width, height], .. } = speedups;
+        let Speedups {
+            mesh,
+            size: [width, height],
+            ..
+        } = speedups;
         sentences.push(format!(
             "Frames are of {mesh} on {width} × {height} pixels; pictures are compared in that and in spans."
         ));
@@ -90,10 +100,12 @@ enum Verdict<'a> {
 impl Verdict<'_> {
     /// That of a corner; `None` if there is nobody to compare with.
     fn of(speedups: &Speedups, corner: usize) -> Option<Verdict<'_>> {
-        let is_rival = |method: &&MethodSpeedups| method.is_same_picture() && method.method != BASELINE;
+        let is_rival =
+            |method: &&MethodSpeedups| method.is_same_picture() && method.method != BASELINE;
         let rivals = speedups.methods.iter().filter(is_rival);
-        let rivals: Vec<(&str, Ratio)> =
-            rivals.filter_map(|m| Some((&*m.method, m.corners.get(corner)?.ratio_to_naive?.ratio))).collect();
+        let rivals: Vec<(&str, Ratio)> = rivals
+            .filter_map(|m| Some((&*m.method, m.corners.get(corner)?.ratio_to_naive?.ratio)))
+            .collect();
         let fastest = |is_one: fn(&Ratio) -> bool| {
             let some = rivals.iter().filter(|(_, ratio)| is_one(ratio));
             some.max_by(|a, b| a.1.median.total_cmp(&b.1.median))
@@ -110,21 +122,34 @@ impl Verdict<'_> {
 
 /// How fast the lecture's fast method is.
 fn fast(speedups: &Speedups, corner: usize) -> Option<RatioData> {
-    speedups.methods.iter().find(|method| method.method == FAST)?.corners.get(corner)?.ratio_to_naive
+    speedups
+        .methods
+        .iter()
+        .find(|method| method.method == FAST)?
+        .corners
+        .get(corner)?
+        .ratio_to_naive
 }
 
 /// `takes 1.40 times as long`, after a name.
 fn against(ratio: RatioData) -> String {
     match ratio {
         _ if ratio.tie => "is level with it".to_string(),
-        _ if ratio.ratio.median < 1.0 => format!("takes {:.2} times as long", 1.0 / ratio.ratio.median),
+        _ if ratio.ratio.median < 1.0 => {
+            format!("takes {:.2} times as long", 1.0 / ratio.ratio.median)
+        }
         _ => format!("is {:.2} times as fast", ratio.ratio.median),
     }
 }
 
 /// What the lecture's fast method gains in the terms of its time, and in those of today.
 fn left(speedups: &Speedups) -> Option<String> {
-    let corner = |work, scalar| speedups.corners.iter().position(|c| (c.work, c.scalar, c.lights) == (work, scalar, 1));
+    let corner = |work, scalar| {
+        speedups
+            .corners
+            .iter()
+            .position(|c| (c.work, c.scalar, c.lights) == (work, scalar, 1))
+    };
     let (then, now) = (corner(Work::Kernel, true)?, corner(Work::Frame, false)?);
     let gain = |ratio: RatioData| match ratio {
         _ if ratio.tie => "nothing that can be measured".to_string(),
@@ -164,7 +189,11 @@ fn head(corner: &Corner) -> [String; 2] {
         Corner { level, .. } if level == "scalar" => "fastest".to_string(),
         Corner { level, .. } => level.to_uppercase(),
     };
-    let lights = if corner.lights > 1 { format!(", {} lights", corner.lights) } else { String::new() };
+    let lights = if corner.lights > 1 {
+        format!(", {} lights", corner.lights)
+    } else {
+        String::new()
+    };
     [format!("{what}, {on}{lights}"), format!("{unit}; ratio")]
 }
 
@@ -176,12 +205,21 @@ fn time(speedup: &Speedup, corner: &Corner, span: usize) -> String {
     };
     let timing = &speedup.timing;
     let digits = decimals(timing.median_ns / unit);
-    format!("{} ± {:.digits$}", significant(timing.median_ns / unit), (timing.p75_ns - timing.p25_ns) / 2.0 / unit)
+    format!(
+        "{} ± {:.digits$}",
+        significant(timing.median_ns / unit),
+        (timing.p75_ns - timing.p25_ns) / 2.0 / unit
+    )
 }
 
 /// What is timed, and how to read it.
 fn legend(speedups: &Speedups) -> String {
-    let Speedups { mesh, size: [width, height], span, .. } = speedups;
+    let Speedups {
+        mesh,
+        size: [width, height],
+        span,
+        ..
+    } = speedups;
     format!(
         "Kernel: a span of {} pixels shaded by the method alone, set-up included. Frame: {mesh} on {width} × {height} pixels, \
          {WHAT_A_FRAME_IS}. Scalar is the lecture\u{2019}s own form, one pixel at a time; the other is the widest arithmetic \
@@ -202,27 +240,47 @@ fn footnote(speedups: &Speedups) -> Option<&'static str> {
 
 /// Its name, with a star if its picture is another one.
 fn name(method: &MethodSpeedups) -> String {
-    format!("{}{}", method.method, if method.is_same_picture() { "" } else { " *" })
+    format!(
+        "{}{}",
+        method.method,
+        if method.is_same_picture() { "" } else { " *" }
+    )
 }
 
 /// The part of the page.
 pub(super) fn section(speedups: &Speedups) -> String {
-    let mut html = format!("<section id=\"speedups\"><h2>{TITLE}</h2><p>{}</p>", escape(&legend(speedups)));
-    html += &format!("<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{TITLE}\"><table>");
+    let mut html = format!(
+        "<section id=\"speedups\"><h2>{TITLE}</h2><p>{}</p>",
+        escape(&legend(speedups))
+    );
+    html += &format!(
+        "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{TITLE}\"><table>"
+    );
     html += "<thead><tr><th scope=\"col\">method</th>";
     html += "<th scope=\"col\">off naive<small>levels</small></th>";
     for [what, unit] in speedups.corners.iter().map(head) {
-        html += &format!("<th scope=\"col\">{}<small>{}</small></th>", escape(&what), escape(&unit));
+        html += &format!(
+            "<th scope=\"col\">{}<small>{}</small></th>",
+            escape(&what),
+            escape(&unit)
+        );
     }
     html += "</tr></thead><tbody>";
     for method in &speedups.methods {
-        html += &format!("<tr><th scope=\"row\">{}</th><td>{}</td>", escape(&name(method)), method.levels_off);
+        html += &format!(
+            "<tr><th scope=\"row\">{}</th><td>{}</td>",
+            escape(&name(method)),
+            method.levels_off
+        );
         for (speedup, corner) in method.corners.iter().zip(&speedups.corners) {
             let time = time(speedup, corner, speedups.span);
             html += &if method.method == BASELINE {
                 format!("<td>{time}</td>")
             } else {
-                let (class, ratio) = (verdict(speedup.ratio_to_naive), ratio(speedup.ratio_to_naive));
+                let (class, ratio) = (
+                    verdict(speedup.ratio_to_naive),
+                    ratio(speedup.ratio_to_naive),
+                );
                 format!("<td>{time}<small class=\"{class}\">{ratio}</small></td>")
             };
         }
@@ -237,12 +295,23 @@ pub(super) fn section(speedups: &Speedups) -> String {
 
 /// The corners with one light, as bars.
 fn chart(speedups: &Speedups) -> String {
-    let corners: Vec<usize> = (0..speedups.corners.len()).filter(|i| speedups.corners[*i].lights == 1).collect();
-    let series: Vec<String> = corners.iter().map(|i| place(&speedups.corners[*i], speedups)).collect();
-    let others = speedups.methods.iter().filter(|method| method.method != BASELINE);
+    let corners: Vec<usize> = (0..speedups.corners.len())
+        .filter(|i| speedups.corners[*i].lights == 1)
+        .collect();
+    let series: Vec<String> = corners
+        .iter()
+        .map(|i| place(&speedups.corners[*i], speedups))
+        .collect();
+    let others = speedups
+        .methods
+        .iter()
+        .filter(|method| method.method != BASELINE);
     let group = |method: &MethodSpeedups| Group {
         label: name(method),
-        ratios: corners.iter().map(|i| method.corners.get(*i)?.ratio_to_naive).collect(),
+        ratios: corners
+            .iter()
+            .map(|i| method.corners.get(*i)?.ratio_to_naive)
+            .collect(),
     };
     let groups: Vec<Group> = others.map(group).collect();
     if groups.is_empty() {
@@ -251,25 +320,45 @@ fn chart(speedups: &Speedups) -> String {
     format!(
         "<div class=\"charts\"><figure>{}<figcaption>Speed as a multiple of that of naive Phong in each corner, with 95 % \
          intervals, on a logarithmic axis: bars to the right are faster, to the left slower.</figcaption></figure></div>",
-        ratio_bars("Speed against naive Phong in four corners", &series, &groups)
+        ratio_bars(
+            "Speed against naive Phong in four corners",
+            &series,
+            &groups
+        )
     )
 }
 
 /// The part of the Markdown: what it says before its table, the head and the rows of that, and what it says after it.
 pub(super) fn grid(speedups: &Speedups) -> (String, Vec<String>, Vec<Vec<String>>, &'static str) {
     let mut columns = Vec::from(["method".to_string(), "off naive Phong, levels".to_string()]);
-    columns.extend(speedups.corners.iter().map(|corner| head(corner).join(", ")));
+    columns.extend(
+        speedups
+            .corners
+            .iter()
+            .map(|corner| head(corner).join(", ")),
+    );
     let row = |method: &MethodSpeedups| {
         let mut cells = Vec::from([name(method), method.levels_off.to_string()]);
-        cells.extend(method.corners.iter().zip(&speedups.corners).map(|(speedup, corner)| {
-            let time = time(speedup, corner, speedups.span);
-            match speedup.ratio_to_naive {
-                _ if method.method == BASELINE => time,
-                Some(_) => format!("{time}; {}", ratio(speedup.ratio_to_naive)),
-                None => format!("{time}; {NONE}"),
-            }
-        }));
+        cells.extend(
+            method
+                .corners
+                .iter()
+                .zip(&speedups.corners)
+                .map(|(speedup, corner)| {
+                    let time = time(speedup, corner, speedups.span);
+                    match speedup.ratio_to_naive {
+                        _ if method.method == BASELINE => time,
+                        Some(_) => format!("{time}; {}", ratio(speedup.ratio_to_naive)),
+                        None => format!("{time}; {NONE}"),
+                    }
+                }),
+        );
         cells
     };
-    (legend(speedups), columns, speedups.methods.iter().map(row).collect(), footnote(speedups).unwrap_or_default())
+    (
+        legend(speedups),
+        columns,
+        speedups.methods.iter().map(row).collect(),
+        footnote(speedups).unwrap_or_default(),
+    )
 }

@@ -38,7 +38,14 @@ impl<'a> Tally<'a> {
         let (mut logarithms, mut tally) = (Vec::new(), None);
         for (ratio, title) in timed {
             let here = (ratio.ratio.median, title);
-            let none = Tally { faster: 0, slower: 0, ties: 0, mean: 1.0, best: here, worst: here };
+            let none = Tally {
+                faster: 0,
+                slower: 0,
+                ties: 0,
+                mean: 1.0,
+                best: here,
+                worst: here,
+            };
             let tally = tally.get_or_insert(none);
             match () {
                 () if ratio.tie => tally.ties += 1,
@@ -70,7 +77,12 @@ fn geometric_mean(logarithms: &[f64]) -> f64 {
 
 /// The largest error of a method over all scenes, in 0..=1, and its scene; `None` if it was not compared.
 pub(super) fn worst_error<'a>(method: &str, sections: &'a [Section]) -> Option<(f64, &'a str)> {
-    let errors = sections.iter().filter_map(|s| Some((s.row(method)?.error.difference.max, s.caption.title.as_str())));
+    let errors = sections.iter().filter_map(|s| {
+        Some((
+            s.row(method)?.error.difference.max,
+            s.caption.title.as_str(),
+        ))
+    });
     errors.max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
@@ -89,16 +101,24 @@ pub(super) struct Overall {
 
 /// All methods that were timed in every scene.
 pub(super) fn overall(sections: &[Section]) -> Vec<Overall> {
-    let Some(first) = sections.first() else { return Vec::new() };
-    first.all_rows().filter_map(|row| of_all_scenes(row, sections)).collect()
+    let Some(first) = sections.first() else {
+        return Vec::new();
+    };
+    first
+        .all_rows()
+        .filter_map(|row| of_all_scenes(row, sections))
+        .collect()
 }
 
 fn of_all_scenes(row: &RowData, sections: &[Section]) -> Option<Overall> {
     let (mut logarithms, mut squares) = (Vec::new(), 0.0);
     for section in sections {
-        let same =
-            section.all_rows().find(|r| r.variant == row.variant && r.is_barycentric() == row.is_barycentric())?;
-        logarithms.push(-libm::log(same.speed.as_ref()?.ratio_to_naive?.ratio.median));
+        let same = section
+            .all_rows()
+            .find(|r| r.variant == row.variant && r.is_barycentric() == row.is_barycentric())?;
+        logarithms.push(-libm::log(
+            same.speed.as_ref()?.ratio_to_naive?.ratio.median,
+        ));
         squares += same.error.difference.rms * same.error.difference.rms;
     }
     Some(Overall {

@@ -20,12 +20,23 @@ impl<'a> Check<'a> {
     }
 
     /// An error about the value named `key` given at `origin`: its flag stands for the key when it came from one.
-    pub fn error(&self, origin: &Origin, key: &str, problem: &str, expected: impl Into<String>) -> SceneError {
+    pub fn error(
+        &self,
+        origin: &Origin,
+        key: &str,
+        problem: &str,
+        expected: impl Into<String>,
+    ) -> SceneError {
         let name = match origin {
             Origin::Flag(flag) => flag,
             Origin::File(_) | Origin::Program => key,
         };
-        SceneError::new(self.source.clone(), origin.clone(), format!("`{name}` {problem}"), expected)
+        SceneError::new(
+            self.source.clone(),
+            origin.clone(),
+            format!("`{name}` {problem}"),
+            expected,
+        )
     }
 
     /// An error about what no single value says; it points at `origin`.
@@ -39,13 +50,25 @@ impl<'a> Check<'a> {
     }
 
     /// Two keys that exclude each other.
-    pub fn conflict(&self, key: &str, at: &Origin, other_key: &str, other: &Origin, why: &str) -> SceneError {
+    pub fn conflict(
+        &self,
+        key: &str,
+        at: &Origin,
+        other_key: &str,
+        other: &Origin,
+        why: &str,
+    ) -> SceneError {
         let other_name = match other {
             Origin::Flag(flag) => flag,
             Origin::File(_) | Origin::Program => other_key,
         };
-        self.error(at, key, &format!("and `{other_name}` exclude each other"), why)
-            .related(other, "the other one is here")
+        self.error(
+            at,
+            key,
+            &format!("and `{other_name}` exclude each other"),
+            why,
+        )
+        .related(other, "the other one is here")
     }
 
     /// A number for which `is_valid` holds; NaN and infinities are refused first.
@@ -61,7 +84,12 @@ impl<'a> Check<'a> {
         if (value as f32).is_finite() && is_valid(value) {
             Ok(value)
         } else {
-            Err(self.error(&given.origin, key, &format!("is {value}"), format!("expected {expected}")))
+            Err(self.error(
+                &given.origin,
+                key,
+                &format!("is {value}"),
+                format!("expected {expected}"),
+            ))
         }
     }
 
@@ -86,7 +114,12 @@ impl<'a> Check<'a> {
         for (axis, value) in ["x", "y", "z"].into_iter().zip(given.value) {
             if !is_coordinate(value) {
                 let problem = format!("has {axis} = {value}");
-                return Err(self.error(&given.origin, key, &problem, format!("expected {EXPECTED_COORDINATE}")));
+                return Err(self.error(
+                    &given.origin,
+                    key,
+                    &problem,
+                    format!("expected {EXPECTED_COORDINATE}"),
+                ));
             }
         }
         Ok(DVec3::from_array(given.value))
@@ -96,29 +129,49 @@ impl<'a> Check<'a> {
     pub fn direction(&self, given: &Located<[f64; 3]>, key: &str) -> Result<DVec3, SceneError> {
         let vector = DVec3::from_array(given.value);
         if !vector.is_finite() {
-            return Err(self.error(&given.origin, key, "is not finite", "expected three finite numbers"));
+            return Err(self.error(
+                &given.origin,
+                key,
+                "is not finite",
+                "expected three finite numbers",
+            ));
         }
         // Scaled first, so that squares neither overflow nor vanish.
         let largest = vector.abs().max_element();
         if largest == 0.0 {
-            return Err(self.error(&given.origin, key, "has no length", "expected a direction: not all numbers 0"));
+            return Err(self.error(
+                &given.origin,
+                key,
+                "has no length",
+                "expected a direction: not all numbers 0",
+            ));
         }
         Ok((vector / largest).normalize())
     }
 
     /// A colour or a coefficient of each channel: 0 or more, and at most `most`.
-    pub fn channels(&self, given: &Located<OneOrThree>, key: &str, most: f64) -> Result<Rgb, SceneError> {
+    pub fn channels(
+        &self,
+        given: &Located<OneOrThree>,
+        key: &str,
+        most: f64,
+    ) -> Result<Rgb, SceneError> {
         let values = given.value.0;
         for (name, value) in ["red", "green", "blue"].into_iter().zip(values) {
             if (value as f32).is_finite() && (0.0..=most).contains(&value) {
                 continue;
             }
-            let problem = if values == [value; 3] || value.is_nan() && values.iter().all(|v| v.is_nan()) {
-                format!("is {value}")
+            let problem =
+                if values == [value; 3] || value.is_nan() && values.iter().all(|v| v.is_nan()) {
+                    format!("is {value}")
+                } else {
+                    format!("has {name} = {value}")
+                };
+            let expected = if most.is_finite() {
+                format!("expected 0 to {most}")
             } else {
-                format!("has {name} = {value}")
+                "expected 0 or more".into()
             };
-            let expected = if most.is_finite() { format!("expected 0 to {most}") } else { "expected 0 or more".into() };
             return Err(self.error(&given.origin, key, &problem, expected));
         }
         Ok(values.map(|value| value as f32))

@@ -2,7 +2,9 @@
 
 use super::value::Origin;
 use crate::suggest;
-use annotate_snippets::{AnnotationKind, Group, Level, Origin as Path, Renderer, Snippet, normalize_untrusted_str};
+use annotate_snippets::{
+    AnnotationKind, Group, Level, Origin as Path, Renderer, Snippet, normalize_untrusted_str,
+};
 use std::boxed::Box;
 use std::fmt;
 use std::format;
@@ -99,13 +101,18 @@ impl SceneError {
         let span = self.span()?;
         let before = &self.0.source.as_ref()?.text[..span.start];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1))
+        Some((
+            before.matches('\n').count() + 1,
+            before[line_start..].chars().count() + 1,
+        ))
     }
 
     /// The bytes that the error is about, kept inside the text and on character boundaries.
     fn span(&self) -> Option<Range<usize>> {
         let text = &self.0.source.as_ref()?.text;
-        let Origin::File(span) = &self.0.origin else { return None };
+        let Origin::File(span) = &self.0.origin else {
+            return None;
+        };
         let start = text.floor_char_boundary(span.start);
         Some(start..text.ceil_char_boundary(span.end).max(start))
     }
@@ -116,7 +123,9 @@ impl SceneError {
         let span = self.span();
         let title = match (&span, error.expected.is_empty()) {
             (Some(_), _) | (None, true) => normalize_untrusted_str(&error.title),
-            (None, false) => normalize_untrusted_str(&format!("{}: {}", error.title, error.expected)),
+            (None, false) => {
+                normalize_untrusted_str(&format!("{}: {}", error.title, error.expected))
+            }
         };
         let mut group = Group::with_title(Level::ERROR.primary_title(title));
         if let Some(source) = &error.source {
@@ -127,21 +136,37 @@ impl SceneError {
                 Some(span) => group.element(
                     Snippet::source(source.text.as_str())
                         .path(path)
-                        .annotation(AnnotationKind::Primary.span(span).label(normalize_untrusted_str(&error.expected)))
+                        .annotation(
+                            AnnotationKind::Primary
+                                .span(span)
+                                .label(normalize_untrusted_str(&error.expected)),
+                        )
                         .annotations(error.related.iter().map(|(span, label)| {
-                            AnnotationKind::Context.span(span.clone()).label(normalize_untrusted_str(label))
+                            AnnotationKind::Context
+                                .span(span.clone())
+                                .label(normalize_untrusted_str(label))
                         })),
                 ),
             };
         }
         if let Some(note) = &error.note {
-            group = group
-                .element(Level::NOTE.message(note.lines().map(normalize_untrusted_str).collect::<Vec<_>>().join("\n")));
+            group = group.element(
+                Level::NOTE.message(
+                    note.lines()
+                        .map(normalize_untrusted_str)
+                        .collect::<Vec<_>>()
+                        .join("\n"),
+                ),
+            );
         }
         if let Some(help) = &error.help {
             group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
         }
-        let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+        let renderer = if colour {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
         renderer.render(&[group])
     }
 
@@ -151,10 +176,18 @@ impl SceneError {
         let message = error.message();
         // The reader passes serde's sentences on as text, so that they must be taken apart again.
         let parts = message.split_once(", ").unwrap_or((message, ""));
-        for (unknown, name) in [("unknown field `", "unknown key"), ("unknown variant `", "unknown word")] {
-            if let Some(word) = parts.0.strip_prefix(unknown).and_then(|rest| rest.strip_suffix('`')) {
+        for (unknown, name) in [
+            ("unknown field `", "unknown key"),
+            ("unknown variant `", "unknown word"),
+        ] {
+            if let Some(word) = parts
+                .0
+                .strip_prefix(unknown)
+                .and_then(|rest| rest.strip_suffix('`'))
+            {
                 let candidates = quoted(parts.1);
-                let error = SceneError::new(Some(source), origin, format!("{name} `{word}`"), parts.1);
+                let error =
+                    SceneError::new(Some(source), origin, format!("{name} `{word}`"), parts.1);
                 if word == "depth_test" {
                     return error.help("what hides a polygon is said by `visibility`");
                 }
@@ -164,15 +197,34 @@ impl SceneError {
                 };
             }
         }
-        if let Some(key) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
-            return SceneError::new(Some(source), origin, format!("the key `{key}` is missing"), "in this table");
-        }
-        if let (Some(found), Some(expected)) =
-            (parts.0.strip_prefix("invalid type: "), parts.1.strip_prefix("expected "))
+        if let Some(key) = message
+            .strip_prefix("missing field `")
+            .and_then(|rest| rest.strip_suffix('`'))
         {
-            return SceneError::new(Some(source), origin, format!("expected {expected}"), format!("found {found}"));
+            return SceneError::new(
+                Some(source),
+                origin,
+                format!("the key `{key}` is missing"),
+                "in this table",
+            );
         }
-        SceneError::new(Some(source), origin, format!("not valid TOML: {}", parts.0), parts.1)
+        if let (Some(found), Some(expected)) = (
+            parts.0.strip_prefix("invalid type: "),
+            parts.1.strip_prefix("expected "),
+        ) {
+            return SceneError::new(
+                Some(source),
+                origin,
+                format!("expected {expected}"),
+                format!("found {found}"),
+            );
+        }
+        SceneError::new(
+            Some(source),
+            origin,
+            format!("not valid TOML: {}", parts.0),
+            parts.1,
+        )
     }
 }
 

@@ -264,7 +264,9 @@ impl<'de> Deserialize<'de> for Rotations {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Rotations, A::Error> {
-                let rotation = RotationSection::deserialize(serde::de::value::MapAccessDeserializer::new(map))?;
+                let rotation = RotationSection::deserialize(
+                    serde::de::value::MapAccessDeserializer::new(map),
+                )?;
                 Ok(Rotations([rotation].into()))
             }
 
@@ -302,7 +304,10 @@ impl SceneFile {
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
         // Some editors start a file with a byte-order mark; offsets count without it.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
-        let source = Arc::new(SourceText { path: path.as_ref().into(), text });
+        let source = Arc::new(SourceText {
+            path: path.as_ref().into(),
+            text,
+        });
         let read: Result<SceneFile, _> = toml::from_str(&source.text);
         match read {
             Ok(mut file) => {

@@ -46,7 +46,10 @@ impl<'de> Deserialize<'de> for LightSection {
         }
         let table = toml::Spanned::<Keys>::deserialize(deserializer)?;
         let origin = Origin::File(table.span());
-        Ok(LightSection { table: Located { value: (), origin }, ..table.into_inner().0 })
+        Ok(LightSection {
+            table: Located { value: (), origin },
+            ..table.into_inner().0
+        })
     }
 }
 
@@ -59,18 +62,26 @@ impl Serialize for LightSection {
 impl LightSection {
     /// A white light of intensity 1 at infinity.
     pub fn toward(direction: impl Into<Located<[f64; 3]>>) -> Self {
-        LightSection { direction: Some(direction.into()), ..LightSection::default() }
+        LightSection {
+            direction: Some(direction.into()),
+            ..LightSection::default()
+        }
     }
 
     /// A white light of intensity 1 at a place.
     pub fn at(position: impl Into<Located<[f64; 3]>>) -> Self {
-        LightSection { position: Some(position.into()), ..LightSection::default() }
+        LightSection {
+            position: Some(position.into()),
+            ..LightSection::default()
+        }
     }
 
     /// The light that this describes, light number `number` of the scene, from 1.
     pub(super) fn resolve(&self, number: usize, check: &Check) -> Result<Light, SceneError> {
         let place = match (&self.direction, &self.position) {
-            (Some(direction), None) => Place::Infinite(check.direction(direction, "light.direction")?),
+            (Some(direction), None) => {
+                Place::Infinite(check.direction(direction, "light.direction")?)
+            }
             (None, Some(position)) => Place::Local(check.point(position, "light.position")?),
             (Some(direction), Some(position)) => {
                 let why = "expected one of them: a light is at infinity or at a place";
@@ -78,11 +89,20 @@ impl LightSection {
                 return Err(check.conflict("light.position", at, "light.direction", other, why));
             }
             (None, None) => {
-                let problem = format!("light number {number} has neither `direction` nor `position`");
-                return Err(check.error_at(&self.table.origin, &problem, "expected one of them in every [[light]]"));
+                let problem =
+                    format!("light number {number} has neither `direction` nor `position`");
+                return Err(check.error_at(
+                    &self.table.origin,
+                    &problem,
+                    "expected one of them in every [[light]]",
+                ));
             }
         };
-        Ok(Light { place, colour: self.resolve_colour(check)?, falloff: self.resolve_falloff(check)? })
+        Ok(Light {
+            place,
+            colour: self.resolve_colour(check)?,
+            falloff: self.resolve_falloff(check)?,
+        })
     }
 
     fn resolve_colour(&self, check: &Check) -> Result<[f32; 3], SceneError> {
@@ -98,14 +118,22 @@ impl LightSection {
         match &self.intensity {
             Some(given) if !colour.iter().all(|channel| channel.is_finite()) => {
                 let expected = "expected a finite product with the colour";
-                Err(check.error(&given.origin, "light.intensity", &format!("is {intensity}"), expected))
+                Err(check.error(
+                    &given.origin,
+                    "light.intensity",
+                    &format!("is {intensity}"),
+                    expected,
+                ))
             }
             _ => Ok(colour),
         }
     }
 
     fn resolve_falloff(&self, check: &Check) -> Result<Falloff, SceneError> {
-        let given = self.attenuation.as_ref().map(|k| ("light.attenuation", &k.origin));
+        let given = self
+            .attenuation
+            .as_ref()
+            .map(|k| ("light.attenuation", &k.origin));
         let given = given.or(self.falloff.as_ref().map(|f| ("light.falloff", &f.origin)));
         if let (Some((key, at)), Some(_)) = (given, &self.direction) {
             let expected = "expected it beside `position`: a light at infinity has no distance";
@@ -114,9 +142,17 @@ impl LightSection {
         match (&self.attenuation, &self.falloff) {
             (Some(k), Some(falloff)) => {
                 let why = "expected one of them: `attenuation` is a falloff too";
-                Err(check.conflict("light.attenuation", &k.origin, "light.falloff", &falloff.origin, why))
+                Err(check.conflict(
+                    "light.attenuation",
+                    &k.origin,
+                    "light.falloff",
+                    &falloff.origin,
+                    why,
+                ))
             }
-            (Some(k), None) => Ok(Falloff::Attenuation(check.not_negative(k, "light.attenuation")? as f32)),
+            (Some(k), None) => Ok(Falloff::Attenuation(
+                check.not_negative(k, "light.attenuation")? as f32,
+            )),
             (None, Some(falloff)) => Ok(falloff.value.0),
             (None, None) => Ok(Falloff::None),
         }
@@ -124,10 +160,14 @@ impl LightSection {
 
     /// An error if the light stands at one of `points`, where the direction toward it is undefined.
     pub(super) fn check_distance(&self, points: &[DVec3], check: &Check) -> Result<(), SceneError> {
-        let Some(position) = &self.position else { return Ok(()) };
+        let Some(position) = &self.position else {
+            return Ok(());
+        };
         let light = DVec3::from_array(position.value);
         // Closer than the rounding of positions in `f32` is the same place.
-        let is_here = |p: &DVec3| (*p - light).length() <= f64::from(f32::EPSILON) * p.length().max(light.length());
+        let is_here = |p: &DVec3| {
+            (*p - light).length() <= f64::from(f32::EPSILON) * p.length().max(light.length())
+        };
         match points.iter().find(|p| is_here(p)) {
             Some(p) => {
                 let problem = format!("is at a vertex, ({}, {}, {})", p.x, p.y, p.z);
@@ -145,8 +185,11 @@ pub struct FalloffChoice(pub Falloff);
 
 impl Choice for FalloffChoice {
     const WORDS: &'static [&'static str] = &["none", "inverse-square", "inverse"];
-    const MEANINGS: &'static [Self] =
-        &[FalloffChoice(Falloff::None), FalloffChoice(Falloff::InverseSquare), FalloffChoice(Falloff::Inverse)];
+    const MEANINGS: &'static [Self] = &[
+        FalloffChoice(Falloff::None),
+        FalloffChoice(Falloff::InverseSquare),
+        FalloffChoice(Falloff::Inverse),
+    ];
 }
 
 /// Where the eye is for the highlights.
@@ -171,5 +214,9 @@ impl Choice for SpecularModel {
 
 impl Choice for SpecularGate {
     const WORDS: &'static [&'static str] = &["gated", "ungated", "weighted"];
-    const MEANINGS: &'static [Self] = &[SpecularGate::Gated, SpecularGate::Ungated, SpecularGate::Weighted];
+    const MEANINGS: &'static [Self] = &[
+        SpecularGate::Gated,
+        SpecularGate::Ungated,
+        SpecularGate::Weighted,
+    ];
 }

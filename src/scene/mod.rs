@@ -23,7 +23,9 @@ mod viewpoint;
 #[cfg(feature = "io")]
 mod visibility;
 
-pub use hidden_surfaces::{Clipping, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey};
+pub use hidden_surfaces::{
+    Clipping, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey,
+};
 
 use crate::camera::Camera;
 use crate::lighting::{Light, Material, Rgb, SpecularGate, SpecularModel};

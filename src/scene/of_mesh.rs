@@ -44,7 +44,10 @@ impl Scene {
             fovy: None,
             aspect: f64::from(width) / f64::from(height),
         };
-        let corners = mesh.corners().iter().map(|&corner| mesh.positions()[corner as usize].as_dvec3());
+        let corners = mesh
+            .corners()
+            .iter()
+            .map(|&corner| mesh.positions()[corner as usize].as_dvec3());
         // Without a polygon there is nothing to look at, and any camera will do.
         let camera = Camera::fit(corners, &fit).unwrap_or(Camera {
             eye: fit.direction,
@@ -91,8 +94,13 @@ mod tests {
         for spec in ["teapot?res=4", "gear", "sphere?rings=6&segments=8"] {
             let mesh = builtin(spec).unwrap();
             let from_file = SceneFile::for_mesh(std::string::String::from(spec));
-            let from_file = from_file.resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new()))).unwrap();
-            let (a, b) = (Scene::of_mesh(mesh).frame().unwrap(), from_file.scene.frame().unwrap());
+            let from_file = from_file
+                .resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new())))
+                .unwrap();
+            let (a, b) = (
+                Scene::of_mesh(mesh).frame().unwrap(),
+                from_file.scene.frame().unwrap(),
+            );
             assert_eq!(std::format!("{a:?}"), std::format!("{b:?}"), "{spec}");
         }
     }
@@ -106,15 +114,32 @@ mod tests {
         gear.polygons().for_each(|polygon| {
             builder.polygon(polygon);
         });
-        let blue = Material { diffuse: [0.1, 0.2, 0.9], ..Material::default() };
+        let blue = Material {
+            diffuse: [0.1, 0.2, 0.9],
+            ..Material::default()
+        };
         let none = u32::MAX;
-        builder.materials(vec![blue], (0..gear.polygon_count()).map(|p| if p % 2 == 0 { 0 } else { none }).collect());
+        builder.materials(
+            vec![blue],
+            (0..gear.polygon_count())
+                .map(|p| if p % 2 == 0 { 0 } else { none })
+                .collect(),
+        );
         let mesh = builder.finish().unwrap();
         let from_file = SceneFile::for_mesh(std::string::String::from("gear"));
-        let from_file = from_file.resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new()))).unwrap();
-        let (a, b) = (Scene::of_mesh(mesh).frame().unwrap(), from_file.scene.frame().unwrap());
+        let from_file = from_file
+            .resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new())))
+            .unwrap();
+        let (a, b) = (
+            Scene::of_mesh(mesh).frame().unwrap(),
+            from_file.scene.frame().unwrap(),
+        );
         for method in METHODS {
-            assert_eq!(method.variant().render(&a), method.variant().render(&b), "{method:?}");
+            assert_eq!(
+                method.variant().render(&a),
+                method.variant().render(&b),
+                "{method:?}"
+            );
         }
     }
 
@@ -122,6 +147,9 @@ mod tests {
     fn a_mesh_without_polygons_gives_an_empty_picture() {
         let scene = Scene::of_mesh(MeshBuilder::new(Vec::new()).finish().unwrap());
         let frame = scene.frame().unwrap();
-        assert_eq!((frame.polygons().len(), frame.width(), frame.height()), (0, 640, 480));
+        assert_eq!(
+            (frame.polygons().len(), frame.width(), frame.height()),
+            (0, 640, 480)
+        );
     }
 }

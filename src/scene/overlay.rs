@@ -29,7 +29,11 @@ impl SceneFile {
             camera: below.camera.overlay(over.camera),
             material: over.material.or(&below.material),
             light: over.light.or(below.light),
-            object: if over.object.is_empty() { below.object } else { over.object },
+            object: if over.object.is_empty() {
+                below.object
+            } else {
+                over.object
+            },
             source: below.source,
         };
     }
@@ -69,7 +73,11 @@ impl CameraSection {
             below.elevation = None;
             below.fit = None;
         }
-        let moves = turns || over.eye.is_some() || over.target.is_some() || over.fit.is_some() || over.fovy.is_some();
+        let moves = turns
+            || over.eye.is_some()
+            || over.target.is_some()
+            || over.fit.is_some()
+            || over.fovy.is_some();
         if moves {
             below.near = None;
             below.far = None;

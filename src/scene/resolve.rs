@@ -2,7 +2,9 @@
 
 use super::check::{Check, is_coordinate, is_position};
 use super::diagnostics::SceneError;
-use super::file::{LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice};
+use super::file::{
+    LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice,
+};
 use super::value::{Located, OneOrThree, Origin};
 use super::viewpoint::Viewpoint;
 use super::{MAX_COORDINATE, Object, Scene};
@@ -40,7 +42,10 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError`] for the first value that is out of its range or contradicts another one, for a transform that
     /// flattens an object, and for what `load_mesh` reports.
-    pub fn resolve(&self, load_mesh: impl FnMut(&str, &Path) -> LoadedMesh) -> Result<Resolved, SceneError> {
+    pub fn resolve(
+        &self,
+        load_mesh: impl FnMut(&str, &Path) -> LoadedMesh,
+    ) -> Result<Resolved, SceneError> {
         let check = Check::new(&self.source.0);
         let side = |given: &Option<Located<i64>>, key, default| match given {
             Some(given) => check.side(given, key),
@@ -48,7 +53,13 @@ impl SceneFile {
         };
         let width = side(&self.image.width, "image.width", Self::DEFAULT_SIZE.0)?;
         let height = side(&self.image.height, "image.height", Self::DEFAULT_SIZE.1)?;
-        let background = channels(&check, &self.image.background, "image.background", 1.0, [0.0; 3])?;
+        let background = channels(
+            &check,
+            &self.image.background,
+            "image.background",
+            1.0,
+            [0.0; 3],
+        )?;
         let ambient = channels(&check, &self.ambient, "ambient", f64::INFINITY, [1.0; 3])?;
         let lights = self.lights(&check)?;
         let viewpoint = Viewpoint::new(&self.camera, &check)?;
@@ -63,7 +74,10 @@ impl SceneFile {
         for section in self.light.iter().flatten() {
             section.check_distance(&points, &check)?;
         }
-        let specular = self.specular.as_ref().map_or_else(Default::default, |given| given.value);
+        let specular = self
+            .specular
+            .as_ref()
+            .map_or_else(Default::default, |given| given.value);
         let scene = Scene {
             width,
             height,
@@ -71,17 +85,36 @@ impl SceneFile {
             camera,
             ambient,
             lights,
-            local_viewer: self.viewer.as_ref().is_some_and(|given| given.value == ViewerChoice::Local),
+            local_viewer: self
+                .viewer
+                .as_ref()
+                .is_some_and(|given| given.value == ViewerChoice::Local),
             specular,
-            shininess_for: self.shininess_for.as_ref().map_or(specular, |given| given.value),
-            gate: self.specular_gate.as_ref().map_or_else(Default::default, |given| given.value),
-            interpolation: self.interpolation.as_ref().map_or_else(Default::default, |given| given.value),
-            culling: self.cull.as_ref().map_or_else(Default::default, |given| given.value),
+            shininess_for: self
+                .shininess_for
+                .as_ref()
+                .map_or(specular, |given| given.value),
+            gate: self
+                .specular_gate
+                .as_ref()
+                .map_or_else(Default::default, |given| given.value),
+            interpolation: self
+                .interpolation
+                .as_ref()
+                .map_or_else(Default::default, |given| given.value),
+            culling: self
+                .cull
+                .as_ref()
+                .map_or_else(Default::default, |given| given.value),
             hidden_surfaces,
             clipping,
             two_sided: self.two_sided.as_ref().is_some_and(|given| given.value),
             samples,
-            encoding: self.image.encoding.as_ref().map_or_else(Default::default, |given| given.value),
+            encoding: self
+                .image
+                .encoding
+                .as_ref()
+                .map_or_else(Default::default, |given| given.value),
             objects,
         };
         Ok(Resolved { scene, warnings })
@@ -95,7 +128,10 @@ impl SceneFile {
             let expected = format!("expected {} lights at most", Scene::MAX_LIGHTS);
             return Err(check.error_at(&over.table.origin, &problem, &expected));
         }
-        (1..).zip(sections).map(|(number, section)| section.resolve(number, check)).collect()
+        (1..)
+            .zip(sections)
+            .map(|(number, section)| section.resolve(number, check))
+            .collect()
     }
 
     fn objects(
@@ -107,15 +143,25 @@ impl SceneFile {
         let default = material(&self.material, &Material::default(), check, "material")?;
         if self.object.is_empty() {
             return Err(check
-                .scene_error("the scene has no objects", "expected at least one [[object]]")
+                .scene_error(
+                    "the scene has no objects",
+                    "expected at least one [[object]]",
+                )
                 .help("for example: [[object]] with mesh = \"builtin:sphere\""));
         }
         // All that can be checked without a mesh is, before the first one costs time.
         let mut placed = Vec::with_capacity(self.object.len());
         for section in &self.object {
             let own = section.material.as_ref();
-            let own = own.map(|own| material(own, &default, check, "object.material")).transpose()?;
-            placed.push((section, placement(section, check)?, normals(section, check)?, own));
+            let own = own
+                .map(|own| material(own, &default, check, "object.material"))
+                .transpose()?;
+            placed.push((
+                section,
+                placement(section, check)?,
+                normals(section, check)?,
+                own,
+            ));
         }
         let mut meshes: BTreeMap<(PathBuf, &str), Arc<PolygonMesh>> = BTreeMap::new();
         let mut objects = Vec::with_capacity(placed.len());
@@ -125,8 +171,8 @@ impl SceneFile {
             let mesh = match meshes.get(&(folder.clone(), spec)) {
                 Some(mesh) => mesh.clone(),
                 None => {
-                    let (mesh, found_odd) =
-                        load_mesh(spec, &folder).map_err(|reason| mesh_error(check, &section.mesh, &reason))?;
+                    let (mesh, found_odd) = load_mesh(spec, &folder)
+                        .map_err(|reason| mesh_error(check, &section.mesh, &reason))?;
                     warnings.extend(found_odd);
                     meshes.insert((folder, spec), mesh.clone());
                     mesh
@@ -138,7 +184,12 @@ impl SceneFile {
                 None if self.material.is_empty() => (mesh, None),
                 None => (with_default_material(mesh, default), None),
             };
-            let object = Object { mesh, transform, material, normals };
+            let object = Object {
+                mesh,
+                transform,
+                material,
+                normals,
+            };
             if !world_points(&object).all(is_position) {
                 let problem = format!("`{spec}` reaches too far");
                 let expected = "expected coordinates between -1e15 and 1e15 after the transform";
@@ -163,7 +214,9 @@ fn mesh_error(check: &Check, mesh: &Located<String>, reason: &str) -> SceneError
     let problem = format!("`{}` cannot be used", mesh.value);
     match reason.contains('\n') {
         false => check.error(&mesh.origin, "object.mesh", &problem, reason),
-        true => check.error(&mesh.origin, "object.mesh", &problem, "").note(reason),
+        true => check
+            .error(&mesh.origin, "object.mesh", &problem, "")
+            .note(reason),
     }
 }
 
@@ -174,13 +227,26 @@ fn channels(
     most: f64,
     default: Rgb,
 ) -> Result<Rgb, SceneError> {
-    given.as_ref().map_or(Ok(default), |given| check.channels(given, key, most))
+    given
+        .as_ref()
+        .map_or(Ok(default), |given| check.channels(given, key, most))
 }
 
 /// The coefficients given in `section`, those of `default` where none are.
-fn material(section: &MaterialSection, default: &Material, check: &Check, table: &str) -> Result<Material, SceneError> {
+fn material(
+    section: &MaterialSection,
+    default: &Material,
+    check: &Check,
+    table: &str,
+) -> Result<Material, SceneError> {
     let coefficient = |given: &Option<Located<OneOrThree>>, key: &str, default: Rgb| {
-        channels(check, given, &format!("{table}.{key}"), f64::INFINITY, default)
+        channels(
+            check,
+            given,
+            &format!("{table}.{key}"),
+            f64::INFINITY,
+            default,
+        )
     };
     Ok(Material {
         ambient: coefficient(&section.ka, "ka", default.ambient)?,
@@ -197,13 +263,37 @@ fn normals(section: &ObjectSection, check: &Check) -> Result<NormalSource, Scene
     match (&section.normals, &section.crease) {
         (Some(normals), Some(crease)) => {
             let why = "expected one of them: `crease` averages up to an angle";
-            Err(check.conflict("object.crease", &crease.origin, "object.normals", &normals.origin, why))
+            Err(check.conflict(
+                "object.crease",
+                &crease.origin,
+                "object.normals",
+                &normals.origin,
+                why,
+            ))
         }
         (_, Some(crease)) => check
-            .number(crease, "object.crease", |v| (0.0..=180.0).contains(&v), "degrees between 0 and 180")
+            .number(
+                crease,
+                "object.crease",
+                |v| (0.0..=180.0).contains(&v),
+                "degrees between 0 and 180",
+            )
             .map(NormalSource::Crease),
-        (Some(Located { value: NormalChoice::Given, .. }), None) => Ok(NormalSource::Given),
-        (Some(Located { value: NormalChoice::Averaged, .. }) | None, None) => Ok(NormalSource::Averaged),
+        (
+            Some(Located {
+                value: NormalChoice::Given,
+                ..
+            }),
+            None,
+        ) => Ok(NormalSource::Given),
+        (
+            Some(Located {
+                value: NormalChoice::Averaged,
+                ..
+            })
+            | None,
+            None,
+        ) => Ok(NormalSource::Averaged),
     }
 }
 
@@ -214,10 +304,12 @@ fn placement(section: &ObjectSection, check: &Check) -> Result<DAffine3, SceneEr
     }
     let scale = match &section.scale {
         Some(given) => {
-            let valid = |v: f64| v != 0.0 && v.abs() <= MAX_COORDINATE && v.abs() >= 1.0 / MAX_COORDINATE;
+            let valid =
+                |v: f64| v != 0.0 && v.abs() <= MAX_COORDINATE && v.abs() >= 1.0 / MAX_COORDINATE;
             if let Some(value) = given.value.0.into_iter().find(|v| !valid(*v)) {
                 let problem = format!("has the factor {value}");
-                let expected = "expected factors that are not 0, their sizes between 1e-15 and 1e15";
+                let expected =
+                    "expected factors that are not 0, their sizes between 1e-15 and 1e15";
                 return Err(check.error(&given.origin, "object.scale", &problem, expected));
             }
             DVec3::from_array(given.value.0)
@@ -228,14 +320,23 @@ fn placement(section: &ObjectSection, check: &Check) -> Result<DAffine3, SceneEr
     for turn in section.rotate.iter().flat_map(|rotations| &rotations.0) {
         let axis = check.direction(&turn.axis, "object.rotate.axis")?;
         let expected = "degrees between -36000 and 36000";
-        let angle = check.number(&turn.angle, "object.rotate.angle", |v| v.abs() <= 36_000.0, expected)?;
+        let angle = check.number(
+            &turn.angle,
+            "object.rotate.angle",
+            |v| v.abs() <= 36_000.0,
+            expected,
+        )?;
         rotation = DQuat::from_axis_angle(axis, angle.to_radians()) * rotation;
     }
     let translation = match &section.translate {
         Some(given) => check.point(given, "object.translate")?,
         None => DVec3::ZERO,
     };
-    Ok(DAffine3::from_scale_rotation_translation(scale, rotation.normalize(), translation))
+    Ok(DAffine3::from_scale_rotation_translation(
+        scale,
+        rotation.normalize(),
+        translation,
+    ))
 }
 
 fn from_matrix(
@@ -244,9 +345,22 @@ fn from_matrix(
     check: &Check,
 ) -> Result<DAffine3, SceneError> {
     let others = [
-        ("object.scale", section.scale.as_ref().map(|given| &given.origin)),
-        ("object.rotate", section.rotate.as_ref().and_then(|r| r.0.first()).map(|turn| &turn.axis.origin)),
-        ("object.translate", section.translate.as_ref().map(|given| &given.origin)),
+        (
+            "object.scale",
+            section.scale.as_ref().map(|given| &given.origin),
+        ),
+        (
+            "object.rotate",
+            section
+                .rotate
+                .as_ref()
+                .and_then(|r| r.0.first())
+                .map(|turn| &turn.axis.origin),
+        ),
+        (
+            "object.translate",
+            section.translate.as_ref().map(|given| &given.origin),
+        ),
     ];
     for (key, at) in others {
         if let Some(at) = at {
@@ -257,7 +371,12 @@ fn from_matrix(
     let rows = matrix.value;
     if let Some(value) = rows.iter().flatten().find(|v| !is_coordinate(**v)) {
         let problem = format!("has the entry {value}");
-        return Err(check.error(&matrix.origin, "object.matrix", &problem, "expected numbers between -1e15 and 1e15"));
+        return Err(check.error(
+            &matrix.origin,
+            "object.matrix",
+            &problem,
+            "expected numbers between -1e15 and 1e15",
+        ));
     }
     let column = |i: usize| DVec3::new(rows[0][i], rows[1][i], rows[2][i]);
     let linear = DMat3::from_cols(column(0), column(1), column(2));
@@ -265,9 +384,17 @@ fn from_matrix(
     let edges = column(0).length() * column(1).length() * column(2).length();
     if linear.determinant().abs() <= 1e-12 * edges {
         let expected = "expected a matrix that can be inverted: columns not in one plane";
-        return Err(check.error(&matrix.origin, "object.matrix", "flattens the object", expected));
+        return Err(check.error(
+            &matrix.origin,
+            "object.matrix",
+            "flattens the object",
+            expected,
+        ));
     }
-    Ok(DAffine3 { matrix3: linear, translation: column(3) })
+    Ok(DAffine3 {
+        matrix3: linear,
+        translation: column(3),
+    })
 }
 
 /// The mesh with `default` as the material of each polygon that had none.
@@ -278,7 +405,9 @@ fn with_default_material(mesh: Arc<PolygonMesh>, default: Material) -> Arc<Polyg
     let mut materials = mesh.materials().to_vec();
     let own = materials.len();
     materials.push(default);
-    let of_polygons = (0..mesh.polygon_count()).map(|p| mesh.polygon_material(p).unwrap_or(own) as u32).collect();
+    let of_polygons = (0..mesh.polygon_count())
+        .map(|p| mesh.polygon_material(p).unwrap_or(own) as u32)
+        .collect();
     let mut builder = MeshBuilder::new(mesh.positions().to_vec());
     builder.reserve(mesh.polygon_count(), mesh.corners().len());
     for polygon in mesh.polygons() {
@@ -301,5 +430,7 @@ fn world_points(object: &Object) -> impl Iterator<Item = DVec3> {
         used[corner as usize] = true;
     }
     let points = mesh.positions().iter().zip(used);
-    points.filter(|(_, used)| *used).map(|(p, _)| object.transform.transform_point3(p.as_dvec3()))
+    points
+        .filter(|(_, used)| *used)
+        .map(|(p, _)| object.transform.transform_point3(p.as_dvec3()))
 }

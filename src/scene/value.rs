@@ -32,13 +32,19 @@ pub struct Located<T> {
 impl<T> Located<T> {
     /// A value given by a command-line flag, for example `--fovy`.
     pub fn flag(value: T, flag: impl Into<String>) -> Self {
-        Located { value, origin: Origin::Flag(flag.into()) }
+        Located {
+            value,
+            origin: Origin::Flag(flag.into()),
+        }
     }
 }
 
 impl<T> From<T> for Located<T> {
     fn from(value: T) -> Self {
-        Located { value, origin: Origin::Program }
+        Located {
+            value,
+            origin: Origin::Program,
+        }
     }
 }
 
@@ -52,7 +58,10 @@ impl<'de, T: Value> Deserialize<'de> for Located<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let spanned = toml::Spanned::<Plain<T>>::deserialize(deserializer)?;
         let origin = Origin::File(spanned.span());
-        Ok(Located { value: spanned.into_inner().0, origin })
+        Ok(Located {
+            value: spanned.into_inner().0,
+            origin,
+        })
     }
 }
 
@@ -196,7 +205,10 @@ struct ArrayVisitor<T, const N: usize> {
 
 impl<T, const N: usize> ArrayVisitor<T, N> {
     fn new(expected: &'static str) -> Self {
-        ArrayVisitor { expected, item: PhantomData }
+        ArrayVisitor {
+            expected,
+            item: PhantomData,
+        }
     }
 }
 
@@ -213,7 +225,9 @@ impl<'de, T: Value, const N: usize> Visitor<'de> for ArrayVisitor<T, N> {
             values.push(value);
         }
         let found = values.len();
-        values.try_into().map_err(|_| A::Error::invalid_type(Unexpected::Other(&counted(found)), &self))
+        values
+            .try_into()
+            .map_err(|_| A::Error::invalid_type(Unexpected::Other(&counted(found)), &self))
     }
 }
 
@@ -308,7 +322,9 @@ impl<'de> Visitor<'de> for OneOrThreeVisitor {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, items: A) -> Result<OneOrThree, A::Error> {
-        ArrayVisitor::new("one number or three in brackets").visit_seq(items).map(OneOrThree)
+        ArrayVisitor::new("one number or three in brackets")
+            .visit_seq(items)
+            .map(OneOrThree)
     }
 }
 
@@ -320,7 +336,9 @@ impl Value for OneOrThree {
     fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.0 {
             // By their bits: 0 and −0 are kept apart.
-            [r, g, b] if [g, b].map(f64::to_bits) == [r; 2].map(f64::to_bits) => serializer.serialize_f64(r),
+            [r, g, b] if [g, b].map(f64::to_bits) == [r; 2].map(f64::to_bits) => {
+                serializer.serialize_f64(r)
+            }
             values => values.serialize(serializer),
         }
     }
@@ -335,12 +353,18 @@ pub trait Choice: Copy + PartialEq + 'static {
 
     /// What `word` means, if it is one of [`Choice::WORDS`].
     fn from_word(word: &str) -> Option<Self> {
-        Self::WORDS.iter().position(|w| *w == word).map(|i| Self::MEANINGS[i])
+        Self::WORDS
+            .iter()
+            .position(|w| *w == word)
+            .map(|i| Self::MEANINGS[i])
     }
 
     /// The word for this choice.
     fn word(self) -> &'static str {
-        Self::MEANINGS.iter().position(|m| *m == self).map_or("", |i| Self::WORDS[i])
+        Self::MEANINGS
+            .iter()
+            .position(|m| *m == self)
+            .map_or("", |i| Self::WORDS[i])
     }
 }
 

@@ -38,7 +38,10 @@ enum Stand {
 impl Viewpoint {
     pub fn new(section: &CameraSection, check: &Check) -> Result<Self, SceneError> {
         exclusions(section, check)?;
-        let half_height = section.half_height.as_ref().map(|given| check.length(given, "camera.half_height"));
+        let half_height = section
+            .half_height
+            .as_ref()
+            .map(|given| check.length(given, "camera.half_height"));
         let half_height = half_height.transpose()?;
         let fovy = section.fovy.as_ref().map(|given| {
             check.number(
@@ -50,7 +53,12 @@ impl Viewpoint {
         });
         let fovy = fovy.transpose()?;
         let fit = section.fit.as_ref().map(|given| {
-            check.number(given, "camera.fit", |v| (1e-3..=100.0).contains(&v), "a part of the frame, 0.001 to 100")
+            check.number(
+                given,
+                "camera.fit",
+                |v| (1e-3..=100.0).contains(&v),
+                "a part of the frame, 0.001 to 100",
+            )
         });
         let fit = fit.transpose()?;
         let (near, far) = planes(section, check)?;
@@ -59,8 +67,15 @@ impl Viewpoint {
             Stand::Fixed { eye, target } => (eye - target).normalize(),
             Stand::Fitted { direction } => direction,
         };
-        let planes_at = section.far.as_ref().or(section.near.as_ref()).map_or(Origin::Program, |v| v.origin.clone());
-        let stand_at = section.eye.as_ref().map_or(Origin::Program, |eye| eye.origin.clone());
+        let planes_at = section
+            .far
+            .as_ref()
+            .or(section.near.as_ref())
+            .map_or(Origin::Program, |v| v.origin.clone());
+        let stand_at = section
+            .eye
+            .as_ref()
+            .map_or(Origin::Program, |eye| eye.origin.clone());
         Ok(Viewpoint {
             stand,
             up: up(section, toward_eye, check)?,
@@ -85,9 +100,19 @@ impl Viewpoint {
         let mut camera = match self.stand {
             Stand::Fixed { eye, target } => self.fixed(eye, target, points, aspect, warnings),
             Stand::Fitted { direction } => {
-                let fit = Fit { direction, up: self.up, fraction: self.fraction, fovy: self.fovy, aspect };
-                Camera::fit(points, &fit)
-                    .ok_or_else(|| check.scene_error("the objects have no polygons", "nothing to fit the camera to"))?
+                let fit = Fit {
+                    direction,
+                    up: self.up,
+                    fraction: self.fraction,
+                    fovy: self.fovy,
+                    aspect,
+                };
+                Camera::fit(points, &fit).ok_or_else(|| {
+                    check.scene_error(
+                        "the objects have no polygons",
+                        "nothing to fit the camera to",
+                    )
+                })?
             }
         };
         if let Some(half_height) = self.half_height {
@@ -97,13 +122,26 @@ impl Viewpoint {
         camera.far = self.far.unwrap_or(camera.far);
         if camera.near >= camera.far {
             // One of them was given, the other one is where the objects end.
-            let problem = std::format!("leaves nothing between near = {} and far = {}", camera.near, camera.far);
-            let key = if self.far.is_some() { "camera.far" } else { "camera.near" };
+            let problem = std::format!(
+                "leaves nothing between near = {} and far = {}",
+                camera.near,
+                camera.far
+            );
+            let key = if self.far.is_some() {
+                "camera.far"
+            } else {
+                "camera.near"
+            };
             return Err(check.error(&self.planes_at, key, &problem, "expected near below far"));
         }
         if !is_position(camera.eye) {
             let problem = "puts the eye too far away";
-            return Err(check.error(&self.stand_at, "camera", problem, "expected coordinates up to 1e15"));
+            return Err(check.error(
+                &self.stand_at,
+                "camera",
+                problem,
+                "expected coordinates up to 1e15",
+            ));
         }
         Ok(camera)
     }
@@ -121,7 +159,14 @@ impl Viewpoint {
             Some(fovy) => Projection::Perspective { fovy },
             None => Projection::Orthographic { half_height: 1.0 },
         };
-        let mut camera = Camera { eye, target, up: self.up, projection, near: 1.0, far: 2.0 };
+        let mut camera = Camera {
+            eye,
+            target,
+            up: self.up,
+            projection,
+            near: 1.0,
+            far: 2.0,
+        };
         if self.fovy.is_none() && self.half_height.is_none() {
             let half_height = camera.half_height_around(points.clone(), self.fraction, aspect);
             camera.projection = Projection::Orthographic { half_height };
@@ -138,16 +183,37 @@ impl Viewpoint {
 fn exclusions(section: &CameraSection, check: &Check) -> Result<(), SceneError> {
     if let (Some(half_height), Some(fovy)) = (&section.half_height, &section.fovy) {
         let why = "expected one of them: `half_height` is orthographic, `fovy` is perspective";
-        return Err(check.conflict("camera.fovy", &fovy.origin, "camera.half_height", &half_height.origin, why));
+        return Err(check.conflict(
+            "camera.fovy",
+            &fovy.origin,
+            "camera.half_height",
+            &half_height.origin,
+            why,
+        ));
     }
     if let (Some(half_height), Some(fit)) = (&section.half_height, &section.fit) {
         let why = "expected one of them: `fit` finds the half height";
-        return Err(check.conflict("camera.fit", &fit.origin, "camera.half_height", &half_height.origin, why));
+        return Err(check.conflict(
+            "camera.fit",
+            &fit.origin,
+            "camera.half_height",
+            &half_height.origin,
+            why,
+        ));
     }
     let turns = [
-        ("camera.direction", section.direction.as_ref().map(|v| &v.origin)),
-        ("camera.azimuth", section.azimuth.as_ref().map(|v| &v.origin)),
-        ("camera.elevation", section.elevation.as_ref().map(|v| &v.origin)),
+        (
+            "camera.direction",
+            section.direction.as_ref().map(|v| &v.origin),
+        ),
+        (
+            "camera.azimuth",
+            section.azimuth.as_ref().map(|v| &v.origin),
+        ),
+        (
+            "camera.elevation",
+            section.elevation.as_ref().map(|v| &v.origin),
+        ),
     ];
     let mut turns = turns.into_iter().filter_map(|(key, at)| Some((key, at?)));
     let Some((key, at)) = turns.next() else {
@@ -181,22 +247,38 @@ fn exclusions(section: &CameraSection, check: &Check) -> Result<(), SceneError> 
 }
 
 /// The near and far distances that are given.
-fn planes(section: &CameraSection, check: &Check) -> Result<(Option<f64>, Option<f64>), SceneError> {
+fn planes(
+    section: &CameraSection,
+    check: &Check,
+) -> Result<(Option<f64>, Option<f64>), SceneError> {
     let near = match (&section.near, &section.fovy) {
         (None, _) => None,
         (Some(near), Some(_)) => {
             let expected = "a number over 0, as the camera is a perspective one";
-            Some(check.number(near, "camera.near", |v| v > 0.0 && is_coordinate(v), expected)?)
+            Some(check.number(
+                near,
+                "camera.near",
+                |v| v > 0.0 && is_coordinate(v),
+                expected,
+            )?)
         }
         (Some(near), None) => Some(check.coordinate(near, "camera.near")?),
     };
-    let far = section.far.as_ref().map(|far| check.coordinate(far, "camera.far")).transpose()?;
+    let far = section
+        .far
+        .as_ref()
+        .map(|far| check.coordinate(far, "camera.far"))
+        .transpose()?;
     if let (Some(given), Some(near), Some(far)) = (&section.far, near, far)
         && far <= near
     {
         let problem = std::format!("is {far}");
-        let error =
-            check.error(&given.origin, "camera.far", &problem, std::format!("expected more than near = {near}"));
+        let error = check.error(
+            &given.origin,
+            "camera.far",
+            &problem,
+            std::format!("expected more than near = {near}"),
+        );
         return Err(match &section.near {
             Some(near) => error.related(&near.origin, "near is here"),
             None => error,
@@ -213,10 +295,17 @@ fn stand(section: &CameraSection, check: &Check) -> Result<Stand, SceneError> {
             Some(target) => check.point(target, "camera.target")?,
             None => DVec3::ZERO,
         };
-        let difference = Located { value: (eye - target).to_array(), origin: given.origin.clone() };
+        let difference = Located {
+            value: (eye - target).to_array(),
+            origin: given.origin.clone(),
+        };
         let Ok(direction) = check.direction(&difference, "camera.eye") else {
-            let error =
-                check.error(&given.origin, "camera.eye", "is where `target` is", "expected two different points");
+            let error = check.error(
+                &given.origin,
+                "camera.eye",
+                "is where `target` is",
+                "expected two different points",
+            );
             return Err(match &section.target {
                 Some(target) => error.related(&target.origin, "target is here"),
                 None => error.help("without `target` the camera looks at the origin"),
@@ -228,21 +317,32 @@ fn stand(section: &CameraSection, check: &Check) -> Result<Stand, SceneError> {
         });
     }
     if let Some(direction) = &section.direction {
-        return Ok(Stand::Fitted { direction: check.direction(direction, "camera.direction")? });
+        return Ok(Stand::Fitted {
+            direction: check.direction(direction, "camera.direction")?,
+        });
     }
     if section.azimuth.is_none() && section.elevation.is_none() {
-        return Ok(Stand::Fitted { direction: DVec3::from_array(SceneFile::DEFAULT_DIRECTION).normalize() });
+        return Ok(Stand::Fitted {
+            direction: DVec3::from_array(SceneFile::DEFAULT_DIRECTION).normalize(),
+        });
     }
     let azimuth = azimuth(section, check)?;
     let elevation = match &section.elevation {
-        Some(given) => {
-            check.number(given, "camera.elevation", |v| v.abs() <= 90.0, "degrees between -90 and 90")?.to_radians()
-        }
+        Some(given) => check
+            .number(
+                given,
+                "camera.elevation",
+                |v| v.abs() <= 90.0,
+                "degrees between -90 and 90",
+            )?
+            .to_radians(),
         None => 0.0,
     };
     let (sin_a, cos_a) = libm::sincos(azimuth);
     let (sin_e, cos_e) = libm::sincos(elevation);
-    Ok(Stand::Fitted { direction: DVec3::new(cos_e * sin_a, sin_e, cos_e * cos_a) })
+    Ok(Stand::Fitted {
+        direction: DVec3::new(cos_e * sin_a, sin_e, cos_e * cos_a),
+    })
 }
 
 /// The azimuth in radians; 0 when it is not given.
@@ -250,7 +350,12 @@ fn azimuth(section: &CameraSection, check: &Check) -> Result<f64, SceneError> {
     match &section.azimuth {
         // Beyond some turns the degrees of an angle are lost to rounding.
         Some(given) => Ok(check
-            .number(given, "camera.azimuth", |v| v.abs() <= 36_000.0, "degrees between -36000 and 36000")?
+            .number(
+                given,
+                "camera.azimuth",
+                |v| v.abs() <= 36_000.0,
+                "degrees between -36000 and 36000",
+            )?
             .to_radians()),
         None => Ok(0.0),
     }
@@ -268,7 +373,12 @@ fn up(section: &CameraSection, toward_eye: DVec3, check: &Check) -> Result<DVec3
     let up = check.direction(given, "camera.up")?;
     if toward_eye.cross(up).length() < LEAST_TILT {
         let expected = "expected a direction across it";
-        return Err(check.error(&given.origin, "camera.up", "is parallel to the line of sight", expected));
+        return Err(check.error(
+            &given.origin,
+            "camera.up",
+            "is parallel to the line of sight",
+            expected,
+        ));
     }
     Ok(up)
 }

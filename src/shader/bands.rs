@@ -37,7 +37,9 @@ pub(super) fn draw<D: Method>(
         fn run<S: Shader>(self) -> bool {
             let Draw(engine, level, frame, parameters, bands) = self;
             match engine {
-                Engine::Span => on_wide_level(level, Spans::<S>(frame, parameters, bands, PhantomData)).is_ok(),
+                Engine::Span => {
+                    on_wide_level(level, Spans::<S>(frame, parameters, bands, PhantomData)).is_ok()
+                }
                 Engine::Row => {
                     on_level(level, Rows::<S>(frame, parameters, bands, PhantomData));
                     true

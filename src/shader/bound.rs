@@ -50,14 +50,29 @@ impl Info {
     /// Errors of the method itself, Newton's on short spans with large angles among them, are not rounding: where the
     /// difference is over this bound, the report says so.
     pub fn bound(&self, frame: &Frame) -> f64 {
-        let steps = frame.polygons().iter().map(|p| longest_walk(frame, p)).max().unwrap_or(0) as f64;
+        let steps = frame
+            .polygons()
+            .iter()
+            .map(|p| longest_walk(frame, p))
+            .max()
+            .unwrap_or(0) as f64;
         let spread = Spread::of(frame);
-        let gains = (0..).zip(frame.lightings()).map(|(material, lighting)| Gain::of(&spread, material, lighting));
-        let gain = gains.fold(Gain { cosine: 1.0, sum: 1.0 }, Gain::max);
+        let gains = (0..)
+            .zip(frame.lightings())
+            .map(|(material, lighting)| Gain::of(&spread, material, lighting));
+        let gain = gains.fold(
+            Gain {
+                cosine: 1.0,
+                sum: 1.0,
+            },
+            Gain::max,
+        );
         let Roundings { start, step, of } = self.roundings;
         // What is rounded where the weight of perspective is largest counts for more where it is smallest.
         let weights = match self.perspective {
-            Perspective::Free | Perspective::Divides if frame.interpolation() == Interpolation::Perspective => {
+            Perspective::Free | Perspective::Divides
+                if frame.interpolation() == Interpolation::Perspective =>
+            {
                 spread.weights
             }
             _ => 1.0,
@@ -99,26 +114,45 @@ impl Gain {
         let channel = |c: usize| {
             let lights = lighting.lights.iter().enumerate();
             let terms = lights.map(|(i, l)| {
-                let (d, s) = (strength(i) * f64::from(l.diffuse[c]), strength(i) * f64::from(l.specular[c]));
-                let cosine = d + highlight * f64::from(lighting.shininess.max(1.0)) * s + falls * (d + s);
+                let (d, s) = (
+                    strength(i) * f64::from(l.diffuse[c]),
+                    strength(i) * f64::from(l.specular[c]),
+                );
+                let cosine =
+                    d + highlight * f64::from(lighting.shininess.max(1.0)) * s + falls * (d + s);
                 Gain { cosine, sum: d + s }
             });
-            let none = Gain { cosine: 0.0, sum: f64::from(lighting.ambient[c]) };
-            terms.fold(none, |a, b| Gain { cosine: a.cosine + b.cosine, sum: a.sum + b.sum })
+            let none = Gain {
+                cosine: 0.0,
+                sum: f64::from(lighting.ambient[c]),
+            };
+            terms.fold(none, |a, b| Gain {
+                cosine: a.cosine + b.cosine,
+                sum: a.sum + b.sum,
+            })
         };
         channel(0).max(channel(1)).max(channel(2))
     }
 
     fn max(self, other: Gain) -> Gain {
-        Gain { cosine: self.cosine.max(other.cosine), sum: self.sum.max(other.sum) }
+        Gain {
+            cosine: self.cosine.max(other.cosine),
+            sum: self.sum.max(other.sum),
+        }
     }
 }
 
 /// The most steps from a corner to a pixel: down the rows of the polygon and across its columns, inside the picture.
 fn longest_walk(frame: &Frame, polygon: &Polygon) -> usize {
-    let extent = |coordinate: fn(&crate::frame::ScreenVertex) -> crate::frame::SubPixel, limit: usize| {
-        let all = frame.corners(polygon).iter().map(|&v| coordinate(&frame.vertices()[v as usize]).to_bits());
-        let (low, high) = all.fold((i32::MAX, i32::MIN), |(low, high), c| (low.min(c), high.max(c)));
+    let extent = |coordinate: fn(&crate::frame::ScreenVertex) -> crate::frame::SubPixel,
+                  limit: usize| {
+        let all = frame
+            .corners(polygon)
+            .iter()
+            .map(|&v| coordinate(&frame.vertices()[v as usize]).to_bits());
+        let (low, high) = all.fold((i32::MAX, i32::MIN), |(low, high), c| {
+            (low.min(c), high.max(c))
+        });
         ((high - low) as usize / 256 + 1).min(limit)
     };
     extent(|v| v.y, frame.height()) + extent(|v| v.x, frame.width())

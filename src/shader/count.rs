@@ -50,13 +50,27 @@ fn run<S: Shader>(parameters: &[u32], frame: &Frame) -> OperationCounts {
         lap
     };
     let consts = S::consts(&frame.lightings()[0], parameters, &one);
-    let vertex = |vertex| S::vertex(&consts, &Corner { machine: m, frame, vertex });
+    let vertex = |vertex| {
+        S::vertex(
+            &consts,
+            &Corner {
+                machine: m,
+                frame,
+                vertex,
+            },
+        )
+    };
     lap();
     let first = vertex(0);
     let at_vertex = lap();
     let attributes = [first, vertex(1), vertex(2)];
     let polygon = &frame.polygons()[0];
-    let corners = Corners { machine: m, frame, polygon, attributes: &attributes };
+    let corners = Corners {
+        machine: m,
+        frame,
+        polygon,
+        attributes: &attributes,
+    };
     lap();
     let over_polygon = S::polygon(&consts, &corners);
     let polygon_counts = lap();
@@ -69,12 +83,24 @@ fn run<S: Shader>(parameters: &[u32], frame: &Frame) -> OperationCounts {
     lap();
     let (l, r) = (S::Attribute::at(&left), S::Attribute::at(&right));
     let attribute = S::Attribute::span(m, face, l, r, t0, dt);
-    let start = Span { x: one(0.5), y: one(0.5), attribute };
+    let start = Span {
+        x: one(0.5),
+        y: one(0.5),
+        attribute,
+    };
     let mut walk = S::walk(m, &consts, &over_polygon, &start);
     let span = lap();
     let pixel = walk.next();
     let walk = lap();
     S::shade(&consts, pixel);
     let shade = lap();
-    OperationCounts { vertex: at_vertex, polygon: polygon_counts, edge, edge_step, span, walk, shade }
+    OperationCounts {
+        vertex: at_vertex,
+        polygon: polygon_counts,
+        edge,
+        edge_step,
+        span,
+        walk,
+        shade,
+    }
 }

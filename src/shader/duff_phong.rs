@@ -3,7 +3,9 @@
 use super::illumination::Illumination;
 use super::local::Local as LocalLight;
 use super::naive_phong::{Point, point};
-use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{
+    Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped,
+};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -33,7 +35,11 @@ impl Method for DuffPhong {
                   I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "Duff 1979; with positions: L.L, V.V, L.N, N.V and L.V likewise",
         model: Model::Phong,
-        roundings: Roundings { start: 6.0, step: 2.0, of: Stepped::Products },
+        roundings: Roundings {
+            start: 6.0,
+            step: 2.0,
+            of: Stepped::Products,
+        },
         derivation: "J, K and the first difference of D are each rounded by half of 2^-24 at each step, the latter then added up: D \
                      is off by 3 a step and its root by half of that, 1.5, beside the 0.5 of J or K; with positions L.N is a \
                      product too, off by 3, and divided by two roots: three times as much, and the lengths of the vectors vary \
@@ -84,15 +90,30 @@ impl<Q: OverRoot, const L: usize> Shader for Of<Q, L> {
         Illumination::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<M: Machine>(c: &Illumination<M::One, L>, corner: &Corner<'_, M>) -> Lerp<Jkn<M::One, L>> {
+    fn vertex<M: Machine>(
+        c: &Illumination<M::One, L>,
+        corner: &Corner<'_, M>,
+    ) -> Lerp<Jkn<M::One, L>> {
         let (normal, seen) = (corner.normal(), c.far());
         Lerp((seen.light_cosines(normal), seen.view_cosine(normal), normal))
     }
     #[inline(always)]
-    fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, Self::Attribute<M::One>>) {}
+    fn polygon<M: Machine>(
+        _: &Illumination<M::One, L>,
+        _: &Corners<'_, M, Self::Attribute<M::One>>,
+    ) {
+    }
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &Illumination<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
-        let Ramp { at: (j, k, n), step: (dj, dk, dn) } = span.attribute;
+    fn walk<M: Machine>(
+        m: M,
+        _: &Illumination<M::One, L>,
+        _: &(),
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
+        let Ramp {
+            at: (j, k, n),
+            step: (dj, dk, dn),
+        } = span.attribute;
         let light = each(
             #[inline(always)]
             |i| Linear::new(m, j[i], dj[i]), // 4.3
@@ -140,30 +161,57 @@ impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
     type Attribute<R: Real> = Lerp<Point<R>>;
     type Polygon<R: Real> = ();
     /// N·N, V·V, N·V; those of each light; 1/w² if it is needed.
-    type Walk<M: Machine> = ([Quadratic<M::F>; 3], [OfLight<Quadratic<M::F>>; L], Option<Quadratic<M::F>>);
+    type Walk<M: Machine> = (
+        [Quadratic<M::F>; 3],
+        [OfLight<Quadratic<M::F>>; L],
+        Option<Quadratic<M::F>>,
+    );
     type Pixel<F: Num> = ([F; 3], [OfLight<F>; L], Option<F>);
 
     fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> LocalLight<N, L> {
         LocalLight::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<M: Machine>(_: &LocalLight<M::One, L>, corner: &Corner<'_, M>) -> Lerp<Point<M::One>> {
+    fn vertex<M: Machine>(
+        _: &LocalLight<M::One, L>,
+        corner: &Corner<'_, M>,
+    ) -> Lerp<Point<M::One>> {
         point(corner.machine, corner)
     }
     #[inline(always)]
     fn polygon<M: Machine>(_: &LocalLight<M::One, L>, _: &Corners<'_, M, Lerp<Point<M::One>>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, c: &LocalLight<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
-        let Ramp { at: (n, p, w), step: (dn, dp, dw) } = span.attribute;
-        let (inv_w, inv_w_step) = if SPACE { (Some(w), Some(dw)) } else { (None, None) };
+    fn walk<M: Machine>(
+        m: M,
+        c: &LocalLight<M::One, L>,
+        _: &(),
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
+        let Ramp {
+            at: (n, p, w),
+            step: (dn, dp, dw),
+        } = span.attribute;
+        let (inv_w, inv_w_step) = if SPACE {
+            (Some(w), Some(dw))
+        } else {
+            (None, None)
+        };
         let (v, dv) = (c.toward_eye(p, inv_w), c.eye_step(dp, inv_w_step));
-        let shared = [Quadratic::square(m, n, dn), Quadratic::square(m, v, dv), Quadratic::product(m, n, dn, v, dv)];
+        let shared = [
+            Quadratic::square(m, n, dn),
+            Quadratic::square(m, v, dv),
+            Quadratic::product(m, n, dn, v, dv),
+        ];
         let lights = each(
             #[inline(always)]
             |i| {
                 let (l, dl) = (c.toward_light(i, p, inv_w), c.light_step(i, dp, inv_w_step));
                 let with_view = Quadratic::product(m, l, dl, v, dv);
-                (Quadratic::square(m, l, dl), Quadratic::product(m, l, dl, n, dn), with_view)
+                (
+                    Quadratic::square(m, l, dl),
+                    Quadratic::product(m, l, dl, n, dn),
+                    with_view,
+                )
             },
         );
         let weight = if SPACE && c.is_attenuated() {
@@ -175,7 +223,10 @@ impl<const SPACE: bool, const L: usize> Shader for Near<SPACE, L> {
         (shared, lights, weight)
     }
     #[inline(always)]
-    fn shade<F: Num>(c: &LocalLight<F, L>, ([nn, vv, nv], lights, inv_w_square): Self::Pixel<F>) -> [F; 3] {
+    fn shade<F: Num>(
+        c: &LocalLight<F, L>,
+        ([nn, vv, nv], lights, inv_w_square): Self::Pixel<F>,
+    ) -> [F; 3] {
         let (one, two) = (c.model.one(), c.model.two());
         let (over_n, over_v) = (one / nn.sqrt(), one / vv.sqrt());
         let n_v = nv * over_n * over_v;

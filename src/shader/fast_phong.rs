@@ -2,7 +2,10 @@
 
 use super::illumination::{Illumination, Seen, SeenScalars};
 use super::local::{Lights, Local as LocalLight, Near as NearLights};
-use super::{Corner, Corners, Info, Local, Method, Parameter, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{
+    Corner, Corners, Info, Local, Method, Parameter, Perspective, Roundings, Shader, SpanOf,
+    Stepped,
+};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -24,7 +27,11 @@ impl Method for FastPhong {
                   previous pixel\nI = Ia ka + Ip kd J/d + Ip ks (2 J K / D - L.V)^n",
         source: "L21 4.2, 4.3, eq 4.3-4.6",
         model: Model::PhongConstant,
-        roundings: Roundings { start: 4.0, step: 1.4, of: Stepped::Cosines },
+        roundings: Roundings {
+            start: 4.0,
+            step: 1.4,
+            of: Stepped::Cosines,
+        },
         derivation: "each step rounds J and K by half of 2^-24, and the three components of N, so d = |N|, by 0.87 * 2^-24: \
                      J/d is off by 1.4, and 2 J K / D by 2 (0.5 + 0.5 + 2 * 0.87) = 5.5, which is 4 * 1.4",
         fails: "on spans of few pixels over a large angle, where the previous length is a bad first guess (use more \
@@ -67,8 +74,15 @@ impl<const L: usize> Shader for Of<L> {
     type Walk<M: Machine> = ([Linear<M::F>; L], Linear<M::F>, Newton<M::F>);
     type Pixel<F: Num> = ([F; L], F, (F, F));
 
-    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Consts<N, L> {
-        Consts { light: Illumination::new(lighting, of), steps: parameters[0] }
+    fn consts<N: Num>(
+        lighting: &Lighting,
+        parameters: &[u32],
+        of: &dyn Fn(f32) -> N,
+    ) -> Consts<N, L> {
+        Consts {
+            light: Illumination::new(lighting, of),
+            steps: parameters[0],
+        }
     }
     #[inline(always)]
     fn vertex<M: Machine>(c: &Consts<M::One, L>, corner: &Corner<'_, M>) -> Lerp<Jkn<M::One, L>> {
@@ -78,7 +92,12 @@ impl<const L: usize> Shader for Of<L> {
     #[inline(always)]
     fn polygon<M: Machine>(_: &Consts<M::One, L>, _: &Corners<'_, M, Self::Attribute<M::One>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, c: &Consts<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(
+        m: M,
+        c: &Consts<M::One, L>,
+        _: &(),
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
         let ((j, k, n), (dj, dk, dn)) = (span.attribute.at, span.attribute.step);
         let light = each(
             #[inline(always)]
@@ -88,7 +107,10 @@ impl<const L: usize> Shader for Of<L> {
     }
     #[inline(always)]
     fn usual<N: Num>(consts: &Consts<N, L>, scale: N) -> Option<Consts<N, L>> {
-        Some(Consts { light: consts.light.usual(scale)?, steps: consts.steps })
+        Some(Consts {
+            light: consts.light.usual(scale)?,
+            steps: consts.steps,
+        })
     }
     #[inline(always)]
     fn shade<F: Num>(c: &Consts<F, L>, (j, k, (d, squared)): Self::Pixel<F>) -> [F; 3] {
@@ -139,18 +161,33 @@ impl<const L: usize> Shader for Near<L> {
     type Consts<N: Num> = NearConsts<N, L>;
     type Attribute<R: Real> = Lerp<[R; 3]>;
     type Polygon<R: Real> = Seen<R, L>;
-    type Walk<M: Machine> = ([Linear<M::F>; L], Linear<M::F>, Newton<M::F>, Constant<SeenScalars<M::F, L>>);
+    type Walk<M: Machine> = (
+        [Linear<M::F>; L],
+        Linear<M::F>,
+        Newton<M::F>,
+        Constant<SeenScalars<M::F, L>>,
+    );
     type Pixel<F: Num> = ([F; L], F, (F, F), SeenScalars<F, L>);
 
-    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> NearConsts<N, L> {
-        NearConsts { light: LocalLight::new(lighting, of), steps: parameters[0] }
+    fn consts<N: Num>(
+        lighting: &Lighting,
+        parameters: &[u32],
+        of: &dyn Fn(f32) -> N,
+    ) -> NearConsts<N, L> {
+        NearConsts {
+            light: LocalLight::new(lighting, of),
+            steps: parameters[0],
+        }
     }
     #[inline(always)]
     fn vertex<M: Machine>(_: &NearConsts<M::One, L>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
         Lerp(corner.normal())
     }
     #[inline(always)]
-    fn polygon<M: Machine>(c: &NearConsts<M::One, L>, corners: &Corners<'_, M, Lerp<[M::One; 3]>>) -> Seen<M::One, L> {
+    fn polygon<M: Machine>(
+        c: &NearConsts<M::One, L>,
+        corners: &Corners<'_, M, Lerp<[M::One; 3]>>,
+    ) -> Seen<M::One, L> {
         c.light.seen_from(corners.mean_position())
     }
     #[inline(always)]
@@ -168,7 +205,12 @@ impl<const L: usize> Shader for Near<L> {
         );
         let view = Linear::new(m, seen.view_cosine(n), seen.view_cosine(dn));
         let scalars = NearLights::splat(m, seen).scalars;
-        (light, view, Newton::new(m, n, dn, c.steps), Constant(scalars))
+        (
+            light,
+            view,
+            Newton::new(m, n, dn, c.steps),
+            Constant(scalars),
+        )
     }
     #[inline(always)]
     fn shade<F: Num>(c: &NearConsts<F, L>, (j, k, (d, squared), seen): Self::Pixel<F>) -> [F; 3] {

@@ -3,7 +3,9 @@
 use super::duff_phong::{self, OverRoot};
 use super::illumination::{Seen, SeenScalars};
 use super::local::{Lights, Local as LocalLight, Near as NearLights};
-use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{
+    Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped,
+};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -26,7 +28,11 @@ impl Method for FastPhongRsqrt {
                   I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "L21 4.2, 4.3, with the root that processors have had since 1999 (SSE rsqrtps)",
         model: Model::PhongConstant,
-        roundings: Roundings { start: 10.4, step: 2.0, of: Stepped::Products },
+        roundings: Roundings {
+            start: 10.4,
+            step: 2.0,
+            of: Stepped::Products,
+        },
         derivation: "as duff-phong; the estimate of the root and its step are off by 6.4 roundings, where a root and a quotient \
                      are off by 2",
         fails: "where normals cancel inside a span, D is a small difference of large sums",
@@ -61,7 +67,10 @@ impl<const L: usize> Shader for Near<L> {
     type Consts<N: Num> = LocalLight<N, L>;
     type Attribute<R: Real> = Lerp<[R; 3]>;
     type Polygon<R: Real> = Seen<R, L>;
-    type Walk<M: Machine> = (([Linear<M::F>; L], Linear<M::F>, Quadratic<M::F>), Constant<SeenScalars<M::F, L>>);
+    type Walk<M: Machine> = (
+        ([Linear<M::F>; L], Linear<M::F>, Quadratic<M::F>),
+        Constant<SeenScalars<M::F, L>>,
+    );
     type Pixel<F: Num> = (([F; L], F, F), SeenScalars<F, L>);
 
     fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> LocalLight<N, L> {
@@ -72,7 +81,10 @@ impl<const L: usize> Shader for Near<L> {
         Lerp(corner.normal())
     }
     #[inline(always)]
-    fn polygon<M: Machine>(c: &LocalLight<M::One, L>, corners: &Corners<'_, M, Lerp<[M::One; 3]>>) -> Seen<M::One, L> {
+    fn polygon<M: Machine>(
+        c: &LocalLight<M::One, L>,
+        corners: &Corners<'_, M, Lerp<[M::One; 3]>>,
+    ) -> Seen<M::One, L> {
         c.seen_from(corners.mean_position())
     }
     #[inline(always)]
@@ -89,7 +101,10 @@ impl<const L: usize> Shader for Near<L> {
             |i| Linear::new(m, j[i], dj[i]), // 4.3
         );
         let view = Linear::new(m, seen.view_cosine(n), seen.view_cosine(dn));
-        ((light, view, Quadratic::square(m, n, dn)), Constant(NearLights::splat(m, seen).scalars))
+        (
+            (light, view, Quadratic::square(m, n, dn)),
+            Constant(NearLights::splat(m, seen).scalars),
+        )
     }
     #[inline(always)]
     fn shade<F: Num>(c: &LocalLight<F, L>, ((j, k, d), seen): Self::Pixel<F>) -> [F; 3] {

@@ -20,7 +20,11 @@ impl Method for Flat {
         formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, N the polygon's normal by Newell's formula",
         source: "L21 2, eq 2.1 (Bouknight 1970)",
         model: Model::Flat,
-        roundings: Roundings { start: 4.0, step: 0.0, of: Stepped::Colours },
+        roundings: Roundings {
+            start: 4.0,
+            step: 0.0,
+            of: Stepped::Colours,
+        },
         derivation: "nothing is stepped; L.N and R.V take 8 roundings each of at most half of 2^-24",
         fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",
         parameters: &[],

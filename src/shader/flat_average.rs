@@ -20,7 +20,11 @@ impl Method for FlatAverage {
         formula: "N = (N1 + ... + Nn) / |N1 + ... + Nn|;  P = (P1 + ... + Pn) / n;  I = eq 2.1 of N at P",
         source: "CS171 3, Algorithm 6",
         model: Model::FlatAverage,
-        roundings: Roundings { start: 8.0, step: 0.0, of: Stepped::Colours },
+        roundings: Roundings {
+            start: 8.0,
+            step: 0.0,
+            of: Stepped::Colours,
+        },
         derivation: "as flat, and the mean normal takes 4 more roundings until it is a unit vector",
         fails: "as flat; where the vertex normals cancel there is no mean normal, and ambient light remains",
         parameters: &[],

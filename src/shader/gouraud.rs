@@ -1,7 +1,9 @@
 //! Gouraud shading: vertex colours, interpolated linearly (L21 3).
 
 use super::local::{Far, Lights, Near};
-use super::{Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{
+    Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped,
+};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -20,7 +22,11 @@ impl Method for Gouraud {
         formula: "dI = (I2 - I1) / (y2 - y1) along edges, (I2 - I1) / (x2 - x1) along spans; I_next = I + dI",
         source: "L21 3, eq 3.5, 3.6 (Gouraud 1971)",
         model: Model::Gouraud,
-        roundings: Roundings { start: 4.0, step: 1.0, of: Stepped::Colours },
+        roundings: Roundings {
+            start: 4.0,
+            step: 1.0,
+            of: Stepped::Colours,
+        },
         derivation: "a vertex is lit as in flat shading; each step of a colour of at most 1 rounds by half of 2^-24, and so does the \
                      weight under perspective",
         fails: "highlights inside a polygon are lost or smeared; the slope of the intensity still jumps at edges",
@@ -37,7 +43,10 @@ impl Method for Gouraud {
 
 /// The clamped colour of a vertex.
 #[inline(always)]
-fn colour<P: Lights, M: Machine, const L: usize>(c: &P::Of<M::One, L>, corner: &Corner<'_, M>) -> [M::One; 3] {
+fn colour<P: Lights, M: Machine, const L: usize>(
+    c: &P::Of<M::One, L>,
+    corner: &Corner<'_, M>,
+) -> [M::One; 3] {
     let (model, there) = (P::model(c), P::there(c, || corner.position()));
     model.clamped(model.lit(corner.normal(), P::seen(c, &there))) // 2.1
 }
@@ -64,7 +73,12 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
     #[inline(always)]
     fn polygon<M: Machine>(_: &P::Of<M::One, L>, _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &P::Of<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(
+        m: M,
+        _: &P::Of<M::One, L>,
+        _: &(),
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
         let (at, step) = (span.attribute.at, span.attribute.step);
         each(
             #[inline(always)]
@@ -102,13 +116,21 @@ impl<P: Lights, const L: usize> Shader for Weighted<P, L> {
         P::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<M: Machine>(c: &P::Of<M::One, L>, corner: &Corner<'_, M>) -> Lerp<([M::One; 3], M::One)> {
+    fn vertex<M: Machine>(
+        c: &P::Of<M::One, L>,
+        corner: &Corner<'_, M>,
+    ) -> Lerp<([M::One; 3], M::One)> {
         Lerp((colour::<P, M, L>(c, corner), P::model(c).one()))
     }
     #[inline(always)]
     fn polygon<M: Machine>(_: &P::Of<M::One, L>, _: &Corners<'_, M, Lerp<([M::One; 3], M::One)>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &P::Of<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(
+        m: M,
+        _: &P::Of<M::One, L>,
+        _: &(),
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
         let (at, step) = (span.attribute.at, span.attribute.step);
         let colour = each(
             #[inline(always)]

@@ -1,7 +1,9 @@
 //! Gouraud shading with diffuse and specular light interpolated apart (L21 3; OpenGL's separate specular colour).
 
 use super::local::{Far, Lights, Near};
-use super::{Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{
+    Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped,
+};
 use crate::lighting::{LightTerm, Lighting};
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -23,7 +25,11 @@ impl Method for GouraudSeparate {
         formula: "D_next = D + dD;  S_next = S + dS;  I = min(1, D + S), D = Ia ka + Ip kd (L.N), S = Ip ks (R.V)^n at vertices",
         source: "L21 3, eq 3.5, 3.6; OpenGL 1.2, 2.13.1 (separate specular colour)",
         model: Model::GouraudSeparate,
-        roundings: Roundings { start: 6.0, step: 1.0, of: Stepped::Sums },
+        roundings: Roundings {
+            start: 6.0,
+            step: 1.0,
+            of: Stepped::Sums,
+        },
         derivation: "as Gouraud, with two colours that are stepped, added, and at most the sum of all light between them",
         fails: "as Gouraud",
         parameters: &[],
@@ -55,14 +61,23 @@ impl<P: Lights, const W: usize, const L: usize> Shader for Of<P, W, L> {
 
     fn consts<N: Num>(lighting: &Lighting, _: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N> {
         let part = |change: fn(&mut LightTerm), ambient| {
-            let mut part = Lighting { ambient, ..lighting.clone() };
+            let mut part = Lighting {
+                ambient,
+                ..lighting.clone()
+            };
             part.lights.iter_mut().for_each(change);
             P::new(&part, of)
         };
-        [part(|l| l.specular = [0.0; 3], lighting.ambient), part(|l| l.diffuse = [0.0; 3], [0.0; 3])]
+        [
+            part(|l| l.specular = [0.0; 3], lighting.ambient),
+            part(|l| l.diffuse = [0.0; 3], [0.0; 3]),
+        ]
     }
     #[inline(always)]
-    fn vertex<M: Machine>(c: &Self::Consts<M::One>, corner: &Corner<'_, M>) -> Lerp<Colours<M::One>> {
+    fn vertex<M: Machine>(
+        c: &Self::Consts<M::One>,
+        corner: &Corner<'_, M>,
+    ) -> Lerp<Colours<M::One>> {
         let there = P::there(&c[0], || corner.position());
         let seen = P::seen(&c[0], &there);
         let colour = |part: usize| P::model(&c[part]).lit(corner.normal(), seen); // 2.1
@@ -71,7 +86,12 @@ impl<P: Lights, const W: usize, const L: usize> Shader for Of<P, W, L> {
     #[inline(always)]
     fn polygon<M: Machine>(_: &Self::Consts<M::One>, _: &Corners<'_, M, Self::Attribute<M::One>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &Self::Consts<M::One>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(
+        m: M,
+        _: &Self::Consts<M::One>,
+        _: &(),
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
         let (at, step) = (span.attribute.at, span.attribute.step);
         let colour = |at: [M::One; 3], step: [M::One; 3]| {
             each(

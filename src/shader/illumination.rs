@@ -33,7 +33,12 @@ pub struct SeenScalars<N, const L: usize> {
 impl<N: Num, const L: usize> Seen<N, L> {
     /// From unit vectors, for highlights of `model`.
     #[inline(always)]
-    pub(super) fn new(light: [[N; 3]; L], view: [N; 3], strength: Option<[N; L]>, model: &Illumination<N, L>) -> Self {
+    pub(super) fn new(
+        light: [[N; 3]; L],
+        view: [N; 3],
+        strength: Option<[N; L]>,
+        model: &Illumination<N, L>,
+    ) -> Self {
         let light_view: [N; L] = each(
             #[inline(always)]
             |i| dot(light[i], view),
@@ -45,7 +50,15 @@ impl<N: Num, const L: usize> Seen<N, L> {
             ),
             false => [model.one; L],
         };
-        Seen { light, view, scalars: SeenScalars { light_view, half, strength } }
+        Seen {
+            light,
+            view,
+            scalars: SeenScalars {
+                light_view,
+                half,
+                strength,
+            },
+        }
     }
 
     /// `J = L·N` of every light.
@@ -77,14 +90,22 @@ impl<N: Num, const L: usize> Seen<N, L> {
                 |i| m.splat(v[i]),
             )
         };
-        let SeenScalars { light_view, half, strength } = self.scalars;
+        let SeenScalars {
+            light_view,
+            half,
+            strength,
+        } = self.scalars;
         Seen {
             light: each(
                 #[inline(always)]
                 |i| m.splat3(self.light[i]),
             ),
             view: m.splat3(self.view),
-            scalars: SeenScalars { light_view: all(light_view), half: all(half), strength: strength.map(all) },
+            scalars: SeenScalars {
+                light_view: all(light_view),
+                half: all(half),
+                strength: strength.map(all),
+            },
         }
     }
 }
@@ -167,7 +188,10 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             _ => 0.0,
         };
         let is_bounded = |channel: usize| {
-            let lights = lighting.lights.iter().map(|l| l.diffuse[channel].abs() + l.specular[channel].abs());
+            let lights = lighting
+                .lights
+                .iter()
+                .map(|l| l.diffuse[channel].abs() + l.specular[channel].abs());
             lighting.ambient[channel].abs() + lights.sum::<f32>() < 4_194_304.0
         };
         Illumination {
@@ -309,7 +333,12 @@ impl<N: Num, const L: usize> Illumination<N, L> {
 
     /// The sum from the clamped cosines.
     #[inline(always)]
-    fn sum(&self, diffuse_cosine: [N; L], highlight: [N; L], strength: impl Fn(usize) -> Option<N>) -> [N; 3] {
+    fn sum(
+        &self,
+        diffuse_cosine: [N; L],
+        highlight: [N; L],
+        strength: impl Fn(usize) -> Option<N>,
+    ) -> [N; 3] {
         let powers = self.power.of_each(highlight, self.one);
         let powers: [N; L] = match self.gate {
             SpecularGate::Gated => each(
@@ -375,13 +404,21 @@ impl<N: Num, const L: usize> Illumination<N, L> {
             |i| {
                 let l = seen.light[i];
                 let twice = self.two * cosines.of(i);
-                let r = [twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]]; // R = 2 (L·N) N − L
+                let r = [
+                    twice * n[0] - l[0],
+                    twice * n[1] - l[1],
+                    twice * n[2] - l[2],
+                ]; // R = 2 (L·N) N − L
                 dot(r, seen.view)
             },
             #[inline(always)]
             |i| {
                 let (l, v, half) = (seen.light[i], seen.view, seen.scalars.half[i]);
-                let h = [(l[0] + v[0]) * half, (l[1] + v[1]) * half, (l[2] + v[2]) * half]; // h = (e + l) / |e + l|
+                let h = [
+                    (l[0] + v[0]) * half,
+                    (l[1] + v[1]) * half,
+                    (l[2] + v[2]) * half,
+                ]; // h = (e + l) / |e + l|
                 dot(n, h)
             },
             #[inline(always)]

@@ -37,8 +37,12 @@ impl Perspective {
         match self {
             Perspective::Unaffected => "interpolates nothing, so perspective changes nothing",
             Perspective::Free => "perspective-correct at no cost a pixel: the weight cancels",
-            Perspective::Divides => "perspective-correct for one division and three multiplications a pixel more",
-            Perspective::ScreenOnly => "stays linear on the screen: its increments are constant only there",
+            Perspective::Divides => {
+                "perspective-correct for one division and three multiplications a pixel more"
+            }
+            Perspective::ScreenOnly => {
+                "stays linear on the screen: its increments are constant only there"
+            }
         }
     }
 }
@@ -58,7 +62,9 @@ impl Local {
     /// One sentence for people.
     pub fn sentence(self) -> &'static str {
         match self {
-            Local::PerPolygon => "lights and eye at positions are seen from the mean of each polygon's corners",
+            Local::PerPolygon => {
+                "lights and eye at positions are seen from the mean of each polygon's corners"
+            }
             Local::PerVertex => "lights and eye at positions are seen from each vertex",
             Local::PerPixel => "lights and eye at positions are seen from each pixel",
         }

@@ -23,11 +23,20 @@ pub trait Lights: Copy + fmt::Debug + 'static {
     /// The illumination model.
     fn model<N: Num, const L: usize>(c: &Self::Of<N, L>) -> &Illumination<N, L>;
     /// What holds at `position`.
-    fn there<N: Num, const L: usize>(c: &Self::Of<N, L>, position: impl FnOnce() -> [N; 3]) -> Self::There<N, L>;
+    fn there<N: Num, const L: usize>(
+        c: &Self::Of<N, L>,
+        position: impl FnOnce() -> [N; 3],
+    ) -> Self::There<N, L>;
     /// Light and viewer as they are seen there.
-    fn seen<'a, N: Num, const L: usize>(c: &'a Self::Of<N, L>, there: &'a Self::There<N, L>) -> &'a Seen<N, L>;
+    fn seen<'a, N: Num, const L: usize>(
+        c: &'a Self::Of<N, L>,
+        there: &'a Self::There<N, L>,
+    ) -> &'a Seen<N, L>;
     /// What holds there, in the numbers of the pixel loop.
-    fn splat<M: Machine, const L: usize>(m: M, there: &Self::There<M::One, L>) -> Self::There<M::F, L>;
+    fn splat<M: Machine, const L: usize>(
+        m: M,
+        there: &Self::There<M::One, L>,
+    ) -> Self::There<M::F, L>;
 }
 
 /// All at infinity, as the lecture assumes (L21 1).
@@ -38,7 +47,10 @@ impl Lights for Far {
     type Of<N: Num, const L: usize> = Illumination<N, L>;
     type There<N: Num, const L: usize> = ();
 
-    fn new<N: Num, const L: usize>(lighting: &Lighting, of: &dyn Fn(f32) -> N) -> Illumination<N, L> {
+    fn new<N: Num, const L: usize>(
+        lighting: &Lighting,
+        of: &dyn Fn(f32) -> N,
+    ) -> Illumination<N, L> {
         Illumination::new(lighting, of)
     }
     #[inline(always)]
@@ -71,11 +83,17 @@ impl Lights for Near {
         &c.model
     }
     #[inline(always)]
-    fn there<N: Num, const L: usize>(c: &Local<N, L>, position: impl FnOnce() -> [N; 3]) -> Seen<N, L> {
+    fn there<N: Num, const L: usize>(
+        c: &Local<N, L>,
+        position: impl FnOnce() -> [N; 3],
+    ) -> Seen<N, L> {
         c.seen_from(position())
     }
     #[inline(always)]
-    fn seen<'a, N: Num, const L: usize>(_: &'a Local<N, L>, there: &'a Seen<N, L>) -> &'a Seen<N, L> {
+    fn seen<'a, N: Num, const L: usize>(
+        _: &'a Local<N, L>,
+        there: &'a Seen<N, L>,
+    ) -> &'a Seen<N, L> {
         there
     }
     #[inline(always)]
@@ -104,12 +122,26 @@ impl<N: Num, const L: usize> Local<N, L> {
     pub fn new(lighting: &Lighting, of: &dyn Fn(f32) -> N) -> Self {
         let three = |v: [f32; 3]| [of(v[0]), of(v[1]), of(v[2])];
         let light = |i: usize| lighting.lights.get(i);
-        let falloff = |i: usize| light(i).filter(|l| l.place.is_local()).map_or(Falloff::None, |l| l.falloff);
+        let falloff = |i: usize| {
+            light(i)
+                .filter(|l| l.place.is_local())
+                .map_or(Falloff::None, |l| l.falloff)
+        };
         Local {
             model: Illumination::new(lighting, of),
-            lights: each(|i| light(i).map_or(Place::Infinite([0.0, 0.0, 1.0]), |l| l.place).map(three)),
+            lights: each(|i| {
+                light(i)
+                    .map_or(Place::Infinite([0.0, 0.0, 1.0]), |l| l.place)
+                    .map(three)
+            }),
             falloffs: each(falloff),
-            k: each(|i| of(if let Falloff::Attenuation(k) = falloff(i) { k } else { 0.0 })),
+            k: each(|i| {
+                of(if let Falloff::Attenuation(k) = falloff(i) {
+                    k
+                } else {
+                    0.0
+                })
+            }),
             view: lighting.view.map(three),
             is_attenuated: lighting.is_attenuated(),
             least: of(LEAST_SQUARE),
@@ -181,7 +213,12 @@ impl<N: Num, const L: usize> Local<N, L> {
         }
         let v = self.toward_eye(position, None);
         let view = unit(v, one / dot(v, v).sqrt());
-        Seen::new(light, view, self.is_attenuated.then_some(strength), &self.model)
+        Seen::new(
+            light,
+            view,
+            self.is_attenuated.then_some(strength),
+            &self.model,
+        )
     }
 }
 
@@ -201,7 +238,12 @@ fn toward<N: Num>(place: Place<[N; 3]>, from: [N; 3], inv_w: Option<N>) -> [N; 3
 }
 
 #[inline(always)]
-fn toward_step<N: Num>(place: Place<[N; 3]>, step: [N; 3], inv_w_step: Option<N>, zero: N) -> [N; 3] {
+fn toward_step<N: Num>(
+    place: Place<[N; 3]>,
+    step: [N; 3],
+    inv_w_step: Option<N>,
+    zero: N,
+) -> [N; 3] {
     match (place, inv_w_step) {
         (Place::Local(_), None) => [-step[0], -step[1], -step[2]],
         (Place::Infinite(_), None) => [zero; 3],
@@ -218,7 +260,12 @@ mod tests {
     /// The light behind a point, on the line from the eye or nearly so: L·V is rounded to −1, and 1 / |L + V| to infinity.
     #[test]
     fn opposite_light_and_eye_have_no_highlight() {
-        let material = Material { ambient: [0.25; 3], diffuse: [0.0; 3], specular: [1.0; 3], shininess: 8.0 };
+        let material = Material {
+            ambient: [0.25; 3],
+            diffuse: [0.0; 3],
+            specular: [1.0; 3],
+            shininess: 8.0,
+        };
         let light = Light::positional(DVec3::new(0.0, 0.0, -5.0), [1.0; 3]);
         let lighting = Lighting {
             view: Place::Local([0.0; 3]),
@@ -234,7 +281,11 @@ mod tests {
             let seen = local.seen_from([x, 0.3 * x, -2.0]);
             let n = [-0.6, 0.0, 0.8]; // on the side of L + V
             assert_eq!(local.model.lit(n, &seen), [0.25; 3], "{x}");
-            let cosines = local.model.colour_of_cosines(seen.light_cosines(n), seen.view_cosine(n), &seen.scalars);
+            let cosines = local.model.colour_of_cosines(
+                seen.light_cosines(n),
+                seen.view_cosine(n),
+                &seen.scalars,
+            );
             assert_eq!(cosines, [0.25; 3], "{x}");
         }
     }

@@ -79,7 +79,9 @@ impl<M: Machine> Corner<'_, M> {
     #[inline(always)]
     pub fn world(&self) -> [M::One; 3] {
         let (eye, from_eye) = (self.frame.eye(), self.frame.position(self.vertex));
-        self.machine.three(core::array::from_fn(|i| (eye[i] + f64::from(from_eye[i])) as f32))
+        self.machine.three(core::array::from_fn(|i| {
+            (eye[i] + f64::from(from_eye[i])) as f32
+        }))
     }
 
     /// Its colour: see [`Frame::colour`].
@@ -126,7 +128,10 @@ impl<M: Machine, A: Copy> Corners<'_, M, A> {
     /// Column and row of corner `i` on the picture, in pixels.
     pub fn position(&self, i: usize) -> [M::One; 2] {
         let vertex = &self.frame.vertices()[self.frame.corners(self.polygon)[i] as usize];
-        [self.machine.one(vertex.x.to_num()), self.machine.one(vertex.y.to_num())]
+        [
+            self.machine.one(vertex.x.to_num()),
+            self.machine.one(vertex.y.to_num()),
+        ]
     }
 
     /// The attribute of corner `i`.
@@ -182,7 +187,11 @@ pub trait Shader: 'static {
     const ATTRIBUTE_IS_NORMAL: bool = false;
 
     /// Constants from the light on one material; `parameters` are in the order of [`Info::parameters`].
-    fn consts<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Self::Consts<N>;
+    fn consts<N: Num>(
+        lighting: &Lighting,
+        parameters: &[u32],
+        of: &dyn Fn(f32) -> N,
+    ) -> Self::Consts<N>;
     /// The constants again, for [`Shader::scaled`], if they ask for what most scenes do, which pixel loops are compiled for apart, without
     /// decisions. `None` by default: then there is one loop.
     #[inline(always)]
@@ -198,7 +207,10 @@ pub trait Shader: 'static {
         Self::shade(c, pixel)
     }
     /// Once a vertex.
-    fn vertex<M: Machine>(c: &Self::Consts<M::One>, corner: &Corner<'_, M>) -> Self::Attribute<M::One>;
+    fn vertex<M: Machine>(
+        c: &Self::Consts<M::One>,
+        corner: &Corner<'_, M>,
+    ) -> Self::Attribute<M::One>;
     /// Once a polygon.
     fn polygon<M: Machine>(
         c: &Self::Consts<M::One>,

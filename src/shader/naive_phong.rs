@@ -2,7 +2,9 @@
 
 use super::illumination::{Illumination, Seen};
 use super::local::Local as LocalLight;
-use super::{Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{
+    Corner, Corners, Given, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped,
+};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, dot, each};
 use crate::reference::Model;
@@ -24,7 +26,11 @@ impl Method for NaivePhong {
         formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  eq 2.1 at every pixel",
         source: "L21 4.1, eq 4.1, 4.2 (Phong 1975)",
         model: Model::Phong,
-        roundings: Roundings { start: 4.0, step: 0.9, of: Stepped::Cosines },
+        roundings: Roundings {
+            start: 4.0,
+            step: 0.9,
+            of: Stepped::Cosines,
+        },
         derivation: "each step rounds the three components of N by half of 2^-24, which is a vector of length 0.87 * 2^-24; what \
                      lies along N is lost when N is normalised",
         fails: "where normals cancel inside a span; the slope of the intensity still jumps at edges (Duff 1979)",
@@ -42,7 +48,10 @@ impl Method for NaivePhong {
 /// What is made of an interpolated normal at a pixel.
 pub(super) trait AtPixel: 'static {
     /// The colour of a surface whose normal has the direction of `n`, before the clamp, if `USUAL` with constants of that kind.
-    fn colour<F: Num, const L: usize, const USUAL: bool>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3];
+    fn colour<F: Num, const L: usize, const USUAL: bool>(
+        c: &Illumination<F, L>,
+        n: [F; 3],
+    ) -> [F; 3];
 }
 
 /// It is divided by its length, and lit.
@@ -51,7 +60,10 @@ pub struct Renormalised;
 
 impl AtPixel for Renormalised {
     #[inline(always)]
-    fn colour<F: Num, const L: usize, const USUAL: bool>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
+    fn colour<F: Num, const L: usize, const USUAL: bool>(
+        c: &Illumination<F, L>,
+        n: [F; 3],
+    ) -> [F; 3] {
         let r = c.one() / dot(n, n).sqrt();
         c.lit_of::<USUAL>([n[0] * r, n[1] * r, n[2] * r], c.far()) // N_unit = N / |N|, 2.1
     }
@@ -78,13 +90,21 @@ impl<Q: AtPixel, const L: usize> Shader for Of<Q, L> {
         consts.usual(scale)
     }
     #[inline(always)]
-    fn vertex<M: Machine>(_: &Illumination<M::One, L>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
+    fn vertex<M: Machine>(
+        _: &Illumination<M::One, L>,
+        corner: &Corner<'_, M>,
+    ) -> Lerp<[M::One; 3]> {
         Lerp(corner.normal())
     }
     #[inline(always)]
     fn polygon<M: Machine>(_: &Illumination<M::One, L>, _: &Corners<'_, M, Lerp<[M::One; 3]>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &Illumination<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(
+        m: M,
+        _: &Illumination<M::One, L>,
+        _: &(),
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
         let (n, dn) = (span.attribute.at, span.attribute.step);
         each(
             #[inline(always)]
@@ -135,15 +155,30 @@ impl<const W: usize, const L: usize> Shader for Near<W, L> {
         LocalLight::new(lighting, of)
     }
     #[inline(always)]
-    fn vertex<M: Machine>(_: &LocalLight<M::One, L>, corner: &Corner<'_, M>) -> Lerp<Point<M::One>> {
+    fn vertex<M: Machine>(
+        _: &LocalLight<M::One, L>,
+        corner: &Corner<'_, M>,
+    ) -> Lerp<Point<M::One>> {
         point(corner.machine, corner)
     }
     #[inline(always)]
     fn polygon<M: Machine>(_: &LocalLight<M::One, L>, _: &Corners<'_, M, Lerp<Point<M::One>>>) {}
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &LocalLight<M::One, L>, _: &(), span: &SpanOf<Self, M::One>) -> Self::Walk<M> {
-        let Ramp { at: (n, p, w), step: (dn, dp, dw) } = span.attribute;
-        (linear(m, n, dn), linear(m, p, dp), [Linear::new(m, w, dw); W])
+    fn walk<M: Machine>(
+        m: M,
+        _: &LocalLight<M::One, L>,
+        _: &(),
+        span: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
+        let Ramp {
+            at: (n, p, w),
+            step: (dn, dp, dw),
+        } = span.attribute;
+        (
+            linear(m, n, dn),
+            linear(m, p, dp),
+            [Linear::new(m, w, dw); W],
+        )
     }
     #[inline(always)]
     fn shade<F: Num>(c: &LocalLight<F, L>, (n, p, weight): Self::Pixel<F>) -> [F; 3] {
@@ -165,7 +200,11 @@ impl<const W: usize, const L: usize> Shader for Near<W, L> {
             },
         );
         let v = c.toward_eye(p, inv_w);
-        let strength = if c.is_attenuated() { Some(strength) } else { None };
+        let strength = if c.is_attenuated() {
+            Some(strength)
+        } else {
+            None
+        };
         let seen = Seen::new(light, unit(v, dot(v, v)), strength, &c.model);
         c.model.lit(unit(n, dot(n, n)), &seen) // 2.1
     }

@@ -32,13 +32,21 @@ impl<N: PolygonNormal, P: Lights, const L: usize> Shader for Of<N, P, L> {
         Lerp(())
     }
     #[inline(always)]
-    fn polygon<M: Machine>(c: &P::Of<M::One, L>, corners: &Corners<'_, M, Lerp<()>>) -> [M::One; 3] {
+    fn polygon<M: Machine>(
+        c: &P::Of<M::One, L>,
+        corners: &Corners<'_, M, Lerp<()>>,
+    ) -> [M::One; 3] {
         let (model, there) = (P::model(c), P::there(c, || corners.mean_position()));
         let normal = N::unit::<M>(model.one(), corners);
         model.clamped(model.lit(normal, P::seen(c, &there))) // 2.1
     }
     #[inline(always)]
-    fn walk<M: Machine>(m: M, _: &P::Of<M::One, L>, colour: &[M::One; 3], _: &SpanOf<Self, M::One>) -> Self::Walk<M> {
+    fn walk<M: Machine>(
+        m: M,
+        _: &P::Of<M::One, L>,
+        colour: &[M::One; 3],
+        _: &SpanOf<Self, M::One>,
+    ) -> Self::Walk<M> {
         Constant(m.splat3(*colour))
     }
     #[inline(always)]

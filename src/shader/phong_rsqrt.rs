@@ -22,7 +22,11 @@ impl Method for PhongRsqrt {
         formula: "N_next = N + dN;  J = L.N;  K = V.N;  r = rsqrt(N.N);  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "L21 4.1-4.3, eq 4.5, with the root that processors have had since 1999 (SSE rsqrtps)",
         model: Model::Phong,
-        roundings: Roundings { start: 10.0, step: 0.9, of: Stepped::Cosines },
+        roundings: Roundings {
+            start: 10.0,
+            step: 0.9,
+            of: Stepped::Cosines,
+        },
         derivation: "as naive-phong; J, K and D take 5 roundings each, and the estimate of the root is off by 2^-22, which is 4 more",
         fails: "as naive-phong",
         parameters: &[],
@@ -42,7 +46,10 @@ pub struct Scalars;
 
 impl AtPixel for Scalars {
     #[inline(always)]
-    fn colour<F: Num, const L: usize, const USUAL: bool>(c: &Illumination<F, L>, n: [F; 3]) -> [F; 3] {
+    fn colour<F: Num, const L: usize, const USUAL: bool>(
+        c: &Illumination<F, L>,
+        n: [F; 3],
+    ) -> [F; 3] {
         let r = dot(n, n).over_sqrt();
         let (light, k) = (&c.far().light, c.far().view_cosine(n));
         c.colour_of_unit_cosines::<USUAL>(

@@ -15,7 +15,11 @@ impl Power {
     /// The power for a shininess of 0 or more.
     pub fn new(shininess: f32) -> Self {
         let whole = shininess as u32;
-        if whole as f32 == shininess { Power::Integer(whole) } else { Power::Fractional(shininess) }
+        if whole as f32 == shininess {
+            Power::Integer(whole)
+        } else {
+            Power::Fractional(shininess)
+        }
     }
 
     /// How many squarings give it, if up to 7 do.
@@ -101,17 +105,33 @@ mod tests {
     /// and a factor 1.1 covers the products of roundings.
     #[test]
     fn whole_powers_are_products() {
-        for n in (0..=70).chain([96, 127, 128, 129, 255, 256, 300, 512, 1000, 1024, 4096, 65_536]) {
+        for n in (0..=70).chain([
+            96, 127, 128, 129, 255, 256, 300, 512, 1000, 1024, 4096, 65_536,
+        ]) {
             let base = 1.0 - 1.0 / (n as f32 + 3.0);
             let truth = f64::from(base).powi(n);
             let power = Power::new(n as f32);
-            let by_squaring = power.squarings().map(|times| squared_up_to_7([base], times)[0]);
-            for found in [Some(power.of(base, 1.0)), by_squaring].into_iter().flatten() {
+            let by_squaring = power
+                .squarings()
+                .map(|times| squared_up_to_7([base], times)[0]);
+            for found in [Some(power.of(base, 1.0)), by_squaring]
+                .into_iter()
+                .flatten()
+            {
                 let bound = 1.1 * f64::from(n) * f64::powi(2.0, -24) * truth;
-                assert!((f64::from(found) - truth).abs() <= bound, "{power:?}: {found}, expected {truth}");
+                assert!(
+                    (f64::from(found) - truth).abs() <= bound,
+                    "{power:?}: {found}, expected {truth}"
+                );
             }
         }
-        assert_eq!([24.0, 256.0, 0.0, 0.5].map(|n| Power::new(n).squarings()), [None; 4]);
-        assert_eq!([1.0, 32.0, 128.0].map(|n| Power::new(n).squarings()), [Some(0), Some(5), Some(7)]);
+        assert_eq!(
+            [24.0, 256.0, 0.0, 0.5].map(|n| Power::new(n).squarings()),
+            [None; 4]
+        );
+        assert_eq!(
+            [1.0, 32.0, 128.0].map(|n| Power::new(n).squarings()),
+            [Some(0), Some(5), Some(7)]
+        );
     }
 }

@@ -1,7 +1,9 @@
 //! Slerp Phong shading with scalars: `J` and `K` by incremental sines and cosines (L21 4.4, summary c).
 
 use super::local::{Far, Lights, Near};
-use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{
+    Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped,
+};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -20,7 +22,11 @@ impl Method for SlerpPhong {
                   I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
         source: "L21 4.4, eq 4.7-4.12, summary c",
         model: Model::Slerp,
-        roundings: Roundings { start: 4.0, step: 2.0, of: Stepped::Cosines },
+        roundings: Roundings {
+            start: 4.0,
+            step: 2.0,
+            of: Stepped::Cosines,
+        },
         derivation: "each step turns a vector of length 1 by two products and a sum in each component, 1.5 * 2^-24 in all, with a \
                      rotation whose entries are rounded by half of 2^-24",
         fails: "on short spans, which pay one inverse tangent, three pairs of sine and cosine, two roots and a \
@@ -77,7 +83,10 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
         UnitNormal(corner.normal())
     }
     #[inline(always)]
-    fn polygon<M: Machine>(c: &P::Of<M::One, L>, corners: &Corners<'_, M, UnitNormal<M::One>>) -> P::There<M::One, L> {
+    fn polygon<M: Machine>(
+        c: &P::Of<M::One, L>,
+        corners: &Corners<'_, M, UnitNormal<M::One>>,
+    ) -> P::There<M::One, L> {
         P::there(c, || corners.mean_position())
     }
     #[inline(always)]
@@ -95,7 +104,10 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
                 #[inline(always)]
                 |i| [m.splat(from[i]), m.splat(to[i])],
             ),
-            k: [m.splat(seen.view_cosine(arc.from)), m.splat(seen.view_cosine(arc.to))],
+            k: [
+                m.splat(seen.view_cosine(arc.from)),
+                m.splat(seen.view_cosine(arc.to)),
+            ],
         };
         (cosines, Constant(P::splat(m, there)))
     }

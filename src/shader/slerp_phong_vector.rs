@@ -1,7 +1,9 @@
 //! Slerp Phong shading with vectors: unit normals by incremental sines and cosines (L21 4.4, steps i–iv).
 
 use super::local::{Far, Lights, Near};
-use super::{Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped};
+use super::{
+    Corner, Corners, Info, Local, Method, Perspective, Roundings, Shader, SpanOf, Stepped,
+};
 use crate::lighting::Lighting;
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
@@ -19,7 +21,11 @@ impl Method for SlerpPhongVector {
         formula: "N(t) = sin((1-t)phi)/sin(phi) N1 + sin(t phi)/sin(phi) N2; sines by eq 4.9-4.12; eq 2.1",
         source: "L21 4.4, eq 4.7-4.12, steps i-iv",
         model: Model::Slerp,
-        roundings: Roundings { start: 4.0, step: 2.0, of: Stepped::Cosines },
+        roundings: Roundings {
+            start: 4.0,
+            step: 2.0,
+            of: Stepped::Cosines,
+        },
         derivation: "as slerp-phong: the same sines carry the normals",
         fails: "as slerp-phong, at a higher price a pixel",
         parameters: &[],
@@ -73,7 +79,10 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
         UnitNormal(corner.normal())
     }
     #[inline(always)]
-    fn polygon<M: Machine>(c: &P::Of<M::One, L>, corners: &Corners<'_, M, UnitNormal<M::One>>) -> P::There<M::One, L> {
+    fn polygon<M: Machine>(
+        c: &P::Of<M::One, L>,
+        corners: &Corners<'_, M, UnitNormal<M::One>>,
+    ) -> P::There<M::One, L> {
         P::there(c, || corners.mean_position())
     }
     #[inline(always)]
@@ -85,7 +94,11 @@ impl<P: Lights, const L: usize> Shader for Of<P, L> {
     ) -> Self::Walk<M> {
         let arc = &span.attribute;
         let sines = Sines::new(m, arc.phi, arc.t0, arc.dt);
-        let normals = Normals { sines, from: m.splat3(arc.from), to: m.splat3(arc.to) };
+        let normals = Normals {
+            sines,
+            from: m.splat3(arc.from),
+            to: m.splat3(arc.to),
+        };
         (normals, Constant(P::splat(m, there)))
     }
     #[inline(always)]

@@ -35,8 +35,13 @@ impl Spread {
         };
         let is_local = frame.is_local();
         for polygon in frame.polygons() {
-            let weights = frame.corners(polygon).iter().map(|&v| f64::from(frame.vertices()[v as usize].inv_w));
-            let (least, most) = weights.fold((f64::INFINITY, 0.0), |(low, high), w| (w.min(low), w.max(high)));
+            let weights = frame
+                .corners(polygon)
+                .iter()
+                .map(|&v| f64::from(frame.vertices()[v as usize].inv_w));
+            let (least, most) = weights.fold((f64::INFINITY, 0.0), |(low, high), w| {
+                (w.min(low), w.max(high))
+            });
             spread.weights = f64::max(spread.weights, most / least);
             if is_local {
                 spread.add(frame, polygon, &Ball::around(frame, polygon));
@@ -75,14 +80,18 @@ impl Spread {
             let strength = match light.falloff {
                 _ if !light.place.is_local() => 1.0,
                 Falloff::None => 1.0,
-                Falloff::Attenuation(k) => 1.0 / (1.0 + f64::from(k) * sight.nearest * sight.nearest),
+                Falloff::Attenuation(k) => {
+                    1.0 / (1.0 + f64::from(k) * sight.nearest * sight.nearest)
+                }
                 Falloff::InverseSquare => 1.0 / (sight.nearest * sight.nearest),
                 Falloff::Inverse => 1.0 / sight.nearest,
             };
             let greatest = &mut self.strengths[material][i];
             *greatest = greatest.max(strength);
             // |l + v| = 2 cos(θ/2) for unit vectors at the angle θ.
-            let between = libm::acos(sight.direction.dot(view.direction).clamp(-1.0, 1.0)) + sight.angle + view.angle;
+            let between = libm::acos(sight.direction.dot(view.direction).clamp(-1.0, 1.0))
+                + sight.angle
+                + view.angle;
             let half = 2.0 * libm::cos(between.min(core::f64::consts::PI) / 2.0);
             self.halves[material] = self.halves[material].min(half);
         }
@@ -91,7 +100,11 @@ impl Spread {
 
 /// Lights at infinity have their full strength; of others it is not known yet.
 fn of_infinite(lighting: &Lighting) -> Vec<f64> {
-    lighting.lights.iter().map(|light| if light.place.is_local() { 0.0 } else { 1.0 }).collect()
+    lighting
+        .lights
+        .iter()
+        .map(|light| if light.place.is_local() { 0.0 } else { 1.0 })
+        .collect()
 }
 
 fn wide(v: [f32; 3]) -> DVec3 {
@@ -132,13 +145,24 @@ impl Ball {
         let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
         let most = |of: &dyn Fn(DVec3) -> f64| corners.iter().map(|p| of(*p)).fold(0.0, f64::max);
         let (radius, reach) = (most(&|p| p.distance(middle)), most(&|p| p.length()));
-        Ball { normal: wide(frame.polygon_normal(polygon)).normalize_or_zero(), middle, radius, reach, corners }
+        Ball {
+            normal: wide(frame.polygon_normal(polygon)).normalize_or_zero(),
+            middle,
+            radius,
+            reach,
+            corners,
+        }
     }
 
     fn sees(&self, place: Place<[f32; 3]>) -> Sight {
         let position = match place {
             Place::Infinite(direction) => {
-                return Sight { spread: 1.0, nearest: f64::INFINITY, direction: wide(direction), angle: 0.0 };
+                return Sight {
+                    spread: 1.0,
+                    nearest: f64::INFINITY,
+                    direction: wide(direction),
+                    angle: 0.0,
+                };
             }
             Place::Local(position) => wide(position),
         };
@@ -146,18 +170,31 @@ impl Ball {
         let far = toward.length();
         // Inside the ball no bound is known: the smallest distance that the methods tell from 0.
         let heights = || self.corners.iter().map(|p| (position - p).dot(self.normal));
-        let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+            (l.min(x), h.max(x))
+        });
         let nearest = (far - self.radius).max(low).max(-high).max(1e-15);
         let longest = (far + self.radius).max(position.length() + self.reach);
         // From inside the ball it is seen in any direction.
-        let angle = if far > self.radius { libm::asin(self.radius / far) } else { core::f64::consts::PI };
-        Sight { spread: longest / nearest, nearest, direction: toward.normalize_or_zero(), angle }
+        let angle = if far > self.radius {
+            libm::asin(self.radius / far)
+        } else {
+            core::f64::consts::PI
+        };
+        Sight {
+            spread: longest / nearest,
+            nearest,
+            direction: toward.normalize_or_zero(),
+            angle,
+        }
     }
 }
 
 /// The ends of the edge on which clipping made a vertex.
 fn clip_corner(frame: &Frame, vertex: u32) -> Option<(u32, u32)> {
     let all = frame.clip_corners();
-    let place = all.binary_search_by_key(&vertex, |corner| corner.vertex).ok()?;
+    let place = all
+        .binary_search_by_key(&vertex, |corner| corner.vertex)
+        .ok()?;
     Some((all[place].a, all[place].b))
 }

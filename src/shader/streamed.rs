@@ -43,8 +43,18 @@ impl Variant {
                 taken = take(texels);
                 taken.is_ok()
             };
-            let mut bands = StreamedBands { frame, level: plan.level, take: &mut take };
-            if (self.entry().draw_bands)(plan.engine, frame, self.parameters(), plan.level, &mut bands) {
+            let mut bands = StreamedBands {
+                frame,
+                level: plan.level,
+                take: &mut take,
+            };
+            if (self.entry().draw_bands)(
+                plan.engine,
+                frame,
+                self.parameters(),
+                plan.level,
+                &mut bands,
+            ) {
                 return taken;
             }
         }

@@ -5,8 +5,8 @@ use super::count::{self, OperationCounts};
 use super::dispatch::{Job, dispatch};
 use super::span::{self, SpanBench};
 use super::{
-    DuffPhong, FastPhong, FastPhongRsqrt, Flat, FlatAverage, Gouraud, GouraudSeparate, Info, Method, NaivePhong,
-    PhongRsqrt, Shader, SlerpPhong, SlerpPhongVector,
+    DuffPhong, FastPhong, FastPhongRsqrt, Flat, FlatAverage, Gouraud, GouraudSeparate, Info,
+    Method, NaivePhong, PhongRsqrt, Shader, SlerpPhong, SlerpPhongVector,
 };
 use crate::encoding::store;
 use crate::frame::Frame;
@@ -14,8 +14,8 @@ use crate::number::{Level, Scalar};
 use crate::picture::Picture;
 use crate::picture::{LinearPicture, Picture8};
 use crate::raster::{
-    Bands, Edges, Engine, PictureBands, Plan, Renderer, Target, Texel, barycentric, clear, draw_anyhow, draw_rows,
-    linear_picture, picture8, scanline,
+    Bands, Edges, Engine, PictureBands, Plan, Renderer, Target, Texel, barycentric, clear,
+    draw_anyhow, draw_rows, linear_picture, picture8, scanline,
 };
 use crate::scene::Encoding;
 use crate::suggest::nearest;
@@ -68,7 +68,11 @@ impl Entry {
             draw: draw::<D>,
             can_draw: bands::can_draw::<D>,
             draw_bands: bands::draw::<D>,
-            draw_barycentric: if D::INFO.barycentric { Some(draw_barycentric::<D>) } else { None },
+            draw_barycentric: if D::INFO.barycentric {
+                Some(draw_barycentric::<D>)
+            } else {
+                None
+            },
             count: count::count::<D>,
             span: span::shade::<D>,
             span_on: span::shade_on::<D>,
@@ -82,7 +86,10 @@ impl Entry {
 
     /// The method with its default parameters.
     pub fn variant(&'static self) -> Variant {
-        Variant { entry: self, parameters: self.info.parameters.iter().map(|p| p.default).collect() }
+        Variant {
+            entry: self,
+            parameters: self.info.parameters.iter().map(|p| p.default).collect(),
+        }
     }
 }
 
@@ -97,7 +104,12 @@ fn draw<D: Method>(frame: &Frame, parameters: &[u32], target: &mut dyn Target) {
     dispatch::<D, _>(frame, Draw(frame, parameters, target));
 }
 
-fn draw_barycentric<D: Method>(frame: &Frame, parameters: &[u32], edges: Edges, target: &mut dyn Target) {
+fn draw_barycentric<D: Method>(
+    frame: &Frame,
+    parameters: &[u32],
+    edges: Edges,
+    target: &mut dyn Target,
+) {
     struct Draw<'a>(&'a Frame, &'a [u32], Edges, &'a mut dyn Target);
     impl Job for Draw<'_> {
         type Out = ();
@@ -123,7 +135,9 @@ impl Variant {
     pub fn parse(text: &str) -> Result<Variant, MethodError> {
         let mut parts = text.split(':');
         let name = parts.next().unwrap_or_default();
-        let entry = Entry::named(name).ok_or_else(|| MethodError::UnknownMethod { name: name.to_string() })?;
+        let entry = Entry::named(name).ok_or_else(|| MethodError::UnknownMethod {
+            name: name.to_string(),
+        })?;
         let mut variant = entry.variant();
         for part in parts {
             let (key, value) = part.split_once('=').unwrap_or((part, ""));
@@ -132,9 +146,15 @@ impl Variant {
                 .parameters
                 .iter()
                 .position(|p| p.name == key)
-                .ok_or_else(|| MethodError::UnknownParameter { method: entry.info, key: key.to_string() })?;
+                .ok_or_else(|| MethodError::UnknownParameter {
+                    method: entry.info,
+                    key: key.to_string(),
+                })?;
             let parameter = &entry.info.parameters[place];
-            let number = value.parse().ok().filter(|n| (parameter.least..=parameter.most).contains(n));
+            let number = value
+                .parse()
+                .ok()
+                .filter(|n| (parameter.least..=parameter.most).contains(n));
             variant.parameters[place] = number.ok_or_else(|| MethodError::Value {
                 key: key.to_string(),
                 value: value.to_string(),
@@ -162,7 +182,10 @@ impl Variant {
 
     /// Whether all parameters have their default values.
     pub fn is_default(&self) -> bool {
-        self.parameters.iter().zip(self.info().parameters).all(|(value, p)| *value == p.default)
+        self.parameters
+            .iter()
+            .zip(self.info().parameters)
+            .all(|(value, p)| *value == p.default)
     }
 
     /// Draws `frame` as a stored picture.
@@ -201,7 +224,9 @@ impl Variant {
             return;
         }
         clear(frame, picture);
-        draw_rows(frame, picture, |target| (self.entry.draw)(frame, &self.parameters, target));
+        draw_rows(frame, picture, |target| {
+            (self.entry.draw)(frame, &self.parameters, target)
+        });
     }
 
     /// Draws `frame` before rounding: linear channels, clamped to 0..=1.
@@ -211,20 +236,34 @@ impl Variant {
 
     /// Draws `frame` over an empty picture. Pictures are stored line by line as they are drawn.
     fn rows<T: Texel>(&self, frame: &Frame, mut picture: Picture<T>) -> Picture<T> {
-        draw_rows(frame, &mut picture, |target| (self.entry.draw)(frame, &self.parameters, target));
+        draw_rows(frame, &mut picture, |target| {
+            (self.entry.draw)(frame, &self.parameters, target)
+        });
         picture
     }
 
     /// How `renderer` draws `frame` with this method: as it says where that can be, else as near to it as can be, with the
     /// reason.
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
-        let level = if renderer.level.is_available() { renderer.level } else { Level::Scalar };
-        let plan = |engine, level, reason| Plan { engine, level, reason };
+        let level = if renderer.level.is_available() {
+            renderer.level
+        } else {
+            Level::Scalar
+        };
+        let plan = |engine, level, reason| Plan {
+            engine,
+            level,
+            reason,
+        };
         if renderer == Renderer::LECTURE {
             return plan(Engine::Span, Level::Scalar, None);
         }
         if !(self.entry.can_draw)(Engine::Span, frame) {
-            return plan(Engine::Span, Level::Scalar, Some("more than four lights are shaded one pixel at a time"));
+            return plan(
+                Engine::Span,
+                Level::Scalar,
+                Some("more than four lights are shaded one pixel at a time"),
+            );
         }
         let can_row = (self.entry.can_draw)(Engine::Row, frame);
         match renderer.engine {
@@ -259,10 +298,16 @@ impl Variant {
 
     fn draw_with<T: Texel>(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture<T>) {
         let Plan { engine, level, .. } = self.plan(frame, renderer);
-        let mut bands = PictureBands { frame, level, picture };
+        let mut bands = PictureBands {
+            frame,
+            level,
+            picture,
+        };
         if !(self.entry.draw_bands)(engine, frame, &self.parameters, level, &mut bands) {
             picture.texels_mut().fill(T::background(frame.background()));
-            draw_rows(frame, picture, |target| (self.entry.draw)(frame, &self.parameters, target));
+            draw_rows(frame, picture, |target| {
+                (self.entry.draw)(frame, &self.parameters, target)
+            });
         }
     }
 
@@ -270,7 +315,10 @@ impl Variant {
     pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
         match frame.encoding() {
             Encoding::Linear => self.triangles(frame, edges, picture8(frame)),
-            Encoding::Srgb => Some(store(&self.render_barycentric_linear(frame, edges)?, Encoding::Srgb)),
+            Encoding::Srgb => Some(store(
+                &self.render_barycentric_linear(frame, edges)?,
+                Encoding::Srgb,
+            )),
         }
     }
 
@@ -280,9 +328,16 @@ impl Variant {
     }
 
     /// Draws the triangles of `frame` over an empty picture.
-    fn triangles<T: Texel>(&self, frame: &Frame, edges: Edges, mut picture: Picture<T>) -> Option<Picture<T>> {
+    fn triangles<T: Texel>(
+        &self,
+        frame: &Frame,
+        edges: Edges,
+        mut picture: Picture<T>,
+    ) -> Option<Picture<T>> {
         let draw = self.entry.draw_barycentric?;
-        draw_anyhow(frame, &mut picture, |target| draw(frame, &self.parameters, edges, target));
+        draw_anyhow(frame, &mut picture, |target| {
+            draw(frame, &self.parameters, edges, target)
+        });
         Some(picture)
     }
 
@@ -363,14 +418,30 @@ impl fmt::Display for MethodError {
                 list(f, names())
             }
             MethodError::UnknownParameter { method, key } if method.parameters.is_empty() => {
-                write!(f, "method `{}` has no parameters, so `{key}` means nothing", method.name)
+                write!(
+                    f,
+                    "method `{}` has no parameters, so `{key}` means nothing",
+                    method.name
+                )
             }
             MethodError::UnknownParameter { method, key } => {
-                write!(f, "method `{}` has no parameter `{key}`: expected one of ", method.name)?;
+                write!(
+                    f,
+                    "method `{}` has no parameter `{key}`: expected one of ",
+                    method.name
+                )?;
                 list(f, method.parameters.iter().map(|p| p.name))
             }
-            MethodError::Value { key, value, least, most } => {
-                write!(f, "`{key}={value}`: expected a whole number from {least} to {most}")
+            MethodError::Value {
+                key,
+                value,
+                least,
+                most,
+            } => {
+                write!(
+                    f,
+                    "`{key}={value}`: expected a whole number from {least} to {most}"
+                )
             }
         }
     }

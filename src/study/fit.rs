@@ -14,7 +14,11 @@ pub struct Observation<const N: usize> {
 impl<const N: usize> Observation<N> {
     /// What `costs` add up to here.
     fn explained(&self, costs: &[f64; N]) -> f64 {
-        self.counts.iter().zip(costs).map(|(count, cost)| count * cost).sum()
+        self.counts
+            .iter()
+            .zip(costs)
+            .map(|(count, cost)| count * cost)
+            .sum()
     }
 }
 
@@ -43,7 +47,10 @@ const LEAST_OF_ITS_OWN: f64 = 0.01;
 /// ```
 pub fn fit<const N: usize>(observations: &[Observation<N>]) -> Option<[f64; N]> {
     let is_sound = |o: &Observation<N>| {
-        o.scale > 0.0 && o.scale.is_finite() && o.total.is_finite() && o.counts.iter().all(|c| c.is_finite())
+        o.scale > 0.0
+            && o.scale.is_finite()
+            && o.total.is_finite()
+            && o.counts.iter().all(|c| c.is_finite())
     };
     let all = (1u32 << N) - 1;
     if observations.len() < N || !observations.iter().all(is_sound) {
@@ -53,7 +60,9 @@ pub fn fit<const N: usize>(observations: &[Observation<N>]) -> Option<[f64; N]> 
     solve(observations, all)?;
     let mut best = ([0.0; N], cost_of(observations, &[0.0; N]));
     for subset in 1..=all {
-        let Some(costs) = solve(observations, subset) else { continue };
+        let Some(costs) = solve(observations, subset) else {
+            continue;
+        };
         let left = cost_of(observations, &costs);
         if costs.iter().all(|cost| *cost >= 0.0) && left < best.1 {
             best = (costs, left);
@@ -98,14 +107,19 @@ fn solve<const N: usize>(observations: &[Observation<N>], subset: u32) -> Option
         for later in columns[k + 1..].iter_mut().chain([&mut right]) {
             let part = dot(&unit, later);
             row.push(part);
-            later.iter_mut().zip(&unit).for_each(|(x, u)| *x -= part * u);
+            later
+                .iter_mut()
+                .zip(&unit)
+                .for_each(|(x, u)| *x -= part * u);
         }
         triangle.push(row);
     }
     let mut costs = [0.0; N];
     for k in (0..chosen.len()).rev() {
         let row = &triangle[k];
-        let later: f64 = (k + 1..chosen.len()).map(|l| row[l - k] * costs[chosen[l]] * lengths[l]).sum();
+        let later: f64 = (k + 1..chosen.len())
+            .map(|l| row[l - k] * costs[chosen[l]] * lengths[l])
+            .sum();
         costs[chosen[k]] = (row[row.len() - 1] - later) / row[0] / lengths[k];
     }
     Some(costs)
@@ -132,13 +146,25 @@ mod tests {
     }
 
     fn made_up(costs: [f64; 4], noise: impl Fn(usize) -> f64) -> Vec<Observation<4>> {
-        let places =
-            [(1e3, 1e3), (4e3, 1e3), (16e3, 1e3), (64e3, 1e3), (256e3, 1e3), (4e3, 150.0), (4e3, 500.0), (4e3, 3e3)];
+        let places = [
+            (1e3, 1e3),
+            (4e3, 1e3),
+            (16e3, 1e3),
+            (64e3, 1e3),
+            (256e3, 1e3),
+            (4e3, 150.0),
+            (4e3, 500.0),
+            (4e3, 3e3),
+        ];
         let observation = |(i, (triangles, side)): (usize, (f64, f64))| {
             let counts = counts(triangles, side);
             let exact: f64 = counts.iter().zip(costs).map(|(n, c)| n * c).sum();
             let total = exact * (1.0 + noise(i));
-            Observation { counts, total, scale: total }
+            Observation {
+                counts,
+                total,
+                scale: total,
+            }
         };
         places.into_iter().enumerate().map(observation).collect()
     }
@@ -163,13 +189,20 @@ mod tests {
         let found = fit(&observations).unwrap();
         let left = cost_of(&observations, &found);
         assert!(left <= cost_of(&observations, &costs) && found.iter().all(|cost| *cost >= 0.0));
-        assert!(left <= 8.0 * (noise / (1.0 - noise)) * (noise / (1.0 - noise)), "{left}");
+        assert!(
+            left <= 8.0 * (noise / (1.0 - noise)) * (noise / (1.0 - noise)),
+            "{left}"
+        );
     }
 
     /// Each cost alone in two observations, one 5 % too large and one as much too small: it lies between what they say.
     #[test]
     fn noise_moves_a_cost_by_no_more_than_itself() {
-        let seen = |counts: [f64; 2], total| Observation { counts, total, scale: total };
+        let seen = |counts: [f64; 2], total| Observation {
+            counts,
+            total,
+            scale: total,
+        };
         let observations = [
             seen([10.0, 0.0], 1.05 * 700.0),
             seen([90.0, 0.0], 0.95 * 6300.0),
@@ -177,23 +210,44 @@ mod tests {
             seen([0.0, 8.0], 1.05 * 4.0),
         ];
         let found = fit(&observations).unwrap();
-        assert!((found[0] / 70.0 - 1.0).abs() < 0.05 && (found[1] / 0.5 - 1.0).abs() < 0.05, "{found:?}");
+        assert!(
+            (found[0] / 70.0 - 1.0).abs() < 0.05 && (found[1] / 0.5 - 1.0).abs() < 0.05,
+            "{found:?}"
+        );
     }
 
     #[test]
     fn no_cost_is_below_zero_and_the_others_are_then_the_best_without_it() {
         // By ordinary least squares the second cost is negative: totals fall while its counts grow.
-        let seen = |counts, total| Observation { counts, total, scale: 1.0 };
-        let observations = [seen([1.0, 0.0], 10.0), seen([1.0, 1.0], 8.0), seen([1.0, 2.0], 6.0)];
+        let seen = |counts, total| Observation {
+            counts,
+            total,
+            scale: 1.0,
+        };
+        let observations = [
+            seen([1.0, 0.0], 10.0),
+            seen([1.0, 1.0], 8.0),
+            seen([1.0, 2.0], 6.0),
+        ];
         let plain = solve(&observations, 0b11).unwrap();
-        assert!((plain[0] - 10.0).abs() < 1e-12 && (plain[1] + 2.0).abs() < 1e-12, "{plain:?}");
+        assert!(
+            (plain[0] - 10.0).abs() < 1e-12 && (plain[1] + 2.0).abs() < 1e-12,
+            "{plain:?}"
+        );
         let found = fit(&observations).unwrap();
-        assert!((found[0] - 8.0).abs() < 1e-12 && found[1] == 0.0, "the mean: {found:?}");
+        assert!(
+            (found[0] - 8.0).abs() < 1e-12 && found[1] == 0.0,
+            "the mean: {found:?}"
+        );
     }
 
     #[test]
     fn errors_count_relative_to_their_scale() {
-        let seen = |total: f64| Observation { counts: [total], total: 2.0 * total, scale: 2.0 * total };
+        let seen = |total: f64| Observation {
+            counts: [total],
+            total: 2.0 * total,
+            scale: 2.0 * total,
+        };
         // A thousandfold total that is off by half weighs as much as a small one that is.
         let mut observations = [seen(1.0), seen(1.0), seen(1000.0)];
         observations[2].total *= 1.5;
@@ -204,16 +258,32 @@ mod tests {
 
     #[test]
     fn what_cannot_be_told_apart_is_refused() {
-        let seen = |counts: [f64; 2]| Observation { counts, total: counts[0] + 1.0, scale: 1.0 };
+        let seen = |counts: [f64; 2]| Observation {
+            counts,
+            total: counts[0] + 1.0,
+            scale: 1.0,
+        };
         assert_eq!(fit(&[seen([1.0, 2.0])]), None, "one observation");
-        assert_eq!(fit(&[seen([1.0, 2.0]), seen([2.0, 4.0]), seen([3.0, 6.0])]), None, "twice as many vertices");
-        assert_eq!(fit(&[seen([1.0, 2.0]), seen([2.0, 4.001]), seen([3.0, 6.0])]), None, "nearly");
+        assert_eq!(
+            fit(&[seen([1.0, 2.0]), seen([2.0, 4.0]), seen([3.0, 6.0])]),
+            None,
+            "twice as many vertices"
+        );
+        assert_eq!(
+            fit(&[seen([1.0, 2.0]), seen([2.0, 4.001]), seen([3.0, 6.0])]),
+            None,
+            "nearly"
+        );
         assert_eq!(fit(&[seen([1.0, 0.0]), seen([2.0, 0.0])]), None, "never");
         assert!(fit(&[seen([1.0, 2.0]), seen([2.0, 1.0])]).is_some());
         for bad in [f64::NAN, f64::INFINITY] {
             assert_eq!(fit(&[seen([1.0, 2.0]), seen([2.0, bad])]), None);
         }
-        let without_scale = Observation { counts: [1.0], total: 1.0, scale: 0.0 };
+        let without_scale = Observation {
+            counts: [1.0],
+            total: 1.0,
+            scale: 0.0,
+        };
         assert_eq!(fit(&[without_scale]), None);
     }
 }

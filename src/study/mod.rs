@@ -77,7 +77,10 @@ fn sphere(triangles: impl fmt::Display) -> String {
 }
 
 /// A scene ready for frames of `size`; mesh and scene are gone then.
-fn prepared_sphere(triangles: usize, [width, height]: [u32; 2]) -> Result<PreparedScene, StudyError> {
+fn prepared_sphere(
+    triangles: usize,
+    [width, height]: [u32; 2],
+) -> Result<PreparedScene, StudyError> {
     let mut scene = Scene::of_mesh(builtin(&sphere(triangles))?);
     (scene.width, scene.height) = (width, height);
     Ok(scene.prepare()?)
@@ -88,23 +91,35 @@ struct Canvas(RefCell<(Frame, Picture8)>);
 
 impl Canvas {
     fn new(scene: &PreparedScene) -> Result<Canvas, FrameError> {
-        Ok(Canvas(RefCell::new((scene.frame()?, Picture8::new(0, 0, [0; 4])))))
+        Ok(Canvas(RefCell::new((
+            scene.frame()?,
+            Picture8::new(0, 0, [0; 4]),
+        ))))
     }
 
     /// Projects the scene.
     fn projects<'a>(&'a self, scene: &'a PreparedScene) -> Candidate<'a> {
         Box::new(move || {
             let (frame, _) = &mut *self.0.borrow_mut();
-            black_box(scene).frame_into(frame).expect("a scene that was projected before");
+            black_box(scene)
+                .frame_into(frame)
+                .expect("a scene that was projected before");
             black_box(frame);
         })
     }
 
     /// Projects the scene and draws it.
-    fn draws<'a>(&'a self, scene: &'a PreparedScene, variant: &'a Variant, renderer: Renderer) -> Candidate<'a> {
+    fn draws<'a>(
+        &'a self,
+        scene: &'a PreparedScene,
+        variant: &'a Variant,
+        renderer: Renderer,
+    ) -> Candidate<'a> {
         Box::new(move || {
             let (frame, picture) = &mut *self.0.borrow_mut();
-            black_box(scene).frame_into(frame).expect("a scene that was projected before");
+            black_box(scene)
+                .frame_into(frame)
+                .expect("a scene that was projected before");
             variant.render_with(frame, renderer, picture);
             black_box(picture);
         })
@@ -118,7 +133,14 @@ fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
 
 /// Those of `names` that are among `variants`, and naive Phong in any case, with their default parameters.
 fn chosen(names: &[&str], variants: &[Variant]) -> Vec<Variant> {
-    let is_asked = |name: &str| name == BASELINE || variants.iter().any(|v| v.info().name == name && v.is_default());
-    let entries = METHODS.iter().filter(|entry| names.contains(&entry.info.name) && is_asked(entry.info.name));
+    let is_asked = |name: &str| {
+        name == BASELINE
+            || variants
+                .iter()
+                .any(|v| v.info().name == name && v.is_default())
+    };
+    let entries = METHODS
+        .iter()
+        .filter(|entry| names.contains(&entry.info.name) && is_asked(entry.info.name));
     entries.map(|entry| entry.variant()).collect()
 }

@@ -43,10 +43,22 @@ impl Default for ScalingOptions {
         ScalingOptions {
             triangles: [1_000, 4_000, 16_000, 64_000, 256_000, 1_000_000, 4_000_000].into(),
             at: [1920, 1080],
-            sizes: [[160, 120], [320, 240], [640, 480], [1280, 720], [1920, 1080], [3840, 2160]].into(),
+            sizes: [
+                [160, 120],
+                [320, 240],
+                [640, 480],
+                [1280, 720],
+                [1920, 1080],
+                [3840, 2160],
+            ]
+            .into(),
             of: 4_000,
             lecture_up_to: 64_000,
-            limits: Limits { time_budget: Duration::from_millis(250), rounds: 15, warm_up_rounds: 1 },
+            limits: Limits {
+                time_budget: Duration::from_millis(250),
+                rounds: 15,
+                warm_up_rounds: 1,
+            },
         }
     }
 }
@@ -171,9 +183,20 @@ impl Scaling {
         options: &ScalingOptions,
         progress: &mut dyn FnMut(f32, &str),
     ) -> Result<Scaling, StudyError> {
-        let fastest = |variant| Way { variant, renderer: Renderer::fastest(), most: usize::MAX };
-        let mut ways: Vec<Way> = chosen(&METHODS, variants).into_iter().map(fastest).collect();
-        let lecture = |variant| Way { variant, renderer: Renderer::LECTURE, most: options.lecture_up_to };
+        let fastest = |variant| Way {
+            variant,
+            renderer: Renderer::fastest(),
+            most: usize::MAX,
+        };
+        let mut ways: Vec<Way> = chosen(&METHODS, variants)
+            .into_iter()
+            .map(fastest)
+            .collect();
+        let lecture = |variant| Way {
+            variant,
+            renderer: Renderer::LECTURE,
+            most: options.lecture_up_to,
+        };
         ways.extend(chosen(&[BASELINE], &[]).into_iter().map(lecture));
         let mut measured = Scaling {
             mesh: format!("builtin:{}", sphere("N")),
@@ -211,7 +234,9 @@ impl Scaling {
             Axis::Triangles => point.size == self.at,
             Axis::Pixels => point.asked == self.of,
         };
-        let mut numbers: Vec<usize> = (0..self.points.len()).filter(|i| is_on(&self.points[*i])).collect();
+        let mut numbers: Vec<usize> = (0..self.points.len())
+            .filter(|i| is_on(&self.points[*i]))
+            .collect();
         numbers.sort_by_key(|i| match axis {
             Axis::Triangles => self.points[*i].triangles,
             Axis::Pixels => self.points[*i].picture_pixels() as usize,
@@ -229,7 +254,10 @@ impl Scaling {
     ) -> Result<(), StudyError> {
         scene.set_size(size[0], size[1]);
         let near = *scene.camera();
-        scene.set_camera(crate::camera::Camera { projection: seen_from(near.projection, away), ..near });
+        scene.set_camera(crate::camera::Camera {
+            projection: seen_from(near.projection, away),
+            ..near
+        });
         let canvas = Canvas::new(scene)?;
         let counted = count(&canvas, (asked, size, away));
         let drawing: Vec<bool> = ways.iter().map(|way| asked <= way.most).collect();
@@ -241,14 +269,22 @@ impl Scaling {
         drop(candidates);
         if self.curves.is_empty() {
             let (frame, _) = &*canvas.0.borrow();
-            self.curves = ways.iter().map(|way| way.curve(way.variant.plan(frame, way.renderer))).collect();
+            self.curves = ways
+                .iter()
+                .map(|way| way.curve(way.variant.plan(frame, way.renderer)))
+                .collect();
         }
         drop(canvas);
         scene.set_camera(near);
         let projection = timings.next().expect("a timing a candidate");
-        self.points.push(Point { projection, ..counted });
+        self.points.push(Point {
+            projection,
+            ..counted
+        });
         for (curve, drawing) in self.curves.iter_mut().zip(drawing) {
-            curve.times.push(if drawing { timings.next() } else { None });
+            curve
+                .times
+                .push(if drawing { timings.next() } else { None });
         }
         Ok(())
     }
@@ -265,7 +301,13 @@ impl Scaling {
 impl Way {
     fn curve(&self, Plan { engine, level, .. }: Plan) -> Curve {
         let (engine, level) = (engine.name().to_string(), level.name().to_string());
-        Curve { method: self.variant.to_string(), engine, level, times: Vec::new(), costs: None }
+        Curve {
+            method: self.variant.to_string(),
+            engine,
+            level,
+            times: Vec::new(),
+            costs: None,
+        }
     }
 }
 
@@ -276,8 +318,17 @@ fn views(triangles: usize, options: &ScalingOptions) -> Vec<([u32; 2], bool)> {
         views.push((options.at, false));
     }
     if triangles == options.of {
-        views.extend(options.sizes.iter().filter(|size| **size != options.at).map(|size| (*size, false)));
-        let largest = options.sizes.iter().max_by_key(|[width, height]| u64::from(*width) * u64::from(*height));
+        views.extend(
+            options
+                .sizes
+                .iter()
+                .filter(|size| **size != options.at)
+                .map(|size| (*size, false)),
+        );
+        let largest = options
+            .sizes
+            .iter()
+            .max_by_key(|[width, height]| u64::from(*width) * u64::from(*height));
         let mut away: Vec<[u32; 2]> = Vec::from([options.at]);
         away.extend(largest.filter(|size| **size != options.at));
         views.extend(away.into_iter().map(|size| (size, true)));
@@ -288,9 +339,9 @@ fn views(triangles: usize, options: &ScalingOptions) -> Vec<([u32; 2], bool)> {
 /// The same projection, or one in which all is smaller.
 fn seen_from(projection: Projection, away: bool) -> Projection {
     match projection {
-        Projection::Orthographic { half_height } if away => {
-            Projection::Orthographic { half_height: AWAY * half_height }
-        }
+        Projection::Orthographic { half_height } if away => Projection::Orthographic {
+            half_height: AWAY * half_height,
+        },
         same => same,
     }
 }
@@ -305,12 +356,27 @@ fn count(canvas: &Canvas, (asked, size, away): (usize, [u32; 2], bool)) -> Point
     });
     let projection = Timing::of(Vec::from([0.0]), 1).expect("one finite time");
     let (vertices, drawn) = (frame.vertices().len(), frame.polygons().len());
-    Point { asked, size, away, vertices, triangles: frame.stats().polygons, drawn, spans, pixels, projection }
+    Point {
+        asked,
+        size,
+        away,
+        vertices,
+        triangles: frame.stats().polygons,
+        drawn,
+        spans,
+        pixels,
+        projection,
+    }
 }
 
 /// How often each cost but that of vertices arises.
 fn counts(point: &Point) -> [f64; 4] {
-    [point.drawn as f64, point.spans as f64, point.pixels as f64, point.picture_pixels()]
+    [
+        point.drawn as f64,
+        point.spans as f64,
+        point.pixels as f64,
+        point.picture_pixels(),
+    ]
 }
 
 /// What projecting takes for each vertex. In one family of meshes triangles are in proportion to vertices, so that no fit of
@@ -318,7 +384,11 @@ fn counts(point: &Point) -> [f64; 4] {
 fn vertex_cost(points: &[Point]) -> Option<f64> {
     let observe = |point: &Point| {
         let total = point.projection.min_ns;
-        Observation { counts: [point.vertices as f64], total, scale: total }
+        Observation {
+            counts: [point.vertices as f64],
+            total,
+            scale: total,
+        }
     };
     let observations: Vec<_> = points.iter().map(observe).collect();
     fit(&observations).map(|[vertex]| vertex)
@@ -327,8 +397,11 @@ fn vertex_cost(points: &[Point]) -> Option<f64> {
 /// What explains times beyond `vertex` nanoseconds for each vertex. Least times are explained: points cannot be timed in turns
 /// with one another, and what disturbs a machine only adds.
 fn costs(vertex: f64, points: &[Point], times: &[Option<Timing>]) -> Option<Costs> {
-    let timed: Vec<(usize, &Point, f64)> =
-        (0..).zip(points).zip(times).filter_map(|((i, p), t)| Some((i, p, t.as_ref()?.min_ns))).collect();
+    let timed: Vec<(usize, &Point, f64)> = (0..)
+        .zip(points)
+        .zip(times)
+        .filter_map(|((i, p), t)| Some((i, p, t.as_ref()?.min_ns)))
+        .collect();
     let observe = |&(_, point, ns): &(usize, &Point, f64)| Observation {
         counts: counts(point),
         total: ns - point.projection.min_ns,
@@ -336,8 +409,22 @@ fn costs(vertex: f64, points: &[Point], times: &[Option<Timing>]) -> Option<Cost
     };
     let observations: Vec<_> = timed.iter().map(observe).collect();
     let [triangle_ns, span_ns, pixel_ns, background_ns] = fit(&observations)?;
-    let costs = Costs { vertex_ns: vertex, triangle_ns, span_ns, pixel_ns, background_ns, worst: 0.0, worst_point: 0 };
-    let errors = timed.iter().map(|(i, point, ns)| (*i, ns / costs.explain(point) - 1.0));
+    let costs = Costs {
+        vertex_ns: vertex,
+        triangle_ns,
+        span_ns,
+        pixel_ns,
+        background_ns,
+        worst: 0.0,
+        worst_point: 0,
+    };
+    let errors = timed
+        .iter()
+        .map(|(i, point, ns)| (*i, ns / costs.explain(point) - 1.0));
     let (worst_point, worst) = errors.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-    Some(Costs { worst, worst_point, ..costs })
+    Some(Costs {
+        worst,
+        worst_point,
+        ..costs
+    })
 }

@@ -40,7 +40,11 @@ impl Default for SpeedupOptions {
             triangles: 5_000,
             size: [1920, 1080],
             span: 1_024,
-            limits: Limits { time_budget: Duration::from_secs(6), rounds: 25, warm_up_rounds: 2 },
+            limits: Limits {
+                time_budget: Duration::from_secs(6),
+                rounds: 25,
+                warm_up_rounds: 2,
+            },
         }
     }
 }
@@ -133,33 +137,60 @@ impl Speedups {
         for corner in &corners {
             for variant in &variants {
                 candidates.push(match corner.work {
-                    Work::Kernel => kernel(variant, level(corner.scalar), corner.lights, options.span),
+                    Work::Kernel => {
+                        kernel(variant, level(corner.scalar), corner.lights, options.span)
+                    }
                     Work::Frame => canvas.draws(&scene, variant, renderer(corner.scalar)),
                 });
             }
         }
-        let timings = time_interleaved(&mut candidates, options.limits, |part| progress(part, "timing"));
+        let timings = time_interleaved(&mut candidates, options.limits, |part| {
+            progress(part, "timing")
+        });
         drop(candidates);
         let naive = variants.iter().position(is_naive).unwrap_or(0);
         let speedup = |method: usize, corner: usize| {
             let of = |method: usize| &timings[corner * variants.len() + method];
             let ratio = Ratio::paired(&of(naive).samples_ns, &of(method).samples_ns);
-            Speedup { timing: of(method).clone(), ratio_to_naive: ratio.map(RatioData::from) }
+            Speedup {
+                timing: of(method).clone(),
+                ratio_to_naive: ratio.map(RatioData::from),
+            }
         };
-        let methods = variants.iter().zip(levels_off).enumerate().map(|(i, (variant, levels_off))| MethodSpeedups {
-            method: variant.to_string(),
-            levels_off,
-            corners: (0..corners.len()).map(|corner| speedup(i, corner)).collect(),
-        });
+        let methods =
+            variants
+                .iter()
+                .zip(levels_off)
+                .enumerate()
+                .map(|(i, (variant, levels_off))| MethodSpeedups {
+                    method: variant.to_string(),
+                    levels_off,
+                    corners: (0..corners.len())
+                        .map(|corner| speedup(i, corner))
+                        .collect(),
+                });
         let methods = methods.collect();
-        let (mesh, size) = (format!("builtin:{}", sphere(options.triangles)), options.size);
-        Ok(Speedups { mesh, size, span: options.span, corners, methods })
+        let (mesh, size) = (
+            format!("builtin:{}", sphere(options.triangles)),
+            options.size,
+        );
+        Ok(Speedups {
+            mesh,
+            size,
+            span: options.span,
+            corners,
+            methods,
+        })
     }
 }
 
 /// How frames are drawn in the corners of the lecture, and in those of today.
 fn renderer(scalar: bool) -> Renderer {
-    if scalar { Renderer::LECTURE } else { Renderer::fastest() }
+    if scalar {
+        Renderer::LECTURE
+    } else {
+        Renderer::fastest()
+    }
 }
 
 /// The instruction set of the kernels.
@@ -179,8 +210,15 @@ fn corners() -> Vec<Corner> {
         (Work::Kernel, false, 4),
     ];
     // The widest kernel of a machine without wide arithmetic is the scalar one, which is there already.
-    let differ = all.into_iter().filter(|(work, scalar, _)| *scalar || *work == Work::Frame || best != Level::Scalar);
-    let corner = |(work, scalar, lights)| Corner { work, scalar, level: level(scalar).name().to_string(), lights };
+    let differ = all
+        .into_iter()
+        .filter(|(work, scalar, _)| *scalar || *work == Work::Frame || best != Level::Scalar);
+    let corner = |(work, scalar, lights)| Corner {
+        work,
+        scalar,
+        level: level(scalar).name().to_string(),
+        lights,
+    };
     differ.map(corner).collect()
 }
 
@@ -212,7 +250,9 @@ fn levels_off(
                 picture
             }
         };
-        let Some(naive) = variants.iter().find(|variant| is_naive(variant)) else { continue };
+        let Some(naive) = variants.iter().find(|variant| is_naive(variant)) else {
+            continue;
+        };
         let naive = drawn(naive);
         for (off, variant) in off.iter_mut().zip(variants) {
             *off = farthest(&naive, &drawn(variant)).max(*off);
@@ -229,10 +269,15 @@ fn is_naive(variant: &Variant) -> bool {
 fn span_picture(variant: &Variant, corner: &Corner, length: usize) -> Picture8 {
     let mut channels = [(); 3].map(|()| vec![0.0f32; length]);
     let [red, green, blue] = &mut channels;
-    variant.shade_span_on(level(corner.scalar), &SpanBench::new(DEGREES, corner.lights), [red, green, blue]);
+    variant.shade_span_on(
+        level(corner.scalar),
+        &SpanBench::new(DEGREES, corner.lights),
+        [red, green, blue],
+    );
     let mut picture = Picture8::new(length, 1, [0; 4]);
     for (x, texel) in picture.texels_mut().iter_mut().enumerate() {
-        let [red, green, blue] = [0, 1, 2].map(|c| libm::roundf(255.0 * channels[c][x].clamp(0.0, 1.0)) as u8);
+        let [red, green, blue] =
+            [0, 1, 2].map(|c| libm::roundf(255.0 * channels[c][x].clamp(0.0, 1.0)) as u8);
         *texel = [red, green, blue, 255];
     }
     picture
@@ -241,5 +286,9 @@ fn span_picture(variant: &Variant, corner: &Corner, length: usize) -> Picture8 {
 /// The largest difference of a channel of two pictures of one size, in grey levels.
 fn farthest(a: &Picture8, b: &Picture8) -> u8 {
     let texels = a.texels().iter().zip(b.texels());
-    texels.flat_map(|(a, b)| a.iter().zip(b)).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
+    texels
+        .flat_map(|(a, b)| a.iter().zip(b))
+        .map(|(a, b)| a.abs_diff(*b))
+        .max()
+        .unwrap_or(0)
 }

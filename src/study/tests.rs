@@ -3,10 +3,17 @@ use crate::bench::{Limits, Timing};
 use alloc::vec;
 use core::time::Duration;
 
-const QUICK: Limits = Limits { time_budget: Duration::ZERO, rounds: 5, warm_up_rounds: 1 };
+const QUICK: Limits = Limits {
+    time_budget: Duration::ZERO,
+    rounds: 5,
+    warm_up_rounds: 1,
+};
 
 fn variants(names: &[&str]) -> Vec<Variant> {
-    names.iter().map(|name| Variant::parse(name).unwrap()).collect()
+    names
+        .iter()
+        .map(|name| Variant::parse(name).unwrap())
+        .collect()
 }
 
 fn small_scaling() -> Scaling {
@@ -28,17 +35,31 @@ fn small_scaling() -> Scaling {
 #[test]
 fn every_view_is_drawn_once_by_every_method_that_was_asked_for() {
     let measured = small_scaling();
-    let names: Vec<_> = measured.curves.iter().map(|c| (&*c.method, &*c.engine, &*c.level)).collect();
+    let names: Vec<_> = measured
+        .curves
+        .iter()
+        .map(|c| (&*c.method, &*c.engine, &*c.level))
+        .collect();
     let fastest = Renderer::fastest().level.name();
     assert_eq!(
         names[..3],
-        [("gouraud", "row", fastest), ("naive-phong", "row", fastest), ("phong-rsqrt", "row", fastest)],
+        [
+            ("gouraud", "row", fastest),
+            ("naive-phong", "row", fastest),
+            ("phong-rsqrt", "row", fastest)
+        ],
         "flat is none of the few"
     );
     assert_eq!(names[3..], [("naive-phong", "span", "scalar")]);
     // Three meshes, two more sizes, and two views from afar.
     assert_eq!(measured.points.len(), 7);
-    let along = |axis| measured.along(axis).into_iter().map(|i| &measured.points[i]).collect::<Vec<_>>();
+    let along = |axis| {
+        measured
+            .along(axis)
+            .into_iter()
+            .map(|i| &measured.points[i])
+            .collect::<Vec<_>>()
+    };
     let asked: Vec<usize> = along(Axis::Triangles).iter().map(|p| p.asked).collect();
     assert_eq!(asked, [100, 400, 1600]);
     let sizes: Vec<_> = along(Axis::Pixels).iter().map(|p| p.size).collect();
@@ -46,7 +67,11 @@ fn every_view_is_drawn_once_by_every_method_that_was_asked_for() {
     for curve in &measured.curves {
         let is_lecture = curve.level == "scalar" && curve.engine == "span";
         let timed: Vec<bool> = curve.times.iter().map(Option::is_some).collect();
-        let expected: Vec<bool> = measured.points.iter().map(|p| !is_lecture || p.asked <= 400).collect();
+        let expected: Vec<bool> = measured
+            .points
+            .iter()
+            .map(|p| !is_lecture || p.asked <= 400)
+            .collect();
         assert_eq!(timed, expected, "{curve:?}");
     }
 }
@@ -57,7 +82,10 @@ fn counts_are_those_of_a_sphere() {
     for point in &measured.points {
         // Euler: a closed surface of triangles without holes has V − T/2 = 2.
         assert_eq!(point.vertices, point.triangles / 2 + 2, "{point:?}");
-        assert!(point.drawn < point.triangles && point.drawn > point.triangles / 3, "about half are seen");
+        assert!(
+            point.drawn < point.triangles && point.drawn > point.triangles / 3,
+            "about half are seen"
+        );
         assert!(point.spans <= point.pixels && (point.pixels as f64) < point.picture_pixels());
     }
     let [near, away] = [false, true].map(|away| {
@@ -66,7 +94,10 @@ fn counts_are_those_of_a_sphere() {
     });
     // Of a sixteenth of the area, up to pixels along the outline: the small one has a radius of 0.8 · 54/4 = 10.8, and so
     // an outline of 68 pixels.
-    assert!(near.pixels.abs_diff(16 * away.pixels) < 16 * 68, "{near:?} {away:?}");
+    assert!(
+        near.pixels.abs_diff(16 * away.pixels) < 16 * 68,
+        "{near:?} {away:?}"
+    );
 }
 
 #[test]
@@ -85,7 +116,11 @@ fn costs_that_made_the_times_are_found_again() {
     for point in &mut measured.points {
         point.projection = timing(costs.vertex_ns * point.vertices as f64);
     }
-    let times: Vec<_> = measured.points.iter().map(|point| Some(timing(costs.explain(point)))).collect();
+    let times: Vec<_> = measured
+        .points
+        .iter()
+        .map(|point| Some(timing(costs.explain(point))))
+        .collect();
     for curve in &mut measured.curves {
         curve.times = times.clone();
     }
@@ -103,13 +138,21 @@ fn costs_that_made_the_times_are_found_again() {
             (found.background_ns, costs.background_ns),
         ];
         // As in the tests of the fit.
-        assert!(pairs.iter().all(|(found, cost)| (found / cost - 1.0).abs() < 1e-6), "{found:?}");
+        assert!(
+            pairs
+                .iter()
+                .all(|(found, cost)| (found / cost - 1.0).abs() < 1e-6),
+            "{found:?}"
+        );
         assert!(found.worst.abs() < 1e-6);
     }
     odd.explain();
     let found = odd.curves[0].costs.unwrap();
     // The others pull the line back: what is left is not over the tenth.
-    assert!(found.worst.abs() > 0.001 && found.worst.abs() <= 0.1, "{found:?}");
+    assert!(
+        found.worst.abs() > 0.001 && found.worst.abs() <= 0.1,
+        "{found:?}"
+    );
     odd.points.truncate(3);
     odd.explain();
     assert!(odd.curves[1].costs.is_none(), "three points for four costs");
@@ -117,26 +160,48 @@ fn costs_that_made_the_times_are_found_again() {
 
 #[test]
 fn there_are_four_corners_and_naive_phong_is_one_of_the_methods() {
-    let options = SpeedupOptions { triangles: 200, size: [64, 48], span: 64, limits: QUICK };
+    let options = SpeedupOptions {
+        triangles: 200,
+        size: [64, 48],
+        span: 64,
+        limits: QUICK,
+    };
     let asked = variants(&["gouraud", "fast-phong"]);
     let mut told = Vec::new();
     let measured = Speedups::measure(&asked, &options, &mut |part, _| told.push(part)).unwrap();
     assert!(told.is_sorted() && told.last() == Some(&1.0), "{told:?}");
-    let corners: Vec<_> = measured.corners.iter().map(|c| (c.work, c.scalar, c.lights)).collect();
-    let frames = corners.iter().position(|corner| *corner == (Work::Frame, true, 1)).unwrap();
+    let corners: Vec<_> = measured
+        .corners
+        .iter()
+        .map(|c| (c.work, c.scalar, c.lights))
+        .collect();
+    let frames = corners
+        .iter()
+        .position(|corner| *corner == (Work::Frame, true, 1))
+        .unwrap();
     assert_eq!(corners[frames + 1], (Work::Frame, false, 1));
     assert_eq!(corners[0], (Work::Kernel, true, 1));
     if crate::number::Level::best() != crate::number::Level::Scalar {
         assert_eq!(corners[1], (Work::Kernel, false, 1));
-        assert_eq!(corners[4..], [(Work::Kernel, true, 4), (Work::Kernel, false, 4)]);
+        assert_eq!(
+            corners[4..],
+            [(Work::Kernel, true, 4), (Work::Kernel, false, 4)]
+        );
     }
     let names: Vec<&str> = measured.methods.iter().map(|m| &*m.method).collect();
     assert_eq!(names, ["naive-phong", "gouraud", "fast-phong"]);
-    let [naive, gouraud, fast] = &measured.methods[..] else { unreachable!("three names") };
+    let [naive, gouraud, fast] = &measured.methods[..] else {
+        unreachable!("three names")
+    };
     assert!(naive.levels_off == 0 && fast.is_same_picture() && !gouraud.is_same_picture());
     for method in &measured.methods {
         assert_eq!(method.corners.len(), measured.corners.len());
-        assert!(method.corners.iter().all(|speedup| speedup.timing.samples_ns.len() >= 5));
+        assert!(
+            method
+                .corners
+                .iter()
+                .all(|speedup| speedup.timing.samples_ns.len() >= 5)
+        );
     }
     let itself = naive.corners[0].ratio_to_naive.unwrap().ratio;
     assert_eq!((itself.low, itself.median, itself.high), (1.0, 1.0, 1.0));
@@ -144,10 +209,23 @@ fn there_are_four_corners_and_naive_phong_is_one_of_the_methods() {
 
 #[test]
 fn what_cannot_be_drawn_is_refused() {
-    let none = SpeedupOptions { size: [0, 48], limits: QUICK, ..SpeedupOptions::default() };
-    assert!(matches!(Speedups::measure(&[], &none, &mut |_, _| ()), Err(StudyError::Frame(_))));
+    let none = SpeedupOptions {
+        size: [0, 48],
+        limits: QUICK,
+        ..SpeedupOptions::default()
+    };
+    assert!(matches!(
+        Speedups::measure(&[], &none, &mut |_, _| ()),
+        Err(StudyError::Frame(_))
+    ));
     let sizes = vec![[16, 12]];
-    let many =
-        ScalingOptions { triangles: vec![usize::MAX], at: [16, 12], sizes, of: 20, lecture_up_to: 0, limits: QUICK };
+    let many = ScalingOptions {
+        triangles: vec![usize::MAX],
+        at: [16, 12],
+        sizes,
+        of: 20,
+        lecture_up_to: 0,
+        limits: QUICK,
+    };
     assert!(Scaling::measure(&[], &many, &mut |_, _| ()).is_err());
 }

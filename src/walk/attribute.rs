@@ -21,7 +21,14 @@ pub trait Attribute<R: Real>: Copy + Send + Sync {
     /// To the next scanline.
     fn advance(edge: &mut Self::Edge);
     /// Starts a span from `left` to `right`.
-    fn span<M: Machine<One = R>>(m: M, face: [R; 3], left: Self, right: Self, t0: R, dt: R) -> Self::Span;
+    fn span<M: Machine<One = R>>(
+        m: M,
+        face: [R; 3],
+        left: Self,
+        right: Self,
+        t0: R,
+        dt: R,
+    ) -> Self::Span;
     /// Times the weight of perspective interpolation; attributes that cannot be weighted stay as they are.
     fn weighted(self, inv_w: R) -> Self;
     /// What is the same at all pixels of a triangle: see [`Attribute::plane`].
@@ -127,7 +134,11 @@ impl<R: Real, A: Affine<R>, B: Affine<R>, C: Affine<R>> Affine<R> for (A, B, C) 
     }
     #[inline(always)]
     fn times(self, factor: R) -> Self {
-        (self.0.times(factor), self.1.times(factor), self.2.times(factor))
+        (
+            self.0.times(factor),
+            self.1.times(factor),
+            self.2.times(factor),
+        )
     }
 }
 
@@ -167,7 +178,10 @@ pub struct Lerp<A>(pub A);
 #[inline(always)]
 fn ramp<R: Real, A: Affine<R>>(a: A, b: A, t0: R, dt: R) -> Ramp<A> {
     let difference = b.minus(a);
-    Ramp { at: a.plus(difference.times(t0)), step: difference.times(dt) } // 3.5, 4.1
+    Ramp {
+        at: a.plus(difference.times(t0)),
+        step: difference.times(dt),
+    } // 3.5, 4.1
 }
 
 impl<R: Real, A: Affine<R>> Attribute<R> for Lerp<A> {
@@ -189,7 +203,14 @@ impl<R: Real, A: Affine<R>> Attribute<R> for Lerp<A> {
         edge.at = edge.at.plus(edge.step); // 3.6, 4.2
     }
     #[inline(always)]
-    fn span<M: Machine<One = R>>(_: M, _: [R; 3], left: Self, right: Self, t0: R, dt: R) -> Ramp<A> {
+    fn span<M: Machine<One = R>>(
+        _: M,
+        _: [R; 3],
+        left: Self,
+        right: Self,
+        t0: R,
+        dt: R,
+    ) -> Ramp<A> {
         ramp(left.0, right.0, t0, dt)
     }
     #[inline(always)]
@@ -199,18 +220,34 @@ impl<R: Real, A: Affine<R>> Attribute<R> for Lerp<A> {
     #[inline(always)]
     fn plane([a, b, c]: [Self; 3], [db, dc]: [R; 2]) -> Option<Facet<A>> {
         let (to_b, to_c) = (b.0.minus(a.0), c.0.minus(a.0));
-        Some(Facet { origin: a.0, to_b, to_c, step: to_c.times_plus(dc, to_b.times(db)) })
+        Some(Facet {
+            origin: a.0,
+            to_b,
+            to_c,
+            step: to_c.times_plus(dc, to_b.times(db)),
+        })
     }
     #[inline(always)]
     fn on_row(facet: &Facet<A>, [b, c]: [R; 2]) -> Ramp<A> {
-        let at = facet.to_c.times_plus(c, facet.to_b.times_plus(b, facet.origin));
-        Ramp { at, step: facet.step }
+        let at = facet
+            .to_c
+            .times_plus(c, facet.to_b.times_plus(b, facet.origin));
+        Ramp {
+            at,
+            step: facet.step,
+        }
     }
     #[inline(always)]
     fn earlier(&Ramp { at, step }: &Ramp<A>, pixels: R, is_one: bool) -> Option<Ramp<A>> {
         Some(match is_one {
-            true => Ramp { at, step: at.minus(at) },
-            false => Ramp { at: at.minus(step.times(pixels)), step },
+            true => Ramp {
+                at,
+                step: at.minus(at),
+            },
+            false => Ramp {
+                at: at.minus(step.times(pixels)),
+                step,
+            },
         })
     }
     #[inline(always)]
@@ -221,7 +258,10 @@ impl<R: Real, A: Affine<R>> Attribute<R> for Lerp<A> {
     fn barycentric<M: Machine<One = R>>(m: M, w: [R; 3], corners: [Self; 3]) -> Ramp<A> {
         let [a, b, c] = corners;
         let at = a.0.times(w[0]).plus(b.0.times(w[1])).plus(c.0.times(w[2]));
-        Ramp { at, step: at.times(m.one(0.0)) }
+        Ramp {
+            at,
+            step: at.times(m.one(0.0)),
+        }
     }
 }
 
@@ -273,7 +313,13 @@ impl<R: Real> Arc<R> {
             (a, b, phi, m.one(0.5) * sin_half * cos_half) // sin φ
         };
         let scale = m.one(1.0) / sin_phi;
-        Arc { from: a.times(scale), to: b.times(scale), phi, t0, dt } // 4.7
+        Arc {
+            from: a.times(scale),
+            to: b.times(scale),
+            phi,
+            t0,
+            dt,
+        } // 4.7
     }
 }
 
@@ -294,7 +340,11 @@ impl<R: Real> Attribute<R> for UnitNormal<R> {
     #[inline(always)]
     fn edge<M: Machine<One = R>>(m: M, face: [R; 3], a: Self, b: Self, t0: R, dt: R) -> ArcWalk<R> {
         let arc = Arc::new(m, face, a.0, b.0, t0, dt);
-        ArcWalk { from: arc.from, to: arc.to, sines: Sines::new(SetUp(m), arc.phi, t0, dt) }
+        ArcWalk {
+            from: arc.from,
+            to: arc.to,
+            sines: Sines::new(SetUp(m), arc.phi, t0, dt),
+        }
     }
     #[inline(always)]
     fn at(edge: &ArcWalk<R>) -> Self {
@@ -306,7 +356,14 @@ impl<R: Real> Attribute<R> for UnitNormal<R> {
         edge.sines.step(); // 4.9–4.12
     }
     #[inline(always)]
-    fn span<M: Machine<One = R>>(m: M, face: [R; 3], left: Self, right: Self, t0: R, dt: R) -> Arc<R> {
+    fn span<M: Machine<One = R>>(
+        m: M,
+        face: [R; 3],
+        left: Self,
+        right: Self,
+        t0: R,
+        dt: R,
+    ) -> Arc<R> {
         Arc::new(m, face, left.0, right.0, t0, dt)
     }
     #[inline(always)]

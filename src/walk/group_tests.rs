@@ -32,9 +32,14 @@ impl<W: Made> LanesJob for Pixels<W> {
 }
 
 /// A walk on a level and one pixel at a time.
-fn both<W: Made>(walk: W, count: usize) -> impl Iterator<Item = (Level, Vec<Vec<f32>>, Vec<Vec<f32>>)> {
+fn both<W: Made>(
+    walk: W,
+    count: usize,
+) -> impl Iterator<Item = (Level, Vec<Vec<f32>>, Vec<Vec<f32>>)> {
     let one = on_level(Level::Scalar, Pixels(walk, count));
-    Level::available().skip(1).map(move |level| (level, on_level(level, Pixels(walk, count)), one.clone()))
+    Level::available()
+        .skip(1)
+        .map(move |level| (level, on_level(level, Pixels(walk, count)), one.clone()))
 }
 
 /// Stores what a walk gives, one plane for each of `values`.
@@ -77,7 +82,9 @@ struct Circle(f32, f32, f32);
 impl Made for Circle {
     const PLANES: usize = 2;
     fn walk<M: Lanes>(self, m: M, out: &mut [Vec<f32>]) {
-        store(m, Sines::new(m, self.0, self.1, self.2), out, |(a, b)| [a, b]);
+        store(m, Sines::new(m, self.0, self.1, self.2), out, |(a, b)| {
+            [a, b]
+        });
     }
 }
 
@@ -87,7 +94,12 @@ struct Length([f32; 3], [f32; 3], u32);
 impl Made for Length {
     const PLANES: usize = 2;
     fn walk<M: Lanes>(self, m: M, out: &mut [Vec<f32>]) {
-        store(m, Newton::new(m, self.0, self.1, self.2), out, |(d, square)| [d, square]);
+        store(
+            m,
+            Newton::new(m, self.0, self.1, self.2),
+            out,
+            |(d, square)| [d, square],
+        );
     }
 }
 
@@ -103,7 +115,10 @@ fn linear_steps_by_groups() {
                 // One addition every eight pixels, and two roundings of the start; one pixel at a time one addition each.
                 let bound = |steps: f64| (steps + 2.0) * HALF_ULP * most.max(1e-30);
                 let error = (f64::from(*group) - truth).abs();
-                assert!(error <= bound((k / 8) as f64), "{level}: {at} {step} at {k}: {error:.1e}");
+                assert!(
+                    error <= bound((k / 8) as f64),
+                    "{level}: {at} {step} at {k}: {error:.1e}"
+                );
                 assert!((f64::from(*one) - truth).abs() <= bound(k as f64));
             }
         }
@@ -120,7 +135,9 @@ fn quadratic_steps_by_groups() {
         let (a64, step64) = (long(a), long(step));
         for (level, group, one) in both(Square(a, step), 512) {
             for (k, (group, one)) in group[0].iter().zip(&one[0]).enumerate() {
-                let truth = (0..3).map(|i| (a64[i] + k as f64 * step64[i]).powi(2)).sum::<f64>();
+                let truth = (0..3)
+                    .map(|i| (a64[i] + k as f64 * step64[i]).powi(2))
+                    .sum::<f64>();
                 // As documented: three roundings a step, beside those of the start, ΔQ · 4 / n by four roundings k times,
                 // and 2 s = 8 / n² by four roundings k² / 2 times. A group takes a step for eight pixels, of eight times ΔQ.
                 let bound = |steps: f64, k: f64| {
@@ -129,7 +146,10 @@ fn quadratic_steps_by_groups() {
                 };
                 let k64 = k as f64;
                 let error = (f64::from(*group) - truth).abs();
-                assert!(error <= bound(k64 / 8.0, k64), "{level}: {a:?} {b:?} at {k}: {error:.1e}");
+                assert!(
+                    error <= bound(k64 / 8.0, k64),
+                    "{level}: {a:?} {b:?} at {k}: {error:.1e}"
+                );
                 assert!((f64::from(*one) - truth).abs() <= bound(k64, k64));
             }
         }
@@ -144,12 +164,18 @@ fn sines_step_by_groups() {
         for (level, group, one) in both(Circle(phi, t0, dt), 512) {
             for k in 0..512 {
                 let t = f64::from(t0) + k as f64 * f64::from(dt);
-                let truth = [((1.0 - t) * f64::from(phi)).sin(), (t * f64::from(phi)).sin()];
+                let truth = [
+                    ((1.0 - t) * f64::from(phi)).sin(),
+                    (t * f64::from(phi)).sin(),
+                ];
                 // As one pixel at a time, 7.5 half units a step: up to seven steps to the lane, then one for each group.
                 let bound = |steps: f64| (7.5 * steps + 12.0) * HALF_ULP;
                 for i in 0..2 {
                     let error = (f64::from(group[i][k]) - truth[i]).abs();
-                    assert!(error <= bound((k / 8 + k % 8) as f64), "{level}: {degrees} at {k}: {error:.1e}");
+                    assert!(
+                        error <= bound((k / 8 + k % 8) as f64),
+                        "{level}: {degrees} at {k}: {error:.1e}"
+                    );
                     assert!((f64::from(one[i][k]) - truth[i]).abs() <= bound(k as f64));
                 }
             }
@@ -170,7 +196,11 @@ fn turning(degrees: f32, pixels: usize) -> ([f32; 3], [f32; 3], Vec<f64>) {
 
 /// The largest relative error of a length.
 fn worst(lengths: &[f32], truth: &[f64]) -> f64 {
-    lengths.iter().zip(truth).map(|(d, truth)| (f64::from(*d) / truth - 1.0).abs()).fold(0.0, f64::max)
+    lengths
+        .iter()
+        .zip(truth)
+        .map(|(d, truth)| (f64::from(*d) / truth - 1.0).abs())
+        .fold(0.0, f64::max)
 }
 
 /// Whatever the angle and however few the pixels, groups stay within what their guard allows. A true root is one rounding
@@ -197,7 +227,10 @@ fn guarded_lengths_are_never_far_off() {
             }
         }
     }
-    assert!(most > allowed / 100.0, "some span comes near the guard: {most:.1e}");
+    assert!(
+        most > allowed / 100.0,
+        "some span comes near the guard: {most:.1e}"
+    );
 }
 
 /// 120° over 16 pixels: one pixel at a time the lecture's method is off by far more than a group may be, which has true
@@ -208,7 +241,10 @@ fn where_groups_would_be_off_they_have_true_roots() {
     for (level, group, one) in both(Length(n, step, 1), 16) {
         let (group, one) = (worst(&group[0], &truth), worst(&one[0], &truth));
         assert!(group < 12.0 * HALF_ULP, "{level}: {group:.1e}");
-        assert!(one > 1e-3, "one pixel at a time nothing is guarded: {one:.1e}");
+        assert!(
+            one > 1e-3,
+            "one pixel at a time nothing is guarded: {one:.1e}"
+        );
     }
     let (n, step, truth) = turning(15.0, 64);
     for (level, group, _) in both(Length(n, step, 1), 64) {
@@ -228,6 +264,11 @@ fn a_normal_that_vanishes_is_guarded() {
         assert_eq!(group[0], expected, "{level}");
     }
     for (level, group, _) in both(Length([0.0, 0.6, 0.8], [0.0; 3], 2), 24) {
-        assert!(group[0].iter().all(|d| (d - 1.0).abs() <= 2.0 * f32::EPSILON), "{level}: a normal that stays");
+        assert!(
+            group[0]
+                .iter()
+                .all(|d| (d - 1.0).abs() <= 2.0 * f32::EPSILON),
+            "{level}: a normal that stays"
+        );
     }
 }

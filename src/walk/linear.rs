@@ -21,7 +21,10 @@ impl<F: Num> Linear<F> {
     /// Starts at `at` on the first pixel and grows by `step` a pixel.
     #[inline(always)]
     pub fn new<M: Machine<F = F>>(m: M, at: M::One, step: M::One) -> Self {
-        Linear { at: m.ramp(at, step), step: m.stride(step) }
+        Linear {
+            at: m.ramp(at, step),
+            step: m.stride(step),
+        }
     }
 }
 

@@ -41,12 +41,20 @@ impl<F: Num> Newton<F> {
             |i| Linear::new(m, n[i], dn[i]), // 4.2
         );
         if M::WIDTH == 1 {
-            return Newton { normal, length: m.splat(dot(n, n).sqrt()), steps };
+            return Newton {
+                normal,
+                length: m.splat(dot(n, n).sqrt()),
+                steps,
+            };
         }
         let mut ahead = normal;
         let first = ahead.next();
         let is_safe = Self::error_of_groups::<M>(n, dn, steps) <= Self::LARGEST_ERROR;
-        Newton { normal, length: dot(first, first).sqrt(), steps: if is_safe { steps } else { 0 } }
+        Newton {
+            normal,
+            length: dot(first, first).sqrt(),
+            steps: if is_safe { steps } else { 0 },
+        }
     }
 
     /// The relative error that `steps` steps leave at most, from a guess that is a group away and has itself the error
@@ -59,7 +67,11 @@ impl<F: Num> Newton<F> {
     /// δ is how far the true length is from that of the group before, which is up to 1 + δ times as long. The guess may be too
     /// small by e, which leaves the most.
     fn error_of_groups<M: Machine<F = F>>(n: [M::One; 3], dn: [M::One; 3], steps: u32) -> f32 {
-        let (square, along, step) = (dot(n, n).value(), dot(n, dn).value().min(0.0), dot(dn, dn).value());
+        let (square, along, step) = (
+            dot(n, n).value(),
+            dot(n, dn).value().min(0.0),
+            dot(dn, dn).value(),
+        );
         if step == 0.0 {
             return 0.0;
         }

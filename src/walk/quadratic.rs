@@ -23,7 +23,13 @@ pub struct Quadratic<F> {
 impl<F: Num> Quadratic<F> {
     /// The dot product of `a` and `b`, which grow by `da` and `db` a pixel.
     #[inline(always)]
-    pub fn product<M: Machine<F = F>>(m: M, a: [M::One; 3], da: [M::One; 3], b: [M::One; 3], db: [M::One; 3]) -> Self {
+    pub fn product<M: Machine<F = F>>(
+        m: M,
+        a: [M::One; 3],
+        da: [M::One; 3],
+        b: [M::One; 3],
+        db: [M::One; 3],
+    ) -> Self {
         Self::new(m, dot(a, b), dot(a, db) + dot(da, b), dot(da, db))
     }
 
@@ -38,7 +44,11 @@ impl<F: Num> Quadratic<F> {
     #[inline(always)]
     pub fn new<M: Machine<F = F>>(m: M, q: M::One, p: M::One, s: M::One) -> Self {
         if M::WIDTH == 1 {
-            return Quadratic { at: m.splat(q), step: m.splat(p + s), second: m.splat(s + s) };
+            return Quadratic {
+                at: m.splat(q),
+                step: m.splat(p + s),
+                second: m.splat(s + s),
+            };
         }
         // Q(k + w) − Q(k) = (p w + s w²) + 2 s w k for groups of w pixels: linear in k, and 2 s w² more each group.
         let w = m.one(M::WIDTH as f32);
@@ -49,7 +59,11 @@ impl<F: Num> Quadratic<F> {
             k = k + m.one(1.0);
             here
         });
-        Quadratic { at, step: m.ramp(group, second), second: m.splat(second * w) }
+        Quadratic {
+            at,
+            step: m.ramp(group, second),
+            second: m.splat(second * w),
+        }
     }
 }
 

@@ -42,7 +42,14 @@ impl<F: Num> Sines<F> {
             };
         }
         // The pixels of a group start from the recurrence itself: one sine a span instead of one a pixel.
-        let start = Sines { sin_t, cos_t, sin_rest, cos_rest, sin_step, cos_step };
+        let start = Sines {
+            sin_t,
+            cos_t,
+            sin_rest,
+            cos_rest,
+            sin_step,
+            cos_step,
+        };
         let lanes = |value: fn(&Sines<M::One>) -> M::One| {
             let mut walk = start;
             m.take(|| {
@@ -71,7 +78,14 @@ impl<F: Num> Sines<F> {
     /// From t to t + Δt.
     #[inline(always)]
     pub fn step(&mut self) {
-        let Sines { sin_t, cos_t, sin_rest, cos_rest, sin_step, cos_step } = *self;
+        let Sines {
+            sin_t,
+            cos_t,
+            sin_rest,
+            cos_rest,
+            sin_step,
+            cos_step,
+        } = *self;
         self.sin_t = sin_t * cos_step + cos_t * sin_step; // 4.9
         self.sin_rest = sin_rest * cos_step - cos_rest * sin_step; // 4.10
         self.cos_t = cos_t * cos_step - sin_t * sin_step; // 4.11

@@ -91,22 +91,36 @@ fn scalar(mut walk: impl Walk<Out = f32>, count: usize) -> Vec<f64> {
 }
 
 fn wide(mut walk: impl Walk<Out = Four>, count: usize) -> Vec<f64> {
-    (0..count / 4).flat_map(|_| walk.next().0).map(f64::from).collect()
+    (0..count / 4)
+        .flat_map(|_| walk.next().0)
+        .map(f64::from)
+        .collect()
 }
 
 const COUNT: usize = 2048;
 
 #[test]
 fn linear_follows_the_line() {
-    for (at, step) in [(0.0f32, 0.0f32), (1.0, -1.0 / 2048.0), (-0.7, 0.001), (0.25, 3e-5)] {
+    for (at, step) in [
+        (0.0f32, 0.0f32),
+        (1.0, -1.0 / 2048.0),
+        (-0.7, 0.001),
+        (0.25, 3e-5),
+    ] {
         let largest = f64::from(at.abs()).max(f64::from(at + 2048.0 * step).abs());
-        for values in [scalar(Linear::new(Scalar, at, step), COUNT), wide(Linear::new(FourWide, at, step), COUNT)] {
+        for values in [
+            scalar(Linear::new(Scalar, at, step), COUNT),
+            wide(Linear::new(FourWide, at, step), COUNT),
+        ] {
             for (k, value) in values.iter().enumerate() {
                 let truth = f64::from(at) + k as f64 * f64::from(step);
                 // Each addition rounds by half a unit in the last place of a number of at most `largest`;
                 // the lanes of a group have two roundings more.
                 let bound = (k as f64 + 2.0) * HALF_ULP * 2.0 * largest.max(1e-30);
-                assert!((value - truth).abs() <= bound, "{at} {step} at {k}: {value} is not {truth}");
+                assert!(
+                    (value - truth).abs() <= bound,
+                    "{at} {step} at {k}: {value} is not {truth}"
+                );
             }
         }
     }
@@ -120,12 +134,20 @@ fn products(a: Line, b: Line, pixels: usize) -> [Vec<(f64, f64, f64)>; 2] {
     let long = |v: [f32; 3]| v.map(f64::from);
     let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f64>();
     let length = |v: [f32; 3]| dot(long(v), long(v)).sqrt();
-    let at = |line: Line, k: f64| -> [f64; 3] { core::array::from_fn(|i| long(line.0)[i] + k * long(line.1)[i]) };
-    let truth: Vec<f64> = (0..=pixels).map(|k| dot(at(a, k as f64), at(b, k as f64))).collect();
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most, v| f64::max(most, v.abs()));
+    let at = |line: Line, k: f64| -> [f64; 3] {
+        core::array::from_fn(|i| long(line.0)[i] + k * long(line.1)[i])
+    };
+    let truth: Vec<f64> = (0..=pixels)
+        .map(|k| dot(at(a, k as f64), at(b, k as f64)))
+        .collect();
+    let largest =
+        |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most, v| f64::max(most, v.abs()));
     let most = largest(&mut truth.iter().copied());
     let most_step = largest(&mut truth.windows(2).map(|pair| pair[1] - pair[0]));
-    let (cross, second) = (length(a.0) * length(b.1) + length(a.1) * length(b.0), 2.0 * length(a.1) * length(b.1));
+    let (cross, second) = (
+        length(a.0) * length(b.1) + length(a.1) * length(b.0),
+        2.0 * length(a.1) * length(b.1),
+    );
     // In half units: a dot product of three terms has three roundings of at most the product of the lengths, the first
     // difference is two of them and at most three operations more, the second difference one. Each step then rounds the
     // difference once and Q once, and Q gathers what its differences are off by.
@@ -134,11 +156,22 @@ fn products(a: Line, b: Line, pixels: usize) -> [Vec<(f64, f64, f64)>; 2] {
         HALF_ULP * (starts + (k + 2.0) * most + k * k / 2.0 * most_step)
     };
     let checked = |values: Vec<f64>| {
-        values.into_iter().zip(&truth).enumerate().map(|(k, (v, t))| (v, *t, bound(k as f64))).collect()
+        values
+            .into_iter()
+            .zip(&truth)
+            .enumerate()
+            .map(|(k, (v, t))| (v, *t, bound(k as f64)))
+            .collect()
     };
     [
-        checked(scalar(Quadratic::product(Scalar, a.0, a.1, b.0, b.1), pixels)),
-        checked(wide(Quadratic::product(FourWide, a.0, a.1, b.0, b.1), pixels)),
+        checked(scalar(
+            Quadratic::product(Scalar, a.0, a.1, b.0, b.1),
+            pixels,
+        )),
+        checked(wide(
+            Quadratic::product(FourWide, a.0, a.1, b.0, b.1),
+            pixels,
+        )),
     ]
 }
 
@@ -164,13 +197,19 @@ fn quadratic_follows_the_parabola() {
                 assert_eq!(values.len(), PIXELS);
                 for (k, (value, truth, bound)) in values.into_iter().enumerate() {
                     let error = (value - truth).abs();
-                    assert!(error <= bound, "{i} at {k}: {value} is not {truth} within {bound:.1e}");
+                    assert!(
+                        error <= bound,
+                        "{i} at {k}: {value} is not {truth} within {bound:.1e}"
+                    );
                     tightest = tightest.max(error / bound);
                 }
             }
         }
     }
-    assert!(tightest > 0.05, "the bound is twenty times the largest error: {tightest}");
+    assert!(
+        tightest > 0.05,
+        "the bound is twenty times the largest error: {tightest}"
+    );
 }
 
 /// What the documentation of [`Quadratic`] says of its drift: at most 3 k 2⁻²⁴ of its largest value, on normals that turn
@@ -182,11 +221,16 @@ fn quadratic_drifts_by_three_roundings_a_step() {
             let (sin, cos) = (degrees / 2.0).to_radians().sin_cos();
             let n = line([-sin, 0.0, cos], [sin, 0.0, cos], pixels);
             let values = products(n, n, pixels);
-            for (k, &(value, truth, _)) in values.iter().flat_map(|values| values.iter().enumerate()) {
+            for (k, &(value, truth, _)) in
+                values.iter().flat_map(|values| values.iter().enumerate())
+            {
                 let k = k as f64;
                 // The start: q by three roundings, and ΔQ by four of |ΔQ| ≤ 4 / n, k times.
                 let bound = HALF_ULP * (3.0 * k + 4.0 + 4.0 * k * 4.0 / pixels as f64);
-                assert!((value - truth).abs() <= bound, "{degrees} over {pixels} at {k}: {value} is not {truth}");
+                assert!(
+                    (value - truth).abs() <= bound,
+                    "{degrees} over {pixels} at {k}: {value} is not {truth}"
+                );
             }
         }
     }
@@ -198,7 +242,10 @@ fn quadratic_of_a_normal_that_vanishes() {
     let (a, step) = ([-1.0f32, 0.0, 0.0], [1.0 / 32.0, 0.0, 0.0]);
     let square = scalar(Quadratic::square(Scalar, a, step), 65);
     assert_eq!((square[0], square[32], square[64]), (1.0, 0.0, 1.0));
-    assert_eq!(square, scalar(Quadratic::product(Scalar, a, step, a, step), 65));
+    assert_eq!(
+        square,
+        scalar(Quadratic::product(Scalar, a, step, a, step), 65)
+    );
     assert_eq!(wide(Quadratic::square(FourWide, a, step), 64), square[..64]);
 }
 
@@ -210,22 +257,33 @@ fn sines_follow_the_circle() {
         let pairs = [
             {
                 let mut walk = Sines::new(Scalar, phi, t0, dt);
-                (0..COUNT).map(|_| walk.next()).map(|(a, b)| (f64::from(a), f64::from(b))).collect::<Vec<_>>()
+                (0..COUNT)
+                    .map(|_| walk.next())
+                    .map(|(a, b)| (f64::from(a), f64::from(b)))
+                    .collect::<Vec<_>>()
             },
             {
                 let mut walk = Sines::new(FourWide, phi, t0, dt);
                 let groups = (0..COUNT / 4).map(|_| walk.next());
-                groups.flat_map(|(a, b)| (0..4).map(move |i| (f64::from(a.0[i]), f64::from(b.0[i])))).collect()
+                groups
+                    .flat_map(|(a, b)| (0..4).map(move |i| (f64::from(a.0[i]), f64::from(b.0[i]))))
+                    .collect()
             },
         ];
         for values in pairs {
             for (k, (rest, done)) in values.iter().enumerate() {
                 let t = f64::from(t0) + k as f64 * f64::from(dt);
-                let truth = (((1.0 - t) * f64::from(phi)).sin(), (t * f64::from(phi)).sin());
+                let truth = (
+                    ((1.0 - t) * f64::from(phi)).sin(),
+                    (t * f64::from(phi)).sin(),
+                );
                 // A step: two products and a sum, three roundings of a vector of length 1, and the two rounded entries
                 // of the rotation: under five half units. The angle itself, phi - t0 phi and k dt phi, adds three.
                 let bound = (5.0 * k as f64 + 8.0) * HALF_ULP * 1.5;
-                assert!((rest - truth.0).abs() <= bound && (done - truth.1).abs() <= bound, "{degrees} at {k}");
+                assert!(
+                    (rest - truth.0).abs() <= bound && (done - truth.1).abs() <= bound,
+                    "{degrees} at {k}"
+                );
             }
         }
     }
@@ -234,7 +292,10 @@ fn sines_follow_the_circle() {
 #[test]
 fn newton_follows_the_root() {
     // 30 degrees over 64 pixels: two steps leave nothing but rounding.
-    let (a, b) = ([-0.258_819f32, 0.0, 0.965_925_8], [0.258_819f32, 0.0, 0.965_925_8]);
+    let (a, b) = (
+        [-0.258_819f32, 0.0, 0.965_925_8],
+        [0.258_819f32, 0.0, 0.965_925_8],
+    );
     let step: [f32; 3] = core::array::from_fn(|i| (b[i] - a[i]) / 64.0);
     let normal = || core::array::from_fn::<_, 3, _>(|i| Linear::new(Scalar, a[i], step[i]));
     let (mut walk, mut line) = (Newton::new(Scalar, a, step, 2), normal());
@@ -244,7 +305,10 @@ fn newton_follows_the_root() {
         let (length, squared) = walk.next();
         assert_eq!(squared, dot(n, n));
         // Rounding of one step: four operations on numbers near 1, the correction itself being small: 2 half units.
-        assert!((f64::from(length) - truth).abs() <= 4.0 * HALF_ULP, "at {k}: {length} is not {truth}");
+        assert!(
+            (f64::from(length) - truth).abs() <= 4.0 * HALF_ULP,
+            "at {k}: {length} is not {truth}"
+        );
     }
 }
 
@@ -259,7 +323,10 @@ fn newton_leaves_what_theory_says() {
         for _ in 0..steps {
             error = error * error / (2.0 * (1.0 + error));
         }
-        assert!((f64::from(length) - 0.7 * (1.0 + error)).abs() < 8.0 * HALF_ULP, "{steps} steps: {length}");
+        assert!(
+            (f64::from(length) - 0.7 * (1.0 + error)).abs() < 8.0 * HALF_ULP,
+            "{steps} steps: {length}"
+        );
     }
 }
 
@@ -286,13 +353,19 @@ fn normals_walk_great_circles_at_uniform_speed() {
         }
         for (k, n) in edge(a, b, 64).into_iter().enumerate() {
             let t = (k as f64 + 0.5) / 64.0;
-            let (wa, wb) = (((1.0 - t) * phi).sin() / phi.sin(), (t * phi).sin() / phi.sin());
+            let (wa, wb) = (
+                ((1.0 - t) * phi).sin() / phi.sin(),
+                (t * phi).sin() / phi.sin(),
+            );
             for i in 0..3 {
                 let truth = wa * f64::from(a[i]) + wb * f64::from(b[i]);
                 // The weights are off by the drift of 64 steps (5 half units each) and by that of phi from rounded
                 // unit vectors (8 half units), divided by sin phi; near 180 degrees acos in this test adds as much.
                 let bound = (5.0 * 64.0 + 32.0) * HALF_ULP / phi.sin().powi(2);
-                assert!((f64::from(n[i]) - truth).abs() <= bound, "{a:?} {b:?} at {k}: {n:?}, {truth}");
+                assert!(
+                    (f64::from(n[i]) - truth).abs() <= bound,
+                    "{a:?} {b:?} at {k}: {n:?}, {truth}"
+                );
             }
         }
     }
@@ -305,7 +378,10 @@ fn nearly_equal_normals_are_interpolated_linearly() {
         for (k, n) in edge(a, b, 16).into_iter().enumerate() {
             let truth = (k as f32 + 0.5) / 16.0 * angle;
             // The weights' difference from linear ones, 6e-8 of the angle, and 16 steps of rounding.
-            assert!((n[0] - truth).abs() <= 1e-5 * angle && (n[2] - 1.0).abs() < 1e-5, "{angle} at {k}: {n:?}");
+            assert!(
+                (n[0] - truth).abs() <= 1e-5 * angle && (n[2] - 1.0).abs() < 1e-5,
+                "{angle} at {k}: {n:?}"
+            );
         }
     }
 }
@@ -314,7 +390,10 @@ fn nearly_equal_normals_are_interpolated_linearly() {
 fn opposite_normals_give_the_face_normal() {
     for b in [[-1.0f32, 0.0, 0.0], [-0.9999, 0.01414, 0.0]] {
         for n in edge([1.0, 0.0, 0.0], b, 16) {
-            assert!(n[0].abs() + n[1].abs() < 1e-5 && (n[2] - 1.0).abs() < 1e-5, "{n:?}");
+            assert!(
+                n[0].abs() + n[1].abs() < 1e-5 && (n[2] - 1.0).abs() < 1e-5,
+                "{n:?}"
+            );
         }
     }
 }

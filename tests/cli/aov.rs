@@ -8,19 +8,36 @@ fn aovs_show_depth_normals_and_polygons() {
     let folder = Folder::new();
     for aov in ["depth", "normal", "polygon"] {
         folder
-            .run(&format!("render {SPHERE} --view 0,0 --aov {aov} -o {aov}.png"))
+            .run(&format!(
+                "render {SPHERE} --view 0,0 --aov {aov} -o {aov}.png"
+            ))
             .done()
             .says(&format!("64x48, {aov}"));
-        folder.run(&format!("render {SPHERE} --view 0,0 --aov {aov} -o {aov}.pfm")).done();
+        folder
+            .run(&format!(
+                "render {SPHERE} --view 0,0 --aov {aov} -o {aov}.pfm"
+            ))
+            .done();
     }
     let depth = picture(&folder.path("depth.png"));
     let drawn = depth.texels().iter().filter(|texel| texel[3] == 255);
-    assert_eq!(drawn.clone().map(|texel| texel[0]).max(), Some(255), "the nearest pixel is white");
-    assert_eq!(drawn.map(|texel| texel[0]).min(), Some(0), "the farthest pixel is black");
+    assert_eq!(
+        drawn.clone().map(|texel| texel[0]).max(),
+        Some(255),
+        "the nearest pixel is white"
+    );
+    assert_eq!(
+        drawn.map(|texel| texel[0]).min(),
+        Some(0),
+        "the farthest pixel is black"
+    );
     assert!(depth.get(32, 24)[0] > 200 && depth.get(0, 0) == [0; 4]);
     // In the middle the normal is about z: (N + 1)/2 = (½, ½, 1), and the facets there lean by less than 30 degrees.
     let [r, g, b, _] = picture(&folder.path("normal.png")).get(32, 24);
-    assert!(r.abs_diff(128) < 64 && g.abs_diff(128) < 64 && b > 237, "{r} {g} {b}");
+    assert!(
+        r.abs_diff(128) < 64 && g.abs_diff(128) < 64 && b > 237,
+        "{r} {g} {b}"
+    );
 
     let floats = |name: &str| match read_picture(&folder.path(name)).unwrap().texels {
         FileTexels::Linear(floats) => floats,
@@ -34,45 +51,86 @@ fn aovs_show_depth_normals_and_polygons() {
     for y in 0..48 {
         for x in 1..64 {
             let same = numbers.get(x - 1, y)[0] == numbers.get(x, y)[0];
-            assert_eq!(colours.get(x - 1, y) == colours.get(x, y), same, "column {x}, row {y}");
+            assert_eq!(
+                colours.get(x - 1, y) == colours.get(x, y),
+                same,
+                "column {x}, row {y}"
+            );
             neighbours += usize::from(!same);
         }
     }
     assert!(neighbours > 100, "{neighbours}");
-    folder.run(&format!("render {SPHERE} --aov depth -m flat -o out.png")).refused(&["cannot be used with"]);
+    folder
+        .run(&format!("render {SPHERE} --aov depth -m flat -o out.png"))
+        .refused(&["cannot be used with"]);
 }
 
 /// A triangle with a red, a green and a blue corner; a square of four world units under the checkerboard.
 #[test]
 fn aovs_show_vertex_colours_and_a_checkerboard() {
     let folder = Folder::new();
-    folder.write("rgb.obj", "v 0 0 0 1 0 0\nv 4 0 0 0 1 0\nv 0 4 0 0 0 1\nf 1 2 3\n");
+    folder.write(
+        "rgb.obj",
+        "v 0 0 0 1 0 0\nv 4 0 0 0 1 0\nv 0 4 0 0 0 1\nf 1 2 3\n",
+    );
     let view = "--view 0,0 --size 40x40";
-    folder.run(&format!("render rgb.obj {view} --aov colours -o rgb.png")).done().says("40x40, colours");
+    folder
+        .run(&format!("render rgb.obj {view} --aov colours -o rgb.png"))
+        .done()
+        .says("40x40, colours");
     let rgb = picture(&folder.path("rgb.png"));
     // Weights sum to 1, and so do the colours: 255, give or take a half for each of three roundings.
-    let drawn: Vec<[u8; 4]> = rgb.texels().iter().copied().filter(|t| t[3] == 255).collect();
+    let drawn: Vec<[u8; 4]> = rgb
+        .texels()
+        .iter()
+        .copied()
+        .filter(|t| t[3] == 255)
+        .collect();
     assert!(
-        drawn.len() > 200 && drawn.iter().all(|t| t[..3].iter().map(|&c| i32::from(c)).sum::<i32>().abs_diff(255) <= 1)
+        drawn.len() > 200
+            && drawn.iter().all(|t| t[..3]
+                .iter()
+                .map(|&c| i32::from(c))
+                .sum::<i32>()
+                .abs_diff(255)
+                <= 1)
     );
     for channel in 0..3 {
-        assert!(drawn.iter().any(|t| t[channel] > 230), "a corner of channel {channel}");
+        assert!(
+            drawn.iter().any(|t| t[channel] > 230),
+            "a corner of channel {channel}"
+        );
     }
-    folder.write("floor.obj", "v 0 0 0\nv 0 0 4\nv 4 0 4\nv 4 0 0\nf 1 2 3 4\n");
+    folder.write(
+        "floor.obj",
+        "v 0 0 0\nv 0 0 4\nv 4 0 4\nv 4 0 0\nf 1 2 3 4\n",
+    );
     let view = "--view 0,90 --size 40x40";
     for (square, squares) in [("1", 16), ("2", 4), ("8", 1)] {
-        folder.run(&format!("render floor.obj {view} --aov checkerboard --square {square} -o board.png")).done();
+        folder
+            .run(&format!(
+                "render floor.obj {view} --aov checkerboard --square {square} -o board.png"
+            ))
+            .done();
         let board = picture(&folder.path("board.png"));
         let (mut light, mut dark) = (0, 0);
         for t in board.texels().iter().filter(|t| t[3] == 255) {
             *(if t[0] > 128 { &mut light } else { &mut dark }) += 1;
         }
         // Half of the squares each, but of the one square.
-        assert!(light > 300 && (squares == 1) == (dark == 0), "{square}: {light}, {dark}");
-        assert!(squares == 1 || light * 10 < dark * 13 && dark * 10 < light * 13, "{square}: {light}, {dark}");
+        assert!(
+            light > 300 && (squares == 1) == (dark == 0),
+            "{square}: {light}, {dark}"
+        );
+        assert!(
+            squares == 1 || light * 10 < dark * 13 && dark * 10 < light * 13,
+            "{square}: {light}, {dark}"
+        );
     }
     folder
         .run("render floor.obj --aov checkerboard --square 0 -o out.png")
         .refused(&["expected a length in world units"]);
-    folder.run("render floor.obj --square 2 -o out.png").refused(&["--aov"]);
+    folder
+        .run("render floor.obj --square 2 -o out.png")
+        .refused(&["--aov"]);
 }

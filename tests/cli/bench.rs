@@ -17,34 +17,67 @@ fn comparisons_say_what_drew_each_row() {
     let folder = Folder::new();
     let best = Level::best().name();
     let compared = |flags: &str| {
-        let ended = folder.run(&format!("compare {NEAR} {QUICK} {flags} --json")).done();
+        let ended = folder
+            .run(&format!("compare {NEAR} {QUICK} {flags} --json"))
+            .done();
         Document::parse(&ended.out).unwrap().comparisons.remove(0)
     };
     let wide = "--engine row --simd auto --threads 2";
     for (flags, asked, rows) in [
         ("", ("span", "scalar", 1), [("span", "scalar", 1); 3]),
-        ("--threads 2", ("span", "scalar", 1), [("span", "scalar", 1); 3]),
-        (wide, ("row", best, 2), [("row", best, 2), ("span", best, 2), ("span", best, 2)]),
+        (
+            "--threads 2",
+            ("span", "scalar", 1),
+            [("span", "scalar", 1); 3],
+        ),
+        (
+            wide,
+            ("row", best, 2),
+            [("row", best, 2), ("span", best, 2), ("span", best, 2)],
+        ),
         (
             "--engine auto --threads 3",
             ("auto", "scalar", 3),
-            [("row", "scalar", 3), ("span", "scalar", 1), ("span", "scalar", 1)],
+            [
+                ("row", "scalar", 3),
+                ("span", "scalar", 1),
+                ("span", "scalar", 1),
+            ],
         ),
     ] {
         let comparison = compared(flags);
         let renderer = &comparison.renderer;
-        assert_eq!((&*renderer.engine, &*renderer.level, renderer.threads), asked, "{flags}");
-        let drawn: Vec<_> = comparison.rows.iter().map(|row| (&*row.engine, &*row.level, row.threads)).collect();
+        assert_eq!(
+            (&*renderer.engine, &*renderer.level, renderer.threads),
+            asked,
+            "{flags}"
+        );
+        let drawn: Vec<_> = comparison
+            .rows
+            .iter()
+            .map(|row| (&*row.engine, &*row.level, row.threads))
+            .collect();
         assert_eq!(drawn, rows, "{flags}");
-        let other: Vec<_> = comparison.barycentric.iter().map(|row| (&*row.engine, &*row.level, row.threads)).collect();
+        let other: Vec<_> = comparison
+            .barycentric
+            .iter()
+            .map(|row| (&*row.engine, &*row.level, row.threads))
+            .collect();
         assert_eq!(other, [("barycentric", "scalar", 1)], "{flags}");
-        assert!(comparison.rows.iter().all(|row| row.speed.is_some()), "{flags}");
+        assert!(
+            comparison.rows.iter().all(|row| row.speed.is_some()),
+            "{flags}"
+        );
     }
     let text = folder.run(&format!("compare {NEAR} {QUICK}")).done();
     text.prints("\ndrawn by the span engine, scalar, 1 thread\n");
     let text = folder.run(&format!("compare {NEAR} {QUICK} {wide}")).done();
-    text.prints(&format!("\ndrawn by the row engine, {best}, 2 threads: naive-phong\n"))
-        .prints(&format!("\ndrawn by the span engine, {best}, 2 threads: fast-phong, duff-phong\n"));
+    text.prints(&format!(
+        "\ndrawn by the row engine, {best}, 2 threads: naive-phong\n"
+    ))
+    .prints(&format!(
+        "\ndrawn by the span engine, {best}, 2 threads: fast-phong, duff-phong\n"
+    ));
 }
 
 /// Rows of another engine are of its own picture: what is compared is what was drawn.
@@ -52,33 +85,78 @@ fn comparisons_say_what_drew_each_row() {
 fn errors_are_those_of_the_engine_that_was_asked_for() {
     let folder = Folder::new();
     let errors = |flags: &str| {
-        let ended = folder.run(&format!("compare teapot --size 160x120 --time-budget 0 {flags} --json")).done();
+        let ended = folder
+            .run(&format!(
+                "compare teapot --size 160x120 --time-budget 0 {flags} --json"
+            ))
+            .done();
         let comparison = Document::parse(&ended.out).unwrap().comparisons.remove(0);
-        comparison.rows.iter().map(|row| row.error.difference.rms).collect::<Vec<f64>>()
+        comparison
+            .rows
+            .iter()
+            .map(|row| row.error.difference.rms)
+            .collect::<Vec<f64>>()
     };
     let lecture = errors("--engine span --simd scalar");
     assert_eq!(errors(""), lecture);
     for level in Level::available().filter(|level| *level != Level::Scalar) {
         // Groups of eight start their increments anew: not one bit of every error can be the same.
-        assert_ne!(errors(&format!("--engine span --simd {level}")), lecture, "{level}");
+        assert_ne!(
+            errors(&format!("--engine span --simd {level}")),
+            lecture,
+            "{level}"
+        );
     }
 }
 
 #[test]
 fn every_instruction_set_is_timed_for_itself() {
     let folder = Folder::new();
-    let ended = folder.run(&format!("bench {SPHERE} {QUICK} --engine span --simd all --json times.json")).done();
+    let ended = folder
+        .run(&format!(
+            "bench {SPHERE} {QUICK} --engine span --simd all --json times.json"
+        ))
+        .done();
     let document = Document::parse(&String::from_utf8(folder.read("times.json")).unwrap()).unwrap();
-    let levels: Vec<&str> = document.comparisons.iter().map(|comparison| &*comparison.renderer.level).collect();
-    assert_eq!(levels, Level::available().map(Level::name).collect::<Vec<_>>());
+    let levels: Vec<&str> = document
+        .comparisons
+        .iter()
+        .map(|comparison| &*comparison.renderer.level)
+        .collect();
+    assert_eq!(
+        levels,
+        Level::available().map(Level::name).collect::<Vec<_>>()
+    );
     for comparison in &document.comparisons {
-        assert!(comparison.rows.iter().all(|row| row.level == comparison.renderer.level), "{:?}", comparison.renderer);
-        assert!(ended.out.contains(&format!("drawn by {}\n", comparison.renderer.line())), "{}", ended.out);
+        assert!(
+            comparison
+                .rows
+                .iter()
+                .all(|row| row.level == comparison.renderer.level),
+            "{:?}",
+            comparison.renderer
+        );
+        assert!(
+            ended
+                .out
+                .contains(&format!("drawn by {}\n", comparison.renderer.line())),
+            "{}",
+            ended.out
+        );
     }
-    let twice = folder.run(&format!("bench {SPHERE} {QUICK} --simd scalar,auto,scalar --json -")).done();
+    let twice = folder
+        .run(&format!(
+            "bench {SPHERE} {QUICK} --simd scalar,auto,scalar --json -"
+        ))
+        .done();
     let expected = if Level::best() == Level::Scalar { 1 } else { 2 };
-    assert_eq!(twice.json()["comparisons"].as_array().unwrap().len(), expected);
-    folder.run(&format!("bench {SPHERE} --simd scalar,axv2")).refused(&["did you mean `avx2`?"]);
+    assert_eq!(
+        twice.json()["comparisons"].as_array().unwrap().len(),
+        expected
+    );
+    folder
+        .run(&format!("bench {SPHERE} --simd scalar,axv2"))
+        .refused(&["did you mean `avx2`?"]);
 }
 
 /// A line a method, in words and as JSON: the same numbers.
@@ -86,7 +164,9 @@ fn every_instruction_set_is_timed_for_itself() {
 fn frame_times_are_a_line_a_method() {
     let folder = Folder::new();
     let flags = "--frame-times --frames 3 --warmup 1 --threads 2 --json times.json";
-    let ended = folder.run(&format!("bench {SPHERE} builtin:cube {flags}")).done();
+    let ended = folder
+        .run(&format!("bench {SPHERE} builtin:cube {flags}"))
+        .done();
     let text = String::from_utf8(folder.read("times.json")).unwrap();
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(json["schema"], "fastphong.frame-times/1");
@@ -97,41 +177,89 @@ fn frame_times_are_a_line_a_method() {
     for (line, time) in ended.out.lines().zip(times) {
         let words: Vec<&str> = line.split(' ').collect();
         let after = |key: &str| words[words.iter().position(|word| *word == key).unwrap() + 1];
-        assert_eq!((words[0], words[1]), (time["input"].as_str().unwrap(), "64x48"));
+        assert_eq!(
+            (words[0], words[1]),
+            (time["input"].as_str().unwrap(), "64x48")
+        );
         assert_eq!(words[2], time["method"]);
         assert_eq!(
             (after("engine"), after("level")),
-            (time["engine"].as_str().unwrap(), time["level"].as_str().unwrap())
+            (
+                time["engine"].as_str().unwrap(),
+                time["level"].as_str().unwrap()
+            )
         );
         for key in ["threads", "frames"] {
             assert_eq!(after(key).parse::<u64>().ok(), time[key].as_u64(), "{line}");
         }
-        assert_eq!((&time["frames"], &time["warmup"], &time["threads"]), (&3.into(), &1.into(), &2.into()));
+        assert_eq!(
+            (&time["frames"], &time["warmup"], &time["threads"]),
+            (&3.into(), &1.into(), &2.into())
+        );
         let number = |key: &str| time[key].as_f64().unwrap();
-        assert!(0.0 < number("ms_min") && number("ms_min") <= number("ms_median"), "{time}");
+        assert!(
+            0.0 < number("ms_min") && number("ms_min") <= number("ms_median"),
+            "{time}"
+        );
         for key in ["ms_median", "ms_min"] {
             // Four decimals.
-            assert!((after(key).parse::<f64>().unwrap() - number(key)).abs() <= 0.5e-4 + 1e-12, "{line}: {time}");
+            assert!(
+                (after(key).parse::<f64>().unwrap() - number(key)).abs() <= 0.5e-4 + 1e-12,
+                "{line}: {time}"
+            );
         }
-        let alone = text.lines().filter(|line| line.contains(&format!("\"ms_median\":{}", time["ms_median"])));
-        assert!(alone.count() >= 1, "{time} does not stand on a line of its own");
-        assert_eq!((&time["level"], time["engine"] == "row"), (&Level::best().name().into(), time["reason"].is_null()));
-        for key in time.as_object().unwrap().keys().chain(json.as_object().unwrap().keys()) {
-            assert!(described.contains(&format!("`{key}`")), "docs/bench-json.md does not describe {key}");
+        let alone = text
+            .lines()
+            .filter(|line| line.contains(&format!("\"ms_median\":{}", time["ms_median"])));
+        assert!(
+            alone.count() >= 1,
+            "{time} does not stand on a line of its own"
+        );
+        assert_eq!(
+            (&time["level"], time["engine"] == "row"),
+            (&Level::best().name().into(), time["reason"].is_null())
+        );
+        for key in time
+            .as_object()
+            .unwrap()
+            .keys()
+            .chain(json.as_object().unwrap().keys())
+        {
+            assert!(
+                described.contains(&format!("`{key}`")),
+                "docs/bench-json.md does not describe {key}"
+            );
         }
     }
-    let methods: Vec<&str> = times.iter().map(|time| time["method"].as_str().unwrap()).collect();
+    let methods: Vec<&str> = times
+        .iter()
+        .map(|time| time["method"].as_str().unwrap())
+        .collect();
     let expected = METHODS.iter().map(|entry| entry.info.name);
-    assert!(methods.iter().copied().eq(expected.clone().chain(expected)), "{methods:?}");
+    assert!(
+        methods.iter().copied().eq(expected.clone().chain(expected)),
+        "{methods:?}"
+    );
 }
 
 #[test]
 fn frame_times_take_engines_instruction_sets_and_numbers_of_frames() {
     let folder = Folder::new();
     let quick = "--frame-times --frames 1 --warmup 0 --methods fast-phong";
-    let lines = |flags: &str| folder.run(&format!("bench {SPHERE} {quick} {flags}")).done().out;
-    assert!(lines("--engine span --simd scalar").contains(" engine span level scalar threads 1 frames 1 ms_median "));
-    assert_eq!(lines("--simd all").lines().count(), Level::available().count());
+    let lines = |flags: &str| {
+        folder
+            .run(&format!("bench {SPHERE} {quick} {flags}"))
+            .done()
+            .out
+    };
+    assert!(
+        lines("--engine span --simd scalar")
+            .contains(" engine span level scalar threads 1 frames 1 ms_median ")
+    );
+    assert_eq!(
+        lines("--simd all").lines().count(),
+        Level::available().count()
+    );
     let duff = "--frame-times --frames 1 --methods duff-phong --engine row";
     folder
         .run(&format!("bench {NEAR} {duff}"))
@@ -139,14 +267,27 @@ fn frame_times_take_engines_instruction_sets_and_numbers_of_frames() {
         .prints(" duff-phong engine span ")
         .says("duff-phong is drawn by the span engine, ");
     for (flags, part) in [
-        ("--frame-times --frames 0", "expected a number of frames from 1 to 1000000"),
-        ("--frame-times --frames many", "expected a number of frames from 1 to 1000000"),
-        ("--frame-times --warmup -1", "expected a number of frames from 0 to 1000000"),
+        (
+            "--frame-times --frames 0",
+            "expected a number of frames from 1 to 1000000",
+        ),
+        (
+            "--frame-times --frames many",
+            "expected a number of frames from 1 to 1000000",
+        ),
+        (
+            "--frame-times --warmup -1",
+            "expected a number of frames from 0 to 1000000",
+        ),
         ("--frame-times --time-budget 1", "cannot be used with"),
         ("--frames 3", "--frame-times"),
         ("--warmup 3", "--frame-times"),
     ] {
-        folder.run(&format!("bench {SPHERE} {flags}")).refused(&[part]);
+        folder
+            .run(&format!("bench {SPHERE} {flags}"))
+            .refused(&[part]);
     }
-    folder.run("bench taepot --frame-times").refused(&["did you mean `teapot`?"]);
+    folder
+        .run("bench taepot --frame-times")
+        .refused(&["did you mean `teapot`?"]);
 }

@@ -20,18 +20,35 @@ fn every_metric_is_printed() {
     let folder = pair();
     let ended = folder.run("diff a.png b.png").done();
     for metric in METRICS {
-        assert!(ended.out.lines().any(|line| line.starts_with(metric.name)), "{}: {}", metric.name, ended.out);
+        assert!(
+            ended.out.lines().any(|line| line.starts_with(metric.name)),
+            "{}: {}",
+            metric.name,
+            ended.out
+        );
     }
-    ended.prints("max").prints("20  levels").prints("the largest difference is at column 3, row 7");
-    folder.run("diff a.png a.png").done().prints("the pictures are equal").prints("inf  dB");
+    ended
+        .prints("max")
+        .prints("20  levels")
+        .prints("the largest difference is at column 3, row 7");
+    folder
+        .run("diff a.png a.png")
+        .done()
+        .prints("the pictures are equal")
+        .prints("inf  dB");
 }
 
 #[test]
 fn the_threshold_decides_the_exit_code() {
     let folder = pair();
     folder.run("diff a.png b.png --fail-above 20").done();
-    folder.run("diff a.png b.png --fail-above 19.5").differs().says("differ by 20.0000 grey levels, more than 19.5");
-    folder.run("diff a.png b.png --fail-above 0 --quiet").differs();
+    folder
+        .run("diff a.png b.png --fail-above 19.5")
+        .differs()
+        .says("differ by 20.0000 grey levels, more than 19.5");
+    folder
+        .run("diff a.png b.png --fail-above 0 --quiet")
+        .differs();
     folder.run("diff a.png a.png --fail-above 0").done();
     for bad in ["-1", "nan", "lots"] {
         let ended = folder.run(&format!("diff a.png b.png --fail-above {bad}"));
@@ -42,15 +59,32 @@ fn the_threshold_decides_the_exit_code() {
 #[test]
 fn json_holds_every_metric() {
     let folder = pair();
-    let json = folder.run("diff a.png b.png --json --fail-above 5").differs().json();
+    let json = folder
+        .run("diff a.png b.png --json --fail-above 5")
+        .differs()
+        .json();
     assert_eq!(json["schema"], "fastphong.diff/1");
     assert_eq!((&json["width"], &json["height"]), (&16.into(), &12.into()));
-    assert_eq!((&json["equal"], &json["failed"]), (&false.into(), &true.into()));
+    assert_eq!(
+        (&json["equal"], &json["failed"]),
+        (&false.into(), &true.into())
+    );
     assert_eq!(json["worst"], serde_json::json!([3, 7]));
-    assert_eq!(json["metrics"]["max"].as_f64().map(|max| (max * 1e9).round() / 1e9), Some(20.0));
-    assert_eq!(json["metrics"].as_object().map(serde_json::Map::len), Some(METRICS.len()));
+    assert_eq!(
+        json["metrics"]["max"]
+            .as_f64()
+            .map(|max| (max * 1e9).round() / 1e9),
+        Some(20.0)
+    );
+    assert_eq!(
+        json["metrics"].as_object().map(serde_json::Map::len),
+        Some(METRICS.len())
+    );
     let json = folder.run("diff a.png a.png --json").done().json();
-    assert_eq!((&json["equal"], &json["metrics"]["psnr"]), (&true.into(), &serde_json::Value::Null));
+    assert_eq!(
+        (&json["equal"], &json["metrics"]["psnr"]),
+        (&true.into(), &serde_json::Value::Null)
+    );
     assert_eq!(json["failed"], serde_json::Value::Null);
 }
 
@@ -59,30 +93,60 @@ fn maps_show_where() {
     let folder = pair();
     let lit = |name: &str| {
         let map = picture(&folder.path(name));
-        let lit = map.texels().iter().filter(|texel| texel[..3] != [0; 3]).count();
+        let lit = map
+            .texels()
+            .iter()
+            .filter(|texel| texel[..3] != [0; 3])
+            .count();
         assert_eq!((map.width(), map.height(), lit), (16, 12, 1), "{name}");
         map.get(3, 7)
     };
     folder.run("diff a.png b.png -o beyond.png").done();
-    assert_eq!(lit("beyond.png"), fastphong::metrics::BEYOND, "20 levels are beyond the default scale");
+    assert_eq!(
+        lit("beyond.png"),
+        fastphong::metrics::BEYOND,
+        "20 levels are beyond the default scale"
+    );
     folder.run("diff a.png b.png -o map.png --scale 40").done();
     assert_ne!(lit("map.png"), fastphong::metrics::BEYOND);
-    folder.run("diff b.png a.png -o signed.ppm --signed --scale 4").done();
+    folder
+        .run("diff b.png a.png -o signed.ppm --signed --scale 4")
+        .done();
     assert_eq!(lit("signed.ppm"), fastphong::metrics::BEYOND_DARKER);
-    let piped = folder.run("diff a.png b.png -o - --scale 40").done().says("levels");
+    let piped = folder
+        .run("diff a.png b.png -o - --scale 40")
+        .done()
+        .says("levels");
     assert_eq!(piped.bytes, folder.read("map.png"));
-    folder.run("diff a.png b.png -o map.png --scale 0").refused(&["expected grey levels: a number over 0"]);
-    folder.run("diff a.png b.png --signed").refused(&["--output <FILE>"]);
-    folder.run("diff a.png b.png -o gone/map.png").refused(&["gone/map.png: cannot be written"]);
+    folder
+        .run("diff a.png b.png -o map.png --scale 0")
+        .refused(&["expected grey levels: a number over 0"]);
+    folder
+        .run("diff a.png b.png --signed")
+        .refused(&["--output <FILE>"]);
+    folder
+        .run("diff a.png b.png -o gone/map.png")
+        .refused(&["gone/map.png: cannot be written"]);
 }
 
 #[test]
 fn pictures_that_cannot_be_compared_are_errors() {
     let folder = pair();
-    folder.write("small.ppm", "P6 2 1 255\nabcdef").write("cut.ppm", "P6 2 1 255\nabc").write("text.png", "text");
-    folder.run("diff a.png small.ppm").refused(&["16×12", "2×1", "expected the same size"]);
-    folder.run("diff a.png gone.png").refused(&["gone.png: cannot be read"]);
-    folder.run("diff cut.ppm a.png").refused(&["cut.ppm: broken PPM file"]);
-    folder.run("diff text.png a.png").refused(&["text.png: not a picture that can be read"]);
+    folder
+        .write("small.ppm", "P6 2 1 255\nabcdef")
+        .write("cut.ppm", "P6 2 1 255\nabc")
+        .write("text.png", "text");
+    folder
+        .run("diff a.png small.ppm")
+        .refused(&["16×12", "2×1", "expected the same size"]);
+    folder
+        .run("diff a.png gone.png")
+        .refused(&["gone.png: cannot be read"]);
+    folder
+        .run("diff cut.ppm a.png")
+        .refused(&["cut.ppm: broken PPM file"]);
+    folder
+        .run("diff text.png a.png")
+        .refused(&["text.png: not a picture that can be read"]);
     folder.run("diff a.png").refused(&["<ACTUAL>"]);
 }

@@ -10,18 +10,28 @@ use fastphong::shader::{METHODS, Variant};
 #[test]
 fn engines_agree_and_say_what_they_do() {
     let folder = Folder::new();
-    let run =
-        |engine: &str, name: &str| folder.run(&format!("render {SPHERE} -m flat --engine {engine} -o {name}")).done();
+    let run = |engine: &str, name: &str| {
+        folder
+            .run(&format!(
+                "render {SPHERE} -m flat --engine {engine} -o {name}"
+            ))
+            .done()
+    };
     run("scanline", "a.png");
     run("span", "b.png");
-    run("barycentric", "c.png").says("16 polygons of more than three corners are cut into triangles");
+    run("barycentric", "c.png")
+        .says("16 polygons of more than three corners are cut into triangles");
     run("barycentric:edges=top-left", "d.png");
     run("barycentric:edges=closed", "e.png");
     // Flat shading has one colour a polygon: the engines agree to the last bit.
     for name in ["b.png", "c.png", "d.png"] {
         assert_eq!(folder.read(name), folder.read("a.png"), "{name}");
     }
-    let refused = |method: &str| folder.run(&format!("render {SPHERE} -m {method} --engine barycentric -o out.png"));
+    let refused = |method: &str| {
+        folder.run(&format!(
+            "render {SPHERE} -m {method} --engine barycentric -o out.png"
+        ))
+    };
     let has = "expected one of flat, flat-average, gouraud, gouraud-separate, naive-phong";
     refused("fast-phong").refused(&["the barycentric renderer does not have `fast-phong`", has]);
     refused("reference").refused(&["the barycentric renderer does not have `reference`", has]);
@@ -32,17 +42,35 @@ fn engines_agree_and_say_what_they_do() {
 fn cs171_draws_what_the_engines_draw() {
     let folder = Folder::new();
     for method in ["flat-average", "gouraud", "naive-phong"] {
-        folder.run(&format!("render {SPHERE} -m {method} --engine barycentric -o a.png")).done();
+        folder
+            .run(&format!(
+                "render {SPHERE} -m {method} --engine barycentric -o a.png"
+            ))
+            .done();
         // A channel may differ by the one level that rounding of an f32 turns.
         let flags = "--engine cs171 --reference a.png --reference-threshold 1";
-        let done = folder.run(&format!("render {SPHERE} -m {method} {flags} -o b.png")).done();
+        let done = folder
+            .run(&format!("render {SPHERE} -m {method} {flags} -o b.png"))
+            .done();
         done.says("16 polygons of more than three corners are cut into triangles for CS171");
     }
-    folder.run(&format!("render {SPHERE} -m naive-phong --engine cs171:normals=unit -o c.png")).done();
-    folder.run(&format!("render {SPHERE} -m naive-phong --engine cs171:normals=as-printed -o d.png")).done();
+    folder
+        .run(&format!(
+            "render {SPHERE} -m naive-phong --engine cs171:normals=unit -o c.png"
+        ))
+        .done();
+    folder
+        .run(&format!(
+            "render {SPHERE} -m naive-phong --engine cs171:normals=as-printed -o d.png"
+        ))
+        .done();
     assert_eq!(folder.read("b.png"), folder.read("c.png"));
     assert_ne!(folder.read("c.png"), folder.read("d.png"));
-    let refused = |method: &str| folder.run(&format!("render {SPHERE} -m {method} --engine cs171 -o out.png"));
+    let refused = |method: &str| {
+        folder.run(&format!(
+            "render {SPHERE} -m {method} --engine cs171 -o out.png"
+        ))
+    };
     let has = "expected one of flat-average, gouraud, naive-phong";
     refused("flat").refused(&["CS171 does not have `flat`", has]);
     refused("reference").refused(&["CS171 does not have `reference`", has]);
@@ -51,7 +79,10 @@ fn cs171_draws_what_the_engines_draw() {
 #[test]
 fn polygons_that_cross_themselves_are_told_of() {
     let folder = Folder::new();
-    folder.write("bow.obj", "v 0 0 0\nv 2 2 0\nv 2 1 0\nv 0 2 0\nv 0 -1 0\nv 1 -1 0\nv 0 -2 0\nf 1 2 3 4\nf 5 7 6\n");
+    folder.write(
+        "bow.obj",
+        "v 0 0 0\nv 2 2 0\nv 2 1 0\nv 0 2 0\nv 0 -1 0\nv 1 -1 0\nv 0 -2 0\nf 1 2 3 4\nf 5 7 6\n",
+    );
     let flags = "--cull none --size 64x48 -m flat -o out.png";
     folder
         .run(&format!("render bow.obj --engine barycentric {flags}"))
@@ -88,8 +119,14 @@ fn engines_and_instruction_sets_draw_the_lectures_picture() {
                 let difference = compare(&lecture, &other).unwrap();
                 // At 64 columns and 48 rows neither is off its closed form by a tenth of a level (`Info::bound`), or, where
                 // groups follow a root, by a quarter (`Newton::LARGEST_ERROR`): what is stored differs by one at most.
-                assert!(255.0 * difference.max <= 1.0, "{method}, {engine}, {level}: {difference:?}");
-                assert_eq!(difference.coverage_mismatches, 0, "{method}, {engine}, {level}");
+                assert!(
+                    255.0 * difference.max <= 1.0,
+                    "{method}, {engine}, {level}: {difference:?}"
+                );
+                assert_eq!(
+                    difference.coverage_mismatches, 0,
+                    "{method}, {engine}, {level}"
+                );
             }
         }
     }
@@ -97,10 +134,18 @@ fn engines_and_instruction_sets_draw_the_lectures_picture() {
 
 #[test]
 fn threads_change_no_byte() {
-    for flags in ["", "--engine span", "--engine row --simd scalar", "--depth-bits 16", "--samples 4"] {
+    for flags in [
+        "",
+        "--engine span",
+        "--engine row --simd scalar",
+        "--depth-bits 16",
+        "--samples 4",
+    ] {
         let one = rendered(&format!("teapot --size 160x120 {flags} --threads 1"));
         for threads in [2, 3, 7] {
-            let several = rendered(&format!("teapot --size 160x120 {flags} --threads {threads}"));
+            let several = rendered(&format!(
+                "teapot --size 160x120 {flags} --threads {threads}"
+            ));
             assert!(several == one, "{flags} --threads {threads}");
         }
     }
@@ -110,19 +155,50 @@ fn threads_change_no_byte() {
 fn verbose_says_what_drew_the_picture() {
     let folder = Folder::new();
     let best = Level::best();
-    let run = |flags: &str| folder.run(&format!("render {SPHERE} {flags} -o out.png")).done();
+    let run = |flags: &str| {
+        folder
+            .run(&format!("render {SPHERE} {flags} -o out.png"))
+            .done()
+    };
     for (flags, line) in [
-        ("--threads 2", format!("drawn by the row engine, {best}, 2 threads\n")),
-        ("--engine row --simd scalar --threads 3", "drawn by the row engine, scalar, 3 threads\n".into()),
-        ("--engine span --threads 1", format!("drawn by the span engine, {best}, 1 thread\n")),
-        ("--engine span --simd scalar", "drawn by the span engine, scalar, 1 thread\n".into()),
-        ("--engine barycentric -m flat", "drawn by the barycentric engine, scalar, 1 thread\n".into()),
-        ("--engine cs171 -m gouraud", "drawn by the cs171 engine, f64, 1 thread\n".into()),
-        ("-m reference", "drawn by the reference, f64, 1 thread\n".into()),
-        ("--aov depth", "drawn by the span engine, scalar, 1 thread\n".into()),
+        (
+            "--threads 2",
+            format!("drawn by the row engine, {best}, 2 threads\n"),
+        ),
+        (
+            "--engine row --simd scalar --threads 3",
+            "drawn by the row engine, scalar, 3 threads\n".into(),
+        ),
+        (
+            "--engine span --threads 1",
+            format!("drawn by the span engine, {best}, 1 thread\n"),
+        ),
+        (
+            "--engine span --simd scalar",
+            "drawn by the span engine, scalar, 1 thread\n".into(),
+        ),
+        (
+            "--engine barycentric -m flat",
+            "drawn by the barycentric engine, scalar, 1 thread\n".into(),
+        ),
+        (
+            "--engine cs171 -m gouraud",
+            "drawn by the cs171 engine, f64, 1 thread\n".into(),
+        ),
+        (
+            "-m reference",
+            "drawn by the reference, f64, 1 thread\n".into(),
+        ),
+        (
+            "--aov depth",
+            "drawn by the span engine, scalar, 1 thread\n".into(),
+        ),
     ] {
         run(&format!("{flags} --verbose")).says(&line);
-        assert!(!run(flags).err.contains("drawn by"), "{flags}: only where it is asked for");
+        assert!(
+            !run(flags).err.contains("drawn by"),
+            "{flags}: only where it is asked for"
+        );
     }
 }
 
@@ -130,16 +206,28 @@ fn verbose_says_what_drew_the_picture() {
 #[test]
 fn another_engine_than_asked_for_is_told_with_the_reason() {
     let folder = Folder::new();
-    let run = |flags: &str| folder.run(&format!("render {SPHERE} {flags} -o out.png")).done();
+    let run = |flags: &str| {
+        folder
+            .run(&format!("render {SPHERE} {flags} -o out.png"))
+            .done()
+    };
     let reason = "the row engine keeps neither this depth nor what this method walks along a span";
     for flags in ["-m duff-phong --light-at 2,3,4", "--depth-bits 16"] {
         assert!(!run(flags).err.contains(reason), "{flags}");
         run(&format!("{flags} --verbose")).says(&format!(": {reason}"));
-        run(&format!("{flags} --engine row")).says("drawn by the span engine, ").says(reason);
+        run(&format!("{flags} --engine row"))
+            .says("drawn by the span engine, ")
+            .says(reason);
         assert_eq!(run(&format!("{flags} --engine row --quiet")).err, "");
-        run(&format!("{flags} --simd scalar --verbose"))
-            .says(&format!("drawn by the span engine, scalar, 1 thread: {reason}"));
-        assert!(!run(&format!("{flags} --engine span --verbose")).err.contains(reason), "{flags}: as asked for");
+        run(&format!("{flags} --simd scalar --verbose")).says(&format!(
+            "drawn by the span engine, scalar, 1 thread: {reason}"
+        ));
+        assert!(
+            !run(&format!("{flags} --engine span --verbose"))
+                .err
+                .contains(reason),
+            "{flags}: as asked for"
+        );
     }
     let five = "--light 1,0,1 --light 0,1,1 --light -1,0,1 --light 0,-1,1 --light 0,0,1";
     let reason = "drawn by the span engine, scalar, 1 thread: more than four lights are shaded one pixel at a time";
@@ -161,20 +249,36 @@ fn pixel_by_pixel_means_no_wide_instructions() {
         ("-m reference", "the reference"),
     ] {
         for level in Level::available().filter(|level| *level != Level::Scalar) {
-            let refused = folder.run(&format!("render {SPHERE} {flags} --simd {level} -o out.png"));
-            refused.refused(&[what, &format!("has no `{level}`: expected --simd auto or scalar")]);
+            let refused = folder.run(&format!(
+                "render {SPHERE} {flags} --simd {level} -o out.png"
+            ));
+            refused.refused(&[
+                what,
+                &format!("has no `{level}`: expected --simd auto or scalar"),
+            ]);
         }
         for simd in ["auto", "scalar"] {
-            folder.run(&format!("render {SPHERE} {flags} --simd {simd} -o out.png")).done();
+            folder
+                .run(&format!("render {SPHERE} {flags} --simd {simd} -o out.png"))
+                .done();
         }
         let noted = "--threads 2 leaves the pixels on one thread: drawn by ";
-        folder.run(&format!("render {SPHERE} {flags} --threads 2 -o out.png")).done().says(noted);
+        folder
+            .run(&format!("render {SPHERE} {flags} --threads 2 -o out.png"))
+            .done()
+            .says(noted);
     }
     for engine in ["span", "row"] {
-        let refused = folder.run(&format!("render {SPHERE} -m reference --engine {engine} -o out.png"));
+        let refused = folder.run(&format!(
+            "render {SPHERE} -m reference --engine {engine} -o out.png"
+        ));
         refused.refused(&["does not have `reference`, which is none: leave out --engine"]);
     }
-    folder.run(&format!("render {SPHERE} --aov depth --simd scalar -o out.png")).refused(&["cannot be used with"]);
+    folder
+        .run(&format!(
+            "render {SPHERE} --aov depth --simd scalar -o out.png"
+        ))
+        .refused(&["cannot be used with"]);
 }
 
 /// Engines, instruction sets and numbers of threads that there are not: one error each, with what there is.
@@ -182,28 +286,61 @@ fn pixel_by_pixel_means_no_wide_instructions() {
 fn what_there_is_not_is_refused_by_name() {
     let folder = Folder::new();
     let expected_level = "expected `auto`, `scalar`";
-    for command in [&*format!("render {SPHERE} -o out.png"), "compare figure5", "bench figure5", "report figure5"] {
+    for command in [
+        &*format!("render {SPHERE} -o out.png"),
+        "compare figure5",
+        "bench figure5",
+        "report figure5",
+    ] {
         let is_render = command.starts_with("render");
         for (flags, part) in [
-            ("--engine rows", if is_render { "did you mean `row`?" } else { "expected `auto`, `span` or `row`" }),
-            ("--engine nonsense", "unknown engine: expected `auto`, `span`"),
-            ("--simd axv2", "unknown instruction set `axv2`: did you mean `avx2`?"),
+            (
+                "--engine rows",
+                if is_render {
+                    "did you mean `row`?"
+                } else {
+                    "expected `auto`, `span` or `row`"
+                },
+            ),
+            (
+                "--engine nonsense",
+                "unknown engine: expected `auto`, `span`",
+            ),
+            (
+                "--simd axv2",
+                "unknown instruction set `axv2`: did you mean `avx2`?",
+            ),
             ("--simd altivec", expected_level),
             ("--threads 0", "expected a number of threads from 1 to 1024"),
-            ("--threads 1025", "expected a number of threads from 1 to 1024"),
-            ("--threads -1", "expected a number of threads from 1 to 1024"),
-            ("--threads many", "expected a number of threads from 1 to 1024"),
+            (
+                "--threads 1025",
+                "expected a number of threads from 1 to 1024",
+            ),
+            (
+                "--threads -1",
+                "expected a number of threads from 1 to 1024",
+            ),
+            (
+                "--threads many",
+                "expected a number of threads from 1 to 1024",
+            ),
         ] {
             folder.run(&format!("{command} {flags}")).refused(&[part]);
         }
         for level in Level::ALL.into_iter().filter(|level| !level.is_available()) {
             let said = format!("this machine does not have `{level}`: {expected_level}");
-            folder.run(&format!("{command} --simd {level}")).refused(&[&said]);
+            folder
+                .run(&format!("{command} --simd {level}"))
+                .refused(&[&said]);
         }
         if !is_render {
-            folder.run(&format!("{command} --engine barycentric")).refused(&["it is always compared with"]);
+            folder
+                .run(&format!("{command} --engine barycentric"))
+                .refused(&["it is always compared with"]);
         }
     }
-    folder.run(&format!("render {SPHERE} --engine row:planes=2 -o out.png")).refused(&["`row` has no parameters"]);
+    folder
+        .run(&format!("render {SPHERE} --engine row:planes=2 -o out.png"))
+        .refused(&["`row` has no parameters"]);
     assert!(folder.names().is_empty(), "{:?}", folder.names());
 }

@@ -6,7 +6,14 @@ use super::{Folder, covered, picture, rendered, sphere};
 #[test]
 fn flags_change_the_picture() {
     let plain = sphere("");
-    for same in ["--light 0.4,0.7,0.9", "--ambient 1", "--ks 0.4", "--shininess 32", "--cull back", "--fit 0.8"] {
+    for same in [
+        "--light 0.4,0.7,0.9",
+        "--ambient 1",
+        "--ks 0.4",
+        "--shininess 32",
+        "--cull back",
+        "--fit 0.8",
+    ] {
         assert!(sphere(same) == plain, "{same}");
     }
     for flags in [
@@ -41,7 +48,12 @@ fn flags_change_the_picture() {
     let near = "--fovy 40 --light-at 2,1,-0.5 --light-at 1,2,3,0.5";
     let lit = sphere(near);
     assert!(lit != sphere("--fovy 40 --light 2,1,-0.5 --light 1,2,3,0.5"));
-    for same in ["--attenuation 0", "--viewer infinite", "--specular phong", "--specular-gate gated"] {
+    for same in [
+        "--attenuation 0",
+        "--viewer infinite",
+        "--specular phong",
+        "--specular-gate gated",
+    ] {
         assert!(sphere(&format!("{near} {same}")) == lit, "{same}");
     }
     for flags in [
@@ -62,23 +74,43 @@ fn flags_change_the_picture() {
     }
     assert!(cut("--visibility painter --painter-key farthest") != cut("--visibility painter"));
     assert!(cut("--visibility z-buffer --depth-bits 32 --depth interpolated") == cut(""));
-    assert!(sphere("--cull front --two-sided") != sphere("--cull front") && sphere("--clipping planes") == plain);
+    assert!(
+        sphere("--cull front --two-sided") != sphere("--cull front")
+            && sphere("--clipping planes") == plain
+    );
     assert!(rendered("z-fighting --near 21 --clipping ndc-cube") != rendered("z-fighting"));
     assert!(rendered("z-fighting --depth-bits 24") != rendered("z-fighting"));
     assert!(rendered("z-fighting --depth per-sample") != rendered("z-fighting"));
-    assert!(rendered("perspective --size 64x48") != rendered("perspective --size 64x48 --interpolation screen"));
+    assert!(
+        rendered("perspective --size 64x48")
+            != rendered("perspective --size 64x48 --interpolation screen")
+    );
     assert!(sphere("--normals averaged") == plain);
 }
 
 #[test]
 fn view_zero_is_from_z_and_azimuth_turns_toward_x() {
-    for (view, eye) in [("0,0", "0,0,4"), ("90,0", "4,0,0"), ("0,90", "0,4,0"), ("-45,0", "-3,0,3")] {
+    for (view, eye) in [
+        ("0,0", "0,0,4"),
+        ("90,0", "4,0,0"),
+        ("0,90", "0,4,0"),
+        ("-45,0", "-3,0,3"),
+    ] {
         let up = if view == "0,90" { " --up 0,0,-1" } else { "" };
-        let turned = rendered(&format!("builtin:gear --size 64x48 --fit 0.7 --view {view}"));
-        let placed = rendered(&format!("builtin:gear --size 64x48 --fit 0.7 --eye {eye}{up}"));
+        let turned = rendered(&format!(
+            "builtin:gear --size 64x48 --fit 0.7 --view {view}"
+        ));
+        let placed = rendered(&format!(
+            "builtin:gear --size 64x48 --fit 0.7 --eye {eye}{up}"
+        ));
         // The two directions differ by the rounding of a sine: places on the picture do so by less than 1/256 pixel,
         // which may move a pixel of the rim.
-        let differing = turned.texels().iter().zip(placed.texels()).filter(|(a, b)| a[3] != b[3]).count();
+        let differing = turned
+            .texels()
+            .iter()
+            .zip(placed.texels())
+            .filter(|(a, b)| a[3] != b[3])
+            .count();
         assert!(differing <= 2, "{view}: {differing} pixels");
     }
 }
@@ -87,11 +119,28 @@ fn view_zero_is_from_z_and_azimuth_turns_toward_x() {
 fn material_flags_stand_over_every_material() {
     let folder = Folder::new();
     let black = "--ka 0 --kd 0 --ks 0 --size 64x48 -o out.png";
-    for (input, replaces) in [("four-lights", false), ("perspective", false), ("vase", true)] {
-        let ended = folder.run(&format!("render {input} --background 1 {black}")).done();
-        assert_eq!(ended.err.contains("replaces those of the mesh file"), replaces, "{input}: {}", ended.err);
+    for (input, replaces) in [
+        ("four-lights", false),
+        ("perspective", false),
+        ("vase", true),
+    ] {
+        let ended = folder
+            .run(&format!("render {input} --background 1 {black}"))
+            .done();
+        assert_eq!(
+            ended.err.contains("replaces those of the mesh file"),
+            replaces,
+            "{input}: {}",
+            ended.err
+        );
         let drawn = picture(&folder.path("out.png"));
-        assert!(drawn.texels().iter().all(|texel| texel[3] == 0 || texel[..3] == [0; 3]), "{input}");
+        assert!(
+            drawn
+                .texels()
+                .iter()
+                .all(|texel| texel[3] == 0 || texel[..3] == [0; 3]),
+            "{input}"
+        );
     }
 }
 
@@ -99,7 +148,12 @@ fn material_flags_stand_over_every_material() {
 fn without_lights_only_ambient_light_is_left() {
     let drawn = sphere("--no-lights --ambient 1 --ka 0.2,0.4,0.6");
     // round(255 k_a)
-    assert!(drawn.texels().iter().all(|texel| texel[3] == 0 || *texel == [51, 102, 153, 255]));
+    assert!(
+        drawn
+            .texels()
+            .iter()
+            .all(|texel| texel[3] == 0 || *texel == [51, 102, 153, 255])
+    );
     assert!(covered(&drawn) > 300);
 }
 
@@ -107,69 +161,177 @@ fn without_lights_only_ambient_light_is_left() {
 fn flags_that_make_no_sense_are_refused_by_name() {
     let folder = Folder::new();
     for (flags, parts) in [
-        ("-m fast-fong", &["unknown method `fast-fong`: did you mean `fast-phong`?"][..]),
+        (
+            "-m fast-fong",
+            &["unknown method `fast-fong`: did you mean `fast-phong`?"][..],
+        ),
         ("-m refrence", &["did you mean `reference`?"]),
-        ("-m reference:model=fong", &["`model=fong`: expected one of model=flat"]),
-        ("-m reference:phong", &["`phong`: expected one of model=flat"]),
-        ("-m fast-phong:steps=9", &["`steps=9`: expected a whole number from 1 to 8"]),
+        (
+            "-m reference:model=fong",
+            &["`model=fong`: expected one of model=flat"],
+        ),
+        (
+            "-m reference:phong",
+            &["`phong`: expected one of model=flat"],
+        ),
+        (
+            "-m fast-phong:steps=9",
+            &["`steps=9`: expected a whole number from 1 to 8"],
+        ),
         ("-m flat:steps=1", &["method `flat` has no parameters"]),
         ("--engine barycentrik", &["did you mean `barycentric`?"]),
-        ("--engine barycentric:edges=open", &["expected edges=top-left or edges=closed"]),
+        (
+            "--engine barycentric:edges=open",
+            &["expected edges=top-left or edges=closed"],
+        ),
         ("--engine cs172", &["did you mean `cs171`?"]),
-        ("--engine cs171:normals=raw", &["expected normals=unit or normals=as-printed"]),
+        (
+            "--engine cs171:normals=raw",
+            &["expected normals=unit or normals=as-printed"],
+        ),
         ("--size 0x0", &["`--resolution` is 0: expected 1 to 16384"]),
-        ("--size 20000x10", &["`--resolution` is 20000: expected 1 to 16384"]),
+        (
+            "--size 20000x10",
+            &["`--resolution` is 20000: expected 1 to 16384"],
+        ),
         ("--size 64", &["expected WIDTHxHEIGHT"]),
-        ("--fovy 200", &["`--fovy` is 200: expected degrees over 0 and under 180"]),
-        ("--fovy 40 --half-height 1", &["`--fovy` and `--half-height` exclude each other"]),
-        ("--view 0,91", &["`--view` is 91: expected degrees between -90 and 90"]),
+        (
+            "--fovy 200",
+            &["`--fovy` is 200: expected degrees over 0 and under 180"],
+        ),
+        (
+            "--fovy 40 --half-height 1",
+            &["`--fovy` and `--half-height` exclude each other"],
+        ),
+        (
+            "--view 0,91",
+            &["`--view` is 91: expected degrees between -90 and 90"],
+        ),
         ("--view 0", &["expected two numbers azimuth,elevation"]),
-        ("--view 0,0 --eye 1,2,3", &["`--view` and `--eye` exclude each other"]),
+        (
+            "--view 0,0 --eye 1,2,3",
+            &["`--view` and `--eye` exclude each other"],
+        ),
         ("--eye 0,0,0", &["`--eye` is where `target` is"]),
         ("--eye 0,0,NaN", &["`--eye`", "NaN"]),
         ("--eye 1,2", &["expected three numbers x,y,z"]),
-        ("--target 1,0,0", &["`--target` exclude each other: expected a place (`eye`, `target`) or a direction"]),
-        ("--near 5 --far 1", &["`--far` is 1: expected more than near = 5"]),
+        (
+            "--target 1,0,0",
+            &["`--target` exclude each other: expected a place (`eye`, `target`) or a direction"],
+        ),
+        (
+            "--near 5 --far 1",
+            &["`--far` is 1: expected more than near = 5"],
+        ),
         ("--light 0,0,0", &["`--light` has no length"]),
         ("--light 1,0,0,-1", &["`--light` is -1: expected 0 or more"]),
         ("--light 1,0", &["expected a direction x,y,z"]),
         ("--light 1,0,0 --no-lights", &["cannot be used with"]),
         ("--light-at 0,0", &["expected a position x,y,z"]),
-        ("--light-at 0,0,NaN", &["`--light-at` has z = NaN: expected numbers between"]),
-        ("--light-at 0,0,5,-1", &["`--light-at` is -1: expected 0 or more"]),
+        (
+            "--light-at 0,0,NaN",
+            &["`--light-at` has z = NaN: expected numbers between"],
+        ),
+        (
+            "--light-at 0,0,5,-1",
+            &["`--light-at` is -1: expected 0 or more"],
+        ),
         ("--light-at 0,0,5 --no-lights", &["cannot be used with"]),
-        ("--light-at 1,1,1", &["`--light-at` is at a vertex, (1, 1, 1): expected a place off the vertices"]),
-        ("--light-at 0,0,5 --attenuation -2", &["`--attenuation` is -2: expected 0 or more"]),
-        ("--light-at 0,0,5 --attenuation NaN", &["`--attenuation` is NaN: expected 0 or more"]),
-        ("--attenuation 1", &["required arguments were not provided", "--light-at"]),
-        ("--falloff inverse", &["required arguments were not provided", "--light-at"]),
+        (
+            "--light-at 1,1,1",
+            &["`--light-at` is at a vertex, (1, 1, 1): expected a place off the vertices"],
+        ),
+        (
+            "--light-at 0,0,5 --attenuation -2",
+            &["`--attenuation` is -2: expected 0 or more"],
+        ),
+        (
+            "--light-at 0,0,5 --attenuation NaN",
+            &["`--attenuation` is NaN: expected 0 or more"],
+        ),
+        (
+            "--attenuation 1",
+            &["required arguments were not provided", "--light-at"],
+        ),
+        (
+            "--falloff inverse",
+            &["required arguments were not provided", "--light-at"],
+        ),
         ("--light-at 0,0,5 --falloff inverses", &["inverse-square"]),
-        ("--light-at 0,0,5 --falloff inverse --attenuation 1", &["exclude each other"]),
-        ("--light 1,0,0 --attenuation 1", &["required arguments were not provided", "--light-at"]),
-        ("--viewer lokal", &["invalid value 'lokal'", "infinite, local", "'local'"]),
+        (
+            "--light-at 0,0,5 --falloff inverse --attenuation 1",
+            &["exclude each other"],
+        ),
+        (
+            "--light 1,0,0 --attenuation 1",
+            &["required arguments were not provided", "--light-at"],
+        ),
+        (
+            "--viewer lokal",
+            &["invalid value 'lokal'", "infinite, local", "'local'"],
+        ),
         ("--specular blin", &["phong, blinn", "'blinn'"]),
         ("--shininess-for fong", &["phong, blinn", "'phong'"]),
         ("--specular-gate open", &["gated, ungated, weighted"]),
         ("--up 0,0,0", &["`--up` has no length"]),
-        ("--eye 0,0,5 --up 0,0,1", &["`--up` is parallel to the line of sight"]),
-        ("--fovy 0", &["`--fovy` is 0: expected degrees over 0 and under 180"]),
-        ("--near 3 --far 3", &["`--far` is 3: expected more than near = 3"]),
+        (
+            "--eye 0,0,5 --up 0,0,1",
+            &["`--up` is parallel to the line of sight"],
+        ),
+        (
+            "--fovy 0",
+            &["`--fovy` is 0: expected degrees over 0 and under 180"],
+        ),
+        (
+            "--near 3 --far 3",
+            &["`--far` is 3: expected more than near = 3"],
+        ),
         ("--ks -1", &["`--ks` is -1: expected 0 or more"]),
         ("--kd 1,2", &["expected one number, or three r,g,b"]),
-        ("--shininess -2", &["`--shininess` is -2: expected 0 or more"]),
+        (
+            "--shininess -2",
+            &["`--shininess` is -2: expected 0 or more"],
+        ),
         ("--background 2", &["`--background` is 2: expected 0 to 1"]),
-        ("--normals crease=200", &["`--normals` is 200: expected degrees between 0 and 180"]),
-        ("--normals smooth", &["expected `averaged`, `given` or `crease=DEGREES`"]),
-        ("--cull left", &["invalid value 'left'", "back, front, none"]),
+        (
+            "--normals crease=200",
+            &["`--normals` is 200: expected degrees between 0 and 180"],
+        ),
+        (
+            "--normals smooth",
+            &["expected `averaged`, `given` or `crease=DEGREES`"],
+        ),
+        (
+            "--cull left",
+            &["invalid value 'left'", "back, front, none"],
+        ),
         ("--encoding gamma", &["linear, srgb"]),
         ("--fit 0", &["`--fit` is 0"]),
-        ("--veiw 1,2", &["unexpected argument '--veiw'", "similar argument exists: '--view'"]),
+        (
+            "--veiw 1,2",
+            &[
+                "unexpected argument '--veiw'",
+                "similar argument exists: '--view'",
+            ],
+        ),
     ] {
-        folder.run(&format!("render builtin:cube {flags} -o out.png")).refused(parts);
-        assert!(folder.names().is_empty(), "{flags} left {:?}", folder.names());
+        folder
+            .run(&format!("render builtin:cube {flags} -o out.png"))
+            .refused(parts);
+        assert!(
+            folder.names().is_empty(),
+            "{flags} left {:?}",
+            folder.names()
+        );
     }
-    folder.run("render builtin:cube").refused(&["--output <FILE>"]);
+    folder
+        .run("render builtin:cube")
+        .refused(&["--output <FILE>"]);
     folder.run("render").refused(&["<INPUT>"]);
-    folder.run("rendr builtin:cube").refused(&["unrecognized subcommand 'rendr'", "render"]);
-    folder.run("render builtin:cube -v -q -o out.png").refused(&["cannot be used with"]);
+    folder
+        .run("rendr builtin:cube")
+        .refused(&["unrecognized subcommand 'rendr'", "render"]);
+    folder
+        .run("render builtin:cube -v -q -o out.png")
+        .refused(&["cannot be used with"]);
 }

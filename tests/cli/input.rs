@@ -8,7 +8,10 @@ fn refused(files: &[(&str, &[u8])], input: &str, parts: &[&str]) {
         folder.write(name, bytes);
     }
     let before = folder.names();
-    for command in [format!("render {input} -o out.png"), format!("info {input}")] {
+    for command in [
+        format!("render {input} -o out.png"),
+        format!("info {input}"),
+    ] {
         folder.run(&command).refused(parts);
     }
     assert_eq!(folder.names(), before);
@@ -18,23 +21,67 @@ const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 #[test]
 fn what_is_not_there() {
-    refused(&[], "taepot", &["`taepot` is neither a file nor a shipped scene; did you mean `teapot`?"]);
+    refused(
+        &[],
+        "taepot",
+        &["`taepot` is neither a file nor a shipped scene; did you mean `teapot`?"],
+    );
     refused(&[], "torus", &["did you mean `builtin:torus`?"]);
-    refused(&[], "xyzzy", &["expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of coarse-sphere"]);
-    refused(&[], "missing.obj", &["`missing.obj` is neither a file nor a shipped scene"]);
-    refused(&[], "missing.toml", &["`missing.toml` is neither a file nor a shipped scene"]);
-    refused(&[("mesh.stl", b"solid")], "mesh.stl", &["mesh.stl: neither a scene nor a mesh file by its ending"]);
-    refused(&[], "shipped:bunny.obj", &["no mesh `bunny.obj` is shipped: expected one of vase.obj, football.obj"]);
+    refused(
+        &[],
+        "xyzzy",
+        &["expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of coarse-sphere"],
+    );
+    refused(
+        &[],
+        "missing.obj",
+        &["`missing.obj` is neither a file nor a shipped scene"],
+    );
+    refused(
+        &[],
+        "missing.toml",
+        &["`missing.toml` is neither a file nor a shipped scene"],
+    );
+    refused(
+        &[("mesh.stl", b"solid")],
+        "mesh.stl",
+        &["mesh.stl: neither a scene nor a mesh file by its ending"],
+    );
+    refused(
+        &[],
+        "shipped:bunny.obj",
+        &["no mesh `bunny.obj` is shipped: expected one of vase.obj, football.obj"],
+    );
 }
 
 #[test]
 fn built_in_meshes_that_do_not_exist() {
-    refused(&[], "builtin:spere", &["no built-in mesh is named `spere`; did you mean `sphere`?"]);
-    refused(&[], "builtin:sphere?ring=5", &["`sphere` has no parameter `ring`; did you mean `rings`?"]);
-    refused(&[], "builtin:sphere?rings=many", &["`rings` is a whole number, not `many`"]);
-    refused(&[], "builtin:sphere?rings", &["`rings` should be written as key=value"]);
+    refused(
+        &[],
+        "builtin:spere",
+        &["no built-in mesh is named `spere`; did you mean `sphere`?"],
+    );
+    refused(
+        &[],
+        "builtin:sphere?ring=5",
+        &["`sphere` has no parameter `ring`; did you mean `rings`?"],
+    );
+    refused(
+        &[],
+        "builtin:sphere?rings=many",
+        &["`rings` is a whole number, not `many`"],
+    );
+    refused(
+        &[],
+        "builtin:sphere?rings",
+        &["`rings` should be written as key=value"],
+    );
     let large = "builtin:sphere?segments=1000000&rings=1000";
-    refused(&[], large, &["the mesh would have 1000000000 polygons, over the limit of 16777216"]);
+    refused(
+        &[],
+        large,
+        &["the mesh would have 1000000000 polygons, over the limit of 16777216"],
+    );
 }
 
 #[test]
@@ -42,22 +89,39 @@ fn broken_mesh_files() {
     let with = |line: &str| format!("{TRIANGLE}{line}\n");
     for (text, parts) in [
         (Vec::new(), &["mesh.obj: is empty"][..]),
-        (b"\x7fELF\0\0\x01\x02\xff".to_vec(), &["mesh.obj:1: holds binary data"]),
+        (
+            b"\x7fELF\0\0\x01\x02\xff".to_vec(),
+            &["mesh.obj:1: holds binary data"],
+        ),
         (with("f 1 2").into_bytes(), &["mesh.obj: ", "no polygon"]),
         (with("f 1 2 9").into_bytes(), &["mesh.obj:4: ", "9"]),
         (with("f 1 2 -9").into_bytes(), &["mesh.obj:4: ", "-9"]),
         (with("f 1 2 0").into_bytes(), &["mesh.obj:4: "]),
-        (with("f 1 2 x").into_bytes(), &["mesh.obj:4: `x` is no corner"]),
-        (with("v NaN 0 0\nf 1 2 4").into_bytes(), &["mesh.obj:4: `NaN` in `v`: expected a finite number"]),
-        (with("v 1e99 0 0\nf 1 2 4").into_bytes(), &["mesh.obj:4: ", "expected a finite number"]),
+        (
+            with("f 1 2 x").into_bytes(),
+            &["mesh.obj:4: `x` is no corner"],
+        ),
+        (
+            with("v NaN 0 0\nf 1 2 4").into_bytes(),
+            &["mesh.obj:4: `NaN` in `v`: expected a finite number"],
+        ),
+        (
+            with("v 1e99 0 0\nf 1 2 4").into_bytes(),
+            &["mesh.obj:4: ", "expected a finite number"],
+        ),
         // A file cut off in the middle of a line.
-        (with("f 1 2 3\nv 1 2").into_bytes(), &["mesh.obj:5: `v` has too few numbers: expected three, found 2"]),
+        (
+            with("f 1 2 3\nv 1 2").into_bytes(),
+            &["mesh.obj:5: `v` has too few numbers: expected three, found 2"],
+        ),
     ] {
         refused(&[("mesh.obj", &text)], "mesh.obj", parts);
     }
     let folder = Folder::new();
     std::fs::create_dir(folder.path("mesh.obj")).unwrap();
-    folder.run("render mesh.obj -o out.png").refused(&["mesh.obj: is a directory"]);
+    folder
+        .run("render mesh.obj -o out.png")
+        .refused(&["mesh.obj: is a directory"]);
 }
 
 #[test]
@@ -65,17 +129,42 @@ fn broken_scene_files() {
     for (text, parts) in [
         (
             "[[object]]\nmehs = \"builtin:cube\"\n",
-            &["scene.toml:2:1", "unknown key `mehs`", "did you mean `mesh`?"][..],
+            &[
+                "scene.toml:2:1",
+                "unknown key `mehs`",
+                "did you mean `mesh`?",
+            ][..],
         ),
-        ("ambient = \"dark\"\n", &["scene.toml:1:11", "expected one number or three"]),
+        (
+            "ambient = \"dark\"\n",
+            &["scene.toml:1:11", "expected one number or three"],
+        ),
         ("ambient = \n", &["scene.toml:1:", "not valid TOML"]),
         ("", &["the scene has no objects"]),
-        ("[camera]\nfovy = 200\n[[object]]\nmesh = \"builtin:cube\"\n", &["scene.toml:2:8", "`camera.fovy` is 200"]),
-        ("[[object]]\nmesh = \"builtin:cub\"\n", &["scene.toml:2:8", "did you mean `cube`?"]),
-        ("[[object]]\nmesh = \"missing.obj\"\n", &["scene.toml:2:8", "missing.obj: cannot be read"]),
-        ("[[object]]\nmesh = \"sphere\"\n", &["scene.toml:2:8", "did you mean `builtin:sphere`?"]),
-        ("[image]\nwidth = 0\n[[object]]\nmesh = \"builtin:cube\"\n", &["scene.toml:2:9", "`image.width` is 0"]),
-        ("[[light]]\ndirection = [nan, 0, 0]\n[[object]]\nmesh = \"builtin:cube\"\n", &["scene.toml:2:13", "finite"]),
+        (
+            "[camera]\nfovy = 200\n[[object]]\nmesh = \"builtin:cube\"\n",
+            &["scene.toml:2:8", "`camera.fovy` is 200"],
+        ),
+        (
+            "[[object]]\nmesh = \"builtin:cub\"\n",
+            &["scene.toml:2:8", "did you mean `cube`?"],
+        ),
+        (
+            "[[object]]\nmesh = \"missing.obj\"\n",
+            &["scene.toml:2:8", "missing.obj: cannot be read"],
+        ),
+        (
+            "[[object]]\nmesh = \"sphere\"\n",
+            &["scene.toml:2:8", "did you mean `builtin:sphere`?"],
+        ),
+        (
+            "[image]\nwidth = 0\n[[object]]\nmesh = \"builtin:cube\"\n",
+            &["scene.toml:2:9", "`image.width` is 0"],
+        ),
+        (
+            "[[light]]\ndirection = [nan, 0, 0]\n[[object]]\nmesh = \"builtin:cube\"\n",
+            &["scene.toml:2:13", "finite"],
+        ),
     ] {
         refused(&[("scene.toml", text.as_bytes())], "scene.toml", parts);
     }
@@ -89,7 +178,10 @@ fn broken_scene_files() {
 #[test]
 fn what_is_odd_about_a_mesh_is_a_warning() {
     let folder = Folder::new();
-    folder.write("mesh.obj", format!("mtllib gone.mtl\n{TRIANGLE}usemtl red\nf 1 2 3\n"));
+    folder.write(
+        "mesh.obj",
+        format!("mtllib gone.mtl\n{TRIANGLE}usemtl red\nf 1 2 3\n"),
+    );
     let ended = folder.run("render mesh.obj --size 64x48 -o out.png").done();
     ended.says("warning: mesh.obj: material library `gone.mtl` (line 1) cannot be read");
 }
@@ -97,9 +189,19 @@ fn what_is_odd_about_a_mesh_is_a_warning() {
 #[test]
 fn colours_are_for_terminals_only() {
     let folder = Folder::new();
-    folder.write("scene.toml", "ambient = \"dark\"\n").write("area.obj", format!("{TRIANGLE}f 1 2 3\nf 1 1 1\n"));
-    for arguments in ["render scene.toml -o a.png", "render taepot -o a.png", "render area.obj --size 8x6 -o a.png"] {
+    folder
+        .write("scene.toml", "ambient = \"dark\"\n")
+        .write("area.obj", format!("{TRIANGLE}f 1 2 3\nf 1 1 1\n"));
+    for arguments in [
+        "render scene.toml -o a.png",
+        "render taepot -o a.png",
+        "render area.obj --size 8x6 -o a.png",
+    ] {
         let ended = folder.run(arguments);
-        assert!(!ended.err.contains('\x1b') && !ended.err.is_empty(), "{}", ended.err);
+        assert!(
+            !ended.err.contains('\x1b') && !ended.err.is_empty(),
+            "{}",
+            ended.err
+        );
     }
 }

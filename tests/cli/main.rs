@@ -26,7 +26,8 @@ impl Folder {
     fn new() -> Folder {
         static NUMBER: AtomicUsize = AtomicUsize::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let path = std::env::temp_dir().join(format!("fastphong-cli-{}-{number}", std::process::id()));
+        let path =
+            std::env::temp_dir().join(format!("fastphong-cli-{}-{number}", std::process::id()));
         std::fs::create_dir(&path).expect("an empty folder");
         Folder(path)
     }
@@ -47,8 +48,15 @@ impl Folder {
     /// The names of all files, in order.
     fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.0).expect("the folder");
-        let mut names: Vec<String> =
-            entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        let mut names: Vec<String> = entries
+            .map(|entry| {
+                entry
+                    .expect("an entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .collect();
         names.sort();
         names
     }
@@ -61,7 +69,11 @@ impl Folder {
 
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_fastphong"));
-        command.args(arguments.split_whitespace()).current_dir(&self.0).stdin(Stdio::null()).env_remove("NO_COLOR");
+        command
+            .args(arguments.split_whitespace())
+            .current_dir(&self.0)
+            .stdin(Stdio::null())
+            .env_remove("NO_COLOR");
         command
     }
 }
@@ -86,51 +98,102 @@ impl Ended {
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         let (out, err) = (text(&output.stdout), text(&output.stderr));
         assert!(!err.contains("panicked"), "`{arguments}` panicked: {err}");
-        Ended { arguments: arguments.to_owned(), code: output.status.code(), bytes: output.stdout, out, err }
+        Ended {
+            arguments: arguments.to_owned(),
+            code: output.status.code(),
+            bytes: output.stdout,
+            out,
+            err,
+        }
     }
 
     /// Exit code 0.
     fn done(self) -> Ended {
-        assert_eq!(self.code, Some(0), "`{}`: {}{}", self.arguments, self.out, self.err);
+        assert_eq!(
+            self.code,
+            Some(0),
+            "`{}`: {}{}",
+            self.arguments,
+            self.out,
+            self.err
+        );
         self
     }
 
     /// Exit code 1.
     fn differs(self) -> Ended {
-        assert_eq!(self.code, Some(1), "`{}`: {}{}", self.arguments, self.out, self.err);
+        assert_eq!(
+            self.code,
+            Some(1),
+            "`{}`: {}{}",
+            self.arguments,
+            self.out,
+            self.err
+        );
         self
     }
 
     /// Exit code 2, nothing on standard output, and one error that holds each of `parts`.
     fn refused(self, parts: &[&str]) -> Ended {
-        assert_eq!(self.code, Some(2), "`{}`: {}{}", self.arguments, self.out, self.err);
+        assert_eq!(
+            self.code,
+            Some(2),
+            "`{}`: {}{}",
+            self.arguments,
+            self.out,
+            self.err
+        );
         assert_eq!(self.out, "", "`{}`", self.arguments);
-        assert_eq!(self.err.matches("error: ").count(), 1, "`{}`: {}", self.arguments, self.err);
+        assert_eq!(
+            self.err.matches("error: ").count(),
+            1,
+            "`{}`: {}",
+            self.arguments,
+            self.err
+        );
         for part in parts {
-            assert!(self.err.contains(part), "`{}` does not say `{part}`: {}", self.arguments, self.err);
+            assert!(
+                self.err.contains(part),
+                "`{}` does not say `{part}`: {}",
+                self.arguments,
+                self.err
+            );
         }
         self
     }
 
     /// Standard error holds `part`.
     fn says(self, part: &str) -> Ended {
-        assert!(self.err.contains(part), "`{}` does not say `{part}`: {}", self.arguments, self.err);
+        assert!(
+            self.err.contains(part),
+            "`{}` does not say `{part}`: {}",
+            self.arguments,
+            self.err
+        );
         self
     }
 
     /// Standard output holds `part`.
     fn prints(self, part: &str) -> Ended {
-        assert!(self.out.contains(part), "`{}` does not print `{part}`: {}", self.arguments, self.out);
+        assert!(
+            self.out.contains(part),
+            "`{}` does not print `{part}`: {}",
+            self.arguments,
+            self.out
+        );
         self
     }
 
     fn json(&self) -> serde_json::Value {
-        serde_json::from_str(&self.out).unwrap_or_else(|error| panic!("`{}`: {error}: {}", self.arguments, self.out))
+        serde_json::from_str(&self.out)
+            .unwrap_or_else(|error| panic!("`{}`: {error}: {}", self.arguments, self.out))
     }
 }
 
 fn picture(path: &Path) -> Picture8 {
-    fastphong::image_file::read_picture(path).unwrap_or_else(|error| panic!("{error}")).to_stored()
+    fastphong::image_file::read_picture(path)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .to_stored()
 }
 
 /// The picture of `input` with `flags`.
@@ -146,7 +209,11 @@ fn sphere(flags: &str) -> Picture8 {
 }
 
 fn covered(picture: &Picture8) -> usize {
-    picture.texels().iter().filter(|texel| texel[3] == 255).count()
+    picture
+        .texels()
+        .iter()
+        .filter(|texel| texel[3] == 255)
+        .count()
 }
 
 /// A small sphere: pictures that are drawn in no time.

@@ -16,14 +16,23 @@ fn places_that_cannot_be_written_leave_nothing_behind() {
         ("folder.png", "folder.png: cannot be written: "),
         ("missing/out.png", "missing/out.png: cannot be written: "),
         ("file/out.png", "file/out.png: cannot be written: "),
-        ("out.gif", "out.gif: no picture format has this ending: expected .png, .ppm or .pfm"),
+        (
+            "out.gif",
+            "out.gif: no picture format has this ending: expected .png, .ppm or .pfm",
+        ),
         ("out", "out: no picture format has this ending"),
     ] {
-        folder.run(&format!("render {SPHERE} -o {path}")).refused(&[message]);
+        folder
+            .run(&format!("render {SPHERE} -o {path}"))
+            .refused(&[message]);
         assert_eq!(folder.names(), before, "{path}");
     }
-    folder.run(&format!("render {SPHERE} -o out --format bmp")).refused(&["expected png, ppm or pfm"]);
-    folder.run(&format!("render {SPHERE} --format png --stats")).refused(&["--output <FILE>"]);
+    folder
+        .run(&format!("render {SPHERE} -o out --format bmp"))
+        .refused(&["expected png, ppm or pfm"]);
+    folder
+        .run(&format!("render {SPHERE} --format png --stats"))
+        .refused(&["--output <FILE>"]);
 }
 
 #[test]
@@ -31,7 +40,9 @@ fn a_picture_already_there_stays_when_something_fails_and_is_replaced_when_nothi
     let folder = Folder::new();
     folder.write("out.png", "old");
     folder.run("render taepot -o out.png").refused(&["teapot"]);
-    folder.run(&format!("render {SPHERE} --engine barycentric -o out.png")).refused(&["barycentric"]);
+    folder
+        .run(&format!("render {SPHERE} --engine barycentric -o out.png"))
+        .refused(&["barycentric"]);
     assert_eq!(folder.read("out.png"), b"old");
     folder.run(&format!("render {SPHERE} -o out.png")).done();
     assert_eq!(picture(&folder.path("out.png")).width(), 64);
@@ -41,14 +52,30 @@ fn a_picture_already_there_stays_when_something_fails_and_is_replaced_when_nothi
 #[test]
 fn a_picture_can_be_piped() {
     let folder = Folder::new();
-    for (format, flag) in [("png", ""), ("ppm", "--format ppm"), ("pfm", "--format pfm")] {
-        let piped = folder.run(&format!("render {SPHERE} -o - {flag} --stats --print-scene")).done();
-        folder.run(&format!("render {SPHERE} -o out.{format}")).done();
-        assert_eq!(piped.bytes, folder.read(&format!("out.{format}")), "{format}");
+    for (format, flag) in [
+        ("png", ""),
+        ("ppm", "--format ppm"),
+        ("pfm", "--format pfm"),
+    ] {
+        let piped = folder
+            .run(&format!(
+                "render {SPHERE} -o - {flag} --stats --print-scene"
+            ))
+            .done();
+        folder
+            .run(&format!("render {SPHERE} -o out.{format}"))
+            .done();
+        assert_eq!(
+            piped.bytes,
+            folder.read(&format!("out.{format}")),
+            "{format}"
+        );
         // Words go elsewhere.
         piped.says("zero-area").says("mesh = \"builtin:sphere");
     }
-    folder.run(&format!("render {SPHERE} -o picture --format ppm")).done();
+    folder
+        .run(&format!("render {SPHERE} -o picture --format ppm"))
+        .done();
     assert!(folder.read("picture").starts_with(b"P6"));
     assert!(decode_picture(&folder.read("picture")).is_ok());
     assert!(Format::ALL.len() == 3, "every format is piped above");
@@ -67,15 +94,29 @@ fn a_reader_that_goes_away_ends_it_quietly() {
         ("render builtin:sphere --size 640x480 -o - --format ppm", 0),
         ("diff a.ppm b.ppm --fail-above 0", 1),
     ] {
-        folder.write("a.ppm", "P6 1 1 255\nabc").write("b.ppm", "P6 1 1 255\nxyz");
+        folder
+            .write("a.ppm", "P6 1 1 255\nabc")
+            .write("b.ppm", "P6 1 1 255\nxyz");
         let mut command = folder.command(arguments);
-        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the tool runs");
+        let mut child = command
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the tool runs");
         drop(child.stdout.take());
         let mut err = String::new();
-        child.stderr.take().expect("standard error").read_to_string(&mut err).expect("text");
+        child
+            .stderr
+            .take()
+            .expect("standard error")
+            .read_to_string(&mut err)
+            .expect("text");
         let status = child.wait().expect("an end");
         assert_eq!(status.code(), Some(code), "`{arguments}`: {err}");
-        assert!(!err.contains("panicked") && !err.contains("error"), "`{arguments}`: {err}");
+        assert!(
+            !err.contains("panicked") && !err.contains("error"),
+            "`{arguments}`: {err}"
+        );
     }
 }
 
@@ -84,10 +125,22 @@ fn a_reader_that_goes_away_ends_it_quietly() {
 fn a_full_disk_is_an_error() {
     let folder = Folder::new();
     for arguments in ["list methods", "render builtin:cube --size 64x48 -o -"] {
-        let full = File::options().write(true).open("/dev/full").expect("the device that is always full");
-        let output = folder.command(arguments).stdout(full).output().expect("the tool runs");
-        Ended::new(arguments, output).refused(&["error: standard output: cannot be written: No space left"]);
+        let full = File::options()
+            .write(true)
+            .open("/dev/full")
+            .expect("the device that is always full");
+        let output = folder
+            .command(arguments)
+            .stdout(full)
+            .output()
+            .expect("the tool runs");
+        Ended::new(arguments, output)
+            .refused(&["error: standard output: cannot be written: No space left"]);
     }
-    folder.run(&format!("render {SPHERE} -o /dev/full --format png")).refused(&["/dev/full: cannot be written"]);
-    folder.run(&format!("render {SPHERE} -o /proc/self/out.png")).refused(&["/proc/self/out.png: cannot be written"]);
+    folder
+        .run(&format!("render {SPHERE} -o /dev/full --format png"))
+        .refused(&["/dev/full: cannot be written"]);
+    folder
+        .run(&format!("render {SPHERE} -o /proc/self/out.png"))
+        .refused(&["/proc/self/out.png: cannot be written"]);
 }

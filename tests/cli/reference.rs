@@ -6,27 +6,44 @@ use fastphong::image_file::{FilePicture, write_picture};
 #[test]
 fn without_a_reference_the_candidate_is_kept_and_the_next_command_said() {
     let folder = Folder::new();
-    let ended = folder.run(&format!("render {SPHERE} --reference ref.png")).differs();
+    let ended = folder
+        .run(&format!("render {SPHERE} --reference ref.png"))
+        .differs();
     ended
         .prints("no reference ref.png yet: the picture is in ref.actual.png")
         .prints("to accept it: cp ref.actual.png ref.png");
-    assert_eq!(folder.names(), ["ref.actual.png"], "nothing is accepted unasked");
+    assert_eq!(
+        folder.names(),
+        ["ref.actual.png"],
+        "nothing is accepted unasked"
+    );
 
-    let ended = folder.run(&format!("render {SPHERE} --reference ref.png -o mine.png")).differs();
+    let ended = folder
+        .run(&format!("render {SPHERE} --reference ref.png -o mine.png"))
+        .differs();
     ended.prints("to accept it: cp mine.png ref.png");
     // The command does what it says: the next run agrees.
     std::fs::copy(folder.path("mine.png"), folder.path("ref.png")).unwrap();
-    let ended = folder.run(&format!("render {SPHERE} --reference ref.png")).done();
+    let ended = folder
+        .run(&format!("render {SPHERE} --reference ref.png"))
+        .done();
     ended.prints("ref.png: equal within 1 grey levels: largest difference 0");
 }
 
 #[test]
 fn a_candidate_has_the_format_of_its_reference() {
     let folder = Folder::new();
-    let ended = folder.run(&format!("render {SPHERE} --reference ref.pfm -o mine.png")).differs();
+    let ended = folder
+        .run(&format!("render {SPHERE} --reference ref.pfm -o mine.png"))
+        .differs();
     ended.prints("to accept it: cp ref.actual.pfm ref.pfm");
     std::fs::copy(folder.path("ref.actual.pfm"), folder.path("ref.pfm")).unwrap();
-    folder.run(&format!("render {SPHERE} --reference ref.pfm --reference-threshold 0")).done().prints("difference 0");
+    folder
+        .run(&format!(
+            "render {SPHERE} --reference ref.pfm --reference-threshold 0"
+        ))
+        .done()
+        .prints("difference 0");
 }
 
 #[test]
@@ -39,25 +56,44 @@ fn a_difference_leaves_both_pictures_and_a_map() {
     write_picture(&folder.path("ref.png"), &FilePicture::stored(changed)).unwrap();
 
     let check = format!("render {SPHERE} --reference ref.png");
-    folder.run(&format!("{check} --reference-threshold 3")).done().prints("equal within 3 grey levels");
+    folder
+        .run(&format!("{check} --reference-threshold 3"))
+        .done()
+        .prints("equal within 3 grey levels");
     assert_eq!(folder.names(), ["ref.png"]);
-    let ended = folder.run(&format!("{check} --reference-threshold 2.5")).differs();
+    let ended = folder
+        .run(&format!("{check} --reference-threshold 2.5"))
+        .differs();
     ended
         .prints("ref.png: differs by 3.0000 grey levels, more than 2.5")
         .prints("1 pixels differ, most at column 32, row 24")
         .prints("actual: ref.actual.png")
         .prints("ref.diff.png")
         .prints("to accept it: cp ref.actual.png ref.png");
-    assert_eq!(folder.names(), ["ref.actual.png", "ref.diff.png", "ref.png"]);
+    assert_eq!(
+        folder.names(),
+        ["ref.actual.png", "ref.diff.png", "ref.png"]
+    );
     let map = picture(&folder.path("ref.diff.png"));
-    let lit = map.texels().iter().filter(|texel| texel[..3] != [0; 3]).count();
+    let lit = map
+        .texels()
+        .iter()
+        .filter(|texel| texel[..3] != [0; 3])
+        .count();
     assert!(lit == 1 && map.get(32, 24)[..3] != [0; 3], "{lit}");
 
     std::fs::create_dir(folder.path("out")).unwrap();
-    folder.run(&format!("{check} -o out/mine.png")).differs().prints("actual: out/mine.png").prints("out/ref.diff.png");
+    folder
+        .run(&format!("{check} -o out/mine.png"))
+        .differs()
+        .prints("actual: out/mine.png")
+        .prints("out/ref.diff.png");
     assert!(folder.path("out/mine.png").exists() && folder.path("out/ref.diff.png").exists());
     // A picture on standard output leaves the words to standard error.
-    let piped = folder.run(&format!("{check} -o -")).differs().says("differs by 3.0000");
+    let piped = folder
+        .run(&format!("{check} -o -"))
+        .differs()
+        .says("differs by 3.0000");
     assert_eq!(piped.bytes, folder.read("ref.actual.png"));
 }
 
@@ -65,14 +101,24 @@ fn a_difference_leaves_both_pictures_and_a_map() {
 fn other_sizes_and_other_coverage_differ() {
     let folder = Folder::new();
     folder.run(&format!("render {SPHERE} -o ref.png")).done();
-    let ended = folder.run("render builtin:cube --size 32x24 --reference ref.png").differs();
-    ended.prints("the sizes differ: the reference has 64x48 pixels, the picture 32x24").prints("ref.actual.png");
+    let ended = folder
+        .run("render builtin:cube --size 32x24 --reference ref.png")
+        .differs();
+    ended
+        .prints("the sizes differ: the reference has 64x48 pixels, the picture 32x24")
+        .prints("ref.actual.png");
     // Black on black: no colour differs, but the pixels that are covered do.
     let black = "--ka 0 --kd 0 --ks 0";
-    folder.run(&format!("render {SPHERE} {black} --fit 0.5 -o black.png")).done();
+    folder
+        .run(&format!("render {SPHERE} {black} --fit 0.5 -o black.png"))
+        .done();
     let check = "--reference black.png --reference-threshold 254";
-    folder.run(&format!("render {SPHERE} {black} --fit 0.5 {check}")).done();
-    let ended = folder.run(&format!("render {SPHERE} {black} --fit 0.6 {check}")).differs();
+    folder
+        .run(&format!("render {SPHERE} {black} --fit 0.5 {check}"))
+        .done();
+    let ended = folder
+        .run(&format!("render {SPHERE} {black} --fit 0.6 {check}"))
+        .differs();
     ended.prints("pixels are covered in one picture only");
 }
 
@@ -80,12 +126,20 @@ fn other_sizes_and_other_coverage_differ() {
 fn references_that_cannot_be_read_are_errors() {
     let folder = Folder::new();
     folder.write("ref.png", "no picture");
-    folder.run(&format!("render {SPHERE} --reference ref.png")).refused(&["ref.png: not a picture that can be read"]);
+    folder
+        .run(&format!("render {SPHERE} --reference ref.png"))
+        .refused(&["ref.png: not a picture that can be read"]);
     folder
         .run(&format!("render {SPHERE} --reference ref.gif"))
         .refused(&["ref.gif: no picture format has this ending"]);
-    folder.run(&format!("render {SPHERE} --reference ref.png --reference-threshold x")).refused(&["grey levels"]);
-    folder.run(&format!("render {SPHERE} --reference-threshold 1 -o a.png")).refused(&["--reference <FILE>"]);
+    folder
+        .run(&format!(
+            "render {SPHERE} --reference ref.png --reference-threshold x"
+        ))
+        .refused(&["grey levels"]);
+    folder
+        .run(&format!("render {SPHERE} --reference-threshold 1 -o a.png"))
+        .refused(&["--reference <FILE>"]);
     folder
         .run(&format!("render {SPHERE} --reference gone/ref.png"))
         .refused(&["gone/ref.actual.png: cannot be written"]);
@@ -93,7 +147,10 @@ fn references_that_cannot_be_read_are_errors() {
         let refused = folder.run(&format!("render {SPHERE} --reference ref.png -o {same}"));
         refused.refused(&["`--output` is the reference itself"]);
     }
-    assert_eq!((folder.names(), folder.read("ref.png")), (vec!["ref.png".to_owned()], b"no picture".to_vec()));
+    assert_eq!(
+        (folder.names(), folder.read("ref.png")),
+        (vec!["ref.png".to_owned()], b"no picture".to_vec())
+    );
 }
 
 #[test]

@@ -14,37 +14,77 @@ fn lists_have_an_entry_for_everything_in_their_table() {
     let folder = Folder::new();
     let names = |of: &str| -> Vec<String> {
         match of {
-            "methods" => METHODS.iter().map(|entry| entry.info.name.to_owned()).collect(),
+            "methods" => METHODS
+                .iter()
+                .map(|entry| entry.info.name.to_owned())
+                .collect(),
             "meshes" => BUILTINS.iter().map(|shape| shape.name.to_owned()).collect(),
-            "figures" => FIGURES.iter().map(|figure| figure.name.to_owned()).collect(),
-            "engines" => ["span", "row", "barycentric", "cs171"].map(str::to_owned).to_vec(),
+            "figures" => FIGURES
+                .iter()
+                .map(|figure| figure.name.to_owned())
+                .collect(),
+            "engines" => ["span", "row", "barycentric", "cs171"]
+                .map(str::to_owned)
+                .to_vec(),
             "simd" => Level::ALL.map(|level| level.name().to_owned()).to_vec(),
             "scenes" => SCENES.iter().map(|scene| scene.name.to_owned()).collect(),
-            _ => METRICS.iter().map(|metric| metric.name.to_owned()).collect(),
+            _ => METRICS
+                .iter()
+                .map(|metric| metric.name.to_owned())
+                .collect(),
         }
     };
-    for subject in ["methods", "meshes", "scenes", "metrics", "figures", "engines", "simd"] {
+    for subject in [
+        "methods", "meshes", "scenes", "metrics", "figures", "engines", "simd",
+    ] {
         let text = folder.run(&format!("list {subject}")).done().out;
         let json = folder.run(&format!("list {subject} --json")).done().json();
         let entries = json.as_array().expect("a list");
         assert_eq!(
-            entries.iter().map(|entry| entry["name"].as_str().unwrap().to_owned()).collect::<Vec<_>>(),
+            entries
+                .iter()
+                .map(|entry| entry["name"].as_str().unwrap().to_owned())
+                .collect::<Vec<_>>(),
             names(subject)
         );
         for name in names(subject) {
-            let heading = if subject == "meshes" { format!("builtin:{name}") } else { name };
-            assert!(text.lines().any(|line| line.split_whitespace().next() == Some(&heading)), "{heading}: {text}");
+            let heading = if subject == "meshes" {
+                format!("builtin:{name}")
+            } else {
+                name
+            };
+            assert!(
+                text.lines()
+                    .any(|line| line.split_whitespace().next() == Some(&heading)),
+                "{heading}: {text}"
+            );
         }
     }
     let meshes = folder.run("list meshes").done().out;
     let json = folder.run("list meshes --json").done().json();
     for (shape, entry) in BUILTINS.iter().zip(json.as_array().expect("a list")) {
-        let parameters = entry["parameters"].as_array().expect("a list").iter().map(|p| p["name"].as_str().unwrap());
-        assert!(parameters.eq(shape.all_parameters().map(|p| p.name)), "{entry}");
-        assert!(shape.all_parameters().all(|p| meshes.contains(p.doc)), "{meshes}");
+        let parameters = entry["parameters"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|p| p["name"].as_str().unwrap());
+        assert!(
+            parameters.eq(shape.all_parameters().map(|p| p.name)),
+            "{entry}"
+        );
+        assert!(
+            shape.all_parameters().all(|p| meshes.contains(p.doc)),
+            "{meshes}"
+        );
     }
-    folder.run("list methods").done().prints("steps=1..8, default 2").prints("perspective-correct at no cost");
-    folder.run("list shaders").refused(&["methods, meshes, scenes, metrics, figures, engines, simd"]);
+    folder
+        .run("list methods")
+        .done()
+        .prints("steps=1..8, default 2")
+        .prints("perspective-correct at no cost");
+    folder
+        .run("list shaders")
+        .refused(&["methods, meshes, scenes, metrics, figures, engines, simd"]);
 }
 
 #[test]
@@ -53,24 +93,62 @@ fn engines_and_instruction_sets_are_listed_with_what_they_can() {
     let engines = folder.run("list engines --json").done().json();
     let engines = engines.as_array().expect("a list");
     for (engine, entry) in Engine::ALL.iter().zip(engines) {
-        assert_eq!((&entry["name"], &entry["title"]), (&engine.name().into(), &engine.title().into()));
+        assert_eq!(
+            (&entry["name"], &entry["title"]),
+            (&engine.name().into(), &engine.title().into())
+        );
     }
     for entry in METHODS {
-        let explained = folder.run(&format!("explain {}", entry.info.name)).done().out;
+        let explained = folder
+            .run(&format!("explain {}", entry.info.name))
+            .done()
+            .out;
         for engine in engines {
             let name = engine["name"].as_str().expect("a name");
-            let has = engine["methods"].as_array().expect("a list").iter().any(|method| *method == entry.info.name);
-            let after = explained.split("\nengines\n").nth(1).expect("a section").lines().next().expect("a line");
-            assert_eq!(after.trim().split(", ").any(|other| other == name), has, "{name}: {after}");
+            let has = engine["methods"]
+                .as_array()
+                .expect("a list")
+                .iter()
+                .any(|method| *method == entry.info.name);
+            let after = explained
+                .split("\nengines\n")
+                .nth(1)
+                .expect("a section")
+                .lines()
+                .next()
+                .expect("a line");
+            assert_eq!(
+                after.trim().split(", ").any(|other| other == name),
+                has,
+                "{name}: {after}"
+            );
         }
     }
     let levels = folder.run("list simd --json").done().json();
     let text = folder.run("list simd").done().out;
-    for ((level, entry), line) in Level::ALL.iter().zip(levels.as_array().expect("a list")).zip(text.lines()) {
+    for ((level, entry), line) in Level::ALL
+        .iter()
+        .zip(levels.as_array().expect("a list"))
+        .zip(text.lines())
+    {
         let (here, auto) = (level.is_available(), *level == Level::best());
-        assert_eq!((&entry["available"], &entry["auto"]), (&here.into(), &auto.into()), "{entry}");
-        assert_eq!((&entry["width"], &entry["title"]), (&level.width().into(), &level.title().into()));
-        assert_eq!((line.contains("not on this machine"), line.contains("taken by auto")), (!here, auto), "{line}");
+        assert_eq!(
+            (&entry["available"], &entry["auto"]),
+            (&here.into(), &auto.into()),
+            "{entry}"
+        );
+        assert_eq!(
+            (&entry["width"], &entry["title"]),
+            (&level.width().into(), &level.title().into())
+        );
+        assert_eq!(
+            (
+                line.contains("not on this machine"),
+                line.contains("taken by auto")
+            ),
+            (!here, auto),
+            "{line}"
+        );
     }
 }
 
@@ -80,50 +158,112 @@ fn every_method_is_explained() {
     for entry in METHODS {
         let name = entry.info.name;
         let ended = folder.run(&format!("explain {name}")).done();
-        let ended = ended.prints(entry.info.title).prints("pixel: shade").prints("with 4 lights");
-        for heading in ["formula", "source", "tolerance", "where it fails", "perspective", "engines", "parameters"] {
-            assert!(ended.out.lines().any(|line| line == heading), "{heading}: {}", ended.out);
+        let ended = ended
+            .prints(entry.info.title)
+            .prints("pixel: shade")
+            .prints("with 4 lights");
+        for heading in [
+            "formula",
+            "source",
+            "tolerance",
+            "where it fails",
+            "perspective",
+            "engines",
+            "parameters",
+        ] {
+            assert!(
+                ended.out.lines().any(|line| line == heading),
+                "{heading}: {}",
+                ended.out
+            );
         }
         let json = folder.run(&format!("explain {name} --json")).done().json();
         for lights in [1, 4] {
             let counted = entry.variant().operations(lights).shade.multiplications;
-            assert_eq!(json["operations_by_lights"][lights.to_string()]["pixel_shade"]["mul"], counted, "{name}");
+            assert_eq!(
+                json["operations_by_lights"][lights.to_string()]["pixel_shade"]["mul"],
+                counted,
+                "{name}"
+            );
         }
         assert_eq!(json["formula"], entry.info.formula);
-        assert_eq!(json["roundings"]["step"].as_f64(), Some(entry.info.roundings.step));
+        assert_eq!(
+            json["roundings"]["step"].as_f64(),
+            Some(entry.info.roundings.step)
+        );
     }
     // One step of Newton's method less is one division a pixel less.
     let divisions = |variant: &str| {
-        let json = folder.run(&format!("explain {variant} --json")).done().json();
-        json["operations_by_lights"]["1"]["pixel_walk"]["div"].as_i64().expect("a count")
+        let json = folder
+            .run(&format!("explain {variant} --json"))
+            .done()
+            .json();
+        json["operations_by_lights"]["1"]["pixel_walk"]["div"]
+            .as_i64()
+            .expect("a count")
     };
-    assert_eq!(divisions("fast-phong:steps=2") - divisions("fast-phong:steps=1"), 1);
+    assert_eq!(
+        divisions("fast-phong:steps=2") - divisions("fast-phong:steps=1"),
+        1
+    );
     // Each method with lights at positions; the six products of Duff's forward differences by additions only.
     for (lights, additions) in [("1", 12), ("2", 18)] {
         let json = folder.run("explain duff-phong --json").done().json();
         let walk = &json["operations_by_lights_at_positions"][lights]["pixel_walk"];
-        assert_eq!((&walk["add"], &walk["mul"]), (&additions.into(), &0.into()), "{lights} lights");
+        assert_eq!(
+            (&walk["add"], &walk["mul"]),
+            (&additions.into(), &0.into()),
+            "{lights} lights"
+        );
     }
-    folder.run("explain duff-phong").done().prints("operations with 2 lights and eye at positions, as counted");
-    folder.run("explain fast-fong").refused(&["did you mean `fast-phong`?"]);
+    folder
+        .run("explain duff-phong")
+        .done()
+        .prints("operations with 2 lights and eye at positions, as counted");
+    folder
+        .run("explain fast-fong")
+        .refused(&["did you mean `fast-phong`?"]);
 }
 
 #[test]
 fn info_counts_what_a_mesh_has() {
     let folder = Folder::new();
-    let of = |input: &str| folder.run(&format!("info {input} --json")).done().json()["objects"][0].clone();
+    let of = |input: &str| {
+        folder.run(&format!("info {input} --json")).done().json()["objects"][0].clone()
+    };
     let cube = of("builtin:cube");
     assert_eq!(cube["polygons_by_sides"], serde_json::json!({ "4": 6 }));
-    assert_eq!((&cube["vertices"], &cube["edges"], &cube["closed"]), (&8.into(), &12.into(), &true.into()));
-    assert_eq!(cube["bounds"], serde_json::json!([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]]));
-    assert_eq!((&cube["concave"], &cube["not_planar"], &cube["degenerate"]), (&0.into(), &0.into(), &0.into()));
+    assert_eq!(
+        (&cube["vertices"], &cube["edges"], &cube["closed"]),
+        (&8.into(), &12.into(), &true.into())
+    );
+    assert_eq!(
+        cube["bounds"],
+        serde_json::json!([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
+    );
+    assert_eq!(
+        (&cube["concave"], &cube["not_planar"], &cube["degenerate"]),
+        (&0.into(), &0.into(), &0.into())
+    );
     let gear = of("builtin:gear?teeth=12");
-    assert_eq!((&gear["polygons_by_sides"]["48"], &gear["concave"]), (&2.into(), &2.into()));
+    assert_eq!(
+        (&gear["polygons_by_sides"]["48"], &gear["concave"]),
+        (&2.into(), &2.into())
+    );
     let star = of("builtin:star");
-    assert_eq!((&star["concave"], &star["open_edges"], &star["closed"]), (&1.into(), &10.into(), &false.into()));
+    assert_eq!(
+        (&star["concave"], &star["open_edges"], &star["closed"]),
+        (&1.into(), &10.into(), &false.into())
+    );
     let football = of("football");
-    assert_eq!(football["polygons_by_sides"], serde_json::json!({ "5": 12, "6": 20 }));
-    assert_eq!((&football["materials"], &football["given_normals"]), (&2.into(), &false.into()));
+    assert_eq!(
+        football["polygons_by_sides"],
+        serde_json::json!({ "5": 12, "6": 20 })
+    );
+    assert_eq!(
+        (&football["materials"], &football["given_normals"]),
+        (&2.into(), &false.into())
+    );
     assert_eq!(football["normals"], "averaged");
 
     // A bent quad, a triangle without area, two triangles wound differently, a third one at their edge.
@@ -131,12 +271,22 @@ fn info_counts_what_a_mesh_has() {
                v 0 2 0\nf 1 2 3 4\nf 1 4 10\nf 5 6 7\nf 5 6 8\n";
     folder.write("odd.obj", obj);
     let odd = of("odd.obj");
-    assert_eq!((&odd["not_planar"], &odd["degenerate"], &odd["concave"]), (&1.into(), &1.into(), &0.into()));
-    assert_eq!((&odd["reversed_edges"], &odd["non_manifold_edges"]), (&1.into(), &0.into()));
+    assert_eq!(
+        (&odd["not_planar"], &odd["degenerate"], &odd["concave"]),
+        (&1.into(), &1.into(), &0.into())
+    );
+    assert_eq!(
+        (&odd["reversed_edges"], &odd["non_manifold_edges"]),
+        (&1.into(), &0.into())
+    );
     folder.write("odd.obj", format!("{obj}f 6 5 9\n"));
     let odd = of("odd.obj");
     assert_eq!(
-        (&odd["reversed_edges"], &odd["non_manifold_edges"], &odd["vertices"]),
+        (
+            &odd["reversed_edges"],
+            &odd["non_manifold_edges"],
+            &odd["vertices"]
+        ),
         (&0.into(), &1.into(), &10.into())
     );
 }
@@ -151,8 +301,14 @@ fn info_speaks_of_scenes_too() {
         .prints("objects  2")
         .prints("builtin:sphere?segments=16&rings=10");
     let json = folder.run("info perspective --json").done().json();
-    assert_eq!((&json["camera"]["fovy"], &json["camera"]["half_height"]), (&75.0.into(), &serde_json::Value::Null));
-    assert_eq!((&json["lights"], &json["schema"]), (&2.into(), &"fastphong.info/1".into()));
+    assert_eq!(
+        (&json["camera"]["fovy"], &json["camera"]["half_height"]),
+        (&75.0.into(), &serde_json::Value::Null)
+    );
+    assert_eq!(
+        (&json["lights"], &json["schema"]),
+        (&2.into(), &"fastphong.info/1".into())
+    );
     folder
         .run("info football")
         .done()
@@ -165,38 +321,76 @@ fn info_speaks_of_scenes_too() {
 fn info_says_what_auto_would_take() {
     let folder = Folder::new();
     let best = Level::best();
-    let choices = |input: &str| folder.run(&format!("info {input} --json")).done().json()["auto"].clone();
+    let choices =
+        |input: &str| folder.run(&format!("info {input} --json")).done().json()["auto"].clone();
     let far = choices("teapot");
-    assert_eq!((&far[0]["engine"], &far[0]["level"]), (&"row".into(), &best.name().into()));
     assert_eq!(
-        (&far[0]["reason"], far[0]["methods"].as_array().map(Vec::len)),
+        (&far[0]["engine"], &far[0]["level"]),
+        (&"row".into(), &best.name().into())
+    );
+    assert_eq!(
+        (
+            &far[0]["reason"],
+            far[0]["methods"].as_array().map(Vec::len)
+        ),
         (&serde_json::Value::Null, Some(METHODS.len()))
     );
     let near = choices("teapot --light-at 9,9,9");
     let of = |method: &str| {
-        let has = |choice: &&serde_json::Value| choice["methods"].as_array().expect("a list").contains(&method.into());
-        near.as_array().expect("a list").iter().find(has).expect("a choice").clone()
+        let has = |choice: &&serde_json::Value| {
+            choice["methods"]
+                .as_array()
+                .expect("a list")
+                .contains(&method.into())
+        };
+        near.as_array()
+            .expect("a list")
+            .iter()
+            .find(has)
+            .expect("a choice")
+            .clone()
     };
-    assert_eq!((&of("gouraud")["engine"], &of("duff-phong")["engine"]), (&"row".into(), &"span".into()));
+    assert_eq!(
+        (&of("gouraud")["engine"], &of("duff-phong")["engine"]),
+        (&"row".into(), &"span".into())
+    );
     assert!(
-        of("duff-phong")["reason"].as_str().is_some_and(|reason| reason.starts_with("the row engine keeps neither"))
+        of("duff-phong")["reason"]
+            .as_str()
+            .is_some_and(|reason| reason.starts_with("the row engine keeps neither"))
     );
     let five = "--light 1,0,1 --light 0,1,1 --light -1,0,1 --light 0,-1,1 --light 0,0,1";
     let lights = choices(&format!("teapot {five}"));
-    assert_eq!((&lights[0]["engine"], &lights[0]["level"]), (&"span".into(), &"scalar".into()));
-    assert_eq!(lights[0]["methods"].as_array().map(Vec::len), Some(METHODS.len()));
+    assert_eq!(
+        (&lights[0]["engine"], &lights[0]["level"]),
+        (&"span".into(), &"scalar".into())
+    );
+    assert_eq!(
+        lights[0]["methods"].as_array().map(Vec::len),
+        Some(METHODS.len())
+    );
     let text = folder.run("info teapot --light-at 9,9,9").done();
-    text.prints(&format!("auto     row, {best}: flat, ")).prints("slerp-phong-vector (the row engine keeps neither");
+    text.prints(&format!("auto     row, {best}: flat, "))
+        .prints("slerp-phong-vector (the row engine keeps neither");
 }
 
 #[test]
 fn help_and_version_are_results() {
     let folder = Folder::new();
-    folder.run("--version").done().prints(concat!("fastphong ", env!("CARGO_PKG_VERSION")));
-    folder.run("--help").done().prints("Exit codes: 0 done, 1 a comparison failed, 2 wrong usage or input");
+    folder
+        .run("--version")
+        .done()
+        .prints(concat!("fastphong ", env!("CARGO_PKG_VERSION")));
+    folder
+        .run("--help")
+        .done()
+        .prints("Exit codes: 0 done, 1 a comparison failed, 2 wrong usage or input");
     for command in ["render", "figure", "diff", "list", "explain", "info"] {
         folder.run("--help").done().prints(command);
-        folder.run(&format!("{command} --help")).done().prints("Usage: fastphong");
+        folder
+            .run(&format!("{command} --help"))
+            .done()
+            .prints("Usage: fastphong");
     }
     folder.run("").says("Usage: fastphong");
 }

@@ -11,7 +11,8 @@ pub fn root() -> &'static Path {
 #[track_caller]
 pub fn read(path: impl AsRef<Path>) -> String {
     let path = path.as_ref();
-    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    fs::read_to_string(root().join(path))
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// All files under `folder` with this ending, as paths from the root.
@@ -20,11 +21,17 @@ pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let mut folders = vec![root().join(folder)];
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(&folder).into_iter().flatten() {
-            let path = entry.expect("a folder of the repository can be read").path();
+            let path = entry
+                .expect("a folder of the repository can be read")
+                .path();
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|e| e == ending) {
-                found.push(path.strip_prefix(root()).expect("under the root").to_owned());
+                found.push(
+                    path.strip_prefix(root())
+                        .expect("under the root")
+                        .to_owned(),
+                );
             }
         }
     }
@@ -51,9 +58,15 @@ pub fn rows(text: &str) -> Vec<Vec<String>> {
     let cells = |line: &str| {
         let line = line.replace("\\|", "\u{0}");
         let inner = line.trim().trim_matches('|');
-        inner.split('|').map(|cell| cell.trim().replace('\u{0}', "|")).collect()
+        inner
+            .split('|')
+            .map(|cell| cell.trim().replace('\u{0}', "|"))
+            .collect()
     };
-    text.lines().filter(|line| line.starts_with('|') && !line.starts_with("|---")).map(cells).collect()
+    text.lines()
+        .filter(|line| line.starts_with('|') && !line.starts_with("|---"))
+        .map(cells)
+        .collect()
 }
 
 pub fn is_word(c: char) -> bool {
@@ -62,17 +75,28 @@ pub fn is_word(c: char) -> bool {
 
 /// Whether `source` defines the function or type `name`.
 pub fn defines(source: &str, name: &str) -> bool {
-    ["fn ", "struct ", "enum ", "trait ", "const ", "static ", "type "].iter().any(|keyword| {
+    [
+        "fn ", "struct ", "enum ", "trait ", "const ", "static ", "type ",
+    ]
+    .iter()
+    .any(|keyword| {
         let definition = format!("{keyword}{name}");
-        source.match_indices(&definition).any(|(at, _)| !source[at + definition.len()..].starts_with(is_word))
+        source
+            .match_indices(&definition)
+            .any(|(at, _)| !source[at + definition.len()..].starts_with(is_word))
     })
 }
 
 /// A cell such as "`file`: `item`, `item`; `file`: `item`".
 pub fn places(cell: &str) -> Vec<(String, Vec<String>)> {
     let place = |part: &str| {
-        let (file, items) = part.split_once(':').unwrap_or_else(|| panic!("no item in `{part}`"));
-        (file.trim().trim_matches('`').into(), quoted(items).into_iter().map(String::from).collect())
+        let (file, items) = part
+            .split_once(':')
+            .unwrap_or_else(|| panic!("no item in `{part}`"));
+        (
+            file.trim().trim_matches('`').into(),
+            quoted(items).into_iter().map(String::from).collect(),
+        )
     };
     cell.split(';').map(place).collect()
 }

@@ -12,16 +12,33 @@ use fastphong::shader::{METHODS, Variant};
 
 /// The largest difference of two levels where `decided` holds.
 fn levels_apart(a: &Picture8, b: &Picture8, decided: &Picture<bool>) -> u8 {
-    let texels = a.texels().iter().zip(b.texels()).zip(decided.texels()).filter(|(_, decided)| **decided);
-    texels.flat_map(|((a, b), _)| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b))).max().unwrap_or(0)
+    let texels = a
+        .texels()
+        .iter()
+        .zip(b.texels())
+        .zip(decided.texels())
+        .filter(|(_, decided)| **decided);
+    texels
+        .flat_map(|((a, b), _)| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)))
+        .max()
+        .unwrap_or(0)
 }
 
 /// What is wrong with a method's pictures of a frame, if anything.
-fn check(frame: &Frame, decided: &Picture<bool>, variant: &Variant, failures: &mut Vec<String>) -> u8 {
+fn check(
+    frame: &Frame,
+    decided: &Picture<bool>,
+    variant: &Variant,
+    failures: &mut Vec<String>,
+) -> u8 {
     let (linear, stored) = (variant.render_linear(frame), variant.render(frame));
     let own = bound(variant.info(), frame, Renderer::LECTURE);
     // Below its bend the curve of sRGB rises by 12.92.
-    let slope = if frame.encoding() == Encoding::Srgb { 12.92 } else { 1.0 };
+    let slope = if frame.encoding() == Encoding::Srgb {
+        12.92
+    } else {
+        1.0
+    };
     let mut most = 0;
     for renderer in renderers() {
         // Both are within their bounds of one closed form.
@@ -55,7 +72,9 @@ fn engines_agree_on_every_kind_of_frame() {
         for entry in METHODS {
             let before = failures.len();
             let levels = check(&frame, &decided, &entry.variant(), &mut failures);
-            failures[before..].iter_mut().for_each(|failure| *failure = format!("{kind}, {failure}"));
+            failures[before..]
+                .iter_mut()
+                .for_each(|failure| *failure = format!("{kind}, {failure}"));
             println!("{kind}, {}: {levels} levels", entry.info.name);
         }
     }
@@ -67,14 +86,21 @@ fn engines_agree_on_every_kind_of_frame() {
 fn engines_agree_on_every_scene() {
     let mut failures = Vec::new();
     for (scene, path) in support::shipped() {
-        let frame = support::scene(&path, Some((213, 160))).frame().expect("a frame");
+        let frame = support::scene(&path, Some((213, 160)))
+            .frame()
+            .expect("a frame");
         let decided = decided(&frame, &reference::visibility(&frame));
         for entry in METHODS {
             let before = failures.len();
             let levels = check(&frame, &decided, &entry.variant(), &mut failures);
-            failures[before..].iter_mut().for_each(|failure| *failure = format!("{scene}, {failure}"));
+            failures[before..]
+                .iter_mut()
+                .for_each(|failure| *failure = format!("{scene}, {failure}"));
             if levels > 1 {
-                failures.push(format!("{scene}, {}: {levels} levels apart", entry.info.name));
+                failures.push(format!(
+                    "{scene}, {}: {levels} levels apart",
+                    entry.info.name
+                ));
             }
         }
     }

@@ -18,8 +18,18 @@ fn sliver(random: &mut Random, width: i32, height: i32) -> Vec<Corner> {
     let along = random.below(257) as i64;
     let between = |a: i32, b: i32| a + (i64::from(b - a) * along / 256) as i32;
     let aside = |random: &mut Random| random.below(5) as i32 - 2;
-    let c = (between(a.0, b.0) + aside(random), between(a.1, b.1) + aside(random));
-    [a, b, c].map(|(x, y)| Corner { x, y, depth: random.unit(), intensity: random.unit() }).to_vec()
+    let c = (
+        between(a.0, b.0) + aside(random),
+        between(a.1, b.1) + aside(random),
+    );
+    [a, b, c]
+        .map(|(x, y)| Corner {
+            x,
+            y,
+            depth: random.unit(),
+            intensity: random.unit(),
+        })
+        .to_vec()
 }
 
 /// A triangle with corners far outside of the picture, which holds all of it, a part of it, or nothing.
@@ -28,7 +38,12 @@ fn far(random: &mut Random) -> Vec<Corner> {
     let mut corner = || {
         let mut at = || random.below(2 * reach * 256) as i32 - reach as i32 * 256;
         let (x, y) = (at(), at());
-        Corner { x, y, depth: random.unit(), intensity: random.unit() }
+        Corner {
+            x,
+            y,
+            depth: random.unit(),
+            intensity: random.unit(),
+        }
     };
     vec![corner(), corner(), corner()]
 }
@@ -56,14 +71,26 @@ fn numbered(width: u32, height: u32, polygons: &[Vec<Corner>]) -> Frame {
     builder.hidden_surfaces(HiddenSurfaces::DrawOrder);
     for (number, corners) in polygons.iter().enumerate() {
         let shade = (number + 1) as f32 / 128.0;
-        let dark = Material { ambient: [shade; 3], diffuse: [0.0; 3], specular: [0.0; 3], shininess: 1.0 };
+        let dark = Material {
+            ambient: [shade; 3],
+            diffuse: [0.0; 3],
+            specular: [0.0; 3],
+            shininess: 1.0,
+        };
         let material = builder.lighting(Lighting::new(&dark, [1.0; 3], &[], DVec3::Z));
         let place = |c: &Corner| (SubPixel::from_bits(c.x), SubPixel::from_bits(c.y));
         let vertices: Vec<u32> = corners
             .iter()
             .map(|c| {
                 let (x, y) = place(c);
-                builder.vertex(Vertex { x, y, depth: c.depth, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+                builder.vertex(Vertex {
+                    x,
+                    y,
+                    depth: c.depth,
+                    inv_w: 1.0,
+                    normal: [0.0, 0.0, 1.0],
+                    material,
+                })
             })
             .collect();
         builder.polygon(&vertices, [0.0, 0.0, 1.0], number as u32);
@@ -87,11 +114,30 @@ fn random_polygons_are_covered_as_in_the_lecture() {
         let last = numbered(width, height, &polygons);
         let nearest = frame(width, height, true, &polygons);
         for method in &methods {
-            let (seen, drawn) = (method.render_linear(&last), covered(&method.render_linear(&nearest)));
+            let (seen, drawn) = (
+                method.render_linear(&last),
+                covered(&method.render_linear(&nearest)),
+            );
             for renderer in renderers() {
-                let who = || format!("round {round}: {} by {}", method.info().name, name(renderer));
-                assert_eq!(method.render_linear_with(&last, renderer), seen, "{}", who());
-                assert_eq!(covered(&method.render_linear_with(&nearest, renderer)), drawn, "{}", who());
+                let who = || {
+                    format!(
+                        "round {round}: {} by {}",
+                        method.info().name,
+                        name(renderer)
+                    )
+                };
+                assert_eq!(
+                    method.render_linear_with(&last, renderer),
+                    seen,
+                    "{}",
+                    who()
+                );
+                assert_eq!(
+                    covered(&method.render_linear_with(&nearest, renderer)),
+                    drawn,
+                    "{}",
+                    who()
+                );
             }
         }
     }
@@ -101,14 +147,22 @@ fn random_polygons_are_covered_as_in_the_lecture() {
 #[test]
 fn shipped_scenes_are_covered_as_in_the_lecture() {
     for (scene, path) in support::shipped() {
-        let frame = support::scene(&path, Some((157, 115))).frame().expect("a frame");
+        let frame = support::scene(&path, Some((157, 115)))
+            .frame()
+            .expect("a frame");
         for method in ["flat", "slerp-phong"].map(variant) {
             let drawn = covered(&method.render_linear(&frame));
             assert!(drawn.texels().iter().any(|&drawn| drawn));
             for renderer in renderers() {
                 for threads in 1..=3 {
-                    let ours = on_threads(threads, || covered(&method.render_linear_with(&frame, renderer)));
-                    let who = format!("{} on {scene} by {}, {threads} threads", method.info().name, name(renderer));
+                    let ours = on_threads(threads, || {
+                        covered(&method.render_linear_with(&frame, renderer))
+                    });
+                    let who = format!(
+                        "{} on {scene} by {}, {threads} threads",
+                        method.info().name,
+                        name(renderer)
+                    );
                     assert_eq!(ours, drawn, "{who}");
                 }
             }

@@ -5,23 +5,31 @@ use fastphong::frame::Frame;
 use fastphong::lighting::{Falloff, Light, Material, SpecularModel};
 use fastphong::mesh::builtin::builtin;
 use fastphong::scene::{
-    Clipping, DepthBits, DepthBuffer, DepthSource, Encoding, HiddenSurfaces, Interpolation, PainterKey, Scene,
+    Clipping, DepthBits, DepthBuffer, DepthSource, Encoding, HiddenSurfaces, Interpolation,
+    PainterKey, Scene,
 };
 use glam::{DAffine3, DVec3};
 
 /// Two balls of different materials, of n-gons and of triangles, one partly behind the other, from near by: `width` ×
 /// `height` pixels.
 fn scene(width: u32, height: u32) -> Scene {
-    let mut scene = Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
+    let mut scene =
+        Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
     (scene.width, scene.height, scene.background) = (width, height, [0.1, 0.2, 0.3]);
     scene.camera.projection = Projection::Perspective { fovy: 50.0 };
     scene.camera.eye = scene.camera.target + scene.camera.view() * 3.0;
     (scene.camera.near, scene.camera.far) = (0.5, 8.0);
     scene.lights = lights(1);
     let mut second = scene.objects[0].clone();
-    second.mesh = builtin("sphere?rings=8&segments=12&triangles=true").expect("a built-in mesh").into();
+    second.mesh = builtin("sphere?rings=8&segments=12&triangles=true")
+        .expect("a built-in mesh")
+        .into();
     second.transform = DAffine3::from_translation(DVec3::new(0.7, 0.4, -0.3));
-    second.material = Some(Material { diffuse: [0.2, 0.7, 0.3], shininess: 7.5, ..Material::default() });
+    second.material = Some(Material {
+        diffuse: [0.2, 0.7, 0.3],
+        shininess: 7.5,
+        ..Material::default()
+    });
     scene.objects.push(second);
     scene
 }
@@ -38,7 +46,10 @@ fn lights(count: usize) -> Vec<Light> {
 
 fn near_light(scene: &mut Scene, falloff: Falloff) {
     let place = scene.camera.eye + DVec3::new(2.0, 1.5, 0.5);
-    scene.lights = vec![Light { falloff, ..Light::positional(place, [0.8, 0.7, 0.6]) }];
+    scene.lights = vec![Light {
+        falloff,
+        ..Light::positional(place, [0.8, 0.7, 0.6])
+    }];
     scene.local_viewer = true;
 }
 
@@ -55,27 +66,48 @@ const KINDS: [Kind; 20] = [
     ("triangles", |scene| drop(scene.objects.remove(0))),
     ("two lights", |scene| scene.lights = lights(2)),
     ("four lights", |scene| scene.lights = lights(4)),
-    ("more lights than groups take", |scene| scene.lights = lights(6)),
+    ("more lights than groups take", |scene| {
+        scene.lights = lights(6)
+    }),
     ("no light", |scene| scene.lights.clear()),
-    ("halfway vectors", |scene| scene.specular = SpecularModel::Blinn),
+    ("halfway vectors", |scene| {
+        scene.specular = SpecularModel::Blinn
+    }),
     ("sharp halfway vectors", |scene| {
         scene.specular = SpecularModel::Blinn;
-        scene.objects[0].material = Some(Material { shininess: 120.0, ..Material::default() });
+        scene.objects[0].material = Some(Material {
+            shininess: 120.0,
+            ..Material::default()
+        });
     }),
-    ("a light and the eye near", |scene| near_light(scene, Falloff::None)),
-    ("a light that falls off", |scene| near_light(scene, Falloff::Attenuation(0.2))),
-    ("perspective", |scene| scene.interpolation = Interpolation::Perspective),
+    ("a light and the eye near", |scene| {
+        near_light(scene, Falloff::None)
+    }),
+    ("a light that falls off", |scene| {
+        near_light(scene, Falloff::Attenuation(0.2))
+    }),
+    ("perspective", |scene| {
+        scene.interpolation = Interpolation::Perspective
+    }),
     ("perspective, a light near, clipped", |scene| {
         near_light(scene, Falloff::None);
         (scene.interpolation, scene.camera.near) = (Interpolation::Perspective, 2.1);
     }),
-    ("painter", |scene| scene.hidden_surfaces = HiddenSurfaces::Painter(PainterKey::default())),
-    ("in the order of drawing", |scene| scene.hidden_surfaces = HiddenSurfaces::DrawOrder),
+    ("painter", |scene| {
+        scene.hidden_surfaces = HiddenSurfaces::Painter(PainterKey::default())
+    }),
+    ("in the order of drawing", |scene| {
+        scene.hidden_surfaces = HiddenSurfaces::DrawOrder
+    }),
     ("a depth buffer of 16 bits", |scene| {
         scene.hidden_surfaces = buffer(DepthBits::Sixteen, DepthSource::Interpolated);
     }),
-    ("depth per sample", |scene| scene.hidden_surfaces = buffer(DepthBits::ThirtyTwo, DepthSource::PerSample)),
-    ("clipped in the cube", |scene| (scene.clipping, scene.camera.near) = (Clipping::NdcCube, 2.1)),
+    ("depth per sample", |scene| {
+        scene.hidden_surfaces = buffer(DepthBits::ThirtyTwo, DepthSource::PerSample)
+    }),
+    ("clipped in the cube", |scene| {
+        (scene.clipping, scene.camera.near) = (Clipping::NdcCube, 2.1)
+    }),
     ("four samples a pixel", |scene| scene.samples = 2),
     ("sRGB", |scene| scene.encoding = Encoding::Srgb),
 ];

@@ -15,13 +15,16 @@ const HEIGHT: u32 = 270;
 fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, usize) {
     let (mut texels, mut parts) = (Vec::new(), 0);
     let Ok(()) = variant.render_rows(frame, renderer, |rows| {
-        assert!(!rows.is_empty() && rows.len().is_multiple_of(frame.picture_width()), "whole rows");
+        assert!(
+            !rows.is_empty() && rows.len().is_multiple_of(frame.picture_width()),
+            "whole rows"
+        );
         texels.extend_from_slice(rows);
         parts += 1;
         Ok::<(), Infallible>(())
     });
-    let picture =
-        Picture::from_texels(frame.picture_width(), frame.picture_height(), texels).expect("every texel once");
+    let picture = Picture::from_texels(frame.picture_width(), frame.picture_height(), texels)
+        .expect("every texel once");
     (picture, parts)
 }
 
@@ -34,8 +37,13 @@ fn rows_make_the_picture() {
                 let mut whole = Picture::new(0, 0, [0; 4]);
                 variant.render_with(&frame, renderer, &mut whole);
                 for threads in [1, 2] {
-                    let (picture, parts) = on_threads(threads, || streamed(&variant, &frame, renderer));
-                    let who = format!("{kind}, {} by {}, {threads} threads", variant.info().name, name(renderer));
+                    let (picture, parts) =
+                        on_threads(threads, || streamed(&variant, &frame, renderer));
+                    let who = format!(
+                        "{kind}, {} by {}, {threads} threads",
+                        variant.info().name,
+                        name(renderer)
+                    );
                     assert!(picture == whole, "{who}: the rows make another picture");
                     in_parts += usize::from(parts > 1);
                 }
@@ -54,7 +62,12 @@ fn nothing_is_drawn_for_a_taker_that_failed() {
                 calls += 1;
                 Err("full")
             });
-            assert_eq!((taken, calls), (Err("full"), 1), "{kind} by {}", name(renderer));
+            assert_eq!(
+                (taken, calls),
+                (Err("full"), 1),
+                "{kind} by {}",
+                name(renderer)
+            );
         }
     }
 }

@@ -13,14 +13,25 @@ use fastphong::shader::{METHODS, Variant};
 fn bytes(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, Picture<[u32; 4]>) {
     let mut stored = Picture::new(frame.picture_width(), frame.picture_height(), [7u8; 4]);
     variant.render_with(frame, renderer, &mut stored);
-    (stored, variant.render_linear_with(frame, renderer).map(|texel| texel.map(f32::to_bits)))
+    (
+        stored,
+        variant
+            .render_linear_with(frame, renderer)
+            .map(|texel| texel.map(f32::to_bits)),
+    )
 }
 
 /// Every method on every kind of frame by every engine: 1, 2, 3 and 7 threads, and again, draw the same bytes.
 #[test]
 fn threads_change_no_byte() {
-    let pools: Vec<_> =
-        [2, 3, 7].map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("threads")).into();
+    let pools: Vec<_> = [2, 3, 7]
+        .map(|n| {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(n)
+                .build()
+                .expect("threads")
+        })
+        .into();
     for (kind, frame) in kinds(45, 70) {
         for variant in METHODS.iter().map(|entry| entry.variant()) {
             for renderer in renderers() {
@@ -28,7 +39,11 @@ fn threads_change_no_byte() {
                 for pool in &pools {
                     let again = pool.install(|| bytes(&variant, &frame, renderer));
                     let who = format!("{kind}, {} by {}", variant.info().name, name(renderer));
-                    assert!(again == one, "{who}: {} threads draw another picture", pool.current_num_threads());
+                    assert!(
+                        again == one,
+                        "{who}: {} threads draw another picture",
+                        pool.current_num_threads()
+                    );
                 }
             }
         }
@@ -40,19 +55,30 @@ fn threads_change_no_byte() {
 #[test]
 fn bands_leave_no_seams() {
     for height in [1, 15, 16, 17, 31, 32, 33] {
-        let mut scene = Scene::of_mesh(builtin("sphere?rings=9&segments=14").expect("a built-in mesh"));
+        let mut scene =
+            Scene::of_mesh(builtin("sphere?rings=9&segments=14").expect("a built-in mesh"));
         (scene.width, scene.height) = (37, height);
         let frame = scene.frame().expect("a frame");
         for variant in METHODS.iter().map(|entry| entry.variant()) {
             let drawn = covered(&variant.render_linear(&frame));
             assert!(drawn.texels().contains(&true));
             for renderer in renderers() {
-                let who = || format!("{height} rows, {} by {}", variant.info().name, name(renderer));
+                let who = || {
+                    format!(
+                        "{height} rows, {} by {}",
+                        variant.info().name,
+                        name(renderer)
+                    )
+                };
                 let one = on_threads(1, || bytes(&variant, &frame, renderer));
                 assert_eq!(one.1.map(|texel| texel[3] != 0), drawn, "{}", who());
                 for threads in [2, 3] {
                     let again = on_threads(threads, || bytes(&variant, &frame, renderer));
-                    assert!(again == one, "{}: {threads} threads draw another picture", who());
+                    assert!(
+                        again == one,
+                        "{}: {threads} threads draw another picture",
+                        who()
+                    );
                 }
             }
         }

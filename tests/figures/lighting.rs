@@ -10,7 +10,9 @@ fn illumination_adds_its_terms_and_obeys_the_cosine() {
     assert!(value(&content, "sum") < 0.01);
     // The normal of the turned face is rounded to f32 once, its product with the light a few times.
     assert!((value(&content, "cube") - 0.5).abs() < 4.0 * f64::from(f32::EPSILON));
-    assert!(value(&content, "cosine") < 4.0 * f64::from(f32::EPSILON) && value(&content, "kd") < 1e-6);
+    assert!(
+        value(&content, "cosine") < 4.0 * f64::from(f32::EPSILON) && value(&content, "kd") < 1e-6
+    );
 }
 
 #[test]
@@ -48,7 +50,9 @@ fn attenuation_clips_or_blackens_where_theory_says() {
 #[test]
 fn constant_vectors_lose_what_six_products_keep() {
     let content = made("constant-vectors");
-    assert!(value(&content, "coarse") > 1.0 && agreement(&content, "coarse") == Agreement::Contradicts);
+    assert!(
+        value(&content, "coarse") > 1.0 && agreement(&content, "coarse") == Agreement::Contradicts
+    );
     // The vectors are off by half of a polygon at most: an error of first order in its size, of which a smooth surface
     // cancels nothing in the mean square.
     let order = value(&content, "order");

@@ -15,39 +15,79 @@ use std::collections::BTreeSet;
 fn made(name: &str) -> Content {
     let figure = Figure::find(name).expect("it stands in the table");
     let content = figure.make().expect("what it draws can be drawn");
-    assert!(!content.blocks.is_empty() && !content.findings.is_empty(), "{name} shows nothing");
+    assert!(
+        !content.blocks.is_empty() && !content.findings.is_empty(),
+        "{name} shows nothing"
+    );
     let mut keys = BTreeSet::new();
     for finding in &content.findings {
-        assert!(finding.value.is_finite(), "{name}, {}: {}", finding.key, finding.value);
-        assert!(keys.insert(&finding.key), "{name} has two findings called {}", finding.key);
-        assert!(finding.verdict.ends_with('.') && !finding.label.is_empty(), "{name}, {}: no sentence", finding.key);
+        assert!(
+            finding.value.is_finite(),
+            "{name}, {}: {}",
+            finding.key,
+            finding.value
+        );
+        assert!(
+            keys.insert(&finding.key),
+            "{name} has two findings called {}",
+            finding.key
+        );
+        assert!(
+            finding.verdict.ends_with('.') && !finding.label.is_empty(),
+            "{name}, {}: no sentence",
+            finding.key
+        );
     }
     for block in &content.blocks {
         match block {
             Block::Text(text) => assert!(!text.is_empty()),
-            Block::Pictures { shown, .. } => assert!(shown.iter().all(|s| !s.alt.is_empty() && !s.caption.is_empty())),
+            Block::Pictures { shown, .. } => assert!(
+                shown
+                    .iter()
+                    .all(|s| !s.alt.is_empty() && !s.caption.is_empty())
+            ),
             Block::Plot(plot) => {
-                assert!((1..=6).contains(&plot.series.len()), "{name}, {}: curves that look alike", plot.title);
-                assert!(plot.series.iter().all(|s| s.points.len() > 1), "{name}, {}: an empty curve", plot.title);
+                assert!(
+                    (1..=6).contains(&plot.series.len()),
+                    "{name}, {}: curves that look alike",
+                    plot.title
+                );
+                assert!(
+                    plot.series.iter().all(|s| s.points.len() > 1),
+                    "{name}, {}: an empty curve",
+                    plot.title
+                );
             }
-            Block::Table { head, rows } => assert!(rows.iter().all(|row| row.len() == head.len()), "{name}"),
+            Block::Table { head, rows } => {
+                assert!(rows.iter().all(|row| row.len() == head.len()), "{name}")
+            }
         }
     }
     let drawn = LectureFigure::new(figure, content.clone()).expect("its pictures can be written");
     let page = figures_page(&[drawn], &["fastphong".into()]);
-    assert!(page.len() < 200_000, "{name} takes {} bytes of a page", page.len());
+    assert!(
+        page.len() < 200_000,
+        "{name} takes {} bytes of a page",
+        page.len()
+    );
     content
 }
 
 /// The value of a finding.
 #[track_caller]
 fn value(content: &Content, key: &str) -> f64 {
-    content.finding(key).unwrap_or_else(|| panic!("no finding {key}")).value
+    content
+        .finding(key)
+        .unwrap_or_else(|| panic!("no finding {key}"))
+        .value
 }
 
 #[track_caller]
 fn agreement(content: &Content, key: &str) -> Agreement {
-    content.finding(key).unwrap_or_else(|| panic!("no finding {key}")).agreement
+    content
+        .finding(key)
+        .unwrap_or_else(|| panic!("no finding {key}"))
+        .agreement
 }
 
 #[test]
@@ -60,10 +100,27 @@ fn every_figure_has_a_name_and_a_test_of_its_own() {
     ];
     let mut names = BTreeSet::new();
     for figure in FIGURES {
-        assert!(names.insert(figure.name), "two figures are called {}", figure.name);
-        assert!(figure.name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'));
+        assert!(
+            names.insert(figure.name),
+            "two figures are called {}",
+            figure.name
+        );
+        assert!(
+            figure
+                .name
+                .chars()
+                .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
+        );
         let call = format!("made(\"{}\")", figure.name);
-        assert!(sources.iter().any(|source| source.contains(&call)), "no test makes {}", figure.name);
+        assert!(
+            sources.iter().any(|source| source.contains(&call)),
+            "no test makes {}",
+            figure.name
+        );
     }
-    assert!(Figure::find("exercise").unwrap_err().contains("did you mean `exercises`?"));
+    assert!(
+        Figure::find("exercise")
+            .unwrap_err()
+            .contains("did you mean `exercises`?")
+    );
 }

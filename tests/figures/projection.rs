@@ -26,15 +26,26 @@ fn perspective() {
         // Half-way between the near rim, 2.5 away, and the far one, 10.5 away, β is 10.5 / 13 = 0.81 and the screen has ½: it
         // is off by 2.5 of eight squares. From 0 at a rim to there the error passes ½ to 1½ squares, where most pixels are
         // wrong, on at least a quarter of the way: more than an eighth of all.
-        assert!(value(&content, key) > 12.5, "{key}: {}", value(&content, key));
-        assert_eq!(agreement(&content, key), Agreement::Confirms, "{key}: the slide asks what is wrong");
+        assert!(
+            value(&content, key) > 12.5,
+            "{key}: {}",
+            value(&content, key)
+        );
+        assert_eq!(
+            agreement(&content, key),
+            Agreement::Confirms,
+            "{key}: the slide asks what is wrong"
+        );
     }
     // Corners are snapped to 1/512 pixel, and a square is some pixels long: less than 1 of 100 pixels is that near to a line.
     assert!(value(&content, "wrong-space") < 0.5);
     assert_eq!(agreement(&content, "wrong-space"), Agreement::Confirms);
     // T2: half a pixel from A, where the weight should be nearly 1: 1 − β − β.
     assert!(value(&content, "printed-weight") > 0.9);
-    assert_eq!(agreement(&content, "printed-weight"), Agreement::Contradicts);
+    assert_eq!(
+        agreement(&content, "printed-weight"),
+        Agreement::Contradicts
+    );
     // 128 additions of an f32 below 1, for value and weight each, over a weight of ¼ at least: 2 · 4 · 128 · 2⁻²⁵.
     assert!(value(&content, "weight") < 1024.0 / f64::from(1 << 25));
     // T6: (f + n)/(f − n) − 4fn/((f − n)(f + n)) with n = 1, f = 40: (41² − 160)/(39 · 41).
@@ -45,11 +56,15 @@ fn perspective() {
 #[test]
 fn cs171() {
     let content = made("cs171");
-    let [phong, gouraud, printed] = ["phong", "gouraud", "printed"].map(|key| value(&content, &format!("peak-{key}")));
+    let [phong, gouraud, printed] =
+        ["phong", "gouraud", "printed"].map(|key| value(&content, &format!("peak-{key}")));
     // Cells are 22.5° by 25.7°, and cos 8° to the power of 60 is ½: the highlight is smaller than a cell. Unless its middle
     // is within 2° of a vertex or an edge, where cos 2° to the power of 60 is 0.96, more than 4 % of its 115 levels (½ · 0.9)
     // are lost between vertices: 4.6.
-    assert!(gouraud < phong - 4.6 && printed < phong - 4.6, "{phong}, {gouraud}, {printed}");
+    assert!(
+        gouraud < phong - 4.6 && printed < phong - 4.6,
+        "{phong}, {gouraud}, {printed}"
+    );
     // A pixel loses at least what the brightest one does.
     assert!(value(&content, "lost") >= phong - printed);
     assert_eq!(agreement(&content, "peak-gouraud"), Agreement::Confirms);

@@ -16,10 +16,16 @@ fn exercises() {
     assert_eq!(value(&content, "multiplications"), 1.0);
     // Two roundings of 2⁻²⁴ a pixel, over 1023 steps; and they do add up: a walk without drift is not a walk in f32.
     let drift = value(&content, "drift");
-    assert!(drift > 1e-7 && drift < 2.0 * 1023.0 / f64::from(1 << 24), "{drift}");
+    assert!(
+        drift > 1e-7 && drift < 2.0 * 1023.0 / f64::from(1 << 24),
+        "{drift}"
+    );
     // The same over 230 pixels at most, and depth itself off by as many roundings, times the density 2.5.
     let levels = value(&content, "fog");
-    assert!(levels < 255.0 * (2.0 + 2.5) * 230.0 / f64::from(1 << 24), "{levels}");
+    assert!(
+        levels < 255.0 * (2.0 + 2.5) * 230.0 / f64::from(1 << 24),
+        "{levels}"
+    );
     for key in ["sine", "multiplications", "drift", "fog"] {
         assert_eq!(agreement(&content, key), Agreement::Confirms, "{key}");
     }
@@ -33,9 +39,18 @@ fn square() {
         // black one at 90°. Half-way, Gouraud's intensity is ½, that of a normal at 45° is √½: the picture changes by half
         // of white, or by 0.29 of it. Both ways to cut differ there in the same way. The pixels beside the diagonal are
         // half a pixel away, which is less than 3 %.
-        let least = 255.0 * (if method == "gouraud" { 0.5 } else { 1.0 - 0.5f64.sqrt() } - 0.03);
+        let least = 255.0
+            * (if method == "gouraud" {
+                0.5
+            } else {
+                1.0 - 0.5f64.sqrt()
+            } - 0.03);
         for key in [format!("square-{method}"), format!("diagonals-{method}")] {
-            assert!((least..160.0).contains(&value(&content, &key)), "{key}: {}", value(&content, &key));
+            assert!(
+                (least..160.0).contains(&value(&content, &key)),
+                "{key}: {}",
+                value(&content, &key)
+            );
         }
         let triangles = value(&content, &format!("triangles-{method}"));
         match method {
@@ -44,10 +59,20 @@ fn square() {
             // Both orientations round an affine function, over 120 rows and 120 pixels: N, J and K are each off by
             // 240 · 2⁻²⁴; a normal is not shorter than its z, 0.4 here, so that the intensity is off by √3 / 0.4 times that
             // in each. Fast Phong adds e²/2 of the second step of Newton's, after a change of d by 2 % at most: 2e-8.
-            _ => assert!(triangles < 255.0 * 2.0 * 4.4 * 240.0 / f64::from(1 << 24), "{method}: {triangles}"),
+            _ => assert!(
+                triangles < 255.0 * 2.0 * 4.4 * 240.0 / f64::from(1 << 24),
+                "{method}: {triangles}"
+            ),
         }
-        let expected = if method == "slerp-phong" { Agreement::Contradicts } else { Agreement::Confirms };
-        assert_eq!(agreement(&content, &format!("triangles-{method}")), expected);
+        let expected = if method == "slerp-phong" {
+            Agreement::Contradicts
+        } else {
+            Agreement::Confirms
+        };
+        assert_eq!(
+            agreement(&content, &format!("triangles-{method}")),
+            expected
+        );
     }
     assert!(value(&content, "normals-square") > 10.0);
     // As the intensities: 2 · 4.4 · 240 · 2⁻²⁴ = 1.26e-4 of a radian.
@@ -63,13 +88,22 @@ fn mach_bands() {
         // third derivative, n³/R³ of 255 levels at most for the highlight, over 5³ pixels: 0.15.
         let jump = value(&content, &format!("value-{method}"));
         assert!(jump < 0.15, "{method}: {jump}");
-        assert_eq!(agreement(&content, &format!("value-{method}")), Agreement::Confirms);
+        assert_eq!(
+            agreement(&content, &format!("value-{method}")),
+            Agreement::Confirms
+        );
         // T4: the slope jumps, by far more than what the measurement makes of the smooth cylinder.
         let slope = value(&content, &format!("slope-{method}"));
         assert!(slope > 4.0 * control, "{method}: {slope} against {control}");
-        assert_eq!(agreement(&content, &format!("slope-{method}")), Agreement::Contradicts);
+        assert_eq!(
+            agreement(&content, &format!("slope-{method}")),
+            Agreement::Contradicts
+        );
     }
-    assert!(value(&content, "value-flat") > 10.0, "L21 2: discontinuities along edges");
+    assert!(
+        value(&content, "value-flat") > 10.0,
+        "L21 2: discontinuities along edges"
+    );
     // Chords of intensities cut off the highlight, of which interpolated normals keep the shape: theirs bend less.
     assert!(value(&content, "slope-gouraud") > value(&content, "slope-naive-phong"));
 }
@@ -77,17 +111,26 @@ fn mach_bands() {
 #[test]
 fn duff() {
     let content = made("duff");
-    let [gouraud, naive, slerp] = ["gouraud", "naive-phong", "slerp-phong"].map(|key| value(&content, key));
+    let [gouraud, naive, slerp] =
+        ["gouraud", "naive-phong", "slerp-phong"].map(|key| value(&content, key));
     // φ₁ = 90°, φ₂ = 20°, θ = 40°, two pixels a degree: 255 sin 40° (sin 20°/40 − 1/180) = 0.491. The parabolas through
     // five pixels are off by their third derivative, which is 1e-4 of that over a facet of 40 pixels; 2 % are allowed.
-    let expected = 255.0 * 40f64.to_radians().sin() * (20f64.to_radians().sin() / 40.0 - 1.0 / 180.0);
+    let expected =
+        255.0 * 40f64.to_radians().sin() * (20f64.to_radians().sin() / 40.0 - 1.0 / 180.0);
     assert!((value(&content, "closed-form") - expected).abs() < 1e-9);
-    assert!((naive - expected).abs() < 0.02 * expected, "{naive} instead of {expected}");
+    assert!(
+        (naive - expected).abs() < 0.02 * expected,
+        "{naive} instead of {expected}"
+    );
     // Gouraud: 255 ((cos 20° − cos 40°)/40 − cos 40°/180), as the far left corner is dark. Both sides are lines, and
     // parabolas are exact on them; 64 + 240 roundings of 2⁻²⁴ · 255 levels over four pixels are below 0.002.
-    let chords =
-        255.0 * ((20f64.to_radians().cos() - 40f64.to_radians().cos()) / 40.0 - 40f64.to_radians().cos() / 180.0);
-    assert!((gouraud - chords).abs() < 0.002, "{gouraud} instead of {chords}");
+    let chords = 255.0
+        * ((20f64.to_radians().cos() - 40f64.to_radians().cos()) / 40.0
+            - 40f64.to_radians().cos() / 180.0);
+    assert!(
+        (gouraud - chords).abs() < 0.002,
+        "{gouraud} instead of {chords}"
+    );
     assert!(naive > 10.0 * gouraud.abs(), "Duff's surprise");
     // The circle itself does not bend; the same roundings, and the third derivative of a cosine of two pixels a degree.
     assert!(slerp.abs() < 0.003, "{slerp}");
@@ -111,7 +154,10 @@ fn newton() {
     assert!(value(&content, "limit-1") < value(&content, "limit-2"));
     assert!(value(&content, "limit-2") <= value(&content, "limit-3"));
     let [one, two, three] = [1, 2, 3].map(|steps| value(&content, &format!("opposed-{steps}")));
-    assert!(one > two && two > three && one > 10.0, "{one} {two} {three}");
+    assert!(
+        one > two && two > three && one > 10.0,
+        "{one} {two} {three}"
+    );
     assert_eq!(value(&content, "not-finite"), 0.0);
 }
 
@@ -130,7 +176,8 @@ fn slerp() {
     assert!(goldman < 4.0 * 1024.0 / f64::from(1 << 23), "{goldman}");
     // Chebyshev's recurrence turns a rounding ε of 2 cos δ into an angle ε / (2 δ) at each step: with ε up to 2⁻²⁴ and
     // δ = 30°/1024 that is 6e-5 a pixel and up to 6e-2 in the end. The difference form keeps α to a relative 2⁻²⁴.
-    let [chebyshev, difference] = ["drift-chebyshev", "drift-difference"].map(|key| value(&content, key));
+    let [chebyshev, difference] =
+        ["drift-chebyshev", "drift-difference"].map(|key| value(&content, key));
     assert!(chebyshev > 20.0 * goldman && chebyshev < 0.2, "{chebyshev}");
     assert!(difference < goldman, "{difference} {goldman}");
     // T25: in f32 the cosine of 0.02° is 1 or its neighbour, 1 − 2⁻²⁴: the angle is 0 or at least 0.0198° · k.
@@ -143,12 +190,27 @@ fn slerp() {
 #[test]
 fn fast_vs_naive() {
     let content = made("fast-vs-naive");
-    assert!(value(&content, "default") <= 1.0, "the default steps are chosen so that no pixel differs by a level");
+    assert!(
+        value(&content, "default") <= 1.0,
+        "the default steps are chosen so that no pixel differs by a level"
+    );
     assert!(value(&content, "one-step") > value(&content, "default"));
     assert!(value(&content, "one-step") >= value(&content, "one-step-sphere"));
     // L21 4.1 and 4.2: one root a pixel, and none; (4.2), (3.6): three additions for a normal, one a channel.
-    assert_eq!((value(&content, "roots-naive"), value(&content, "roots-fast")), (1.0, 0.0));
-    assert_eq!((value(&content, "walk-naive"), value(&content, "walk-gouraud")), (3.0, 3.0));
+    assert_eq!(
+        (
+            value(&content, "roots-naive"),
+            value(&content, "roots-fast")
+        ),
+        (1.0, 0.0)
+    );
+    assert_eq!(
+        (
+            value(&content, "walk-naive"),
+            value(&content, "walk-gouraud")
+        ),
+        (3.0, 3.0)
+    );
     // L21 4.4: four additions and eight multiplications, and one and two more for each of J and K.
     assert_eq!(value(&content, "walk-slerp"), 18.0);
     assert_eq!(agreement(&content, "walk-slerp"), Agreement::Confirms);
@@ -158,11 +220,16 @@ fn fast_vs_naive() {
 fn frequency() {
     let content = made("frequency");
     for end in ["coarsest", "finest"] {
-        let [face, vertex, pixel] = ["face", "vertex", "pixel"].map(|f| value(&content, &format!("{f}-{end}")));
-        assert!(face > vertex && vertex > pixel, "{end}: {face} {vertex} {pixel}");
+        let [face, vertex, pixel] =
+            ["face", "vertex", "pixel"].map(|f| value(&content, &format!("{f}-{end}")));
+        assert!(
+            face > vertex && vertex > pixel,
+            "{end}: {face} {vertex} {pixel}"
+        );
     }
     for frequency in ["face", "vertex", "pixel"] {
-        let [coarse, fine] = ["coarsest", "finest"].map(|end| value(&content, &format!("{frequency}-{end}")));
+        let [coarse, fine] =
+            ["coarsest", "finest"].map(|end| value(&content, &format!("{frequency}-{end}")));
         // Sixteen times as many bands: the error of one colour a face is at least in proportion to a face's size.
         assert!(coarse > 8.0 * fine, "{frequency}: {coarse} {fine}");
     }

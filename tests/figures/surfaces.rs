@@ -8,13 +8,21 @@ fn newell() {
     let content = made("newell");
     // Corners are off by 2⁻²⁵ at most along each axis, over a polygon of radius 1 or more than half of it.
     let bound = (3f64.sqrt() * 4.0 / f64::from(1 << 25)).to_degrees();
-    assert!(value(&content, "newell") < bound, "{} over {bound}", value(&content, "newell"));
+    assert!(
+        value(&content, "newell") < bound,
+        "{} over {bound}",
+        value(&content, "newell")
+    );
     assert!(value(&content, "area") < 3f64.sqrt() * 8.0 / f64::from(1 << 25));
     // The cross product of two edges of length 1 is off by a few roundings of 2⁻²⁴.
     assert!(value(&content, "hexagon") < 10.0 * bound);
     // L21 1.1: edges of 1e-6 are 17 units of 2⁻²⁴ long, which turns the normal by degrees; collinear ones have none.
     for key in ["short", "collinear", "nearly"] {
-        assert!(value(&content, key) > 1.0, "{key}: {}", value(&content, key));
+        assert!(
+            value(&content, key) > 1.0,
+            "{key}: {}",
+            value(&content, key)
+        );
         assert_eq!(agreement(&content, key), Agreement::Confirms);
     }
     // T17: the sign.
@@ -34,7 +42,10 @@ fn normals_are_averages_and_shorten_in_between() {
     // Cells of 45° by 30°: in the middle of one at most 1 − cos 22.5° cos 15° is lost, and most of it beside the equator.
     let largest = 100.0 * (1.0 - 22.5f64.to_radians().cos() * 15.0f64.to_radians().cos());
     let darkened = value(&content, "darkened");
-    assert!((0.5 * largest..=largest + 0.1).contains(&darkened), "{darkened} of {largest}");
+    assert!(
+        (0.5 * largest..=largest + 0.1).contains(&darkened),
+        "{darkened} of {largest}"
+    );
 }
 
 #[test]
@@ -53,21 +64,36 @@ fn normals_want_the_inverse_transpose() {
 fn painter() {
     let content = made("painter");
     for key in ["ring-wrong", "ring-best-order", "cutting-wrong"] {
-        assert!(value(&content, key) > 50.0, "{key}: {}", value(&content, key));
+        assert!(
+            value(&content, key) > 50.0,
+            "{key}: {}",
+            value(&content, key)
+        );
     }
     assert_eq!(value(&content, "ring-cycle"), 3.0);
     // Three polygons, each of which meets the two others.
     assert_eq!(value(&content, "cutting-pairs"), 3.0);
-    assert_eq!(value(&content, "order"), 0.0, "no two polygons have equal depth at a pixel");
+    assert_eq!(
+        value(&content, "order"),
+        0.0,
+        "no two polygons have equal depth at a pixel"
+    );
 }
 
 #[test]
 fn depth() {
     let content = made("depth");
-    assert!(value(&content, "fighting-16") > 100.0, "{}", value(&content, "fighting-16"));
+    assert!(
+        value(&content, "fighting-16") > 100.0,
+        "{}",
+        value(&content, "fighting-16")
+    );
     assert_eq!(value(&content, "fighting-24"), 0.0);
     assert_eq!(agreement(&content, "ways"), Agreement::Confirms);
-    assert!(value(&content, "ways") > 0.0, "two ways that are one way show nothing");
+    assert!(
+        value(&content, "ways") > 0.0,
+        "two ways that are one way show nothing"
+    );
     // z(2n) in 0..1 is f/(f − n) · (1 − n/2n) = f/(2 (f − n)), and f is 500 n.
     assert!((value(&content, "half") - 0.5 * 500.0 / 499.0).abs() < 1e-12);
     // z(f/2) = f/(f − n) (1 − 2n/f) = 498/499, and half-way is (f/2 − n)/(f − n) = 249/499; twice that in −1..1.
@@ -79,7 +105,11 @@ fn supersampling() {
     let content = made("supersampling");
     // One sample gives 0 or 1 for shares that are spread between: an error of √(1/12) = 0.29 at least for evenly spread
     // shares. With n × n the error is that of the edge within a row of samples, below 1/n of it.
-    assert!(value(&content, "share") > 8.0, "{}", value(&content, "share"));
+    assert!(
+        value(&content, "share") > 8.0,
+        "{}",
+        value(&content, "share")
+    );
     assert_eq!(agreement(&content, "share"), Agreement::Confirms);
     assert_eq!(value(&content, "linear"), 188.0, "the sRGB level of ½");
 }

@@ -43,7 +43,15 @@ pub fn shipped() -> Vec<(String, PathBuf)> {
     let mut scenes: Vec<(String, PathBuf)> = files
         .map(|entry| entry.expect("a readable folder").path())
         .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .map(|path| (path.file_stem().expect("a name").to_string_lossy().into_owned(), path))
+        .map(|path| {
+            (
+                path.file_stem()
+                    .expect("a name")
+                    .to_string_lossy()
+                    .into_owned(),
+                path,
+            )
+        })
         .collect();
     scenes.sort();
     assert!(scenes.len() >= 8, "at least eight scenes are shipped");
@@ -58,21 +66,39 @@ pub fn scene(path: &Path, size: Option<(i64, i64)>) -> Scene {
         file.image.height = Some(height.into());
     }
     let load = |spec: &str, folder: &Path| match spec.strip_prefix("builtin:") {
-        Some(spec) => builtin(spec).map(|mesh| (Arc::new(mesh), vec![])).map_err(|e| e.to_string()),
-        None => load_obj(&folder.join(spec)).map(|l| (Arc::new(l.mesh), l.warnings)).map_err(|e| e.to_string()),
+        Some(spec) => builtin(spec)
+            .map(|mesh| (Arc::new(mesh), vec![]))
+            .map_err(|e| e.to_string()),
+        None => load_obj(&folder.join(spec))
+            .map(|l| (Arc::new(l.mesh), l.warnings))
+            .map_err(|e| e.to_string()),
     };
     file.resolve(load).unwrap_or_else(|e| panic!("{e}")).scene
 }
 
 /// A light from straight ahead: the diffuse term of a normal (√(1−i²), 0, i) is i, and there is nothing else.
 pub fn plain_lighting() -> Lighting {
-    let material = Material { ambient: [0.0; 3], diffuse: [1.0; 3], specular: [0.0; 3], shininess: 1.0 };
-    Lighting::new(&material, [0.0; 3], &[Light::directional(DVec3::Z, [1.0; 3])], DVec3::Z)
+    let material = Material {
+        ambient: [0.0; 3],
+        diffuse: [1.0; 3],
+        specular: [0.0; 3],
+        shininess: 1.0,
+    };
+    Lighting::new(
+        &material,
+        [0.0; 3],
+        &[Light::directional(DVec3::Z, [1.0; 3])],
+        DVec3::Z,
+    )
 }
 
 /// A normal whose colour under [`plain_lighting`] is `intensity`.
 pub fn normal_of(intensity: f32) -> [f32; 3] {
-    [(1.0 - intensity * intensity).max(0.0).sqrt(), 0.0, intensity]
+    [
+        (1.0 - intensity * intensity).max(0.0).sqrt(),
+        0.0,
+        intensity,
+    ]
 }
 
 /// A corner at sub-pixel (x, y) with a depth and an intensity under [`plain_lighting`].
@@ -105,7 +131,11 @@ pub fn add(builder: &mut FrameBuilder, material: u32, source: u32, corners: &[Co
 /// A frame of polygons given by their corners.
 pub fn frame(width: u32, height: u32, depth_test: bool, polygons: &[Vec<Corner>]) -> Frame {
     let mut builder = FrameBuilder::new(width, height);
-    builder.hidden_surfaces(if depth_test { HiddenSurfaces::default() } else { HiddenSurfaces::DrawOrder });
+    builder.hidden_surfaces(if depth_test {
+        HiddenSurfaces::default()
+    } else {
+        HiddenSurfaces::DrawOrder
+    });
     let material = builder.lighting(plain_lighting());
     for (number, corners) in polygons.iter().enumerate() {
         add(&mut builder, material, number as u32, corners);
@@ -118,11 +148,24 @@ pub fn frame(width: u32, height: u32, depth_test: bool, polygons: &[Vec<Corner>]
 pub fn random_polygon(random: &mut Random, width: i32, height: i32, corners: usize) -> Vec<Corner> {
     let grid = random.below(3) == 0;
     let reach = [40, 200, 2000][random.below(3) as usize];
-    let (cx, cy) = (random.below(width as u64 * 256) as i32, random.below(height as u64 * 256) as i32);
+    let (cx, cy) = (
+        random.below(width as u64 * 256) as i32,
+        random.below(height as u64 * 256) as i32,
+    );
     let mut coordinate = |middle: i32| {
         let at = middle + (random.below(2 * reach * 16) as i32 - reach as i32 * 16);
         if grid { at / 128 * 128 } else { at }
     };
-    let places: Vec<(i32, i32)> = (0..corners).map(|_| (coordinate(cx), coordinate(cy))).collect();
-    places.into_iter().map(|(x, y)| Corner { x, y, depth: random.unit(), intensity: random.unit() }).collect()
+    let places: Vec<(i32, i32)> = (0..corners)
+        .map(|_| (coordinate(cx), coordinate(cy)))
+        .collect();
+    places
+        .into_iter()
+        .map(|(x, y)| Corner {
+            x,
+            y,
+            depth: random.unit(),
+            intensity: random.unit(),
+        })
+        .collect()
 }

@@ -12,7 +12,12 @@ use fastphong::walk::Newton;
 
 /// Every engine on every instruction set that this machine has, the lecture's own form first.
 pub fn renderers() -> Vec<Renderer> {
-    let on = |engine| Level::available().map(move |level| Renderer { engine: Some(engine), level });
+    let on = |engine| {
+        Level::available().map(move |level| Renderer {
+            engine: Some(engine),
+            level,
+        })
+    };
     let all: Vec<Renderer> = Engine::ALL.into_iter().flat_map(on).collect();
     assert_eq!(all[0], Renderer::LECTURE);
     all
@@ -20,12 +25,19 @@ pub fn renderers() -> Vec<Renderer> {
 
 /// The name of a renderer, as the command line has it.
 pub fn name(renderer: Renderer) -> String {
-    format!("{} on {}", renderer.engine.map_or("any", Engine::name), renderer.level)
+    format!(
+        "{} on {}",
+        renderer.engine.map_or("any", Engine::name),
+        renderer.level
+    )
 }
 
 /// Does `work` on so many threads.
 pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("a pool of threads");
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(count)
+        .build()
+        .expect("a pool of threads");
     pool.install(work)
 }
 
@@ -63,7 +75,9 @@ pub fn decided(frame: &Frame, visibility: &Visibility) -> Picture<bool> {
 pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) -> bool {
     // A kept depth may fall on either side of the border between two levels.
     let level = match frame.hidden_surfaces() {
-        HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. }) => bits.most().map_or(0.0, |most| 1.0 / f64::from(most)),
+        HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. }) => {
+            bits.most().map_or(0.0, |most| 1.0 / f64::from(most))
+        }
         HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => 0.0,
     };
     visibility.depth_gap.get(x, y) > depth_rounding(frame) + level
@@ -93,7 +107,11 @@ pub fn largest_difference(
             if counts(x, y) {
                 for c in 0..3 {
                     let difference = (f64::from(a[c]) - f64::from(b[c])).abs();
-                    most = most.max(if difference.is_finite() { difference } else { f64::INFINITY });
+                    most = most.max(if difference.is_finite() {
+                        difference
+                    } else {
+                        f64::INFINITY
+                    });
                 }
             }
         }

@@ -78,7 +78,8 @@ pub enum BuiltinError {
 
 impl fmt::Display for BuiltinError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let did_you_mean = |f: &mut fmt::Formatter<'_>, suggestion: &Option<&str>| match suggestion {
+        let did_you_mean = |f: &mut fmt::Formatter<'_>, suggestion: &Option<&str>| match suggestion
+        {
             Some(name) => write!(f, "; did you mean `{name}`?"),
             None => Ok(()),
         };
@@ -90,35 +91,68 @@ impl fmt::Display for BuiltinError {
                 write_list(f, BUILTINS.iter().map(|b| b.name))?;
                 f.write_str(")")
             }
-            BuiltinError::UnknownKey { shape, key, valid, suggestion } => {
+            BuiltinError::UnknownKey {
+                shape,
+                key,
+                valid,
+                suggestion,
+            } => {
                 write!(f, "`{shape}` has no parameter `{key}`")?;
                 did_you_mean(f, suggestion)?;
-                f.write_str(if valid.is_empty() { " (it has none" } else { " (it has " })?;
+                f.write_str(if valid.is_empty() {
+                    " (it has none"
+                } else {
+                    " (it has "
+                })?;
                 write_list(f, valid.iter().copied())?;
                 f.write_str(")")
             }
-            BuiltinError::NoValue { found } => write!(f, "`{found}` should be written as key=value"),
+            BuiltinError::NoValue { found } => {
+                write!(f, "`{found}` should be written as key=value")
+            }
             BuiltinError::Repeated { key } => write!(f, "`{key}` is set twice"),
-            BuiltinError::NotA { kind, key, value } => write!(f, "`{key}` is {kind}, not `{value}`"),
-            BuiltinError::OutOfRange { key, value, min, max } => {
-                write!(f, "`{key}` goes from {min} to {max}, which `{value}` is outside of")
+            BuiltinError::NotA { kind, key, value } => {
+                write!(f, "`{key}` is {kind}, not `{value}`")
+            }
+            BuiltinError::OutOfRange {
+                key,
+                value,
+                min,
+                max,
+            } => {
+                write!(
+                    f,
+                    "`{key}` goes from {min} to {max}, which `{value}` is outside of"
+                )
             }
             BuiltinError::Conflict { key } => {
-                write!(f, "`{POLYGONS}` chooses `{key}` itself; give one or the other")
+                write!(
+                    f,
+                    "`{POLYGONS}` chooses `{key}` itself; give one or the other"
+                )
             }
             BuiltinError::NoKnot { factor } => {
-                write!(f, "`p` and `q` of a knot have no common factor, but these have {factor}")
+                write!(
+                    f,
+                    "`p` and `q` of a knot have no common factor, but these have {factor}"
+                )
             }
             BuiltinError::TooManyPolygons { count } => {
                 let most = PolygonMesh::MAX_POLYGONS;
-                write!(f, "the mesh would have {count} polygons, over the limit of {most}")
+                write!(
+                    f,
+                    "the mesh would have {count} polygons, over the limit of {most}"
+                )
             }
             BuiltinError::Mesh(error) => error.fmt(f),
         }
     }
 }
 
-fn write_list(f: &mut fmt::Formatter<'_>, names: impl Iterator<Item = &'static str>) -> fmt::Result {
+fn write_list(
+    f: &mut fmt::Formatter<'_>,
+    names: impl Iterator<Item = &'static str>,
+) -> fmt::Result {
     for (i, name) in names.enumerate() {
         write!(f, "{}{name}", if i == 0 { "" } else { ", " })?;
     }

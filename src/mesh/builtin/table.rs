@@ -6,26 +6,75 @@ use crate::mesh::shapes::{self, Grid, Terrain, Topology};
 /// The most cells along one direction; the polygon limit of a mesh is reached before in all but thin shapes.
 const MOST: f64 = (1 << 20) as f64;
 
-const fn integer(name: &'static str, default: u32, min: u32, max: f64, doc: &'static str) -> Parameter {
-    Parameter { name, kind: Kind::Integer, default: default as f64, min: min as f64, max, doc }
+const fn integer(
+    name: &'static str,
+    default: u32,
+    min: u32,
+    max: f64,
+    doc: &'static str,
+) -> Parameter {
+    Parameter {
+        name,
+        kind: Kind::Integer,
+        default: default as f64,
+        min: min as f64,
+        max,
+        doc,
+    }
 }
 
-const fn real(name: &'static str, default: f64, min: f64, max: f64, doc: &'static str) -> Parameter {
-    Parameter { name, kind: Kind::Real, default, min, max, doc }
+const fn real(
+    name: &'static str,
+    default: f64,
+    min: f64,
+    max: f64,
+    doc: &'static str,
+) -> Parameter {
+    Parameter {
+        name,
+        kind: Kind::Real,
+        default,
+        min,
+        max,
+        doc,
+    }
 }
 
 const fn switch(name: &'static str, default: bool, doc: &'static str) -> Parameter {
-    Parameter { name, kind: Kind::Bool, default: default as u8 as f64, min: 0.0, max: 1.0, doc }
+    Parameter {
+        name,
+        kind: Kind::Bool,
+        default: default as u8 as f64,
+        min: 0.0,
+        max: 1.0,
+        doc,
+    }
 }
 
 const TRIANGLES: Parameter = switch("triangles", false, "split quads into two triangles");
 const SEGMENTS: Parameter = integer("segments", 64, 3, MOST, "cells around");
 const RINGS: Parameter = integer("rings", 32, 2, MOST, "bands from pole to pole");
-const BALL: Resolution = Resolution::Grid { rows: "rings", columns: "segments", ratio: 2.0 };
-const INNER: Parameter = real("inner", 0.4, 0.05, 0.95, "radius of the corners between the points");
+const BALL: Resolution = Resolution::Grid {
+    rows: "rings",
+    columns: "segments",
+    ratio: 2.0,
+};
+const INNER: Parameter = real(
+    "inner",
+    0.4,
+    0.05,
+    0.95,
+    "radius of the corners between the points",
+);
 
 fn grid(values: &Values, topology: Topology, columns: &str, rows: &str) -> u64 {
-    Grid::new(topology, values.integer(columns), values.integer(rows), values.switch("triangles")).polygon_count()
+    Grid::new(
+        topology,
+        values.integer(columns),
+        values.integer(rows),
+        values.switch("triangles"),
+    )
+    .polygon_count()
 }
 
 fn ball(values: &Values) -> u64 {
@@ -48,14 +97,26 @@ pub const BUILTINS: &[Builtin] = &[
         parameters: &[SEGMENTS, RINGS, TRIANGLES],
         resolution: Some(BALL),
         polygon_count: ball,
-        build: |v| shapes::sphere(v.integer("segments"), v.integer("rings"), v.switch("triangles")),
+        build: |v| {
+            shapes::sphere(
+                v.integer("segments"),
+                v.integer("rings"),
+                v.switch("triangles"),
+            )
+        },
     },
     Builtin {
         name: "bumpy",
         doc: "the unit sphere with smooth bumps",
         parameters: &[
             real("amplitude", 0.15, 0.0, 0.5, "height of the bumps"),
-            real("frequency", 8.0, 0.0, 100.0, "bumps, in radians per unit of length"),
+            real(
+                "frequency",
+                8.0,
+                0.0,
+                100.0,
+                "bumps, in radians per unit of length",
+            ),
             integer("segments", 192, 3, MOST, "cells around"),
             integer("rings", 96, 2, MOST, "bands from pole to pole"),
             TRIANGLES,
@@ -64,15 +125,33 @@ pub const BUILTINS: &[Builtin] = &[
         polygon_count: ball,
         build: |v| {
             let (amplitude, frequency) = (v.real("amplitude"), v.real("frequency"));
-            shapes::bumpy(v.integer("segments"), v.integer("rings"), amplitude, frequency, v.switch("triangles"))
+            shapes::bumpy(
+                v.integer("segments"),
+                v.integer("rings"),
+                amplitude,
+                frequency,
+                v.switch("triangles"),
+            )
         },
     },
     Builtin {
         name: "superellipsoid",
         doc: "a rounded box, through a sphere, to a rounded double pyramid",
         parameters: &[
-            real("e1", 0.4, 0.05, 1.95, "shape along y: toward 0 square, 1 round, toward 2 pointed"),
-            real("e2", 0.4, 0.05, 1.95, "shape around y: toward 0 square, 1 round, toward 2 pointed"),
+            real(
+                "e1",
+                0.4,
+                0.05,
+                1.95,
+                "shape along y: toward 0 square, 1 round, toward 2 pointed",
+            ),
+            real(
+                "e2",
+                0.4,
+                0.05,
+                1.95,
+                "shape around y: toward 0 square, 1 round, toward 2 pointed",
+            ),
             integer("segments", 128, 3, MOST, "cells around"),
             integer("rings", 64, 2, MOST, "bands from pole to pole"),
             TRIANGLES,
@@ -81,7 +160,13 @@ pub const BUILTINS: &[Builtin] = &[
         polygon_count: ball,
         build: |v| {
             let (segments, rings) = (v.integer("segments"), v.integer("rings"));
-            shapes::superellipsoid(v.real("e1"), v.real("e2"), segments, rings, v.switch("triangles"))
+            shapes::superellipsoid(
+                v.real("e1"),
+                v.real("e2"),
+                segments,
+                rings,
+                v.switch("triangles"),
+            )
         },
     },
     Builtin {
@@ -94,11 +179,21 @@ pub const BUILTINS: &[Builtin] = &[
             integer("sides", 32, 3, MOST, "cells around the tube"),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Grid { rows: "sides", columns: "segments", ratio: 2.0 }),
+        resolution: Some(Resolution::Grid {
+            rows: "sides",
+            columns: "segments",
+            ratio: 2.0,
+        }),
         polygon_count: tube,
         build: |v| {
             let (segments, sides) = (v.integer("segments"), v.integer("sides"));
-            shapes::torus(v.real("major"), v.real("minor"), segments, sides, v.switch("triangles"))
+            shapes::torus(
+                v.real("major"),
+                v.real("minor"),
+                segments,
+                sides,
+                v.switch("triangles"),
+            )
         },
     },
     Builtin {
@@ -112,11 +207,22 @@ pub const BUILTINS: &[Builtin] = &[
             integer("sides", 24, 3, MOST, "cells around the tube"),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Grid { rows: "sides", columns: "segments", ratio: 16.0 }),
+        resolution: Some(Resolution::Grid {
+            rows: "sides",
+            columns: "segments",
+            ratio: 16.0,
+        }),
         polygon_count: tube,
         build: |v| {
             let (segments, sides) = (v.integer("segments"), v.integer("sides"));
-            shapes::knot(v.integer("p"), v.integer("q"), segments, sides, v.real("radius"), v.switch("triangles"))
+            shapes::knot(
+                v.integer("p"),
+                v.integer("q"),
+                segments,
+                sides,
+                v.real("radius"),
+                v.switch("triangles"),
+            )
         },
     },
     Builtin {
@@ -124,11 +230,17 @@ pub const BUILTINS: &[Builtin] = &[
         doc: "the Utah teapot, from its Bézier patches",
         parameters: &[
             integer("res", 12, 1, 1024.0, "cells along each side of a patch"),
-            switch("bottom", true, "with the bottom that the original did not have"),
+            switch(
+                "bottom",
+                true,
+                "with the bottom that the original did not have",
+            ),
             TRIANGLES,
         ],
         resolution: Some(Resolution::Single("res")),
-        polygon_count: |v| shapes::teapot_polygons(v.integer("res"), v.switch("bottom"), v.switch("triangles")),
+        polygon_count: |v| {
+            shapes::teapot_polygons(v.integer("res"), v.switch("bottom"), v.switch("triangles"))
+        },
         build: |v| shapes::teapot(v.integer("res"), v.switch("bottom"), v.switch("triangles")),
     },
     Builtin {
@@ -141,11 +253,21 @@ pub const BUILTINS: &[Builtin] = &[
             integer("rows", 16, 1, MOST, "cells along the waves"),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Grid { rows: "rows", columns: "segments", ratio: 3.0 }),
+        resolution: Some(Resolution::Grid {
+            rows: "rows",
+            columns: "segments",
+            ratio: 3.0,
+        }),
         polygon_count: |v| grid(v, Topology::Sheet, "segments", "rows"),
         build: |v| {
             let (segments, rows) = (v.integer("segments"), v.integer("rows"));
-            shapes::corrugated(v.real("waves"), v.real("amplitude"), segments, rows, v.switch("triangles"))
+            shapes::corrugated(
+                v.real("waves"),
+                v.real("amplitude"),
+                segments,
+                rows,
+                v.switch("triangles"),
+            )
         },
     },
     Builtin {
@@ -153,14 +275,30 @@ pub const BUILTINS: &[Builtin] = &[
         doc: "hills, y upward",
         parameters: &[
             real("amplitude", 0.25, 0.0, 10.0, "height of the largest hills"),
-            real("frequency", 3.0, 0.0, 1000.0, "how many of the largest hills stand along a side"),
-            integer("octaves", 4, 1, 16.0, "kinds of hills, each half as large as the one before"),
+            real(
+                "frequency",
+                3.0,
+                0.0,
+                1000.0,
+                "how many of the largest hills stand along a side",
+            ),
+            integer(
+                "octaves",
+                4,
+                1,
+                16.0,
+                "kinds of hills, each half as large as the one before",
+            ),
             integer("seed", 1, 0, u32::MAX as f64, "which terrain"),
             integer("segments", 128, 1, MOST, "cells from left to right"),
             integer("rows", 128, 1, MOST, "cells from front to back"),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Grid { rows: "rows", columns: "segments", ratio: 1.0 }),
+        resolution: Some(Resolution::Grid {
+            rows: "rows",
+            columns: "segments",
+            ratio: 1.0,
+        }),
         polygon_count: |v| grid(v, Topology::Sheet, "segments", "rows"),
         build: |v| {
             let terrain = Terrain {
@@ -169,13 +307,21 @@ pub const BUILTINS: &[Builtin] = &[
                 octaves: v.integer("octaves"),
                 seed: v.integer("seed") as u64,
             };
-            shapes::terrain(terrain, v.integer("segments"), v.integer("rows"), v.switch("triangles"))
+            shapes::terrain(
+                terrain,
+                v.integer("segments"),
+                v.integer("rows"),
+                v.switch("triangles"),
+            )
         },
     },
     Builtin {
         name: "cube",
         doc: "the cube from -1 to 1",
-        parameters: &[integer("res", 1, 1, 2048.0, "cells along each edge"), TRIANGLES],
+        parameters: &[
+            integer("res", 1, 1, 2048.0, "cells along each edge"),
+            TRIANGLES,
+        ],
         resolution: Some(Resolution::Single("res")),
         polygon_count: |v| {
             let res = v.integer("res") as u64;
@@ -250,7 +396,13 @@ pub const BUILTINS: &[Builtin] = &[
     Builtin {
         name: "figure5",
         doc: "the lecture's square whose shading changes when it is turned; for a light from +z",
-        parameters: &[real("angle", 0.0, -360.0, 360.0, "degrees, counter-clockwise")],
+        parameters: &[real(
+            "angle",
+            0.0,
+            -360.0,
+            360.0,
+            "degrees, counter-clockwise",
+        )],
         resolution: None,
         polygon_count: one,
         build: |v| shapes::figure5(v.real("angle")),

@@ -10,11 +10,29 @@ use alloc::vec;
 use glam::{DVec3, Vec3};
 
 /// Shapes without an open edge.
-const CLOSED: [&str; 8] = ["sphere", "bumpy", "superellipsoid", "torus", "knot", "cube", "prism", "gear"];
+const CLOSED: [&str; 8] = [
+    "sphere",
+    "bumpy",
+    "superellipsoid",
+    "torus",
+    "knot",
+    "cube",
+    "prism",
+    "gear",
+];
 /// Shapes that are seen whole from their middle.
 const STAR_CONVEX: [&str; 4] = ["sphere", "bumpy", "superellipsoid", "cube"];
 /// Shapes with a curved surface whose normals are by formula.
-const SMOOTH: [&str; 8] = ["sphere", "bumpy", "superellipsoid", "torus", "knot", "teapot", "corrugated", "terrain"];
+const SMOOTH: [&str; 8] = [
+    "sphere",
+    "bumpy",
+    "superellipsoid",
+    "torus",
+    "knot",
+    "teapot",
+    "corrugated",
+    "terrain",
+];
 
 fn make(spec: &str) -> PolygonMesh {
     builtin(spec).unwrap_or_else(|error| panic!("{spec}: {error}"))
@@ -26,16 +44,26 @@ fn specs() -> Vec<(&'static Builtin, String)> {
     for shape in BUILTINS {
         specs.push((shape, shape.name.to_string()));
         let mut extremes = String::new();
-        for parameter in shape.parameters.iter().filter(|p| p.kind == Kind::Integer && p.min > 1.0) {
+        for parameter in shape
+            .parameters
+            .iter()
+            .filter(|p| p.kind == Kind::Integer && p.min > 1.0)
+        {
             extremes += &format!("{}={}&", parameter.name, parameter.min);
         }
         specs.push((shape, format!("{}?{extremes}", shape.name)));
         if shape.resolution.is_some() {
             specs.push((shape, format!("{}?polygons=4000", shape.name)));
-            specs.push((shape, format!("{}?polygons=4001&triangles=true", shape.name)));
+            specs.push((
+                shape,
+                format!("{}?polygons=4001&triangles=true", shape.name),
+            ));
         }
     }
-    specs.push((&BUILTINS[0], "sphere?segments=3&rings=2&triangles=true".to_string()));
+    specs.push((
+        &BUILTINS[0],
+        "sphere?segments=3&rings=2&triangles=true".to_string(),
+    ));
     specs
 }
 
@@ -44,7 +72,9 @@ fn edges(mesh: &PolygonMesh) -> BTreeMap<(u32, u32), usize> {
     let mut edges = BTreeMap::new();
     for polygon in mesh.polygons() {
         for k in 0..polygon.len() {
-            *edges.entry((polygon[k], polygon[(k + 1) % polygon.len()])).or_insert(0) += 1;
+            *edges
+                .entry((polygon[k], polygon[(k + 1) % polygon.len()]))
+                .or_insert(0) += 1;
         }
     }
     edges
@@ -54,7 +84,11 @@ fn edges(mesh: &PolygonMesh) -> BTreeMap<(u32, u32), usize> {
 fn polygon_counts_are_as_computed_before() {
     for (shape, spec) in specs() {
         let values = parse(&spec).expect("a spec from the table");
-        assert_eq!(make(&spec).polygon_count() as u64, (shape.polygon_count)(&values), "{spec}");
+        assert_eq!(
+            make(&spec).polygon_count() as u64,
+            (shape.polygon_count)(&values),
+            "{spec}"
+        );
     }
 }
 
@@ -74,16 +108,24 @@ fn each_edge_is_used_once_in_each_direction() {
 
 #[test]
 fn closed_shapes_face_outward() {
-    for (shape, spec) in specs().iter().filter(|(shape, _)| CLOSED.contains(&shape.name)) {
+    for (shape, spec) in specs()
+        .iter()
+        .filter(|(shape, _)| CLOSED.contains(&shape.name))
+    {
         let mesh = make(spec);
         let at = |c: u32| mesh.positions()[c as usize].as_dvec3();
         // Six times the volume by the divergence theorem, each polygon as a cone from the origin.
         let normal = |p: usize| polygon_normal(&mesh, p);
-        let volume: f64 = (0..mesh.polygon_count()).map(|p| at(mesh.polygon(p)[0]).dot(normal(p))).sum();
+        let volume: f64 = (0..mesh.polygon_count())
+            .map(|p| at(mesh.polygon(p)[0]).dot(normal(p)))
+            .sum();
         assert!(volume > 0.0, "{spec}: {volume}");
         if STAR_CONVEX.contains(&shape.name) {
             for p in 0..mesh.polygon_count() {
-                assert!(at(mesh.polygon(p)[0]).dot(normal(p)) > 0.0, "{spec}: polygon {p}");
+                assert!(
+                    at(mesh.polygon(p)[0]).dot(normal(p)) > 0.0,
+                    "{spec}: polygon {p}"
+                );
             }
         }
     }
@@ -96,16 +138,26 @@ fn every_polygon_has_a_normal_and_the_given_ones_are_on_its_side() {
         let normals = vertex_normals(&mesh, NormalSource::Given);
         if let Some(given) = mesh.given_normals() {
             // Each coordinate is rounded by at most 2^-25 for numbers up to 1: the length by √3 · 2^-25 < 1e-6.
-            assert!(given.values.iter().all(|n| (n.as_dvec3().length() - 1.0).abs() < 1e-6), "{spec}");
+            assert!(
+                given
+                    .values
+                    .iter()
+                    .all(|n| (n.as_dvec3().length() - 1.0).abs() < 1e-6),
+                "{spec}"
+            );
         }
         for p in 0..mesh.polygon_count() {
-            let normal = unit_normal(polygon_normal(&mesh, p)).unwrap_or_else(|| panic!("{spec}: polygon {p}"));
+            let normal = unit_normal(polygon_normal(&mesh, p))
+                .unwrap_or_else(|| panic!("{spec}: polygon {p}"));
             // Coarse meshes of curved shapes may well turn by a right angle over one polygon.
             if !SMOOTH.contains(&shape.name) && shape.name != "figure5" {
                 for k in mesh.corner_range(p) {
                     let given = normals.values[normals.corners[k] as usize].as_dvec3();
                     // Both are rounded to f32 at least once: 2^-24 a coordinate, squared in the cosine.
-                    assert!(given.dot(normal) > 1.0 - 1e-6, "{spec}: polygon {p}: {given} {normal}");
+                    assert!(
+                        given.dot(normal) > 1.0 - 1e-6,
+                        "{spec}: polygon {p}: {given} {normal}"
+                    );
                 }
             }
         }
@@ -129,18 +181,26 @@ fn given_normals_are_those_of_the_surface() {
             let at = |k: usize| normals.values[normals.corners[k] as usize].as_dvec3();
             let range = mesh.corner_range(p);
             for k in range.clone() {
-                let next = if k + 1 == range.end { range.start } else { k + 1 };
+                let next = if k + 1 == range.end {
+                    range.start
+                } else {
+                    k + 1
+                };
                 let place = |k: usize| mesh.positions()[mesh.corners()[k] as usize].as_dvec3();
                 let along = (place(next) - place(k)).normalize();
                 lean = lean.max((at(k) + at(next)).dot(along).abs());
                 off = off.max(at(k).angle_between(own));
-                mesh.corner_range(p).for_each(|j| spread = spread.max(at(k).angle_between(at(j))));
+                mesh.corner_range(p)
+                    .for_each(|j| spread = spread.max(at(k).angle_between(at(j))));
             }
         }
         assert!(off <= spread, "{name}: {off} {spread}");
         assert!(lean <= spread * spread, "{name}: {lean} {spread}");
         // The most curved is the lip of the teapot's spout.
-        assert!(spread < 0.6, "{name}: too coarse for the question, {spread}");
+        assert!(
+            spread < 0.6,
+            "{name}: too coarse for the question, {spread}"
+        );
     }
 }
 
@@ -156,9 +216,17 @@ fn averaged_normals_of_a_sphere_are_close_to_its_own() {
     let mut most = 0.0f64;
     for (k, &c) in mesh.corners().iter().enumerate() {
         let own = mesh.positions()[c as usize].as_dvec3();
-        most = most.max(averaged.values[averaged.corners[k] as usize].as_dvec3().angle_between(own));
+        most = most.max(
+            averaged.values[averaged.corners[k] as usize]
+                .as_dvec3()
+                .angle_between(own),
+        );
     }
-    assert!(most < step * step / 8.0 * 1.01, "{most} {}", step * step / 8.0);
+    assert!(
+        most < step * step / 8.0 * 1.01,
+        "{most} {}",
+        step * step / 8.0
+    );
     assert_eq!(averaged.values.len(), mesh.positions().len());
 }
 
@@ -167,7 +235,11 @@ fn sizes_are_right() {
     // The volume of the sphere, from below: each direction loses at most δ²/8 · 2 of it.
     let volume = |spec: &str| {
         let mesh = make(spec);
-        let cone = |p: usize| mesh.positions()[mesh.polygon(p)[0] as usize].as_dvec3().dot(polygon_normal(&mesh, p));
+        let cone = |p: usize| {
+            mesh.positions()[mesh.polygon(p)[0] as usize]
+                .as_dvec3()
+                .dot(polygon_normal(&mesh, p))
+        };
         (0..mesh.polygon_count()).map(cone).sum::<f64>() / 6.0
     };
     let pi = core::f64::consts::PI;
@@ -178,17 +250,26 @@ fn sizes_are_right() {
     ] {
         let step = 2.0 * pi / 200.0;
         let found = volume(spec);
-        assert!(found < exact && found > exact * (1.0 - step * step / 2.0), "{spec}: {found} {exact}");
+        assert!(
+            found < exact && found > exact * (1.0 - step * step / 2.0),
+            "{spec}: {found} {exact}"
+        );
     }
     // Coordinates in eighths: exact.
     assert_eq!(volume("cube?res=8"), 8.0);
     let area = |spec: &str| {
         let mesh = make(spec);
-        (0..mesh.polygon_count()).map(|p| polygon_normal(&mesh, p).z / 2.0).sum::<f64>()
+        (0..mesh.polygon_count())
+            .map(|p| polygon_normal(&mesh, p).z / 2.0)
+            .sum::<f64>()
     };
     // In squares of 0.1 × 0.1: S 11, H 11, I 9, N 14 and E 11; rounding to f32 is far below 1e-6 of them.
     let squares = 11.0 + 11.0 + 9.0 + 14.0 + 11.0;
-    assert!((area("letters") - squares / 100.0).abs() < 1e-6, "{}", area("letters") * 100.0);
+    assert!(
+        (area("letters") - squares / 100.0).abs() < 1e-6,
+        "{}",
+        area("letters") * 100.0
+    );
     assert!((area("polygon?sides=4") - 2.0).abs() < 1e-6);
     // A comb of 8 teeth: 15 · 1 + 8 · 3 of 15 · 4 cells, on a rectangle of 2 × 1.
     assert!((area("comb") - 2.0 * 39.0 / 60.0).abs() < 1e-6);
@@ -212,17 +293,32 @@ fn the_square_of_figure_5() {
     let corner_normals = [Vec3::Z, Vec3::Z, -Vec3::Y, Vec3::Z];
     let upright = make("figure5");
     assert_eq!(upright.polygon(0).len(), 4);
-    assert_eq!(upright.given_normals().map(|n| n.values.clone()), Some(corner_normals.to_vec()));
+    assert_eq!(
+        upright.given_normals().map(|n| n.values.clone()),
+        Some(corner_normals.to_vec())
+    );
     // Every scan line of the upper half runs between white edges.
-    let white: Vec<f32> = (0..4).filter(|&k| corner_normals[k] == Vec3::Z).map(|k| upright.positions()[k].y).collect();
+    let white: Vec<f32> = (0..4)
+        .filter(|&k| corner_normals[k] == Vec3::Z)
+        .map(|k| upright.positions()[k].y)
+        .collect();
     assert_eq!(white, vec![1.0, 0.0, 0.0]);
     let turned = make("figure5?angle=90");
-    assert_eq!(turned.positions()[2], Vec3::X, "the black corner is at the right");
+    assert_eq!(
+        turned.positions()[2],
+        Vec3::X,
+        "the black corner is at the right"
+    );
     assert_eq!(turned.given_normals().map(|n| n.values[2]), Some(Vec3::X));
     // Turned all the way round, and by an angle that is no whole number.
     assert_eq!(make("figure5?angle=360").positions(), upright.positions());
     let near = make("figure5?angle=89.9999999");
-    assert!(near.positions().iter().zip(turned.positions()).all(|(a, b)| a.distance(*b) < 1e-6));
+    assert!(
+        near.positions()
+            .iter()
+            .zip(turned.positions())
+            .all(|(a, b)| a.distance(*b) < 1e-6)
+    );
 }
 
 #[test]
@@ -244,14 +340,24 @@ fn the_teapot() {
     // But at the spout's tip, the last rows, they turn up and inward around its lip.
     for (first, rows) in [(12, 6), (14, 6), (16, 6), (18, 3)] {
         for row in 0..rows {
-            let ring: Vec<usize> = [first, first + 1].iter().flat_map(|&k| patch(k).skip(6 * row).take(6)).collect();
+            let ring: Vec<usize> = [first, first + 1]
+                .iter()
+                .flat_map(|&k| patch(k).skip(6 * row).take(6))
+                .collect();
             let centre_of = |p: usize| {
                 let corners = mesh.polygon(p);
-                corners.iter().map(|&c| mesh.positions()[c as usize].as_dvec3()).sum::<DVec3>() / corners.len() as f64
+                corners
+                    .iter()
+                    .map(|&c| mesh.positions()[c as usize].as_dvec3())
+                    .sum::<DVec3>()
+                    / corners.len() as f64
             };
             let middle = ring.iter().map(|&p| centre_of(p)).sum::<DVec3>() / 12.0;
             for p in ring {
-                assert!((centre_of(p) - middle).dot(polygon_normal(&mesh, p)) > 0.0, "polygon {p}");
+                assert!(
+                    (centre_of(p) - middle).dot(polygon_normal(&mesh, p)) > 0.0,
+                    "polygon {p}"
+                );
             }
         }
     }
@@ -262,7 +368,10 @@ fn the_teapot() {
     assert!(polygon_normal(&mesh, patch(4).end - 1).dot(belly * DVec3::new(1.0, 0.0, 1.0)) > 0.0);
     // Only rim, lid, spout and both ends of the handle are open; patches share all other edges.
     let edges = edges(&mesh);
-    let open = edges.keys().filter(|&&(a, b)| !edges.contains_key(&(b, a))).count();
+    let open = edges
+        .keys()
+        .filter(|&&(a, b)| !edges.contains_key(&(b, a)))
+        .count();
     let (round, tube) = (4 * 6, 2 * 6);
     assert_eq!(open, 2 * round + 4 * tube);
     let (low, high) = mesh.bounds().expect("polygons");
@@ -287,9 +396,25 @@ fn the_number_of_polygons_asked_for_is_nearly_made() {
         }
     }
     // 223 or 224 rings alone would miss by 96: other ratios are tried too.
-    assert!(parse("sphere?polygons=100_000").expect("a spec").polygon_count().abs_diff(100_000) < 10);
-    assert_eq!(parse("sphere?polygons=20_000").expect("a spec").polygon_count(), 100 * 200);
-    assert!(parse("sphere?polygons=16777216").expect("a spec").polygon_count() <= 1 << 24);
+    assert!(
+        parse("sphere?polygons=100_000")
+            .expect("a spec")
+            .polygon_count()
+            .abs_diff(100_000)
+            < 10
+    );
+    assert_eq!(
+        parse("sphere?polygons=20_000")
+            .expect("a spec")
+            .polygon_count(),
+        100 * 200
+    );
+    assert!(
+        parse("sphere?polygons=16777216")
+            .expect("a spec")
+            .polygon_count()
+            <= 1 << 24
+    );
     assert!(parse("cube?polygons=1").expect("a spec").polygon_count() == 6);
 }
 
@@ -298,7 +423,12 @@ fn the_table_is_sound() {
     for (i, shape) in BUILTINS.iter().enumerate() {
         assert!(!BUILTINS[..i].iter().any(|other| other.name == shape.name));
         for parameter in shape.parameters {
-            assert!((parameter.min..=parameter.max).contains(&parameter.default), "{} {}", shape.name, parameter.name);
+            assert!(
+                (parameter.min..=parameter.max).contains(&parameter.default),
+                "{} {}",
+                shape.name,
+                parameter.name
+            );
             // What is written as default is read as default.
             let text = match parameter.kind {
                 Kind::Bool => (parameter.default != 0.0).to_string(),
@@ -307,7 +437,11 @@ fn the_table_is_sound() {
             assert_eq!(parameter.parse(&text), Ok(parameter.default));
         }
         for name in shape.resolution.iter().flat_map(Resolution::parameters) {
-            assert!(shape.parameters.iter().any(|p| p.name == name), "{} {name}", shape.name);
+            assert!(
+                shape.parameters.iter().any(|p| p.name == name),
+                "{} {name}",
+                shape.name
+            );
         }
     }
 }
@@ -315,27 +449,57 @@ fn the_table_is_sound() {
 #[test]
 fn errors_say_what_is_wrong() {
     for (spec, message) in [
-        ("sphre", "no built-in mesh is named `sphre`; did you mean `sphere`? (there are sphere, bumpy,"),
-        ("bunny", "no built-in mesh is named `bunny` (there are sphere,"),
+        (
+            "sphre",
+            "no built-in mesh is named `sphre`; did you mean `sphere`? (there are sphere, bumpy,",
+        ),
+        (
+            "bunny",
+            "no built-in mesh is named `bunny` (there are sphere,",
+        ),
         ("", "no built-in mesh is named `` (there are"),
         (
             "sphere?ring=3",
             "`sphere` has no parameter `ring`; did you mean `rings`? (it has segments, rings, triangles, polygons)",
         ),
-        ("triangle?polygons=3", "`triangle` has no parameter `polygons` (it has none)"),
+        (
+            "triangle?polygons=3",
+            "`triangle` has no parameter `polygons` (it has none)",
+        ),
         ("sphere?rings", "`rings` should be written as key=value"),
         ("sphere?rings=3&rings=4", "`rings` is set twice"),
         ("sphere?rings=many", "`rings` is a whole number, not `many`"),
         ("sphere?rings=2.5", "`rings` is a whole number, not `2.5`"),
         ("sphere?rings=", "`rings` is a whole number, not ``"),
         ("torus?minor=NaN", "`minor` is a number, not `NaN`"),
-        ("torus?minor=inf", "`minor` goes from 0.001 to 10, which `inf` is outside of"),
-        ("sphere?triangles=yes", "`triangles` is true or false, not `yes`"),
-        ("sphere?rings=1", "`rings` goes from 2 to 1048576, which `1` is outside of"),
-        ("sphere?rings=-1", "`rings` goes from 2 to 1048576, which `-1` is outside of"),
-        ("sphere?polygons=0", "`polygons` goes from 1 to 16777216, which `0` is outside of"),
-        ("sphere?polygons=9&rings=3", "`polygons` chooses `rings` itself; give one or the other"),
-        ("knot?p=4&q=6", "`p` and `q` of a knot have no common factor, but these have 2"),
+        (
+            "torus?minor=inf",
+            "`minor` goes from 0.001 to 10, which `inf` is outside of",
+        ),
+        (
+            "sphere?triangles=yes",
+            "`triangles` is true or false, not `yes`",
+        ),
+        (
+            "sphere?rings=1",
+            "`rings` goes from 2 to 1048576, which `1` is outside of",
+        ),
+        (
+            "sphere?rings=-1",
+            "`rings` goes from 2 to 1048576, which `-1` is outside of",
+        ),
+        (
+            "sphere?polygons=0",
+            "`polygons` goes from 1 to 16777216, which `0` is outside of",
+        ),
+        (
+            "sphere?polygons=9&rings=3",
+            "`polygons` chooses `rings` itself; give one or the other",
+        ),
+        (
+            "knot?p=4&q=6",
+            "`p` and `q` of a knot have no common factor, but these have 2",
+        ),
         (
             "sphere?rings=1048576&segments=1048576",
             "the mesh would have 1099511627776 polygons, over the limit of 16777216",
@@ -345,5 +509,8 @@ fn errors_say_what_is_wrong() {
         assert!(error.starts_with(message), "{spec}: {error}");
     }
     let huge = format!("sphere?rings={}", "9".repeat(60));
-    assert!(matches!(builtin(&huge), Err(BuiltinError::NotA { .. } | BuiltinError::OutOfRange { .. })));
+    assert!(matches!(
+        builtin(&huge),
+        Err(BuiltinError::NotA { .. } | BuiltinError::OutOfRange { .. })
+    ));
 }

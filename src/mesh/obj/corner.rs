@@ -19,7 +19,15 @@ impl WrittenCorner {
         let (position, rest) = leading_integer(word.as_bytes()).ok_or_else(bad)?;
         let (texture, rest) = slash_integer(rest).ok_or_else(bad)?;
         let (normal, rest) = slash_integer(rest).ok_or_else(bad)?;
-        if rest.is_empty() { Ok(WrittenCorner { position, texture, normal }) } else { Err(bad()) }
+        if rest.is_empty() {
+            Ok(WrittenCorner {
+                position,
+                texture,
+                normal,
+            })
+        } else {
+            Err(bad())
+        }
     }
 }
 
@@ -30,13 +38,17 @@ fn leading_integer(bytes: &[u8]) -> Option<(i64, &[u8])> {
         [b'+', rest @ ..] => (false, rest),
         _ => (false, bytes),
     };
-    let end = digits.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(digits.len());
+    let end = digits
+        .iter()
+        .position(|byte| !byte.is_ascii_digit())
+        .unwrap_or(digits.len());
     if end == 0 {
         return None;
     }
     // Summed downwards: the smallest integer has no positive counterpart.
-    let sum =
-        digits[..end].iter().try_fold(0_i64, |n, &digit| n.checked_mul(10)?.checked_sub(i64::from(digit - b'0')))?;
+    let sum = digits[..end].iter().try_fold(0_i64, |n, &digit| {
+        n.checked_mul(10)?.checked_sub(i64::from(digit - b'0'))
+    })?;
     let number = if negative { sum } else { sum.checked_neg()? };
     Some((number, &digits[end..]))
 }
@@ -65,7 +77,11 @@ pub(super) fn resolve(
     let error = || ObjProblem::IndexOutOfRange { what, index, count };
     if index <= 0 {
         let back = usize::try_from(index.unsigned_abs()).map_err(|_| error())?;
-        return if back == 0 || back > count { Err(error()) } else { Ok(count - back) };
+        return if back == 0 || back > count {
+            Err(error())
+        } else {
+            Ok(count - back)
+        };
     }
     let entry = usize::try_from(index - 1).map_err(|_| error())?;
     if entry >= count && ahead.last().is_none_or(|&(_, largest)| entry > largest) {

@@ -15,7 +15,11 @@ pub struct ObjError {
 
 impl ObjError {
     pub(super) fn new(path: &Path, line: Option<usize>, problem: ObjProblem) -> Self {
-        ObjError { path: path.to_path_buf(), line, problem }
+        ObjError {
+            path: path.to_path_buf(),
+            line,
+            problem,
+        }
     }
 
     /// The file, as it was named when it was asked for.
@@ -104,42 +108,89 @@ pub enum ObjProblem {
 impl fmt::Display for ObjProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            ObjProblem::Unreadable(why) => write!(f, "cannot be read ({why}): expected an OBJ file"),
+            ObjProblem::Unreadable(why) => {
+                write!(f, "cannot be read ({why}): expected an OBJ file")
+            }
             ObjProblem::Directory => write!(f, "is a directory: expected an OBJ file"),
             ObjProblem::Empty => write!(f, "is empty: expected OBJ text with `v` and `f` lines"),
-            ObjProblem::NotText => write!(f, "holds binary data: expected OBJ text with `v` and `f` lines"),
-            ObjProblem::NoPolygons { points_or_lines: false } => {
-                write!(f, "has no polygon: expected OBJ text with an `f` line of at least three corners")
+            ObjProblem::NotText => write!(
+                f,
+                "holds binary data: expected OBJ text with `v` and `f` lines"
+            ),
+            ObjProblem::NoPolygons {
+                points_or_lines: false,
+            } => {
+                write!(
+                    f,
+                    "has no polygon: expected OBJ text with an `f` line of at least three corners"
+                )
             }
-            ObjProblem::NoPolygons { points_or_lines: true } => {
-                write!(f, "has points or lines but no polygon: expected an `f` line of at least three corners")
+            ObjProblem::NoPolygons {
+                points_or_lines: true,
+            } => {
+                write!(
+                    f,
+                    "has points or lines but no polygon: expected an `f` line of at least three corners"
+                )
             }
             ObjProblem::TooFewNumbers { keyword, found } => {
-                write!(f, "`{keyword}` has too few numbers: expected three, found {found}")
+                write!(
+                    f,
+                    "`{keyword}` has too few numbers: expected three, found {found}"
+                )
             }
             ObjProblem::BadNumber { keyword, found } => {
                 write!(f, "`{found}` in `{keyword}`: expected a finite number")
             }
             ObjProblem::BadCorner { found } => {
-                write!(f, "`{found}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers")
+                write!(
+                    f,
+                    "`{found}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers"
+                )
             }
             ObjProblem::IndexOutOfRange { what, index: 0, .. } => {
-                write!(f, "{what} index 0: expected 1 or more (or -1 and below, counted backwards)")
+                write!(
+                    f,
+                    "{what} index 0: expected 1 or more (or -1 and below, counted backwards)"
+                )
             }
-            ObjProblem::IndexOutOfRange { what, index, count: 0 } => {
-                write!(f, "{what} index {index} is out of range: expected a {what} to be given first, there is none")
+            ObjProblem::IndexOutOfRange {
+                what,
+                index,
+                count: 0,
+            } => {
+                write!(
+                    f,
+                    "{what} index {index} is out of range: expected a {what} to be given first, there is none"
+                )
             }
             ObjProblem::IndexOutOfRange { what, index, count } if *index < 0 => {
-                write!(f, "{what} index {index} is out of range: expected -{count} to -1 at this line")
+                write!(
+                    f,
+                    "{what} index {index} is out of range: expected -{count} to -1 at this line"
+                )
             }
             ObjProblem::IndexOutOfRange { what, index, count } => {
-                write!(f, "{what} index {index} is out of range: expected 1 to {count}")
+                write!(
+                    f,
+                    "{what} index {index} is out of range: expected 1 to {count}"
+                )
             }
             ObjProblem::TooManyPolygons => {
-                write!(f, "too many polygons: expected at most {}", PolygonMesh::MAX_POLYGONS)
+                write!(
+                    f,
+                    "too many polygons: expected at most {}",
+                    PolygonMesh::MAX_POLYGONS
+                )
             }
-            ObjProblem::TooManyCorners => write!(f, "too many corners: expected at most {}", PolygonMesh::MAX_CORNERS),
-            ObjProblem::Parser(why) => write!(f, "the OBJ parser gave up ({why}): expected plain polygons"),
+            ObjProblem::TooManyCorners => write!(
+                f,
+                "too many corners: expected at most {}",
+                PolygonMesh::MAX_CORNERS
+            ),
+            ObjProblem::Parser(why) => {
+                write!(f, "the OBJ parser gave up ({why}): expected plain polygons")
+            }
             ObjProblem::Mesh(why) => write!(f, "{why}: expected a mesh within its limits"),
         }
     }
@@ -151,9 +202,17 @@ const QUOTED: usize = 32;
 /// `text` as it can stand in a one-line message: control characters escaped, long text cut.
 pub(super) fn quote(text: &str) -> String {
     let mut characters = text.chars();
-    let mut quoted: String = characters.by_ref().take(QUOTED).flat_map(char::escape_debug).collect();
+    let mut quoted: String = characters
+        .by_ref()
+        .take(QUOTED)
+        .flat_map(char::escape_debug)
+        .collect();
     if characters.next().is_some() {
         quoted.push('…');
     }
-    if quoted.is_empty() { "nothing".to_string() } else { quoted }
+    if quoted.is_empty() {
+        "nothing".to_string()
+    } else {
+        quoted
+    }
 }

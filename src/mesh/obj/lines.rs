@@ -17,7 +17,11 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
 /// The number, counted from 1, of the first line with a byte that text does not have (a NUL), if there is one.
 pub(super) fn binary_line(bytes: &[u8]) -> Option<usize> {
     // Nearly no file has one, and `contains` looks at several bytes at a time.
-    let at = if bytes.contains(&0) { bytes.iter().position(|&byte| byte == 0)? } else { return None };
+    let at = if bytes.contains(&0) {
+        bytes.iter().position(|&byte| byte == 0)?
+    } else {
+        return None;
+    };
     Some(1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count())
 }
 
@@ -41,7 +45,12 @@ impl<'a> Statements<'a> {
     pub(super) fn new(text: &'a str) -> Self {
         // Files from before Mac OS X end lines by a carriage return alone.
         let separator = if text.contains('\n') { '\n' } else { '\r' };
-        Statements { rest: Some(text), separator, line: 0, backslashes: text.contains('\\') }
+        Statements {
+            rest: Some(text),
+            separator,
+            line: 0,
+            backslashes: text.contains('\\'),
+        }
     }
 
     fn physical_line(&mut self) -> Option<&'a str> {
@@ -67,8 +76,14 @@ impl<'a> Iterator for Statements<'a> {
     fn next(&mut self) -> Option<Self::Item> {
         let line = self.physical_line()?;
         let number = self.line;
-        let start = if self.backslashes { continued(line) } else { None };
-        let Some(start) = start else { return Some((number, Cow::Borrowed(line))) };
+        let start = if self.backslashes {
+            continued(line)
+        } else {
+            None
+        };
+        let Some(start) = start else {
+            return Some((number, Cow::Borrowed(line)));
+        };
         let mut joined = String::from(start);
         while let Some(line) = self.physical_line() {
             joined.push(' ');
@@ -87,7 +102,10 @@ impl<'a> Iterator for Statements<'a> {
 /// The first word of a statement and the rest, both without white space around them.
 pub(super) fn keyword(statement: &str) -> (&str, &str) {
     let statement = statement.trim();
-    match statement.bytes().position(|byte| byte.is_ascii_whitespace()) {
+    match statement
+        .bytes()
+        .position(|byte| byte.is_ascii_whitespace())
+    {
         Some(at) => (&statement[..at], statement[at..].trim_start()),
         None => (statement, ""),
     }
@@ -97,7 +115,10 @@ pub(super) fn keyword(statement: &str) -> (&str, &str) {
 ///
 /// `usemtl red # the lid` and the name `Material #25` are both met in real files; what exists decides.
 pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {
-    let comment = rest.match_indices('#').map(|(at, _)| at).find(|&at| rest[..at].ends_with(char::is_whitespace));
+    let comment = rest
+        .match_indices('#')
+        .map(|(at, _)| at)
+        .find(|&at| rest[..at].ends_with(char::is_whitespace));
     core::iter::once(rest).chain(comment.map(|at| rest[..at].trim_end()))
 }
 

@@ -52,7 +52,8 @@ pub fn load_obj(path: &Path) -> Result<LoadedObj, ObjError> {
     if path.is_dir() {
         return Err(failed(ObjProblem::Directory));
     }
-    let bytes = fs::read(path).map_err(|error| failed(ObjProblem::Unreadable(error.to_string())))?;
+    let bytes =
+        fs::read(path).map_err(|error| failed(ObjProblem::Unreadable(error.to_string())))?;
     let directory = path.parent().unwrap_or(Path::new(""));
     parse_obj(path, &bytes, |library| read_library(directory, library))
 }
@@ -61,7 +62,11 @@ pub fn load_obj(path: &Path) -> Result<LoadedObj, ObjError> {
 fn read_library(directory: &Path, name: &str) -> io::Result<Vec<u8>> {
     // A device or a pipe might never end.
     let read = |file: &Path| {
-        if fs::metadata(file)?.is_file() { fs::read(file) } else { Err(io::Error::other("not a file")) }
+        if fs::metadata(file)?.is_file() {
+            fs::read(file)
+        } else {
+            Err(io::Error::other("not a file"))
+        }
     };
     // Exporters write paths of the machine they ran on, often with the other separator.
     let path = directory.join(name.replace('\\', "/"));
@@ -83,7 +88,10 @@ pub fn parse_obj(
     bytes: &[u8],
     load_mtl: impl FnMut(&str) -> io::Result<Vec<u8>>,
 ) -> Result<LoadedObj, ObjError> {
-    let limits = Limits { polygons: PolygonMesh::MAX_POLYGONS, corners: PolygonMesh::MAX_CORNERS };
+    let limits = Limits {
+        polygons: PolygonMesh::MAX_POLYGONS,
+        corners: PolygonMesh::MAX_CORNERS,
+    };
     parse_limited(path.as_ref(), bytes, load_mtl, limits)
 }
 
@@ -100,8 +108,10 @@ fn parse_limited(
     if text.trim().is_empty() {
         return Err(ObjError::new(path, None, ObjProblem::Empty));
     }
-    let scan = prescan::prescan(&text, limits).map_err(|(line, problem)| ObjError::new(path, line, problem))?;
-    let parsed = parser::parse(&scan).map_err(|why| ObjError::new(path, None, ObjProblem::Parser(why)))?;
+    let scan = prescan::prescan(&text, limits)
+        .map_err(|(line, problem)| ObjError::new(path, line, problem))?;
+    let parsed =
+        parser::parse(&scan).map_err(|why| ObjError::new(path, None, ObjProblem::Parser(why)))?;
     let mut warnings = scan.warnings();
 
     let mut builder = MeshBuilder::new(vectors(&parsed.positions));
@@ -113,13 +123,25 @@ fn parse_limited(
         rest = others;
     }
     if scan.has_normals() {
-        let values: Vec<Vec3> = vectors(&parsed.normals).into_iter().map(unit_or_zero).collect();
+        let values: Vec<Vec3> = vectors(&parsed.normals)
+            .into_iter()
+            .map(unit_or_zero)
+            .collect();
         let zeros = values.iter().filter(|&&n| n == Vec3::ZERO).count();
         if zeros > 0 {
-            let have = if zeros == 1 { "normal of the file has" } else { "normals of the file have" };
-            warnings.push(format!("{zeros} {have} length zero: averaged ones are used there"));
+            let have = if zeros == 1 {
+                "normal of the file has"
+            } else {
+                "normals of the file have"
+            };
+            warnings.push(format!(
+                "{zeros} {have} length zero: averaged ones are used there"
+            ));
         }
-        builder.normals(GivenNormals { values, corners: Some(parsed.normal_indices) });
+        builder.normals(GivenNormals {
+            values,
+            corners: Some(parsed.normal_indices),
+        });
     }
     if scan.has_colours() {
         builder.colours(vectors(&parsed.vertex_color));
@@ -129,7 +151,9 @@ fn parse_limited(
         let (materials, of_polygons) = assign_materials(&scan, &libraries, &mut warnings);
         builder.materials(materials, of_polygons);
     }
-    let mesh = builder.finish().map_err(|error| ObjError::new(path, None, ObjProblem::Mesh(error)))?;
+    let mesh = builder
+        .finish()
+        .map_err(|error| ObjError::new(path, None, ObjProblem::Mesh(error)))?;
     Ok(LoadedObj { mesh, warnings })
 }
 
@@ -142,7 +166,11 @@ fn unit_or_zero(normal: Vec3) -> Vec3 {
     // In f64 the squares of f32 numbers neither overflow nor, unless the normal is zero, vanish.
     let wide = DVec3::new(normal.x.into(), normal.y.into(), normal.z.into());
     let length = libm::sqrt(wide.length_squared());
-    if length > 0.0 { (wide / length).as_vec3() } else { Vec3::ZERO }
+    if length > 0.0 {
+        (wide / length).as_vec3()
+    } else {
+        Vec3::ZERO
+    }
 }
 
 /// The materials of every `mtllib`.
@@ -162,8 +190,12 @@ impl Libraries {
         load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
         warnings: &mut Vec<String>,
     ) -> Libraries {
-        let mut libraries =
-            Libraries { library: Library::default(), tried: HashMap::new(), failures: HashMap::new(), complete: true };
+        let mut libraries = Libraries {
+            library: Library::default(),
+            tried: HashMap::new(),
+            failures: HashMap::new(),
+            complete: true,
+        };
         for (line, rest) in &scan.libraries {
             if lines::name_candidates(rest).any(|name| libraries.add(name, load_mtl, warnings)) {
                 continue;
@@ -175,7 +207,9 @@ impl Libraries {
                 libraries.complete = false;
                 if let Some(error) = libraries.failures.remove(&name) {
                     let name = error::quote(&name);
-                    warnings.push(format!("material library `{name}` (line {line}) cannot be read: {error}"));
+                    warnings.push(format!(
+                        "material library `{name}` (line {line}) cannot be read: {error}"
+                    ));
                 }
             }
         }
@@ -219,13 +253,23 @@ fn library_names(rest: &str) -> Vec<String> {
             }
             _ => names.push(word.to_owned()),
         }
-        open = !word.trim_end_matches('"').to_ascii_lowercase().ends_with(".mtl");
+        open = !word
+            .trim_end_matches('"')
+            .to_ascii_lowercase()
+            .ends_with(".mtl");
     }
-    names.iter().map(|name| name.trim_matches('"').to_owned()).collect()
+    names
+        .iter()
+        .map(|name| name.trim_matches('"').to_owned())
+        .collect()
 }
 
 /// The materials that polygons use, and for each polygon the one it has.
-fn assign_materials(scan: &Prescan, libraries: &Libraries, warnings: &mut Vec<String>) -> (Vec<Material>, Vec<u32>) {
+fn assign_materials(
+    scan: &Prescan,
+    libraries: &Libraries,
+    warnings: &mut Vec<String>,
+) -> (Vec<Material>, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let mut materials = Vec::new();
     let mut unknown = Vec::new();
@@ -233,30 +277,48 @@ fn assign_materials(scan: &Prescan, libraries: &Libraries, warnings: &mut Vec<St
     let mut numbers: Vec<Option<u32>> = vec![None; scan.material_names.len()];
     let mut of_polygons = vec![NONE; scan.polygons];
     for (run, &(start, name)) in scan.material_runs.iter().enumerate() {
-        let end = scan.material_runs.get(run + 1).map_or(scan.polygons, |&(next, _)| next);
-        let Some(name) = name.filter(|_| start < end) else { continue };
-        let number = *numbers[name].get_or_insert_with(|| match libraries.library.find(&scan.material_names[name]) {
-            Some(material) => {
-                materials.push(material);
-                materials.len() as u32 - 1
-            }
-            None => {
-                unknown.push(format!("`{}`", error::quote(&scan.material_names[name])));
-                NONE
+        let end = scan
+            .material_runs
+            .get(run + 1)
+            .map_or(scan.polygons, |&(next, _)| next);
+        let Some(name) = name.filter(|_| start < end) else {
+            continue;
+        };
+        let number = *numbers[name].get_or_insert_with(|| {
+            match libraries.library.find(&scan.material_names[name]) {
+                Some(material) => {
+                    materials.push(material);
+                    materials.len() as u32 - 1
+                }
+                None => {
+                    unknown.push(format!("`{}`", error::quote(&scan.material_names[name])));
+                    NONE
+                }
             }
         });
         of_polygons[start..end].fill(number);
     }
     // One missing library explains all names that are missing.
     if libraries.complete && !unknown.is_empty() {
-        warnings.push(format!("no material library defines {}: the default material is used", list(&unknown)));
+        warnings.push(format!(
+            "no material library defines {}: the default material is used",
+            list(&unknown)
+        ));
     }
-    if materials.is_empty() { (materials, Vec::new()) } else { (materials, of_polygons) }
+    if materials.is_empty() {
+        (materials, Vec::new())
+    } else {
+        (materials, of_polygons)
+    }
 }
 
 /// `a`, `b` and 7 more: at most five names.
 fn list(names: &[String]) -> String {
     const SHOWN: usize = 5;
     let shown = names[..names.len().min(SHOWN)].join(", ");
-    if names.len() > SHOWN { format!("{shown} and {} more", names.len() - SHOWN) } else { shown }
+    if names.len() > SHOWN {
+        format!("{shown} and {} more", names.len() - SHOWN)
+    } else {
+        shown
+    }
 }

@@ -42,8 +42,12 @@ impl Library {
             warnings.push(format!("{name}: {more} more lines are ignored"));
         }
         match guarded(|| tobj::load_mtl_buf(&mut text.as_bytes())) {
-            Ok((materials, _)) => materials.iter().for_each(|parsed| self.insert(&parsed.name, material(parsed))),
-            Err(why) => warnings.push(format!("{name}: the MTL parser gave up ({why}): its materials are not used")),
+            Ok((materials, _)) => materials
+                .iter()
+                .for_each(|parsed| self.insert(&parsed.name, material(parsed))),
+            Err(why) => warnings.push(format!(
+                "{name}: the MTL parser gave up ({why}): its materials are not used"
+            )),
         }
     }
 
@@ -51,13 +55,21 @@ impl Library {
     fn insert(&mut self, name: &str, material: Material) {
         self.materials.entry(name.to_string()).or_insert(material);
         if let Some(short) = name_candidates(name).nth(1) {
-            self.uncommented.entry(short.to_string()).or_insert(material);
+            self.uncommented
+                .entry(short.to_string())
+                .or_insert(material);
         }
     }
 
     /// The material that `usemtl` names with `rest`.
     pub(super) fn find(&self, rest: &str) -> Option<Material> {
-        name_candidates(rest).find_map(|name| self.materials.get(name).or_else(|| self.uncommented.get(name))).copied()
+        name_candidates(rest)
+            .find_map(|name| {
+                self.materials
+                    .get(name)
+                    .or_else(|| self.uncommented.get(name))
+            })
+            .copied()
     }
 }
 
@@ -67,7 +79,11 @@ fn material(parsed: &tobj::Material) -> Material {
     Material {
         ambient: parsed.ambient.unwrap_or(AMBIENT),
         diffuse: parsed.diffuse.unwrap_or(DIFFUSE),
-        specular: if matte { SPECULAR } else { parsed.specular.unwrap_or(SPECULAR) },
+        specular: if matte {
+            SPECULAR
+        } else {
+            parsed.specular.unwrap_or(SPECULAR)
+        },
         shininess: parsed.shininess.unwrap_or(Material::default().shininess),
     }
 }
@@ -82,10 +98,16 @@ fn sanitise(file: &str, text: &str, warnings: &mut Vec<String>) -> String {
         let accepted = match word {
             "newmtl" => {
                 named = !rest.is_empty();
-                if named { Ok(rest.to_string()) } else { Err("expected a name") }
+                if named {
+                    Ok(rest.to_string())
+                } else {
+                    Err("expected a name")
+                }
             }
             "Ka" | "Kd" | "Ks" => colour(values),
-            "Ns" => number(values).map(|n| n.to_string()).ok_or("expected one finite number, 0 or more"),
+            "Ns" => number(values)
+                .map(|n| n.to_string())
+                .ok_or("expected one finite number, 0 or more"),
             "illum" => match values.parse::<u8>() {
                 Ok(model) => Ok(model.to_string()),
                 Err(_) => Err("expected the number of an illumination model, 0 to 10"),
@@ -93,7 +115,9 @@ fn sanitise(file: &str, text: &str, warnings: &mut Vec<String>) -> String {
             _ => continue,
         };
         match accepted {
-            Ok(_) if !named => warnings.push(format!("{file}:{line}: `{word}` before any `newmtl` is ignored")),
+            Ok(_) if !named => warnings.push(format!(
+                "{file}:{line}: `{word}` before any `newmtl` is ignored"
+            )),
             Ok(value) => {
                 clean.push_str(word);
                 clean.push(' ');
@@ -129,5 +153,7 @@ fn colour(values: &str) -> Result<String, &'static str> {
 }
 
 fn number(word: &str) -> Option<f32> {
-    word.parse::<f32>().ok().filter(|n| n.is_finite() && *n >= 0.0)
+    word.parse::<f32>()
+        .ok()
+        .filter(|n| n.is_finite() && *n >= 0.0)
 }

@@ -16,12 +16,17 @@ pub(super) fn guarded<T>(parse: impl FnOnce() -> Result<T, tobj::LoadError>) -> 
 
 /// The one model in the text of `scan`, polygons with all their sides, positions and normals with indices of their own.
 pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
-    let options =
-        tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: true, ignore_lines: true };
+    let options = tobj::LoadOptions {
+        single_index: false,
+        triangulate: false,
+        ignore_points: true,
+        ignore_lines: true,
+    };
     // No `mtllib` reaches the parser, so that this is never asked.
     let no_library = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
     let (models, _) = guarded(|| tobj::load_obj_buf(&mut &scan.text[..], &options, no_library))?;
-    let [model] = <[tobj::Model; 1]>::try_from(models).map_err(|models| format!("{} models", models.len()))?;
+    let [model] = <[tobj::Model; 1]>::try_from(models)
+        .map_err(|models| format!("{} models", models.len()))?;
     let mut mesh = model.mesh;
     if mesh.face_arities.is_empty() {
         // The parser leaves the list of corner counts out when all polygons are triangles.

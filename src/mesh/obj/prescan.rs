@@ -112,14 +112,23 @@ type Failure = (Option<usize>, ObjProblem);
 /// # Errors
 /// The first line that is wrong, and how.
 pub(super) fn prescan(text: &str, limits: Limits) -> Result<Prescan, Failure> {
-    let mut scan = Prescan { text: Vec::with_capacity(text.len()), ..Prescan::default() };
+    let mut scan = Prescan {
+        text: Vec::with_capacity(text.len()),
+        ..Prescan::default()
+    };
     let mut corners = Vec::new();
     for (line, statement) in Statements::new(text) {
-        scan.statement(line, &statement, &mut corners, limits).map_err(|problem| (Some(line), problem))?;
+        scan.statement(line, &statement, &mut corners, limits)
+            .map_err(|problem| (Some(line), problem))?;
     }
     scan.check_ahead()?;
     if scan.polygons == 0 {
-        return Err((None, ObjProblem::NoPolygons { points_or_lines: scan.points_or_lines.count > 0 }));
+        return Err((
+            None,
+            ObjProblem::NoPolygons {
+                points_or_lines: scan.points_or_lines.count > 0,
+            },
+        ));
     }
     Ok(scan)
 }
@@ -139,23 +148,45 @@ impl Prescan {
     pub(super) fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         let w = &mut warnings;
-        self.points_or_lines.warn("points and lines are not drawn", w);
-        self.free_form.warn("free-form curves and surfaces are not read, only polygons", w);
-        self.unknown.warn(&format!("`{}` is no OBJ statement and is passed over", self.unknown_word), w);
-        self.small_faces.warn("a face of fewer than three different corners is left out", w);
-        self.repeated_corners.warn("a corner that repeats the one before it is left out", w);
-        self.weights.warn("the weight w of a position is ignored", w);
+        self.points_or_lines
+            .warn("points and lines are not drawn", w);
+        self.free_form.warn(
+            "free-form curves and surfaces are not read, only polygons",
+            w,
+        );
+        self.unknown.warn(
+            &format!(
+                "`{}` is no OBJ statement and is passed over",
+                self.unknown_word
+            ),
+            w,
+        );
+        self.small_faces.warn(
+            "a face of fewer than three different corners is left out",
+            w,
+        );
+        self.repeated_corners
+            .warn("a corner that repeats the one before it is left out", w);
+        self.weights
+            .warn("the weight w of a position is ignored", w);
         if self.colours.count > 0 {
-            self.colours.missing.warn("a position has no colour: the colours of the others are not used", w);
+            self.colours.missing.warn(
+                "a position has no colour: the colours of the others are not used",
+                w,
+            );
         }
         if self.has_colours() {
             self.colours
                 .out_of_range
                 .warn("the colour of a position is not within 0 to 1: what is shown is clamped at each pixel", w);
         }
-        self.lost_texture_indices.warn("a texture coordinate that does not exist is ignored, as all of them are", w);
+        self.lost_texture_indices.warn(
+            "a texture coordinate that does not exist is ignored, as all of them are",
+            w,
+        );
         if self.corners_with_normal > 0 {
-            let what = "a face has corners without a normal: averaged normals are used for the whole mesh";
+            let what =
+                "a face has corners without a normal: averaged normals are used for the whole mesh";
             self.faces_without_normal.warn(what, w);
         }
         if !self.has_normals() {
@@ -198,7 +229,10 @@ impl Prescan {
     /// A position or a normal: three finite numbers; a position may have a colour, three more. What else follows (a weight)
     /// is checked and dropped.
     fn vector(&mut self, keyword: &'static str, line: usize, rest: &str) -> Result<(), ObjProblem> {
-        let bad = |word: &str| ObjProblem::BadNumber { keyword, found: quote(word) };
+        let bad = |word: &str| ObjProblem::BadNumber {
+            keyword,
+            found: quote(word),
+        };
         let mut found = 0;
         let mut more = [0.0; 3];
         self.text.extend_from_slice(keyword.as_bytes());
@@ -252,16 +286,26 @@ impl Prescan {
         }
         if colours.written {
             let [r, g, b] = colour.unwrap_or([1.0; 3]);
-            self.text.extend_from_slice(format!(" {r} {g} {b}").as_bytes());
+            self.text
+                .extend_from_slice(format!(" {r} {g} {b}").as_bytes());
         }
     }
 
-    fn face(&mut self, line: usize, rest: &str, corners: &mut Vec<Corner>, limits: Limits) -> Result<(), ObjProblem> {
+    fn face(
+        &mut self,
+        line: usize,
+        rest: &str,
+        corners: &mut Vec<Corner>,
+        limits: Limits,
+    ) -> Result<(), ObjProblem> {
         corners.clear();
         let mut repeats = false;
         for word in without_comment(rest).split_ascii_whitespace() {
             let corner = self.corner(line, word)?;
-            if corners.last().is_some_and(|last: &Corner| last.0 == corner.0) {
+            if corners
+                .last()
+                .is_some_and(|last: &Corner| last.0 == corner.0)
+            {
                 repeats = true;
             } else {
                 corners.push(corner);
@@ -315,9 +359,21 @@ impl Prescan {
         {
             self.lost_texture_indices.add(line);
         }
-        let position = resolve("position", written.position, self.positions, line, &mut self.ahead[0])?;
+        let position = resolve(
+            "position",
+            written.position,
+            self.positions,
+            line,
+            &mut self.ahead[0],
+        )?;
         let normal = match written.normal {
-            Some(index) => Some(resolve("normal", index, self.normals, line, &mut self.ahead[1])?),
+            Some(index) => Some(resolve(
+                "normal",
+                index,
+                self.normals,
+                line,
+                &mut self.ahead[1],
+            )?),
             None => None,
         };
         Ok((position, normal))
@@ -326,12 +382,25 @@ impl Prescan {
     /// The indices that were past the end when they were met: a later line may have brought what they name.
     fn check_ahead(&self) -> Result<(), Failure> {
         let missing = |which: usize, what: &'static str, count: usize| {
-            let &(line, index) = self.ahead[which].iter().find(|&&(_, index)| index >= count)?;
-            Some((line, ObjProblem::IndexOutOfRange { what, index: index as i64 + 1, count }))
+            let &(line, index) = self.ahead[which]
+                .iter()
+                .find(|&&(_, index)| index >= count)?;
+            Some((
+                line,
+                ObjProblem::IndexOutOfRange {
+                    what,
+                    index: index as i64 + 1,
+                    count,
+                },
+            ))
         };
         let position = missing(0, "position", self.positions);
         let normal = missing(1, "normal", self.normals);
-        match position.into_iter().chain(normal).min_by_key(|&(line, _)| line) {
+        match position
+            .into_iter()
+            .chain(normal)
+            .min_by_key(|&(line, _)| line)
+        {
             Some((line, problem)) => Err((Some(line), problem)),
             None => Ok(()),
         }
@@ -385,6 +454,6 @@ const GROUPING: [&str; 14] = [
 
 /// Statements of free-form curves and surfaces.
 const FREE_FORM: [&str; 22] = [
-    "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con",
-    "bsp", "bzp", "cdc", "cdp", "res", "csh", "fm",
+    "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
+    "sp", "end", "con", "bsp", "bzp", "cdc", "cdp", "res", "csh", "fm",
 ];

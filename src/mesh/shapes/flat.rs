@@ -15,7 +15,9 @@ fn around(radius: f64, k: usize, n: usize) -> DVec2 {
 /// The corners of a star with `points` points on the unit circle, and as many corners between them at radius `inner`.
 pub(super) fn star_outline(points: usize, inner: f64) -> Vec<DVec2> {
     let n = 2 * points.max(2);
-    (0..n).map(|k| around(if k % 2 == 0 { 1.0 } else { inner }, k, n)).collect()
+    (0..n)
+        .map(|k| around(if k % 2 == 0 { 1.0 } else { inner }, k, n))
+        .collect()
 }
 
 /// One polygon for each outline; outlines share no corners.
@@ -24,7 +26,13 @@ fn flat(outlines: &[Vec<DVec2>]) -> Result<PolygonMesh, MeshError> {
     if corners > PolygonMesh::MAX_CORNERS {
         return Err(MeshError::TooLarge);
     }
-    let mut builder = MeshBuilder::new(outlines.iter().flatten().map(|p| p.extend(0.0).as_vec3()).collect());
+    let mut builder = MeshBuilder::new(
+        outlines
+            .iter()
+            .flatten()
+            .map(|p| p.extend(0.0).as_vec3())
+            .collect(),
+    );
     builder.reserve(outlines.len(), corners);
     let mut start = 0;
     for outline in outlines {
@@ -81,11 +89,74 @@ pub fn comb(teeth: usize) -> Result<PolygonMesh, MeshError> {
 
 /// Block letters without holes, counter-clockwise, in squares of a grid; each is 5 high.
 const SHINE: [&[[i8; 2]]; 5] = [
-    &[[0, 0], [3, 0], [3, 3], [1, 3], [1, 4], [3, 4], [3, 5], [0, 5], [0, 2], [2, 2], [2, 1], [0, 1]],
-    &[[0, 0], [1, 0], [1, 2], [2, 2], [2, 0], [3, 0], [3, 5], [2, 5], [2, 3], [1, 3], [1, 5], [0, 5]],
-    &[[0, 0], [3, 0], [3, 1], [2, 1], [2, 4], [3, 4], [3, 5], [0, 5], [0, 4], [1, 4], [1, 1], [0, 1]],
-    &[[0, 0], [1, 0], [1, 3], [3, 0], [4, 0], [4, 5], [3, 5], [3, 2], [1, 5], [0, 5]],
-    &[[0, 0], [3, 0], [3, 1], [1, 1], [1, 2], [3, 2], [3, 3], [1, 3], [1, 4], [3, 4], [3, 5], [0, 5]],
+    &[
+        [0, 0],
+        [3, 0],
+        [3, 3],
+        [1, 3],
+        [1, 4],
+        [3, 4],
+        [3, 5],
+        [0, 5],
+        [0, 2],
+        [2, 2],
+        [2, 1],
+        [0, 1],
+    ],
+    &[
+        [0, 0],
+        [1, 0],
+        [1, 2],
+        [2, 2],
+        [2, 0],
+        [3, 0],
+        [3, 5],
+        [2, 5],
+        [2, 3],
+        [1, 3],
+        [1, 5],
+        [0, 5],
+    ],
+    &[
+        [0, 0],
+        [3, 0],
+        [3, 1],
+        [2, 1],
+        [2, 4],
+        [3, 4],
+        [3, 5],
+        [0, 5],
+        [0, 4],
+        [1, 4],
+        [1, 1],
+        [0, 1],
+    ],
+    &[
+        [0, 0],
+        [1, 0],
+        [1, 3],
+        [3, 0],
+        [4, 0],
+        [4, 5],
+        [3, 5],
+        [3, 2],
+        [1, 5],
+        [0, 5],
+    ],
+    &[
+        [0, 0],
+        [3, 0],
+        [3, 1],
+        [1, 1],
+        [1, 2],
+        [3, 2],
+        [3, 3],
+        [1, 3],
+        [1, 4],
+        [3, 4],
+        [3, 5],
+        [0, 5],
+    ],
 ];
 
 /// The word SHINE in block letters: five concave polygons of 10 or 12 sides, 2 wide and 0.5 high.
@@ -97,7 +168,9 @@ pub fn letters() -> Result<PolygonMesh, MeshError> {
     let mut outlines = Vec::new();
     for letter in SHINE {
         // The whole word is 20 squares wide, with one between letters.
-        let place = |&[x, y]: &[i8; 2]| DVec2::new((left + x as f64 - 10.0) / 10.0, (y as f64 - 2.5) / 10.0);
+        let place = |&[x, y]: &[i8; 2]| {
+            DVec2::new((left + x as f64 - 10.0) / 10.0, (y as f64 - 2.5) / 10.0)
+        };
         outlines.push(letter.iter().map(place).collect());
         left += letter.iter().map(|c| c[0] as f64).fold(0.0, f64::max) + 1.0;
     }
@@ -123,9 +196,14 @@ pub fn figure5(angle: f64) -> Result<PolygonMesh, MeshError> {
         libm::sincos(angle.to_radians())
     };
     let turned = |p: DVec3| DVec3::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y, p.z).as_vec3();
-    let positions = [DVec3::Y, -DVec3::X, -DVec3::Y, DVec3::X].map(turned).to_vec();
+    let positions = [DVec3::Y, -DVec3::X, -DVec3::Y, DVec3::X]
+        .map(turned)
+        .to_vec();
     let mut builder = MeshBuilder::new(positions);
     builder.polygon(&[0, 1, 2, 3]);
-    builder.normals(GivenNormals { values: vec![Vec3::Z, Vec3::Z, turned(-DVec3::Y), Vec3::Z], corners: None });
+    builder.normals(GivenNormals {
+        values: vec![Vec3::Z, Vec3::Z, turned(-DVec3::Y), Vec3::Z],
+        corners: None,
+    });
     builder.finish()
 }

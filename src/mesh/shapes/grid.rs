@@ -36,7 +36,12 @@ impl Grid {
             Topology::Ball => (3, 2),
             Topology::Tube => (3, 3),
         };
-        Grid { topology, columns: columns.max(least_columns), rows: rows.max(least_rows), triangles }
+        Grid {
+            topology,
+            columns: columns.max(least_columns),
+            rows: rows.max(least_rows),
+            triangles,
+        }
     }
 
     /// How many polygons the mesh has; `u64::MAX` where that overflows.
@@ -56,7 +61,10 @@ impl Grid {
     ///
     /// # Errors
     /// [`MeshError::TooLarge`] before anything is allocated; [`MeshError::NotFinite`] if the surface is not finite.
-    pub fn mesh(&self, mut surface: impl FnMut(usize, usize) -> (DVec3, DVec3)) -> Result<PolygonMesh, MeshError> {
+    pub fn mesh(
+        &self,
+        mut surface: impl FnMut(usize, usize) -> (DVec3, DVec3),
+    ) -> Result<PolygonMesh, MeshError> {
         let polygons = self.polygon_count();
         if polygons > PolygonMesh::MAX_POLYGONS as u64 {
             return Err(MeshError::TooLarge);
@@ -77,13 +85,19 @@ impl Grid {
             }
         }
         let mut builder = MeshBuilder::new(positions);
-        builder.reserve(polygons as usize, polygons as usize * if self.triangles { 3 } else { 4 });
+        builder.reserve(
+            polygons as usize,
+            polygons as usize * if self.triangles { 3 } else { 4 },
+        );
         for row in 0..self.rows {
             for column in 0..self.columns {
                 self.cell(&mut builder, column, row);
             }
         }
-        builder.normals(GivenNormals { values: normals, corners: None });
+        builder.normals(GivenNormals {
+            values: normals,
+            corners: None,
+        });
         builder.finish()
     }
 
@@ -106,7 +120,8 @@ impl Grid {
     }
 
     fn cell(&self, builder: &mut MeshBuilder, column: usize, row: usize) {
-        let [a, b, c, d] = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| self.index(column + i, row + j));
+        let [a, b, c, d] =
+            [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| self.index(column + i, row + j));
         if self.is_pole(row) {
             builder.polygon(&[a, c, d]);
         } else if self.is_pole(row + 1) {

@@ -67,8 +67,14 @@ mod tests {
             for (k, (sin, cos)) in turns(n).into_iter().enumerate() {
                 let angle = k as f64 / n as f64 * 4.0 * FRAC_PI_2;
                 // The angle is rounded at most 3 times at up to 2π, sine and cosine once more: 2π · 4 · ε/2.
-                assert!((sin - libm::sin(angle)).abs() < 13.0 * f64::EPSILON, "sin {k}/{n}");
-                assert!((cos - libm::cos(angle)).abs() < 13.0 * f64::EPSILON, "cos {k}/{n}");
+                assert!(
+                    (sin - libm::sin(angle)).abs() < 13.0 * f64::EPSILON,
+                    "sin {k}/{n}"
+                );
+                assert!(
+                    (cos - libm::cos(angle)).abs() < 13.0 * f64::EPSILON,
+                    "cos {k}/{n}"
+                );
                 let (mirrored, _) = turn(n - k, n);
                 assert_eq!(mirrored, -sin, "{k}/{n}");
             }

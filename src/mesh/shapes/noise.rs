@@ -12,7 +12,12 @@ pub(super) fn gradient_noise(p: DVec2, seed: u64) -> (f64, DVec2) {
         let gradient = lattice_gradient(cell.x + i, cell.y + j, seed);
         (gradient.dot(f - DVec2::new(i, j)), gradient)
     };
-    let [(a, ga), (b, gb), (c, gc), (d, gd)] = [corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(1.0, 1.0)];
+    let [(a, ga), (b, gb), (c, gc), (d, gd)] = [
+        corner(0.0, 0.0),
+        corner(1.0, 0.0),
+        corner(0.0, 1.0),
+        corner(1.0, 1.0),
+    ];
     let fade = |t: f64| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
     let slope = |t: f64| 30.0 * t * t * (t - 1.0) * (t - 1.0);
     let (u, v) = (fade(f.x), fade(f.y));
@@ -22,7 +27,10 @@ pub(super) fn gradient_noise(p: DVec2, seed: u64) -> (f64, DVec2) {
         + u * (gb - ga)
         + v * (gc - ga)
         + u * v * (ga - gb - gc + gd)
-        + DVec2::new(slope(f.x) * (b - a + v * twist), slope(f.y) * (c - a + u * twist));
+        + DVec2::new(
+            slope(f.x) * (b - a + v * twist),
+            slope(f.y) * (c - a + u * twist),
+        );
     (value, gradient)
 }
 
@@ -73,9 +81,14 @@ mod tests {
         for k in 0..200 {
             let p = DVec2::new(0.37 * k as f64 - 31.0, 0.23 * k as f64 - 11.0);
             let (_, gradient) = fractal_noise(p, 4, 7);
-            let difference = |d: DVec2| (fractal_noise(p + d, 4, 7).0 - fractal_noise(p - d, 4, 7).0) / (2.0 * h);
+            let difference = |d: DVec2| {
+                (fractal_noise(p + d, 4, 7).0 - fractal_noise(p - d, 4, 7).0) / (2.0 * h)
+            };
             let numeric = DVec2::new(difference(DVec2::X * h), difference(DVec2::Y * h));
-            assert!((numeric - gradient).length() < 1e-6, "{p}: {numeric} {gradient}");
+            assert!(
+                (numeric - gradient).length() < 1e-6,
+                "{p}: {numeric} {gradient}"
+            );
         }
     }
 
@@ -84,7 +97,12 @@ mod tests {
         let p = DVec2::new(0.3, 0.6);
         assert_ne!(gradient_noise(p, 1).0, gradient_noise(p, 2).0);
         for k in 0..1000 {
-            assert!(gradient_noise(DVec2::new(0.171 * k as f64, 0.059 * k as f64), 3).0.abs() < 1.0);
+            assert!(
+                gradient_noise(DVec2::new(0.171 * k as f64, 0.059 * k as f64), 3)
+                    .0
+                    .abs()
+                    < 1.0
+            );
         }
         // Zero on the lattice itself.
         assert_eq!(gradient_noise(DVec2::new(-3.0, 5.0), 9).0, 0.0);

@@ -29,7 +29,10 @@ pub fn corrugated(
         let (x, y) = (across(column, grid.columns), across(row, grid.rows));
         let phase = PI * waves * x;
         let slope = amplitude * PI * waves * libm::cos(phase);
-        (DVec3::new(x, y, amplitude * libm::sin(phase)), DVec3::new(-slope, 0.0, 1.0).normalize())
+        (
+            DVec3::new(x, y, amplitude * libm::sin(phase)),
+            DVec3::new(-slope, 0.0, 1.0).normalize(),
+        )
     })
 }
 
@@ -50,14 +53,23 @@ pub struct Terrain {
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a parameter is not finite.
-pub fn terrain(terrain: Terrain, columns: usize, rows: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
+pub fn terrain(
+    terrain: Terrain,
+    columns: usize,
+    rows: usize,
+    triangles: bool,
+) -> Result<PolygonMesh, MeshError> {
     let grid = Grid::new(Topology::Sheet, columns, rows, triangles);
     grid.mesh(|column, row| {
         // Rows run away from the viewer, so that east × north is up.
         let (x, z) = (across(column, grid.columns), -across(row, grid.rows));
         let scale = terrain.frequency / 2.0;
-        let (height, gradient) = fractal_noise(DVec2::new(x, z) * scale, terrain.octaves, terrain.seed);
+        let (height, gradient) =
+            fractal_noise(DVec2::new(x, z) * scale, terrain.octaves, terrain.seed);
         let slope = terrain.amplitude * scale * gradient;
-        (DVec3::new(x, terrain.amplitude * height, z), DVec3::new(-slope.x, 1.0, -slope.y).normalize())
+        (
+            DVec3::new(x, terrain.amplitude * height, z),
+            DVec3::new(-slope.x, 1.0, -slope.y).normalize(),
+        )
     })
 }

@@ -14,7 +14,9 @@ use glam::{DVec2, DVec3, Vec3};
 /// [`MeshError::TooLarge`].
 pub fn cube(res: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
     let n = res.max(1);
-    let polygons = (n as u64).saturating_mul(n as u64).saturating_mul(if triangles { 12 } else { 6 });
+    let polygons = (n as u64)
+        .saturating_mul(n as u64)
+        .saturating_mul(if triangles { 12 } else { 6 });
     if polygons > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }
@@ -28,20 +30,25 @@ pub fn cube(res: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
         let (right, up) = if side > 0.0 { (a, b) } else { (b, a) };
         values.push(side * axes[axis]);
         for row in 0..=n {
-            repeated
-                .extend((0..=n).map(|column| side * axes[axis] + coordinate(column) * right + coordinate(row) * up));
+            repeated.extend((0..=n).map(|column| {
+                side * axes[axis] + coordinate(column) * right + coordinate(row) * up
+            }));
         }
     }
     let (number, count) = weld(&repeated);
     let mut positions = vec![Vec3::ZERO; count];
-    number.iter().zip(&repeated).for_each(|(&i, &p)| positions[i as usize] = p);
+    number
+        .iter()
+        .zip(&repeated)
+        .for_each(|(&i, &p)| positions[i as usize] = p);
     drop(repeated);
     let mut builder = MeshBuilder::new(positions);
     let corners = polygons as usize * if triangles { 3 } else { 4 };
     builder.reserve(polygons as usize, corners);
     for face in number.chunks_exact((n + 1) * (n + 1)) {
         for (row, column) in (0..n).flat_map(|row| (0..n).map(move |column| (row, column))) {
-            let [a, b, c, d] = [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(i, j)| face[(row + i) * (n + 1) + column + j]);
+            let [a, b, c, d] = [(0, 0), (0, 1), (1, 1), (1, 0)]
+                .map(|(i, j)| face[(row + i) * (n + 1) + column + j]);
             if triangles {
                 builder.polygon(&[a, b, c]).polygon(&[a, c, d]);
             } else {
@@ -50,7 +57,10 @@ pub fn cube(res: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
         }
     }
     let of_corners = (0..corners).map(|k| (k / (corners / 6)) as u32).collect();
-    builder.normals(GivenNormals { values, corners: Some(of_corners) });
+    builder.normals(GivenNormals {
+        values,
+        corners: Some(of_corners),
+    });
     builder.finish()
 }
 
@@ -99,9 +109,16 @@ fn extrude(outline: &[DVec2], depth: f64) -> Result<PolygonMesh, MeshError> {
         builder.polygon(&[(n + k) as u32, (n + next) as u32, next as u32, k as u32]);
         let along = outline[next] - outline[k];
         // To the right of a counter-clockwise edge is outside.
-        values.push(DVec3::new(along.y, -along.x, 0.0).normalize_or_zero().as_vec3());
+        values.push(
+            DVec3::new(along.y, -along.x, 0.0)
+                .normalize_or_zero()
+                .as_vec3(),
+        );
         of_corners.extend([k as u32 + 2; 4]);
     }
-    builder.normals(GivenNormals { values, corners: Some(of_corners) });
+    builder.normals(GivenNormals {
+        values,
+        corners: Some(of_corners),
+    });
     builder.finish()
 }

@@ -12,7 +12,9 @@ use glam::DVec3;
 /// # Errors
 /// [`MeshError::TooLarge`].
 pub fn sphere(segments: usize, rings: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
-    over_directions(segments, rings, triangles, |direction| (direction, direction))
+    over_directions(segments, rings, triangles, |direction| {
+        (direction, direction)
+    })
 }
 
 /// The unit sphere with bumps: radius `1 + amplitude · sin(f x) sin(f y) sin(f z)` in direction (x, y, z), `f` being
@@ -30,11 +32,24 @@ pub fn bumpy(
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
     over_directions(segments, rings, triangles, |d| {
-        let sin = DVec3::new(libm::sin(frequency * d.x), libm::sin(frequency * d.y), libm::sin(frequency * d.z));
-        let cos = DVec3::new(libm::cos(frequency * d.x), libm::cos(frequency * d.y), libm::cos(frequency * d.z));
+        let sin = DVec3::new(
+            libm::sin(frequency * d.x),
+            libm::sin(frequency * d.y),
+            libm::sin(frequency * d.z),
+        );
+        let cos = DVec3::new(
+            libm::cos(frequency * d.x),
+            libm::cos(frequency * d.y),
+            libm::cos(frequency * d.z),
+        );
         let radius = 1.0 + amplitude * sin.x * sin.y * sin.z;
-        let gradient =
-            amplitude * frequency * DVec3::new(cos.x * sin.y * sin.z, sin.x * cos.y * sin.z, sin.x * sin.y * cos.z);
+        let gradient = amplitude
+            * frequency
+            * DVec3::new(
+                cos.x * sin.y * sin.z,
+                sin.x * cos.y * sin.z,
+                sin.x * sin.y * cos.z,
+            );
         // Of the surface r(d) d, with ∇ the gradient along the unit sphere, the normal is r d − ∇r.
         let along_sphere = gradient - gradient.dot(d) * d;
         (radius * d, (radius * d - along_sphere).normalize())

@@ -19,10 +19,18 @@ impl EllipsePoint {
     /// Barr's cosⁿ, which crowds the edges.
     fn new(exponent: f64, (x, y): (f64, f64)) -> Self {
         let power = 2.0 / exponent;
-        let gauge = libm::pow(libm::pow(x.abs(), power) + libm::pow(y.abs(), power), -exponent / 2.0);
+        let gauge = libm::pow(
+            libm::pow(x.abs(), power) + libm::pow(y.abs(), power),
+            -exponent / 2.0,
+        );
         let (x, y) = (gauge * x, gauge * y);
         let slope = |t: f64| libm::copysign(libm::pow(t.abs(), power - 1.0), t);
-        EllipsePoint { x, y, gradient_x: slope(x), gradient_y: slope(y) }
+        EllipsePoint {
+            x,
+            y,
+            gradient_x: slope(x),
+            gradient_y: slope(y),
+        }
     }
 }
 
@@ -45,7 +53,10 @@ pub fn superellipsoid(
         return Err(MeshError::TooLarge);
     }
     let (e1, e2) = (e1.clamp(0.05, 1.95), e2.clamp(0.05, 1.95));
-    let around: alloc::vec::Vec<_> = turns(grid.columns).into_iter().map(|d| EllipsePoint::new(e2, d)).collect();
+    let around: alloc::vec::Vec<_> = turns(grid.columns)
+        .into_iter()
+        .map(|d| EllipsePoint::new(e2, d))
+        .collect();
     let mut along = EllipsePoint::new(e1, (0.0, -1.0));
     grid.mesh(|column, row| {
         if column == 0 {
@@ -54,8 +65,11 @@ pub fn superellipsoid(
         }
         let ring = around[column];
         let position = DVec3::new(along.x * ring.x, along.y, along.x * ring.y);
-        let gradient =
-            DVec3::new(along.gradient_x * ring.gradient_x, along.gradient_y, along.gradient_x * ring.gradient_y);
+        let gradient = DVec3::new(
+            along.gradient_x * ring.gradient_x,
+            along.gradient_y,
+            along.gradient_x * ring.gradient_y,
+        );
         (position, gradient.normalize())
     })
 }

@@ -13,7 +13,9 @@ pub fn teapot_polygons(res: usize, bottom: bool, triangles: bool) -> u64 {
     let cells = res.saturating_mul(res).saturating_mul(patches);
     if triangles {
         let collapsed = patches_with_pole(bottom) as u64;
-        cells.saturating_mul(2).saturating_sub(collapsed.saturating_mul(res))
+        cells
+            .saturating_mul(2)
+            .saturating_sub(collapsed.saturating_mul(res))
     } else {
         cells
     }
@@ -48,23 +50,33 @@ pub fn teapot(res: usize, bottom: bool, triangles: bool) -> Result<PolygonMesh, 
     }
     let (number, count) = weld(&repeated);
     let mut positions = vec![Vec3::ZERO; count];
-    number.iter().zip(&repeated).for_each(|(&i, &p)| positions[i as usize] = p);
+    number
+        .iter()
+        .zip(&repeated)
+        .for_each(|(&i, &p)| positions[i as usize] = p);
     drop(repeated);
     let (values, normal_of) = share_normals(&number, count, &directions);
     drop(directions);
 
     let mut builder = MeshBuilder::new(positions);
-    builder.reserve(polygons as usize, polygons as usize * if triangles { 3 } else { 4 });
+    builder.reserve(
+        polygons as usize,
+        polygons as usize * if triangles { 3 } else { 4 },
+    );
     let mut of_corners = Vec::with_capacity(polygons as usize * if triangles { 3 } else { 4 });
     let mut polygon = |corners: &[usize]| {
         let mut indices = [0; 4];
-        indices.iter_mut().zip(corners).for_each(|(index, &c)| *index = number[c]);
+        indices
+            .iter_mut()
+            .zip(corners)
+            .for_each(|(index, &c)| *index = number[c]);
         builder.polygon(&indices[..corners.len()]);
         of_corners.extend(corners.iter().map(|&c| normal_of[c]));
     };
     for (k, patch) in patches(bottom).iter().enumerate() {
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-            let [a, b, c, d] = [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(u, v)| (k * (n + 1) + i + u) * (n + 1) + j + v);
+            let [a, b, c, d] = [(0, 0), (0, 1), (1, 1), (1, 0)]
+                .map(|(u, v)| (k * (n + 1) + i + u) * (n + 1) + j + v);
             if i == 0 && has_pole(patch) {
                 polygon(&[a, c, d]);
             } else if triangles {
@@ -75,12 +87,19 @@ pub fn teapot(res: usize, bottom: bool, triangles: bool) -> Result<PolygonMesh, 
             }
         }
     }
-    builder.normals(GivenNormals { values, corners: Some(of_corners) });
+    builder.normals(GivenNormals {
+        values,
+        corners: Some(of_corners),
+    });
     builder.finish()
 }
 
 fn patches(bottom: bool) -> &'static [[u16; 16]] {
-    if bottom { &PATCHES } else { &PATCHES[..PATCHES.len() - BOTTOM_PATCHES] }
+    if bottom {
+        &PATCHES
+    } else {
+        &PATCHES[..PATCHES.len() - BOTTOM_PATCHES]
+    }
 }
 
 /// Whether the first row of a patch is one point: at the knob's top and the bottom's middle.
@@ -102,21 +121,30 @@ fn share_normals(number: &[u32], count: usize, directions: &[DVec3]) -> (Vec<Vec
     let mut first = vec![NONE; count];
     // Each value's direction, and the next value at the same position.
     let mut chain: Vec<(DVec3, u32)> = Vec::with_capacity(count);
-    let value_of = number.iter().zip(directions).map(|(&position, &direction)| {
-        let head = &mut first[position as usize];
-        let mut value = *head;
-        while value != NONE && chain[value as usize].0.dot(direction) < SAME {
-            value = chain[value as usize].1;
-        }
-        if value == NONE {
-            value = chain.len() as u32;
-            chain.push((direction, *head));
-            *head = value;
-        }
-        value
-    });
+    let value_of = number
+        .iter()
+        .zip(directions)
+        .map(|(&position, &direction)| {
+            let head = &mut first[position as usize];
+            let mut value = *head;
+            while value != NONE && chain[value as usize].0.dot(direction) < SAME {
+                value = chain[value as usize].1;
+            }
+            if value == NONE {
+                value = chain.len() as u32;
+                chain.push((direction, *head));
+                *head = value;
+            }
+            value
+        });
     let value_of = value_of.collect();
-    (chain.iter().map(|(direction, _)| direction.as_vec3()).collect(), value_of)
+    (
+        chain
+            .iter()
+            .map(|(direction, _)| direction.as_vec3())
+            .collect(),
+        value_of,
+    )
 }
 
 /// A bicubic Bézier patch.
@@ -134,7 +162,10 @@ impl Patch {
             DVec3::new(x, z - 3.15 / 2.0, -y) / 2.0
         };
         let points = core::array::from_fn(|i| core::array::from_fn(|j| place(indices[4 * i + j])));
-        Patch { points, pole: has_pole(indices) }
+        Patch {
+            points,
+            pole: has_pole(indices),
+        }
     }
 
     /// The point and the outward unit normal at `i / n`, `j / n`.
@@ -144,10 +175,16 @@ impl Patch {
         let slopes = self.points.map(|row| v.slope(row));
         if self.pole && i == 0 {
             // Where a row is one point ∂P/∂v vanishes; next to it, it is u ∂²P/∂u∂v: the limit of the normal.
-            return (self.points[0][0], u.slope(slopes).cross(u.slope(points)).normalize());
+            return (
+                self.points[0][0],
+                u.slope(slopes).cross(u.slope(points)).normalize(),
+            );
         }
         // In this data the outward side is that of ∂P/∂v × ∂P/∂u.
-        (u.point(points), u.point(slopes).cross(u.slope(points)).normalize())
+        (
+            u.point(points),
+            u.point(slopes).cross(u.slope(points)).normalize(),
+        )
     }
 }
 
@@ -163,7 +200,12 @@ impl Bernstein {
     fn at(k: usize, n: usize) -> Self {
         let (t, s) = (k as f64 / n as f64, (n - k) as f64 / n as f64);
         Bernstein {
-            cubic: [s * (s * s), 3.0 * t * (s * s), 3.0 * s * (t * t), t * (t * t)],
+            cubic: [
+                s * (s * s),
+                3.0 * t * (s * s),
+                3.0 * s * (t * t),
+                t * (t * t),
+            ],
             quadratic: [s * s, 2.0 * (s * t), t * t],
         }
     }
@@ -192,10 +234,17 @@ mod tests {
     #[test]
     fn an_edge_has_the_same_points_from_both_ends() {
         let edge = PATCHES[0].map(|i| DVec3::from(POINTS[i as usize]))[..4].to_vec();
-        let (forward, backward) = ([edge[0], edge[1], edge[2], edge[3]], [edge[3], edge[2], edge[1], edge[0]]);
+        let (forward, backward) = (
+            [edge[0], edge[1], edge[2], edge[3]],
+            [edge[3], edge[2], edge[1], edge[0]],
+        );
         for n in 1..200 {
             for k in 0..=n {
-                assert_eq!(Bernstein::at(k, n).point(forward), Bernstein::at(n - k, n).point(backward), "{k}/{n}");
+                assert_eq!(
+                    Bernstein::at(k, n).point(forward),
+                    Bernstein::at(n - k, n).point(backward),
+                    "{k}/{n}"
+                );
             }
         }
     }

@@ -12,7 +12,13 @@ use glam::DVec3;
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a radius is not finite.
-pub fn torus(major: f64, minor: f64, segments: usize, sides: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
+pub fn torus(
+    major: f64,
+    minor: f64,
+    segments: usize,
+    sides: usize,
+    triangles: bool,
+) -> Result<PolygonMesh, MeshError> {
     let grid = Grid::new(Topology::Tube, segments, sides, triangles);
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
@@ -21,7 +27,10 @@ pub fn torus(major: f64, minor: f64, segments: usize, sides: usize, triangles: b
     grid.mesh(|column, row| {
         let ((sin_u, cos_u), (sin_v, cos_v)) = (along[column], around[row]);
         let normal = DVec3::new(cos_v * cos_u, cos_v * sin_u, sin_v);
-        (major * DVec3::new(cos_u, sin_u, 0.0) + minor * normal, normal)
+        (
+            major * DVec3::new(cos_u, sin_u, 0.0) + minor * normal,
+            normal,
+        )
     })
 }
 
@@ -50,7 +59,9 @@ pub fn knot(
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }
-    let frames: Vec<[DVec3; 3]> = (0..grid.columns).map(|k| knot_frame(p, q, k, grid.columns)).collect();
+    let frames: Vec<[DVec3; 3]> = (0..grid.columns)
+        .map(|k| knot_frame(p, q, k, grid.columns))
+        .collect();
     let around = turns(grid.rows);
     grid.mesh(|column, row| {
         let [centre, outward, sideways] = frames[column];
@@ -69,7 +80,10 @@ fn knot_frame(p: usize, q: usize, k: usize, n: usize) -> [DVec3; 3] {
     let centre = DVec3::new(distance * cos_p, distance * sin_p, KNOT_MINOR * sin_q);
     let outward = DVec3::new(cos_q * cos_p, cos_q * sin_p, sin_q);
     let away = -KNOT_MINOR * q * sin_q;
-    let tangent =
-        DVec3::new(away * cos_p - distance * p * sin_p, away * sin_p + distance * p * cos_p, KNOT_MINOR * q * cos_q);
+    let tangent = DVec3::new(
+        away * cos_p - distance * p * sin_p,
+        away * sin_p + distance * p * cos_p,
+        KNOT_MINOR * q * cos_q,
+    );
     [centre, outward, outward.cross(tangent).normalize()]
 }

@@ -33,10 +33,19 @@ operation!(Most, |m, a, b, c| Num::max(a, b));
 operation!(Least, |m, a, b, c| Num::min(a, b));
 operation!(Gate, |m, a, b, c| a.gate(b));
 operation!(MulAdd, |m, a, b, c| Num::mul_add(a, b, c));
-operation!(Less, |m, a, b, c| m.blend(m.less(a, b), m.splat(1.0), m.splat(0.0)));
+operation!(Less, |m, a, b, c| m.blend(
+    m.less(a, b),
+    m.splat(1.0),
+    m.splat(0.0)
+));
 operation!(Blend, |m, a, b, c| m.blend(m.less(c, m.splat(0.0)), a, b));
-operation!(Kept, |m, a, b, c| m.keep(m.kept(m.truncated(c * m.splat(4.0)), a, b), a, c));
-operation!(Truncated, |m, a, b, c| m.number(m.truncated(c * m.splat(1e6))));
+operation!(Kept, |m, a, b, c| m.keep(
+    m.kept(m.truncated(c * m.splat(4.0)), a, b),
+    a,
+    c
+));
+operation!(Truncated, |m, a, b, c| m
+    .number(m.truncated(c * m.splat(1e6))));
 operation!(MulSub, |m, a, b, c| Num::mul_sub(a, b, c));
 operation!(FromLargest, |m, a, b, c| m.ramp(m.first(a), m.first(b)));
 
@@ -54,7 +63,9 @@ impl<O: Operation> LanesJob for Columns<'_, O> {
         let mut out = vec![0.0; a.len()];
         m.vectorize(|| {
             for x in (0..a.len()).step_by(M::WIDTH) {
-                let result = self.operation.of(m, m.load(&a[x..]), m.load(&b[x..]), m.load(&c[x..]));
+                let result =
+                    self.operation
+                        .of(m, m.load(&a[x..]), m.load(&b[x..]), m.load(&c[x..]));
                 m.store(result, &mut out[x..]);
             }
         });
@@ -69,7 +80,18 @@ pub(super) fn wide() -> impl Iterator<Item = Level> {
 
 /// Numbers of every kind, and random ones: every pair of them, in whole groups.
 fn pairs() -> [Vec<f32>; 3] {
-    let mut numbers = vec![0.0, -0.0, 1.0, -1.0, 0.5, 255.0, 1e-40, f32::MIN_POSITIVE, -3e38, f32::MAX];
+    let mut numbers = vec![
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        0.5,
+        255.0,
+        1e-40,
+        f32::MIN_POSITIVE,
+        -3e38,
+        f32::MAX,
+    ];
     numbers.extend([f32::INFINITY, f32::NEG_INFINITY, f32::NAN]);
     let mut random = Random::new(3);
     numbers.extend((0..11).map(|_| random.signed()));
@@ -95,7 +117,10 @@ fn compare(operation: impl Operation, check: impl Fn([f32; 3], f32, f32) -> bool
         let found = on_level(level, Columns { operation, columns });
         for (i, (found, expected)) in found.into_iter().zip(&expected).enumerate() {
             let operands = columns.map(|column| column[i]);
-            assert!(check(operands, found, *expected), "{level}, {operands:?}: {found}, expected {expected}");
+            assert!(
+                check(operands, found, *expected),
+                "{level}, {operands:?}: {found}, expected {expected}"
+            );
         }
     }
 }
@@ -128,7 +153,8 @@ fn every_operation_is_the_scalar_one() {
 /// A NaN that is clamped becomes what it is clamped to; bounds themselves are numbers.
 #[test]
 fn clamps_make_numbers_of_what_is_none() {
-    let clamped = |[_, bound, _]: [f32; 3], found, expected| bound.is_nan() || same(found, expected);
+    let clamped =
+        |[_, bound, _]: [f32; 3], found, expected| bound.is_nan() || same(found, expected);
     compare(Most, clamped);
     compare(Least, clamped);
     let bounded = |[x, bound, _]: [f32; 3], found, _| !x.is_nan() || same(found, bound);
@@ -144,7 +170,9 @@ impl LanesJob for AnyOver<'_> {
 
     fn run<M: Lanes>(self, m: M) -> Vec<bool> {
         let groups = self.0.chunks_exact(M::WIDTH);
-        groups.flat_map(|group| vec![m.load(group).is_over(m.splat(self.1)); M::WIDTH]).collect()
+        groups
+            .flat_map(|group| vec![m.load(group).is_over(m.splat(self.1)); M::WIDTH])
+            .collect()
     }
 }
 
@@ -167,14 +195,24 @@ fn a_group_is_over_what_any_of_it_is_over() {
 /// Rounded once or twice, as the machine has it; a ramp counts lanes from 0.
 #[test]
 fn sums_of_products_are_rounded_once_or_twice() {
-    let fused = |[a, b, c]: [f32; 3], found, expected| same(found, expected) || same(found, f32::mul_add(a, b, c));
+    let fused = |[a, b, c]: [f32; 3], found, expected| {
+        same(found, expected) || same(found, f32::mul_add(a, b, c))
+    };
     compare(MulAdd, fused);
-    let fused = |[a, b, c]: [f32; 3], found, expected| same(found, expected) || same(found, f32::mul_add(a, b, -c));
+    let fused = |[a, b, c]: [f32; 3], found, expected| {
+        same(found, expected) || same(found, f32::mul_add(a, b, -c))
+    };
     compare(MulSub, fused);
     let columns = pairs();
     let columns = columns.each_ref().map(|column| &column[..]);
     for level in wide() {
-        let found = on_level(level, Columns { operation: FromLargest, columns });
+        let found = on_level(
+            level,
+            Columns {
+                operation: FromLargest,
+                columns,
+            },
+        );
         for (i, found) in found.into_iter().enumerate() {
             let (at, step, k) = (columns[0][i / 8 * 8], columns[1][i / 8 * 8], (i % 8) as f32);
             assert!(
@@ -194,8 +232,15 @@ fn inverse_roots_are_off_by_less_than_two_to_the_minus_21() {
     let mut x = Vec::new();
     for exponent in -126..=127 {
         let power = f32::from_bits(((exponent + 127) as u32) << 23);
-        x.extend((0..64).map(|i| power * (1.0 + (i as f32 + 0.5 * (1.0 + random.signed())) / 64.0)));
-        x.extend([power, power.next_up(), (power * 1.999_999).next_down(), 1.5 * power]);
+        x.extend(
+            (0..64).map(|i| power * (1.0 + (i as f32 + 0.5 * (1.0 + random.signed())) / 64.0)),
+        );
+        x.extend([
+            power,
+            power.next_up(),
+            (power * 1.999_999).next_down(),
+            1.5 * power,
+        ]);
     }
     x.resize(x.len().next_multiple_of(8), 1.0);
     let estimate = 1.5 * f64::powi(2.0, -12);
@@ -203,10 +248,21 @@ fn inverse_roots_are_off_by_less_than_two_to_the_minus_21() {
     let bound = 1.5 * estimate * estimate + 3.0 * rounding;
     assert!(bound < f64::powi(2.0, -21));
     for level in wide() {
-        let found = on_level(level, Columns { operation: OverRoot, columns: [&x, &x, &x] });
-        let error = |(found, x): (&f32, &f32)| (f64::from(*found) * f64::from(*x).sqrt() - 1.0).abs();
+        let found = on_level(
+            level,
+            Columns {
+                operation: OverRoot,
+                columns: [&x, &x, &x],
+            },
+        );
+        let error =
+            |(found, x): (&f32, &f32)| (f64::from(*found) * f64::from(*x).sqrt() - 1.0).abs();
         let most = found.iter().zip(&x).map(error).fold(0.0, f64::max);
-        let bound = if level == Level::Avx2 { bound } else { 2.0 * rounding };
+        let bound = if level == Level::Avx2 {
+            bound
+        } else {
+            2.0 * rounding
+        };
         assert!(most <= bound, "{level}: {most:.2e} is over {bound:.2e}");
     }
 }
@@ -232,11 +288,19 @@ fn lanes_are_those_from_and_before() {
         for (from, to) in ends().flat_map(|from| ends().map(move |to| (from, to))) {
             let (lanes, any, bits) = on_level(level, SomeLanes(from, to));
             assert_eq!(lanes.len(), level.width());
-            let expected: Vec<bool> = (0..level.width()).map(|k| (from..to).contains(&k)).collect();
+            let expected: Vec<bool> = (0..level.width())
+                .map(|k| (from..to).contains(&k))
+                .collect();
             let of_lanes = lanes.iter().map(|&lane| lane == 1.0);
-            assert!(of_lanes.eq(expected.iter().copied()), "{level}: {from}..{to}: {lanes:?}");
+            assert!(
+                of_lanes.eq(expected.iter().copied()),
+                "{level}: {from}..{to}: {lanes:?}"
+            );
             assert_eq!(any, expected.contains(&true), "{level}: {from}..{to}");
-            assert!((0..level.width()).all(|k| (bits >> k & 1 == 1) == expected[k]), "{level}: {from}..{to}: {bits:b}");
+            assert!(
+                (0..level.width()).all(|k| (bits >> k & 1 == 1) == expected[k]),
+                "{level}: {from}..{to}: {bits:b}"
+            );
         }
     }
 }
@@ -264,8 +328,15 @@ fn groups_are_made_in_order() {
     for level in Level::available() {
         let (values, stride) = on_level(level, Made);
         let width = level.width();
-        assert!((0..width).all(|k| values[k] == f32::powi(2.0, k as i32 + 1)), "{level}: {values:?}");
-        assert_eq!(values[width..], [-1.0; 3], "{level}: nothing behind the group is stored");
+        assert!(
+            (0..width).all(|k| values[k] == f32::powi(2.0, k as i32 + 1)),
+            "{level}: {values:?}"
+        );
+        assert_eq!(
+            values[width..],
+            [-1.0; 3],
+            "{level}: nothing behind the group is stored"
+        );
         assert_eq!(stride, 3.0 * width as f32);
     }
 }
@@ -311,7 +382,9 @@ fn whole_numbers_are_those_of_the_processor() {
         let reach = [4, 300, 1 << 15][round % 3];
         let mut numbers = || [(); 8].map(|()| random.below(2 * reach + 1) as i32 - reach as i32);
         let (a, b) = (numbers(), numbers());
-        let each = |of: fn(i32, i32) -> i32| -> Vec<i32> { a.iter().zip(b).map(|(&a, b)| of(a, b)).collect() };
+        let each = |of: fn(i32, i32) -> i32| -> Vec<i32> {
+            a.iter().zip(b).map(|(&a, b)| of(a, b)).collect()
+        };
         let expected = [
             each(|a, b| a + b),
             each(|a, b| a - b),
@@ -324,7 +397,11 @@ fn whole_numbers_are_those_of_the_processor() {
             each(|a, b| a & b),
         ];
         for level in Level::available() {
-            assert_eq!(on_level(level, Integers(a, b)), expected, "{level}: {a:?} {b:?}");
+            assert_eq!(
+                on_level(level, Integers(a, b)),
+                expected,
+                "{level}: {a:?} {b:?}"
+            );
         }
     }
 }

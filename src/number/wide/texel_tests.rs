@@ -37,22 +37,62 @@ impl LanesJob for Packed<'_> {
 /// that, where magnitudes of 2³¹ and more are not asked for.
 #[test]
 fn colours_are_stored_as_one_by_one() {
-    let mut values: Vec<f32> =
-        vec![f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 2.0, -0.0, 1e-40, -1e-40];
+    let mut values: Vec<f32> = vec![
+        f32::NAN,
+        -f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        -1.0,
+        2.0,
+        -0.0,
+        1e-40,
+        -1e-40,
+    ];
     for level in 0..=255u16 {
         let border = ((f64::from(level) + 0.5) / 255.0) as f32;
-        values.extend([f32::from(level) / 255.0, border, border.next_up(), border.next_down()]);
+        values.extend([
+            f32::from(level) / 255.0,
+            border,
+            border.next_up(),
+            border.next_down(),
+        ]);
     }
     values.resize(values.len().next_multiple_of(8), 0.25);
-    let mut levels: Vec<f32> = values.iter().map(|c| if c.is_infinite() { 8e6f32.copysign(*c) } else { *c }).collect();
+    let mut levels: Vec<f32> = values
+        .iter()
+        .map(|c| {
+            if c.is_infinite() {
+                8e6f32.copysign(*c)
+            } else {
+                *c
+            }
+        })
+        .collect();
     levels.iter_mut().for_each(|c| *c *= 255.0);
     for (values, are_levels) in [(values, false), (levels, true)] {
-        let turned = |by: usize| -> Vec<f32> { values.iter().cycle().skip(by).take(values.len()).copied().collect() };
+        let turned = |by: usize| -> Vec<f32> {
+            values
+                .iter()
+                .cycle()
+                .skip(by)
+                .take(values.len())
+                .copied()
+                .collect()
+        };
         let (green, blue) = (turned(331), turned(77));
         let mut random = Random::new(9);
         let covered: Vec<f32> = values.iter().map(|_| random.signed() + 0.5).collect();
         let channels = [&values[..], &green, &blue];
-        let packed = |level| on_level(level, Packed { channels, are_levels, covered: &covered });
+        let packed = |level| {
+            on_level(
+                level,
+                Packed {
+                    channels,
+                    are_levels,
+                    covered: &covered,
+                },
+            )
+        };
         let expected = packed(Level::Scalar);
         assert!(expected.contains(&BACKGROUND) && expected.iter().any(|t| t[3] == 255));
         for level in wide() {

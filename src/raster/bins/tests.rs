@@ -15,11 +15,19 @@ fn frame(random: &mut Random, polygons: usize, width: usize, height: usize) -> F
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
     for number in 0..polygons {
         let reach = [128, 2000, 40_000][number % 3];
-        let middle = [width, height].map(|side| random.below(side as u64 * 512) as i32 - side as i32 * 128);
+        let middle =
+            [width, height].map(|side| random.below(side as u64 * 512) as i32 - side as i32 * 128);
         let corners: Vec<u32> = (0..3 + number % 4)
             .map(|_| {
                 let [x, y] = middle.map(|at| SubPixel::from_bits(at + random.below(reach) as i32));
-                builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+                builder.vertex(Vertex {
+                    x,
+                    y,
+                    depth: 0.5,
+                    inv_w: 1.0,
+                    normal: [0.0, 0.0, 1.0],
+                    material,
+                })
             })
             .collect();
         builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
@@ -32,17 +40,30 @@ fn a_band_has_every_polygon_that_covers_any_of_its_pixels_in_order() {
     let mut random = Random::new(31);
     for round in 0..200 {
         let (width, height) = (1 + random.below(60) as usize, 1 + random.below(70) as usize);
-        let (frame, rows) = (frame(&mut random, 80, width, height), [1, 4, 8, 16, 32, 128][round % 6]);
+        let (frame, rows) = (
+            frame(&mut random, 80, width, height),
+            [1, 4, 8, 16, 32, 128][round % 6],
+        );
         let bins = Bins::new(&frame, rows);
         let mut covering = BTreeSet::new();
-        coverage(&frame, |number, row, _| covering.extend([(row / rows, number)]));
+        coverage(&frame, |number, row, _| {
+            covering.extend([(row / rows, number)])
+        });
         for band in 0..height.div_ceil(rows) {
             let polygons: Vec<u32> = bins.band(band).flatten().copied().collect();
-            assert!(polygons.is_sorted_by(|a, b| a < b), "ascending, each once: {polygons:?}");
-            let missing = covering.iter().find(|(at, number)| *at == band && !polygons.contains(number));
+            assert!(
+                polygons.is_sorted_by(|a, b| a < b),
+                "ascending, each once: {polygons:?}"
+            );
+            let missing = covering
+                .iter()
+                .find(|(at, number)| *at == band && !polygons.contains(number));
             assert_eq!(missing, None, "round {round}, bands of {rows}");
             for number in polygons {
-                assert!(has_centre(&frame, number, band * rows..((band + 1) * rows).min(height)), "{number}");
+                assert!(
+                    has_centre(&frame, number, band * rows..((band + 1) * rows).min(height)),
+                    "{number}"
+                );
             }
         }
     }
@@ -55,13 +76,22 @@ fn triangles_are_told_from_polygons_of_other_shapes() {
         for other in [None, Some(0), Some(count / 2), Some(count - 1)] {
             for corners in [4, 5] {
                 let mut builder = FrameBuilder::new(8, 8);
-                let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
+                let material =
+                    builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
                 for number in 0..count {
                     let corners: Vec<u32> = (0..if Some(number) == other { corners } else { 3 })
                         .map(|corner| {
-                            let [x, y] =
-                                [[0, 0], [900, 0], [900, 900], [500, 950], [0, 900]][corner].map(SubPixel::from_bits);
-                            builder.vertex(Vertex { x, y, depth: 0.5, inv_w: 1.0, normal: [0.0, 0.0, 1.0], material })
+                            let [x, y] = [[0, 0], [900, 0], [900, 900], [500, 950], [0, 900]]
+                                [corner]
+                                .map(SubPixel::from_bits);
+                            builder.vertex(Vertex {
+                                x,
+                                y,
+                                depth: 0.5,
+                                inv_w: 1.0,
+                                normal: [0.0, 0.0, 1.0],
+                                material,
+                            })
                         })
                         .collect();
                     builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
@@ -70,7 +100,11 @@ fn triangles_are_told_from_polygons_of_other_shapes() {
                 let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
                 for frame in [&whole, &pieces] {
                     let bins = Bins::<Listed>::new(frame, 8);
-                    assert_eq!(bins.are_triangles(), other.is_none(), "{other:?} of {count}");
+                    assert_eq!(
+                        bins.are_triangles(),
+                        other.is_none(),
+                        "{other:?} of {count}"
+                    );
                     let others = bins.band(0).flatten().filter(|entry| !entry.is_triangle());
                     assert!(others.map(|entry| entry.number as usize).eq(other));
                 }
@@ -85,9 +119,16 @@ fn triangles_are_listed_with_their_corners() {
     let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
     let mut triangles = 0;
     for frame in [&whole, &pieces] {
-        let (numbers, listed): (Bins<u32>, Bins<Listed>) = (Bins::new(frame, 8), Bins::new(frame, 8));
+        let (numbers, listed): (Bins<u32>, Bins<Listed>) =
+            (Bins::new(frame, 8), Bins::new(frame, 8));
         for band in 0..5 {
-            assert!(listed.band(band).flatten().map(|entry| &entry.number).eq(numbers.band(band).flatten()));
+            assert!(
+                listed
+                    .band(band)
+                    .flatten()
+                    .map(|entry| &entry.number)
+                    .eq(numbers.band(band).flatten())
+            );
             for entry in listed.band(band).flatten() {
                 let corners = frame.corners(&frame.polygons()[entry.number as usize]);
                 triangles += usize::from(corners.len() == 3);
@@ -102,7 +143,13 @@ fn triangles_are_listed_with_their_corners() {
 #[test]
 fn the_bands_of_a_polygon_are_those_of_its_bounding_box() {
     let mut random = Random::new(32);
-    for (count, rows) in [(1, 16), (64, 1), (65, 32), (CHUNK, 16), (2 * CHUNK + 100, 8)] {
+    for (count, rows) in [
+        (1, 16),
+        (64, 1),
+        (65, 32),
+        (CHUNK, 16),
+        (2 * CHUNK + 100, 8),
+    ] {
         let (width, height) = (1 + random.below(60) as usize, 1 + random.below(70) as usize);
         let whole = frame(&mut random, count, width, height);
         let pieces = whole.with_pieces(|polygon, put| put(whole.corners(polygon)));
@@ -110,11 +157,15 @@ fn the_bands_of_a_polygon_are_those_of_its_bounding_box() {
         let [of_whole, of_pieces] = [&whole, &pieces].map(|frame| Bins::new(frame, rows));
         for band in 0..height.div_ceil(rows) {
             let of_band = band * rows..((band + 1) * rows).min(height);
-            let expected: Vec<u32> =
-                (0..count as u32).filter(|&number| has_centre(&whole, number, of_band.clone())).collect();
+            let expected: Vec<u32> = (0..count as u32)
+                .filter(|&number| has_centre(&whole, number, of_band.clone()))
+                .collect();
             for bins in [&of_whole, &of_pieces] {
                 let found: Vec<u32> = bins.band(band).flatten().copied().collect();
-                assert!(found == expected, "{count} polygons, band {band} of {rows} rows");
+                assert!(
+                    found == expected,
+                    "{count} polygons, band {band} of {rows} rows"
+                );
             }
         }
     }
@@ -125,7 +176,9 @@ fn the_bands_of_a_polygon_are_those_of_its_bounding_box() {
 fn has_centre(frame: &Frame, number: u32, rows: Range<usize>) -> bool {
     let corners = frame.corners(&frame.polygons()[number as usize]);
     let all = |of: fn(&ScreenVertex) -> SubPixel| {
-        let all = corners.iter().map(|&v| of(&frame.vertices()[v as usize]).to_bits());
+        let all = corners
+            .iter()
+            .map(|&v| of(&frame.vertices()[v as usize]).to_bits());
         (all.clone().min().unwrap(), all.max().unwrap())
     };
     let holds = |(low, high): (i32, i32), mut pixels: Range<usize>| {

@@ -37,7 +37,12 @@ const fn size<M: Lanes, P: Planes<M::F>>() -> usize {
 impl Band {
     /// Makes room for `rows` rows of `width` pixels of `P`, all of them empty; with room for their materials if
     /// `has_materials`.
-    pub fn prepare<M: Lanes, P: Planes<M::F>>(&mut self, rows: usize, width: usize, has_materials: bool) {
+    pub fn prepare<M: Lanes, P: Planes<M::F>>(
+        &mut self,
+        rows: usize,
+        width: usize,
+        has_materials: bool,
+    ) {
         let (groups, size) = (width.div_ceil(2 * M::WIDTH) * 2, size::<M, P>());
         // Bands are empty after they were taken: only another division of the memory has to be emptied.
         if (self.rows, self.groups, self.size) != (rows, groups, size) {
@@ -45,27 +50,45 @@ impl Band {
             self.values.clear();
             self.values.resize(rows * groups * size, f32::INFINITY);
         }
-        self.materials.resize(if has_materials { rows * groups * M::WIDTH } else { 0 }, 0.0);
+        self.materials.resize(
+            if has_materials {
+                rows * groups * M::WIDTH
+            } else {
+                0
+            },
+            0.0,
+        );
         self.drawn = groups..0;
     }
 
     /// All groups, to be drawn; with `hides` only where depth is less than what was stored before. Which groups of any row are drawn
     /// is to be said by [`Band::extend`].
     #[inline(always)]
-    pub(super) fn cells<M: Lanes, P: Planes<M::F>>(&mut self, m: M, hides: bool) -> Cells<'_, M, P> {
+    pub(super) fn cells<M: Lanes, P: Planes<M::F>>(
+        &mut self,
+        m: M,
+        hides: bool,
+    ) -> Cells<'_, M, P> {
         Cells {
             values: &mut self.values,
             materials: &mut self.materials,
             a_row: self.groups,
             hides,
-            least: m.splat(if hides { f32::NEG_INFINITY } else { f32::INFINITY }),
+            least: m.splat(if hides {
+                f32::NEG_INFINITY
+            } else {
+                f32::INFINITY
+            }),
             pixel: PhantomData,
         }
     }
 
     /// Where its numbers are.
     pub(super) fn layout<M: Lanes, P: Planes<M::F>>(&self) -> Layout {
-        Layout { a_row: (self.groups * M::WIDTH) as i32, numbers: (size::<M, P>() / M::WIDTH) as i32 }
+        Layout {
+            a_row: (self.groups * M::WIDTH) as i32,
+            numbers: (size::<M, P>() / M::WIDTH) as i32,
+        }
     }
 
     /// Says that the groups `groups` of any row may be drawn.
@@ -82,9 +105,14 @@ impl Band {
 
     /// Groups of a row, two by two, from left to right.
     #[inline(always)]
-    pub fn row<M: Lanes, P: Planes<M::F>>(&self, row: usize, groups: Range<usize>) -> ChunksExact<'_, f32> {
+    pub fn row<M: Lanes, P: Planes<M::F>>(
+        &self,
+        row: usize,
+        groups: Range<usize>,
+    ) -> ChunksExact<'_, f32> {
         let size = size::<M, P>();
-        self.values[(row * self.groups + groups.start) * size..][..groups.len() * size].chunks_exact(2 * size)
+        self.values[(row * self.groups + groups.start) * size..][..groups.len() * size]
+            .chunks_exact(2 * size)
     }
 
     /// The depth of two groups, and what is stored beside it.
@@ -96,7 +124,10 @@ impl Band {
             #[inline(always)]
             || {
                 at += M::WIDTH;
-                Pair(m.load(&first[at - M::WIDTH..at]), m.load(&second[at - M::WIDTH..at]))
+                Pair(
+                    m.load(&first[at - M::WIDTH..at]),
+                    m.load(&second[at - M::WIDTH..at]),
+                )
             },
         )
     }
@@ -143,7 +174,10 @@ impl Band {
         let material = |x: usize| self.materials[first * M::WIDTH + x].to_bits();
         match drawn.next().map(material) {
             None => (pixels.end, only),
-            Some(same) => (drawn.find(|&x| material(x) != same).unwrap_or(pixels.end), same),
+            Some(same) => (
+                drawn.find(|&x| material(x) != same).unwrap_or(pixels.end),
+                same,
+            ),
         }
     }
 }
@@ -163,8 +197,16 @@ pub(crate) struct Cells<'a, M: Lanes, P> {
 impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
     /// Gives the groups `groups` of row `row`, from left to right.
     #[inline(always)]
-    pub fn each(&mut self, row: usize, groups: Range<usize>, mut visit: impl FnMut(&mut Cell<'_, M, P>)) {
-        let (mut first, end) = (row * self.a_row + groups.start, row * self.a_row + groups.end);
+    pub fn each(
+        &mut self,
+        row: usize,
+        groups: Range<usize>,
+        mut visit: impl FnMut(&mut Cell<'_, M, P>),
+    ) {
+        let (mut first, end) = (
+            row * self.a_row + groups.start,
+            row * self.a_row + groups.end,
+        );
         let size = size::<M, P>();
         for values in self.values[first * size..end * size].chunks_exact_mut(size) {
             visit(&mut Cell {
@@ -185,19 +227,37 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
         // Not over a slice of the groups: that takes more registers than there are.
         let (mut from, to) = (from as u32 as usize, to as u32 as usize);
         while from < to {
-            let Some(values) = self.values.get_mut(from..from + size) else { return };
-            visit(&mut Cell { values, materials: &mut [], number: 0, least: self.least, pixel: PhantomData });
+            let Some(values) = self.values.get_mut(from..from + size) else {
+                return;
+            };
+            visit(&mut Cell {
+                values,
+                materials: &mut [],
+                number: 0,
+                least: self.least,
+                pixel: PhantomData,
+            });
             from += size;
         }
     }
 
     /// Group `group` of row `row`, whose pixels have `MATERIALS` or none.
     #[inline(always)]
-    pub fn cell<const MATERIALS: bool>(&mut self, row: usize, group: usize) -> Option<Cell<'_, M, P>> {
+    pub fn cell<const MATERIALS: bool>(
+        &mut self,
+        row: usize,
+        group: usize,
+    ) -> Option<Cell<'_, M, P>> {
         let (number, size) = (row * self.a_row + group, size::<M, P>());
         let values = self.values.get_mut(number * size..(number + 1) * size)?;
         let materials: &mut [f32] = if MATERIALS { self.materials } else { &mut [] };
-        Some(Cell { values, materials, number, least: self.least, pixel: PhantomData })
+        Some(Cell {
+            values,
+            materials,
+            number,
+            least: self.least,
+            pixel: PhantomData,
+        })
     }
 
     /// How many numbers there are a row, and a group.
@@ -276,7 +336,10 @@ impl<M: Lanes, P: Planes<M::F>> Cell<'_, M, P> {
         );
         if !self.materials.is_empty() {
             let place = &mut self.materials[self.number * M::WIDTH..][..M::WIDTH];
-            m.store(m.keep(kept, m.load(place), m.splat(f32::from_bits(material))), place);
+            m.store(
+                m.keep(kept, m.load(place), m.splat(f32::from_bits(material))),
+                place,
+            );
         }
     }
 }

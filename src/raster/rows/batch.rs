@@ -90,7 +90,10 @@ impl Small<'_> {
     /// Its columns: the first one and that after the last.
     #[inline(always)]
     pub fn columns(&self) -> [usize; 2] {
-        [self.0.columns[0][self.1] as usize, self.0.columns[1][self.1] as usize]
+        [
+            self.0.columns[0][self.1] as usize,
+            self.0.columns[1][self.1] as usize,
+        ]
     }
 
     /// Its rows in the band that begins with row `top`.
@@ -248,7 +251,11 @@ impl Batch {
     pub(super) fn large(&self, k: usize) -> Option<Triangle> {
         let place = |i: usize| [self.x[i][k], self.y[i][k]];
         let columns = self.columns[0][k]..self.columns[1][k];
-        Triangle::new([place(0), place(1), place(2)], columns, self.rows[0][k]..self.rows[1][k])
+        Triangle::new(
+            [place(0), place(1), place(2)],
+            columns,
+            self.rows[0][k]..self.rows[1][k],
+        )
     }
 }
 

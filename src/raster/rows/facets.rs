@@ -55,7 +55,10 @@ impl Facets {
         let mut growth = [0.0; LINE];
         let mut i = 0;
         while i < count {
-            m.store(m.load(&to_c[i..]).mul_add(c, m.load(&to_b[i..]) * b), &mut growth[i..]);
+            m.store(
+                m.load(&to_c[i..]).mul_add(c, m.load(&to_b[i..]) * b),
+                &mut growth[i..],
+            );
             i += M::WIDTH;
         }
         growth
@@ -81,7 +84,8 @@ impl Facet {
     /// At a group of pixels with these coordinates.
     #[inline(always)]
     pub fn lanes<M: Lanes>(&self, m: M, [b, c]: [M::F; 2]) -> M::F {
-        m.splat(self.to[1]).mul_add(c, m.splat(self.to[0]).mul_add(b, m.splat(self.at)))
+        m.splat(self.to[1])
+            .mul_add(c, m.splat(self.to[0]).mul_add(b, m.splat(self.at)))
     }
 
     /// At one pixel.

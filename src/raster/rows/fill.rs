@@ -98,7 +98,10 @@ fn large<M: Lanes, P: Planes<M::F>>(
         |row, pixels, weights| {
             let mut group = pixels.start / M::WIDTH;
             // Columns from the first pixel on, which is exact; before it, nothing is drawn.
-            let (mut column, next) = (m.ramp(-((pixels.start % M::WIDTH) as f32), 1.0), m.stride(1.0));
+            let (mut column, next) = (
+                m.ramp(-((pixels.start % M::WIDTH) as f32), 1.0),
+                m.stride(1.0),
+            );
             cells.each(
                 row,
                 group..pixels.end.div_ceil(M::WIDTH),

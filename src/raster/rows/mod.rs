@@ -64,14 +64,23 @@ pub(crate) fn can_draw<S: Shader, M: Lanes>(frame: &Frame) -> bool {
 }
 
 /// Draws `frame` with a shader, band by band.
-pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32], bands: &mut dyn Bands) {
+pub(crate) fn draw<S: Shader, M: Lanes>(
+    m: M,
+    frame: &Frame,
+    parameters: &[u32],
+    bands: &mut dyn Bands,
+) {
     // A constant of its own: what comes after is then not even compiled for shaders that have no planes.
     if const { paint::planes::<S, M>().is_none() } {
         return;
     }
     let bins = Bins::<Listed>::new(frame, HEIGHT);
     // Only polygons of other shapes need attributes where normals are read as they are.
-    let normals = if S::ATTRIBUTE_IS_NORMAL && bins.are_triangles() { frame.normals_on_screen() } else { None };
+    let normals = if S::ATTRIBUTE_IS_NORMAL && bins.are_triangles() {
+        frame.normals_on_screen()
+    } else {
+        None
+    };
     let setup = match normals {
         Some(_) => SetUp::<S, Scalar>::without_attributes(Scalar, frame, parameters),
         None => SetUp::new(Scalar, frame, parameters),
@@ -84,10 +93,21 @@ pub(crate) fn draw<S: Shader, M: Lanes>(m: M, frame: &Frame, parameters: &[u32],
     let only = only_material(frame);
     let consts = Constants::<S, M>::new(m, frame, parameters, only);
     let (hides, has_materials) = (SampleDepth::new(frame).hides(), only.is_none());
-    let painter = Painter::<S> { frame, setup: &setup, hides };
-    let filler = Filler { frame, numbers, hides, has_materials };
+    let painter = Painter::<S> {
+        frame,
+        setup: &setup,
+        hides,
+    };
+    let filler = Filler {
+        frame,
+        numbers,
+        hides,
+        has_materials,
+    };
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
-        scratch.band.prepare::<M, S::Pixel<M::F>>(HEIGHT, frame.width(), has_materials);
+        scratch
+            .band
+            .prepare::<M, S::Pixel<M::F>>(HEIGHT, frame.width(), has_materials);
         for polygons in bins.band(number) {
             paint::<S, M>(m, (&painter, &filler), polygons, &rows, scratch);
         }
@@ -115,10 +135,25 @@ fn paint<S: Shader, M: Lanes>(
         }
         let next = next.number;
         let material = painter.frame.polygons()[next as usize].material;
-        edges.runs(painter.frame, &painter.setup.attributes, rows, next, &mut |row, pixels, depth, attribute| {
-            let place = (rows.start, row - rows.start);
-            run::<S, M>(m, painter, place, pixels, (next, material), depth, attribute, &mut scratch.band);
-        });
+        edges.runs(
+            painter.frame,
+            &painter.setup.attributes,
+            rows,
+            next,
+            &mut |row, pixels, depth, attribute| {
+                let place = (rows.start, row - rows.start);
+                run::<S, M>(
+                    m,
+                    painter,
+                    place,
+                    pixels,
+                    (next, material),
+                    depth,
+                    attribute,
+                    &mut scratch.band,
+                );
+            },
+        );
         rest = others;
     }
 }
@@ -163,7 +198,12 @@ fn find<M: Lanes>(
     tiny: Option<Layout>,
     scratch: &mut Scratch,
 ) -> Found {
-    let Scratch { band, batch, fragments, .. } = scratch;
+    let Scratch {
+        band,
+        batch,
+        fragments,
+        ..
+    } = scratch;
     m.vectorize(
         #[inline(always)]
         || {
@@ -180,7 +220,13 @@ fn find<M: Lanes>(
 
 /// Draws those triangles that were found whose bits `drawn` has, on the band that begins with row `top`.
 #[inline(never)]
-fn walk<S: Shader, M: Lanes>(m: M, painter: &Painter<'_, S>, drawn: u32, top: usize, scratch: &mut Scratch) {
+fn walk<S: Shader, M: Lanes>(
+    m: M,
+    painter: &Painter<'_, S>,
+    drawn: u32,
+    top: usize,
+    scratch: &mut Scratch,
+) {
     let Scratch { band, batch, .. } = scratch;
     m.vectorize(
         #[inline(always)]
@@ -201,10 +247,24 @@ fn fill<M: Lanes, A: Attribute<f32>, Q: Planes<f32>, P: Planes<M::F>>(
     top: usize,
     scratch: &mut Scratch,
 ) {
-    let Scratch { band, batch, fragments, starts, .. } = scratch;
+    let Scratch {
+        band,
+        batch,
+        fragments,
+        starts,
+        ..
+    } = scratch;
     m.vectorize(
         #[inline(always)]
-        || filler.batch::<M, P>(m, (batch, drawn), (fragments, starts), top, &mut band.cells(m, filler.hides)),
+        || {
+            filler.batch::<M, P>(
+                m,
+                (batch, drawn),
+                (fragments, starts),
+                top,
+                &mut band.cells(m, filler.hides),
+            )
+        },
     );
 }
 
@@ -225,7 +285,15 @@ fn run<S: Shader, M: Lanes>(
         #[inline(always)]
         || {
             band.extend(pixels.start / M::WIDTH..pixels.end.div_ceil(M::WIDTH));
-            painter.run(m, place, pixels, polygon, depth, attribute, &mut band.cells(m, painter.hides));
+            painter.run(
+                m,
+                place,
+                pixels,
+                polygon,
+                depth,
+                attribute,
+                &mut band.cells(m, painter.hides),
+            );
         },
     );
 }
@@ -266,16 +334,32 @@ fn shade<S: Shader, M: Lanes>(
     if matches!(colours, Colours::Linear(_)) {
         let [depth, r, g, b] = &*line;
         let from = drawn.start;
-        sink.row(row, drawn, &depth[from..], [&r[from..], &g[from..], &b[from..]]);
+        sink.row(
+            row,
+            drawn,
+            &depth[from..],
+            [&r[from..], &g[from..], &b[from..]],
+        );
     }
 }
 
 /// The number of the one material that all polygons have, if there is only one: objects of a scene bring their own, which are often
 /// the same.
 fn only_material(frame: &Frame) -> Option<u32> {
-    if frame.lightings().iter().all(|lighting| *lighting == frame.lightings()[0]) {
+    if frame
+        .lightings()
+        .iter()
+        .all(|lighting| *lighting == frame.lightings()[0])
+    {
         return Some(0);
     }
-    let first = frame.polygons().first().map_or(0, |polygon| polygon.material);
-    frame.polygons().iter().all(|polygon| polygon.material == first).then_some(first)
+    let first = frame
+        .polygons()
+        .first()
+        .map_or(0, |polygon| polygon.material);
+    frame
+        .polygons()
+        .iter()
+        .all(|polygon| polygon.material == first)
+        .then_some(first)
 }

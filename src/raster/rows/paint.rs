@@ -47,19 +47,28 @@ impl<S: Shader> Painter<'_, S> {
                 let (polygon, depth) = (batch.polygon(k), Facet::of(&batch.facets, 0, k));
                 if batch.kind(k) == Kind::Small as i32 {
                     let small = batch.small(k);
-                    let Some(walked) = self.walked(batch.corners(k), &depth, small.growth()) else { return };
+                    let Some(walked) = self.walked(batch.corners(k), &depth, small.growth()) else {
+                        return;
+                    };
                     small.runs(
                         m,
                         top,
                         #[inline(always)]
-                        |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
+                        |row, pixels, weights| {
+                            self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells)
+                        },
                     );
                 } else if let Some(triangle) = batch.large(k) {
-                    let Some(walked) = self.walked(batch.corners(k), &depth, triangle.across()) else { return };
+                    let Some(walked) = self.walked(batch.corners(k), &depth, triangle.across())
+                    else {
+                        return;
+                    };
                     triangle.runs(
                         top,
                         #[inline(always)]
-                        |row, pixels, weights| self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells),
+                        |row, pixels, weights| {
+                            self.walked_run(m, (top, row), pixels, polygon, &walked, weights, cells)
+                        },
                     );
                 }
             },
@@ -74,7 +83,11 @@ impl<S: Shader> Painter<'_, S> {
             |i| all[corners[i]],
         );
         let plane = S::Attribute::plane(corners, across)?;
-        Some(Walked { plane, depth: *depth, depth_step: depth.to[0] * across[0] + depth.to[1] * across[1] })
+        Some(Walked {
+            plane,
+            depth: *depth,
+            depth_step: depth.to[0] * across[0] + depth.to[1] * across[1],
+        })
     }
 
     #[inline(always)]
@@ -95,8 +108,19 @@ impl<S: Shader> Painter<'_, S> {
     }
 
     #[inline(always)]
-    fn walk<M: Lanes>(&self, m: M, number: u32, material: u32, start: &Span<f32, SpanIn<S>>) -> S::Walk<M> {
-        S::walk(m, &self.setup.consts[material as usize], &self.setup.polygons[number as usize], start)
+    fn walk<M: Lanes>(
+        &self,
+        m: M,
+        number: u32,
+        material: u32,
+        start: &Span<f32, SpanIn<S>>,
+    ) -> S::Walk<M> {
+        S::walk(
+            m,
+            &self.setup.consts[material as usize],
+            &self.setup.polygons[number as usize],
+            start,
+        )
     }
 
     /// Draws a run of pixels of polygon (number, material) on a row of the band that begins with row `top`; `depth` is that at
@@ -121,11 +145,18 @@ impl<S: Shader> Painter<'_, S> {
             Some(attribute) => (first * M::WIDTH, attribute),
             None => (pixels.start, attribute),
         };
-        let start = Span { x: x as f32 + 0.5, y: (top + row) as f32 + 0.5, attribute };
+        let start = Span {
+            x: x as f32 + 0.5,
+            y: (top + row) as f32 + 0.5,
+            attribute,
+        };
         let mut walk = self.walk(m, number, material, &start);
         let mut later = Later::new(before);
         let step = if is_one { 0.0 } else { depth[1] };
-        let (mut z, stride) = (m.ramp(depth[0] - before as f32 * step, step), m.stride(step));
+        let (mut z, stride) = (
+            m.ramp(depth[0] - before as f32 * step, step),
+            m.stride(step),
+        );
         let mut group = first;
         cells.each(
             row,
@@ -156,7 +187,10 @@ impl Later {
     /// By so many pixels, less than a group has.
     #[inline(always)]
     fn new(pixels: usize) -> Self {
-        Later { pixels, line: [0.0; MOST_PLANES * 2 * 8] }
+        Later {
+            pixels,
+            line: [0.0; MOST_PLANES * 2 * 8],
+        }
     }
 
     #[inline(always)]

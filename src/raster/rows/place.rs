@@ -25,12 +25,24 @@ impl Batch {
     /// Bounds what was read by a picture `width` pixels wide and the rows `band`, and sets up the edge functions of small triangles.
     /// With `has_tiny`, tiny triangles are told apart. Gives the groups of pixels of a row between which the triangles lie.
     #[inline(always)]
-    pub fn place<M: Lanes>(&mut self, m: M, width: usize, band: &Range<usize>, has_tiny: bool) -> Range<usize> {
+    pub fn place<M: Lanes>(
+        &mut self,
+        m: M,
+        width: usize,
+        band: &Range<usize>,
+        has_tiny: bool,
+    ) -> Range<usize> {
         let (mut left, mut right) = (m.int(width as i32), m.int(0));
         self.others = 0;
         let mut first = 0;
         while first < self.count() {
-            let placed = self.bound(m, first, width as i32, [band.start as i32, band.end as i32], has_tiny);
+            let placed = self.bound(
+                m,
+                first,
+                width as i32,
+                [band.start as i32, band.end as i32],
+                has_tiny,
+            );
             left = left.min(placed.columns[0]);
             right = right.max(placed.columns[1]);
             let mut edge = 0;
@@ -52,7 +64,14 @@ impl Batch {
 
     /// Bounds the group of triangles from number `first` on, and says what is to be drawn of each.
     #[inline(always)]
-    fn bound<M: Lanes>(&mut self, m: M, first: usize, width: i32, band: [i32; 2], has_tiny: bool) -> Placed<M> {
+    fn bound<M: Lanes>(
+        &mut self,
+        m: M,
+        first: usize,
+        width: i32,
+        band: [i32; 2],
+        has_tiny: bool,
+    ) -> Placed<M> {
         let (zero, all) = (m.int(0), m.int(-1));
         let x: [M::I; 3] = each(
             #[inline(always)]
@@ -66,12 +85,15 @@ impl Batch {
         let (top, bottom) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
         let centre = |at: M::I| (at + m.int(127)).whole_pixels();
         let columns = [centre(left).max(zero), centre(right).min(m.int(width))];
-        let rows = [centre(top).max(m.int(band[0])), centre(bottom).min(m.int(band[1]))];
+        let rows = [
+            centre(top).max(m.int(band[0])),
+            centre(bottom).min(m.int(band[1])),
+        ];
         // What stands after the last one was there before.
         let is_read = m.counted().less(m.int((self.count() - first) as i32));
         let is_there = columns[0].less(columns[1]) & rows[0].less(rows[1]) & is_read;
-        let is_small =
-            (right - left).less(m.int(256 * SMALL_WIDTH + 1)) & (bottom - top).less(m.int(256 * SMALL_HEIGHT));
+        let is_small = (right - left).less(m.int(256 * SMALL_WIDTH + 1))
+            & (bottom - top).less(m.int(256 * SMALL_HEIGHT));
         let exact = is_there & is_small;
         let x: [M::I; 3] = each(
             #[inline(always)]
@@ -112,21 +134,48 @@ impl Batch {
         let group = columns[0] & m.int(-(M::WIDTH as i32));
         let px = (group * m.int(256) + m.int(128) - left) & exact;
         let py = (rows[0] * m.int(256) + m.int(128) - top) & exact;
-        let columns = [M::I::choose(is_there, columns[0], m.int(width)), columns[1] & is_there];
-        Placed { x, y, px, py, turned, over_area, columns, has_small }
+        let columns = [
+            M::I::choose(is_there, columns[0], m.int(width)),
+            columns[1] & is_there,
+        ];
+        Placed {
+            x,
+            y,
+            px,
+            py,
+            turned,
+            over_area,
+            columns,
+            has_small,
+        }
     }
 
     /// Sets up edge function `edge`, which is 0 at the two other corners.
     #[inline(always)]
     fn edge<M: Lanes>(&mut self, m: M, first: usize, edge: usize, placed: &Placed<M>) {
-        let Placed { x, y, px, py, turned, over_area, .. } = placed;
+        let Placed {
+            x,
+            y,
+            px,
+            py,
+            turned,
+            over_area,
+            ..
+        } = placed;
         let (zero, none) = (m.int(0), m.splat(0.0));
         let (i, j) = ((edge + 1) % 3, (edge + 2) % 3);
-        let [dx, dy] = [((x[j] - x[i]) ^ *turned) - *turned, ((y[j] - y[i]) ^ *turned) - *turned];
+        let [dx, dy] = [
+            ((x[j] - x[i]) ^ *turned) - *turned,
+            ((y[j] - y[i]) ^ *turned) - *turned,
+        ];
         let level = (dy.less(zero) | zero.less(dy)) ^ m.int(-1);
         let disowns = m.int(1) + (dy.less(zero) | (level & zero.less(dx)));
         let to = &mut self.edges[edge];
-        let (at, right, down) = (dx * (*py - y[i]) - dy * (*px - x[i]) - disowns, dy * m.int(-256), dx * m.int(256));
+        let (at, right, down) = (
+            dx * (*py - y[i]) - dy * (*px - x[i]) - disowns,
+            dy * m.int(-256),
+            dx * m.int(256),
+        );
         let off = m.number(disowns) * *over_area;
         m.store_int(at, &mut to.at[first..]);
         m.store_int(right, &mut to.right[first..]);
@@ -136,7 +185,10 @@ impl Batch {
             return;
         }
         if edge != 0 {
-            m.store(m.number(at).mul_add(*over_area, off), &mut to.weight[first..]);
+            m.store(
+                m.number(at).mul_add(*over_area, off),
+                &mut to.weight[first..],
+            );
             m.store(m.number(right) * *over_area, &mut to.growth[first..]);
             m.store(m.number(down) * *over_area, &mut to.fall[first..]);
         }
@@ -146,6 +198,9 @@ impl Batch {
         let columns = m.splat(-1.0) / m.number(right);
         m.store(m.blend(grows, columns, none), &mut to.begins[first..]);
         m.store(m.blend(falls, columns, none), &mut to.ends[0][first..]);
-        m.store(m.blend(falls, none, m.splat(2.0 * SMALL_WIDTH as f32)), &mut to.ends[1][first..]);
+        m.store(
+            m.blend(falls, none, m.splat(2.0 * SMALL_WIDTH as f32)),
+            &mut to.ends[1][first..],
+        );
     }
 }

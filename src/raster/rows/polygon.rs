@@ -21,7 +21,10 @@ pub(super) struct Edges<E> {
 
 impl<E> Default for Edges<E> {
     fn default() -> Self {
-        Edges { waiting: Vec::new(), active: Vec::new() }
+        Edges {
+            waiting: Vec::new(),
+            active: Vec::new(),
+        }
     }
 }
 
@@ -39,7 +42,9 @@ impl<E: Copy> Edges<E> {
     ) {
         self.enter(frame, attributes, band, number);
         let face = frame.polygon_normal(&frame.polygons()[number as usize]);
-        let Some(mut row) = self.waiting.last().map(|(first, _)| *first) else { return };
+        let Some(mut row) = self.waiting.last().map(|(first, _)| *first) else {
+            return;
+        };
         loop {
             while let Some((_, edge)) = self.waiting.pop_if(|(first, _)| *first <= row) {
                 self.active.push(edge);
@@ -47,11 +52,18 @@ impl<E: Copy> Edges<E> {
             order(&mut self.active);
             for pair in self.active.chunks_exact(2) {
                 let [left, right] = pair else { continue };
-                let Some(span) = span(left, right, 0, frame.width() as u32) else { continue };
+                let Some(span) = span(left, right, 0, frame.width() as u32) else {
+                    continue;
+                };
                 let (from, to) = (A::at(&left.attribute), A::at(&right.attribute));
                 let attribute = A::span(Scalar, face, from, to, span.t0, span.dt);
                 let pixels = span.start as usize..span.end as usize;
-                found(row as usize, pixels, [span.depth, span.depth_step], attribute);
+                found(
+                    row as usize,
+                    pixels,
+                    [span.depth, span.depth_step],
+                    attribute,
+                );
             }
             row += 1;
             self.active.retain_mut(|edge| {
@@ -87,10 +99,19 @@ impl<E: Copy> Edges<E> {
             }
             let first = first_centre(y(top)).max(band.start as i32);
             if first < first_centre(y(bottom)).min(band.end as i32) {
-                let edge = TableEdge { polygon: number, corner, top, bottom };
-                self.waiting.push((first, start(Scalar, frame, &depth, attributes, &edge, first)));
+                let edge = TableEdge {
+                    polygon: number,
+                    corner,
+                    top,
+                    bottom,
+                };
+                self.waiting.push((
+                    first,
+                    start(Scalar, frame, &depth, attributes, &edge, first),
+                ));
             }
         }
-        self.waiting.sort_by_key(|(first, _)| core::cmp::Reverse(*first));
+        self.waiting
+            .sort_by_key(|(first, _)| core::cmp::Reverse(*first));
     }
 }

@@ -143,7 +143,10 @@ impl Batch {
             drawn,
             #[inline(always)]
             |k| {
-                let Listed { number, corners: [a, b, c] } = self.listed[k];
+                let Listed {
+                    number,
+                    corners: [a, b, c],
+                } = self.listed[k];
                 let number = number as usize;
                 let (mut at, mut to_b, mut to_c) = ([0.0; LINE], [0.0; LINE], [0.0; LINE]);
                 read(number, a as usize, &mut at);

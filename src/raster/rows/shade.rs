@@ -40,14 +40,22 @@ impl Colours<'_> {
     ) -> Places<'a> {
         match self {
             Colours::Packed(texels, background) => {
-                let texels = if is_here { &mut texels[x..x + count] } else { &mut aside.texels[..count] };
+                let texels = if is_here {
+                    &mut texels[x..x + count]
+                } else {
+                    &mut aside.texels[..count]
+                };
                 Places::Packed(texels.chunks_exact_mut(2 * M::WIDTH), *background)
             }
             Colours::Linear(channels) => {
                 let [depth, r, g, b] = channels;
                 let [no_depth, no_r, no_g, no_b] = &mut aside.channels;
                 let of = |here: &'a mut Vec<f32>, aside: &'a mut [f32; MOST]| {
-                    let place = if is_here { &mut here[x..x + count] } else { &mut aside[..count] };
+                    let place = if is_here {
+                        &mut here[x..x + count]
+                    } else {
+                        &mut aside[..count]
+                    };
                     place.chunks_exact_mut(M::WIDTH)
                 };
                 Places::Linear([of(depth, no_depth), of(r, no_r), of(g, no_g), of(b, no_b)])
@@ -95,8 +103,18 @@ impl Places<'_> {
                 let Some(place) = places.next() else { return };
                 let (first, second) = place.split_at_mut(M::WIDTH);
                 let infinite = m.splat(f32::INFINITY);
-                m.pack([r.0, g.0, b.0], m.less(depth.0, infinite), *background, first);
-                m.pack([r.1, g.1, b.1], m.less(depth.1, infinite), *background, second);
+                m.pack(
+                    [r.0, g.0, b.0],
+                    m.less(depth.0, infinite),
+                    *background,
+                    first,
+                );
+                m.pack(
+                    [r.1, g.1, b.1],
+                    m.less(depth.1, infinite),
+                    *background,
+                    second,
+                );
             }
             Places::Linear(channels) => {
                 for (places, value) in channels.iter_mut().zip([depth, r, g, b]) {
@@ -137,13 +155,20 @@ pub(super) fn row<S: Shader, M: Lanes>(
     band: &mut Band,
     colours: &mut Colours<'_>,
 ) {
-    let mut aside = Aside { texels: [[0; 4]; MOST], channels: [[0.0; MOST]; 4] };
+    let mut aside = Aside {
+        texels: [[0; 4]; MOST],
+        channels: [[0.0; MOST]; 4],
+    };
     let drawn = band.drawn();
     let (mut from, end) = (drawn.start * M::WIDTH, drawn.end * M::WIDTH);
     while from < end {
         let (to, material) = band.same_material::<M, S::Pixel<M::F>>(row, from..end, consts.only);
         let material = material as usize;
-        let part = Part { row, pixels: from..to.min(colours.end()), aside: &mut aside };
+        let part = Part {
+            row,
+            pixels: from..to.min(colours.end()),
+            aside: &mut aside,
+        };
         from = to;
         if M::IS_ONE_REGISTER
             && let Colours::Packed(texels, background) = colours
@@ -201,12 +226,21 @@ pub(super) struct Constants<S: Shader, M: Lanes> {
 impl<S: Shader, M: Lanes> Constants<S, M> {
     pub fn new(m: M, frame: &Frame, parameters: &[u32], only: Option<u32>) -> Self {
         let (all, twice) = (frame.lightings().iter(), |x| Pair(m.splat(x), m.splat(x)));
-        let paired = all.clone().map(|l| S::consts(l, parameters, &twice)).collect();
+        let paired = all
+            .clone()
+            .map(|l| S::consts(l, parameters, &twice))
+            .collect();
         let single = match const { one_by_one::<S>() } && M::IS_ONE_REGISTER {
-            true => all.map(|l| S::consts(l, parameters, &|x| m.splat(x))).collect(),
+            true => all
+                .map(|l| S::consts(l, parameters, &|x| m.splat(x)))
+                .collect(),
             false => Vec::new(),
         };
-        Constants { paired, single, only: only.unwrap_or(0) }
+        Constants {
+            paired,
+            single,
+            only: only.unwrap_or(0),
+        }
     }
 }
 
@@ -236,7 +270,11 @@ impl Part<'_> {
         // None are left where another material begins beyond the picture.
         while x < pixels.end && !pixels.is_empty() {
             let is_here = pixels.start <= x && x + two <= pixels.end;
-            let count = if is_here { (pixels.end - x) / two * two } else { two };
+            let count = if is_here {
+                (pixels.end - x) / two * two
+            } else {
+                two
+            };
             visit(x..x + count, is_here);
             x += count;
         }
@@ -259,10 +297,16 @@ impl Part<'_> {
             #[inline(always)]
             |groups, is_here| {
                 let count = groups.len();
-                let places = if is_here { &mut texels[groups.clone()] } else { &mut aside.texels[..count] };
+                let places = if is_here {
+                    &mut texels[groups.clone()]
+                } else {
+                    &mut aside.texels[..count]
+                };
                 // Not `zip`, which is not inlined into this.
                 let mut places = places.chunks_exact_mut(2 * M::WIDTH);
-                for cells in band.row::<M, S::Pixel<M::F>>(row, groups.start / M::WIDTH..groups.end / M::WIDTH) {
+                for cells in band
+                    .row::<M, S::Pixel<M::F>>(row, groups.start / M::WIDTH..groups.end / M::WIDTH)
+                {
                     let Some(place) = places.next() else { return };
                     let (depth, _) = Band::pixels::<M, S::Pixel<Pair<M::F>>>(m, cells);
                     if !m.any(m.less(depth.0.min(depth.1), infinite)) {
@@ -285,7 +329,13 @@ impl Part<'_> {
 
     /// Shades them with any constants of their material.
     #[inline(always)]
-    fn any<S: Shader, M: Lanes>(self, m: M, consts: &Consts<S, M>, band: &Band, colours: &mut Colours<'_>) {
+    fn any<S: Shader, M: Lanes>(
+        self,
+        m: M,
+        consts: &Consts<S, M>,
+        band: &Band,
+        colours: &mut Colours<'_>,
+    ) {
         let Part { row, pixels, aside } = self;
         let consts = *consts;
         let infinite = m.splat(f32::INFINITY);
@@ -294,7 +344,9 @@ impl Part<'_> {
             #[inline(always)]
             |groups, is_here| {
                 let mut places = colours.places::<M>(aside, (groups.start, groups.len()), is_here);
-                for cells in band.row::<M, S::Pixel<M::F>>(row, groups.start / M::WIDTH..groups.end / M::WIDTH) {
+                for cells in band
+                    .row::<M, S::Pixel<M::F>>(row, groups.start / M::WIDTH..groups.end / M::WIDTH)
+                {
                     let (depth, planes) = Band::pixels::<M, S::Pixel<Pair<M::F>>>(m, cells);
                     if m.any(m.less(depth.0.min(depth.1), infinite)) {
                         places.store(m, depth, S::shade(&consts, planes));
@@ -303,7 +355,11 @@ impl Part<'_> {
                     }
                 }
                 if !is_here {
-                    colours.copy(aside, groups.start, pixels.start.max(groups.start)..pixels.end.min(groups.end));
+                    colours.copy(
+                        aside,
+                        groups.start,
+                        pixels.start.max(groups.start)..pixels.end.min(groups.end),
+                    );
                 }
             },
         );

@@ -33,7 +33,12 @@ impl<'a, M: Lanes> SmallTriangle<'a, M> {
     #[inline(always)]
     pub fn new(m: M, batch: &'a Batch, k: usize) -> Self {
         let small = batch.small(k);
-        SmallTriangle { groups: Groups::new(m, &small), small, facets: (&batch.facets, k), material: batch.material(k) }
+        SmallTriangle {
+            groups: Groups::new(m, &small),
+            small,
+            facets: (&batch.facets, k),
+            material: batch.material(k),
+        }
     }
 
     /// Draws it into the band that begins with row `top`, with its material if pixels have `MATERIALS`.
@@ -55,10 +60,18 @@ impl<'a, M: Lanes> SmallTriangle<'a, M> {
 
     /// One or two groups a row: all of them are looked at. Limits would take longer than what they spare.
     #[inline(always)]
-    fn narrow<const MATERIALS: bool, P: Planes<M::F>>(&self, m: M, top: usize, cells: &mut Cells<'_, M, P>) {
+    fn narrow<const MATERIALS: bool, P: Planes<M::F>>(
+        &self,
+        m: M,
+        top: usize,
+        cells: &mut Cells<'_, M, P>,
+    ) {
         let [first, end] = self.groups.groups;
         let has_two = end - first == 2;
-        let (growth, down) = (self.growth::<P>(m, self.small.growth()), self.growth::<P>(m, self.small.fall()));
+        let (growth, down) = (
+            self.growth::<P>(m, self.small.growth()),
+            self.growth::<P>(m, self.small.fall()),
+        );
         let mut functions = self.groups.first(m, &self.small);
         let (all, k) = self.facets;
         let start = all.at(m, k, facets::<M::F, P>(), self.small.weights());
@@ -75,7 +88,12 @@ impl<'a, M: Lanes> SmallTriangle<'a, M> {
                 self.put(m, &mut cell, functions, &at);
             }
             if has_two && let Some(mut cell) = cells.cell::<MATERIALS>(row, first + 1) {
-                self.put(m, &mut cell, self.groups.beside(functions), &Self::grown::<P>(at, &across));
+                self.put(
+                    m,
+                    &mut cell,
+                    self.groups.beside(functions),
+                    &Self::grown::<P>(at, &across),
+                );
             }
             functions = self.groups.below(functions);
             at = Self::grown::<P>(at, &down);
@@ -92,7 +110,10 @@ impl<'a, M: Lanes> SmallTriangle<'a, M> {
         cells: &mut Cells<'_, M, P>,
     ) {
         let (all, k) = self.facets;
-        let (mut across, mut ramps) = (self.growth::<P>(m, self.small.growth()), [m.splat(0.0); 1 + MOST_PLANES]);
+        let (mut across, mut ramps) = (
+            self.growth::<P>(m, self.small.growth()),
+            [m.splat(0.0); 1 + MOST_PLANES],
+        );
         let (counted, width) = (m.number(m.counted()), m.splat(M::WIDTH as f32));
         let mut i = 0;
         while i < facets::<M::F, P>() {
@@ -112,7 +133,15 @@ impl<'a, M: Lanes> SmallTriangle<'a, M> {
             #[inline(always)]
             |line, starts| {
                 let mut functions = self.groups.of_line(m, starts, &line);
-                let (Line { row, groups, numbers, of_eight }, mut at) = (line, ramps);
+                let (
+                    Line {
+                        row,
+                        groups,
+                        numbers,
+                        of_eight,
+                    },
+                    mut at,
+                ) = (line, ramps);
                 let mut i = 0;
                 while i < facets::<M::F, P>() {
                     at[i] = m.splat(starts.values[i][of_eight]) + ramps[i];
@@ -153,7 +182,13 @@ impl<'a, M: Lanes> SmallTriangle<'a, M> {
 
     /// Draws a group with these edge functions and numbers.
     #[inline(always)]
-    fn put<P: Planes<M::F>>(&self, m: M, cell: &mut Cell<'_, M, P>, functions: [M::I; 3], at: &Numbers<M::F>) {
+    fn put<P: Planes<M::F>>(
+        &self,
+        m: M,
+        cell: &mut Cell<'_, M, P>,
+        functions: [M::I; 3],
+        at: &Numbers<M::F>,
+    ) {
         let mut i = 0;
         let pixel = get_each(
             #[inline(always)]
@@ -162,7 +197,13 @@ impl<'a, M: Lanes> SmallTriangle<'a, M> {
                 at[i]
             },
         );
-        cell.put(m, Groups::<M>::outside(functions), at[0], pixel, self.material);
+        cell.put(
+            m,
+            Groups::<M>::outside(functions),
+            at[0],
+            pixel,
+            self.material,
+        );
     }
 
     /// How much its numbers grow where the coordinates grow by `growth`.

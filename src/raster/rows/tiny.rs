@@ -26,7 +26,11 @@ pub(crate) struct Fragments {
 
 impl Default for Fragments {
     fn default() -> Self {
-        Fragments { places: [0; ALL], weights: [[0.0; ALL]; 2], covered: [0; MOST] }
+        Fragments {
+            places: [0; ALL],
+            weights: [[0.0; ALL]; 2],
+            covered: [0; MOST],
+        }
     }
 }
 
@@ -34,7 +38,13 @@ impl Fragments {
     /// Finds what the tiny triangles of a batch cover in a band that begins with row `top`. Gives which of them cover anything: bit k
     /// for triangle k.
     #[inline(always)]
-    pub(super) fn find<M: Lanes>(&mut self, m: M, batch: &Batch, top: usize, layout: Layout) -> u32 {
+    pub(super) fn find<M: Lanes>(
+        &mut self,
+        m: M,
+        batch: &Batch,
+        top: usize,
+        layout: Layout,
+    ) -> u32 {
         let (mut drawn, mut first) = (0, 0);
         while first < batch.count() {
             drawn |= self.find_group(m, batch, (first, top), layout) << first;
@@ -45,19 +55,41 @@ impl Fragments {
 
     /// Finds what those cover of the group of triangles from number `first` on; bit k for triangle `first` + k.
     #[inline(always)]
-    fn find_group<M: Lanes>(&mut self, m: M, batch: &Batch, (first, top): (usize, usize), layout: Layout) -> u32 {
+    fn find_group<M: Lanes>(
+        &mut self,
+        m: M,
+        batch: &Batch,
+        (first, top): (usize, usize),
+        layout: Layout,
+    ) -> u32 {
         let one = m.int(1);
-        let others = m.load_int(&batch.kind[first..]).less(m.int(Kind::Tiny as i32));
+        let others = m
+            .load_int(&batch.kind[first..])
+            .less(m.int(Kind::Tiny as i32));
         if !m.any(m.not_negative(others)) {
             return 0;
         }
-        let columns = [m.load_int(&batch.columns[0][first..]), m.load_int(&batch.columns[1][first..])];
-        let rows = [m.load_int(&batch.rows[0][first..]), m.load_int(&batch.rows[1][first..])];
+        let columns = [
+            m.load_int(&batch.columns[0][first..]),
+            m.load_int(&batch.columns[1][first..]),
+        ];
+        let rows = [
+            m.load_int(&batch.rows[0][first..]),
+            m.load_int(&batch.rows[1][first..]),
+        ];
         // From the first pixel of the group to that of the box.
         let skipped = columns[0] & m.int(M::WIDTH as i32 - 1);
         let [a, b, c] = &batch.edges;
-        let right = [m.load_int(&a.right[first..]), m.load_int(&b.right[first..]), m.load_int(&c.right[first..])];
-        let down = [m.load_int(&a.down[first..]), m.load_int(&b.down[first..]), m.load_int(&c.down[first..])];
+        let right = [
+            m.load_int(&a.right[first..]),
+            m.load_int(&b.right[first..]),
+            m.load_int(&c.right[first..]),
+        ];
+        let down = [
+            m.load_int(&a.down[first..]),
+            m.load_int(&b.down[first..]),
+            m.load_int(&c.down[first..]),
+        ];
         let mut column = [
             m.load_int(&a.at[first..]) + skipped * right[0],
             m.load_int(&b.at[first..]) + skipped * right[1],
@@ -67,7 +99,10 @@ impl Fragments {
         let back = [m.load(&b.off[first..]), m.load(&c.off[first..])];
         // Columns and rows that are left, less 1: below 0 outside the box. As many are looked at as the widest and the highest of
         // the triangles have, whether any covers a pixel there or not: that would often be guessed wrong.
-        let (mut beside, all_below) = ((columns[1] - columns[0] - one) | others, (rows[1] - rows[0] - one) | others);
+        let (mut beside, all_below) = (
+            (columns[1] - columns[0] - one) | others,
+            (rows[1] - rows[0] - one) | others,
+        );
         let (mut across_at, next_row) = (columns[0], layout.places(m, one, m.int(0)));
         let mut covered = m.int(0);
         let mut slot = 0;
@@ -82,13 +117,23 @@ impl Fragments {
                 covered = covered | (m.int(-1).less(outside) & bit);
                 m.store_int(place, &mut self.places[at..]);
                 let [to_b, to_c] = &mut self.weights;
-                m.store(m.number(here[1]).mul_add(over_area, back[0]), &mut to_b[at..]);
-                m.store(m.number(here[2]).mul_add(over_area, back[1]), &mut to_c[at..]);
+                m.store(
+                    m.number(here[1]).mul_add(over_area, back[0]),
+                    &mut to_b[at..],
+                );
+                m.store(
+                    m.number(here[2]).mul_add(over_area, back[1]),
+                    &mut to_c[at..],
+                );
                 here = [here[0] + down[0], here[1] + down[1], here[2] + down[2]];
                 (below, place, bit) = (below - one, place + next_row, bit + bit);
                 (at, row) = (at + M::WIDTH, row + 1);
             }
-            column = [column[0] + right[0], column[1] + right[1], column[2] + right[2]];
+            column = [
+                column[0] + right[0],
+                column[1] + right[1],
+                column[2] + right[2],
+            ];
             (beside, across_at) = (beside - one, across_at + one);
             slot += TINY_HEIGHT as usize;
         }
@@ -110,7 +155,9 @@ impl Fragments {
         let mut left = self.covered[k] as u32;
         loop {
             let at = (first + left.trailing_zeros() as usize * M::WIDTH) % ALL;
-            let numbers = batch.facets.at(m, k, facets, [self.weights[0][at], self.weights[1][at]]);
+            let numbers = batch
+                .facets
+                .at(m, k, facets, [self.weights[0][at], self.weights[1][at]]);
             visit(self.places[at], &numbers);
             left &= left.wrapping_sub(1);
             if left == 0 {

@@ -96,8 +96,12 @@ impl<M: Lanes> Groups<M> {
             let [from, to] = self.between(m, small, start);
             m.store_int(from + m.int(first as i32), &mut starts.groups[0]);
             m.store_int(to + m.int(first as i32), &mut starts.groups[1]);
-            let before = m.int((row * a_row + first * a_group) as i32) + m.counted() * m.int(a_row as i32);
-            m.store_int(before + from * m.int(a_group as i32), &mut starts.numbers[0]);
+            let before =
+                m.int((row * a_row + first * a_group) as i32) + m.counted() * m.int(a_row as i32);
+            m.store_int(
+                before + from * m.int(a_group as i32),
+                &mut starts.numbers[0],
+            );
             let end = number::Int::max(before + to * m.int(a_group as i32), m.int(0));
             m.store_int(end, &mut starts.numbers[1]);
             let mut i = 0;
@@ -144,7 +148,10 @@ impl<M: Lanes> Groups<M> {
             i += 1;
         }
         let groups = m.splat(groups);
-        [m.truncated(from.mul_add(groups, -doubt)), m.truncated(to.mul_add(groups, doubt)) + m.int(1)]
+        [
+            m.truncated(from.mul_add(groups, -doubt)),
+            m.truncated(to.mul_add(groups, doubt)) + m.int(1),
+        ]
     }
 
     /// The functions in the first group of a row.
@@ -192,7 +199,10 @@ impl<M: Lanes> Groups<M> {
     /// The barycentric coordinates of the second and the third corner.
     #[inline(always)]
     pub fn weights(&self, m: M, [_, b, c]: [M::I; 3]) -> [M::F; 2] {
-        [m.number(b).mul_add(self.over_area, self.back[0]), m.number(c).mul_add(self.over_area, self.back[1])]
+        [
+            m.number(b).mul_add(self.over_area, self.back[0]),
+            m.number(c).mul_add(self.over_area, self.back[1]),
+        ]
     }
 }
 
@@ -200,7 +210,12 @@ impl Small<'_> {
     /// Its pixels row by row: the row in the band that begins with row `top`, the pixels, and the barycentric coordinates of
     /// the second and the third corner at the first of them.
     #[inline(always)]
-    pub fn runs<M: Lanes>(&self, m: M, top: usize, mut visit: impl FnMut(usize, Range<usize>, [f32; 2])) {
+    pub fn runs<M: Lanes>(
+        &self,
+        m: M,
+        top: usize,
+        mut visit: impl FnMut(usize, Range<usize>, [f32; 2]),
+    ) {
         let (groups, columns, rows) = (Groups::new(m, self), self.columns(), self.rows(top));
         let first = groups.groups[0] * M::WIDTH;
         groups.rows(
@@ -215,12 +230,17 @@ impl Small<'_> {
             ),
             #[inline(always)]
             |line, starts| {
-                let (mut here, Line { row, groups: range, .. }) = (groups.of_line(m, starts, &line), line);
+                let (
+                    mut here,
+                    Line {
+                        row, groups: range, ..
+                    },
+                ) = (groups.of_line(m, starts, &line), line);
                 // At most 62 pixels, a bit each.
                 let mut inside = 0u64;
                 for group in range {
-                    inside |=
-                        u64::from(m.bits(m.not_negative(Groups::<M>::outside(here)))) << (group * M::WIDTH - first);
+                    inside |= u64::from(m.bits(m.not_negative(Groups::<M>::outside(here))))
+                        << (group * M::WIDTH - first);
                     here = groups.beside(here);
                 }
                 // Those of its last group that lie beyond the picture are none of it.
@@ -229,7 +249,8 @@ impl Small<'_> {
                     let skipped = inside.trailing_zeros();
                     let weight = |edge| {
                         let at = self.at(edge) + (row - rows.start) as i32 * self.down(edge);
-                        (at + skipped as i32 * self.right(edge)) as f32 * self.over_area() + self.off(edge)
+                        (at + skipped as i32 * self.right(edge)) as f32 * self.over_area()
+                            + self.off(edge)
                     };
                     let start = first + skipped as usize;
                     let pixels = start..start + (64 - (inside >> skipped).leading_zeros()) as usize;
@@ -258,7 +279,13 @@ impl Triangle {
         let wide = i64::from;
         let area = wide(xb - xa) * wide(yc - ya) - wide(xc - xa) * wide(yb - ya);
         let (x, y, over_area) = ([xa, xb, xc], [ya, yb, yc], 1.0 / area as f32);
-        (area != 0).then_some(Triangle { columns, rows, x, y, over_area })
+        (area != 0).then_some(Triangle {
+            columns,
+            rows,
+            x,
+            y,
+            over_area,
+        })
     }
 
     /// How much the barycentric coordinates of the second and the third corner grow from pixel to pixel.
@@ -271,7 +298,13 @@ impl Triangle {
     /// Its pixels as [`Small::runs`] gives them, by the crossings of its edges with the scanlines, in exact integers.
     #[inline(always)]
     pub fn runs(&self, band: usize, mut visit: impl FnMut(usize, Range<usize>, [f32; 2])) {
-        let Triangle { x, y, columns, rows, .. } = self;
+        let Triangle {
+            x,
+            y,
+            columns,
+            rows,
+            ..
+        } = self;
         // From the top corner two edges go down; the third one follows one of them.
         let mut order = [0usize, 1, 2];
         order.sort_unstable_by_key(|&i| y[i]);
@@ -283,7 +316,10 @@ impl Triangle {
             let (px, py) = (256 * wide(column) + 128, 256 * wide(row) + 128);
             wide(x[j] - x[i]) * (py - wide(y[i])) - wide(y[j] - y[i]) * (px - wide(x[i]))
         };
-        for (from, to, rows) in [(top, middle, rows.start..bend), (middle, bottom, bend..rows.end)] {
+        for (from, to, rows) in [
+            (top, middle, rows.start..bend),
+            (middle, bottom, bend..rows.end),
+        ] {
             if rows.is_empty() {
                 continue;
             }
@@ -292,8 +328,13 @@ impl Triangle {
                 let (p, q) = (long.pixel(), short.pixel());
                 let (start, end) = (p.min(q).max(columns.start), p.max(q).min(columns.end));
                 if start < end {
-                    let weight = |i: usize, j: usize| function(i, j, start, row) as f32 * self.over_area;
-                    visit(row as usize - band, start as usize..end as usize, [weight(2, 0), weight(0, 1)]);
+                    let weight =
+                        |i: usize, j: usize| function(i, j, start, row) as f32 * self.over_area;
+                    visit(
+                        row as usize - band,
+                        start as usize..end as usize,
+                        [weight(2, 0), weight(0, 1)],
+                    );
                 }
                 long.advance();
                 short.advance();

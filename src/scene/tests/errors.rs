@@ -11,12 +11,42 @@ use std::vec;
 fn numbers_out_of_range() {
     let size = "expected 1 to 16384";
     check("[image]\nwidth = «0»\n", "`image.width` is 0", size, None);
-    check("[image]\nheight = «16385»\n", "`image.height` is 16385", size, None);
-    check("[image]\nheight = «-3»\n", "`image.height` is -3", size, None);
-    check("[image]\nbackground = «1.5»\n", "`image.background` is 1.5", "expected 0 to 1", None);
-    check("[image]\nbackground = «[0, -1, 0]»\n", "`image.background` has green = -1", "expected 0 to 1", None);
-    check("[image]\nsamples = «3»\n", "`image.samples` is 3", "expected 1, 2, 4 or 8", None);
-    check("[image]\nsamples = «-2»\n", "`image.samples` is -2", "expected 1, 2, 4 or 8", None);
+    check(
+        "[image]\nheight = «16385»\n",
+        "`image.height` is 16385",
+        size,
+        None,
+    );
+    check(
+        "[image]\nheight = «-3»\n",
+        "`image.height` is -3",
+        size,
+        None,
+    );
+    check(
+        "[image]\nbackground = «1.5»\n",
+        "`image.background` is 1.5",
+        "expected 0 to 1",
+        None,
+    );
+    check(
+        "[image]\nbackground = «[0, -1, 0]»\n",
+        "`image.background` has green = -1",
+        "expected 0 to 1",
+        None,
+    );
+    check(
+        "[image]\nsamples = «3»\n",
+        "`image.samples` is 3",
+        "expected 1, 2, 4 or 8",
+        None,
+    );
+    check(
+        "[image]\nsamples = «-2»\n",
+        "`image.samples` is -2",
+        "expected 1, 2, 4 or 8",
+        None,
+    );
     check(
         "[image]\nwidth = 4097\nsamples = «4»\n",
         "`image.samples` is 4",
@@ -29,16 +59,43 @@ fn numbers_out_of_range() {
         "expected interpolation = \"screen\" with \"ndc-cube\": corners behind the eye have no weight",
         None,
     );
-    check("depth_bits = «20»\n", "`depth_bits` is 20", "expected 16, 24 or 32", None);
-    check("depth_bits = «-16»\n", "`depth_bits` is -16", "expected 16, 24 or 32", None);
-    check("ambient = «-1»\n", "`ambient` is -1", "expected 0 or more", None);
-    check("ambient = «nan»\n", "`ambient` is NaN", "expected 0 or more", None);
+    check(
+        "depth_bits = «20»\n",
+        "`depth_bits` is 20",
+        "expected 16, 24 or 32",
+        None,
+    );
+    check(
+        "depth_bits = «-16»\n",
+        "`depth_bits` is -16",
+        "expected 16, 24 or 32",
+        None,
+    );
+    check(
+        "ambient = «-1»\n",
+        "`ambient` is -1",
+        "expected 0 or more",
+        None,
+    );
+    check(
+        "ambient = «nan»\n",
+        "`ambient` is NaN",
+        "expected 0 or more",
+        None,
+    );
     for key in ["ka", "kd", "ks"] {
-        let (message, scene) =
-            (format!("`material.{key}` has blue = -0.1"), format!("[material]\n{key} = «[1, 1, -0.1]»\n"));
+        let (message, scene) = (
+            format!("`material.{key}` has blue = -0.1"),
+            format!("[material]\n{key} = «[1, 1, -0.1]»\n"),
+        );
         check(&scene, &message, "expected 0 or more", None);
     }
-    check("[material]\nks = «inf»\n", "`material.ks` is inf", "expected 0 or more", None);
+    check(
+        "[material]\nks = «inf»\n",
+        "`material.ks` is inf",
+        "expected 0 or more",
+        None,
+    );
     // Finite in 64 bits, not in 32.
     check(
         "[material]\nks = «1e39»\n",
@@ -46,8 +103,18 @@ fn numbers_out_of_range() {
         "expected 0 or more",
         None,
     );
-    check("[material]\nshininess = «-1»\n", "`material.shininess` is -1", "expected 0 or more", None);
-    check("[material]\nshininess = «nan»\n", "`material.shininess` is NaN", "expected 0 or more", None);
+    check(
+        "[material]\nshininess = «-1»\n",
+        "`material.shininess` is -1",
+        "expected 0 or more",
+        None,
+    );
+    check(
+        "[material]\nshininess = «nan»\n",
+        "`material.shininess` is NaN",
+        "expected 0 or more",
+        None,
+    );
     check(
         "[[object]]\nmesh = \"a.obj\"\nmaterial = { shininess = «-2» }\n",
         "`object.material.shininess` is -2",
@@ -67,8 +134,18 @@ fn numbers_out_of_range() {
         None,
     );
     let light = "[[light]]\ndirection = [0, 0, 1]\n";
-    check(&format!("{light}colour = «[1, 0, -1]»\n"), "`light.colour` has blue = -1", "expected 0 or more", None);
-    check(&format!("{light}intensity = «-1»\n"), "`light.intensity` is -1", "expected 0 or more", None);
+    check(
+        &format!("{light}colour = «[1, 0, -1]»\n"),
+        "`light.colour` has blue = -1",
+        "expected 0 or more",
+        None,
+    );
+    check(
+        &format!("{light}intensity = «-1»\n"),
+        "`light.intensity` is -1",
+        "expected 0 or more",
+        None,
+    );
     check(
         &format!("{light}colour = 1e30\nintensity = «1e30»\n"),
         "`light.intensity` is 1000000000000000000000000000000",
@@ -80,16 +157,31 @@ fn numbers_out_of_range() {
 #[test]
 fn cameras_that_cannot_be() {
     let fovy = "expected degrees over 0 and under 180 (0.001 to 179.999)";
-    check("[camera]\nfovy = «180»\n", "`camera.fovy` is 180", fovy, None);
+    check(
+        "[camera]\nfovy = «180»\n",
+        "`camera.fovy` is 180",
+        fovy,
+        None,
+    );
     check("[camera]\nfovy = «0»\n", "`camera.fovy` is 0", fovy, None);
-    check("[camera]\nfovy = «nan»\n", "`camera.fovy` is NaN", fovy, None);
+    check(
+        "[camera]\nfovy = «nan»\n",
+        "`camera.fovy` is NaN",
+        fovy,
+        None,
+    );
     check(
         "[camera]\nhalf_height = «0»\n",
         "`camera.half_height` is 0",
         "expected a number over 0 (1e-15 to 1e15)",
         None,
     );
-    check("[camera]\nfit = «0»\n", "`camera.fit` is 0", "expected a part of the frame, 0.001 to 100", None);
+    check(
+        "[camera]\nfit = «0»\n",
+        "`camera.fit` is 0",
+        "expected a part of the frame, 0.001 to 100",
+        None,
+    );
     let eye = "eye = [0, 0, 5]\nhalf_height = 1\n";
     check(
         "[camera]\neye = «[1, 2, 3]»\ntarget = [1, 2, 3]\n",
@@ -127,7 +219,12 @@ fn cameras_that_cannot_be() {
         "expected a number over 0, as the camera is a perspective one",
         None,
     );
-    check(&format!("[camera]\n{eye}near = 3\nfar = «3»\n"), "`camera.far` is 3", "expected more than near = 3", None);
+    check(
+        &format!("[camera]\n{eye}near = 3\nfar = «3»\n"),
+        "`camera.far` is 3",
+        "expected more than near = 3",
+        None,
+    );
     // The cube reaches from 4 to 6 along the line of sight, and 5 % of 2 farther.
     check(
         &with_object(&format!("[camera]\n{eye}near = «7»\n")),
@@ -141,8 +238,18 @@ fn cameras_that_cannot_be() {
         "expected near below far",
         None,
     );
-    check("[camera]\nelevation = «91»\n", "`camera.elevation` is 91", "expected degrees between -90 and 90", None);
-    check("[camera]\nazimuth = «inf»\n", "`camera.azimuth` is inf", "expected degrees between -36000 and 36000", None);
+    check(
+        "[camera]\nelevation = «91»\n",
+        "`camera.elevation` is 91",
+        "expected degrees between -90 and 90",
+        None,
+    );
+    check(
+        "[camera]\nazimuth = «inf»\n",
+        "`camera.azimuth` is inf",
+        "expected degrees between -36000 and 36000",
+        None,
+    );
     check(
         "[camera]\ntarget = «[0, 0, 0]»\n",
         "`camera.target` needs `eye`",
@@ -183,8 +290,13 @@ fn keys_that_exclude_each_other() {
         "expected one of them: `crease` averages up to an angle",
         None,
     );
-    let matrix = "[[object]]\nmesh = \"a.obj\"\nmatrix = «[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]»\n";
-    for (key, value) in [("scale", "2"), ("rotate", "{ axis = [1, 0, 0], angle = 2 }"), ("translate", "[0, 0, 1]")] {
+    let matrix =
+        "[[object]]\nmesh = \"a.obj\"\nmatrix = «[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]»\n";
+    for (key, value) in [
+        ("scale", "2"),
+        ("rotate", "{ axis = [1, 0, 0], angle = 2 }"),
+        ("translate", "[0, 0, 1]"),
+    ] {
         let message = format!("`object.matrix` and `object.{key}` exclude each other");
         check(
             &format!("{matrix}{key} = {value}\n"),
@@ -199,8 +311,18 @@ fn keys_that_exclude_each_other() {
 fn transforms_that_flatten() {
     let object = "[[object]]\nmesh = \"a.obj\"\n";
     let factors = "expected factors that are not 0, their sizes between 1e-15 and 1e15";
-    check(&format!("{object}scale = «0»\n"), "`object.scale` has the factor 0", factors, None);
-    check(&format!("{object}scale = «[1, nan, 1]»\n"), "`object.scale` has the factor NaN", factors, None);
+    check(
+        &format!("{object}scale = «0»\n"),
+        "`object.scale` has the factor 0",
+        factors,
+        None,
+    );
+    check(
+        &format!("{object}scale = «[1, nan, 1]»\n"),
+        "`object.scale` has the factor NaN",
+        factors,
+        None,
+    );
     check(
         &format!("{object}matrix = «[[1, 2, 3, 0], [4, 5, 6, 0], [7, 8, 9, 0]]»\n"),
         "`object.matrix` flattens the object",
@@ -237,7 +359,12 @@ fn transforms_that_flatten() {
         "expected coordinates between -1e15 and 1e15 after the transform",
         None,
     );
-    check(&format!("{object}crease = «181»\n"), "`object.crease` is 181", "expected degrees between 0 and 180", None);
+    check(
+        &format!("{object}crease = «181»\n"),
+        "`object.crease` is 181",
+        "expected degrees between 0 and 180",
+        None,
+    );
 }
 
 #[test]
@@ -256,14 +383,21 @@ fn scenes_as_a_whole() {
         }
     };
     let lights: String = (0..=Scene::MAX_LIGHTS).map(light).collect();
-    check(&lights, "light number 65 is one too many", "expected 64 lights at most", None);
+    check(
+        &lights,
+        "light number 65 is one too many",
+        "expected 64 lights at most",
+        None,
+    );
 }
 
 /// A mesh that cannot be loaded is pointed at; reasons of several lines stand below.
 #[test]
 fn meshes_that_cannot_be_loaded() {
     let file = SceneFile::parse("[[object]]\nmesh = \"vase.obj\"\n", "scene.toml").expect("valid");
-    let error = file.resolve(|_, _| Err("no such file".into())).expect_err("no mesh");
+    let error = file
+        .resolve(|_, _| Err("no such file".into()))
+        .expect_err("no mesh");
     assert_eq!(
         format!("{error}"),
         r#"error: `object.mesh` `vase.obj` cannot be used
@@ -272,7 +406,9 @@ fn meshes_that_cannot_be_loaded() {
 2 | mesh = "vase.obj"
   |        ^^^^^^^^^^ no such file"#
     );
-    let error = file.resolve(|_, _| Err("line 3:\n  v 1 2".into())).expect_err("no mesh");
+    let error = file
+        .resolve(|_, _| Err("line 3:\n  v 1 2".into()))
+        .expect_err("no mesh");
     assert_eq!(
         format!("{error}"),
         r#"error: `object.mesh` `vase.obj` cannot be used
@@ -320,18 +456,31 @@ error: unknown word `bakc`
 /// Values from flags pass the same checks; the error names the flag and shows no file.
 #[test]
 fn values_from_flags() {
-    let file = SceneFile::parse(&with_object("[camera]\nhalf_height = 2\n"), "scene.toml").expect("valid");
+    let file =
+        SceneFile::parse(&with_object("[camera]\nhalf_height = 2\n"), "scene.toml").expect("valid");
     let mut flagged = file.clone();
     flagged.camera.half_height = Some(Located::flag(-1.0, "--half-height"));
     let error = flagged.resolve(cubes).expect_err("negative");
-    assert_eq!(format!("{error}"), "error: `--half-height` is -1: expected a number over 0 (1e-15 to 1e15)");
+    assert_eq!(
+        format!("{error}"),
+        "error: `--half-height` is -1: expected a number over 0 (1e-15 to 1e15)"
+    );
     assert_eq!(error.line_and_column(), None);
     let mut flagged = file.clone();
-    flagged.light = Some(vec![LightSection::toward(Located::flag([0.0; 3], "--light"))]);
+    flagged.light = Some(vec![LightSection::toward(Located::flag(
+        [0.0; 3], "--light",
+    ))]);
     let error = flagged.resolve(cubes).expect_err("no length");
-    assert_eq!(format!("{error}"), "error: `--light` has no length: expected a direction: not all numbers 0");
+    assert_eq!(
+        format!("{error}"),
+        "error: `--light` has no length: expected a direction: not all numbers 0"
+    );
     let mut flagged = file;
     flagged.camera.fit = Some(Located::flag(0.5, "--fit"));
     let error = flagged.resolve(cubes).expect_err("both");
-    assert!(format!("{error}").starts_with("error: `--fit` and `camera.half_height` exclude each other"), "{error}");
+    assert!(
+        format!("{error}")
+            .starts_with("error: `--fit` and `camera.half_height` exclude each other"),
+        "{error}"
+    );
 }

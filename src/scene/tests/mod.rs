@@ -21,7 +21,14 @@ fn cube() -> PolygonMesh {
     let sign = |bit: u32| if bit == 0 { -1.0 } else { 1.0 };
     let corner = |i: u32| Vec3::new(sign(i & 1), sign(i & 2), sign(i & 4));
     let mut mesh = MeshBuilder::new((0..8).map(corner).collect());
-    for face in [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]] {
+    for face in [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ] {
         mesh.polygon(&face);
     }
     mesh.finish().expect("a cube is a valid mesh")
@@ -34,8 +41,10 @@ fn cubes(_: &str, _: &Path) -> LoadedMesh {
 
 /// The scene of `text`, all meshes being cubes.
 fn resolve(text: &str) -> crate::scene::resolve::Resolved {
-    let file = super::file::SceneFile::parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
-    file.resolve(cubes).unwrap_or_else(|error| panic!("{error}"))
+    let file =
+        super::file::SceneFile::parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+    file.resolve(cubes)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// `text` with an object after it.

@@ -51,10 +51,30 @@ fn what_is_not_toml_or_has_no_such_key() {
         "expected one of `z-buffer`, `painter`, `draw-order`",
         Some("did you mean `z-buffer`?"),
     );
-    check("depth = «\"w\"»\n", "unknown word `w`", "expected `interpolated` or `per-sample`", None);
-    check("clipping = «\"cube\"»\n", "unknown word `cube`", "expected `planes` or `ndc-cube`", None);
-    check("painter_key = «\"nearest\"»\n", "unknown word `nearest`", "expected `mean` or `farthest`", None);
-    check("interpolation = «\"space\"»\n", "unknown word `space`", "expected `screen` or `perspective`", None);
+    check(
+        "depth = «\"w\"»\n",
+        "unknown word `w`",
+        "expected `interpolated` or `per-sample`",
+        None,
+    );
+    check(
+        "clipping = «\"cube\"»\n",
+        "unknown word `cube`",
+        "expected `planes` or `ndc-cube`",
+        None,
+    );
+    check(
+        "painter_key = «\"nearest\"»\n",
+        "unknown word `nearest`",
+        "expected `mean` or `farthest`",
+        None,
+    );
+    check(
+        "interpolation = «\"space\"»\n",
+        "unknown word `space`",
+        "expected `screen` or `perspective`",
+        None,
+    );
     check(
         "[image]\nencoding = «\"srbg\"»\n",
         "unknown word `srbg`",
@@ -71,15 +91,60 @@ fn what_is_not_toml_or_has_no_such_key() {
 
 #[test]
 fn what_is_of_the_wrong_kind() {
-    check("two_sided = «\"yes\"»\n", "expected true or false", "found string \"yes\"", None);
-    check("depth_bits = «\"many\"»\n", "expected a whole number", "found string \"many\"", None);
-    check("[image]\nwidth = «640.5»\n", "expected a whole number", "found floating point `640.5`", None);
-    check("[camera]\nfovy = «\"wide\"»\n", "expected a number", "found string \"wide\"", None);
-    check("[camera]\neye = «[1, 2]»\n", "expected three numbers [x, y, z]", "found a list of 2", None);
-    check("[camera]\neye = [1, 2, «true»]\n", "expected a number", "found boolean `true`", None);
-    check("ambient = «[1]»\n", "expected one number or three in brackets", "found a list of one", None);
-    check("[material]\nkd = «\"red\"»\n", "expected one number or three in brackets", "found string \"red\"", None);
-    check("[[object]]\nmesh = «3»\n", "expected text in quotes", "found integer `3`", None);
+    check(
+        "two_sided = «\"yes\"»\n",
+        "expected true or false",
+        "found string \"yes\"",
+        None,
+    );
+    check(
+        "depth_bits = «\"many\"»\n",
+        "expected a whole number",
+        "found string \"many\"",
+        None,
+    );
+    check(
+        "[image]\nwidth = «640.5»\n",
+        "expected a whole number",
+        "found floating point `640.5`",
+        None,
+    );
+    check(
+        "[camera]\nfovy = «\"wide\"»\n",
+        "expected a number",
+        "found string \"wide\"",
+        None,
+    );
+    check(
+        "[camera]\neye = «[1, 2]»\n",
+        "expected three numbers [x, y, z]",
+        "found a list of 2",
+        None,
+    );
+    check(
+        "[camera]\neye = [1, 2, «true»]\n",
+        "expected a number",
+        "found boolean `true`",
+        None,
+    );
+    check(
+        "ambient = «[1]»\n",
+        "expected one number or three in brackets",
+        "found a list of one",
+        None,
+    );
+    check(
+        "[material]\nkd = «\"red\"»\n",
+        "expected one number or three in brackets",
+        "found string \"red\"",
+        None,
+    );
+    check(
+        "[[object]]\nmesh = «3»\n",
+        "expected text in quotes",
+        "found integer `3`",
+        None,
+    );
     check(
         "[[object]]\nmesh = \"a.obj\"\nmatrix = «[[1, 0, 0, 0], [0, 1, 0, 0]]»\n",
         "expected three rows of four numbers",
@@ -92,7 +157,12 @@ fn what_is_of_the_wrong_kind() {
         "found integer `90`",
         None,
     );
-    check("«[[object]]»\nscale = 2\n", "the key `mesh` is missing", "in this table", None);
+    check(
+        "«[[object]]»\nscale = 2\n",
+        "the key `mesh` is missing",
+        "in this table",
+        None,
+    );
 }
 
 /// Text that is not TOML at all, of any kind, is an error with a place and never a panic.
@@ -109,13 +179,23 @@ fn broken_text() {
         ("a = \u{1f600}\n", 1, 5),
     ] {
         let error = error(text);
-        assert_eq!(error.line_and_column(), Some((line, column)), "{text:?}\n{error}");
-        assert!(format!("{error}").starts_with("error: not valid TOML: "), "{error}");
+        assert_eq!(
+            error.line_and_column(),
+            Some((line, column)),
+            "{text:?}\n{error}"
+        );
+        assert!(
+            format!("{error}").starts_with("error: not valid TOML: "),
+            "{error}"
+        );
     }
     // Every beginning of a scene, at every byte.
-    let whole = with_object("title = 'ä'\n[camera]\neye = [0, 0, 5]\n[[light]]\ndirection = [1, 1, 1]");
+    let whole =
+        with_object("title = 'ä'\n[camera]\neye = [0, 0, 5]\n[[light]]\ndirection = [1, 1, 1]");
     for end in (0..whole.len()).filter(|end| whole.is_char_boundary(*end)) {
-        if let Err(error) = SceneFile::parse(&whole[..end], "scene.toml").and_then(|file| file.resolve(cubes)) {
+        if let Err(error) =
+            SceneFile::parse(&whole[..end], "scene.toml").and_then(|file| file.resolve(cubes))
+        {
             assert!(format!("{error}").starts_with("error: "), "{error}");
         }
     }
@@ -126,10 +206,19 @@ fn files_that_cannot_be_read() {
     let folder = std::env::temp_dir().join(format!("fastphong-scene-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a temporary folder");
     let path = folder.join("latin1.toml");
-    let missing = format!("{}", SceneFile::load(folder.join("none.toml")).expect_err("no file"));
+    let missing = format!(
+        "{}",
+        SceneFile::load(folder.join("none.toml")).expect_err("no file")
+    );
     std::fs::write(&path, b"a = 1\ntitle = \"\xe4\"\n").expect("a temporary file");
     let latin1 = format!("{}", SceneFile::load(&path).expect_err("not UTF-8"));
     std::fs::remove_dir_all(&folder).expect("the temporary folder");
-    assert!(missing.starts_with("error: cannot read the scene `") && missing.contains("none.toml`: "), "{missing}");
-    assert!(latin1.ends_with("latin1.toml`: line 2 is not text: expected UTF-8"), "{latin1}");
+    assert!(
+        missing.starts_with("error: cannot read the scene `") && missing.contains("none.toml`: "),
+        "{missing}"
+    );
+    assert!(
+        latin1.ends_with("latin1.toml`: line 2 is not text: expected UTF-8"),
+        "{latin1}"
+    );
 }

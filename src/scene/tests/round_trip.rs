@@ -1,7 +1,7 @@
 use crate::lighting::{SpecularGate, SpecularModel};
 use crate::scene::file::{
-    CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, NormalChoice, ObjectSection,
-    RotationSection, Rotations, SceneFile, ViewerChoice, VisibilityChoice,
+    CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, NormalChoice,
+    ObjectSection, RotationSection, Rotations, SceneFile, ViewerChoice, VisibilityChoice,
 };
 use crate::scene::value::{Choice, Located, OneOrThree};
 use crate::scene::{Clipping, Culling, DepthSource, Encoding, Interpolation, PainterKey};
@@ -24,7 +24,9 @@ impl Random {
     fn number(&mut self) -> f64 {
         match self.next() % 4 {
             0 => [0.0, -0.0, 1.0, -2.0, 0.1, 1e300, 5e-324, 1e21][self.next() as usize % 8],
-            _ => Some(f64::from_bits(self.next())).filter(|v| v.is_finite()).unwrap_or(0.5),
+            _ => Some(f64::from_bits(self.next()))
+                .filter(|v| v.is_finite())
+                .unwrap_or(0.5),
         }
     }
 
@@ -33,7 +35,11 @@ impl Random {
     }
 
     fn one_or_three(&mut self) -> OneOrThree {
-        if self.next().is_multiple_of(2) { OneOrThree::splat(self.number()) } else { OneOrThree(self.triple()) }
+        if self.next().is_multiple_of(2) {
+            OneOrThree::splat(self.number())
+        } else {
+            OneOrThree(self.triple())
+        }
     }
 
     /// Given in half of all cases.
@@ -46,8 +52,10 @@ impl Random {
     }
 
     fn text(&mut self) -> String {
-        let pieces =
-            ["a", "\"", "'", "\\", "\n", "\t", "'''", "\"\"\"", "ä", "😀", "#", "=", "[x]", "\u{7f}", " ", "\r"];
+        let pieces = [
+            "a", "\"", "'", "\\", "\n", "\t", "'''", "\"\"\"", "ä", "😀", "#", "=", "[x]",
+            "\u{7f}", " ", "\r",
+        ];
         (0..self.next() % 6).map(|_| self.choice(&pieces)).collect()
     }
 
@@ -74,7 +82,10 @@ impl Random {
 
     fn object(&mut self) -> ObjectSection {
         let turns = self.next() % 4;
-        let rotation = |r: &mut Self| RotationSection { axis: r.triple().into(), angle: r.number().into() };
+        let rotation = |r: &mut Self| RotationSection {
+            axis: r.triple().into(),
+            angle: r.number().into(),
+        };
         ObjectSection {
             mesh: self.text().into(),
             normals: self.maybe(|r| r.choice(&[NormalChoice::Given, NormalChoice::Averaged])),
@@ -97,7 +108,8 @@ impl Random {
             specular: self.maybe(|r| r.choice(SpecularModel::MEANINGS)),
             shininess_for: self.maybe(|r| r.choice(SpecularModel::MEANINGS)),
             specular_gate: self.maybe(|r| r.choice(SpecularGate::MEANINGS)),
-            interpolation: self.maybe(|r| r.choice(&[Interpolation::Screen, Interpolation::Perspective])),
+            interpolation: self
+                .maybe(|r| r.choice(&[Interpolation::Screen, Interpolation::Perspective])),
             cull: self.maybe(|r| r.choice(&[Culling::Back, Culling::Front, Culling::None])),
             visibility: self.maybe(|r| r.choice(VisibilityChoice::MEANINGS)),
             clipping: self.maybe(|r| r.choice(Clipping::MEANINGS)),
@@ -140,7 +152,8 @@ fn written_scenes_read_back_equal() {
     for round in 0..2000 {
         let scene = random.scene();
         let text = scene.to_toml();
-        let back = SceneFile::parse(&text, "back.toml").unwrap_or_else(|error| panic!("{round}: {error}\n{text}"));
+        let back = SceneFile::parse(&text, "back.toml")
+            .unwrap_or_else(|error| panic!("{round}: {error}\n{text}"));
         assert_eq!(back, scene, "{round}:\n{text}");
         // `==` does not tell −0 from 0; the text does.
         assert_eq!(back.to_toml(), text, "{round}");

@@ -106,8 +106,15 @@ impl<N: Copy, C: Fn(usize) -> N, const L: usize> Cosines<N, C, L> {
 
 /// The R·V up to which `k_s (R·V)^n` is below 2⁻²⁴ for every light: what rounding a colour of ½ or more changes.
 pub(super) fn faint(lighting: &Lighting) -> f32 {
-    let strongest = lighting.lights.iter().flat_map(|l| l.specular).fold(0.0, |most, c| f32::max(most, c.abs()));
-    libm::powf(5.960_464_5e-8 / strongest.max(5.960_464_5e-8), 1.0 / lighting.shininess)
+    let strongest = lighting
+        .lights
+        .iter()
+        .flat_map(|l| l.specular)
+        .fold(0.0, |most, c| f32::max(most, c.abs()));
+    libm::powf(
+        5.960_464_5e-8 / strongest.max(5.960_464_5e-8),
+        1.0 / lighting.shininess,
+    )
 }
 
 /// A colour times `scale`.

@@ -13,7 +13,11 @@ fn assert_error(text: impl AsRef<[u8]>, line: usize, message: &str) {
     let error = parse(text).unwrap_err();
     assert_eq!(error.line(), (line > 0).then_some(line), "{error}");
     assert_eq!(error.path(), Path::new("t.obj"));
-    let place = if line > 0 { format!("t.obj:{line}: ") } else { "t.obj: ".to_string() };
+    let place = if line > 0 {
+        format!("t.obj:{line}: ")
+    } else {
+        "t.obj: ".to_string()
+    };
     assert_eq!(error.to_string(), format!("{place}{message}"));
 }
 
@@ -26,12 +30,23 @@ fn assert_error_after_points(text: &str, line: usize, message: &str) {
 #[test]
 fn files_that_are_not_there_or_no_files() {
     let missing = load_obj(Path::new("no/such/file.obj")).unwrap_err();
-    assert!(missing.to_string().starts_with("no/such/file.obj: cannot be read ("), "{missing}");
+    assert!(
+        missing
+            .to_string()
+            .starts_with("no/such/file.obj: cannot be read ("),
+        "{missing}"
+    );
     assert!(missing.source().is_none());
     let directory = Path::new(env!("CARGO_MANIFEST_DIR"));
     let error = load_obj(directory).unwrap_err();
     assert_eq!(error.problem(), &ObjProblem::Directory);
-    assert_eq!(error.to_string(), format!("{}: is a directory: expected an OBJ file", directory.display()));
+    assert_eq!(
+        error.to_string(),
+        format!(
+            "{}: is a directory: expected an OBJ file",
+            directory.display()
+        )
+    );
 }
 
 #[test]
@@ -42,13 +57,18 @@ fn files_without_polygons() {
         0,
         "is empty: expected OBJ text with `v` and `f` lines",
     );
-    assert_error(b"\xef\xbb\xbf", 0, "is empty: expected OBJ text with `v` and `f` lines");
+    assert_error(
+        b"\xef\xbb\xbf",
+        0,
+        "is empty: expected OBJ text with `v` and `f` lines",
+    );
     let no_polygon = "has no polygon: expected OBJ text with an `f` line of at least three corners";
     assert_error(POINTS, 0, no_polygon);
     assert_error("# nothing\n", 0, no_polygon);
     assert_error("solid cube\nfacet normal 0 0 1\n", 0, no_polygon);
     assert_error_after_points("f 1 2\n", 0, no_polygon);
-    let points = "has points or lines but no polygon: expected an `f` line of at least three corners";
+    let points =
+        "has points or lines but no polygon: expected an `f` line of at least three corners";
     assert_error_after_points("l 1 2 3\n", 0, points);
 }
 
@@ -63,24 +83,60 @@ fn binary_data() {
 
 #[test]
 fn numbers() {
-    assert_error("v 0 0 0\nv 1 2", 2, "`v` has too few numbers: expected three, found 2");
-    assert_error("v 0 0 # 0\n", 1, "`v` has too few numbers: expected three, found 2");
+    assert_error(
+        "v 0 0 0\nv 1 2",
+        2,
+        "`v` has too few numbers: expected three, found 2",
+    );
+    assert_error(
+        "v 0 0 # 0\n",
+        1,
+        "`v` has too few numbers: expected three, found 2",
+    );
     assert_error("v\n", 1, "`v` has too few numbers: expected three, found 0");
-    assert_error_after_points("vn 1 2\n", 6, "`vn` has too few numbers: expected three, found 2");
+    assert_error_after_points(
+        "vn 1 2\n",
+        6,
+        "`vn` has too few numbers: expected three, found 2",
+    );
     for number in ["nan", "inf", "-inf", "1e99", "1,5", "0x10", "1.2.3", "é"] {
-        assert_error(format!("\nv 0 {number} 0\n"), 2, &format!("`{number}` in `v`: expected a finite number"));
+        assert_error(
+            format!("\nv 0 {number} 0\n"),
+            2,
+            &format!("`{number}` in `v`: expected a finite number"),
+        );
         let message = format!("`{number}` in `vn`: expected a finite number");
         assert_error_after_points(&format!("vn {number} 0 0\nf 1 2 3\n"), 6, &message);
     }
     // Two lines run together.
-    assert_error("v 0 0 0v 1 0 0\n", 1, "`0v` in `v`: expected a finite number");
-    assert_error("v 0 0 0 zero\n", 1, "`zero` in `v`: expected a finite number");
+    assert_error(
+        "v 0 0 0v 1 0 0\n",
+        1,
+        "`0v` in `v`: expected a finite number",
+    );
+    assert_error(
+        "v 0 0 0 zero\n",
+        1,
+        "`zero` in `v`: expected a finite number",
+    );
 }
 
 #[test]
 fn corners() {
-    for corner in ["a", "1.0", "1/2/3/4", "/1", "//", "1/x", "1//x", "99999999999999999999", "--1"] {
-        let message = format!("`{corner}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers");
+    for corner in [
+        "a",
+        "1.0",
+        "1/2/3/4",
+        "/1",
+        "//",
+        "1/x",
+        "1//x",
+        "99999999999999999999",
+        "--1",
+    ] {
+        let message = format!(
+            "`{corner}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers"
+        );
         assert_error_after_points(&format!("f 1 2 {corner}\n"), 6, &message);
     }
 }
@@ -89,8 +145,16 @@ fn corners() {
 fn indices() {
     let zero = "position index 0: expected 1 or more (or -1 and below, counted backwards)";
     assert_error_after_points("f 1 2 3\nf 0 1 2\n", 7, zero);
-    assert_error_after_points("f 1 2 6\n", 6, "position index 6 is out of range: expected 1 to 5");
-    assert_error_after_points("f 1 2 -6\n", 6, "position index -6 is out of range: expected -5 to -1 at this line");
+    assert_error_after_points(
+        "f 1 2 6\n",
+        6,
+        "position index 6 is out of range: expected 1 to 5",
+    );
+    assert_error_after_points(
+        "f 1 2 -6\n",
+        6,
+        "position index -6 is out of range: expected -5 to -1 at this line",
+    );
     assert_error(
         "f -1 -2 -3\n",
         1,
@@ -98,15 +162,26 @@ fn indices() {
     );
     // Backwards counts from its line, forwards is checked at the end: the first line that stays wrong is told.
     let later = "f 1 2 6\nf 1 2 9\nf 1 2 8\nv 9 9 9\n";
-    assert_error_after_points(later, 7, "position index 9 is out of range: expected 1 to 6");
+    assert_error_after_points(
+        later,
+        7,
+        "position index 9 is out of range: expected 1 to 6",
+    );
     for huge in [i64::MAX, i64::MIN] {
         assert!(
-            parse(format!("{POINTS}f 1 2 {huge}\n")).unwrap_err().to_string().contains("is out of range"),
+            parse(format!("{POINTS}f 1 2 {huge}\n"))
+                .unwrap_err()
+                .to_string()
+                .contains("is out of range"),
             "{huge}"
         );
     }
     // The parser panics at the second of these in a debug build.
-    assert_error_after_points("vn 0 0 1\nf 1//1 2//2 3//1\n", 7, "normal index 2 is out of range: expected 1 to 1");
+    assert_error_after_points(
+        "vn 0 0 1\nf 1//1 2//2 3//1\n",
+        7,
+        "normal index 2 is out of range: expected 1 to 1",
+    );
     assert_error_after_points(
         "vn 0 0 1\nf 1//-5 2//1 3//1\n",
         7,
@@ -123,13 +198,22 @@ fn a_continued_statement_is_told_by_its_first_line() {
         6,
         "`x` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers",
     );
-    assert_error_after_points("f 1 \\\n2 3\nv x\n", 8, "`x` in `v`: expected a finite number");
+    assert_error_after_points(
+        "f 1 \\\n2 3\nv x\n",
+        8,
+        "`x` in `v`: expected a finite number",
+    );
 }
 
 #[test]
 fn quotes_are_one_short_line() {
-    let error = parse(format!("v 0 0 \u{1b}[31m{}\n", "x".repeat(1000))).unwrap_err().to_string();
-    assert!(error.contains("\\u{1b}[31mxxx") && error.contains('…') && error.len() < 120, "{error}");
+    let error = parse(format!("v 0 0 \u{1b}[31m{}\n", "x".repeat(1000)))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("\\u{1b}[31mxxx") && error.contains('…') && error.len() < 120,
+        "{error}"
+    );
 }
 
 #[test]
@@ -137,13 +221,30 @@ fn limits() {
     let load = |polygons, corners| {
         let text = format!("{POINTS}f 1 2 3\nf 1 2 3 4\nf 3 4 5\n");
         let none = |_: &str| Err(io::ErrorKind::NotFound.into());
-        parse_limited(Path::new("t.obj"), text.as_bytes(), none, Limits { polygons, corners })
+        parse_limited(
+            Path::new("t.obj"),
+            text.as_bytes(),
+            none,
+            Limits { polygons, corners },
+        )
     };
     assert!(load(3, 10).is_ok());
     let error = load(2, 10).unwrap_err();
-    assert_eq!((error.line(), error.problem()), (Some(8), &ObjProblem::TooManyPolygons));
-    assert_eq!(error.to_string(), "t.obj:8: too many polygons: expected at most 16777216");
+    assert_eq!(
+        (error.line(), error.problem()),
+        (Some(8), &ObjProblem::TooManyPolygons)
+    );
+    assert_eq!(
+        error.to_string(),
+        "t.obj:8: too many polygons: expected at most 16777216"
+    );
     let error = load(3, 6).unwrap_err();
-    assert_eq!((error.line(), error.problem()), (Some(7), &ObjProblem::TooManyCorners));
-    assert_eq!(error.to_string(), "t.obj:7: too many corners: expected at most 134217728");
+    assert_eq!(
+        (error.line(), error.problem()),
+        (Some(7), &ObjProblem::TooManyCorners)
+    );
+    assert_eq!(
+        error.to_string(),
+        "t.obj:7: too many corners: expected at most 134217728"
+    );
 }

@@ -93,13 +93,19 @@ fn changed_files_end_in_a_mesh_or_an_error() {
             series.change(&mut obj);
             series.change(&mut mtl);
         }
-        let result = catch_unwind(AssertUnwindSafe(|| parse_obj("t.obj", &obj, |_| Ok(mtl.clone()))));
+        let result = catch_unwind(AssertUnwindSafe(|| {
+            parse_obj("t.obj", &obj, |_| Ok(mtl.clone()))
+        }));
         let parsed = result.unwrap_or_else(|_| panic!("panic at {obj:?} with {mtl:?}"));
         match &parsed {
             Ok(loaded) => {
                 meshes += 1;
                 // Nothing that the checks let through may fail in the parser.
-                assert!(!loaded.warnings.iter().any(|w| w.contains("gave up")), "{:?} {mtl:?}", loaded.warnings);
+                assert!(
+                    !loaded.warnings.iter().any(|w| w.contains("gave up")),
+                    "{:?} {mtl:?}",
+                    loaded.warnings
+                );
             }
             Err(error) => {
                 errors += 1;
@@ -111,5 +117,8 @@ fn changed_files_end_in_a_mesh_or_an_error() {
         }
     }
     // Both ways are walked often, or the changes are too mild or too wild to find anything.
-    assert!(meshes > 2_000 && errors > 2_000, "{meshes} meshes, {errors} errors");
+    assert!(
+        meshes > 2_000 && errors > 2_000,
+        "{meshes} meshes, {errors} errors"
+    );
 }

@@ -11,8 +11,13 @@ use std::vec;
 #[test]
 fn polygons_keep_all_their_sides() {
     // A concave pentagon: nobody may make triangles of it.
-    let loaded = parse("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\nf 1 2 3\nf 1 3 4 5\n").unwrap();
-    assert_eq!(polygons(&loaded), [vec![0, 1, 2, 3, 4], vec![0, 1, 2], vec![0, 2, 3, 4]]);
+    let loaded =
+        parse("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\nf 1 2 3\nf 1 3 4 5\n")
+            .unwrap();
+    assert_eq!(
+        polygons(&loaded),
+        [vec![0, 1, 2, 3, 4], vec![0, 1, 2], vec![0, 2, 3, 4]]
+    );
     assert_eq!(loaded.mesh.positions()[3], Vec3::new(1.0, 0.5, 0.0));
     assert_eq!(loaded.warnings, Vec::<String>::new());
 }
@@ -20,7 +25,10 @@ fn polygons_keep_all_their_sides() {
 #[test]
 fn a_file_of_triangles_only_has_its_polygons() {
     // The parser then leaves out the list of corner counts.
-    assert_eq!(polygons(&after_points("f 1 2 3\nf 1 3 4\n")), [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(
+        polygons(&after_points("f 1 2 3\nf 1 3 4\n")),
+        [[0, 1, 2], [0, 2, 3]]
+    );
 }
 
 #[test]
@@ -39,7 +47,10 @@ fn indices_count_backwards_from_their_line() {
 
 #[test]
 fn indices_may_be_ahead_of_their_positions() {
-    assert_eq!(polygons(&parse(format!("f 1 2 3\ng a\n{POINTS}")).unwrap()), [[0, 1, 2]]);
+    assert_eq!(
+        polygons(&parse(format!("f 1 2 3\ng a\n{POINTS}")).unwrap()),
+        [[0, 1, 2]]
+    );
 }
 
 #[test]
@@ -56,8 +67,14 @@ fn comments_continued_lines_and_line_ends() {
         assert_eq!(polygons(&after_points(text)), expected, "{text:?}");
     }
     let text = format!("# square \n{POINTS}f 1 2 3 4 \n");
-    assert_eq!(polygons(&parse(text.replace('\n', "\r")).unwrap()), expected);
-    assert_eq!(polygons(&parse(text.replace('\n', "\r\n")).unwrap()), expected);
+    assert_eq!(
+        polygons(&parse(text.replace('\n', "\r")).unwrap()),
+        expected
+    );
+    assert_eq!(
+        polygons(&parse(text.replace('\n', "\r\n")).unwrap()),
+        expected
+    );
 }
 
 #[test]
@@ -73,9 +90,15 @@ fn byte_order_mark_and_latin_1() {
 fn weights_and_colours_do_not_move_positions() {
     // The parser divides by a fourth number and refuses a colour that not every position has.
     let loaded = parse("v 2 4 6 2 # w\nv 1 0 0 1 0.5 0.5\nv 1 1 0 1\nf 1 2 3\n").unwrap();
-    assert_eq!(loaded.mesh.positions(), [Vec3::new(2.0, 4.0, 6.0), Vec3::X, Vec3::new(1.0, 1.0, 0.0)]);
+    assert_eq!(
+        loaded.mesh.positions(),
+        [Vec3::new(2.0, 4.0, 6.0), Vec3::X, Vec3::new(1.0, 1.0, 0.0)]
+    );
     let no_colours = "a position has no colour: the colours of the others are not used (2 times, first in line 1)";
-    assert_eq!(loaded.warnings, ["the weight w of a position is ignored (line 1)", no_colours]);
+    assert_eq!(
+        loaded.warnings,
+        ["the weight w of a position is ignored (line 1)", no_colours]
+    );
 }
 
 #[test]
@@ -83,43 +106,72 @@ fn points_and_lines_are_no_polygons() {
     // The parser reads a line of three points as a triangle.
     let loaded = after_points("l 1 2 3\np 1\nf 1 2 3\n");
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
-    assert_eq!(warning(&loaded), "points and lines are not drawn (2 times, first in line 6)");
+    assert_eq!(
+        warning(&loaded),
+        "points and lines are not drawn (2 times, first in line 6)"
+    );
 }
 
 #[test]
 fn faces_without_area_by_their_indices() {
     let loaded = after_points("f\nf 1\nf 1 2\nf 1 2 2 1\nf 1 2 3\n");
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
-    assert!(warning(&loaded).ends_with("is left out (4 times, first in line 6)"), "{:?}", loaded.warnings);
+    assert!(
+        warning(&loaded).ends_with("is left out (4 times, first in line 6)"),
+        "{:?}",
+        loaded.warnings
+    );
 
     // A neighbour that repeats goes; a corner met twice on the way round (a bridge to a hole) stays.
     let loaded = after_points("f 1 1 2 3 3 1\nf 1 2 3 1 4 5\n");
     assert_eq!(polygons(&loaded), [vec![0, 1, 2], vec![0, 1, 2, 0, 3, 4]]);
-    assert_eq!(warning(&loaded), "a corner that repeats the one before it is left out (line 6)");
+    assert_eq!(
+        warning(&loaded),
+        "a corner that repeats the one before it is left out (line 6)"
+    );
 }
 
 #[test]
 fn normals_belong_to_corners_and_are_made_unit() {
-    let loaded = after_points("vn 0 0 2\nvn 0 3 4\nvn 0 0 0\nvt 0 0\nf 1/1/1 2/1/2 3/1/-1\nf 1//2 3//2 4//1\n");
+    let loaded = after_points(
+        "vn 0 0 2\nvn 0 3 4\nvn 0 0 0\nvt 0 0\nf 1/1/1 2/1/2 3/1/-1\nf 1//2 3//2 4//1\n",
+    );
     let normals = loaded.mesh.given_normals().unwrap();
-    assert_eq!(normals.values, [Vec3::Z, Vec3::new(0.0, 0.6, 0.8), Vec3::ZERO]);
+    assert_eq!(
+        normals.values,
+        [Vec3::Z, Vec3::new(0.0, 0.6, 0.8), Vec3::ZERO]
+    );
     assert_eq!(normals.corners.as_deref(), Some(&[0, 1, 2, 1, 1, 0][..]));
-    assert_eq!(warning(&loaded), "1 normal of the file has length zero: averaged ones are used there");
+    assert_eq!(
+        warning(&loaded),
+        "1 normal of the file has length zero: averaged ones are used there"
+    );
 }
 
 #[test]
 fn tiny_and_huge_normals_have_a_direction() {
     let loaded = after_points("vn 0 0 1e-45\nvn 3e38 0 0\nf 1//1 2//2 3//2\n");
-    assert_eq!(loaded.mesh.given_normals().unwrap().values, [Vec3::Z, Vec3::X]);
+    assert_eq!(
+        loaded.mesh.given_normals().unwrap().values,
+        [Vec3::Z, Vec3::X]
+    );
 }
 
 #[test]
 fn normals_of_a_part_of_the_corners_are_not_used() {
     // The parser repeats the last normal where there is none.
-    for faces in ["f 1//1 2//2 3//1\nf 1 3 4\n", "f 1 3 4\nf 1//1 2//2 3//1\n", "f 1//1 2 3//2 4\n"] {
+    for faces in [
+        "f 1//1 2//2 3//1\nf 1 3 4\n",
+        "f 1 3 4\nf 1//1 2//2 3//1\n",
+        "f 1//1 2 3//2 4\n",
+    ] {
         let loaded = after_points(&["vn 0 0 1\nvn 0 1 0\n", faces].concat());
         assert!(loaded.mesh.given_normals().is_none(), "{faces:?}");
-        assert!(warning(&loaded).starts_with("a face has corners without a normal"), "{:?}", loaded.warnings);
+        assert!(
+            warning(&loaded).starts_with("a face has corners without a normal"),
+            "{:?}",
+            loaded.warnings
+        );
     }
     let unused = after_points("vn 0 0 1\nf 1 2 3\n");
     assert!(unused.mesh.given_normals().is_none() && unused.warnings.is_empty());
@@ -127,30 +179,52 @@ fn normals_of_a_part_of_the_corners_are_not_used() {
 
 #[test]
 fn smoothing_groups_that_would_show_are_told() {
-    let told = |text: &str| after_points(text).warnings.iter().any(|w| w.starts_with("smoothing groups are ignored"));
+    let told = |text: &str| {
+        after_points(text)
+            .warnings
+            .iter()
+            .any(|w| w.starts_with("smoothing groups are ignored"))
+    };
     assert!(told("s 1\nf 1 2 3\ns 2\nf 1 3 4\n"));
     assert!(told("s off\nf 1 2 3\n") && told("s 0\nf 1 2 3\n"));
     assert!(told("f 1 2 3\ns 1\nf 1 3 4\n"));
     assert!(!told("s 1\nf 1 2 3\nf 1 3 4\ns off\n"));
     assert!(!told("f 1 2 3\nf 1 3 4\n"));
     // With normals in the file nothing is averaged.
-    assert!(!told("vn 0 0 1\ns 1\nf 1//1 2//1 3//1\ns 2\nf 1//1 3//1 4//1\n"));
+    assert!(!told(
+        "vn 0 0 1\ns 1\nf 1//1 2//1 3//1\ns 2\nf 1//1 3//1 4//1\n"
+    ));
 }
 
 #[test]
 fn texture_coordinates_do_not_matter() {
     let loaded = after_points("vt 0 0\nf 1/1 2/-1 3/1\nf 1/-5 2/0 3/7\n");
     assert_eq!(polygons(&loaded), [[0, 1, 2], [0, 1, 2]]);
-    assert!(warning(&loaded).starts_with("a texture coordinate that does not exist"), "{:?}", loaded.warnings);
-    assert!(warning(&loaded).ends_with("(3 times, first in line 8)"), "{:?}", loaded.warnings);
+    assert!(
+        warning(&loaded).starts_with("a texture coordinate that does not exist"),
+        "{:?}",
+        loaded.warnings
+    );
+    assert!(
+        warning(&loaded).ends_with("(3 times, first in line 8)"),
+        "{:?}",
+        loaded.warnings
+    );
 }
 
 #[test]
 fn unknown_and_free_form_statements_are_told_once() {
     let loaded = after_points("hello 1\nmoin 2\nf 1 2 3\n");
-    assert_eq!(warning(&loaded), "`hello` is no OBJ statement and is passed over (2 times, first in line 6)");
+    assert_eq!(
+        warning(&loaded),
+        "`hello` is no OBJ statement and is passed over (2 times, first in line 6)"
+    );
     let loaded = after_points("cstype bezier\ncurv 0 1 1 2 3\nf 1 2 3\n");
-    assert!(warning(&loaded).starts_with("free-form curves and surfaces"), "{:?}", loaded.warnings);
+    assert!(
+        warning(&loaded).starts_with("free-form curves and surfaces"),
+        "{:?}",
+        loaded.warnings
+    );
     // The older word for a face.
     assert_eq!(polygons(&after_points("fo 1 2 3\n")), [[0, 1, 2]]);
 }
@@ -158,34 +232,58 @@ fn unknown_and_free_form_statements_are_told_once() {
 /// The OBJ files that are shipped: closed (each edge once in each direction), without a warning, as large as said.
 #[test]
 fn shipped_meshes() {
-    for (name, positions, polygon_count, sides, materials) in
-        [("vase", 1152, 1122, &[4, 32][..], 2), ("football", 60, 32, &[5, 6][..], 2)]
-    {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("obj");
+    for (name, positions, polygon_count, sides, materials) in [
+        ("vase", 1152, 1122, &[4, 32][..], 2),
+        ("football", 60, 32, &[5, 6][..], 2),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("scenes")
+            .join(name)
+            .with_extension("obj");
         let loaded = load_obj(&path).unwrap();
         assert_eq!(loaded.warnings, Vec::<String>::new(), "{name}");
         let mesh = &loaded.mesh;
         assert_eq!(
-            (mesh.positions().len(), mesh.polygon_count(), mesh.materials().len()),
+            (
+                mesh.positions().len(),
+                mesh.polygon_count(),
+                mesh.materials().len()
+            ),
             (positions, polygon_count, materials)
         );
         let mut edges = HashSet::new();
         for (p, polygon) in mesh.polygons().enumerate() {
-            assert!(sides.contains(&polygon.len()), "{name}: {} sides", polygon.len());
+            assert!(
+                sides.contains(&polygon.len()),
+                "{name}: {} sides",
+                polygon.len()
+            );
             assert!(mesh.polygon_material(p).is_some());
             for (k, &from) in polygon.iter().enumerate() {
-                assert!(edges.insert((from, polygon[(k + 1) % polygon.len()])), "{name}: an edge twice");
+                assert!(
+                    edges.insert((from, polygon[(k + 1) % polygon.len()])),
+                    "{name}: an edge twice"
+                );
             }
         }
-        assert!(edges.iter().all(|&(from, to)| edges.contains(&(to, from))), "{name} has a hole");
+        assert!(
+            edges.iter().all(|&(from, to)| edges.contains(&(to, from))),
+            "{name} has a hole"
+        );
         // Six times the volume, as the sum over fans of triangles: positive when polygons face outward.
         let volume = |a: u32, b: u32, c: u32| {
             let at = |i: u32| mesh.positions()[i as usize].as_dvec3();
             at(a).dot(at(b).cross(at(c)))
         };
-        let fans = mesh.polygons().map(|p| p.windows(2).map(|w| volume(p[0], w[0], w[1])).sum::<f64>());
+        let fans = mesh
+            .polygons()
+            .map(|p| p.windows(2).map(|w| volume(p[0], w[0], w[1])).sum::<f64>());
         assert!(fans.sum::<f64>() > 0.0, "{name} is inside out");
-        assert!(std::fs::metadata(&path).unwrap().len() <= 60_000, "{}", path.to_string_lossy().to_string());
+        assert!(
+            std::fs::metadata(&path).unwrap().len() <= 60_000,
+            "{}",
+            path.to_string_lossy().to_string()
+        );
     }
 }
 
@@ -194,25 +292,38 @@ fn colours_follow_their_positions() {
     // Position 1 is not used, and the others are named in another order than they are given.
     let points = "v 9 9 9 0 0 0\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0 # green\nv 0 1 0 0 0.25 1\n";
     let loaded = parse(points.to_string() + "f 4 2 3\n").unwrap();
-    assert_eq!(loaded.mesh.colours(), [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]);
+    assert_eq!(
+        loaded.mesh.colours(),
+        [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]
+    );
     assert_eq!(loaded.warnings, Vec::<String>::new());
     // Faces may stand before positions.
     let loaded = parse("f 4 2 3\n".to_string() + points).unwrap();
-    assert_eq!(loaded.mesh.colours(), [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]);
+    assert_eq!(
+        loaded.mesh.colours(),
+        [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]
+    );
 }
 
 #[test]
 fn colours_are_used_if_all_positions_have_one() {
-    for (first, last, line) in [("v 0 0 0 1 0 0", "v 0 1 0", 3), ("v 0 0 0", "v 0 1 0 1 0 0", 1)] {
+    for (first, last, line) in [
+        ("v 0 0 0 1 0 0", "v 0 1 0", 3),
+        ("v 0 0 0", "v 0 1 0 1 0 0", 1),
+    ] {
         let loaded = parse(format!("{first}\nv 1 0 0 0 1 0\n{last}\nf 1 2 3\n")).unwrap();
         assert!(loaded.mesh.colours().is_empty());
-        let expected = format!("a position has no colour: the colours of the others are not used (line {line})");
+        let expected = format!(
+            "a position has no colour: the colours of the others are not used (line {line})"
+        );
         assert_eq!(loaded.warnings, [expected]);
     }
     let loaded = parse("v 0 0 0 255 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 -1\nf 1 2 3\n").unwrap();
     assert_eq!(loaded.mesh.colours()[0], Vec3::new(255.0, 0.0, 0.0));
     assert_eq!(loaded.warnings.len(), 1);
-    assert!(loaded.warnings[0].contains("not within 0 to 1") && loaded.warnings[0].contains("2 times"));
+    assert!(
+        loaded.warnings[0].contains("not within 0 to 1") && loaded.warnings[0].contains("2 times")
+    );
     // Four numbers are a weight, seven are a weight and a colour, which no program writes: both without a colour.
     let loaded = parse("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1 0 0 1\nf 1 2 3\n").unwrap();
     assert!(loaded.mesh.colours().is_empty());

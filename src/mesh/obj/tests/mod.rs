@@ -14,7 +14,9 @@ use std::{format, io};
 const POINTS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n";
 
 fn parse(text: impl AsRef<[u8]>) -> Result<LoadedObj, ObjError> {
-    parse_obj("t.obj", text.as_ref(), |_| Err(io::ErrorKind::NotFound.into()))
+    parse_obj("t.obj", text.as_ref(), |_| {
+        Err(io::ErrorKind::NotFound.into())
+    })
 }
 
 /// Five points, then `text`.

@@ -8,8 +8,18 @@ use glam::DVec3;
 /// Four lights from all sides on a surface of this shininess, seen along z.
 fn lighting(random: &mut Random, shininess: f32) -> Lighting {
     let mut direction = || DVec3::from([0; 3].map(|_| f64::from(random.signed()))).normalize();
-    let lights: Vec<Light> = (0..4).map(|i| Light::directional(direction(), [0.9, 0.2, 0.1 * i as f32])).collect();
-    Lighting::new(&Material { shininess, ..Material::default() }, [1.0; 3], &lights, DVec3::Z)
+    let lights: Vec<Light> = (0..4)
+        .map(|i| Light::directional(direction(), [0.9, 0.2, 0.1 * i as f32]))
+        .collect();
+    Lighting::new(
+        &Material {
+            shininess,
+            ..Material::default()
+        },
+        [1.0; 3],
+        &lights,
+        DVec3::Z,
+    )
 }
 
 /// The colour at a unit normal, if `USUAL` with constants that are.
@@ -31,7 +41,14 @@ fn usual_constants_leave_out_what_is_not_seen() {
             let all = Illumination::<f32, 4>::new(&lighting, &|x| x);
             let usual = all.usual(1.0).expect("what most scenes ask for");
             let matt = Lighting {
-                lights: lighting.lights.iter().map(|l| LightTerm { specular: [0.0; 3], ..*l }).collect(),
+                lights: lighting
+                    .lights
+                    .iter()
+                    .map(|l| LightTerm {
+                        specular: [0.0; 3],
+                        ..*l
+                    })
+                    .collect(),
                 ..lighting.clone()
             };
             let matt = Illumination::<f32, 4>::new(&matt, &|x| x);
@@ -39,12 +56,18 @@ fn usual_constants_leave_out_what_is_not_seen() {
                 let n = [0; 3].map(|_| random.signed());
                 let length = n.iter().map(|x| x * x).sum::<f32>().sqrt();
                 let n = n.map(|x| x / length);
-                let (expected, found, without) =
-                    (colour::<false>(&all, n), colour::<true>(&usual, n), colour::<false>(&matt, n));
+                let (expected, found, without) = (
+                    colour::<false>(&all, n),
+                    colour::<true>(&usual, n),
+                    colour::<false>(&matt, n),
+                );
                 for c in 0..3 {
                     let bound = (4.0 + 8.0 * expected[c].max(1.0)) * f32::powi(2.0, -24);
                     let error = (expected[c] - found[c]).abs();
-                    assert!(error <= bound, "shininess {shininess}, {n:?}: {found:?}, expected {expected:?}");
+                    assert!(
+                        error <= bound,
+                        "shininess {shininess}, {n:?}: {found:?}, expected {expected:?}"
+                    );
                 }
                 differ += usize::from(expected != found);
                 same_highlights += usize::from(expected == found && expected != without);
@@ -62,9 +85,15 @@ fn colours_are_scaled() {
     let lighting = lighting(&mut Random::new(2), 32.0);
     let all = Illumination::<f32, 4>::new(&lighting, &|x| x);
     // A power of two scales without rounding.
-    let (one, four) = (all.usual(1.0).expect("usual"), all.usual(4.0).expect("usual"));
+    let (one, four) = (
+        all.usual(1.0).expect("usual"),
+        all.usual(4.0).expect("usual"),
+    );
     let n = [0.6, 0.0, 0.8];
-    assert_eq!(colour::<true>(&four, n), colour::<true>(&one, n).map(|c| 4.0 * c));
+    assert_eq!(
+        colour::<true>(&four, n),
+        colour::<true>(&one, n).map(|c| 4.0 * c)
+    );
 }
 
 #[test]
@@ -73,7 +102,9 @@ fn what_is_unusual_is_not_taken_for_usual() {
     let is_usual = |change: &dyn Fn(&mut Lighting)| {
         let mut lighting = lighting.clone();
         change(&mut lighting);
-        Illumination::<f32, 4>::new(&lighting, &|x| x).usual(255.0).is_some()
+        Illumination::<f32, 4>::new(&lighting, &|x| x)
+            .usual(255.0)
+            .is_some()
     };
     assert!(is_usual(&|_| ()));
     assert!(is_usual(&|l| l.shininess = 1.0));
@@ -100,7 +131,9 @@ impl LanesJob for Lit<'_> {
     type Out = Vec<[u32; 3]>;
 
     fn run<M: Lanes>(self, m: M) -> Vec<[u32; 3]> {
-        let model = Illumination::<M::F, 4>::new(self.lighting, &|x| m.splat(x)).usual(m.splat(255.0)).expect("usual");
+        let model = Illumination::<M::F, 4>::new(self.lighting, &|x| m.splat(x))
+            .usual(m.splat(255.0))
+            .expect("usual");
         let of = |normals: [[f32; 8]; 3]| {
             let n = normals.map(|line| m.load(&line));
             let (j, k) = (model.far().light_cosines(n), model.far().view_cosine(n));
@@ -128,10 +161,24 @@ fn pixels_do_not_depend_on_their_neighbours() {
     let mut random = Random::new(4);
     let lighting = lighting(&mut random, 8.0);
     let normals: Vec<[f32; 3]> = (0..800)
-        .map(|_| DVec3::from([0; 3].map(|_| f64::from(random.signed()))).normalize().as_vec3().to_array())
+        .map(|_| {
+            DVec3::from([0; 3].map(|_| f64::from(random.signed())))
+                .normalize()
+                .as_vec3()
+                .to_array()
+        })
         .collect();
     for level in Level::available() {
-        let colours = [true, false].map(|alone| on_level(level, Lit { lighting: &lighting, normals: &normals, alone }));
+        let colours = [true, false].map(|alone| {
+            on_level(
+                level,
+                Lit {
+                    lighting: &lighting,
+                    normals: &normals,
+                    alone,
+                },
+            )
+        });
         for (i, (alone, together)) in colours[0].iter().zip(&colours[1]).enumerate() {
             assert_eq!(alone, together, "{level}, {:?}", normals[i]);
         }
