@@ -84,8 +84,8 @@ pub enum Clipping {
     /// Polygons that pass only the near or the far plane, in front of the eye, look as if they were cut. A polygon that
     /// passes the plane of the eye (w = 0) does not: a corner behind the eye is thrown to the other side of the picture,
     /// and what is drawn is the outside of the polygon's true image, its inside is not: of a ground under the eye
-    /// (`tests/ndc_cube.rs`, 80 × 60) all 3,200 pixels are missing, and 400 pixels of the sky are drawn. Polygons with a corner in that
-    /// plane, or so near it that its place is beyond the guard band, are left out and counted
-    /// ([`FrameStats::unprojected`](crate::frame::FrameStats::unprojected)).
+    /// (`tests/conformance/ndc_cube.rs`, 80 × 60) all 3,200 pixels are missing, and 400 pixels of the sky are drawn.
+    /// Polygons with a corner in that plane, or so near it that its place is beyond the guard band, are left out and
+    /// counted ([`FrameStats::unprojected`](crate::frame::FrameStats::unprojected)).
     NdcCube,
 }

@@ -1,7 +1,7 @@
 //! Several samples a pixel: hidden and shaded each on its own, and filtered in linear light.
 
-mod support;
-
+use crate::support;
+use crate::support::{Corner, add, plain_lighting};
 use fastphong::encoding::{quantise, srgb_encode};
 use fastphong::frame::{Frame, FrameBuilder, FrameError};
 use fastphong::metrics::compare_where;
@@ -11,7 +11,6 @@ use fastphong::reference::{self, Model};
 use fastphong::scene::{Encoding, Scene};
 use fastphong::shader::{METHODS, Variant};
 use fastphong::triangulate::triangulated;
-use support::{Corner, add, plain_lighting};
 
 const BACKGROUND: [f32; 3] = [0.25, 0.5, 0.125];
 

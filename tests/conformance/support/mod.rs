@@ -1,5 +1,4 @@
 //! What several test files share: the same random numbers at every run, the shipped scenes, and frames of random shapes.
-#![allow(dead_code)] // each test file uses its own part
 
 pub mod renderers;
 

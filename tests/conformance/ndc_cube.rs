@@ -1,7 +1,6 @@
 //! CS171's literal test of each sample against the cube, instead of clipping: where it is right, and how wrong it is.
 
-mod support;
-
+use crate::support::Random;
 use fastphong::camera::{Camera, Projection};
 use fastphong::frame::{Frame, FrameError};
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
@@ -12,7 +11,6 @@ use fastphong::scene::{
 };
 use fastphong::shader::METHODS;
 use glam::{DVec3, Vec3};
-use support::Random;
 
 /// Polygons seen by an eye one unit above the origin that looks along −z, a little downward.
 fn scene(polygons: &[Vec<Vec3>], near: f64, far: f64) -> Scene {

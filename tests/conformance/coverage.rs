@@ -1,14 +1,12 @@
 //! Which pixels polygons cover: exactly those of the definition, each exactly once.
 
-mod support;
-
+use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::frame::Frame;
 use fastphong::mesh::builtin::builtin;
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
 use fastphong::scene::{Culling, Scene};
 use fastphong::shader::Variant;
-use support::{Corner, Random, frame, random_polygon};
 
 /// How often each pixel is covered.
 fn counts(frame: &Frame) -> Vec<u32> {

@@ -1,12 +1,12 @@
 //! Today's pictures against the blessed ones: every shipped scene by every method and by the reference, and by every engine on
 //! every instruction set that this machine has.
 //!
-//! `FASTPHONG_BLESS=1 cargo test --test regression` blesses today's pictures: look at each before committing it. Pixels
+//! `FASTPHONG_BLESS=1 cargo test --test conformance regression` blesses today's pictures: look at each before committing it. Pixels
 //! are compared after decoding; a channel may differ by one level, because a value within rounding of a half may be
 //! stored as either level when the compiler orders the operations of the reference differently, or another engine does.
 
-mod support;
-
+use crate::support;
+use crate::support::renderers::{self, decided, renderers};
 use fastphong::image_file::{encode_png, read_png, write_file};
 use fastphong::metrics::{compare, compare_where, difference_map};
 use fastphong::picture::Picture8;
@@ -14,7 +14,6 @@ use fastphong::reference::{self, Model};
 use fastphong::shader::METHODS;
 use std::fs;
 use std::path::{Path, PathBuf};
-use support::renderers::{self, decided, renderers};
 
 const SIZE: (i64, i64) = (128, 96);
 

@@ -1,8 +1,5 @@
 //! Every engine on every instruction set that this machine has, against the lecture's own form, on any number of threads.
 
-#[path = "../support/mod.rs"]
-mod support;
-
 mod agreement;
 mod coverage;
 mod frames;

@@ -1,7 +1,7 @@
 //! Which polygon is seen: depth buffers of all widths, both ways to depth, and the painter.
 
-mod support;
-
+use crate::support;
+use crate::support::{Corner, Random, add, plain_lighting, random_polygon};
 use fastphong::camera::Projection;
 use fastphong::frame::{Frame, FrameBuilder};
 use fastphong::mesh::builtin::builtin;
@@ -12,7 +12,6 @@ use fastphong::scene::{
     Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Scene,
 };
 use fastphong::triangulate::triangulated;
-use support::{Corner, Random, add, plain_lighting, random_polygon};
 
 fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
     HiddenSurfaces::ZBuffer(DepthBuffer { bits, source })

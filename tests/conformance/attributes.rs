@@ -1,7 +1,5 @@
 //! Interpolated attributes as pictures: vertex colours and Lecture 5's checkerboard, wrong and right.
 
-mod support;
-
 use fastphong::camera::{Camera, Projection};
 use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;

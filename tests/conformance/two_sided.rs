@@ -1,7 +1,5 @@
 //! Two-sided lighting: polygons seen from behind are lit with negated normals.
 
-mod support;
-
 use fastphong::camera::{Camera, Projection};
 use fastphong::frame::Frame;
 use fastphong::lighting::Light;

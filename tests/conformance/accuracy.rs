@@ -1,7 +1,7 @@
 //! How far every method's picture is from its closed form in `f64`, over all shipped scenes, on linear frames.
 
-mod support;
-
+use crate::support;
+use crate::support::renderers::{self, largest_difference, renderers};
 use fastphong::frame::{Frame, FrameBuilder};
 use fastphong::metrics::compare_where;
 use fastphong::picture::{LinearPicture, Picture};
@@ -10,7 +10,6 @@ use fastphong::reference::{self, Model, ReferencePicture, Visibility};
 use fastphong::scene::{DepthBuffer, HiddenSurfaces};
 use fastphong::shader::{METHODS, Variant};
 use std::collections::BTreeMap;
-use support::renderers::{self, largest_difference, renderers};
 
 struct Shipped {
     name: String,
@@ -205,7 +204,7 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
             .filter(|&&p| p != NOTHING)
             .count();
         println!("{}: {differing} of {drawn} pixels", scene.name);
-        // Few levels of depth are wide, and rounding decides where one ends: `tests/hidden_surfaces.rs` says where.
+        // Few levels of depth are wide, and rounding decides where one ends: `hidden_surfaces` says where.
         let fights = matches!(scene.frame.hidden_surfaces(), HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. })
             if bits.most().is_some());
         assert!(

@@ -1,7 +1,7 @@
 //! Methods against each other, and one way of drawing against another.
 
-mod support;
-
+use crate::support;
+use crate::support::Random;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::lighting::{Light, Lighting, Material, Place};
 use fastphong::mesh::builtin::builtin;
@@ -12,7 +12,6 @@ use fastphong::reference::{self, Model};
 use fastphong::scene::{Interpolation, Scene};
 use fastphong::shader::{METHODS, Variant};
 use glam::DVec3;
-use support::Random;
 
 fn variant(name: &str) -> Variant {
     Variant::parse(name).expect("a method")

@@ -1,8 +1,6 @@
 //! Keeps the documentation and the source true to each other.
 
-mod documents;
-
-use documents::{defines, files, is_word, places, quoted, read, root, rows};
+use crate::markdown::{defines, files, is_word, places, quoted, read, root, rows};
 use fastphong::number::Counts;
 use fastphong::shader::{Entry, METHODS};
 use std::collections::BTreeSet;
@@ -413,9 +411,8 @@ fn commands_in_the_documents_exist() {
                     "{document}: {command}"
                 );
             } else if let Some(test) = after("--test") {
-                let file = root().join(format!("tests/{test}.rs"));
                 assert!(
-                    file.exists() || root().join(format!("tests/{test}/main.rs")).exists(),
+                    root().join(format!("tests/{test}/main.rs")).exists(),
                     "{document}: {command}"
                 );
             } else if let Some(bench) = after("--bench") {

@@ -1,5 +1,4 @@
 //! Reading the repository's documents and sources.
-#![allow(dead_code)] // each test file uses its own part
 
 use std::fs;
 use std::path::{Path, PathBuf};

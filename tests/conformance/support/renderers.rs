@@ -85,7 +85,7 @@ pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) ->
 
 /// What the difference of two depths, both in 0..=1, may be off by.
 ///
-/// By edges, as derived in tests/coverage.rs: each depth is rounded twice at each of width + height steps, by half a unit in
+/// By edges, as derived in `coverage`: each depth is rounded twice at each of width + height steps, by half a unit in
 /// the last place, 2⁻²⁴ of 1 at most, and 32 times at the starts of its walks. By barycentric coordinates there are fewer
 /// roundings: an integer, the area, its inverse and their product are rounded, which is 4 · 2⁻²⁴ of a coordinate in 0..=1; so
 /// are two differences, two products and two sums, and a step of eight pixels is rounded once, not eight times.

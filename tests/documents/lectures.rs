@@ -2,9 +2,7 @@
 //! held true.
 #![cfg(feature = "cli")]
 
-mod documents;
-
-use documents::{defines, places, quoted, read, root, rows};
+use crate::markdown::{defines, places, quoted, read, root, rows};
 use fastphong::figures::Figure;
 use std::collections::BTreeMap;
 

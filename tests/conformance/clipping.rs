@@ -1,7 +1,5 @@
 //! Polygons that reach behind the eye, through the near plane, or far beyond the picture.
 
-mod support;
-
 use fastphong::camera::{Camera, Projection};
 use fastphong::frame::Frame;
 use fastphong::lighting::{Light, Material};

@@ -1,7 +1,6 @@
 //! CS171's algorithms as printed against the engines and the reference, which share no arithmetic with them.
 
-mod support;
-
+use crate::support::{Random, frame, random_polygon};
 use fastphong::cs171::{
     Corner, Grid, Inside, Reading, Shading, Ties, flat_shading, full_shading, gouraud_shading,
     lighting, ndc_to_screen, phong_shading, raster_colored_ndc_triangle, raster_colored_triangle,
@@ -17,7 +16,6 @@ use fastphong::reference::{self, Model};
 use fastphong::scene::{Culling, Interpolation, Scene};
 use fastphong::triangulate::triangulated;
 use glam::{DVec2, DVec3};
-use support::{Random, frame, random_polygon};
 
 /// CS171's own illumination: two coloured lights at positions, one that grows weaker, N·H and no gate.
 fn lit(mut scene: Scene) -> Scene {

@@ -1,10 +1,8 @@
 //! Values along edges and spans: stepped ones against closed interpolation, on polygons of any shape.
 
-mod support;
-
+use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::raster;
 use fastphong::shader::Variant;
-use support::{Corner, Random, frame, random_polygon};
 
 /// The edges that cross the centre of a row: (x of the crossing, the intensity there), from left to right.
 fn crossings(polygon: &[Corner], row: usize) -> Vec<(f64, f64)> {

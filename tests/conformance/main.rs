@@ -1,0 +1,20 @@
+//! Pictures, coverage and counts of the library against the reference, the lectures and the blessed pictures.
+
+mod accuracy;
+mod agreement;
+mod attributes;
+mod clipping;
+mod counts;
+mod coverage;
+mod cs171;
+mod edges;
+mod engines;
+mod figures;
+mod hidden_surfaces;
+mod lecture;
+mod lights;
+mod ndc_cube;
+mod regression;
+mod supersampling;
+mod support;
+mod two_sided;

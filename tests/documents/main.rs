@@ -1,0 +1,5 @@
+//! The documents against the code.
+
+mod lectures;
+mod markdown;
+mod tidy;
