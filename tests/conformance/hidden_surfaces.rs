@@ -305,11 +305,7 @@ fn wrong_pairs_are_those_of_the_pixels() {
 
 /// A shipped scene at 160 × 120, with hidden surfaces found in this way.
 fn shipped(name: &str, how: HiddenSurfaces) -> Frame {
-    let (_, path) = support::shipped()
-        .into_iter()
-        .find(|(found, _)| found == name)
-        .expect("a shipped scene");
-    let mut scene = support::scene(&path, Some((160, 120)));
+    let mut scene = support::scene(name, Some((160, 120)));
     scene.hidden_surfaces = how;
     scene.frame().expect("a frame")
 }
@@ -394,11 +390,7 @@ fn the_scene_of_z_fighting_fights() {
 /// between two levels that rounding decides on the level.
 #[test]
 fn fighting_is_the_same_outside_of_a_margin() {
-    let (_, path) = support::shipped()
-        .into_iter()
-        .find(|(name, _)| name == "z-fighting")
-        .expect("a shipped scene");
-    let fighting = support::scene(&path, Some((48, 36)));
+    let fighting = support::scene("z-fighting", Some((48, 36)));
     let frame = fighting.frame().expect("a frame");
     let depths = [0, 1].map(|object| {
         let mut alone = fighting.clone();

@@ -1,10 +1,11 @@
 //! Lights and a viewer at positions, falloffs, both highlights and all gates: every method against the reference.
 
+use crate::support::cases::Case;
+use crate::support::differences::largest_difference;
 use fastphong::camera::Projection;
 use fastphong::frame::Frame;
 use fastphong::lighting::{Falloff, Light, Material, SpecularGate, SpecularModel};
 use fastphong::mesh::builtin::builtin;
-use fastphong::metrics::compare;
 use fastphong::picture::LinearPicture;
 use fastphong::reference::{self, Model};
 use fastphong::scene::{Culling, Interpolation, Scene};
@@ -36,12 +37,10 @@ fn frame(change: impl FnOnce(&mut Scene)) -> Frame {
 }
 
 fn most(a: &LinearPicture, b: &LinearPicture) -> f64 {
-    let difference = compare(a, b).expect("equal sizes");
-    assert_eq!(
-        (difference.coverage_mismatches, difference.not_finite),
-        (0, 0)
-    );
-    difference.max
+    let (max, uncovered) = largest_difference(a, b, |_, _| true);
+    assert_eq!(uncovered, 0);
+    assert!(max.is_finite());
+    max
 }
 
 /// A change of a scene, with its name.
@@ -78,10 +77,12 @@ fn every_mode_is_the_references() {
                         scene.camera.near = if i == 1 { 1.55 } else { 0.5 };
                     });
                     assert_eq!(frame.stats().clipped > 0, i == 1);
+                    let mode = format!("{falloff:?} {specular:?} {gate:?} {interpolation:?}");
+                    let case = Case::new(mode, frame);
                     for entry in METHODS {
-                        let truth = reference::render(&frame, entry.info.model).to_linear();
-                        let error = most(&truth, &entry.variant().render_linear(&frame));
-                        let bound = entry.info.bound(&frame);
+                        let truth = case.truth(entry.info.model);
+                        let error = most(truth, &entry.variant().render_linear(&case.frame));
+                        let bound = entry.info.bound(&case.frame);
                         assert!(
                             bound < 3.0 / 255.0,
                             "{}: a bound of {bound:.2e} could hide a fault",
@@ -90,11 +91,9 @@ fn every_mode_is_the_references() {
                         let share = nearest.entry(entry.info.name).or_insert(0.0);
                         *share = share.max(error / bound);
                         if error > bound {
-                            let mode =
-                                format!("{falloff:?} {specular:?} {gate:?} {interpolation:?}");
                             failures.push(format!(
-                                "{} {mode}: {error:.2e} over {bound:.2e}",
-                                entry.info.name
+                                "{} {}: {error:.2e} over {bound:.2e}",
+                                entry.info.name, case.name
                             ));
                         }
                     }
@@ -278,16 +277,13 @@ fn unlucky_places_make_no_artefacts() {
         ("in the plane", &in_the_plane),
         ("opposite", &opposite),
     ];
-    for (name, case) in cases {
-        let frame = frame(case);
+    for (name, change) in cases {
+        let case = Case::new(name, frame(change));
         for entry in METHODS {
-            let picture = entry.variant().render_linear(&frame);
+            let picture = entry.variant().render_linear(&case.frame);
             // `most` refuses what is not finite.
-            let error = most(
-                &reference::render(&frame, entry.info.model).to_linear(),
-                &picture,
-            );
-            let bound = entry.info.bound(&frame);
+            let error = most(case.truth(entry.info.model), &picture);
+            let bound = entry.info.bound(&case.frame);
             println!("{name}, {}: {error:.1e} of {bound:.1e}", entry.info.name);
             assert!(
                 bound >= 1.0 || error <= bound,

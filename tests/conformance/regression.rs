@@ -5,12 +5,14 @@
 //! are compared after decoding; a channel may differ by one level, because a value within rounding of a half may be
 //! stored as either level when the compiler orders the operations of the reference differently, or another engine does.
 
-use crate::support;
-use crate::support::renderers::{self, decided, renderers};
+use crate::support::cases::{case, cases};
+use crate::support::differences::levels_apart;
+use crate::support::renderers::{self, distinct};
+use fastphong::encoding::store as store_levels;
 use fastphong::image_file::{encode_png, read_png, write_file};
-use fastphong::metrics::{compare, compare_where, difference_map};
+use fastphong::metrics::difference_map;
 use fastphong::picture::Picture8;
-use fastphong::reference::{self, Model};
+use fastphong::reference::Model;
 use fastphong::shader::METHODS;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -59,18 +61,8 @@ fn check_where(
             ));
         }
     };
-    let difference = match compare_where(&expected, actual, counts) {
-        Ok(difference) => difference,
-        Err(sizes) => return Some(format!("{name}: {sizes}")),
-    };
-    let uncovered = expected
-        .texels()
-        .iter()
-        .zip(actual.texels())
-        .filter(|(a, b)| a[3] != b[3])
-        .count();
-    // One level, in units of 0..1, and half of another for rounding.
-    if difference.max <= 1.5 / 255.0 && uncovered == 0 {
+    let (levels, uncovered) = levels_apart(&expected, actual, counts);
+    if levels <= 1 && uncovered == 0 {
         return None;
     }
     let map = folder("target/regression").join(format!("{name}.difference.png"));
@@ -80,8 +72,7 @@ fn check_where(
         &difference_map(&expected, actual, 16.0).expect("equal sizes"),
     );
     Some(format!(
-        "{name}: off by {:.0} levels, {uncovered} pixels drawn in one only; see {} and {}",
-        255.0 * difference.max,
+        "{name}: off by {levels} levels, {uncovered} pixels drawn in one only; see {} and {}",
         output.display(),
         map.display()
     ))
@@ -91,37 +82,34 @@ fn check_where(
 fn pictures_are_the_blessed_ones() {
     let mut failures = Vec::new();
     let mut known = Vec::new();
-    for (scene, path) in support::shipped() {
-        let frame = support::scene(&path, Some(SIZE)).frame().expect("a frame");
+    for case in cases(Some(SIZE)) {
+        let (scene, frame) = (&case.name, &case.frame);
         let mut one = |method: &str, picture: &Picture8| {
             let name = format!("{scene}/{method}");
             failures.extend(check(&name, picture));
             known.push(blessed(&name));
         };
-        let visibility = reference::visibility(&frame);
         let models = [
             (Model::Phong, "reference"),
             (Model::Slerp, "reference-slerp"),
         ];
         for (model, name) in models {
-            let linear = reference::shade(&frame, &visibility, model).to_linear();
-            one(name, &fastphong::encoding::store(&linear, frame.encoding()));
+            one(name, &store_levels(case.truth(model), frame.encoding()));
         }
-        for entry in METHODS {
-            one(entry.info.name, &entry.variant().render(&frame));
+        for variant in METHODS.iter().map(|entry| entry.variant()) {
+            one(variant.info().name, &variant.render(frame));
         }
-        let decided = decided(&frame, &visibility);
-        for (entry, renderer) in METHODS
-            .iter()
-            .flat_map(|entry| renderers().into_iter().map(move |r| (entry, r)))
-        {
-            let name = format!("{scene}/{}", entry.info.name);
-            let mut picture = Picture8::new(1, 1, [0; 4]);
-            entry.variant().render_with(&frame, renderer, &mut picture);
-            let by = format!("{name} by {}", renderers::name(renderer));
-            failures.extend(check_where(&by, &blessed(&name), &picture, |x, y| {
-                decided.get(x, y)
-            }));
+        let decided = case.decided();
+        for variant in METHODS.iter().map(|entry| entry.variant()) {
+            let name = format!("{scene}/{}", variant.info().name);
+            for renderer in distinct(&variant, frame) {
+                let mut picture = Picture8::new(1, 1, [0; 4]);
+                variant.render_with(frame, renderer, &mut picture);
+                let by = format!("{name} by {}", renderers::name(renderer));
+                failures.extend(check_where(&by, &blessed(&name), &picture, |x, y| {
+                    decided.get(x, y)
+                }));
+            }
         }
     }
     // A blessed picture that nothing makes any more would never fail again.
@@ -149,15 +137,11 @@ fn pictures_are_the_blessed_ones() {
 /// The comparison itself: one pixel moved by two levels, or a method taken for another, does not pass.
 #[test]
 fn the_comparison_catches_what_it_should() {
-    let (_, path) = support::shipped()
-        .into_iter()
-        .find(|(name, _)| name == "coarse-sphere")
-        .expect("shipped");
-    let frame = support::scene(&path, Some(SIZE)).frame().expect("a frame");
+    let frame = &case("coarse-sphere", Some(SIZE)).frame;
     let picture = |name: &str| {
         fastphong::shader::Variant::parse(name)
             .expect("a method")
-            .render(&frame)
+            .render(frame)
     };
     let naive = picture("naive-phong");
     let mut moved = naive.clone();
@@ -167,8 +151,8 @@ fn the_comparison_catches_what_it_should() {
         .position(|t| t[0] > 100 && t[0] < 250)
         .expect("a lit pixel");
     moved.texels_mut()[lit][0] += 2;
-    let max = |other: &Picture8| compare(&naive, other).expect("equal sizes").max;
-    assert!(max(&moved) > 1.5 / 255.0);
-    assert!(max(&picture("gouraud")) > 1.5 / 255.0);
-    assert!(max(&picture("fast-phong")) <= 1.5 / 255.0);
+    let levels = |other: &Picture8| levels_apart(&naive, other, |_, _| true).0;
+    assert!(levels(&moved) > 1);
+    assert!(levels(&picture("gouraud")) > 1);
+    assert!(levels(&picture("fast-phong")) <= 1);
 }

@@ -173,11 +173,7 @@ fn samples_are_filtered_before_they_are_encoded() {
 }
 
 fn supersampled(name: &str, size: (i64, i64), n: u32) -> Frame {
-    let (_, path) = support::shipped()
-        .into_iter()
-        .find(|(found, _)| found == name)
-        .expect("a shipped scene");
-    let mut scene = support::scene(&path, Some(size));
+    let mut scene = support::scene(name, Some(size));
     scene.samples = n;
     scene.frame().expect("a frame")
 }

@@ -1,7 +1,9 @@
 //! Which pixels engines cover: those of the lecture's form, bit for bit.
 
-use crate::support::renderers::{covered, name, on_threads, renderers};
-use crate::support::{self, Corner, Random, frame, random_polygon};
+use crate::support::cases::cases;
+use crate::support::differences::covered;
+use crate::support::renderers::{name, on_threads, renderers};
+use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::lighting::{Lighting, Material};
 use fastphong::scene::HiddenSurfaces;
@@ -146,17 +148,15 @@ fn random_polygons_are_covered_as_in_the_lecture() {
 /// The shipped scenes, on pictures whose width is no whole number of groups, on one, two and three threads.
 #[test]
 fn shipped_scenes_are_covered_as_in_the_lecture() {
-    for (scene, path) in support::shipped() {
-        let frame = support::scene(&path, Some((157, 115)))
-            .frame()
-            .expect("a frame");
+    for case in cases(Some((157, 115))) {
+        let (scene, frame) = (&case.name, &case.frame);
         for method in ["flat", "slerp-phong"].map(variant) {
-            let drawn = covered(&method.render_linear(&frame));
+            let drawn = covered(&method.render_linear(frame));
             assert!(drawn.texels().iter().any(|&drawn| drawn));
             for renderer in renderers() {
                 for threads in 1..=3 {
                     let ours = on_threads(threads, || {
-                        covered(&method.render_linear_with(&frame, renderer))
+                        covered(&method.render_linear_with(frame, renderer))
                     });
                     let who = format!(
                         "{} on {scene} by {}, {threads} threads",

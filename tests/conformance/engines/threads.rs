@@ -1,7 +1,8 @@
 //! Threads and repetition change no byte, wherever bands end.
 
 use super::frames::kinds;
-use crate::support::renderers::{covered, name, on_threads, renderers};
+use crate::support::differences::covered;
+use crate::support::renderers::{name, on_threads, renderers};
 use fastphong::frame::Frame;
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::{Picture, Picture8};

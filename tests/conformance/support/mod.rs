@@ -1,7 +1,10 @@
-//! What several test files share: the same random numbers at every run, the shipped scenes, and frames of random shapes.
+//! Shared by the tests: random numbers that are the same at every run, the shipped scenes, and frames of random shapes.
 
+pub mod cases;
+pub mod differences;
 pub mod renderers;
 
+use cases::Size;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::lighting::{Light, Lighting, Material};
 use fastphong::mesh::builtin::builtin;
@@ -35,30 +38,30 @@ impl Random {
     }
 }
 
-/// All shipped scene files, by name.
-pub fn shipped() -> Vec<(String, PathBuf)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let files = std::fs::read_dir(folder).expect("the folder of shipped scenes");
-    let mut scenes: Vec<(String, PathBuf)> = files
+/// Returns the names of all shipped scenes.
+pub fn shipped() -> Vec<String> {
+    let files = std::fs::read_dir(scenes()).expect("the folder of shipped scenes");
+    let mut names: Vec<String> = files
         .map(|entry| entry.expect("a readable folder").path())
         .filter(|path| path.extension().is_some_and(|e| e == "toml"))
         .map(|path| {
-            (
-                path.file_stem()
-                    .expect("a name")
-                    .to_string_lossy()
-                    .into_owned(),
-                path,
-            )
+            let stem = path.file_stem().expect("a name");
+            stem.to_string_lossy().into_owned()
         })
         .collect();
-    scenes.sort();
-    assert!(scenes.len() >= 8, "at least eight scenes are shipped");
-    scenes
+    names.sort();
+    assert!(names.len() >= 8, "at least eight scenes are shipped");
+    names
 }
 
-/// A scene from its file, at its own size or another one.
-pub fn scene(path: &Path, size: Option<(i64, i64)>) -> Scene {
+/// Returns the folder of shipped scenes.
+fn scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
+}
+
+/// Loads a shipped scene at its own size or another one.
+pub fn scene(name: &str, size: Size) -> Scene {
+    let path = scenes().join(format!("{name}.toml"));
     let mut file = SceneFile::load(path).unwrap_or_else(|e| panic!("{e}"));
     if let Some((width, height)) = size {
         file.image.width = Some(width.into());

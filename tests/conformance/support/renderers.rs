@@ -3,11 +3,11 @@
 use fastphong::frame::Frame;
 use fastphong::lighting::{Lighting, SpecularModel};
 use fastphong::number::Level;
-use fastphong::picture::{LinearPicture, Picture};
-use fastphong::raster::{Engine, Renderer};
+use fastphong::picture::Picture;
+use fastphong::raster::{Engine, Plan, Renderer};
 use fastphong::reference::Visibility;
 use fastphong::scene::{DepthBuffer, HiddenSurfaces};
-use fastphong::shader::Info;
+use fastphong::shader::{Info, Variant};
 use fastphong::walk::Newton;
 
 /// Every engine on every instruction set that this machine has, the lecture's own form first.
@@ -20,6 +20,19 @@ pub fn renderers() -> Vec<Renderer> {
     };
     let all: Vec<Renderer> = Engine::ALL.into_iter().flat_map(on).collect();
     assert_eq!(all[0], Renderer::LECTURE);
+    all
+}
+
+/// Returns the renderers that draw `frame` in different ways, the lecture's own form first: of those with one plan the first.
+pub fn distinct(variant: &Variant, frame: &Frame) -> Vec<Renderer> {
+    let mut plans = Vec::new();
+    let mut all = renderers();
+    all.retain(|&renderer| {
+        let Plan { engine, level, .. } = variant.plan(frame, renderer);
+        let is_new = !plans.contains(&(engine, level));
+        plans.push((engine, level));
+        is_new
+    });
     all
 }
 
@@ -41,23 +54,22 @@ pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
     pool.install(work)
 }
 
-/// How far a method may be from its closed form in a linear channel of 0..=1, drawn by `renderer`: its roundings, and what
-/// the guard of Newton's method lets through in groups of pixels.
+/// Returns by how much more than [`Info::bound`] a method may be from its closed form if `renderer` draws it: what the guard of
+/// Newton's method lets through in groups of pixels.
 ///
 /// The guard leaves a length, from above, within the relative error e = [`Newton::LARGEST_ERROR`]. The diffuse terms D are
 /// divided by it: they lose e D, of which after the clamp, as all other terms are 0 or more, e / (1 − e) is left at most. Of
 /// N·H, which is divided by it too, the power n loses n e. R·V does not see the length but its square, which has no error.
-pub fn bound(info: &Info, frame: &Frame, renderer: Renderer) -> f64 {
-    let bound = info.bound(frame);
+pub fn newton_guard(info: &Info, frame: &Frame, renderer: Renderer) -> f64 {
     if info.name != "fast-phong" || renderer.level.width() == 1 {
-        return bound;
+        return 0.0;
     }
     let e = f64::from(Newton::<f32>::LARGEST_ERROR);
     let of_half = |lighting: &Lighting| match lighting.specular {
         SpecularModel::Phong => 0.0,
         SpecularModel::Blinn => e * f64::from(lighting.shininess),
     };
-    bound + e / (1.0 - e) + frame.lightings().iter().map(of_half).fold(0.0, f64::max)
+    e / (1.0 - e) + frame.lightings().iter().map(of_half).fold(0.0, f64::max)
 }
 
 /// Pixels of which rounding cannot change the polygon that any sample shows: see [`is_decided`].
@@ -91,35 +103,4 @@ pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) ->
 /// are two differences, two products and two sums, and a step of eight pixels is rounded once, not eight times.
 pub fn depth_rounding(frame: &Frame) -> f64 {
     2.0 * (2 * (frame.width() + frame.height()) + 32) as f64 / f64::from(1 << 24)
-}
-
-/// The largest difference of a channel where `counts` holds, and at how many pixels in all only one of the pictures shows a
-/// polygon. Numbers that are not finite are as far away as can be.
-pub fn largest_difference(
-    truth: &LinearPicture,
-    ours: &LinearPicture,
-    counts: impl Fn(usize, usize) -> bool,
-) -> (f64, usize) {
-    let (mut most, mut uncovered) = (0.0f64, 0);
-    for y in 0..truth.height() {
-        for (x, (a, b)) in truth.row(y).iter().zip(ours.row(y)).enumerate() {
-            uncovered += usize::from(a[3] != b[3]);
-            if counts(x, y) {
-                for c in 0..3 {
-                    let difference = (f64::from(a[c]) - f64::from(b[c])).abs();
-                    most = most.max(if difference.is_finite() {
-                        difference
-                    } else {
-                        f64::INFINITY
-                    });
-                }
-            }
-        }
-    }
-    (most, uncovered)
-}
-
-/// Whether each pixel is covered.
-pub fn covered(picture: &LinearPicture) -> Picture<bool> {
-    picture.map(|texel| texel[3] > 0.0)
 }
