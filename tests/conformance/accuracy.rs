@@ -76,7 +76,7 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
             "{}: {left_out} pixels left out",
             scene.name
         );
-        // Drawn with several threads: found before the methods' own threads wait for it.
+        // An engine draws this on the threads below: none of them may wait for it there.
         scene.seen();
         let found: Vec<_> = METHODS
             .par_iter()

@@ -55,7 +55,7 @@ fn assert_equal_sizes<T: Copy>(a: &Picture<T>, b: &Picture<T>) {
     assert_eq!(size(a), size(b), "pictures of different sizes");
 }
 
-/// Whether each pixel is covered.
+/// Returns which pixels are covered.
 pub fn covered(picture: &LinearPicture) -> Picture<bool> {
     picture.map(|texel| texel[3] > 0.0)
 }
