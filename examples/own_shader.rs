@@ -54,6 +54,7 @@ impl Method for Toon {
             default: 3,
             least: 1,
             most: 8,
+            auto: None,
         }],
         perspective: Perspective::Free,
         local: Local::PerPolygon,

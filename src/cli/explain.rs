@@ -1,7 +1,7 @@
 //! `fastphong explain`: all that is said about one method, and what it costs.
 
 use super::engines::engines_with;
-use super::list::{exactness, method_json};
+use super::list::{exactness, method_json, value_json};
 use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
@@ -9,7 +9,7 @@ use fastphong::input;
 use fastphong::lighting::Falloff;
 use fastphong::number::Counts;
 use fastphong::scene::Interpolation;
-use fastphong::shader::{Info, OperationCounts, SpanBench, Variant};
+use fastphong::shader::{OperationCounts, SpanBench, Variant};
 use serde_json::{Map, Value, json};
 
 /// Explain a shading method: formula, source, cost, tolerance, where it fails
@@ -106,10 +106,18 @@ impl Explain {
         let parameters = info.parameters.iter().zip(self.method.parameters());
         let parameters: String = parameters
             .map(|(p, value)| {
-                format!(
-                    "  {}={value}: {}; {} to {}, default {}\n",
-                    p.name, p.meaning, p.least, p.most, p.default
-                )
+                let mut text = format!(
+                    "{}={}: {}; {}, default {}",
+                    p.name,
+                    p.text(*value),
+                    p.meaning,
+                    p.range(),
+                    p.text(p.default)
+                );
+                if let Some(auto) = p.auto {
+                    text += &format!("\nauto: {}", auto.meaning);
+                }
+                wrapped(&text, 2)
             })
             .collect();
         section(
@@ -136,7 +144,7 @@ impl Explain {
 
     fn tolerance(&self) -> Result<String, Failure> {
         let info = self.method.info();
-        let levels = 255.0 * example_bound(info)?;
+        let levels = 255.0 * example_bound(&self.method)?;
         Ok(format!(
             "{}\n{}\nfor example, at most {levels:.3} grey levels on the scene `{EXAMPLE}` at 640x480",
             exactness(info),
@@ -155,12 +163,13 @@ impl Explain {
                 .into()
         };
         json["variant"] = self.method.to_string().into();
-        json["values"] = self.method.parameters().into();
+        let values = info.parameters.iter().zip(self.method.parameters());
+        json["values"] = values.map(|(p, value)| value_json(p, *value)).collect();
         json["formula"] = info.formula.into();
         json["model"] = info.model.name().into();
         json["derivation"] = info.derivation.into();
         json["fails"] = info.fails.into();
-        json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(info)? });
+        json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(&self.method)? });
         json["operations_by_lights"] = by_lights(&LIGHTS, &|lights| self.method.operations(lights));
         json["operations_by_lights_at_positions"] =
             by_lights(&LIGHTS_AT_POSITIONS, &|lights| self.near(lights));
@@ -171,9 +180,9 @@ impl Explain {
 /// The scene on which a bound is given as an example.
 const EXAMPLE: &str = "teapot";
 
-fn example_bound(info: &Info) -> Result<f64, Failure> {
+fn example_bound(method: &Variant) -> Result<f64, Failure> {
     let frame = input::resolve(&input::load(EXAMPLE)?)?.scene.frame()?;
-    Ok(info.bound(&frame))
+    Ok(method.bound(&frame))
 }
 
 fn costs(counts: &OperationCounts) -> String {

@@ -86,9 +86,15 @@ fn methods() -> String {
         text += &format!("    engines: {}\n", engines_with(info));
         for p in info.parameters {
             text += &format!(
-                "    {}={}..{}, default {}: {}\n",
-                p.name, p.least, p.most, p.default, p.meaning
+                "    {}={}, default {}: {}\n",
+                p.name,
+                p.range(),
+                p.text(p.default),
+                p.meaning
             );
+            if let Some(auto) = p.auto {
+                text += &wrapped(&format!("{}=auto: {}", p.name, auto.meaning), 4);
+            }
         }
     }
     text
@@ -121,7 +127,7 @@ fn stepped(of: Stepped) -> &'static str {
 
 /// What is said about a method, without its texts of more than one line.
 pub fn method_json(info: &Info) -> Value {
-    let parameter = |p: &fastphong::shader::Parameter| json!({ "name": p.name, "meaning": p.meaning, "default": p.default, "least": p.least, "most": p.most });
+    let parameter = |p: &fastphong::shader::Parameter| json!({ "name": p.name, "meaning": p.meaning, "default": value_json(p, p.default), "least": p.least, "most": p.most, "auto": p.auto.map(|auto| auto.meaning) });
     let Roundings { start, step, of } = info.roundings;
     let parameters: Vec<Value> = info.parameters.iter().map(parameter).collect();
     json!({
@@ -135,6 +141,15 @@ pub fn method_json(info: &Info) -> Value {
         "barycentric": info.barycentric,
         "parameters": parameters,
     })
+}
+
+/// The value of a parameter of a method: a number, or `"auto"`.
+pub fn value_json(parameter: &fastphong::shader::Parameter, value: u32) -> Value {
+    if parameter.is_auto(value) {
+        "auto".into()
+    } else {
+        value.into()
+    }
 }
 
 fn kind(kind: Kind) -> &'static str {

@@ -6,6 +6,7 @@ use crate::frame::FrameStats;
 use crate::metrics::Difference;
 use crate::raster::{Engine, Renderer};
 use crate::scene::{Encoding, Interpolation};
+use crate::shader::Parameter;
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -126,8 +127,8 @@ pub struct RowData {
     pub variant: String,
     /// Its method.
     pub method: String,
-    /// The values of all its parameters.
-    pub parameters: BTreeMap<String, u32>,
+    /// The values of all its parameters: numbers, or `"auto"`.
+    pub parameters: BTreeMap<String, Value>,
     /// `span`, `row` or `barycentric`.
     pub engine: String,
     /// The instruction set that drew it.
@@ -325,16 +326,15 @@ impl From<FrameStats> for StatsData {
 impl From<&Row> for RowData {
     fn from(row: &Row) -> Self {
         let info = row.variant.info();
-        let values = row.variant.parameters().iter();
+        let values = info.parameters.iter().zip(row.variant.parameters());
+        let value = |(p, value): (&Parameter, &u32)| match p.is_auto(*value) {
+            true => (p.name.to_string(), p.text(*value).into()),
+            false => (p.name.to_string(), (*value).into()),
+        };
         RowData {
             variant: row.name(),
             method: info.name.to_string(),
-            parameters: info
-                .parameters
-                .iter()
-                .map(|p| p.name.to_string())
-                .zip(values.copied())
-                .collect(),
+            parameters: values.map(value).collect(),
             engine: row.engine.name().to_string(),
             level: row.level.name().to_string(),
             threads: row.threads,

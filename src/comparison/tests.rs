@@ -331,6 +331,7 @@ fn documents_come_back_as_they_went() {
     let variants = [
         Variant::parse("fast-phong:steps=3").unwrap(),
         Variant::parse("flat").unwrap(),
+        Variant::parse("fast-phong:steps=auto").unwrap(),
     ];
     let comparison = compare(&input, &variants, &quick(), &mut |_, _| {});
     let command_line = ["fastphong", "bench", "prism"].map(String::from);
@@ -355,6 +356,14 @@ fn documents_come_back_as_they_went() {
     assert_eq!(
         (row["model"].as_str(), row["engine"].as_str()),
         (Some("phong-constant"), Some("span"))
+    );
+    let auto = &value["comparisons"][0]["rows"][3];
+    assert_eq!(
+        (
+            auto["variant"].as_str(),
+            auto["parameters"]["steps"].as_str()
+        ),
+        (Some("fast-phong"), Some("auto"))
     );
     assert!(row["speed"]["ratio_to_naive"]["tie"].is_boolean());
     assert!(row["error"]["psnr"].is_f64() && row["error"]["equal"] == false);

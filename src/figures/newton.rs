@@ -4,7 +4,7 @@ use super::stage::{Corner, Facet, Grey, frame, stored, written};
 use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
 use crate::number::Scalar;
 use crate::shader::Variant;
-use crate::walk::{Newton, Walk};
+use crate::walk::{Newton, Steps, Walk};
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
@@ -33,7 +33,7 @@ fn errors(degrees: f64, steps: u32) -> Vec<f64> {
         Scalar,
         first.as_vec3().to_array(),
         step.as_vec3().to_array(),
-        steps,
+        Steps::Fixed(steps),
     );
     (0..PIXELS)
         .map(|k| {

@@ -3,8 +3,9 @@
 use super::spread::Spread;
 use super::{Info, Perspective};
 use crate::frame::{Frame, Polygon};
-use crate::lighting::{Lighting, SpecularModel};
+use crate::lighting::{LightTerm, Lighting, SpecularModel};
 use crate::scene::Interpolation;
+use alloc::vec::Vec;
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
 const ROUNDING: f64 = 1.0 / (1u64 << 24) as f64;
@@ -47,9 +48,25 @@ impl Info {
     /// between the two its direction is off by σ times as much, and its square by σ². A falloff of at most its strength
     /// where the light is nearest multiplies colours and their errors, and is off by as much as the square itself.
     ///
-    /// Errors of the method itself, Newton's on short spans with large angles among them, are not rounding: where the
-    /// difference is over this bound, the report says so.
+    /// A faint highlight is left out: `I_p k_s (R·V)^n` of at most 2⁻²⁴ a light. Its threshold `t = (2⁻²⁴ / k)^(1/n)` is rounded,
+    /// so that t^n is off by a share of `(43 + n) 2⁻²³`; the roundings of a highlight, n times 4 · 2⁻²⁴, leave room for that.
+    ///
+    /// Where a parameter is left to the method ([`super::Auto`]), lengths may be too large by the relative error E that it
+    /// allows itself. The diffuse terms D are divided by them: they lose E D at most, of which after the clamp, as all other
+    /// terms are 0 or more, E/(1 − E) is left at most. Of N·H, which is divided by them too, the power n loses n times as much
+    /// of the specular terms. R·V is divided by the squared length, which has no such error.
+    ///
+    /// Other errors of the method itself, those of a given number of Newton's steps on short spans with large angles among
+    /// them, are no part of this: where the difference is over this bound, the report says so.
+    ///
+    /// The parameters have their default values here; [`super::Variant::bound`] is for others.
     pub fn bound(&self, frame: &Frame) -> f64 {
+        let defaults: Vec<u32> = self.parameters.iter().map(|p| p.default).collect();
+        self.bound_with(frame, &defaults)
+    }
+
+    /// [`Info::bound`] for these values of the parameters.
+    pub(super) fn bound_with(&self, frame: &Frame, parameters: &[u32]) -> f64 {
         let steps = frame
             .polygons()
             .iter()
@@ -67,6 +84,10 @@ impl Info {
             },
             Gain::max,
         );
+        let allowed = (0..)
+            .zip(frame.lightings())
+            .map(|(material, lighting)| self.allowed(parameters, &spread, material, lighting))
+            .fold(0.0, f64::max);
         let Roundings { start, step, of } = self.roundings;
         // What is rounded where the weight of perspective is largest counts for more where it is smallest.
         let weights = match self.perspective {
@@ -80,7 +101,9 @@ impl Info {
         let rounding = ROUNDING * weights;
         // What starts a colour is lit from vectors to places, too.
         let (toward, square) = (spread.vectors, spread.vectors * spread.vectors);
-        match of {
+        let lights = frame.lightings().iter().map(|l| l.lights.len()).max();
+        let faint = ROUNDING * lights.unwrap_or(0) as f64;
+        let rounded = match of {
             Stepped::Colours => rounding * (start * gain.cosine * toward + step * steps),
             Stepped::Sums => rounding * (start * gain.cosine * toward + step * steps * gain.sum),
             Stepped::Cosines => rounding * (start + step * steps) * gain.cosine * toward,
@@ -90,7 +113,39 @@ impl Info {
                 let step = if frame.is_local() { 3.0 * step } else { step };
                 rounding * weights * (start + step * steps) * gain.cosine * square
             }
-        }
+        };
+        rounded + faint + allowed
+    }
+
+    /// The error of a colour that the method allows itself on a material: see [`Info::bound`].
+    fn allowed(
+        &self,
+        parameters: &[u32],
+        spread: &Spread,
+        material: u32,
+        lighting: &Lighting,
+    ) -> f64 {
+        let autos = self.parameters.iter().zip(parameters);
+        let length_error = autos
+            .filter(|(parameter, value)| parameter.is_auto(**value))
+            .filter_map(|(parameter, _)| parameter.auto)
+            .map(|auto| f64::from((auto.length_error)(lighting)))
+            .fold(0.0, f64::max);
+        let specular_error = match lighting.specular {
+            SpecularModel::Phong => 0.0,
+            SpecularModel::Blinn => f64::from(lighting.shininess) * length_error,
+        };
+        // Of what the clamp leaves of a sum of these terms.
+        let lost = |error: f64, of: &dyn Fn(&LightTerm) -> f32| {
+            let lights = lighting.lights.iter().enumerate();
+            let sum = lights.map(|(i, light)| spread.strength(material, i) * f64::from(of(light)));
+            sum.sum::<f64>().min(1.0) * error / (1.0 - error)
+        };
+        (0..3)
+            .map(|c| {
+                lost(length_error, &|l| l.diffuse[c]) + lost(specular_error, &|l| l.specular[c])
+            })
+            .fold(0.0, f64::max)
     }
 }
 

@@ -3,19 +3,21 @@
 use super::illumination::{Illumination, Seen, SeenScalars};
 use super::local::{Lights, Local as LocalLight, Near as NearLights};
 use super::{
-    Corner, Corners, Info, Local, Method, Parameter, Perspective, Roundings, Shader, SpanOf,
+    Auto, Corner, Corners, Info, Local, Method, Parameter, Perspective, Roundings, Shader, SpanOf,
     Stepped,
 };
-use crate::lighting::Lighting;
+use crate::lighting::{Lighting, SpecularModel};
 use crate::number::{Machine, Num, Real, each};
 use crate::reference::Model;
-use crate::walk::{Constant, Lerp, Linear, Newton};
+use crate::walk::{Constant, Lerp, Linear, Newton, Steps};
 
 /// Fast Phong shading as the lecture prints it: `J = L·N` for each light, `K = V·N` and N by additions, `D = N·N`, and
 /// `d = √D` by Newton's method from the previous pixel's (L21 4.2–4.3).
 ///
 /// The diffuse term is `J/d`, the specular term `(2JK/D − L·V)^n`: the root touches only the former. With m steps a
-/// pixel costs m + 2 divisions, where naive Phong has one division and one root.
+/// pixel costs m + 2 divisions, where naive Phong has one division and one root. By default each span takes the fewest steps
+/// that cannot be seen, one on all but the shortest, and true roots where normals nearly cancel ([`Steps::within`]);
+/// `steps=2` takes two everywhere, unguarded, as printed.
 #[derive(Debug)]
 pub struct FastPhong;
 
@@ -34,14 +36,18 @@ impl Method for FastPhong {
         },
         derivation: "each step rounds J and K by half of 2^-24, and the three components of N, so d = |N|, by 0.87 * 2^-24: \
                      J/d is off by 1.4, and 2 J K / D by 2 (0.5 + 0.5 + 2 * 0.87) = 5.5, which is 4 * 1.4",
-        fails: "on spans of few pixels over a large angle, where the previous length is a bad first guess (use more \
-                steps), and where normals cancel inside a span",
+        fails: "with a number of steps given: on spans of few pixels over a large angle, where the previous length is a bad \
+                first guess, and where normals cancel inside a span",
         parameters: &[Parameter {
             name: "steps",
             meaning: "steps of Newton's method a pixel",
-            default: 2,
+            default: Parameter::AUTO,
             least: 1,
             most: 8,
+            auto: Some(Auto {
+                meaning: "on each span the fewest that leave every term within 0.001 of itself, a true root where 3 do not",
+                length_error: largest_error,
+            }),
         }],
         perspective: Perspective::Free,
         local: Local::PerPolygon,
@@ -57,11 +63,28 @@ impl Method for FastPhong {
 #[derive(Debug)]
 pub struct Of<const L: usize>;
 
+/// The largest relative error of a length with which `steps=auto` is content: [`Newton::LARGEST_ERROR`] where only diffuse
+/// cosines are divided by it. N·H is divided by it too, and raised to n, which multiplies a small error by n.
+fn largest_error(lighting: &Lighting) -> f32 {
+    match lighting.specular {
+        SpecularModel::Phong => Newton::<f32>::LARGEST_ERROR,
+        SpecularModel::Blinn => Newton::<f32>::LARGEST_ERROR / lighting.shininess.max(1.0),
+    }
+}
+
+/// The steps that the value of the parameter stands for.
+fn steps<N: Num>(lighting: &Lighting, parameters: &[u32], of: &dyn Fn(f32) -> N) -> Steps<N> {
+    match parameters[0] {
+        Parameter::AUTO => Steps::within(largest_error(lighting), of),
+        count => Steps::Fixed(count),
+    }
+}
+
 /// The light, and how many steps of Newton's method a pixel takes.
 #[derive(Clone, Copy, Debug)]
 pub struct Consts<N, const L: usize> {
     light: Illumination<N, L>,
-    steps: u32,
+    steps: Steps<N>,
 }
 
 /// J of each light, K, N.
@@ -81,7 +104,7 @@ impl<const L: usize> Shader for Of<L> {
     ) -> Consts<N, L> {
         Consts {
             light: Illumination::new(lighting, of),
-            steps: parameters[0],
+            steps: steps(lighting, parameters, of),
         }
     }
     #[inline(always)]
@@ -154,7 +177,7 @@ pub struct Near<const L: usize>;
 #[derive(Clone, Copy, Debug)]
 pub struct NearConsts<N, const L: usize> {
     light: LocalLight<N, L>,
-    steps: u32,
+    steps: Steps<N>,
 }
 
 impl<const L: usize> Shader for Near<L> {
@@ -176,7 +199,7 @@ impl<const L: usize> Shader for Near<L> {
     ) -> NearConsts<N, L> {
         NearConsts {
             light: LocalLight::new(lighting, of),
-            steps: parameters[0],
+            steps: steps(lighting, parameters, of),
         }
     }
     #[inline(always)]

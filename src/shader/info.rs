@@ -1,7 +1,10 @@
 //! What is said about a method: the texts and bounds that the tool, the tests and the report share.
 
 use super::bound::Roundings;
+use crate::lighting::Lighting;
 use crate::reference::Model;
+use alloc::format;
+use alloc::string::{String, ToString};
 
 /// A number that a method can be given after its name, as in `fast-phong:steps=1`.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +19,54 @@ pub struct Parameter {
     pub least: u32,
     /// The largest value allowed.
     pub most: u32,
+    /// The choice left to the method, if it can be: written `auto`, the value [`Parameter::AUTO`].
+    pub auto: Option<Auto>,
+}
+
+/// A choice that a method makes by itself, from span to span.
+#[derive(Clone, Copy, Debug)]
+pub struct Auto {
+    /// What it takes.
+    pub meaning: &'static str,
+    /// The largest relative error of |N| that it leaves on a material: [`Info::bound`] has room for it.
+    pub length_error: fn(&Lighting) -> f32,
+}
+
+impl Parameter {
+    /// The value that stands for `auto`.
+    pub const AUTO: u32 = 0;
+
+    /// Reads a value; `None` if it is neither in the range nor `auto` where that is allowed.
+    pub fn parse(&self, text: &str) -> Option<u32> {
+        if self.auto.is_some() && text == "auto" {
+            return Some(Parameter::AUTO);
+        }
+        let is_in_range = |value: &u32| (self.least..=self.most).contains(value);
+        text.parse().ok().filter(is_in_range)
+    }
+
+    /// Writes a value as [`Parameter::parse`] reads it.
+    pub fn text(&self, value: u32) -> String {
+        if self.is_auto(value) {
+            "auto".into()
+        } else {
+            value.to_string()
+        }
+    }
+
+    /// Returns the values allowed, as people read them: `auto or 1..8`.
+    pub fn range(&self) -> String {
+        let (least, most) = (self.least, self.most);
+        match self.auto {
+            Some(_) => format!("auto or {least}..{most}"),
+            None => format!("{least}..{most}"),
+        }
+    }
+
+    /// True if the choice is left to the method.
+    pub fn is_auto(&self, value: u32) -> bool {
+        self.auto.is_some() && value == Parameter::AUTO
+    }
 }
 
 /// What a method does when the scene asks for perspective interpolation.

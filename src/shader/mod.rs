@@ -41,7 +41,7 @@ pub use flat::Flat;
 pub use flat_average::FlatAverage;
 pub use gouraud::Gouraud;
 pub use gouraud_separate::GouraudSeparate;
-pub use info::{Info, Local, Parameter, Perspective};
+pub use info::{Auto, Info, Local, Parameter, Perspective};
 pub use naive_phong::NaivePhong;
 pub use phong_rsqrt::PhongRsqrt;
 pub use slerp_phong::SlerpPhong;

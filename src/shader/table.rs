@@ -6,7 +6,7 @@ use super::dispatch::{Job, dispatch};
 use super::span::{self, SpanBench};
 use super::{
     DuffPhong, FastPhong, FastPhongRsqrt, Flat, FlatAverage, Gouraud, GouraudSeparate, Info,
-    Method, NaivePhong, PhongRsqrt, Shader, SlerpPhong, SlerpPhongVector,
+    Method, NaivePhong, Parameter, PhongRsqrt, Shader, SlerpPhong, SlerpPhongVector,
 };
 use crate::encoding::store;
 use crate::frame::Frame;
@@ -151,15 +151,10 @@ impl Variant {
                     key: key.to_string(),
                 })?;
             let parameter = &entry.info.parameters[place];
-            let number = value
-                .parse()
-                .ok()
-                .filter(|n| (parameter.least..=parameter.most).contains(n));
+            let number = parameter.parse(value);
             variant.parameters[place] = number.ok_or_else(|| MethodError::Value {
-                key: key.to_string(),
+                parameter,
                 value: value.to_string(),
-                least: parameter.least,
-                most: parameter.most,
             })?;
         }
         Ok(variant)
@@ -186,6 +181,11 @@ impl Variant {
             .iter()
             .zip(self.info().parameters)
             .all(|(value, p)| *value == p.default)
+    }
+
+    /// As [`Info::bound`], with these values of the parameters.
+    pub fn bound(&self, frame: &Frame) -> f64 {
+        self.info().bound_with(frame, &self.parameters)
     }
 
     /// Draws `frame` as a stored picture.
@@ -370,7 +370,7 @@ impl fmt::Display for Variant {
         write!(f, "{}", self.info().name)?;
         for (value, parameter) in self.parameters.iter().zip(self.info().parameters) {
             if *value != parameter.default {
-                write!(f, ":{}={value}", parameter.name)?;
+                write!(f, ":{}={}", parameter.name, parameter.text(*value))?;
             }
         }
         Ok(())
@@ -395,13 +395,9 @@ pub enum MethodError {
     /// The value is not a whole number in its range.
     Value {
         /// The parameter.
-        key: String,
+        parameter: &'static Parameter,
         /// The value given.
         value: String,
-        /// The smallest value allowed.
-        least: u32,
-        /// The largest value allowed.
-        most: u32,
     },
 }
 
@@ -432,15 +428,18 @@ impl fmt::Display for MethodError {
                 )?;
                 list(f, method.parameters.iter().map(|p| p.name))
             }
-            MethodError::Value {
-                key,
-                value,
-                least,
-                most,
-            } => {
+            MethodError::Value { parameter, value } => {
+                let Parameter {
+                    name, least, most, ..
+                } = parameter;
+                let auto = if parameter.auto.is_some() {
+                    "`auto` or "
+                } else {
+                    ""
+                };
                 write!(
                     f,
-                    "`{key}={value}`: expected a whole number from {least} to {most}"
+                    "`{name}={value}`: expected {auto}a whole number from {least} to {most}"
                 )
             }
         }

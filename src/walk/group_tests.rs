@@ -89,7 +89,7 @@ impl Made for Circle {
 }
 
 #[derive(Clone, Copy)]
-struct Length([f32; 3], [f32; 3], u32);
+struct Length([f32; 3], [f32; 3], Steps<f32>);
 
 impl Made for Length {
     const PLANES: usize = 2;
@@ -209,7 +209,8 @@ fn worst(lengths: &[f32], truth: &[f64]) -> f64 {
 fn guarded_lengths_are_never_far_off() {
     let allowed = f64::from(Newton::<f32>::LARGEST_ERROR);
     let mut most = 0.0f64;
-    for steps in 1..=3 {
+    let fewest = Steps::within(Newton::<f32>::LARGEST_ERROR, &|x| x);
+    for steps in (1..=3).map(Steps::Fixed).chain([fewest]) {
         for degrees in [1.0f32, 10.0, 30.0, 60.0, 90.0, 120.0, 150.0, 170.0, 179.0] {
             for pixels in [8, 9, 16, 24, 40, 64, 200, 1000] {
                 let (n, step, truth) = turning(degrees, pixels);
@@ -220,7 +221,7 @@ fn guarded_lengths_are_never_far_off() {
                     let rounding = HALF_ULP * (6.0 + 2.0 * (pixels as f64 / 8.0 + 2.0) / shortest);
                     assert!(
                         error <= allowed + rounding,
-                        "{level}: {steps} steps, {degrees} over {pixels}: {error:.1e}"
+                        "{level}: {steps:?}, {degrees} over {pixels}: {error:.1e}"
                     );
                     most = most.max(error);
                 }
@@ -238,7 +239,7 @@ fn guarded_lengths_are_never_far_off() {
 #[test]
 fn where_groups_would_be_off_they_have_true_roots() {
     let (n, step, truth) = turning(120.0, 16);
-    for (level, group, one) in both(Length(n, step, 1), 16) {
+    for (level, group, one) in both(Length(n, step, Steps::Fixed(1)), 16) {
         let (group, one) = (worst(&group[0], &truth), worst(&one[0], &truth));
         assert!(group < 12.0 * HALF_ULP, "{level}: {group:.1e}");
         assert!(
@@ -247,7 +248,7 @@ fn where_groups_would_be_off_they_have_true_roots() {
         );
     }
     let (n, step, truth) = turning(15.0, 64);
-    for (level, group, _) in both(Length(n, step, 1), 64) {
+    for (level, group, _) in both(Length(n, step, Steps::Fixed(1)), 64) {
         // At the ends the length changes by sin 7.5° |ΔN| a pixel, |ΔN| = 2 sin 7.5° / 64, and a group is eight pixels away:
         // e = 4.3e-3, of which a step leaves e²/2 = 9.1e-6, far above rounding; half a group inside of the end it is less.
         let error = worst(&group[0], &truth);
@@ -259,11 +260,11 @@ fn where_groups_would_be_off_they_have_true_roots() {
 #[test]
 fn a_normal_that_vanishes_is_guarded() {
     let (n, step) = ([-1.0f32, 0.0, 0.0], [1.0 / 8.0, 0.0, 0.0]);
-    for (level, group, _) in both(Length(n, step, 2), 17) {
+    for (level, group, _) in both(Length(n, step, Steps::Fixed(2)), 17) {
         let expected: Vec<f32> = (0..17).map(|k| (k as f32 / 8.0 - 1.0).abs()).collect();
         assert_eq!(group[0], expected, "{level}");
     }
-    for (level, group, _) in both(Length([0.0, 0.6, 0.8], [0.0; 3], 2), 24) {
+    for (level, group, _) in both(Length([0.0, 0.6, 0.8], [0.0; 3], Steps::Fixed(2)), 24) {
         assert!(
             group[0]
                 .iter()

@@ -12,7 +12,7 @@ mod sines;
 
 pub use attribute::{Affine, Arc, Attribute, Facet, Lerp, Ramp, UnitNormal};
 pub use linear::{Constant, Linear};
-pub use newton::Newton;
+pub use newton::{MOST_STEPS, Newton, Steps};
 pub use quadratic::Quadratic;
 pub use sines::Sines;
 

@@ -298,7 +298,7 @@ fn newton_follows_the_root() {
     );
     let step: [f32; 3] = core::array::from_fn(|i| (b[i] - a[i]) / 64.0);
     let normal = || core::array::from_fn::<_, 3, _>(|i| Linear::new(Scalar, a[i], step[i]));
-    let (mut walk, mut line) = (Newton::new(Scalar, a, step, 2), normal());
+    let (mut walk, mut line) = (Newton::new(Scalar, a, step, Steps::Fixed(2)), normal());
     for k in 0..64 {
         let n = line.next();
         let truth = f64::from(dot(n, n)).sqrt();
@@ -316,7 +316,8 @@ fn newton_follows_the_root() {
 #[test]
 fn newton_leaves_what_theory_says() {
     for steps in 1..=2 {
-        let mut walk = Newton::new(Scalar, [1.0, 0.0, 0.0], [-0.3, 0.0, 0.0], steps);
+        let steps_a_pixel = Steps::Fixed(steps);
+        let mut walk = Newton::new(Scalar, [1.0, 0.0, 0.0], [-0.3, 0.0, 0.0], steps_a_pixel);
         assert_eq!(walk.next().0, 1.0, "a true root at the start of a span");
         let (length, _) = walk.next();
         let mut error = 1.0 / 0.7 - 1.0;
@@ -328,6 +329,121 @@ fn newton_leaves_what_theory_says() {
             "{steps} steps: {length}"
         );
     }
+}
+
+/// From an error at the edge of a threshold so many steps leave what is allowed, and one less leaves more.
+#[test]
+fn thresholds_are_where_steps_cease_to_suffice() {
+    for allowed in [1e-3f32, 1e-4, 1e-5] {
+        let Steps::Fewest(thresholds) = Steps::within(allowed, &|x| x) else {
+            panic!("the fewest steps");
+        };
+        let allowed = f64::from(allowed);
+        for (i, threshold) in thresholds.into_iter().enumerate() {
+            let change = f64::from(threshold).sqrt();
+            let mut e = change + allowed * (1.0 + change);
+            for _ in 0..i {
+                e = e * e / (2.0 * (1.0 - e));
+            }
+            assert!(
+                e > 2.0 * allowed,
+                "{i} steps leave {e:.1e} of {allowed:.0e}"
+            );
+            e = e * e / (2.0 * (1.0 - e));
+            // The root is a difference of numbers up to 200 times as large, rounded to 2⁻²⁴, and a step back doubles it.
+            assert!(
+                (e / allowed - 1.0).abs() < 1e-3,
+                "{} steps leave {e:.3e} of {allowed:.0e}",
+                i + 1
+            );
+        }
+    }
+}
+
+/// A normal that turns by an angle over so many pixels: where it starts, its step, and its lengths in f64.
+fn turning(degrees: f32, pixels: usize) -> (Line, Vec<f64>) {
+    let (sin, cos) = (degrees / 2.0).to_radians().sin_cos();
+    let (n, step) = ([-sin, 0.0, cos], [2.0 * sin / pixels as f32, 0.0, 0.0]);
+    let at = |k: usize| {
+        let x = f64::from(n[0]) + k as f64 * f64::from(step[0]);
+        (x * x + f64::from(cos).powi(2)).sqrt()
+    };
+    ((n, step), (0..pixels).map(at).collect())
+}
+
+fn lengths(line: Line, steps: Steps<f32>, pixels: usize) -> Vec<f32> {
+    let mut walk = Newton::new(Scalar, line.0, line.1, steps);
+    (0..pixels).map(|_| walk.next().0).collect()
+}
+
+/// Whatever the angle, the fewest steps leave at most what is allowed; and from fine spans to coarse ones they are one, two,
+/// three, and at last a root.
+#[test]
+fn the_fewest_steps_suffice() {
+    for allowed in [1e-3f32, 1e-3 / 32.0] {
+        let fewest = Steps::within(allowed, &|x| x);
+        let mut seen = [0; 4];
+        for degrees in [
+            1.0f32, 10.0, 30.0, 60.0, 90.0, 120.0, 150.0, 170.0, 179.0, 179.9,
+        ] {
+            for pixels in [1, 2, 3, 4, 6, 9, 16, 40, 200, 1000] {
+                let (line, truth) = turning(degrees, pixels);
+                let found = lengths(line, fewest, pixels);
+                let shortest = truth.iter().copied().fold(1.0, f64::min);
+                for (found, truth) in found.iter().zip(&truth) {
+                    let error = (f64::from(*found) / truth - 1.0).abs();
+                    // N is off by a rounding a pixel, and D, its root and a step by four more.
+                    let rounding = HALF_ULP * (8.0 + 2.0 * pixels as f64 / shortest);
+                    assert!(
+                        error <= f64::from(allowed) + rounding,
+                        "{degrees} over {pixels}: {error:.1e}"
+                    );
+                }
+                let same = |steps| found == lengths(line, Steps::Fixed(steps), pixels);
+                // Two numbers of steps may round to one result.
+                match [1, 2, 3, 0].map(same) {
+                    [true, ..] => seen[0] += 1,
+                    [_, true, ..] => seen[1] += 1,
+                    [_, _, true, _] => seen[2] += 1,
+                    [.., true] => seen[3] += 1,
+                    _ => panic!("{degrees} over {pixels}: no number of steps"),
+                }
+            }
+        }
+        assert!(seen.iter().all(|&count| count > 0), "{allowed}: {seen:?}");
+    }
+}
+
+/// One step on a fine span and on a normal that stays; roots where the normal vanishes.
+#[test]
+fn fine_spans_take_one_step_and_cancelling_ones_roots() {
+    let fewest = Steps::within(Newton::<f32>::LARGEST_ERROR, &|x| x);
+    let (fine, _) = turning(30.0, 64);
+    assert_eq!(
+        lengths(fine, fewest, 64),
+        lengths(fine, Steps::Fixed(1), 64)
+    );
+    assert_ne!(
+        lengths(fine, fewest, 64),
+        lengths(fine, Steps::Fixed(2), 64)
+    );
+    let still = ([0.0, 0.6, 0.8], [0.0; 3]);
+    assert_eq!(
+        lengths(still, fewest, 8),
+        lengths(still, Steps::Fixed(1), 8)
+    );
+    // The length grows by as much as one step is allowed to follow: it leaves nearly all that is allowed. By more, it is two.
+    let error = |growth: f32| {
+        let found = lengths(([1.0, 0.0, 0.0], [growth, 0.0, 0.0]), fewest, 2)[1];
+        f64::from(found) / (1.0 + f64::from(growth)) - 1.0
+    };
+    assert!((8e-4..1e-3).contains(&error(0.0426)), "{}", error(0.0426));
+    assert!(error(0.0428) < 1e-6, "{}", error(0.0428));
+    let vanishing = ([-1.0, 0.0, 0.0], [0.25, 0.0, 0.0]);
+    assert_eq!(
+        lengths(vanishing, fewest, 6),
+        [1.0, 0.75, 0.5, 0.25, 0.0, 0.25]
+    );
 }
 
 fn edge(a: [f32; 3], b: [f32; 3], rows: usize) -> Vec<[f32; 3]> {

@@ -176,7 +176,11 @@ fn flags_that_make_no_sense_are_refused_by_name() {
         ),
         (
             "-m fast-phong:steps=9",
-            &["`steps=9`: expected a whole number from 1 to 8"],
+            &["`steps=9`: expected `auto` or a whole number from 1 to 8"],
+        ),
+        (
+            "-m fast-phong:steps=0",
+            &["`steps=0`: expected `auto` or a whole number from 1 to 8"],
         ),
         ("-m flat:steps=1", &["method `flat` has no parameters"]),
         ("--engine barycentrik", &["did you mean `barycentric`?"]),

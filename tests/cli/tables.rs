@@ -80,7 +80,7 @@ fn lists_have_an_entry_for_everything_in_their_table() {
     folder
         .run("list methods")
         .done()
-        .prints("steps=1..8, default 2")
+        .prints("steps=auto or 1..8, default auto")
         .prints("perspective-correct at no cost");
     folder
         .run("list shaders")
@@ -206,6 +206,22 @@ fn every_method_is_explained() {
         divisions("fast-phong:steps=2") - divisions("fast-phong:steps=1"),
         1
     );
+    // The choice left to the method is no number, and is said so.
+    let auto = folder.run("explain fast-phong:steps=auto --json").done();
+    let auto = auto.json();
+    assert_eq!(
+        (
+            &auto["variant"],
+            &auto["values"][0],
+            &auto["parameters"][0]["default"]
+        ),
+        (&"fast-phong".into(), &"auto".into(), &"auto".into())
+    );
+    folder
+        .run("explain fast-phong")
+        .done()
+        .prints("steps=auto: steps of Newton's method a pixel; auto or 1..8, default auto")
+        .prints("auto: on each span the fewest");
     // Each method with lights at positions; the six products of Duff's forward differences by additions only.
     for (lights, additions) in [("1", 12), ("2", 18)] {
         let json = folder.run("explain duff-phong --json").done().json();

@@ -50,16 +50,27 @@ const TRIGONOMETRIC: Ops = Ops([0, 0, 0, 0, 0, 1]);
 /// A dot product of three components.
 const DOT: Ops = Ops([2, 3, 0, 0, 0, 0]);
 
-/// The terms of one light (2.1) once L·N and R·V are there: both clamped at 0, R·V to the power 32 by five squarings,
-/// the highlight dropped behind the surface; then for each channel two products and two sums.
+/// The terms of one light (2.1) once L·N and R·V are there: both clamped at 0, the highlight dropped behind the surface, and
+/// for each channel a product and a sum of diffuse light; the highlight compared with the faintest, dropped where it is not
+/// over that, to the power 32 by five squarings, and for each channel a product and a sum.
 fn light() -> Ops {
-    3 * COMPARE + 5 * MULTIPLY + 3 * (2 * MULTIPLY + 2 * ADD)
+    matt_light() + COMPARE + ADD + 5 * MULTIPLY + 3 * (MULTIPLY + ADD)
 }
 
-/// One light from a unit normal: L·N, then R = 2 (L·N) N − L, then R·V.
-fn lit_from_normal() -> Ops {
+/// The same where the highlight is faint: it is compared, and the power spared.
+fn matt_light() -> Ops {
+    4 * COMPARE + 3 * (MULTIPLY + ADD)
+}
+
+/// L·N and R·V of one light from a unit normal: L·N, then R = 2 (L·N) N − L, then R·V.
+fn cosines_from_normal() -> Ops {
     let reflect = MULTIPLY + 3 * (MULTIPLY + ADD);
-    DOT + reflect + DOT + light()
+    DOT + reflect + DOT
+}
+
+/// One light from a unit normal.
+fn lit_from_normal() -> Ops {
+    cosines_from_normal() + light()
 }
 
 /// A colour clamped to 0..=1: two comparisons a channel.
@@ -94,6 +105,12 @@ fn rotation() -> Ops {
 /// A normal between two others by the weights of (4.8).
 fn weighted_normal() -> Ops {
     3 * (2 * MULTIPLY + ADD)
+}
+
+/// How a span finds that so many steps of Newton's method suffice: N·ΔN, not over 0, ΔN·ΔN and its square, the product
+/// N·N ΔN·ΔN less the square of the former, and a product with each threshold tried.
+fn fewest_steps(tried: u32) -> Ops {
+    2 * DOT + COMPARE + 3 * MULTIPLY + ADD + tried * MULTIPLY
 }
 
 struct ByHand {
@@ -143,7 +160,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
         // 3 with two colours, each lit on its own and not clamped; a pixel adds them. The weight of perspective is carried
         // along edges, too, where it stays 1.
         "gouraud-separate" => ByHand {
-            vertex: 2 * lit,
+            vertex: lit + lights * (cosines_from_normal() + matt_light()),
             polygon: NONE,
             edge: 7 * ramp(),
             edge_step: 7 * ADD,
@@ -171,8 +188,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 polygon: NONE,
                 edge: numbers * ramp(),
                 edge_step: numbers * ADD,
-                span: numbers * ramp() + DOT + ROOT,
-                walk: numbers * ADD + DOT + 2 * newton,
+                span: numbers * ramp() + DOT + ROOT + fewest_steps(1),
+                walk: numbers * ADD + DOT + newton,
                 shade: DIVIDE + MULTIPLY + DIVIDE + lights * (MULTIPLY + MULTIPLY + ADD + light()),
             }
         }

@@ -1,12 +1,12 @@
 //! What most scenes ask of the illumination model, as functions of its own for loops that are compiled apart for it.
 
 use super::Illumination;
-use crate::lighting::{Lighting, SpecularGate, SpecularModel};
+use crate::lighting::{SpecularGate, SpecularModel};
 use crate::number::{Num, each};
 use crate::shader::power::squared_up_to_7;
 
 impl<N: Num, const L: usize> Illumination<N, L> {
-    /// The same for `scale` times the colours, to be summed without faint highlights, where it is what most scenes ask for: R·V, no
+    /// The same for `scale` times the colours, where it is what most scenes ask for: R·V, no
     /// specular light where `L·N ≤ 0`, lights of full strength, a shininess that is a power of two up to 128, and colours below 2²².
     #[inline(always)]
     pub fn usual(&self, scale: N) -> Option<Self> {
@@ -66,9 +66,8 @@ impl<N: Num, const L: usize> Illumination<N, L> {
         if !highlight.is_over(self.faint) {
             return sum;
         }
-        // Faint ones are none here too, so that no pixel depends on what lies beside it.
-        let [s] = squared_up_to_7([highlight], self.power.squarings().unwrap_or(0));
-        let s = s.gate(highlight - self.faint);
+        let squarings = self.power.squarings().unwrap_or(0);
+        let [s] = squared_up_to_7([self.gated(highlight)], squarings);
         self.with_specular(i, sum, s) // 2.1
     }
 }
@@ -102,19 +101,6 @@ impl<N: Copy, C: Fn(usize) -> N, const L: usize> Cosines<N, C, L> {
             None => (self.of)(i),
         }
     }
-}
-
-/// The R·V up to which `k_s (R·V)^n` is below 2⁻²⁴ for every light: what rounding a colour of ½ or more changes.
-pub(super) fn faint(lighting: &Lighting) -> f32 {
-    let strongest = lighting
-        .lights
-        .iter()
-        .flat_map(|l| l.specular)
-        .fold(0.0, |most, c| f32::max(most, c.abs()));
-    libm::powf(
-        5.960_464_5e-8 / strongest.max(5.960_464_5e-8),
-        1.0 / lighting.shininess,
-    )
 }
 
 /// A colour times `scale`.

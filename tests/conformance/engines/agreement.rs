@@ -3,7 +3,7 @@
 use super::frames::kinds;
 use crate::support::cases::{Case, cases};
 use crate::support::differences::{largest_difference, levels_apart};
-use crate::support::renderers::{distinct, name, newton_guard, renderers};
+use crate::support::renderers::{distinct, name, renderers};
 use fastphong::picture::Picture;
 use fastphong::raster::Renderer;
 use fastphong::scene::Encoding;
@@ -13,7 +13,7 @@ use fastphong::shader::{METHODS, Variant};
 fn check(case: &Case, variant: &Variant, renderers: &[Renderer], failures: &mut Vec<String>) -> u8 {
     let (frame, decided) = (&case.frame, case.decided());
     let (linear, stored) = (variant.render_linear(frame), variant.render(frame));
-    let own = variant.info().bound(frame);
+    let own = variant.bound(frame);
     // Below its bend the curve of sRGB rises by 12.92.
     let slope = if frame.encoding() == Encoding::Srgb {
         12.92
@@ -23,14 +23,13 @@ fn check(case: &Case, variant: &Variant, renderers: &[Renderer], failures: &mut 
     let mut most = 0;
     for &renderer in renderers {
         // Both are within their bounds of one closed form.
-        let bound = 2.0 * own + newton_guard(variant.info(), frame, renderer);
+        let bound = 2.0 * own;
         let ours = variant.render_linear_with(frame, renderer);
         let (max, uncovered) = largest_difference(&linear, &ours, |x, y| decided.get(x, y));
         let mut picture = Picture::new(1, 1, [0; 4]);
         variant.render_with(frame, renderer, &mut picture);
         let (levels, _) = levels_apart(&stored, &picture, |x, y| decided.get(x, y));
-        // Values that are less than a level apart are stored as the same level or as neighbours. What the guard of Newton's
-        // method lets through is less than that where N·H is not raised to a power; there it is measured here, not derived.
+        // Values that are less than a level apart are stored as the same level or as neighbours.
         let allowed = f64::max((255.0 * slope * 2.0 * own).ceil(), 1.0);
         if max > bound || uncovered > 0 || f64::from(levels) > allowed {
             let who = format!(

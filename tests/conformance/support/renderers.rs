@@ -1,14 +1,12 @@
 //! Every way in which this machine can draw a frame: engines, instruction sets, threads.
 
 use fastphong::frame::Frame;
-use fastphong::lighting::{Lighting, SpecularModel};
 use fastphong::number::Level;
 use fastphong::picture::Picture;
 use fastphong::raster::{Engine, Plan, Renderer};
 use fastphong::reference::Visibility;
 use fastphong::scene::{DepthBuffer, HiddenSurfaces};
-use fastphong::shader::{Info, Variant};
-use fastphong::walk::Newton;
+use fastphong::shader::Variant;
 
 /// Every engine on every instruction set that this machine has, the lecture's own form first.
 pub fn renderers() -> Vec<Renderer> {
@@ -52,24 +50,6 @@ pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
         .build()
         .expect("a pool of threads");
     pool.install(work)
-}
-
-/// Returns by how much more than [`Info::bound`] a method may be from its closed form if `renderer` draws it: what the guard of
-/// Newton's method lets through in groups of pixels.
-///
-/// The guard leaves a length, from above, within the relative error e = [`Newton::LARGEST_ERROR`]. The diffuse terms D are
-/// divided by it: they lose e D, of which after the clamp, as all other terms are 0 or more, e / (1 − e) is left at most. Of
-/// N·H, which is divided by it too, the power n loses n e. R·V does not see the length but its square, which has no error.
-pub fn newton_guard(info: &Info, frame: &Frame, renderer: Renderer) -> f64 {
-    if info.name != "fast-phong" || renderer.level.width() == 1 {
-        return 0.0;
-    }
-    let e = f64::from(Newton::<f32>::LARGEST_ERROR);
-    let of_half = |lighting: &Lighting| match lighting.specular {
-        SpecularModel::Phong => 0.0,
-        SpecularModel::Blinn => e * f64::from(lighting.shininess),
-    };
-    e / (1.0 - e) + frame.lightings().iter().map(of_half).fold(0.0, f64::max)
 }
 
 /// Pixels of which rounding cannot change the polygon that any sample shows: see [`is_decided`].
