@@ -1,13 +1,12 @@
-//! Whole frames, from a prepared scene to the stored picture: both engines on every instruction set that this machine has,
-//! on one thread, beside the lecture's own form (`span` on `scalar`) and the floor: every pixel cleared, tested and written
+//! Whole frames, from a prepared scene to the stored picture: the span engine, which is the lecture's own form, and the row
+//! engine on every instruction set that this machine has, on one thread, beside the floor: every pixel cleared, tested and written
 //! once; both at 1920 × 1080 too. Four lights and a million triangles by the lecture's own form and by the fastest.
 
 mod scenes;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
-use fastphong::number::Level;
 use fastphong::picture::Picture;
-use fastphong::raster::{Engine, Renderer};
+use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
 use fastphong::shader::Variant;
 use std::hint::black_box;
@@ -47,21 +46,11 @@ fn engines(c: &mut Criterion) {
         });
         for method in METHODS {
             let variant = Variant::parse(method).expect("a method of the table");
-            for engine in Engine::ALL {
-                for level in Level::available() {
-                    let renderer = Renderer {
-                        engine: Some(engine),
-                        level,
-                    };
-                    group.bench_function(
-                        BenchmarkId::new(format!("{engine}-{level}"), method),
-                        |b| {
-                            b.iter(|| {
-                                variant.render_with(black_box(&frame), renderer, &mut picture)
-                            });
-                        },
-                    );
-                }
+            for renderer in Renderer::available() {
+                let name = format!("{}-{}", renderer.engine(), renderer.level());
+                group.bench_function(BenchmarkId::new(name, method), |b| {
+                    b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
+                });
             }
         }
         group.finish();

@@ -1,6 +1,6 @@
 //! `fastphong bench`: times only, method by method, in interleaved rounds; or of whole frames, one method after the other.
 
-use super::engines::{self, Levels, ScanlineEngine, ThreadFlags};
+use super::engines::{self, Levels, ScanlineEngine, ThreadFlags, renderer_of};
 use super::frame_times::{FrameCount, FrameTiming};
 use super::measured::{How, TimingFlags, command_line, named_or_shipped};
 use super::scene_flags::SceneFlags;
@@ -9,7 +9,6 @@ use super::{Failure, Outcome};
 use fastphong::bench::Machine;
 use fastphong::comparison::{TableKind, table, to_json};
 use fastphong::image_file::write_file;
-use fastphong::number::Level;
 use fastphong::raster::Renderer;
 use std::path::PathBuf;
 
@@ -27,12 +26,12 @@ pub struct Bench {
     frame_times: bool,
     #[command(flatten)]
     count: FrameCount,
-    /// What finds the pixels: `span`, the lecture's way, `row`, or `auto`, the one that suits method and scene [default:
-    /// span; auto with --frame-times]
+    /// What finds the pixels: `span`, the lecture's way, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
+    /// where it can draw the frame [default: span; auto with --frame-times]
     #[arg(long, value_parser = engines::scanline_engine)]
     engine: Option<ScanlineEngine>,
-    /// Instruction sets of the pixel loops between commas, or `all` of this machine; each is timed for itself [default:
-    /// scalar; auto with --frame-times]
+    /// Instruction sets of the pixel loops between commas, or `all` of this machine; `scalar` is the span engine, any other
+    /// the row engine, and each is timed for itself [default: scalar; auto with --frame-times]
     #[arg(long, value_name = "LEVELS", value_parser = engines::levels)]
     simd: Option<Levels>,
     #[command(flatten)]
@@ -49,7 +48,7 @@ impl Bench {
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         let talk = *talk;
         let inputs = named_or_shipped(&self.inputs);
-        let (machine, renderers) = (Machine::this(), self.renderers());
+        let (machine, renderers) = (Machine::this(), self.renderers()?);
         let how = How {
             renderers: &renderers,
             threads: &self.threads,
@@ -93,22 +92,18 @@ impl Bench {
 
     /// How to draw: by each instruction set that was asked for. The lecture's own form is what methods are compared in;
     /// whole frames are drawn the fastest way.
-    fn renderers(&self) -> Vec<Renderer> {
+    ///
+    /// # Errors
+    /// When engine and instruction sets contradict each other.
+    fn renderers(&self) -> Result<Vec<Renderer>, Failure> {
         let usual = if self.frame_times {
             Renderer::fastest()
         } else {
             Renderer::LECTURE
         };
-        let engine = self
-            .engine
-            .map_or(usual.engine, |ScanlineEngine(engine)| engine);
-        let levels = self
-            .simd
-            .as_ref()
-            .map_or(vec![usual.level], |Levels(levels)| levels.clone());
-        levels
-            .into_iter()
-            .map(|level: Level| Renderer { engine, level })
-            .collect()
+        Ok(match &self.simd {
+            None => vec![renderer_of(self.engine, None, usual)?],
+            Some(levels) => levels.renderers(self.engine.and_then(|ScanlineEngine(e)| e))?,
+        })
     }
 }

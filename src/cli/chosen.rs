@@ -1,7 +1,7 @@
 //! What `auto` would choose for a scene: which engine, on which instruction set, for which methods.
 
 use fastphong::frame::Frame;
-use fastphong::raster::{self, Plan, Renderer};
+use fastphong::raster::{Plan, Renderer};
 use fastphong::shader::METHODS;
 use serde_json::{Value, json};
 
@@ -17,15 +17,6 @@ pub fn choices(frame: &Frame) -> Vec<Choice> {
     for entry in METHODS {
         let variant = entry.variant();
         let plan = variant.plan(frame, Renderer::fastest());
-        // Why it is not by rows, which are chosen where they can be.
-        let by_rows = Renderer {
-            engine: Some(raster::Engine::Row),
-            ..Renderer::fastest()
-        };
-        let plan = Plan {
-            reason: variant.plan(frame, by_rows).reason,
-            ..plan
-        };
         match choices.iter_mut().find(|choice| choice.plan == plan) {
             Some(choice) => choice.methods.push(entry.info.name),
             None => choices.push(Choice {
@@ -40,22 +31,16 @@ pub fn choices(frame: &Frame) -> Vec<Choice> {
 impl Choice {
     /// In words.
     pub fn text(&self) -> String {
-        let Plan {
-            engine,
-            level,
-            reason,
-        } = self.plan;
+        let Plan { renderer, reason } = self.plan;
+        let (engine, level) = (renderer.engine(), renderer.level());
         let reason = reason.map_or(String::new(), |reason| format!(" ({reason})"));
         format!("{engine}, {level}: {}{reason}", self.methods.join(", "))
     }
 
     /// As data.
     pub fn json(&self) -> Value {
-        let Plan {
-            engine,
-            level,
-            reason,
-        } = self.plan;
+        let Plan { renderer, reason } = self.plan;
+        let (engine, level) = (renderer.engine(), renderer.level());
         json!({ "engine": engine.name(), "level": level.name(), "reason": reason, "methods": self.methods })
     }
 }

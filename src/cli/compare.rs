@@ -28,7 +28,7 @@ impl Compare {
     /// Compares, times, and prints the table.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         let how = How {
-            renderers: &[self.drawn.renderer()],
+            renderers: &[self.drawn.renderer()?],
             threads: &self.drawn.threads,
         };
         let comparisons = self

@@ -9,7 +9,7 @@ use fastphong::frame::Frame;
 use fastphong::image_file::FilePicture;
 use fastphong::number::Level;
 use fastphong::picture::{Picture, Picture8};
-use fastphong::raster::{self, Edges, Renderer};
+use fastphong::raster::{Edges, Plan, Renderer};
 use fastphong::reference::{self, Model};
 use fastphong::scene::Encoding;
 use fastphong::shader::{METHODS, Variant};
@@ -74,8 +74,8 @@ impl std::fmt::Display for Method {
 /// What of a frame is put into a picture.
 #[derive(Clone, Debug)]
 pub enum Content {
-    /// Colours.
-    Shaded(Method, Engine, Simd),
+    /// Colours; the engine and the instruction set asked for, and what these mean by scanlines.
+    Shaded(Method, Engine, Simd, Renderer),
     /// Something else that is known of each pixel; the side of a square of the checkerboard, in world units.
     Aov(Aov, f64),
 }
@@ -92,7 +92,7 @@ impl Drawing {
     /// # Errors
     /// When the engine does not have the method or the instruction set.
     pub fn new(frame: Frame, content: Content, talk: Talk) -> Result<Drawing, Failure> {
-        let Content::Shaded(method, engine, simd) = &content else {
+        let Content::Shaded(method, engine, simd, _) = &content else {
             return Ok(Drawing { frame, content });
         };
         let (name, title) = match (engine, method) {
@@ -141,41 +141,27 @@ impl Drawing {
         let (text, used, reason) = match &self.content {
             Content::Aov(..) => (line("the span engine", "scalar", 1), 1, None),
             Content::Shaded(Method::Reference(_), ..) => (line("the reference", "f64", 1), 1, None),
-            Content::Shaded(_, Engine::Barycentric(_), _) => {
+            Content::Shaded(_, Engine::Barycentric(_), ..) => {
                 (line("the barycentric engine", "scalar", 1), 1, None)
             }
-            Content::Shaded(_, Engine::Cs171 { .. }, _) => {
+            Content::Shaded(_, Engine::Cs171 { .. }, ..) => {
                 (line("the cs171 engine", "f64", 1), 1, None)
             }
-            Content::Shaded(Method::Variant(variant), Engine::Scanlines(asked), simd) => {
-                let plan = variant.plan(
-                    &self.frame,
-                    Renderer {
-                        engine: *asked,
-                        level: simd.level(),
-                    },
-                );
+            Content::Shaded(Method::Variant(variant), Engine::Scanlines(asked), simd, renderer) => {
+                let Plan {
+                    renderer: drawn_by,
+                    reason,
+                } = variant.plan(&self.frame, *renderer);
+                let (engine, level) = (drawn_by.engine(), drawn_by.level());
                 let text = line(
-                    &format!("the {} engine", plan.engine),
-                    plan.level.name(),
-                    plan.threads(),
+                    &format!("the {engine} engine"),
+                    level.name(),
+                    drawn_by.threads(),
                 );
-                // Where the choice was left, why it is not rows, which are taken where they can be.
-                let by_rows = Renderer {
-                    engine: Some(raster::Engine::Row),
-                    level: plan.level,
-                };
-                let reason = plan.reason.or_else(|| match asked {
-                    None => variant.plan(&self.frame, by_rows).reason,
-                    Some(_) => None,
-                });
-                let is_other = asked.is_some_and(|asked| asked != plan.engine)
-                    || matches!(simd, Simd::Level(level) if *level != plan.level);
-                (
-                    text,
-                    plan.threads(),
-                    reason.map(|reason| (reason, is_other)),
-                )
+                let is_other = asked.is_some_and(|asked| asked != engine)
+                    || matches!(simd, Simd::Level(asked) if *asked != level);
+                let reason = reason.map(|reason| (reason, is_other));
+                (text, drawn_by.threads(), reason)
             }
         };
         match reason {
@@ -197,15 +183,9 @@ impl Drawing {
     /// Those of `take`.
     pub fn rows<E>(&self, mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>) -> Result<(), E> {
         match &self.content {
-            Content::Shaded(Method::Variant(variant), Engine::Scanlines(engine), simd) => variant
-                .render_rows(
-                    &self.frame,
-                    Renderer {
-                        engine: *engine,
-                        level: simd.level(),
-                    },
-                    take,
-                ),
+            Content::Shaded(Method::Variant(variant), Engine::Scanlines(_), _, renderer) => {
+                variant.render_rows(&self.frame, *renderer, take)
+            }
             _ => take(self.picture(false).to_stored().texels()),
         }
     }
@@ -226,32 +206,26 @@ impl Drawing {
                 frame.encoding(),
                 linear,
             ),
-            (Content::Shaded(Method::Variant(variant), engine, simd), linear) => match engine {
-                Engine::Scanlines(engine) => by_scanlines(
-                    frame,
-                    variant,
-                    Renderer {
-                        engine: *engine,
-                        level: simd.level(),
-                    },
-                    linear,
-                ),
-                Engine::Barycentric(edges) => barycentric(frame, variant, *edges, linear),
-                Engine::Cs171 { normalise } => {
-                    // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
-                    let shading = cs171_shading(variant.info()).unwrap_or(Shading::Phong);
-                    let reading = Reading {
-                        normalise: *normalise,
-                        cull: false,
-                        ..Reading::default()
-                    };
-                    wide(
-                        &cs171::render(frame, shading, reading).filtered(frame.samples()),
-                        frame.encoding(),
-                        linear,
-                    )
+            (Content::Shaded(Method::Variant(variant), engine, _, renderer), linear) => {
+                match engine {
+                    Engine::Scanlines(_) => by_scanlines(frame, variant, *renderer, linear),
+                    Engine::Barycentric(edges) => barycentric(frame, variant, *edges, linear),
+                    Engine::Cs171 { normalise } => {
+                        // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
+                        let shading = cs171_shading(variant.info()).unwrap_or(Shading::Phong);
+                        let reading = Reading {
+                            normalise: *normalise,
+                            cull: false,
+                            ..Reading::default()
+                        };
+                        wide(
+                            &cs171::render(frame, shading, reading).filtered(frame.samples()),
+                            frame.encoding(),
+                            linear,
+                        )
+                    }
                 }
-            },
+            }
         }
     }
 }

@@ -38,17 +38,16 @@ pub struct EngineInfo {
 pub const ENGINES: [EngineInfo; 4] = [
     EngineInfo {
         name: "span",
-        title: "active edges, a depth buffer of one line, visible runs walked and shaded once: the lecture's way",
+        title: "one pixel at a time: active edges, a depth buffer of one line, visible runs shaded once: the lecture's way",
         draws: "every method and every scene",
-        runs: "every instruction set, several threads; on scalar the lecture's own form, on one thread; over four lights \
-               that form only",
+        runs: "scalar, one thread",
     },
     EngineInfo {
         name: "row",
-        title: "bands of scanlines, interpolants kept in planes, each row shaded once",
+        title: "SIMD: bands of scanlines, interpolants kept in planes, each row shaded once",
         draws: "every method under lights at infinity, some under lights at positions (see `fastphong info`); up to four \
-                lights; interpolated depth of 32 bits, clipped by planes. What it cannot draw the span engine draws",
-        runs: "every instruction set, several threads",
+                lights; interpolated depth, clipped by planes. What it cannot draw the span engine draws",
+        runs: "every SIMD instruction set, several threads",
     },
     EngineInfo {
         name: "barycentric",
@@ -172,13 +171,37 @@ pub enum Simd {
     Level(Level),
 }
 
-impl Simd {
-    /// The instruction set.
-    pub fn level(self) -> Level {
-        match self {
-            Simd::Auto => Level::best(),
-            Simd::Level(level) => level,
-        }
+/// Returns what an engine and an instruction set mean together; `usual` where neither is named.
+///
+/// One axis: the span engine is scalar, the row engine SIMD.
+///
+/// # Errors
+/// When they contradict each other, with what to ask for instead.
+pub fn renderer(
+    engine: Option<raster::Engine>,
+    simd: Option<Simd>,
+    usual: Renderer,
+) -> Result<Renderer, String> {
+    use raster::Engine::{Row, Span};
+    match (engine, simd) {
+        (None, None) => Ok(usual),
+        (None, Some(Simd::Auto)) => Ok(Renderer::fastest()),
+        (None, Some(Simd::Level(level))) => Ok(Renderer::on(level)),
+        (Some(Span), None | Some(Simd::Auto | Simd::Level(Level::Scalar))) => Ok(Renderer::Span),
+        (Some(Span), Some(Simd::Level(level))) => Err(format!(
+            "the span engine goes one pixel at a time: use `--engine row --simd {level}`, or `--engine span --simd scalar`"
+        )),
+        (Some(Row), Some(Simd::Level(Level::Scalar))) => Err(
+            "the row engine runs on SIMD: use `--engine span --simd scalar` for one pixel at a time, or `--simd auto`"
+                .to_owned(),
+        ),
+        (Some(Row), Some(Simd::Level(level))) => Ok(Renderer::Row(level)),
+        (Some(Row), None | Some(Simd::Auto)) => match Renderer::fastest() {
+            Renderer::Span => Err(
+                "the row engine runs on SIMD, which this machine does not have: use `--engine span`".to_owned(),
+            ),
+            row => Ok(row),
+        },
     }
 }
 
@@ -193,51 +216,99 @@ pub fn simd(text: &str) -> Result<Simd, String> {
     }
 }
 
-/// Instruction sets, each once.
+/// Instruction sets.
 #[derive(Clone, Debug)]
-pub struct Levels(pub Vec<Level>);
+pub enum Levels {
+    /// All that the engine runs on.
+    All,
+    /// These.
+    These(Vec<Simd>),
+}
 
 /// Instruction sets of this machine between commas, or `all` that it has.
 pub fn levels(text: &str) -> Result<Levels, String> {
     if text == "all" {
-        return Ok(Levels(Level::available().collect()));
+        return Ok(Levels::All);
     }
-    let mut levels = Vec::new();
-    for name in text.split(',') {
-        let level = simd(name.trim())?.level();
-        if !levels.contains(&level) {
-            levels.push(level);
+    let levels: Result<Vec<Simd>, String> = text.split(',').map(|name| simd(name.trim())).collect();
+    levels.map(Levels::These)
+}
+
+impl Levels {
+    /// Returns what an engine and each of these mean together, each once.
+    ///
+    /// # Errors
+    /// As [`renderer`].
+    pub fn renderers(&self, engine: Option<raster::Engine>) -> Result<Vec<Renderer>, String> {
+        let mut renderers: Vec<Renderer> = match self {
+            Levels::All => {
+                let is_asked = |renderer: &Renderer| engine.is_none_or(|e| e == renderer.engine());
+                Renderer::available().filter(is_asked).collect()
+            }
+            Levels::These(_) => Vec::new(),
+        };
+        // Where the machine has none of them, the error is that of `auto`.
+        let named: &[Simd] = match self {
+            Levels::These(levels) => levels,
+            Levels::All if renderers.is_empty() => &[Simd::Auto],
+            Levels::All => &[],
+        };
+        for simd in named {
+            let renderer = renderer(engine, Some(*simd), Renderer::LECTURE)?;
+            if !renderers.contains(&renderer) {
+                renderers.push(renderer);
+            }
         }
+        Ok(renderers)
     }
-    Ok(Levels(levels))
+}
+
+/// As [`renderer`], of flags of which either may be missing: `--engine auto` alone is the fastest.
+pub fn renderer_of(
+    engine: Option<ScanlineEngine>,
+    simd: Option<Simd>,
+    usual: Renderer,
+) -> Result<Renderer, String> {
+    match (engine, simd) {
+        (Some(ScanlineEngine(None)), None) => renderer(None, Some(Simd::Auto), usual),
+        (engine, simd) => renderer(
+            engine.and_then(|ScanlineEngine(engine)| engine),
+            simd,
+            usual,
+        ),
+    }
 }
 
 /// How methods are drawn where they are compared with the lecture.
 #[derive(clap::Args, Clone, Debug)]
 pub struct LectureFlags {
-    /// What finds the pixels: `span`, the lecture's way, `row`, or `auto`, the one that suits method and scene
-    #[arg(long, default_value = "span", value_parser = scanline_engine)]
-    engine: ScanlineEngine,
-    /// Instruction set of the pixel loops: see `fastphong list simd`. `--engine span --simd scalar` is the lecture's own
-    /// form, on one thread
-    #[arg(long, value_name = "LEVEL", default_value = "scalar", value_parser = simd)]
-    simd: Simd,
+    /// What finds the pixels: `span`, the lecture's way, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
+    /// where it can draw the frame [default: span]
+    #[arg(long, value_parser = scanline_engine)]
+    engine: Option<ScanlineEngine>,
+    /// Instruction set of the pixel loops: `scalar` is the span engine, any other of `fastphong list simd` and `auto` are the
+    /// row engine [default: scalar]
+    #[arg(long, value_name = "LEVEL", value_parser = simd)]
+    simd: Option<Simd>,
     #[command(flatten)]
     pub threads: ThreadFlags,
 }
 
 impl LectureFlags {
     /// How to draw.
-    pub fn renderer(&self) -> Renderer {
-        Renderer {
-            engine: self.engine.0,
-            level: self.simd.level(),
-        }
+    ///
+    /// # Errors
+    /// As [`renderer`].
+    pub fn renderer(&self) -> Result<Renderer, Failure> {
+        Ok(renderer_of(self.engine, self.simd, Renderer::LECTURE)?)
     }
 
     /// Does `work` on as many threads as asked for.
+    ///
+    /// # Errors
+    /// As [`renderer`], and when the system does not give that many threads.
     pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-        self.threads.install_for(self.renderer(), work)
+        self.threads.install_for(self.renderer()?, work)
     }
 }
 

@@ -118,7 +118,7 @@ impl FrameTiming<'_> {
                         timing,
                     } = self.how.threads.install_for(*renderer, draw)??;
                     if let Some(reason) = plan.reason {
-                        let Plan { engine, level, .. } = plan;
+                        let (engine, level) = (plan.renderer.engine(), plan.renderer.level());
                         let text = format!(
                             "{name}: {variant} is drawn by the {engine} engine, {level}: {reason}"
                         );
@@ -186,11 +186,12 @@ impl FrameTime {
             drawn,
         } = self;
         let Drawn {
-            plan: Plan { engine, level, .. },
+            plan,
             threads,
             size: [width, height],
             ..
         } = drawn;
+        let (engine, level) = (plan.renderer.engine(), plan.renderer.level());
         let [median, min] = self.milliseconds();
         format!(
             "{input} {width}x{height} {method} engine {engine} level {level} threads {threads} frames {} ms_median \
@@ -212,8 +213,8 @@ impl FrameTime {
             "width": width,
             "height": height,
             "method": self.method,
-            "engine": plan.engine.name(),
-            "level": plan.level.name(),
+            "engine": plan.renderer.engine().name(),
+            "level": plan.renderer.level().name(),
             "threads": threads,
             "reason": plan.reason,
             "frames": self.count.frames,

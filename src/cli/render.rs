@@ -2,7 +2,7 @@
 
 use super::aov::Aov;
 use super::drawing::{self, Content, Drawing, Method};
-use super::engines::{self, Engine, Simd, ThreadFlags};
+use super::engines::{self, Engine, Simd, ThreadFlags, renderer};
 use super::output::{self, Output};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
@@ -14,6 +14,7 @@ use fastphong::frame::{Frame, FrameStats};
 use fastphong::image_file::Format;
 use fastphong::input;
 use fastphong::painter::{Conflicts, conflicts};
+use fastphong::raster::Renderer;
 use fastphong::scene::HiddenSurfaces;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -33,13 +34,14 @@ pub struct Render {
     /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
     #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
     method: Method,
-    /// What finds the pixels: `span`, the lecture's way (also called `scanline`); `row`; `auto`, the faster of the two;
-    /// `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See `fastphong
+    /// What finds the pixels: `span`, the lecture's way, one pixel at a time (also called `scanline`); `row`, SIMD; `auto`,
+    /// `row` where it can draw the frame; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See `fastphong
     /// list engines`
     #[arg(long, default_value = "auto", value_parser = engines::engine)]
     engine: Engine,
-    /// Instruction set of the pixel loops: `auto`, the best of this machine, or one of `fastphong list simd`. `--engine span
-    /// --simd scalar` is the lecture's own form: one thread, the same bytes on every platform
+    /// Instruction set of the pixel loops: `auto`, the best of this machine, or one of `fastphong list simd`: `scalar` is the
+    /// span engine, any other the row engine. `--simd scalar` is the lecture's own form: one thread, the same bytes on every
+    /// platform
     #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = engines::simd)]
     simd: Simd,
     #[command(flatten)]
@@ -85,6 +87,7 @@ impl Render {
             },
             _ => |text| to_stdout(text.as_bytes()),
         };
+        let content = self.content()?;
         let mut file = self.scene.load(&self.input)?;
         let progress = Progress::watched(talk);
         progress.at(0.0, "loading");
@@ -125,7 +128,7 @@ impl Render {
         }
         progress.at(0.5, "shading");
         let drawing = progress.aside(|| {
-            let drawing = Drawing::new(frame, self.content(), talk)?;
+            let drawing = Drawing::new(frame, content, talk)?;
             drawing.tell(self.threads.threads, talk);
             Ok::<_, Failure>(drawing)
         })?;
@@ -204,11 +207,16 @@ impl Render {
         Ok(())
     }
 
-    fn content(&self) -> Content {
-        match self.aov {
-            Some(aov) => Content::Aov(aov, self.square),
-            None => Content::Shaded(self.method.clone(), self.engine, self.simd),
+    fn content(&self) -> Result<Content, Failure> {
+        if let Some(aov) = self.aov {
+            return Ok(Content::Aov(aov, self.square));
         }
+        let renderer = match self.engine {
+            Engine::Scanlines(engine) => renderer(engine, Some(self.simd), Renderer::fastest())?,
+            Engine::Barycentric(_) | Engine::Cs171 { .. } => Renderer::LECTURE,
+        };
+        let method = self.method.clone();
+        Ok(Content::Shaded(method, self.engine, self.simd, renderer))
     }
 
     fn what(&self) -> String {

@@ -168,7 +168,7 @@ impl Report {
             frame: &frame,
         };
         // Comparing is most of the work; pictures are encoded in the rest.
-        let options = self.timing.options(self.drawn.renderer());
+        let options = self.timing.options(self.drawn.renderer()?);
         let comparison = compare(
             &input,
             &self.timing.methods.0,

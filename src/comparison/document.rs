@@ -4,7 +4,7 @@ use super::{Comparison, Row, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::bench::{Machine, Ratio, Timing};
 use crate::frame::FrameStats;
 use crate::metrics::Difference;
-use crate::raster::{Engine, Renderer};
+use crate::raster::Renderer;
 use crate::scene::{Encoding, Interpolation};
 use crate::shader::Parameter;
 use alloc::collections::BTreeMap;
@@ -63,9 +63,9 @@ pub struct ComparisonData {
 /// How the variants were to be drawn; a row says how it was.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RendererData {
-    /// `span`, `row`, or `auto`: for each row the one that is faster for most frames.
+    /// `span` or `row`.
     pub engine: String,
-    /// The instruction set of the pixel loops: `scalar`, `sse4.2`, `avx2` or `neon`.
+    /// The instruction set of the pixel loops: `scalar`, `avx2` or `neon`.
     pub level: String,
     /// Threads.
     pub threads: usize,
@@ -80,11 +80,19 @@ impl Default for RendererData {
 
 impl RendererData {
     pub(super) fn new(renderer: Renderer, threads: usize) -> Self {
-        let engine = renderer.engine.map_or("auto", Engine::name).to_string();
         RendererData {
-            engine,
-            level: renderer.level.name().to_string(),
+            engine: renderer.engine().name().to_string(),
+            level: renderer.level().name().to_string(),
             threads,
+        }
+    }
+
+    /// What drew a row.
+    pub(super) fn of_row(row: &Row) -> Self {
+        RendererData {
+            engine: row.engine.name().to_string(),
+            level: row.level.name().to_string(),
+            threads: row.threads,
         }
     }
 
@@ -95,12 +103,8 @@ impl RendererData {
             level,
             threads,
         } = self;
-        let engine = match engine.as_str() {
-            "auto" => "the engine that suits each".to_string(),
-            engine => alloc::format!("the {engine} engine"),
-        };
         alloc::format!(
-            "{engine}, {level}, {threads} thread{}",
+            "the {engine} engine, {level}, {threads} thread{}",
             if *threads == 1 { "" } else { "s" }
         )
     }

@@ -61,7 +61,7 @@ use crate::frame::{Frame, FrameStats};
 use crate::metrics::Difference;
 use crate::number::Level;
 use crate::picture::{LinearPicture, Picture8};
-use crate::raster::{self, Plan, Renderer, coverage};
+use crate::raster::{self, Renderer, coverage};
 use crate::scene::{Encoding, Interpolation};
 use crate::shader::{METHODS, Variant};
 use alloc::string::{String, ToString};
@@ -176,7 +176,7 @@ pub struct Row {
     pub engine: Engine,
     /// The instruction set of its pixel loops.
     pub level: Level,
-    /// How many threads walked and shaded its pixels: [`Plan::threads`].
+    /// How many threads walked and shaded its pixels: [`Renderer::threads`].
     pub threads: usize,
     /// Its difference from the Phong reference: see [`WHAT_IS_COMPARED`].
     pub error: Difference,
@@ -281,19 +281,10 @@ pub fn compare(
         fragments,
         stats: frame.stats(),
         renderer: options.renderer,
-        threads: plan_of(options.renderer).threads(),
+        threads: options.renderer.threads(),
         reference: references.phong,
         rows,
         barycentric,
-    }
-}
-
-/// What `renderer` does where it can do as it says.
-fn plan_of(renderer: Renderer) -> Plan {
-    Plan {
-        engine: renderer.engine.unwrap_or(raster::Engine::Row),
-        level: renderer.level,
-        reason: None,
     }
 }
 

@@ -73,7 +73,7 @@ impl References {
 
     /// The row of a variant as `renderer` draws it, without times.
     pub fn scanline_row(&self, frame: &Frame, variant: &Variant, renderer: Renderer) -> Row {
-        let plan = variant.plan(frame, renderer);
+        let drawn_by = variant.plan(frame, renderer).renderer;
         let linear = variant.render_linear_with(frame, renderer);
         let seen = &self.closed_forms.visibility.polygons;
         let (error, other_polygon) = difference(&self.phong, &linear, seen, &self.scanline);
@@ -93,9 +93,9 @@ impl References {
         variant.render_with(frame, renderer, &mut picture);
         Row {
             variant: variant.clone(),
-            engine: Engine::Scanlines(plan.engine),
-            level: plan.level,
-            threads: plan.threads(),
+            engine: Engine::Scanlines(drawn_by.engine()),
+            level: drawn_by.level(),
+            threads: drawn_by.threads(),
             error,
             own,
             bound: variant.bound(frame),

@@ -41,7 +41,7 @@ pub(super) fn take(
     for row in rows.iter().chain(barycentric.iter()) {
         let variant = &row.variant;
         candidates.push(match row.engine {
-            Engine::Scanlines(_) if variant.plan(frame, renderer).is_lectures_own() => {
+            Engine::Scanlines(_) if variant.plan(frame, renderer).renderer == Renderer::Span => {
                 Box::new(move || {
                     black_box(variant.render(black_box(frame)));
                 })

@@ -3,7 +3,6 @@
 use super::{BASELINE, Comparison, Engine, RendererData, Row, Speed};
 use crate::bench::Ratio;
 use crate::metrics::Difference;
-use crate::raster::Renderer;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -190,14 +189,7 @@ fn head(c: &Comparison) -> String {
 fn drawn_by(c: &Comparison) -> Vec<(String, String)> {
     let mut groups: Vec<(String, Vec<String>)> = Vec::new();
     for row in &c.rows {
-        let Engine::Scanlines(engine) = row.engine else {
-            continue;
-        };
-        let renderer = Renderer {
-            engine: Some(engine),
-            level: row.level,
-        };
-        let line = RendererData::new(renderer, row.threads).line();
+        let line = RendererData::of_row(row).line();
         match groups.iter_mut().find(|(other, _)| *other == line) {
             Some((_, names)) => names.push(row.name()),
             None => groups.push((line, Vec::from([row.name()]))),

@@ -119,12 +119,6 @@ pub(crate) fn on_wide_level<J: LanesJob>(level: Level, job: J) -> Result<J::Out,
         let here = fearless_simd::Level::new();
         match level {
             #[cfg(target_arch = "x86_64")]
-            Level::Sse42 => {
-                if let Some(token) = here.as_sse4_2() {
-                    return Ok(job.run(Wide(token)));
-                }
-            }
-            #[cfg(target_arch = "x86_64")]
             Level::Avx2 => {
                 if let Some(token) = here.as_avx2() {
                     return Ok(job.run(Wide(token)));

@@ -11,8 +11,6 @@ pub enum Level {
     /// One pixel at a time, in plain `f32`: the same bits on every platform.
     #[default]
     Scalar,
-    /// Eight pixels at a time in two registers of 128 bits (x86-64-v2).
-    Sse42,
     /// Eight pixels at a time in one register of 256 bits, with fused multiplication and addition (x86-64-v3).
     Avx2,
     /// Eight pixels at a time in two registers of 128 bits, with fused multiplication and addition (64 bit ARM).
@@ -21,7 +19,7 @@ pub enum Level {
 
 impl Level {
     /// All that there are, from the least to the most.
-    pub const ALL: [Level; 4] = [Level::Scalar, Level::Sse42, Level::Avx2, Level::Neon];
+    pub const ALL: [Level; 3] = [Level::Scalar, Level::Avx2, Level::Neon];
 
     /// The best that this machine has.
     pub fn best() -> Level {
@@ -53,7 +51,6 @@ impl Level {
     pub fn name(self) -> &'static str {
         match self {
             Level::Scalar => "scalar",
-            Level::Sse42 => "sse4.2",
             Level::Avx2 => "avx2",
             Level::Neon => "neon",
         }
@@ -63,7 +60,6 @@ impl Level {
     pub fn title(self) -> &'static str {
         match self {
             Level::Scalar => "one pixel at a time, the same bits on every platform",
-            Level::Sse42 => "eight pixels at a time in two registers (x86-64-v2)",
             Level::Avx2 => {
                 "eight pixels at a time in one register, with fused multiply-add (x86-64-v3)"
             }
@@ -91,12 +87,16 @@ impl FromStr for Level {
         match Level::ALL.into_iter().find(|level| level.name() == name) {
             Some(level) if level.is_available() => Ok(level),
             Some(level) => Err(LevelError::Unavailable { level }),
+            None if name == RETIRED => Err(LevelError::Retired),
             None => Err(LevelError::Unknown {
                 name: name.to_string(),
             }),
         }
     }
 }
+
+/// The name of a level that there was.
+const RETIRED: &str = "sse4.2";
 
 /// Why a name means no level of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -106,6 +106,8 @@ pub enum LevelError {
         /// The name given.
         name: String,
     },
+    /// There is no such level any more.
+    Retired,
     /// This machine does not have it.
     Unavailable {
         /// The level named.
@@ -124,6 +126,12 @@ impl fmt::Display for LevelError {
                 )?,
                 None => write!(f, "unknown instruction set `{name}`")?,
             },
+            LevelError::Retired => {
+                return write!(
+                    f,
+                    "`{RETIRED}` is no longer compiled for: use `scalar` for one pixel at a time, or `auto`"
+                );
+            }
             LevelError::Unavailable { level } => write!(f, "this machine does not have `{level}`")?,
         }
         f.write_str(": expected `auto`")?;

@@ -13,8 +13,6 @@ pub(super) fn is_available(level: Level) -> bool {
     match level {
         Level::Scalar => true,
         #[cfg(target_arch = "x86_64")]
-        Level::Sse42 => here.as_sse4_2().is_some(),
-        #[cfg(target_arch = "x86_64")]
         Level::Avx2 => here.as_avx2().is_some(),
         #[cfg(target_arch = "aarch64")]
         Level::Neon => here.as_neon().is_some(),

@@ -4,7 +4,6 @@ use super::rows::{Band, Batch, Fragments, Starts};
 use super::sink::{Filtered, RowSink, Stored};
 use super::target::Texel;
 use crate::frame::Frame;
-use crate::number::Level;
 use crate::parallel::{for_each_chunk, threads};
 use crate::picture::Picture;
 use alloc::vec;
@@ -32,22 +31,15 @@ pub(crate) trait Bands {
     fn each(&mut self, height: usize, draw: &DrawBand<'_>);
 }
 
-/// The picture of a frame, to be drawn on an instruction set.
+/// The picture of a frame.
 pub(crate) struct PictureBands<'a, T> {
     pub frame: &'a Frame,
-    pub level: Level,
     pub picture: &'a mut Picture<T>,
 }
 
 impl<T: Texel> Bands for PictureBands<'_, T> {
     fn each(&mut self, height: usize, draw: &DrawBand<'_>) {
-        draw_bands(
-            self.frame,
-            self.level,
-            (height, 0),
-            self.picture.texels_mut(),
-            draw,
-        );
+        draw_bands(self.frame, (height, 0), self.picture.texels_mut(), draw);
     }
 }
 
@@ -57,7 +49,6 @@ const BANDS_A_THREAD: usize = 4;
 /// A picture of bytes that is never there as a whole: its texels are given away from the top, some bands at a time.
 pub(crate) struct StreamedBands<'a> {
     pub frame: &'a Frame,
-    pub level: Level,
     /// Takes the next texels; whether it wants more.
     pub take: &'a mut dyn FnMut(&[[u8; 4]]) -> bool,
 }
@@ -73,7 +64,7 @@ impl Bands for StreamedBands<'_> {
         let mut window = vec![[0; 4]; (bands * texels_a_band).min(all)];
         for first in (0..all.div_ceil(texels_a_band)).step_by(bands) {
             let end = window.len().min(all - first * texels_a_band);
-            draw_bands(frame, self.level, (height, first), &mut window[..end], draw);
+            draw_bands(frame, (height, first), &mut window[..end], draw);
             if !(self.take)(&window[..end]) {
                 return;
             }
@@ -84,7 +75,6 @@ impl Bands for StreamedBands<'_> {
 /// Draws bands of `height` scanlines of samples from the `first` on: as many as `texels` has.
 fn draw_bands<T: Texel>(
     frame: &Frame,
-    level: Level,
     (height, first): (usize, usize),
     texels: &mut [T],
     draw: &DrawBand<'_>,
@@ -105,7 +95,6 @@ fn draw_bands<T: Texel>(
                     texels,
                     width,
                     background,
-                    level,
                 },
             ),
             _ => draw(number, rows, scratch, &mut Filtered::new(frame, texels)),

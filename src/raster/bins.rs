@@ -11,20 +11,6 @@ const CHUNK: usize = 1 << 13;
 /// Polygons that are read, and then bounded, together.
 const GROUP: usize = 64;
 
-/// What stands for a polygon in the list of a band.
-pub(crate) trait Entry: Copy + Default + Send + Sync {
-    /// That of polygon `number`, with its corners, or [`Listed::OTHER`] if it is no triangle.
-    fn new(number: u32, corners: [u32; 3]) -> Self;
-}
-
-/// Its number alone.
-impl Entry for u32 {
-    #[inline(always)]
-    fn new(number: u32, _: [u32; 3]) -> u32 {
-        number
-    }
-}
-
 /// A polygon with its corners, if it is a triangle. Who reads a band finds them in a row, where polygons and their corner
 /// lists are spread over memory: two reads of which the second waits for the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,25 +32,18 @@ impl Listed {
     }
 }
 
-impl Entry for Listed {
-    #[inline(always)]
-    fn new(number: u32, corners: [u32; 3]) -> Listed {
-        Listed { number, corners }
-    }
-}
-
 /// Polygons by band of scanlines, each band's in drawing order. Those that cover no pixel centre by their bounding box are
 /// left out.
 #[derive(Debug)]
-pub(crate) struct Bins<E> {
-    chunks: Vec<Chunk<E>>,
+pub(crate) struct Bins {
+    chunks: Vec<Chunk>,
 }
 
 /// Polygons that follow one another, by band; after the last band, those that are in none.
 #[derive(Clone, Debug, Default)]
-struct Chunk<E> {
+struct Chunk {
     starts: Vec<u32>,
-    polygons: Vec<E>,
+    polygons: Vec<Listed>,
     /// Whether none has more than three corners.
     are_triangles: bool,
 }
@@ -73,7 +52,7 @@ struct Chunk<E> {
 /// [`MAX_SIDE`](crate::scene::Scene::MAX_SIDE) bands.
 type Ranges = [[u16; CHUNK]; 2];
 
-impl<E: Entry> Bins<E> {
+impl Bins {
     /// The polygons of `frame` in bands of `height` scanlines, a power of two.
     pub fn new(frame: &Frame, height: usize) -> Self {
         let chunks = frame.polygons().len().div_ceil(CHUNK);
@@ -90,14 +69,14 @@ impl<E: Entry> Bins<E> {
     }
 
     /// The polygons that may cover pixels of band `band`, by ascending numbers from list to list and within each.
-    pub fn band(&self, band: usize) -> impl Iterator<Item = &[E]> {
+    pub fn band(&self, band: usize) -> impl Iterator<Item = &[Listed]> {
         self.chunks.iter().map(move |chunk| {
             &chunk.polygons[chunk.starts[band] as usize..chunk.starts[band + 1] as usize]
         })
     }
 }
 
-impl<E: Entry> Chunk<E> {
+impl Chunk {
     /// The polygons from number `first` on: a counting sort. Every polygon is in some list, if only in that of those which
     /// are in no band: that most have one place cannot be guessed wrong then.
     fn new(frame: &Frame, height: usize, first: usize) -> Self {
@@ -115,9 +94,9 @@ impl<E: Entry> Chunk<E> {
                 count(&ranges, all.len(), &mut starts);
             },
         );
-        let mut polygons = vec![E::default(); starts[bands + 1] as usize];
+        let mut polygons = vec![Listed::default(); starts[bands + 1] as usize];
         let mut next = starts.clone();
-        let mut put = |band: u16, entry: E| {
+        let mut put = |band: u16, entry: Listed| {
             let place = &mut next[usize::from(band)];
             polygons[*place as usize] = entry;
             *place += 1;
@@ -156,16 +135,16 @@ fn count(ranges: &Ranges, polygons: usize, starts: &mut [u32]) {
 /// The bands of `height` scanlines whose pixel centres the bounding box of each polygon holds, and what stands for it in their
 /// lists; the first polygon has number `number`. Gives whether all are triangles.
 #[inline(always)]
-fn find_ranges<E: Entry>(
+fn find_ranges(
     frame: &Frame,
     number: usize,
     polygons: &[Polygon],
     height: usize,
     ranges: &mut Ranges,
-    entries: &mut Vec<E>,
+    entries: &mut Vec<Listed>,
 ) -> bool {
     let mut corners = [[[0; 2]; GROUP]; 4];
-    let mut read_entries = [E::default(); GROUP];
+    let mut read_entries = [Listed::default(); GROUP];
     let (limit, log_height) = (
         [[frame.width() as i32, frame.height() as i32]; GROUP],
         height.trailing_zeros(),
@@ -253,12 +232,12 @@ fn flat(places: &Places) -> &[i32] {
 /// polygons of more than four corners are two corners of their bounding boxes. What stands for the
 /// polygons, from number `number` on, is made of what is read anyway. Gives whether all are triangles.
 #[inline(always)]
-fn read<E: Entry>(
+fn read(
     frame: &Frame,
     number: u32,
     polygons: &[Polygon],
     corners: &mut [Places; 4],
-    entries: &mut [E; GROUP],
+    entries: &mut [Listed; GROUP],
 ) -> bool {
     let (vertices, shared) = (frame.vertices(), &frame.geometry.corners[..]);
     let mut are_triangles = true;
@@ -290,7 +269,10 @@ fn read<E: Entry>(
             listed = *frame.corners(polygon).as_array().unwrap_or(&Listed::OTHER);
             are_triangles &= polygon.count == 3;
         }
-        entries[k] = E::new(number + k as u32, listed);
+        entries[k] = Listed {
+            number: number + k as u32,
+            corners: listed,
+        };
     }
     are_triangles
 }

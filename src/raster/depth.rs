@@ -1,6 +1,7 @@
 //! Depth at a sample: from what is interpolated to what is compared.
 
 use crate::frame::{DepthRange, Frame, ScreenVertex};
+use crate::number::{Lanes, Num};
 use crate::scene::{Clipping, DepthBits, DepthSource, HiddenSurfaces};
 
 /// How depth is made of the values at the corners, and how it is kept.
@@ -64,6 +65,21 @@ impl SampleDepth {
         self.hides
     }
 
+    /// True if depth is interpolated, not computed at each sample.
+    pub fn is_interpolated(&self) -> bool {
+        self.quantity == Quantity::Depth
+    }
+
+    /// True if samples outside of the NDC cube are not drawn.
+    pub fn is_cut_by_cube(&self) -> bool {
+        self.cube
+    }
+
+    /// Returns the largest level of the depth buffer, if it keeps whole numbers.
+    pub fn most(&self) -> Option<u32> {
+        self.most
+    }
+
     /// Whether what is interpolated is what is compared, and nothing else is asked.
     pub fn is_plain(&self) -> bool {
         self.quantity == Quantity::Depth && self.most.is_none() && !self.cube
@@ -97,7 +113,7 @@ impl SampleDepth {
 
     /// What the depth buffer keeps of `z`: the float itself, or a whole number of 0..=2ᵇ − 1, which an `f32` holds.
     #[inline(always)]
-    fn kept(&self, z: f32) -> f32 {
+    pub fn kept(&self, z: f32) -> f32 {
         match self.most {
             None => z,
             // The product has at most 48 bits: exact in f64, and the conversion clamps at both ends.
@@ -112,6 +128,28 @@ impl SampleDepth {
             _ => kept,
         }
     }
+}
+
+/// Returns the depths `z` of a group as levels of a depth buffer whose largest is `most`, which is below 2²⁴: exactly as
+/// [`SampleDepth::kept`] does, half-way up. For machines whose products are fused with sums.
+///
+/// ```text
+/// c = ⌊fl(z most)⌋,    level = c + [z most − c ≥ ½]
+/// ```
+/// The rounded product fl(z most) may reach the next whole number c, but then z most is nearer than ½ to it, and the level is
+/// c. Below 2²³ the difference from c + ½, which is exact there, is rounded once and keeps its sign. From 2²³ on z is ½ or
+/// more, so that z most − c is a multiple of 2⁻²⁴ of at most ½, which is exact.
+#[inline(always)]
+pub fn level_of<M: Lanes>(m: M, z: M::F, most: M::F) -> M::F {
+    let z = z.max(m.splat(0.0)).min(m.splat(1.0));
+    let (half, one) = (m.splat(0.5), m.splat(1.0));
+    let below = m.number(m.truncated(z * most));
+    let over = m.blend(
+        m.less(below, m.splat(8_388_608.0)),
+        z.mul_sub(most, below + half),
+        z.mul_sub(most, below) - half,
+    );
+    m.blend(m.less(over, m.splat(0.0)), below, below + one)
 }
 
 #[cfg(test)]
@@ -155,5 +193,67 @@ mod tests {
             [0.0, 65535.0, f32::INFINITY].map(|kept| sixteen.shown(kept)),
             [0.0, 1.0, f32::INFINITY]
         );
+    }
+
+    /// The levels of some depths, a group at a time.
+    #[cfg(feature = "simd")]
+    struct Levels<'a>(&'a [f32], u32);
+
+    #[cfg(feature = "simd")]
+    impl crate::number::LanesJob for Levels<'_> {
+        type Out = alloc::vec::Vec<f32>;
+
+        fn run<M: Lanes>(self, m: M) -> alloc::vec::Vec<f32> {
+            let Levels(depths, most) = self;
+            let mut levels = alloc::vec![0.0; depths.len()];
+            m.vectorize(
+                #[inline(always)]
+                || {
+                    for x in (0..depths.len()).step_by(M::WIDTH) {
+                        let kept = level_of(m, m.load(&depths[x..]), m.splat(most as f32));
+                        m.store(kept, &mut levels[x..]);
+                    }
+                },
+            );
+            levels
+        }
+    }
+
+    /// A group's levels are those of its samples one by one, around every border between two levels of 16 bits and many of 24.
+    #[cfg(feature = "simd")]
+    #[test]
+    fn groups_keep_the_same_levels() {
+        use crate::number::{Level, on_level};
+        let mut random = crate::test_random::Random::new(61);
+        for bits in [DepthBits::Sixteen, DepthBits::TwentyFour] {
+            let rule = keeping(bits);
+            let most = bits.most().expect("levels");
+            let step = if most < 1 << 16 { 1 } else { 101 };
+            let mut depths = alloc::vec![-1.0, -1e-9, -0.0, 0.0, 1e-30, 1.0, 1.000_001, 7.0];
+            let mut level = 0;
+            while level < most {
+                let border = ((f64::from(level) + 0.5) / f64::from(most)) as f32;
+                let (below, above) = (border.next_down(), border.next_up());
+                let middle = (f64::from(level) / f64::from(most)) as f32;
+                depths.extend([
+                    below.next_down(),
+                    below,
+                    border,
+                    above,
+                    above.next_up(),
+                    middle,
+                ]);
+                level += step;
+            }
+            depths.extend((0..1 << 16).map(|_| random.signed().abs()));
+            depths.extend((0..1 << 16).map(|_| random.signed().abs() / most as f32));
+            depths.resize(depths.len().next_multiple_of(8), 0.5);
+            for level in Level::available().skip(1) {
+                let found = on_level(level, Levels(&depths, most));
+                for (z, found) in depths.iter().zip(found) {
+                    assert_eq!(found, rule.kept(*z), "{level}, {most}: {z:e}");
+                }
+            }
+        }
     }
 }

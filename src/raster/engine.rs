@@ -1,4 +1,4 @@
-//! Which loops draw a frame, and on which instruction set.
+//! Which engine draws a frame: the span engine is scalar, the row engine SIMD.
 
 use crate::number::Level;
 use crate::suggest::nearest;
@@ -10,9 +10,10 @@ use core::str::FromStr;
 /// The loops that draw a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engine {
-    /// Active edges, a depth buffer of one line, and visible runs that are walked and shaded once: the lecture's way.
+    /// One pixel at a time: active edges, a depth buffer of one line, and visible runs that are walked and shaded once, the
+    /// lecture's way.
     Span,
-    /// Bands of scanlines, whose interpolants are kept in planes until each row is shaded once.
+    /// Eight pixels at a time: bands of scanlines, whose interpolants are kept in planes until each row is shaded once.
     Row,
 }
 
@@ -32,9 +33,11 @@ impl Engine {
     pub fn title(self) -> &'static str {
         match self {
             Engine::Span => {
-                "active edges, a depth buffer of one line, visible runs walked and shaded once: the lecture's way"
+                "one pixel at a time: active edges, a depth buffer of one line, visible runs shaded once: the lecture's way"
             }
-            Engine::Row => "bands of scanlines, interpolants kept in planes, each row shaded once",
+            Engine::Row => {
+                "SIMD: bands of scanlines, interpolants kept in planes, each row shaded once"
+            }
         }
     }
 }
@@ -59,57 +62,71 @@ impl FromStr for Engine {
     }
 }
 
-/// How a frame is drawn: by which loops, on which instruction set. On how many threads, the current pool of `rayon` says
-/// (feature `threads`).
+/// What draws a frame, and on what. On how many threads, the current pool of `rayon` says (feature `threads`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Renderer {
-    /// The loops; `None` leaves the choice to [`crate::shader::Variant::plan`].
-    pub engine: Option<Engine>,
-    /// The instruction set of the pixel loops; one that this machine does not have runs as [`Level::Scalar`].
-    pub level: Level,
+pub enum Renderer {
+    /// The span engine, one pixel at a time.
+    #[default]
+    Span,
+    /// The row engine on these SIMD instructions. On [`Level::Scalar`], or where this machine does not have them, the span
+    /// engine draws: see [`crate::shader::Variant::plan`].
+    Row(Level),
 }
 
 impl Renderer {
     /// The lecture's own form: spans, one pixel at a time, on one thread. Its pictures are the same bits on every platform,
     /// and it is what every other is measured against.
-    pub const LECTURE: Renderer = Renderer {
-        engine: Some(Engine::Span),
-        level: Level::Scalar,
-    };
+    pub const LECTURE: Renderer = Renderer::Span;
 
-    /// The fastest that this machine has.
+    /// Returns the engine that runs on `level`: the span engine on [`Level::Scalar`], the row engine on any other.
+    pub fn on(level: Level) -> Renderer {
+        match level {
+            Level::Scalar => Renderer::Span,
+            level => Renderer::Row(level),
+        }
+    }
+
+    /// Returns the fastest that this machine has.
     pub fn fastest() -> Renderer {
-        Renderer {
-            engine: None,
-            level: Level::best(),
+        Renderer::on(Level::best())
+    }
+
+    /// Returns all that this machine has, the lecture's own form first.
+    pub fn available() -> impl Iterator<Item = Renderer> {
+        Level::available().map(Renderer::on)
+    }
+
+    /// Returns the loops.
+    pub fn engine(self) -> Engine {
+        match self {
+            Renderer::Span => Engine::Span,
+            Renderer::Row(_) => Engine::Row,
+        }
+    }
+
+    /// Returns the instruction set of the pixel loops.
+    pub fn level(self) -> Level {
+        match self {
+            Renderer::Span => Level::Scalar,
+            Renderer::Row(level) => level,
+        }
+    }
+
+    /// Returns how many threads walk and shade its pixels: one in the span engine, in the row engine those of the current
+    /// pool of `rayon`, which is one without the feature `threads`. Vertices are lit on all of the pool by both.
+    pub fn threads(self) -> usize {
+        match self {
+            Renderer::Span => 1,
+            Renderer::Row(_) => crate::parallel::threads(),
         }
     }
 }
 
-/// How a frame is drawn indeed: see [`crate::shader::Variant::plan`].
+/// What draws a frame indeed: see [`crate::shader::Variant::plan`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// The loops.
-    pub engine: Engine,
-    /// The instruction set. [`Engine::Span`] on [`Level::Scalar`] is the lecture's own form, on one thread.
-    pub level: Level,
+    /// What draws it.
+    pub renderer: Renderer,
     /// Why it is not what was asked for, if it is not.
     pub reason: Option<&'static str>,
-}
-
-impl Plan {
-    /// Whether this is the lecture's own form, [`Renderer::LECTURE`].
-    pub fn is_lectures_own(self) -> bool {
-        (Some(self.engine), self.level) == (Renderer::LECTURE.engine, Renderer::LECTURE.level)
-    }
-
-    /// How many threads walk and shade its pixels: one in the lecture's own form, in any other those of the current pool of
-    /// `rayon`, which is one without the feature `threads`. Vertices are lit on all of the pool in every form.
-    pub fn threads(self) -> usize {
-        if self.is_lectures_own() {
-            1
-        } else {
-            crate::parallel::threads()
-        }
-    }
 }

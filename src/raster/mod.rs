@@ -23,7 +23,6 @@ pub(crate) mod rows;
 pub mod scanline;
 mod setup;
 mod sink;
-pub(crate) mod spans;
 mod supersampling;
 mod target;
 mod visibility;

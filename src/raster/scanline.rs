@@ -15,43 +15,34 @@ use crate::shader::{Shader, Span};
 use crate::walk::{Attribute, Walk};
 use alloc::vec;
 
-/// Goes down the scanlines of an edge table with the attributes of all vertices, and gives every one on which anything is
-/// drawn: its number, what is seen on it, and the active edges that its spans refer to.
-pub(super) fn scan<M: Machine, A: Attribute<M::One>>(
-    m: M,
-    frame: &Frame,
-    table: &EdgeTable,
-    attributes: &[A],
-    line: &mut VisibleLine,
-    visit: &mut Visit<'_, A::Edge>,
-) {
-    let mut active = ActiveEdges::new(SampleDepth::new(frame));
-    for row in table.rows() {
-        active.advance::<M, A>(row);
-        active.enter(m, frame, table, attributes, row);
-        if active.edges().is_empty() {
-            continue;
-        }
-        line.clear();
-        active.spans(frame.width() as u32, |span| line.draw(span));
-        visit(row, line, active.edges());
-    }
-}
-
 /// Takes a scanline. Behind a pointer, so that the loops are compiled once for each kind of attribute and not for each
 /// shader.
 pub(super) type Visit<'a, E> = dyn FnMut(usize, &VisibleLine, &[ActiveEdge<E>]) + 'a;
 
-/// [`scan`] over the whole picture.
+/// Goes down the scanlines of `frame` with the attributes of all vertices, and gives every one on which anything is drawn:
+/// its number, what is seen on it, and the active edges that its spans refer to.
 pub(super) fn scan_all<M: Machine, A: Attribute<M::One>>(
     m: M,
     frame: &Frame,
     attributes: &[A],
     visit: &mut Visit<'_, A::Edge>,
 ) {
-    let table = EdgeTable::of_all(frame);
-    let mut line = VisibleLine::new(frame.width(), SampleDepth::new(frame));
-    scan(m, frame, &table, attributes, &mut line, visit);
+    let table = EdgeTable::new(frame);
+    let depth = SampleDepth::new(frame);
+    let (mut line, mut active) = (
+        VisibleLine::new(frame.width(), depth),
+        ActiveEdges::new(depth),
+    );
+    for row in 0..frame.height() {
+        active.advance::<M, A>(row);
+        active.enter(m, frame, &table, attributes, row);
+        if active.edges().is_empty() {
+            continue;
+        }
+        line.clear();
+        active.spans(frame.width() as u32, |span| line.draw(span));
+        visit(row, &line, active.edges());
+    }
 }
 
 /// Draws `frame` with a shader into `target`.

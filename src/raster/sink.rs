@@ -2,7 +2,6 @@
 
 use super::target::Texel;
 use crate::frame::Frame;
-use crate::number::{Lanes, LanesJob, Level};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -26,7 +25,6 @@ pub(super) struct Stored<'a, T> {
     pub texels: &'a mut [T],
     pub width: usize,
     pub background: T,
-    pub level: Level,
 }
 
 impl<T: Texel> RowSink for Stored<'_, T> {
@@ -34,7 +32,14 @@ impl<T: Texel> RowSink for Stored<'_, T> {
         let texels = &mut self.texels[row * self.width..][..self.width];
         texels[..drawn.start].fill(self.background);
         texels[drawn.end..].fill(self.background);
-        T::pack(self.level, self.background, depth, rgb, &mut texels[drawn]);
+        let [r, g, b] = rgb;
+        for (i, texel) in texels[drawn].iter_mut().enumerate() {
+            *texel = if depth[i] < f32::INFINITY {
+                T::drawn([r[i], g[i], b[i]])
+            } else {
+                self.background
+            };
+        }
     }
 
     fn bytes(&mut self, row: usize) -> Option<(&mut [[u8; 4]], [u8; 4])> {
@@ -42,48 +47,6 @@ impl<T: Texel> RowSink for Stored<'_, T> {
             &mut self.texels[row * self.width..][..self.width],
             self.background,
         )
-    }
-}
-
-/// Packs colours into bytes on an instruction set.
-pub(super) struct Pack<'a> {
-    pub background: [u8; 4],
-    pub depth: &'a [f32],
-    pub rgb: [&'a [f32]; 3],
-    pub texels: &'a mut [[u8; 4]],
-}
-
-impl LanesJob for Pack<'_> {
-    type Out = ();
-
-    fn run<M: Lanes>(self, m: M) {
-        m.vectorize(
-            #[inline(always)]
-            || {
-                let Pack {
-                    background,
-                    depth,
-                    rgb: [r, g, b],
-                    texels,
-                } = self;
-                let nothing = m.splat(f32::INFINITY);
-                let whole = texels.len() / M::WIDTH * M::WIDTH;
-                let mut x = 0;
-                while x < texels.len() {
-                    let covered = m.less(m.load(&depth[x..]), nothing);
-                    let rgb = [m.load(&r[x..]), m.load(&g[x..]), m.load(&b[x..])];
-                    if x < whole {
-                        m.pack(rgb, covered, background, &mut texels[x..x + M::WIDTH]);
-                    } else {
-                        let mut rest = [[0; 4]; 8];
-                        m.pack(rgb, covered, background, &mut rest);
-                        let count = texels.len() - whole;
-                        texels[whole..].copy_from_slice(&rest[..count]);
-                    }
-                    x += M::WIDTH;
-                }
-            },
-        );
     }
 }
 

@@ -1,9 +1,7 @@
 //! Where finished runs of pixels go: a stored picture or a linear one.
 
-use super::sink::Pack;
 use crate::encoding::quantise;
 use crate::frame::Frame;
-use crate::number::{Level, on_level};
 use crate::picture::{LinearPicture, Picture, Picture8};
 
 /// A colour as it is stored.
@@ -14,9 +12,6 @@ pub(crate) trait Texel: Copy + Send + Sync {
     fn mixed(texel: [f32; 4]) -> Self;
     /// The background: clamped to 0..=1, transparent.
     fn background(rgb: [f32; 3]) -> Self;
-    /// A row of drawn colours, and `background` where `depth` is infinite; all but `texels` have a group of values more
-    /// than there are texels.
-    fn pack(level: Level, background: Self, depth: &[f32], rgb: [&[f32]; 3], texels: &mut [Self]);
     /// Texels and background as bytes, if that is what they are.
     fn bytes(texels: &mut [Self], background: Self) -> Option<(&mut [[u8; 4]], [u8; 4])> {
         let _ = (texels, background);
@@ -36,17 +31,6 @@ impl Texel for [u8; 4] {
         let [r, g, b, _] = Self::drawn(rgb);
         [r, g, b, 0]
     }
-    fn pack(level: Level, background: Self, depth: &[f32], rgb: [&[f32]; 3], texels: &mut [Self]) {
-        on_level(
-            level,
-            Pack {
-                background,
-                depth,
-                rgb,
-                texels,
-            },
-        );
-    }
     fn bytes(texels: &mut [Self], background: Self) -> Option<(&mut [[u8; 4]], [u8; 4])> {
         Some((texels, background))
     }
@@ -64,21 +48,6 @@ impl Texel for [f32; 4] {
     fn background(rgb: [f32; 3]) -> Self {
         let [r, g, b, _] = Self::drawn(rgb);
         [r, g, b, 0.0]
-    }
-    fn pack(
-        _: Level,
-        background: Self,
-        depth: &[f32],
-        [r, g, b]: [&[f32]; 3],
-        texels: &mut [Self],
-    ) {
-        for (i, texel) in texels.iter_mut().enumerate() {
-            *texel = if depth[i] < f32::INFINITY {
-                Self::drawn([r[i], g[i], b[i]])
-            } else {
-                background
-            };
-        }
     }
 }
 

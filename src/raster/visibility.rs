@@ -26,9 +26,6 @@ fn walk<'a>(
     }
 }
 
-/// Values behind the end of the line, so that a group of pixels may reach over it.
-const PADDING: usize = 16;
-
 /// The nearest span at each pixel of one scanline, and its depth.
 #[derive(Debug)]
 pub struct VisibleLine {
@@ -43,7 +40,7 @@ impl VisibleLine {
     pub fn new(width: usize, rule: SampleDepth) -> Self {
         VisibleLine {
             spans: Vec::new(),
-            depth: vec![f32::INFINITY; width + PADDING],
+            depth: vec![f32::INFINITY; width],
             seen: vec![NOTHING; width],
             drawn: 0..0,
             rule,
@@ -82,19 +79,7 @@ impl VisibleLine {
 
     /// Depth at each pixel, as finely as it is kept; infinite where nothing was drawn.
     pub fn depth(&self) -> impl Iterator<Item = f32> {
-        self.depth[..self.seen.len()]
-            .iter()
-            .map(|kept| self.rule.shown(*kept))
-    }
-
-    /// The pixels between which anything was drawn.
-    pub fn drawn(&self) -> Range<usize> {
-        self.drawn.clone()
-    }
-
-    /// What is kept of the depth from pixel `x` on: infinite where nothing was drawn.
-    pub fn kept_depth(&self, x: usize) -> &[f32] {
-        &self.depth[x..]
+        self.depth.iter().map(|kept| self.rule.shown(*kept))
     }
 
     /// The polygon seen at pixel `x`, or [`NOTHING`].

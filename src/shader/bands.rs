@@ -1,63 +1,42 @@
-//! From a method, an engine and an instruction set to loops over bands.
+//! From a method and a frame to the row engine's loops over bands.
 
-use super::dispatch::{Job, dispatch_wide};
+use super::dispatch::{Job, MOST_LIGHTS, dispatch_wide};
 use super::{Method, Shader};
 use crate::frame::Frame;
-use crate::number::{Lanes, LanesJob, Level, Scalar, on_level, on_wide_level};
-use crate::raster::{Bands, Engine, rows, spans};
+use crate::number::{Lanes, LanesJob, Level, Scalar, on_wide_level};
+use crate::raster::{Bands, rows};
 use core::marker::PhantomData;
 
-/// Whether an engine can draw a frame with a method, in bands.
-pub(super) fn can_draw<D: Method>(engine: Engine, frame: &Frame) -> bool {
-    struct Can<'a>(Engine, &'a Frame);
-    impl Job for Can<'_> {
-        type Out = bool;
-        fn run<S: Shader>(self) -> bool {
-            match self.0 {
-                Engine::Span => true,
-                Engine::Row => rows::can_draw::<S, Scalar>(self.1),
-            }
+/// Returns why the row engine cannot draw a frame with a method; `None` where it can.
+pub(super) fn refusal<D: Method>(frame: &Frame) -> Option<&'static str> {
+    struct Refusal<'a>(&'a Frame);
+    impl Job for Refusal<'_> {
+        type Out = Option<&'static str>;
+        fn run<S: Shader>(self) -> Option<&'static str> {
+            rows::refusal::<S, Scalar>(self.0)
         }
     }
-    dispatch_wide::<D, _>(frame, Can(engine, frame)).unwrap_or(false)
+    const { assert!(MOST_LIGHTS == 4) };
+    dispatch_wide::<D, _>(frame, Refusal(frame))
+        .unwrap_or(Some("the row engine has no more than four lights"))
 }
 
-/// Draws a frame that the engine can draw; whether it did. The span engine has no scalar level here: that is the lecture's
-/// own form, which draws on its own.
+/// Draws a frame that the row engine can draw; returns whether it did.
 pub(super) fn draw<D: Method>(
-    engine: Engine,
     frame: &Frame,
     parameters: &[u32],
     level: Level,
     bands: &mut dyn Bands,
 ) -> bool {
-    struct Draw<'a>(Engine, Level, &'a Frame, &'a [u32], &'a mut dyn Bands);
+    struct Draw<'a>(Level, &'a Frame, &'a [u32], &'a mut dyn Bands);
     impl Job for Draw<'_> {
         type Out = bool;
         fn run<S: Shader>(self) -> bool {
-            let Draw(engine, level, frame, parameters, bands) = self;
-            match engine {
-                Engine::Span => {
-                    on_wide_level(level, Spans::<S>(frame, parameters, bands, PhantomData)).is_ok()
-                }
-                Engine::Row => {
-                    on_level(level, Rows::<S>(frame, parameters, bands, PhantomData));
-                    true
-                }
-            }
+            let Draw(level, frame, parameters, bands) = self;
+            on_wide_level(level, Rows::<S>(frame, parameters, bands, PhantomData)).is_ok()
         }
     }
-    dispatch_wide::<D, _>(frame, Draw(engine, level, frame, parameters, bands)).unwrap_or(false)
-}
-
-struct Spans<'a, S>(&'a Frame, &'a [u32], &'a mut dyn Bands, PhantomData<S>);
-
-impl<S: Shader> LanesJob for Spans<'_, S> {
-    type Out = ();
-
-    fn run<M: Lanes>(self, m: M) {
-        spans::draw::<S, M>(m, self.0, self.1, self.2);
-    }
+    dispatch_wide::<D, _>(frame, Draw(level, frame, parameters, bands)).unwrap_or(false)
 }
 
 struct Rows<'a, S>(&'a Frame, &'a [u32], &'a mut dyn Bands, PhantomData<S>);

@@ -36,8 +36,8 @@ impl Variant {
         renderer: Renderer,
         mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>,
     ) -> Result<(), E> {
-        if frame.encoding() == Encoding::Linear {
-            let plan = self.plan(frame, renderer);
+        let drawn_by = self.plan(frame, renderer).renderer;
+        if let (Encoding::Linear, Renderer::Row(level)) = (frame.encoding(), drawn_by) {
             let mut taken = Ok(());
             let mut take = |texels: &[[u8; 4]]| {
                 taken = take(texels);
@@ -45,16 +45,9 @@ impl Variant {
             };
             let mut bands = StreamedBands {
                 frame,
-                level: plan.level,
                 take: &mut take,
             };
-            if (self.entry().draw_bands)(
-                plan.engine,
-                frame,
-                self.parameters(),
-                plan.level,
-                &mut bands,
-            ) {
+            if (self.entry().draw_bands)(frame, self.parameters(), level, &mut bands) {
                 return taken;
             }
         }

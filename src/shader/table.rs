@@ -14,8 +14,8 @@ use crate::number::{Level, Scalar};
 use crate::picture::Picture;
 use crate::picture::{LinearPicture, Picture8};
 use crate::raster::{
-    Bands, Edges, Engine, PictureBands, Plan, Renderer, Target, Texel, barycentric, clear,
-    draw_anyhow, draw_rows, linear_picture, picture8, scanline,
+    Bands, Edges, PictureBands, Plan, Renderer, Target, Texel, barycentric, clear, draw_anyhow,
+    draw_rows, linear_picture, picture8, scanline,
 };
 use crate::scene::Encoding;
 use crate::suggest::nearest;
@@ -46,8 +46,8 @@ pub struct Entry {
     /// What is said about it.
     pub info: &'static Info,
     draw: fn(&Frame, &[u32], &mut dyn Target),
-    can_draw: fn(Engine, &Frame) -> bool,
-    pub(super) draw_bands: fn(Engine, &Frame, &[u32], Level, &mut dyn Bands) -> bool,
+    refusal: fn(&Frame) -> Option<&'static str>,
+    pub(super) draw_bands: fn(&Frame, &[u32], Level, &mut dyn Bands) -> bool,
     draw_barycentric: Option<DrawBarycentric>,
     count: fn(&[u32], &SpanBench) -> OperationCounts,
     span: fn(&[u32], &SpanBench, &mut [[f32; 3]]),
@@ -66,7 +66,7 @@ impl Entry {
         Entry {
             info: &D::INFO,
             draw: draw::<D>,
-            can_draw: bands::can_draw::<D>,
+            refusal: bands::refusal::<D>,
             draw_bands: bands::draw::<D>,
             draw_barycentric: if D::INFO.barycentric {
                 Some(draw_barycentric::<D>)
@@ -242,37 +242,25 @@ impl Variant {
         picture
     }
 
-    /// How `renderer` draws `frame` with this method: as it says where that can be, else as near to it as can be, with the
-    /// reason.
+    /// Returns what draws `frame` with this method where `renderer` is asked for: that, or the span engine with the reason.
+    ///
+    /// The row engine does not draw more than four lights, depth that is computed per sample, frames clipped by the NDC
+    /// cube, nor methods that follow light at positions along a span.
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
-        let level = if renderer.level.is_available() {
-            renderer.level
-        } else {
-            Level::Scalar
-        };
-        let plan = |engine, level, reason| Plan {
-            engine,
-            level,
-            reason,
-        };
-        if renderer == Renderer::LECTURE {
-            return plan(Engine::Span, Level::Scalar, None);
-        }
-        if !(self.entry.can_draw)(Engine::Span, frame) {
-            return plan(
-                Engine::Span,
-                Level::Scalar,
-                Some("more than four lights are shaded one pixel at a time"),
-            );
-        }
-        let can_row = (self.entry.can_draw)(Engine::Row, frame);
-        match renderer.engine {
-            Some(Engine::Span) => plan(Engine::Span, level, None),
-            _ if can_row => plan(Engine::Row, level, None),
-            asked => {
-                let reason = "the row engine keeps neither this depth nor what this method walks along a span";
-                plan(Engine::Span, level, asked.map(|_| reason))
+        let reason = match renderer {
+            Renderer::Span => None,
+            Renderer::Row(level) if level == Level::Scalar || !level.is_available() => {
+                Some("this machine does not have these SIMD instructions")
             }
+            Renderer::Row(_) => (self.entry.refusal)(frame),
+        };
+        Plan {
+            renderer: if reason.is_some() {
+                Renderer::Span
+            } else {
+                renderer
+            },
+            reason,
         }
     }
 
@@ -297,18 +285,16 @@ impl Variant {
     }
 
     fn draw_with<T: Texel>(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture<T>) {
-        let Plan { engine, level, .. } = self.plan(frame, renderer);
-        let mut bands = PictureBands {
-            frame,
-            level,
-            picture,
-        };
-        if !(self.entry.draw_bands)(engine, frame, &self.parameters, level, &mut bands) {
-            picture.texels_mut().fill(T::background(frame.background()));
-            draw_rows(frame, picture, |target| {
-                (self.entry.draw)(frame, &self.parameters, target)
-            });
+        if let Renderer::Row(level) = self.plan(frame, renderer).renderer {
+            let mut bands = PictureBands { frame, picture };
+            if (self.entry.draw_bands)(frame, &self.parameters, level, &mut bands) {
+                return;
+            }
         }
+        picture.texels_mut().fill(T::background(frame.background()));
+        draw_rows(frame, picture, |target| {
+            (self.entry.draw)(frame, &self.parameters, target)
+        });
     }
 
     /// Draws the triangles of `frame` with the barycentric renderer; `None` when it does not have this method.

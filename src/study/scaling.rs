@@ -299,12 +299,11 @@ impl Scaling {
 }
 
 impl Way {
-    fn curve(&self, Plan { engine, level, .. }: Plan) -> Curve {
-        let (engine, level) = (engine.name().to_string(), level.name().to_string());
+    fn curve(&self, plan: Plan) -> Curve {
         Curve {
             method: self.variant.to_string(),
-            engine,
-            level,
+            engine: plan.renderer.engine().name().to_string(),
+            level: plan.renderer.level().name().to_string(),
             times: Vec::new(),
             costs: None,
         }

@@ -40,7 +40,7 @@ fn every_view_is_drawn_once_by_every_method_that_was_asked_for() {
         .iter()
         .map(|c| (&*c.method, &*c.engine, &*c.level))
         .collect();
-    let fastest = Renderer::fastest().level.name();
+    let fastest = Renderer::fastest().level().name();
     assert_eq!(
         names[..3],
         [

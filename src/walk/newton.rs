@@ -51,7 +51,7 @@ impl<N: Num> Steps<N> {
     /// δ_s = (e_s − E) / (1 + E)                                   the inverse of e_s = δ + E (1 + δ)
     /// ```
     /// e_s is the error of a guess of which s steps leave E, and δ_s the change of the length from one pixel, or group, to the
-    /// next that gives such a guess: [`Newton::error_of_groups`] derives both.
+    /// next that gives such a guess: `Newton::error_of_groups` derives both.
     pub fn within(error: f32, of: &dyn Fn(f32) -> N) -> Self {
         let mut e = error;
         Steps::Fewest(each(|_| {

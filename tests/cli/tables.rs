@@ -373,7 +373,7 @@ fn info_says_what_auto_would_take() {
     assert!(
         of("duff-phong")["reason"]
             .as_str()
-            .is_some_and(|reason| reason.starts_with("the row engine keeps neither"))
+            .is_some_and(|reason| reason.starts_with("the row engine cannot keep what"))
     );
     let five = "--light 1,0,1 --light 0,1,1 --light -1,0,1 --light 0,-1,1 --light 0,0,1";
     let lights = choices(&format!("teapot {five}"));
@@ -382,12 +382,19 @@ fn info_says_what_auto_would_take() {
         (&"span".into(), &"scalar".into())
     );
     assert_eq!(
+        lights[0]["reason"],
+        "the row engine has no more than four lights"
+    );
+    // Levels of depth are no reason.
+    assert_eq!(choices("teapot --depth-bits 16")[0], far[0]);
+    assert_eq!(
         lights[0]["methods"].as_array().map(Vec::len),
         Some(METHODS.len())
     );
     let text = folder.run("info teapot --light-at 9,9,9").done();
     text.prints(&format!("auto     row, {best}: flat, "))
-        .prints("slerp-phong-vector (the row engine keeps neither");
+        .prints("span, scalar: ")
+        .prints("slerp-phong-vector (the row engine cannot keep what");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The memory of a band of scanlines: depth, and what the walks gave to each pixel.
 
 use crate::number::{Lanes, Num, Pair, Planes, get_each, put_each};
+use crate::raster::depth::{SampleDepth, level_of};
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 use core::ops::Range;
@@ -61,24 +62,20 @@ impl Band {
         self.drawn = groups..0;
     }
 
-    /// All groups, to be drawn; with `hides` only where depth is less than what was stored before. Which groups of any row are drawn
-    /// is to be said by [`Band::extend`].
+    /// Returns write access to all groups. Where nearer samples hide farther ones, writes are depth-tested. The caller reports
+    /// the groups that it touches with [`Band::extend`]; others are not shaded.
     #[inline(always)]
     pub(super) fn cells<M: Lanes, P: Planes<M::F>>(
         &mut self,
         m: M,
-        hides: bool,
+        depth: SampleDepth,
     ) -> Cells<'_, M, P> {
         Cells {
             values: &mut self.values,
             materials: &mut self.materials,
             a_row: self.groups,
-            hides,
-            least: m.splat(if hides {
-                f32::NEG_INFINITY
-            } else {
-                f32::INFINITY
-            }),
+            depth,
+            test: DepthTest::new(m, depth),
             pixel: PhantomData,
         }
     }
@@ -188,10 +185,35 @@ pub(crate) struct Cells<'a, M: Lanes, P> {
     materials: &'a mut [f32],
     /// Groups a row.
     a_row: usize,
-    hides: bool,
+    depth: SampleDepth,
+    test: DepthTest<M>,
+    pixel: PhantomData<P>,
+}
+
+/// How the depths of a group are compared and kept.
+#[derive(Clone, Copy)]
+struct DepthTest<M: Lanes> {
     /// What is stored counts as no nearer than this.
     least: M::F,
-    pixel: PhantomData<P>,
+    /// The largest level, if levels are kept in place of depths.
+    most: Option<M::F>,
+}
+
+impl<M: Lanes> DepthTest<M> {
+    #[inline(always)]
+    fn new(m: M, depth: SampleDepth) -> Self {
+        DepthTest {
+            least: m.splat(if depth.hides() {
+                f32::NEG_INFINITY
+            } else {
+                f32::INFINITY
+            }),
+            most: depth.most().map(
+                #[inline(always)]
+                |most| m.splat(most as f32),
+            ),
+        }
+    }
 }
 
 impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
@@ -213,7 +235,7 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
                 values,
                 materials: self.materials,
                 number: first,
-                least: self.least,
+                test: self.test,
                 pixel: PhantomData,
             });
             first += 1;
@@ -234,7 +256,7 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
                 values,
                 materials: &mut [],
                 number: 0,
-                least: self.least,
+                test: self.test,
                 pixel: PhantomData,
             });
             from += size;
@@ -255,7 +277,7 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
             values,
             materials,
             number,
-            least: self.least,
+            test: self.test,
             pixel: PhantomData,
         })
     }
@@ -273,8 +295,10 @@ impl<M: Lanes, P: Planes<M::F>> Cells<'_, M, P> {
         let (place, size) = (place as u32 as usize, size::<M, P>());
         let values = &mut self.values[place..place + (size - M::WIDTH + 1)];
         let numbers = &numbers[..size / M::WIDTH];
-        if !self.hides || numbers[0] < values[0] {
-            let mut i = 0;
+        let depth = self.depth.kept(numbers[0]);
+        if !self.depth.hides() || depth < values[0] {
+            values[0] = depth;
+            let mut i = 1;
             while i < numbers.len() {
                 values[i * M::WIDTH] = numbers[i];
                 i += 1;
@@ -311,7 +335,7 @@ pub(crate) struct Cell<'a, M: Lanes, P> {
     materials: &'a mut [f32],
     /// Its number in the band.
     number: usize,
-    least: M::F,
+    test: DepthTest<M>,
     pixel: PhantomData<P>,
 }
 
@@ -323,7 +347,12 @@ impl<M: Lanes, P: Planes<M::F>> Cell<'_, M, P> {
     #[inline(always)]
     pub fn put(&mut self, m: M, outside: M::I, depth: M::F, pixel: P, material: u32) {
         let values = &mut self.values[..size::<M, P>()];
-        let kept = m.kept(outside, depth, m.load(values).max(self.least));
+        let DepthTest { least, most } = self.test;
+        let depth = match most {
+            None => depth,
+            Some(most) => level_of(m, depth, most),
+        };
+        let kept = m.kept(outside, depth, m.load(values).max(least));
         let mut at = 0;
         put_each(
             (depth, pixel),

@@ -13,6 +13,7 @@ use super::tiny::Fragments;
 use super::triangle::{Starts, Triangle};
 use crate::frame::Frame;
 use crate::number::{Lanes, Num, Planes, get_each};
+use crate::raster::depth::SampleDepth;
 use crate::walk::Attribute;
 
 /// How many numbers triangles have whose pixels are `P`: their depth, and those of the pixels.
@@ -29,8 +30,8 @@ pub(super) struct Filler<'a, A, Q> {
     pub frame: &'a Frame,
     /// The numbers.
     pub numbers: Numbers<'a, A, Q>,
-    /// Whether nearer triangles hide farther ones.
-    pub hides: bool,
+    /// How depth is compared and kept.
+    pub depth: SampleDepth,
     /// Whether pixels have different materials.
     pub has_materials: bool,
 }

@@ -56,11 +56,18 @@ type Consts<S, M> = <S as Shader>::Consts<Pair<<M as Machine>::F>>;
 /// What fills triangles with a shader's numbers.
 type FillerOf<'a, S> = Filler<'a, <S as Shader>::Attribute<f32>, <S as Shader>::Polygon<f32>>;
 
-/// Whether the engine can draw `frame` with shader `S`: its depth must be interpolated and kept as it is, and what its
-/// walk gives must be numbers.
-pub(crate) fn can_draw<S: Shader, M: Lanes>(frame: &Frame) -> bool {
+/// Returns why the engine cannot draw `frame` with shader `S`; `None` where it can.
+pub(crate) fn refusal<S: Shader, M: Lanes>(frame: &Frame) -> Option<&'static str> {
     let depth = SampleDepth::new(frame);
-    paint::planes::<S, M>().is_some() && depth.is_plain()
+    if !depth.is_interpolated() {
+        Some("the row engine interpolates depth and does not compute it per sample")
+    } else if depth.is_cut_by_cube() {
+        Some("the row engine does not test samples against the NDC cube")
+    } else if paint::planes::<S, M>().is_none() {
+        Some("the row engine cannot keep what this method follows along a span")
+    } else {
+        None
+    }
 }
 
 /// Draws `frame` with a shader, band by band.
@@ -74,7 +81,7 @@ pub(crate) fn draw<S: Shader, M: Lanes>(
     if const { paint::planes::<S, M>().is_none() } {
         return;
     }
-    let bins = Bins::<Listed>::new(frame, HEIGHT);
+    let bins = Bins::new(frame, HEIGHT);
     // Only polygons of other shapes need attributes where normals are read as they are.
     let normals = if S::ATTRIBUTE_IS_NORMAL && bins.are_triangles() {
         frame.normals_on_screen()
@@ -92,16 +99,16 @@ pub(crate) fn draw<S: Shader, M: Lanes>(
     };
     let only = only_material(frame);
     let consts = Constants::<S, M>::new(m, frame, parameters, only);
-    let (hides, has_materials) = (SampleDepth::new(frame).hides(), only.is_none());
+    let (depth, has_materials) = (SampleDepth::new(frame), only.is_none());
     let painter = Painter::<S> {
         frame,
         setup: &setup,
-        hides,
+        depth,
     };
     let filler = Filler {
         frame,
         numbers,
-        hides,
+        depth,
         has_materials,
     };
     bands.each(HEIGHT, &|number, rows, scratch, sink| {
@@ -233,7 +240,7 @@ fn walk<S: Shader, M: Lanes>(
         || {
             batch.read_depths(m, painter.frame, drawn);
             batch.read_materials(painter.frame, drawn);
-            painter.batch(m, (batch, drawn), top, &mut band.cells(m, painter.hides));
+            painter.batch(m, (batch, drawn), top, &mut band.cells(m, painter.depth));
         },
     );
 }
@@ -262,7 +269,7 @@ fn fill<M: Lanes, A: Attribute<f32>, Q: Planes<f32>, P: Planes<M::F>>(
                 (batch, drawn),
                 (fragments, starts),
                 top,
-                &mut band.cells(m, filler.hides),
+                &mut band.cells(m, filler.depth),
             )
         },
     );
@@ -292,7 +299,7 @@ fn run<S: Shader, M: Lanes>(
                 polygon,
                 depth,
                 attribute,
-                &mut band.cells(m, painter.hides),
+                &mut band.cells(m, painter.depth),
             );
         },
     );

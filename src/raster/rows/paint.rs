@@ -5,6 +5,7 @@ use super::batch::{Batch, Kind, each_bit};
 use super::facets::Facet;
 use crate::frame::Frame;
 use crate::number::{Lanes, Planes, Scalar, each, get_each, put_each};
+use crate::raster::depth::SampleDepth;
 use crate::raster::setup::SetUp;
 use crate::shader::{Shader, Span};
 use crate::walk::{Attribute, Walk};
@@ -25,8 +26,8 @@ pub(super) const fn planes<S: Shader, M: Lanes>() -> Option<usize> {
 pub(super) struct Painter<'a, S: Shader> {
     pub frame: &'a Frame,
     pub setup: &'a SetUp<S, Scalar>,
-    /// Whether nearer polygons hide farther ones.
-    pub hides: bool,
+    /// How depth is compared and kept.
+    pub depth: SampleDepth,
 }
 
 impl<S: Shader> Painter<'_, S> {

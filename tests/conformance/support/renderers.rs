@@ -1,22 +1,15 @@
-//! Every way in which this machine can draw a frame: engines, instruction sets, threads.
+//! Every way in which this machine can draw a frame: the span engine, the row engine on each instruction set, threads.
 
 use fastphong::frame::Frame;
-use fastphong::number::Level;
 use fastphong::picture::Picture;
-use fastphong::raster::{Engine, Plan, Renderer};
+use fastphong::raster::Renderer;
 use fastphong::reference::Visibility;
 use fastphong::scene::{DepthBuffer, HiddenSurfaces};
 use fastphong::shader::Variant;
 
-/// Every engine on every instruction set that this machine has, the lecture's own form first.
+/// What this machine has, the lecture's own form first.
 pub fn renderers() -> Vec<Renderer> {
-    let on = |engine| {
-        Level::available().map(move |level| Renderer {
-            engine: Some(engine),
-            level,
-        })
-    };
-    let all: Vec<Renderer> = Engine::ALL.into_iter().flat_map(on).collect();
+    let all: Vec<Renderer> = Renderer::available().collect();
     assert_eq!(all[0], Renderer::LECTURE);
     all
 }
@@ -26,9 +19,9 @@ pub fn distinct(variant: &Variant, frame: &Frame) -> Vec<Renderer> {
     let mut plans = Vec::new();
     let mut all = renderers();
     all.retain(|&renderer| {
-        let Plan { engine, level, .. } = variant.plan(frame, renderer);
-        let is_new = !plans.contains(&(engine, level));
-        plans.push((engine, level));
+        let drawn_by = variant.plan(frame, renderer).renderer;
+        let is_new = !plans.contains(&drawn_by);
+        plans.push(drawn_by);
         is_new
     });
     all
@@ -36,11 +29,7 @@ pub fn distinct(variant: &Variant, frame: &Frame) -> Vec<Renderer> {
 
 /// The name of a renderer, as the command line has it.
 pub fn name(renderer: Renderer) -> String {
-    format!(
-        "{} on {}",
-        renderer.engine.map_or("any", Engine::name),
-        renderer.level
-    )
+    format!("{} on {}", renderer.engine(), renderer.level())
 }
 
 /// Does `work` on so many threads.
