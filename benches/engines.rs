@@ -8,7 +8,7 @@ use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion
 use fastphong::picture::Picture;
 use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
-use fastphong::shader::Variant;
+use fastphong::shading::Variant;
 use std::hint::black_box;
 use std::time::Duration;
 

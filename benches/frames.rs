@@ -10,7 +10,7 @@ use criterion::{
 };
 use fastphong::picture::Picture;
 use fastphong::raster::{Edges, NOTHING, Renderer, polygon_numbers};
-use fastphong::shader::METHODS;
+use fastphong::shading::METHODS;
 use fastphong::triangulate::triangulated;
 use std::hint::black_box;
 use std::time::Duration;

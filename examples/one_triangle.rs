@@ -12,7 +12,7 @@ use fastphong::lighting::{Light, Material};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, MeshBuilder};
 use fastphong::scene::{Encoding, Object, Scene};
-use fastphong::shader::Variant;
+use fastphong::shading::Variant;
 use glam::{DAffine3, DVec3, Vec3};
 use std::error::Error;
 use std::io::Write;

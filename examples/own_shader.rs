@@ -4,24 +4,14 @@
 //! cargo run --release --example own_shader > own_shader.ppm
 //! ```
 //!
-//! All that it takes is `Toon` below: what is said about it (`Method::INFO`), what is computed once a vertex, a polygon, a
-//! run and a pixel (`Shader`), and one line that makes it a row of a method table (`TOON`). The scanline engine, the
-//! barycentric renderer and the counting machine then take it as their own.
+//! `Toon` says what a vertex carries, how it is stepped along a span, and how a pixel is shaded, once for all arithmetic
+//! backends. `TOON` compiles it: every engine on every instruction set then draws it as one of the crate's own.
 //!
 //! Every function of a shader is `#[inline(always)]`: one that is not costs a call a pixel.
 
-use fastphong::lighting::Lighting;
-use fastphong::mesh::builtin::builtin;
-use fastphong::number::{Machine, Num, Real, dot, each};
-use fastphong::reference::Model;
-use fastphong::scene::Scene;
-use fastphong::shader::local::{Far, Lights, Near};
-use fastphong::shader::{
-    Corner, Corners, Entry, Info, Local, Method, Parameter, Perspective, Roundings, Shader, SpanOf,
-    Stepped, Variant,
-};
-use fastphong::walk::{Constant, Lerp, Linear};
-use std::error::Error;
+use fastphong::input;
+use fastphong::number::{Num, Vec3};
+use fastphong::shading::{Entry, Info, Linear, Lit, Model, Parameter, Shader};
 use std::io::Write;
 
 /// Cel shading: the diffuse term in a few bands, and a highlight with a hard edge.
@@ -30,156 +20,69 @@ use std::io::Write;
 /// I = I_a k_a + Σ I_p k_d b/bands + Σ I_p k_s [R·V > 0.9]
 /// R·V = 2 (L·N)(V·N) − L·V,   b = how many of (i − ½) / bands, i = 1, 2, …, lie below L·N
 /// ```
-struct Toon;
+#[derive(Clone, Copy)]
+struct Toon {
+    bands: u32,
+}
 
 static TOON: Entry = Entry::of::<Toon>();
 
-impl Method for Toon {
+impl Shader for Toon {
     const INFO: Info = Info {
         name: "toon",
         title: "bands of light, and a highlight with a hard edge",
-        formula: "I = Ia ka + Ip kd b / bands + Ip ks [R.V > 0.9], b = how many of (i - 1/2) / bands lie below L.N",
-        source: "after Lake, Marshall, Harris and Blackstein 2000",
-        model: Model::Phong,
-        roundings: Roundings {
-            start: f64::INFINITY,
-            step: 0.0,
-            of: Stepped::Cosines,
-        },
-        derivation: "no bound: it is not an approximation of Phong shading",
-        fails: "edges of bands are not smoothed",
-        parameters: &[Parameter {
-            name: "bands",
-            meaning: "bands of light",
-            default: 3,
-            least: 1,
-            most: 8,
-            auto: None,
-        }],
-        perspective: Perspective::Free,
-        local: Local::PerPolygon,
-        barycentric: true,
+        parameters: &[Parameter::new("bands", "bands of light", 3, 1, 8)],
+        ..Info::OF_PIXELS
     };
-    // Normals are normalised at each pixel, so a weight of perspective interpolation cancels: one shader does for both.
-    type Screen<const L: usize> = Of<Far, L>;
-    type Perspective<const L: usize> = Of<Far, L>;
-    // Lights and eye at positions are seen from the middle of each polygon: the same text, over other lights.
-    type Local<const L: usize> = Of<Near, L>;
-    type LocalPerspective<const L: usize> = Of<Near, L>;
-}
+    const PASSES_NORMAL: bool = true;
+    type Varying<F: Num> = Vec3<F>; // N
+    type Walk<F: Num> = Linear<Vec3<F>>; // three additions a pixel
 
-/// Cel shading with `L` lights: `Far` ones, or `Near` ones.
-struct Of<P, const L: usize>(P);
-
-#[derive(Clone, Copy)]
-struct Consts<N, C> {
-    light: C,
-    bands: u32,
-    width: N,
-    half_width: N,
-    edge: N,
-    zero: N,
-}
-
-impl<P: Lights, const L: usize> Shader for Of<P, L> {
-    type Consts<N: Num> = Consts<N, P::Of<N, L>>;
-    type Attribute<R: Real> = Lerp<[R; 3]>; // along edges: the normal, linearly
-    type Polygon<R: Real> = P::There<R, L>;
-    type Walk<M: Machine> = ([Linear<M::F>; 3], Constant<P::There<M::F, L>>); // along a run: three additions
-    type Pixel<F: Num> = ([F; 3], P::There<F, L>);
-
-    fn consts<N: Num>(
-        lighting: &Lighting,
-        parameters: &[u32],
-        of: &dyn Fn(f32) -> N,
-    ) -> Self::Consts<N> {
-        let (bands, width) = (parameters[0], 1.0 / parameters[0] as f32);
-        let light = P::new(lighting, of);
-        Consts {
-            light,
-            bands,
-            width: of(width),
-            half_width: of(width / 2.0),
-            edge: of(0.9),
-            zero: of(0.0),
+    #[inline(always)]
+    fn new(parameters: &[u32], _: &Model) -> Self {
+        Toon {
+            bands: parameters[0],
         }
     }
     #[inline(always)]
-    fn vertex<M: Machine>(_: &Self::Consts<M::One>, corner: &Corner<'_, M>) -> Lerp<[M::One; 3]> {
-        Lerp(corner.normal())
+    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        n
     }
     #[inline(always)]
-    fn polygon<M: Machine>(
-        c: &Self::Consts<M::One>,
-        corners: &Corners<'_, M, Lerp<[M::One; 3]>>,
-    ) -> P::There<M::One, L> {
-        P::there(&c.light, || corners.mean_position())
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Linear<Vec3<F>>) -> Linear<Vec3<F>> {
+        span
     }
     #[inline(always)]
-    fn walk<M: Machine>(
-        m: M,
-        _: &Self::Consts<M::One>,
-        there: &P::There<M::One, L>,
-        span: &SpanOf<Self, M::One>,
-    ) -> Self::Walk<M> {
-        let normal = each(
-            #[inline(always)]
-            |i| Linear::new(m, span.attribute.at[i], span.attribute.step[i]),
-        );
-        (normal, Constant(P::splat(m, there)))
-    }
-    #[inline(always)]
-    fn shade<F: Num>(c: &Self::Consts<F>, (n, there): Self::Pixel<F>) -> [F; 3] {
-        let (light, seen) = (P::model(&c.light), P::seen(&c.light, &there));
-        let r = light.one() / dot(n, n).sqrt();
-        let n = [n[0] * r, n[1] * r, n[2] * r];
-        let (j, k) = (seen.light_cosines(n), seen.view_cosine(n));
-        let hard = |highlight: F| light.one().gate(highlight - c.edge);
-        // `colour` sums (2.1) over the lights; which cosines it is given is the method's own affair.
-        light.colour(
-            #[inline(always)]
-            |i| {
-                let (mut level, mut threshold) = (c.zero, c.half_width);
-                for _ in 0..c.bands {
-                    level = level + c.width.gate(j[i] - threshold);
-                    threshold = threshold + c.width;
-                }
-                level
-            },
-            #[inline(always)]
-            |i| hard(light.two() * j[i] * k - seen.scalars.light_view[i]),
-            #[inline(always)]
-            |i| hard((j[i] + k) * seen.scalars.half[i]),
-            #[inline(always)]
-            |i| seen.scalars.strength(i),
-        )
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        let (n, width) = (n.unit(), 1.0 / self.bands as f32);
+        let mut colour = lit.ambient();
+        for light in lit.lights() {
+            let l_n = n.dot(light.to);
+            let mut diffuse = l_n.like(0.0);
+            for band in 0..self.bands {
+                diffuse = diffuse + l_n.like(width).gate(l_n, (band as f32 + 0.5) * width);
+            }
+            let highlight = lit.highlight(&light, l_n, n.dot(lit.view)).gate(l_n, 0.0);
+            let specular = l_n.like(1.0).gate(highlight, 0.9);
+            colour = lit.plus(colour, &light, diffuse, specular);
+        }
+        colour
     }
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let mut scene = Scene::of_mesh(builtin("torus")?);
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut scene = input::resolve(&input::load("builtin:torus")?)?.scene;
     (scene.width, scene.height) = (320, 240);
     let frame = scene.frame()?;
-    let (own, built_in) = (TOON.variant(), Variant::parse("naive-phong")?);
-    let (left, right) = (own.render(&frame), built_in.render(&frame));
-    for variant in [&own, &built_in] {
-        let counts = variant.operations(1);
-        eprintln!(
-            "{variant}: {} additions, {} multiplications, {} comparisons a pixel",
-            counts.walk.additions + counts.shade.additions,
-            counts.walk.multiplications + counts.shade.multiplications,
-            counts.walk.comparisons + counts.shade.comparisons,
-        );
+    let built_in = Entry::named("naive-phong").ok_or("no such method")?;
+    let pictures = [&TOON, built_in].map(|entry| {
+        let (variant, counts) = (entry.variant(), entry.variant().operations(1).shade);
+        eprintln!("{variant} shades a pixel by {counts:?}");
+        variant.render(&frame)
+    });
+    let mut file = b"P6\n640 240\n255\n".to_vec();
+    for pixels in (0..240).flat_map(|y| pictures.each_ref().map(|picture| picture.row(y))) {
+        file.extend(pixels.iter().flat_map(|pixel| &pixel[..3]));
     }
-    let mut file = format!("P6\n{} {}\n255\n", 2 * left.width(), left.height()).into_bytes();
-    for y in 0..left.height() {
-        file.extend(
-            left.row(y)
-                .iter()
-                .chain(right.row(y))
-                .flat_map(|[r, g, b, _]| [*r, *g, *b]),
-        );
-    }
-    std::io::stdout().write_all(&file)?;
-    Ok(())
+    Ok(std::io::stdout().write_all(&file)?)
 }

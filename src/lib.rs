@@ -2,7 +2,7 @@
 //!
 //! The lecture shades polygons on a scan-line rasterizer: flat, with vertex colours (Gouraud), with interpolated normals
 //! (Phong), and then Phong's picture for the price of a few additions. Each of these is a *method* here, one file and one
-//! line of [`shader::METHODS`]; all of them draw the same [`frame::Frame`], so that their pictures differ by shading and by
+//! line of [`shading::METHODS`]; all of them draw the same [`frame::Frame`], so that their pictures differ by shading and by
 //! nothing else, and each is measured against a closed form in `f64` that shares no arithmetic with it.
 //!
 //! # From a mesh to a number
@@ -12,7 +12,7 @@
 //! use fastphong::metrics::compare;
 //! use fastphong::reference::{self, Model};
 //! use fastphong::scene::Scene;
-//! use fastphong::shader::Variant;
+//! use fastphong::shading::Variant;
 //!
 //! // A mesh: polygons of any number of sides. `mesh::obj` reads them from files.
 //! let mesh = builtin("teapot?res=6")?;
@@ -38,10 +38,10 @@
 //! | shapes | [`mesh::builtin::builtin`], `mesh::obj::load_obj`, [`mesh::MeshBuilder`], [`mesh::vertex_normals`] (L21 1.1, 3.1) |
 //! | scenes | [`scene::Scene::of_mesh`], [`scene::Scene::frame`], [`projection::PreparedScene`] for many frames, `scene::file::SceneFile`, `input::load` |
 //! | the waist | [`frame::Frame`], and [`frame::FrameBuilder`] for polygons from elsewhere |
-//! | methods | [`shader::Variant::render`], [`shader::METHODS`]; [`shader::Method`] to add one from outside this crate |
+//! | methods | [`shading::Variant::render`], [`shading::METHODS`]; [`shading::Shader`] to add one from outside this crate |
 //! | loops | [`raster`]: scan lines as in the lecture, barycentric coordinates to compare with |
 //! | truth | [`mod@reference`]: four closed forms in `f64` |
-//! | numbers | [`metrics::compare`], [`metrics::difference_map`], [`shader::Variant::operations`], `comparison` |
+//! | numbers | [`metrics::compare`], [`metrics::difference_map`], [`shading::Variant::operations`], `comparison` |
 //! | files | `image_file` |
 //!
 //! # Features
@@ -85,13 +85,11 @@ pub mod reference;
 #[cfg(feature = "cli")]
 pub mod report;
 pub mod scene;
-pub mod shader;
+pub mod shading;
 #[cfg(feature = "cli")]
 pub mod study;
 pub mod suggest;
 pub mod triangulate;
-mod vectorized;
-pub mod walk;
 
 #[cfg(test)]
 mod test_random;

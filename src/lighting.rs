@@ -1,6 +1,6 @@
 //! Lights and materials: the data of the illumination model (L21 2.1).
 //!
-//! What is computed from them, and with which clamps, stands once in [`crate::shader::illumination`].
+//! What is computed from them, and with which clamps, stands once in [`crate::shading::lighting`].
 
 use alloc::vec::Vec;
 use glam::DVec3;

@@ -29,7 +29,7 @@ impl Random {
     pub(crate) fn unit(&mut self) -> [f32; 3] {
         loop {
             let v = [self.signed(), self.signed(), self.signed()];
-            let length = crate::number::Num::sqrt(crate::number::dot(v, v));
+            let length = v.iter().map(|c| c * c).sum::<f32>().sqrt();
             if (0.1..=1.0).contains(&length) {
                 return v.map(|c| c / length);
             }

@@ -2,7 +2,7 @@
 
 use fastphong::frame::Frame;
 use fastphong::raster::{Plan, Renderer};
-use fastphong::shader::METHODS;
+use fastphong::shading::METHODS;
 use serde_json::{Value, json};
 
 /// One choice, and the methods that it is made for.

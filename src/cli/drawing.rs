@@ -12,7 +12,7 @@ use fastphong::picture::{Picture, Picture8};
 use fastphong::raster::{Edges, Plan, Renderer};
 use fastphong::reference::{self, Model};
 use fastphong::scene::Encoding;
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 use fastphong::suggest::nearest;
 use fastphong::triangulate::triangulated;
 

@@ -4,7 +4,7 @@ use super::Failure;
 use fastphong::cs171::Shading;
 use fastphong::number::Level;
 use fastphong::raster::{self, Edges, Renderer};
-use fastphong::shader::{Info, METHODS};
+use fastphong::shading::{Info, METHODS};
 use fastphong::suggest::nearest;
 use serde_json::{Value, json};
 
@@ -44,9 +44,9 @@ pub const ENGINES: [EngineInfo; 4] = [
     },
     EngineInfo {
         name: "row",
-        title: "SIMD: bands of scanlines, interpolants kept in planes, each row shaded once",
-        draws: "every method under lights at infinity, some under lights at positions (see `fastphong info`); up to four \
-                lights; interpolated depth, clipped by planes. What it cannot draw the span engine draws",
+        title: "SIMD: a deferred renderer, varyings kept in a G-buffer, each row shaded once",
+        draws: "every method under any lights; interpolated depth, clipped by planes. What it cannot draw the span engine \
+                draws",
         runs: "every SIMD instruction set, several threads",
     },
     EngineInfo {

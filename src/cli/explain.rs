@@ -9,7 +9,7 @@ use fastphong::input;
 use fastphong::lighting::Falloff;
 use fastphong::number::Counts;
 use fastphong::scene::Interpolation;
-use fastphong::shader::{OperationCounts, SpanBench, Variant};
+use fastphong::shading::{OperationCounts, SpanBench, Variant};
 use serde_json::{Map, Value, json};
 
 /// Explain a shading method: formula, source, cost, tolerance, where it fails

@@ -12,7 +12,7 @@ use fastphong::input;
 use fastphong::picture::Picture8;
 use fastphong::projection::PreparedScene;
 use fastphong::raster::{Plan, Renderer};
-use fastphong::shader::Variant;
+use fastphong::shading::Variant;
 use serde_json::{Value, json};
 use std::hint::black_box;
 use std::time::Instant;

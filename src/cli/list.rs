@@ -10,7 +10,7 @@ use fastphong::mesh::builtin::{BUILTINS, Kind, Parameter};
 use fastphong::metrics::{Better, METRICS};
 use fastphong::number::Level;
 use fastphong::scene::file::SceneFile;
-use fastphong::shader::{Info, METHODS, Roundings, Stepped};
+use fastphong::shading::{Info, METHODS, Roundings, Stepped};
 use serde_json::{Value, json};
 
 /// List methods, meshes, scenes, metrics, figures of the lectures, engines or instruction sets
@@ -127,7 +127,7 @@ fn stepped(of: Stepped) -> &'static str {
 
 /// What is said about a method, without its texts of more than one line.
 pub fn method_json(info: &Info) -> Value {
-    let parameter = |p: &fastphong::shader::Parameter| json!({ "name": p.name, "meaning": p.meaning, "default": value_json(p, p.default), "least": p.least, "most": p.most, "auto": p.auto.map(|auto| auto.meaning) });
+    let parameter = |p: &fastphong::shading::Parameter| json!({ "name": p.name, "meaning": p.meaning, "default": value_json(p, p.default), "least": p.least, "most": p.most, "auto": p.auto.map(|auto| auto.meaning) });
     let Roundings { start, step, of } = info.roundings;
     let parameters: Vec<Value> = info.parameters.iter().map(parameter).collect();
     json!({
@@ -144,7 +144,7 @@ pub fn method_json(info: &Info) -> Value {
 }
 
 /// The value of a parameter of a method: a number, or `"auto"`.
-pub fn value_json(parameter: &fastphong::shader::Parameter, value: u32) -> Value {
+pub fn value_json(parameter: &fastphong::shading::Parameter, value: u32) -> Value {
     if parameter.is_auto(value) {
         "auto".into()
     } else {

@@ -9,7 +9,7 @@ use fastphong::bench::{Limits, Machine};
 use fastphong::comparison::{Comparison, Input, Options, compare};
 use fastphong::input::{self, SCENES};
 use fastphong::raster::Renderer;
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 use std::time::Duration;
 
 /// The methods to compare.

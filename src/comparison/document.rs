@@ -6,7 +6,7 @@ use crate::frame::FrameStats;
 use crate::metrics::Difference;
 use crate::raster::Renderer;
 use crate::scene::{Encoding, Interpolation};
-use crate::shader::Parameter;
+use crate::shading::Parameter;
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

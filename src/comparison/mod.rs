@@ -10,7 +10,7 @@
 //! use fastphong::mesh::builtin::builtin;
 //! use fastphong::mesh::vertex_normals::NormalSource;
 //! use fastphong::scene::{Object, Scene};
-//! use fastphong::shader::Variant;
+//! use fastphong::shading::Variant;
 //! use glam::{DAffine3, DVec3};
 //!
 //! let mesh = builtin("sphere?rings=8&segments=16")?;
@@ -63,7 +63,7 @@ use crate::number::Level;
 use crate::picture::{LinearPicture, Picture8};
 use crate::raster::{self, Renderer, coverage};
 use crate::scene::{Encoding, Interpolation};
-use crate::shader::{METHODS, Variant};
+use crate::shading::{METHODS, Variant};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use pictures::References;
@@ -153,7 +153,7 @@ impl Comparison {
 pub enum Engine {
     /// By scanlines: [`raster::Engine::Span`] is the lecture's.
     Scanlines(raster::Engine),
-    /// The one they are measured against: [`crate::raster::barycentric`].
+    /// The one they are measured against: [`Variant::render_barycentric`](crate::shading::Variant::render_barycentric).
     Barycentric,
 }
 
@@ -180,10 +180,10 @@ pub struct Row {
     pub threads: usize,
     /// Its difference from the Phong reference: see [`WHAT_IS_COMPARED`].
     pub error: Difference,
-    /// Its difference from its own closed form ([`crate::shader::Info::model`]): how well it does what it means to do. In
+    /// Its difference from its own closed form ([`crate::shading::Info::model`]): how well it does what it means to do. In
     /// the barycentric renderer that is the closed form on triangles.
     pub own: Difference,
-    /// The most that rounding can make of `own` on this frame: [`crate::shader::Info::bound`].
+    /// The most that rounding can make of `own` on this frame: [`crate::shading::Info::bound`].
     pub bound: f64,
     /// Pixels at which it shows another polygon than the reference; they are left out of `error`, as their colours tell
     /// of depth and not of shading.

@@ -7,7 +7,7 @@ use crate::number::Level;
 use crate::picture::{LinearPicture, Picture};
 use crate::raster::{Edges, Renderer, barycentric_polygon_numbers, polygon_numbers};
 use crate::reference::{self, Model, Visibility};
-use crate::shader::Variant;
+use crate::shading::Variant;
 use crate::triangulate::{Triangulated, triangulated};
 use core::cell::OnceCell;
 

@@ -8,7 +8,7 @@ use crate::mesh::builtin::builtin;
 use crate::metrics::difference_map;
 use crate::reference::{self, Model};
 use crate::scene::{Interpolation, Scene};
-use crate::shader::{SpanBench, Variant};
+use crate::shading::{SpanBench, Variant};
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
@@ -184,11 +184,11 @@ fn products(content: &mut Content, near: &Scene) -> Result<(), FigureError> {
     let (one, two) = (additions(1), additions(2));
     content.found(Finding::new(
         "additions",
-        "additions a pixel that step the six products of one light",
+        "additions a pixel that step the six products of one light, and 1/w²",
         (f64::from(one), ""),
         Agreement::Adds,
         format!(
-            "Two each; {} more for a further light, whose L·L, L·N and L·V are new.",
+            "Two each; {} more for a further light, whose L·L, L·N and L·V are new. A falloff needs 1/w².",
             two - one
         ),
     ));

@@ -5,7 +5,7 @@ use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Serie
 use crate::picture::LinearPicture;
 use crate::raster::depth;
 use crate::scene::{DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Scene};
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::vec::Vec;
 

@@ -8,7 +8,7 @@ use super::stage::{Corner, Facet, Grey, frame, stored, written};
 use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
 use crate::frame::Frame;
 use crate::picture::LinearPicture;
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;

@@ -5,7 +5,7 @@ use crate::input::InputError;
 use crate::mesh::MeshError;
 use crate::mesh::builtin::BuiltinError;
 use crate::metrics::SizeMismatch;
-use crate::shader::MethodError;
+use crate::shading::MethodError;
 use core::fmt;
 
 /// Why a figure could not be made: what it is drawn from refused.

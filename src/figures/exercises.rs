@@ -2,11 +2,11 @@
 
 use super::stage::{Corner, Facet, Grey, frame, stored, written};
 use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
-use crate::number::{Counter, Counting, Machine, Num, Scalar};
+use crate::number::{Counter, Num};
 use crate::picture::LinearPicture;
 use crate::raster::depth;
-use crate::shader::Variant;
-use crate::walk::Walk;
+use crate::shading::Variant;
+use crate::shading::Walk;
 use alloc::format;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -94,8 +94,8 @@ impl Exponential<f32> {
     }
 }
 
-impl<F: Num> Walk for Exponential<F> {
-    type Out = F;
+impl<F: Num> Walk<F> for Exponential<F> {
+    type Pixel = F;
 
     fn next(&mut self) -> F {
         let here = self.at;
@@ -107,13 +107,12 @@ impl<F: Num> Walk for Exponential<F> {
 /// Exercise 2: what a step costs, and how far it drifts.
 fn exponential(content: &mut Content) {
     let counter = Counter::default();
-    let m = Counting(&counter);
     let mut counted = Exponential {
-        at: m.one(1.0),
-        factor: m.one(0.5),
+        at: counter.number(1.0),
+        factor: counter.number(0.5),
     };
     counted.next();
-    let counts = counter.counts();
+    let counts = counter.take();
     let others = counts.additions + counts.divisions + counts.powers + counts.trigonometric;
     let is_one = counts.multiplications == 1 && others == 0;
     content.found(Finding::new(
@@ -136,7 +135,7 @@ fn exponential(content: &mut Content) {
         let errors: Vec<f64> = (0..PIXELS)
             .map(|k| {
                 let exact = libm::exp(step * k as f64);
-                (f64::from(Scalar.first(walk.next())) / exact - 1.0).abs()
+                (f64::from(walk.next()) / exact - 1.0).abs()
             })
             .collect();
         largest = errors.iter().copied().fold(largest, f64::max);

@@ -7,7 +7,7 @@ use crate::mesh::builtin::builtin;
 use crate::metrics::{compare, difference_map};
 use crate::number::Counts;
 use crate::scene::Scene;
-use crate::shader::{METHODS, Variant};
+use crate::shading::{METHODS, Variant};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

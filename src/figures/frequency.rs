@@ -8,7 +8,7 @@ use crate::metrics::{Difference, compare_where};
 use crate::picture::LinearPicture;
 use crate::reference::{self, Model};
 use crate::scene::Scene;
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

@@ -6,7 +6,7 @@ use crate::lighting::{Light, Material};
 use crate::mesh::PolygonMesh;
 use crate::picture::LinearPicture;
 use crate::scene::Scene;
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::vec;
 use glam::DVec3;

@@ -6,7 +6,7 @@ use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Serie
 use crate::frame::Frame;
 use crate::picture::LinearPicture;
 use crate::reference::{self, Model};
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;

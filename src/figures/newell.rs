@@ -3,7 +3,7 @@
 use super::stage::{Corner, Facet, Grey, frame, stored, written};
 use super::{Agreement, Content, Figure, FigureError, Finding, Shown};
 use crate::mesh::newell::newell;
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

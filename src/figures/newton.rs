@@ -2,9 +2,9 @@
 
 use super::stage::{Corner, Facet, Grey, frame, stored, written};
 use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
-use crate::number::Scalar;
-use crate::shader::Variant;
-use crate::walk::{Newton, Steps, Walk};
+use crate::number::vec3;
+use crate::shading::increments::{Newton, NewtonSteps};
+use crate::shading::{Variant, Walk};
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
@@ -29,11 +29,11 @@ fn errors(degrees: f64, steps: u32) -> Vec<f64> {
     let [from, to] = [DVec3::new(-sin, 0.0, cos), DVec3::new(sin, 0.0, cos)];
     let step = (to - from) / PIXELS as f64;
     let first = from + 0.5 * step;
+    let rule = NewtonSteps::new(steps, NewtonSteps::LARGEST_ERROR);
     let mut walk = Newton::new(
-        Scalar,
-        first.as_vec3().to_array(),
-        step.as_vec3().to_array(),
-        Steps::Fixed(steps),
+        vec3(first.as_vec3().to_array()),
+        vec3(step.as_vec3().to_array()),
+        &rule,
     );
     (0..PIXELS)
         .map(|k| {

@@ -5,9 +5,10 @@ use super::stage::written;
 use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series};
 use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
-use crate::number::Scalar;
+use crate::number::vec3;
 use crate::scene::Scene;
-use crate::walk::{Quadratic, Walk};
+use crate::shading::Walk;
+use crate::shading::increments::Quadratic;
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec;
@@ -159,7 +160,7 @@ fn squares(degrees: f64, pixels: usize) -> Vec<f64> {
         [sin as f32, 0.0, cos as f32],
     );
     let step = [0, 1, 2].map(|i: usize| (to[i] - from[i]) / pixels as f32);
-    let mut walk = Quadratic::square(Scalar, from, step);
+    let mut walk = Quadratic::square(vec3(from), vec3(step));
     (0..=pixels).map(|_| f64::from(walk.next())).collect()
 }
 

@@ -5,7 +5,7 @@ use super::{Agreement, Content, Figure, FigureError, Finding, Shown};
 use crate::painter::conflicts;
 use crate::picture::LinearPicture;
 use crate::scene::{DepthBuffer, HiddenSurfaces, PainterKey, Scene};
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::vec::Vec;
 

@@ -3,11 +3,11 @@
 use super::stage::{Corner, Facet, Grey, frame, written};
 use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series};
 use crate::frame::Frame;
-use crate::number::{Counter, Counting, Machine, Scalar};
+use crate::number::{Counter, vec3};
 use crate::raster::normals;
 use crate::reference::{self, Model};
-use crate::shader::Variant;
-use crate::walk::{Attribute, Sines, UnitNormal, Walk};
+use crate::shading::increments::{GreatCircle, Sines};
+use crate::shading::{Variant, Walk};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -82,11 +82,15 @@ fn speed(content: &mut Content) -> Result<(), FigureError> {
     let linear: Vec<DVec3> = (picture.row(2).iter())
         .map(|texel| DVec3::from_array([0, 1, 2].map(|i| 2.0 * f64::from(texel[i]) - 1.0)))
         .collect();
-    let [from, to] = ends(DEGREES).map(|n| UnitNormal(n.as_vec3().to_array()));
+    let [from, to] = ends(DEGREES).map(|n| vec3(n.as_vec3().to_array()));
     let dt = 1.0 / SPAN as f32;
-    let arc = UnitNormal::span(Scalar, [0.0, 0.0, 1.0], from, to, 0.5 * dt, dt);
-    let mut sines = Sines::new(Scalar, arc.phi, arc.t0, arc.dt);
-    let [from, to] = [arc.from, arc.to].map(|n| DVec3::from_array(n.map(f64::from)));
+    let face = vec3([0.0, 0.0, 1.0]);
+    let GreatCircle {
+        from,
+        to,
+        mut sines,
+    } = GreatCircle::new(face, [from, to], 0.5 * dt, dt);
+    let [from, to] = [from, to].map(|n| DVec3::from_array(n.array().map(f64::from)));
     let great: Vec<DVec3> = (0..SPAN)
         .map(|_| {
             let (s_from, s_to) = sines.next();
@@ -153,11 +157,11 @@ fn speed(content: &mut Content) -> Result<(), FigureError> {
 /// What (4.9)–(4.12) cost, counted.
 fn operations(content: &mut Content) {
     let counter = Counter::default();
-    let m = Counting(&counter);
-    let mut sines = Sines::new(m, m.one(0.5), m.one(0.1), m.one(0.01));
-    let before = counter.counts();
-    sines.step();
-    let step = counter.counts() - before;
+    let [phi, t0, dt] = [0.5, 0.1, 0.01].map(|x| counter.number(x));
+    let mut sines = Sines::new(phi, t0, dt);
+    counter.take();
+    sines.next();
+    let step = counter.take();
     let is_as_said = (
         step.additions,
         step.multiplications,
@@ -187,7 +191,7 @@ fn recurrences(degrees: f64) -> [Vec<f64>; 3] {
         (j(0.0) / libm::sin(phi)) as f32,
         (j(LONG as f64) / libm::sin(phi)) as f32,
     );
-    let mut sines = Sines::new(Scalar, phi as f32, 0.0, 1.0 / LONG as f32);
+    let mut sines = Sines::new(phi as f32, 0.0, 1.0 / LONG as f32);
     let goldman = || {
         let (s_first, s_last) = sines.next();
         first * s_first + last * s_last

@@ -6,7 +6,7 @@ use crate::frame::Frame;
 use crate::metrics::difference_map;
 use crate::picture::LinearPicture;
 use crate::raster::normals;
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec;

@@ -6,7 +6,7 @@ use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::lighting::{Lighting, Material};
 use crate::picture::LinearPicture;
 use crate::scene::{Encoding, Scene};
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::vec::Vec;
 use glam::DVec3;

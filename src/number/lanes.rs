@@ -1,138 +1,120 @@
-//! What the engines need of a machine beyond its numbers: groups of neighbouring pixels in memory, and masks over them.
+//! Eight lanes of the row engine: floats, integers and masks of eight pixels, or of eight triangles.
 
-use super::{Level, Machine, Scalar};
-use core::ops::{Add, BitAnd, BitOr, BitXor, Mul, Sub};
+use super::simd::BLOCK;
+use fearless_simd::{
+    Bytes, Simd, SimdBase, SimdCvtTruncate, SimdFloat, SimdFrom, SimdMask, f32x8, i32x8, mask32x8,
+};
 
-/// A machine whose groups of pixels can be loaded, compared, masked and stored.
-///
-/// Its set-up runs on plain `f32`. A mask says of each of the [`Machine::WIDTH`] pixels of a group whether it is meant.
-pub trait Lanes: Machine<One = f32> {
-    /// A choice among the pixels of a group.
-    type Mask: Copy;
-    /// A whole number for each of them.
-    type I: Int;
-    /// Whether a group lies in one register. Where it does not, loops that are compiled apart for what is usual gain little, as
-    /// registers run out, and would be a good part of what there is to compile.
-    const IS_ONE_REGISTER: bool;
+/// The instruction set of the row engine, as the maker of its lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lanes<S>(pub S);
 
-    /// Does `work` with the instructions of this machine: what is inlined into it is compiled for them.
-    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T;
-
-    /// The group that `from` begins with; it has `WIDTH` values or more.
-    fn load(self, from: &[f32]) -> Self::F;
-    /// Stores a group over the first `WIDTH` values of `to`.
-    fn store(self, x: Self::F, to: &mut [f32]);
-
-    /// The pixels from number `from` on, before number `to`.
-    fn lanes(self, from: usize, to: usize) -> Self::Mask;
-    /// Where `a` < `b`.
-    fn less(self, a: Self::F, b: Self::F) -> Self::Mask;
-    /// Whether any pixel is meant.
-    fn any(self, mask: Self::Mask) -> bool;
-    /// `new` where `mask` says so, else `old`.
-    fn blend(self, mask: Self::Mask, new: Self::F, old: Self::F) -> Self::F;
-
-    /// Which pixels keep what they have: all bits where `outside` is below 0 or `new` is not less than `old`, else none;
-    /// both are numbers.
-    fn kept(self, outside: Self::I, new: Self::F, old: Self::F) -> Self::I;
-    /// `old` where `kept` has all bits, `new` where it has none.
-    fn keep(self, kept: Self::I, old: Self::F, new: Self::F) -> Self::F;
-
-    /// Bit k: whether pixel k is meant.
-    fn bits(self, mask: Self::Mask) -> u32;
-
-    /// The same whole number everywhere.
-    fn int(self, x: i32) -> Self::I;
-    /// 0, 1, 2 and so on.
-    fn counted(self) -> Self::I;
-    /// The group that `from` begins with; it has `WIDTH` numbers or more.
-    fn load_int(self, from: &[i32]) -> Self::I;
-    /// Stores a group over the first `WIDTH` numbers of `to`.
-    fn store_int(self, x: Self::I, to: &mut [i32]);
-    /// Whole numbers as numbers, rounded once.
-    fn number(self, x: Self::I) -> Self::F;
-    /// Numbers whose magnitude is below 2³¹ as whole numbers, toward 0.
-    fn truncated(self, x: Self::F) -> Self::I;
-    /// Where a whole number is 0 or more.
-    fn not_negative(self, x: Self::I) -> Self::Mask;
-
-    /// Stores the colours of a group as [`quantise`](crate::encoding::quantise) does, opaque where `covered`, and
-    /// `background` elsewhere, over the first `WIDTH` texels of `to`.
-    fn pack(self, rgb: [Self::F; 3], covered: Self::Mask, background: [u8; 4], to: &mut [[u8; 4]]);
-    /// The same of colours in levels, 255 for 1, whose magnitudes are below 2³¹; NaN becomes 0.
-    fn pack_levels(
-        self,
-        levels: [Self::F; 3],
-        covered: Self::Mask,
-        background: [u8; 4],
-        to: &mut [[u8; 4]],
-    );
-}
-
-/// Whole numbers of 32 bits, of which no result may need more.
-pub trait Int:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + BitAnd<Output = Self>
-    + BitOr<Output = Self>
-    + BitXor<Output = Self>
-{
-    /// The smaller of both.
-    fn min(self, other: Self) -> Self;
-    /// The larger of both.
-    fn max(self, other: Self) -> Self;
-    /// Divided by 256, rounded down: from sub-pixels to pixels.
-    fn whole_pixels(self) -> Self;
-    /// −1 (all bits) where it is less than `other`, else 0.
+/// What the row engine asks of eight integers, of which no result may need more than 32 bits.
+pub(crate) trait Int: Sized {
+    /// Returns −1 (all bits) where `self < other`, else 0.
     fn less(self, other: Self) -> Self;
-    /// `a` where `mask` has all bits, `b` where it has none.
+    /// Returns `a` where `self` has all bits, `b` where it has none.
+    fn choose(self, a: Self, b: Self) -> Self;
+}
+
+impl<S: Simd> Int for i32x8<S> {
     #[inline(always)]
-    fn choose(mask: Self, a: Self, b: Self) -> Self {
-        b ^ ((a ^ b) & mask)
+    fn less(self, other: Self) -> Self {
+        self.simd_lt(other).to_vector()
+    }
+    #[inline(always)]
+    fn choose(self, a: Self, b: Self) -> Self {
+        b ^ ((a ^ b) & self)
     }
 }
 
-/// Something to be done on an instruction set.
-pub(crate) trait LanesJob {
-    /// What it gives.
-    type Out;
-    /// Does it.
-    fn run<M: Lanes>(self, m: M) -> Self::Out;
-}
+const COUNTED: [i32; BLOCK] = [0, 1, 2, 3, 4, 5, 6, 7];
 
-/// Does `job` on `level`, or one pixel at a time where this machine does not have it.
-pub(crate) fn on_level<J: LanesJob>(level: Level, job: J) -> J::Out {
-    match on_wide_level(level, job) {
-        Ok(out) => out,
-        Err(job) => job.run(Scalar),
+impl<S: Simd> Lanes<S> {
+    #[inline(always)]
+    pub fn splat(self, x: f32) -> f32x8<S> {
+        f32x8::splat(self.0, x)
     }
-}
+    #[inline(always)]
+    pub fn int(self, x: i32) -> i32x8<S> {
+        i32x8::splat(self.0, x)
+    }
+    /// Returns 0, 1, 2, … 7.
+    #[inline(always)]
+    pub fn counted(self) -> i32x8<S> {
+        i32x8::simd_from(self.0, COUNTED)
+    }
+    /// Returns `at + k · step` in lane k.
+    #[inline(always)]
+    pub fn ramp(self, at: f32, step: f32) -> f32x8<S> {
+        SimdFloat::mul_add(self.float(self.counted()), self.splat(step), self.splat(at))
+    }
+    #[inline(always)]
+    pub fn load(self, from: &[f32]) -> f32x8<S> {
+        f32x8::from_slice(self.0, &from[..BLOCK])
+    }
+    #[inline(always)]
+    pub fn store(self, x: f32x8<S>, to: &mut [f32]) {
+        x.store_slice(&mut to[..BLOCK]);
+    }
+    #[inline(always)]
+    pub fn load_int(self, from: &[i32]) -> i32x8<S> {
+        i32x8::from_slice(self.0, &from[..BLOCK])
+    }
+    #[inline(always)]
+    pub fn store_int(self, x: i32x8<S>, to: &mut [i32]) {
+        x.store_slice(&mut to[..BLOCK]);
+    }
+    /// Converts integers, rounding once.
+    #[inline(always)]
+    pub fn float(self, x: i32x8<S>) -> f32x8<S> {
+        self.0.cvt_f32_i32x8(x)
+    }
+    /// Converts floats of magnitudes below 2³¹, toward 0.
+    #[inline(always)]
+    pub fn truncated(self, x: f32x8<S>) -> i32x8<S> {
+        SimdCvtTruncate::truncate_from(x)
+    }
+    /// True if any lane is 0 or more.
+    #[inline(always)]
+    pub fn any_not_negative(self, x: i32x8<S>) -> bool {
+        self.not_negative(x).any_true()
+    }
+    /// Returns a bit for each lane: 1 where it is 0 or more.
+    #[inline(always)]
+    pub fn bits_not_negative(self, x: i32x8<S>) -> u32 {
+        self.not_negative(x).to_bitmask() as u32
+    }
+    #[inline(always)]
+    fn not_negative(self, x: i32x8<S>) -> mask32x8<S> {
+        x.simd_gt(self.int(-1))
+    }
+    /// Returns `new` where `a < b`, else 0.
+    #[inline(always)]
+    pub fn where_less(self, a: f32x8<S>, b: f32x8<S>, new: f32x8<S>) -> f32x8<S> {
+        let bits: i32x8<S> = Bytes::bitcast(new);
+        Bytes::bitcast(bits & a.simd_lt(b).to_vector())
+    }
 
-/// Does `job` on `level`, several pixels at a time, or gives it back where `level` has one pixel or this machine does not
-/// have it. For jobs that are never done one pixel at a time: they are not compiled for that.
-pub(crate) fn on_wide_level<J: LanesJob>(level: Level, job: J) -> Result<J::Out, J> {
-    #[cfg(feature = "simd")]
-    {
-        use super::wide::Wide;
-        let here = fearless_simd::Level::new();
-        match level {
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => {
-                if let Some(token) = here.as_avx2() {
-                    return Ok(job.run(Wide(token)));
-                }
-            }
-            #[cfg(target_arch = "aarch64")]
-            Level::Neon => {
-                if let Some(token) = here.as_neon() {
-                    return Ok(job.run(Wide(token)));
-                }
-            }
-            _ => {}
+    /// Returns all bits for the pixels that fail the depth test: where `outside` is below 0 or `new` is not less than `old`, both
+    /// of which are numbers; no bits for the others.
+    #[inline(always)]
+    pub fn depth_mask(self, outside: i32x8<S>, new: f32x8<S>, old: f32x8<S>) -> i32x8<S> {
+        (outside | new.simd_ge(old).to_vector()) >> 31
+    }
+
+    /// Returns `old` where `mask` has all bits, `new` where it has none.
+    ///
+    /// Byte by byte: a select of 32-bit values, from memory and back to it, becomes a masked store, which takes four times as
+    /// long (Zen 3). In this order what was in memory need not be loaded first.
+    #[inline(always)]
+    pub fn select(self, mask: i32x8<S>, old: f32x8<S>, new: f32x8<S>) -> f32x8<S> {
+        let (old, new): (i32x8<S>, i32x8<S>) = (Bytes::bitcast(old), Bytes::bitcast(new));
+        #[cfg(target_arch = "x86_64")]
+        if let Some(token) = self.0.level().as_avx2() {
+            let chosen = super::simd::choose(token, mask.into(), old.into(), new.into());
+            return Bytes::bitcast(i32x8::simd_from(self.0, chosen));
         }
+        Bytes::bitcast(new ^ ((new ^ old) & mask))
     }
-    let _ = level;
-    Err(job)
 }

@@ -3,9 +3,9 @@
 use super::view::{BEYOND_PLANES, Codes};
 use super::winding::{self, NO_PLACES, Places};
 use crate::frame::{FrameStats, Polygon, ScreenVertex};
+use crate::number::vectorized;
 use crate::parallel::for_each_chunk;
 use crate::scene::{Clipping, Culling, Scene};
-use crate::vectorized::vectorized;
 use alloc::vec::Vec;
 
 /// Words of a chunk of polygons.

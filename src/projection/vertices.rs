@@ -3,9 +3,9 @@
 use super::view::{Codes, View, reach};
 use crate::camera::Projection;
 use crate::frame::{FrameError, Models, ScreenVertex, SubPixel};
+use crate::number::vectorized;
 use crate::parallel::for_each_chunk;
 use crate::scene::Clipping;
-use crate::vectorized::vectorized;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use glam::{DMat4, DVec4};
 

@@ -117,8 +117,8 @@ pub(super) fn bits(flags: &[u8; MOST]) -> u64 {
 mod tests {
     use super::*;
     use crate::frame::{Frame, SubPixel};
+    use crate::number::vectorized;
     use crate::test_random::Random;
-    use crate::vectorized::vectorized;
     use std::vec::Vec;
 
     /// The definition, in as many bits as it needs.

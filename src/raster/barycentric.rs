@@ -1,25 +1,27 @@
-//! The barycentric renderer: CS171's bounding-box rasterizer, which the span shaders' speed is measured against.
+//! The barycentric renderer: CS171's bounding-box rasterizer, which the span engine's speed is measured against.
 //!
-//! For each triangle every pixel of its bounding box is tested with three edge functions; where it is inside, they give
-//! its barycentric coordinates, and attributes are interpolated and shaded there and then (CS171 1, Algorithms 1, 2).
-//! Shading is the methods' own text, so that what differs in speed is rasterization and interpolation.
+//! For each triangle every pixel of its bounding box is tested with three edge functions; where it is inside, they give its
+//! barycentric coordinates, by which varyings are interpolated (CS171 1, Algorithms 1, 2). Pixels are shaded by the scalar
+//! kernels, a row of a triangle at a time, so that what differs in speed is rasterization and interpolation.
 
 use super::depth::SampleDepth;
-use super::setup::SetUp;
+use super::setup::{SetUp, Varyings};
+use super::spans::NOTHING;
 use super::target::Target;
 use crate::frame::{Frame, ScreenVertex};
-use crate::number::{Machine, each};
-use crate::shader::{Shader, Span};
-use crate::walk::{Attribute, Walk};
+use crate::picture::Picture;
+use crate::shading::{Pixels, Run};
 use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
 
-/// To whom the pixels whose centres lie exactly on an edge belong.
+/// The owner of the pixels whose centres lie exactly on an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Edges {
-    /// To the polygon right of or below the edge (the top-left rule): as in every other engine here.
+    /// The polygon right of or below the edge (the top-left rule): as in every other engine here.
     #[default]
     TopLeft,
-    /// To every triangle that has the edge, as CS171 prints it: shared edges are drawn twice.
+    /// Every triangle that has the edge, as CS171 prints it: shared edges are drawn twice.
     Closed,
 }
 
@@ -50,94 +52,141 @@ impl EdgeFunction {
         self.across * x + self.down * y + self.constant // f_ij
     }
 
-    /// Whether pixels on the edge itself are inside a triangle whose inside is where f ≥ 0: left and top edges.
+    fn at_vertex(&self, v: &ScreenVertex) -> i64 {
+        self.at(i64::from(v.x.to_bits()), i64::from(v.y.to_bits()))
+    }
+
+    /// True if pixels on the edge itself are inside a triangle whose inside is where f ≥ 0: left and top edges.
     fn owns_its_pixels(&self) -> bool {
         self.across > 0 || (self.across == 0 && self.down > 0)
     }
 }
 
-/// Draws the triangles of `frame` into `target`; polygons with more corners are passed over.
-pub(crate) fn draw<S: Shader, M: Machine>(
-    m: M,
-    frame: &Frame,
-    parameters: &[u32],
-    edges: Edges,
-    target: &mut dyn Target,
-) {
-    const { assert!(M::WIDTH == 1, "this renderer goes pixel by pixel") };
-    let setup = SetUp::<S, M>::new(m, frame, parameters);
+/// Takes the visible pixels of a triangle on a row: the polygon, the row, the columns, and what each pixel starts from.
+type Visit<'a> = dyn FnMut(u32, usize, &[usize], &[f32]) + 'a;
+
+/// Goes through the triangles of `frame`, in drawing order; polygons with more corners are passed over.
+pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: &mut Visit<'_>) {
     let depth = SampleDepth::new(frame);
     let mut depth_buffer = vec![f32::INFINITY; frame.width() * frame.height()];
-    for (number, polygon) in frame.polygons().iter().enumerate() {
-        let &[a, mut b, mut c] = frame.corners(polygon) else {
+    let (mut columns, mut starts) = (Vec::new(), Vec::new());
+    for (number, polygon) in (0..).zip(frame.polygons()) {
+        let &[a, b, c] = frame.corners(polygon) else {
             continue;
         };
+        let mut order = [(0, a), (1, b), (2, c)];
         let vertex = |v: u32| &frame.vertices()[v as usize];
         let doubled_area = EdgeFunction::new(vertex(a), vertex(b)).at_vertex(vertex(c));
         if doubled_area == 0 {
             continue;
         }
         if doubled_area < 0 {
-            core::mem::swap(&mut b, &mut c);
+            order.swap(1, 2);
         }
-        let corners = [vertex(a), vertex(b), vertex(c)];
+        let corners = order.map(|(_, v)| vertex(v));
         let functions = [
             EdgeFunction::new(corners[1], corners[2]),
             EdgeFunction::new(corners[2], corners[0]),
             EdgeFunction::new(corners[0], corners[1]),
         ];
         // f ≥ 1 is f > 0 in integers: the edges that do not own their pixels need that.
-        let least: [i64; 3] =
-            each(|i| i64::from(edges == Edges::TopLeft && !functions[i].owns_its_pixels()));
+        let disowns = |f: &EdgeFunction| edges == Edges::TopLeft && !f.owns_its_pixels();
+        let least = functions.each_ref().map(|f| i64::from(disowns(f)));
         let scale = 1.0 / doubled_area.abs() as f32;
-        let attributes: [_; 3] = each(|i| setup.attributes[[a, b, c][i] as usize]);
         let depths = corners.map(|corner| depth.of_corner(frame, corner));
+        let values = order.map(|(corner, v)| varyings.of_corner(number, corner, v));
         let (x_range, y_range) = bounding_box(frame, &corners);
-        let material = polygon.material as usize;
         for row in y_range {
+            columns.clear();
+            starts.clear();
             let y = 256 * row as i64 + 128;
+            let mut f = functions
+                .each_ref()
+                .map(|f| f.at(256 * x_range.start as i64 + 128, y));
+            let nearest = &mut depth_buffer[row * frame.width()..][..frame.width()];
             for column in x_range.clone() {
-                let x = 256 * column as i64 + 128;
-                let f: [i64; 3] = each(|i| functions[i].at(x, y));
-                if (0..3).any(|i| f[i] < least[i]) {
+                let here = f;
+                for (f, function) in f.iter_mut().zip(&functions) {
+                    *f += 256 * function.across;
+                }
+                if here.iter().zip(&least).any(|(f, least)| f < least) {
                     continue;
                 }
                 // α = f_bc(p) / f_bc(a), and likewise β and γ: f_bc(a) is the doubled area for all three.
-                let weights: [f32; 3] = each(|i| f[i] as f32 * scale);
-                let q = weights[0] * depths[0] + weights[1] * depths[1] + weights[2] * depths[2];
-                let nearest = &mut depth_buffer[row * frame.width() + column];
-                let Some(kept) = depth.seen(q, *nearest) else {
+                let weights = here.map(|f| f as f32 * scale);
+                let mix = |a, b, c| weights[0] * a + weights[1] * b + weights[2] * c;
+                let q = mix(depths[0], depths[1], depths[2]);
+                let Some(kept) = depth.seen(q, nearest[column]) else {
                     continue;
                 };
-                *nearest = kept;
-                let start = Span {
-                    x: m.one(column as f32 + 0.5),
-                    y: m.one(row as f32 + 0.5),
-                    attribute: S::Attribute::barycentric(
-                        m,
-                        each(|i| m.one(weights[i])),
-                        attributes,
-                    ),
-                };
-                let mut walk = S::walk(m, &setup.consts[material], &setup.polygons[number], &start);
-                let rgb = S::shade(&setup.pixel_consts[material], walk.next());
-                target.store(column, row, &[each(|i| m.first(rgb[i]))]);
+                nearest[column] = kept;
+                columns.push(column);
+                if let Some(constant) = varyings.of_polygon(number) {
+                    starts.extend(constant);
+                } else {
+                    let corners = values[0].iter().zip(values[1]).zip(values[2]);
+                    starts.extend(corners.map(|((a, b), c)| mix(*a, *b, *c)));
+                }
+                starts.resize(starts.len() + varyings.count, 0.0);
+            }
+            if !columns.is_empty() {
+                visit(number, row, &columns, &starts);
             }
         }
     }
 }
 
-impl EdgeFunction {
-    fn at_vertex(&self, v: &ScreenVertex) -> i64 {
-        self.at(i64::from(v.x.to_bits()), i64::from(v.y.to_bits()))
-    }
+/// Draws the triangles of a method's frame into `target`.
+pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
+    let mut colours = vec![[0.0; 3]; setup.frame.width()];
+    let mut runs = Vec::new();
+    scan(
+        setup.frame,
+        &setup.varyings,
+        edges,
+        &mut |number, row, columns, starts| {
+            let run = Run {
+                uniforms: setup.uniforms_of(number),
+                x: 0,
+                pixels: 1,
+            };
+            runs.clear();
+            runs.resize(columns.len(), run);
+            let job = Pixels {
+                parameters: setup.parameters,
+                uniforms: &setup.uniforms,
+                extras: setup.extras,
+                runs: &runs,
+                starts,
+            };
+            (setup.kernels.pixels)(&job, &mut colours);
+            for (column, colour) in columns.iter().zip(&colours) {
+                target.store(*column, row, &[*colour]);
+            }
+        },
+    );
 }
 
-/// The pixels whose centres may lie in a triangle: columns and rows.
-fn bounding_box(
-    frame: &Frame,
-    corners: &[&ScreenVertex; 3],
-) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
+/// Returns the number of the polygon that the barycentric renderer shows at each pixel, an index into [`Frame::polygons`], or
+/// [`NOTHING`].
+///
+/// It is that of [`polygon_numbers`](super::polygon_numbers), but where depths agree to within rounding.
+pub fn barycentric_polygon_numbers(frame: &Frame, edges: Edges) -> Picture<u32> {
+    let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
+    scan(
+        frame,
+        &Varyings::of_vertices(vec![], 0),
+        edges,
+        &mut |number, row, columns, _| {
+            let row = picture.row_mut(row);
+            columns.iter().for_each(|column| row[*column] = number);
+        },
+    );
+    picture
+}
+
+/// Returns the pixels whose centres may lie in a triangle: columns and rows.
+fn bounding_box(frame: &Frame, corners: &[&ScreenVertex; 3]) -> (Range<usize>, Range<usize>) {
     let range = |coordinates: [i32; 3], limit: usize| {
         let (mut low, mut high) = (coordinates[0], coordinates[0]);
         for c in coordinates {
@@ -152,4 +201,63 @@ fn bounding_box(
         range(corners.map(|v| v.x.to_bits()), frame.width()),
         range(corners.map(|v| v.y.to_bits()), frame.height()),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{FrameBuilder, SubPixel, Vertex};
+    use crate::lighting::{Lighting, Material};
+    use crate::raster::polygon_numbers;
+    use crate::test_random::Random;
+    use glam::DVec3;
+
+    /// Small triangles of random places and depths; enough that the second half of the number is not all of it.
+    fn triangles(count: usize, side: u32) -> Frame {
+        let mut random = Random::new(7);
+        let mut builder = FrameBuilder::new(side, side);
+        let material =
+            builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
+        for number in 0..count {
+            let depth = 0.5 + 0.5 * random.signed();
+            let centre = [
+                random.below(u64::from(256 * side)) as i32,
+                random.below(u64::from(256 * side)) as i32,
+            ];
+            let corners = [(); 3].map(|()| {
+                let [x, y] =
+                    centre.map(|c| SubPixel::from_bits(c + random.below(1024) as i32 - 512));
+                builder.vertex(Vertex {
+                    x,
+                    y,
+                    depth,
+                    inv_w: 1.0,
+                    normal: [0.0, 0.0, 1.0],
+                    material,
+                })
+            });
+            builder.polygon(&corners, [0.0, 0.0, 1.0], number as u32);
+        }
+        builder.finish().unwrap()
+    }
+
+    #[test]
+    fn it_shows_the_polygons_of_the_scanline_engine() {
+        // Depth is constant over a triangle, so that only the rounding of it could part the two: one depth in 2²³.
+        let frame = triangles(30_000, 300);
+        let scanline = polygon_numbers(&frame);
+        let seen = scanline.texels().iter().filter(|n| **n != NOTHING);
+        assert!(
+            seen.clone().any(|n| *n > 65_536 / 3),
+            "numbers of over 16 bits are among them"
+        );
+        let barycentric = barycentric_polygon_numbers(&frame, Edges::TopLeft);
+        let other = scanline
+            .texels()
+            .iter()
+            .zip(barycentric.texels())
+            .filter(|(a, b)| a != b)
+            .count();
+        assert_eq!(other, 0, "of {} pixels", seen.count());
+    }
 }

@@ -1,8 +1,8 @@
 //! Which polygons meet which band of scanlines: what lets bands be drawn apart, one thread each.
 
 use crate::frame::{Frame, Polygon, ScreenVertex};
+use crate::number::vectorized;
 use crate::parallel::collect;
-use crate::vectorized::vectorized;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -44,8 +44,6 @@ pub(crate) struct Bins {
 struct Chunk {
     starts: Vec<u32>,
     polygons: Vec<Listed>,
-    /// Whether none has more than three corners.
-    are_triangles: bool,
 }
 
 /// The first band of each polygon and the one after its last. There are at most
@@ -61,11 +59,6 @@ impl Bins {
                 Chunk::new(frame, height, number * CHUNK)
             }),
         }
-    }
-
-    /// Whether all polygons of the frame are triangles.
-    pub fn are_triangles(&self) -> bool {
-        self.chunks.iter().all(|chunk| chunk.are_triangles)
     }
 
     /// The polygons that may cover pixels of band `band`, by ascending numbers from list to list and within each.
@@ -86,11 +79,10 @@ impl Chunk {
         let mut ranges = [[0; CHUNK]; 2];
         let mut starts = vec![0u32; bands + 2];
         let mut entries = Vec::with_capacity(all.len());
-        let mut are_triangles = true;
         vectorized(
             #[inline(always)]
             || {
-                are_triangles = find_ranges(frame, first, all, height, &mut ranges, &mut entries);
+                find_ranges(frame, first, all, height, &mut ranges, &mut entries);
                 count(&ranges, all.len(), &mut starts);
             },
         );
@@ -108,11 +100,7 @@ impl Chunk {
                 put(band, entry);
             }
         }
-        Chunk {
-            starts,
-            polygons,
-            are_triangles,
-        }
+        Chunk { starts, polygons }
     }
 }
 
@@ -133,7 +121,7 @@ fn count(ranges: &Ranges, polygons: usize, starts: &mut [u32]) {
 }
 
 /// The bands of `height` scanlines whose pixel centres the bounding box of each polygon holds, and what stands for it in their
-/// lists; the first polygon has number `number`. Gives whether all are triangles.
+/// lists; the first polygon has number `number`.
 #[inline(always)]
 fn find_ranges(
     frame: &Frame,
@@ -142,7 +130,7 @@ fn find_ranges(
     height: usize,
     ranges: &mut Ranges,
     entries: &mut Vec<Listed>,
-) -> bool {
+) {
     let mut corners = [[[0; 2]; GROUP]; 4];
     let mut read_entries = [Listed::default(); GROUP];
     let (limit, log_height) = (
@@ -150,7 +138,6 @@ fn find_ranges(
         height.trailing_zeros(),
     );
     let nowhere = frame.height().div_ceil(height) as i32;
-    let mut are_triangles = true;
     let mut first = 0;
     while first < polygons.len() {
         let polygons = &polygons[first..];
@@ -169,7 +156,6 @@ fn find_ranges(
         } else {
             pixels::<4>(&corners, &limit)
         };
-        are_triangles &= these_are;
         let [from, to] = ranges;
         let (from, to) = (
             &mut from[first..first + GROUP],
@@ -188,7 +174,6 @@ fn find_ranges(
         }
         first += GROUP;
     }
-    are_triangles
 }
 
 /// Columns and rows, by polygon.

@@ -1,7 +1,6 @@
 //! Depth at a sample: from what is interpolated to what is compared.
 
 use crate::frame::{DepthRange, Frame, ScreenVertex};
-use crate::number::{Lanes, Num};
 use crate::scene::{Clipping, DepthBits, DepthSource, HiddenSurfaces};
 
 /// How depth is made of the values at the corners, and how it is kept.
@@ -75,7 +74,8 @@ impl SampleDepth {
         self.cube
     }
 
-    /// Returns the largest level of the depth buffer, if it keeps whole numbers.
+    /// Returns the largest integer that depth is kept as, if it is kept as integers.
+    #[cfg(feature = "simd")]
     pub fn most(&self) -> Option<u32> {
         self.most
     }
@@ -130,8 +130,8 @@ impl SampleDepth {
     }
 }
 
-/// Returns the depths `z` of a group as levels of a depth buffer whose largest is `most`, which is below 2²⁴: exactly as
-/// [`SampleDepth::kept`] does, half-way up. For machines whose products are fused with sums.
+/// Returns the depths `z` of a block as levels of a depth buffer whose largest is `most`, which is below 2²⁴: exactly as
+/// [`SampleDepth::kept`] does, half-way up. For instruction sets whose products are fused with sums.
 ///
 /// ```text
 /// c = ⌊fl(z most)⌋,    level = c + [z most − c ≥ ½]
@@ -139,17 +139,21 @@ impl SampleDepth {
 /// The rounded product fl(z most) may reach the next whole number c, but then z most is nearer than ½ to it, and the level is
 /// c. Below 2²³ the difference from c + ½, which is exact there, is rounded once and keeps its sign. From 2²³ on z is ½ or
 /// more, so that z most − c is a multiple of 2⁻²⁴ of at most ½, which is exact.
+#[cfg(feature = "simd")]
 #[inline(always)]
-pub fn level_of<M: Lanes>(m: M, z: M::F, most: M::F) -> M::F {
-    let z = z.max(m.splat(0.0)).min(m.splat(1.0));
-    let (half, one) = (m.splat(0.5), m.splat(1.0));
-    let below = m.number(m.truncated(z * most));
-    let over = m.blend(
-        m.less(below, m.splat(8_388_608.0)),
-        z.mul_sub(most, below + half),
-        z.mul_sub(most, below) - half,
-    );
-    m.blend(m.less(over, m.splat(0.0)), below, below + one)
+pub(super) fn level_of<S: fearless_simd::Simd>(
+    m: crate::number::lanes::Lanes<S>,
+    z: fearless_simd::f32x8<S>,
+    most: f32,
+) -> fearless_simd::f32x8<S> {
+    use fearless_simd::{Select, SimdBase, SimdFloat};
+    let (most, half, none) = (m.splat(most), m.splat(0.5), m.splat(0.0));
+    let z = z.max(none).min(m.splat(1.0));
+    let below = m.float(m.truncated(z * most));
+    let over = below
+        .simd_lt(m.splat(8_388_608.0))
+        .select(z.mul_sub(most, below + half), z.mul_sub(most, below) - half);
+    over.simd_lt(none).select(below, below + 1.0)
 }
 
 #[cfg(test)]
@@ -195,43 +199,22 @@ mod tests {
         );
     }
 
-    /// The levels of some depths, a group at a time.
-    #[cfg(feature = "simd")]
-    struct Levels<'a>(&'a [f32], u32);
-
-    #[cfg(feature = "simd")]
-    impl crate::number::LanesJob for Levels<'_> {
-        type Out = alloc::vec::Vec<f32>;
-
-        fn run<M: Lanes>(self, m: M) -> alloc::vec::Vec<f32> {
-            let Levels(depths, most) = self;
-            let mut levels = alloc::vec![0.0; depths.len()];
-            m.vectorize(
-                #[inline(always)]
-                || {
-                    for x in (0..depths.len()).step_by(M::WIDTH) {
-                        let kept = level_of(m, m.load(&depths[x..]), m.splat(most as f32));
-                        m.store(kept, &mut levels[x..]);
-                    }
-                },
-            );
-            levels
-        }
-    }
-
-    /// A group's levels are those of its samples one by one, around every border between two levels of 16 bits and many of 24.
-    #[cfg(feature = "simd")]
+    /// A block's levels are those of its samples one by one, around every border between two levels of 16 bits and many of 24.
+    #[cfg(all(feature = "simd", target_arch = "x86_64"))]
     #[test]
-    fn groups_keep_the_same_levels() {
-        use crate::number::{Level, on_level};
+    fn blocks_keep_the_same_levels() {
+        use crate::number::lanes::Lanes;
+        let Some(token) = fearless_simd::Level::new().as_avx2() else {
+            return;
+        };
+        let m = Lanes(token);
         let mut random = crate::test_random::Random::new(61);
         for bits in [DepthBits::Sixteen, DepthBits::TwentyFour] {
             let rule = keeping(bits);
             let most = bits.most().expect("levels");
             let step = if most < 1 << 16 { 1 } else { 101 };
             let mut depths = alloc::vec![-1.0, -1e-9, -0.0, 0.0, 1e-30, 1.0, 1.000_001, 7.0];
-            let mut level = 0;
-            while level < most {
+            for level in (0..most).step_by(step) {
                 let border = ((f64::from(level) + 0.5) / f64::from(most)) as f32;
                 let (below, above) = (border.next_down(), border.next_up());
                 let middle = (f64::from(level) / f64::from(most)) as f32;
@@ -243,15 +226,15 @@ mod tests {
                     above.next_up(),
                     middle,
                 ]);
-                level += step;
             }
             depths.extend((0..1 << 16).map(|_| random.signed().abs()));
             depths.extend((0..1 << 16).map(|_| random.signed().abs() / most as f32));
             depths.resize(depths.len().next_multiple_of(8), 0.5);
-            for level in Level::available().skip(1) {
-                let found = on_level(level, Levels(&depths, most));
-                for (z, found) in depths.iter().zip(found) {
-                    assert_eq!(found, rule.kept(*z), "{level}, {most}: {z:e}");
+            for depths in depths.chunks_exact(8) {
+                let mut levels = [0.0; 8];
+                m.store(level_of(m, m.load(depths), most as f32), &mut levels);
+                for (z, found) in depths.iter().zip(levels) {
+                    assert_eq!(found, rule.kept(*z), "{most}: {z:e}");
                 }
             }
         }

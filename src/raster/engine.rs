@@ -13,7 +13,7 @@ pub enum Engine {
     /// One pixel at a time: active edges, a depth buffer of one line, and visible runs that are walked and shaded once, the
     /// lecture's way.
     Span,
-    /// Eight pixels at a time: bands of scanlines, whose interpolants are kept in planes until each row is shaded once.
+    /// Sixteen pixels at a time: a deferred renderer, whose varyings are kept in a G-buffer until each row is shaded once.
     Row,
 }
 
@@ -36,7 +36,7 @@ impl Engine {
                 "one pixel at a time: active edges, a depth buffer of one line, visible runs shaded once: the lecture's way"
             }
             Engine::Row => {
-                "SIMD: bands of scanlines, interpolants kept in planes, each row shaded once"
+                "SIMD: a deferred renderer, varyings kept in a G-buffer, each row shaded once"
             }
         }
     }
@@ -69,7 +69,7 @@ pub enum Renderer {
     #[default]
     Span,
     /// The row engine on these SIMD instructions. On [`Level::Scalar`], or where this machine does not have them, the span
-    /// engine draws: see [`crate::shader::Variant::plan`].
+    /// engine draws: see [`crate::shading::Variant::plan`].
     Row(Level),
 }
 
@@ -122,7 +122,7 @@ impl Renderer {
     }
 }
 
-/// What draws a frame indeed: see [`crate::shader::Variant::plan`].
+/// What draws a frame indeed: see [`crate::shading::Variant::plan`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
     /// What draws it.

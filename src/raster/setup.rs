@@ -1,167 +1,337 @@
-//! What is computed before the first scanline: once a material, once a vertex, once a polygon.
+//! What is computed before the first scanline: uniforms once a material, varyings once a vertex, a corner or a polygon.
 
-use crate::frame::Frame;
-use crate::number::Machine;
+use crate::frame::{ClipCorner, Frame, Polygon};
+use crate::number::{Level, Vec3, vec3};
 use crate::parallel::for_each_chunk;
 use crate::scene::Interpolation;
-use crate::shader::{Corner, Corners, Shader};
-use crate::walk::Attribute;
+use crate::shading::increments::GreatCircle;
+use crate::shading::lighting::Uniforms;
+use crate::shading::{Extras, Kernels, LitAt, Local, Perspective, Variant, Vertices, ramp};
+use alloc::borrow::Cow;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A shader's constants by material, attributes by vertex and values by polygon.
-pub(super) struct SetUp<S: Shader, M: Machine> {
-    pub consts: Vec<S::Consts<M::One>>,
-    /// The same constants for the pixel loop.
-    pub pixel_consts: Vec<S::Consts<M::F>>,
-    pub attributes: Vec<S::Attribute<M::One>>,
-    pub polygons: Vec<S::Polygon<M::One>>,
+/// What a varying belongs to.
+#[derive(Clone, Debug)]
+pub(super) enum Per {
+    /// A vertex, by its number.
+    Vertex,
+    /// A corner of a polygon, where light is seen from the polygon: by the number of the polygon's first corner and its own.
+    Corner(Vec<u32>),
+    /// A polygon, by its number: nothing is interpolated.
+    Polygon,
 }
 
-impl<S: Shader, M: Machine> SetUp<S, M> {
-    pub fn new(m: M, frame: &Frame, parameters: &[u32]) -> Self {
-        Self::with(m, frame, parameters, attributes::<S, M>)
+/// Numbers that are interpolated, or that hold over polygons.
+#[derive(Clone, Debug)]
+pub(super) struct Varyings<'a> {
+    pub values: Cow<'a, [f32]>,
+    /// Numbers of each varying.
+    pub count: usize,
+    pub per: Per,
+    /// True for unit normals, which walk great circles.
+    pub great_circle: bool,
+}
+
+impl<'a> Varyings<'a> {
+    /// Takes `count` numbers a vertex, interpolated linearly; none for what is only seen.
+    pub fn of_vertices(values: impl Into<Cow<'a, [f32]>>, count: usize) -> Self {
+        Varyings {
+            values: values.into(),
+            count,
+            per: Per::Vertex,
+            great_circle: false,
+        }
     }
 
-    /// Likewise, without attributes: for shaders that have no values by polygon, where attributes are read elsewhere.
-    pub fn without_attributes(m: M, frame: &Frame, parameters: &[u32]) -> Self {
-        const { assert!(!S::ATTRIBUTE_IS_NORMAL || core::mem::size_of::<S::Polygon<f32>>() == 0) };
-        Self::with(m, frame, parameters, |_, _, _| Vec::new())
+    /// Returns the numbers of corner `corner` of polygon `number`, whose vertex is `vertex`.
+    #[inline(always)]
+    pub fn of_corner(&self, number: u32, corner: u32, vertex: u32) -> &[f32] {
+        let place = match &self.per {
+            Per::Vertex => vertex,
+            Per::Corner(first) => first[number as usize] + corner,
+            Per::Polygon => number,
+        };
+        &self.values[place as usize * self.count..][..self.count]
     }
 
-    /// Likewise, with what `attributes` makes of the constants.
-    fn with(
-        m: M,
-        frame: &Frame,
-        parameters: &[u32],
-        attributes: impl FnOnce(M, &Frame, &[S::Consts<M::One>]) -> Vec<S::Attribute<M::One>>,
-    ) -> Self {
-        let consts: Vec<_> = frame
-            .lightings()
-            .iter()
-            .map(|l| S::consts(l, parameters, &|x| m.one(x)))
-            .collect();
-        let pixel_consts = frame
-            .lightings()
-            .iter()
-            .map(|l| S::consts(l, parameters, &|x| m.splat(m.one(x))))
-            .collect();
-        let attributes = attributes(m, frame, &consts);
-        let polygons = all(frame.polygons().len(), |number| {
-            let polygon = &frame.polygons()[number];
-            let corners = Corners {
-                machine: m,
-                frame,
-                polygon,
-                attributes: &attributes,
-            };
-            S::polygon(&consts[polygon.material as usize], &corners)
-        });
-        SetUp {
-            consts,
-            pixel_consts,
-            attributes,
-            polygons,
+    /// Returns the numbers of polygon `number`, if they hold over all of it.
+    #[inline(always)]
+    pub fn of_polygon(&self, number: u32) -> Option<&[f32]> {
+        match self.per {
+            Per::Polygon => Some(self.of_corner(number, 0, 0)),
+            _ => None,
         }
     }
 }
 
-/// Elements that are computed together on one thread.
+/// A method on a frame, ready to be drawn.
+#[derive(Clone, Debug)]
+pub(super) struct SetUp<'a> {
+    pub frame: &'a Frame,
+    pub kernels: &'static Kernels,
+    pub parameters: &'a [u32],
+    pub extras: Extras,
+    /// By material; or by polygon, where light and eye at positions are seen from each polygon.
+    pub uniforms: Vec<Uniforms>,
+    pub is_by_polygon: bool,
+    pub varyings: Varyings<'a>,
+}
+
+impl core::fmt::Debug for Kernels {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("Kernels")
+    }
+}
+
+/// Vertices that are lit by one call.
+const BATCH: usize = 64;
+/// Vertices that are lit on one thread.
 const CHUNK: usize = 1 << 13;
 
-/// The values of `of` for 0 to `count` − 1, on several threads.
-fn all<T: Copy + Send + Sync>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    if count == 0 {
-        return Vec::new();
-    }
-    let mut all = vec![value(0, &of); count];
-    // Where a value has no size there is only one.
-    if core::mem::size_of::<T>() != 0 {
-        for_each_chunk(&mut all[1..], CHUNK, &|first, part: &mut [T]| {
-            part.iter_mut()
-                .enumerate()
-                .for_each(|(i, value)| *value = of(1 + first + i));
-        });
-    }
-    all
-}
+/// A vertex to be lit: its uniforms, normal and position.
+type Item = (u32, [f32; 3], [f32; 3]);
 
-/// The value of `of` for `i`: not inlined, as what it is made of is inlined into the loop over all others.
-#[inline(never)]
-fn value<T>(i: usize, of: &impl Fn(usize) -> T) -> T {
-    of(i)
-}
-
-/// Vertices are lit; clip corners lie between two of them and are not lit again; then all are weighted by 1/w where
-/// attributes are linear in space.
-fn attributes<S: Shader, M: Machine>(
-    m: M,
-    frame: &Frame,
-    consts: &[S::Consts<M::One>],
-) -> Vec<S::Attribute<M::One>> {
-    let vertices = frame.vertices();
-    let mut all = all(vertices.len(), |number| {
-        let vertex = number as u32;
-        // Where there is one material, whose a vertex is need not be read.
-        let consts = if let [only] = consts {
-            only
-        } else {
-            &consts[frame.material(vertex) as usize]
-        };
-        S::vertex(
-            consts,
-            &Corner {
-                machine: m,
-                frame,
-                vertex,
+impl<'a> SetUp<'a> {
+    /// Computes all that a method needs on a frame, with colours multiplied by `scale`, on an instruction set.
+    pub fn new(variant: &'a Variant, frame: &'a Frame, level: Level, scale: f32) -> Self {
+        let (entry, info, near) = (variant.entry(), variant.info(), frame.is_local());
+        let kernels = entry.kernels(frame.light_count(), near);
+        let is_perspective = frame.interpolation() == Interpolation::Perspective;
+        let lightings = frame.lightings().iter();
+        let mut uniforms: Vec<Uniforms> = lightings.map(|l| Uniforms::new(l, scale)).collect();
+        let is_by_polygon = near && info.local == Local::PerPolygon;
+        if is_by_polygon {
+            let polygons = frame.polygons().iter();
+            let seen =
+                |p: &Polygon| uniforms[p.material as usize].seen_from(frame.mean(p).position);
+            uniforms = polygons.map(seen).collect();
+        }
+        let extras = entry.extras(near, is_perspective);
+        let [own, _] = (kernels.counts)(frame.light_count());
+        let mut all = SetUp {
+            frame,
+            kernels,
+            parameters: variant.parameters(),
+            extras,
+            uniforms,
+            is_by_polygon,
+            varyings: Varyings {
+                values: Cow::Borrowed(&[]),
+                count: own + extras.count(),
+                per: Per::Vertex,
+                great_circle: kernels.great_circle,
             },
-        )
-    });
-    for corner in frame.clip_corners() {
-        let (a, b) = (all[corner.a as usize], all[corner.b as usize]);
-        let edge = S::Attribute::edge(m, m.three(corner.face), a, b, m.one(corner.t), m.one(0.0));
-        all[corner.vertex as usize] = S::Attribute::at(&edge);
+        };
+        let is_weighted =
+            is_perspective && matches!(info.perspective, Perspective::Free | Perspective::Divides);
+        match info.lit_at {
+            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(level, info.lit_at),
+            _ if is_by_polygon && !kernels.great_circle => all.light_corners(level, is_weighted),
+            _ => all.light_vertices(level, is_weighted),
+        }
+        all
     }
-    if frame.interpolation() == Interpolation::Perspective {
-        for (attribute, vertex) in all.iter_mut().zip(vertices) {
-            *attribute = attribute.weighted(m.one(vertex.inv_w));
+
+    /// Returns the number of the uniforms of a polygon.
+    #[inline(always)]
+    pub fn uniforms_of(&self, number: u32) -> u32 {
+        match self.is_by_polygon {
+            true => number,
+            false => self.frame.polygons()[number as usize].material,
         }
     }
-    all
+
+    fn light_vertices(&mut self, level: Level, is_weighted: bool) {
+        let (frame, near) = (self.frame, self.frame.is_local());
+        if self.kernels.passes_normal
+            && self.extras == Extras::default()
+            && let Some(normals) = frame.normals_on_screen()
+        {
+            self.varyings.values = Cow::Borrowed(normals.as_flattened());
+            return;
+        }
+        let only = frame.lightings().len() == 1;
+        let item = |i: usize| {
+            let vertex = i as u32;
+            let point = if near {
+                frame.position(vertex)
+            } else {
+                [0.0; 3]
+            };
+            // Where there is one material, whose a vertex is need not be read.
+            let material = if only { 0 } else { frame.material(vertex) };
+            (material, frame.normal(vertex), point)
+        };
+        let mut values = self.lit(level, frame.vertices().len(), &item);
+        let count = self.varyings.count;
+        for corner in frame.clip_corners() {
+            let ends = [corner.a, corner.b].map(|v| values[v as usize * count..][..count].to_vec());
+            let to = &mut values[corner.vertex as usize * count..][..count];
+            between(self.varyings.great_circle, corner, &ends, to);
+        }
+        if is_weighted && count > 0 {
+            for (varying, vertex) in values.chunks_exact_mut(count).zip(frame.vertices()) {
+                varying.iter_mut().for_each(|value| *value *= vertex.inv_w);
+            }
+        }
+        self.varyings.values = Cow::Owned(values);
+    }
+
+    fn light_polygons(&mut self, level: Level, at: LitAt) {
+        let frame = self.frame;
+        let item = |number: usize| {
+            let polygon = &frame.polygons()[number];
+            let normal = match at {
+                LitAt::PolygonMean => vec3(frame.mean(polygon).normal).unit().array(),
+                _ => frame.polygon_normal(polygon),
+            };
+            (self.uniforms_of(number as u32), normal, [0.0; 3])
+        };
+        let values = self.lit(level, frame.polygons().len(), &item);
+        self.varyings.values = Cow::Owned(values);
+        self.varyings.per = Per::Polygon;
+    }
+
+    /// Lights the corners of each polygon by what the polygon sees.
+    fn light_corners(&mut self, level: Level, is_weighted: bool) {
+        let (frame, count) = (self.frame, self.varyings.count);
+        let (mut first, mut corners) = (Vec::new(), Vec::new());
+        for (number, polygon) in (0..).zip(frame.polygons()) {
+            first.push(corners.len() as u32);
+            corners.extend(
+                frame
+                    .corners(polygon)
+                    .iter()
+                    .map(|&vertex| (number, vertex)),
+            );
+        }
+        let item = |i: usize| (corners[i].0, frame.normal(corners[i].1), [0.0; 3]);
+        let mut values = self.lit(level, corners.len(), &item);
+        for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
+            if clip_corner(frame, vertex).is_some() {
+                to.copy_from_slice(&self.clipped(level, number, vertex));
+            }
+            if is_weighted {
+                let weight = frame.vertices()[vertex as usize].inv_w;
+                to.iter_mut().for_each(|value| *value *= weight);
+            }
+        }
+        self.varyings.values = Cow::Owned(values);
+        self.varyings.per = Per::Corner(first);
+    }
+
+    /// Returns the varying of a vertex on polygon `number`: between the ends of the edge on which clipping made it, or lit.
+    fn clipped(&self, level: Level, number: u32, vertex: u32) -> Vec<f32> {
+        let Some(corner) = clip_corner(self.frame, vertex) else {
+            return self.lit(level, 1, &|_| (number, self.frame.normal(vertex), [0.0; 3]));
+        };
+        let ends = [corner.a, corner.b].map(|v| self.clipped(level, number, v));
+        let mut to = vec![0.0; self.varyings.count];
+        between(self.varyings.great_circle, &corner, &ends, &mut to);
+        to
+    }
+
+    /// Lights `count` vertices, on several threads and on an instruction set.
+    fn lit(&self, level: Level, count: usize, item: &(dyn Fn(usize) -> Item + Sync)) -> Vec<f32> {
+        let stride = self.varyings.count;
+        let mut values = vec![0.0; count * stride];
+        if stride == 0 {
+            return values;
+        }
+        let simd = self.kernels.on(level).and_then(|simd| simd.vertices);
+        let kernel = simd.unwrap_or(self.kernels.vertices);
+        for_each_chunk(
+            &mut values[..],
+            CHUNK * stride,
+            &|first, values: &mut [f32]| {
+                let mut first = first / stride;
+                let (mut normals, mut points) = ([[0.0; 3]; BATCH], [[0.0; 3]; BATCH]);
+                let mut rest = values;
+                while !rest.is_empty() {
+                    let most = BATCH.min(rest.len() / stride);
+                    let (number, mut k) = (item(first).0, 0);
+                    while k < most {
+                        let (other, normal, point) = item(first + k);
+                        if other != number {
+                            break;
+                        }
+                        (normals[k], points[k]) = (normal, point);
+                        k += 1;
+                    }
+                    let (here, others) = rest.split_at_mut(k * stride);
+                    let vertices = Vertices {
+                        parameters: self.parameters,
+                        uniforms: &self.uniforms[number as usize],
+                        normals: &normals[..k],
+                        points: &points[..k],
+                        stride,
+                    };
+                    kernel(&vertices, here);
+                    self.add_extras(here, &points[..k]);
+                    (rest, first) = (others, first + k);
+                }
+            },
+        );
+        values
+    }
+
+    /// Stores what the house interpolates behind what the method does.
+    fn add_extras(&self, values: &mut [f32], points: &[[f32; 3]]) {
+        if self.extras == Extras::default() {
+            return;
+        }
+        let count = self.varyings.count;
+        let own = count - self.extras.count();
+        for (values, point) in values.chunks_exact_mut(count).zip(points) {
+            if self.extras.point {
+                values[own..own + 3].copy_from_slice(point);
+            }
+            if self.extras.weight {
+                values[count - 1] = 1.0;
+            }
+        }
+    }
+}
+
+fn clip_corner(frame: &Frame, vertex: u32) -> Option<ClipCorner> {
+    let all = frame.clip_corners();
+    let place = all
+        .binary_search_by_key(&vertex, |corner| corner.vertex)
+        .ok()?;
+    Some(all[place])
+}
+
+/// Stores what a corner that clipping made carries: what lies between the ends of its edge, which are never lit again.
+fn between(great_circle: bool, corner: &ClipCorner, ends: &[Vec<f32>; 2], to: &mut [f32]) {
+    let [a, b] = ends;
+    if great_circle {
+        let normals = [unit(a), unit(b)];
+        let circle = GreatCircle::new(vec3(corner.face), normals, corner.t, 0.0);
+        to.copy_from_slice(&circle.normal().array());
+        return;
+    }
+    for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
+        [*to, _] = ramp(*a, *b, corner.t, 0.0);
+    }
+}
+
+/// Returns the normal that numbers begin with.
+pub(super) fn unit(numbers: &[f32]) -> Vec3<f32> {
+    vec3([numbers[0], numbers[1], numbers[2]])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::builtin::builtin;
-    use crate::number::Scalar;
     use crate::scene::Scene;
-    use crate::shader::{Method, NaivePhong, PhongRsqrt};
 
-    /// What an engine reads in place of attributes is what they are; and it is not there where they are something else.
+    /// An engine reads the frame's normals in place of varyings where they are the same, and nowhere else.
     #[test]
-    fn normals_stand_for_attributes_only_where_they_are_the_same() {
-        fn check<S: Shader<Attribute<f32> = crate::walk::Lerp<[f32; 3]>>>(
-            change: fn(&mut Scene),
-            is_there: bool,
-        ) {
-            let mut scene = Scene::of_mesh(
-                builtin("sphere?rings=12&segments=24&triangles=true").expect("a built-in mesh"),
-            );
-            change(&mut scene);
-            let frame = scene.frame().expect("a scene in its range");
-            let attributes = SetUp::<S, Scalar>::new(Scalar, &frame, &[]).attributes;
-            let normals = frame.normals_on_screen();
-            assert_eq!(normals.is_some(), is_there);
-            let same = |normals: &[[f32; 3]]| {
-                normals
-                    .iter()
-                    .eq(attributes.iter().map(|attribute| &attribute.0))
-            };
-            assert!(S::ATTRIBUTE_IS_NORMAL && normals.is_none_or(same));
-        }
+    fn normals_stand_for_varyings_only_where_they_are_the_same() {
         type Case = (fn(&mut Scene), bool);
-        let cases: [Case; 4] = [
+        let cases: [Case; 5] = [
             (|_| (), true),
             (|scene| scene.two_sided = true, false),
             (
@@ -173,10 +343,30 @@ mod tests {
                 |scene| scene.camera.near = (scene.camera.eye - scene.camera.target).length(),
                 false,
             ),
+            (|scene| scene.local_viewer = true, false),
         ];
         for (change, is_there) in cases {
-            check::<<NaivePhong as Method>::Screen<1>>(change, is_there);
-            check::<<PhongRsqrt as Method>::Screen<1>>(change, is_there);
+            let mesh = builtin("sphere?rings=12&segments=24&triangles=true");
+            let mut scene = Scene::of_mesh(mesh.expect("a built-in mesh"));
+            change(&mut scene);
+            let frame = scene.frame().expect("a scene in its range");
+            for method in ["naive-phong", "phong-rsqrt"] {
+                let variant = Variant::parse(method).expect("a method");
+                let setup = SetUp::new(&variant, &frame, Level::Scalar, 1.0);
+                let Varyings { values, count, .. } = &setup.varyings;
+                let is_borrowed = matches!(values, Cow::Borrowed(_));
+                assert_eq!(is_borrowed, is_there);
+                let clipped = |v: u32| clip_corner(&frame, v).is_some();
+                let vertices = (0..).zip(frame.vertices()).filter(|(v, _)| !clipped(*v));
+                for (number, vertex) in vertices {
+                    let weight = match scene.interpolation {
+                        Interpolation::Perspective => vertex.inv_w,
+                        Interpolation::Screen => 1.0,
+                    };
+                    let expected = frame.normal(number).map(|x| x * weight);
+                    assert_eq!(values[number as usize * count..][..3], expected, "{number}");
+                }
+            }
         }
     }
 }

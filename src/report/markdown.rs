@@ -8,7 +8,7 @@ use super::summary::{PROJECT, Tally};
 use super::{Report, operations, scaling, speedups, tables};
 use crate::comparison::table::levels;
 use crate::comparison::{BASELINE, WHAT_IS_COMPARED, WHAT_IS_TIMED};
-use crate::shader::METHODS;
+use crate::shading::METHODS;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

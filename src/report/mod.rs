@@ -9,7 +9,7 @@
 //! use fastphong::mesh::builtin::builtin;
 //! use fastphong::report::{Caption, Detail, Report, Section, Studies};
 //! use fastphong::scene::Scene;
-//! use fastphong::shader::METHODS;
+//! use fastphong::shading::METHODS;
 //!
 //! let mut scene = Scene::of_mesh(builtin("sphere?rings=8&segments=16")?);
 //! (scene.width, scene.height) = (48, 36);

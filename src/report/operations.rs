@@ -2,7 +2,7 @@
 
 use super::html::escape;
 use crate::number::Counts;
-use crate::shader::{METHODS, OperationCounts};
+use crate::shading::{METHODS, OperationCounts};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

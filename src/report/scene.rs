@@ -9,7 +9,7 @@ use super::{Report, tables};
 use crate::comparison::table::levels;
 use crate::comparison::{DifferenceData, RowData};
 use crate::metrics::colour_bar;
-use crate::shader::Entry;
+use crate::shading::Entry;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

@@ -283,7 +283,7 @@ mod tests {
     use crate::comparison::{Input, Options, compare};
     use crate::mesh::builtin::builtin;
     use crate::scene::Scene;
-    use crate::shader::Variant;
+    use crate::shading::Variant;
 
     /// Vectors and scalars make one picture of slerp: the default page shows it once and knows whose it is.
     #[test]

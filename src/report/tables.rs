@@ -6,7 +6,7 @@ use super::sentences::grouped;
 use super::summary::{PROJECT, Tally};
 use crate::comparison::table::{decibels, levels, milliseconds, signed_levels, significant};
 use crate::comparison::{BASELINE, DifferenceData, RatioData, RowData, SpeedData};
-use crate::shader::Entry;
+use crate::shading::Entry;
 use alloc::format;
 use alloc::string::{String, ToString};
 

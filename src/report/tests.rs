@@ -7,7 +7,7 @@ use crate::comparison::{
 };
 use crate::mesh::builtin::builtin;
 use crate::scene::Scene;
-use crate::shader::METHODS;
+use crate::shading::METHODS;
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::ToString;

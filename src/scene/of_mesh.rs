@@ -84,7 +84,7 @@ mod tests {
     use super::*;
     use crate::mesh::MeshBuilder;
     use crate::mesh::builtin::builtin;
-    use crate::shader::METHODS;
+    use crate::shading::METHODS;
     use alloc::vec::Vec;
 
     #[cfg(feature = "io")]

@@ -25,7 +25,7 @@ use crate::picture::Picture8;
 use crate::projection::PreparedScene;
 use crate::raster::Renderer;
 use crate::scene::Scene;
-use crate::shader::{METHODS, Variant};
+use crate::shading::{METHODS, Variant};
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;

@@ -6,7 +6,7 @@ use crate::camera::Projection;
 use crate::comparison::BASELINE;
 use crate::projection::PreparedScene;
 use crate::raster::{Plan, Renderer, coverage};
-use crate::shader::Variant;
+use crate::shading::Variant;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

@@ -3,11 +3,12 @@
 use super::{Canvas, StudyError, prepared_sphere, sphere, with_baseline};
 use crate::bench::{Candidate, Limits, Ratio, Timing, time_interleaved};
 use crate::comparison::{BASELINE, RatioData};
+use crate::encoding::quantise;
 use crate::number::Level;
 use crate::picture::Picture8;
 use crate::projection::PreparedScene;
 use crate::raster::Renderer;
-use crate::shader::{SpanBench, Variant};
+use crate::shading::{SpanBench, SpanRow, Variant};
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -225,11 +226,12 @@ fn corners() -> Vec<Corner> {
 /// A span shaded by the method alone.
 fn kernel(variant: &Variant, level: Level, lights: usize, length: usize) -> Candidate<'_> {
     let bench = SpanBench::new(DEGREES, lights);
-    let mut channels = [(); 3].map(|()| vec![0.0; length]);
-    Box::new(move || {
-        let [red, green, blue] = black_box(&mut channels);
-        variant.shade_span_on(level, black_box(&bench), [red, green, blue]);
-    })
+    if level == Level::Scalar {
+        let mut colours = vec![[0.0; 3]; length];
+        return Box::new(move || variant.shade_span(black_box(&bench), black_box(&mut colours)));
+    }
+    let mut row = SpanRow::new(variant, &bench, length);
+    Box::new(move || variant.shade_span_on(level, black_box(&bench), black_box(&mut row)))
 }
 
 /// How far what each variant draws is from what naive Phong does, in all corners.
@@ -267,18 +269,19 @@ fn is_naive(variant: &Variant) -> bool {
 
 /// A span as it would be stored.
 fn span_picture(variant: &Variant, corner: &Corner, length: usize) -> Picture8 {
-    let mut channels = [(); 3].map(|()| vec![0.0f32; length]);
-    let [red, green, blue] = &mut channels;
-    variant.shade_span_on(
-        level(corner.scalar),
-        &SpanBench::new(DEGREES, corner.lights),
-        [red, green, blue],
-    );
+    let bench = SpanBench::new(DEGREES, corner.lights);
     let mut picture = Picture8::new(length, 1, [0; 4]);
-    for (x, texel) in picture.texels_mut().iter_mut().enumerate() {
-        let [red, green, blue] =
-            [0, 1, 2].map(|c| libm::roundf(255.0 * channels[c][x].clamp(0.0, 1.0)) as u8);
-        *texel = [red, green, blue, 255];
+    if corner.scalar {
+        let mut colours = vec![[0.0f32; 3]; length];
+        variant.shade_span(&bench, &mut colours);
+        for (pixel, colour) in picture.texels_mut().iter_mut().zip(&colours) {
+            let [red, green, blue] = colour.map(quantise);
+            *pixel = [red, green, blue, 255];
+        }
+    } else {
+        let mut row = SpanRow::new(variant, &bench, length);
+        variant.shade_span_on(level(corner.scalar), &bench, &mut row);
+        picture.texels_mut().copy_from_slice(row.bytes());
     }
     picture
 }

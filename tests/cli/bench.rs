@@ -3,7 +3,7 @@
 use super::{Folder, SPHERE};
 use fastphong::comparison::Document;
 use fastphong::number::Level;
-use fastphong::shader::METHODS;
+use fastphong::shading::METHODS;
 
 /// No more rounds than need be.
 const QUICK: &str = "--time-budget 0 --methods fast-phong,duff-phong";
@@ -34,32 +34,16 @@ fn comparisons_say_what_drew_each_row() {
             ("span", "scalar", 1),
             [("span", "scalar", 1); 3],
         ),
-        (
-            wide,
-            ("row", best, 2),
-            [
-                ("row", best, 2),
-                ("span", "scalar", 1),
-                ("span", "scalar", 1),
-            ],
-        ),
+        (wide, ("row", best, 2), [("row", best, 2); 3]),
         (
             "--engine auto --threads 3",
             ("row", best, 3),
-            [
-                ("row", best, 3),
-                ("span", "scalar", 1),
-                ("span", "scalar", 1),
-            ],
+            [("row", best, 3); 3],
         ),
         (
             "--engine row --threads 3",
             ("row", best, 3),
-            [
-                ("row", best, 3),
-                ("span", "scalar", 1),
-                ("span", "scalar", 1),
-            ],
+            [("row", best, 3); 3],
         ),
         (
             "--engine span",
@@ -99,10 +83,7 @@ fn comparisons_say_what_drew_each_row() {
     let text = folder.run(&format!("compare {NEAR} {QUICK}")).done();
     text.prints("\ndrawn by the span engine, scalar, 1 thread\n");
     let text = folder.run(&format!("compare {NEAR} {QUICK} {wide}")).done();
-    text.prints(&format!(
-        "\ndrawn by the row engine, {best}, 2 threads: naive-phong\n"
-    ))
-    .prints("\ndrawn by the span engine, scalar, 1 thread: fast-phong, duff-phong\n");
+    text.prints(&format!("\ndrawn by the row engine, {best}, 2 threads\n"));
 }
 
 /// Rows of another engine are of its own picture: what is compared is what was drawn.
@@ -304,8 +285,14 @@ fn frame_times_take_engines_instruction_sets_and_numbers_of_frames() {
         folder
             .run(&format!("bench {NEAR} {duff}"))
             .done()
+            .prints(&format!(" duff-phong engine row level {} ", Level::best()));
+        folder
+            .run(&format!("bench {NEAR} {duff} --depth per-sample"))
+            .done()
             .prints(" duff-phong engine span level scalar ")
-            .says("duff-phong is drawn by the span engine, scalar: the row engine cannot keep");
+            .says(
+                "duff-phong is drawn by the span engine, scalar: the row engine interpolates depth",
+            );
     }
     for (flags, part) in [
         (

@@ -4,7 +4,7 @@ use super::{Folder, SPHERE, rendered, sphere};
 use fastphong::input;
 use fastphong::metrics::compare;
 use fastphong::number::Level;
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 
 #[test]
 fn engines_agree_and_say_what_they_do() {
@@ -256,12 +256,7 @@ fn another_engine_than_asked_for_is_told_with_the_reason() {
             .run(&format!("render {SPHERE} {flags} -o out.png"))
             .done()
     };
-    let five = "--light 1,0,1 --light 0,1,1 --light -1,0,1 --light 0,-1,1 --light 0,0,1";
     for (flags, reason) in [
-        (
-            "-m duff-phong --light-at 2,3,4",
-            "the row engine cannot keep what this method follows along a span",
-        ),
         (
             "--depth per-sample",
             "the row engine interpolates depth and does not compute it per sample",
@@ -270,7 +265,6 @@ fn another_engine_than_asked_for_is_told_with_the_reason() {
             "--clipping ndc-cube",
             "the row engine does not test samples against the NDC cube",
         ),
-        (five, "the row engine has no more than four lights"),
     ] {
         let reason = format!("drawn by the span engine, scalar, 1 thread: {reason}");
         assert!(!run(flags).err.contains("drawn by"), "{flags}");

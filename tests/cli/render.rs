@@ -35,7 +35,7 @@ fn every_kind_of_input_gives_a_picture_of_the_size_asked_for() {
 #[test]
 fn every_method_and_the_reference_draw_and_are_near_each_other() {
     let phong = sphere("-m reference");
-    for method in fastphong::shader::METHODS {
+    for method in fastphong::shading::METHODS {
         let drawn = sphere(&format!("-m {}", method.info.name));
         assert_eq!(covered(&drawn), covered(&phong), "{method:?}");
     }

@@ -7,7 +7,7 @@ use fastphong::mesh::builtin::BUILTINS;
 use fastphong::metrics::METRICS;
 use fastphong::number::Level;
 use fastphong::raster::Engine;
-use fastphong::shader::METHODS;
+use fastphong::shading::METHODS;
 
 #[test]
 fn lists_have_an_entry_for_everything_in_their_table() {
@@ -222,8 +222,8 @@ fn every_method_is_explained() {
         .done()
         .prints("steps=auto: steps of Newton's method a pixel; auto or 1..8, default auto")
         .prints("auto: on each span the fewest");
-    // Each method with lights at positions; the six products of Duff's forward differences by additions only.
-    for (lights, additions) in [("1", 12), ("2", 18)] {
+    // Each method with lights at positions; Duff's six products and the weight of perspective by two additions each.
+    for (lights, additions) in [("1", 14), ("2", 20)] {
         let json = folder.run("explain duff-phong --json").done().json();
         let walk = &json["operations_by_lights_at_positions"][lights]["pixel_walk"];
         assert_eq!(
@@ -351,50 +351,32 @@ fn info_says_what_auto_would_take() {
         ),
         (&serde_json::Value::Null, Some(METHODS.len()))
     );
-    let near = choices("teapot --light-at 9,9,9");
-    let of = |method: &str| {
-        let has = |choice: &&serde_json::Value| {
-            choice["methods"]
-                .as_array()
-                .expect("a list")
-                .contains(&method.into())
-        };
-        near.as_array()
-            .expect("a list")
-            .iter()
-            .find(has)
-            .expect("a choice")
-            .clone()
-    };
-    assert_eq!(
-        (&of("gouraud")["engine"], &of("duff-phong")["engine"]),
-        (&"row".into(), &"span".into())
-    );
-    assert!(
-        of("duff-phong")["reason"]
-            .as_str()
-            .is_some_and(|reason| reason.starts_with("the row engine cannot keep what"))
-    );
     let five = "--light 1,0,1 --light 0,1,1 --light -1,0,1 --light 0,-1,1 --light 0,0,1";
-    let lights = choices(&format!("teapot {five}"));
+    // Lights at positions, many lights and levels of depth are no reason.
+    for flags in ["--light-at 9,9,9", five, "--depth-bits 16"] {
+        assert_eq!(choices(&format!("teapot {flags}")), far, "{flags}");
+    }
+    let sampled = choices("teapot --depth per-sample");
     assert_eq!(
-        (&lights[0]["engine"], &lights[0]["level"]),
+        (&sampled[0]["engine"], &sampled[0]["level"]),
         (&"span".into(), &"scalar".into())
     );
     assert_eq!(
-        lights[0]["reason"],
-        "the row engine has no more than four lights"
+        sampled[0]["reason"],
+        "the row engine interpolates depth and does not compute it per sample"
     );
-    // Levels of depth are no reason.
-    assert_eq!(choices("teapot --depth-bits 16")[0], far[0]);
     assert_eq!(
-        lights[0]["methods"].as_array().map(Vec::len),
+        sampled[0]["methods"].as_array().map(Vec::len),
         Some(METHODS.len())
     );
-    let text = folder.run("info teapot --light-at 9,9,9").done();
-    text.prints(&format!("auto     row, {best}: flat, "))
-        .prints("span, scalar: ")
-        .prints("slerp-phong-vector (the row engine cannot keep what");
+    folder
+        .run("info teapot --light-at 9,9,9")
+        .done()
+        .prints(&format!("auto     row, {best}: flat, "));
+    folder
+        .run("info teapot --depth per-sample")
+        .done()
+        .prints("slerp-phong-vector (the row engine interpolates depth");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use fastphong::picture::LinearPicture;
 use fastphong::raster::NOTHING;
 use fastphong::reference::{self, Model};
 use fastphong::scene::{DepthBuffer, HiddenSurfaces};
-use fastphong::shader::{Entry, METHODS, Variant};
+use fastphong::shading::{Entry, METHODS, Variant};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

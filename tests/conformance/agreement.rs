@@ -11,7 +11,7 @@ use fastphong::picture::Picture;
 use fastphong::raster::Edges;
 use fastphong::reference::{self, Model};
 use fastphong::scene::{Interpolation, Scene};
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 use glam::DVec3;
 
 fn variant(name: &str) -> Variant {

@@ -7,7 +7,7 @@ use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
 use fastphong::raster;
 use fastphong::scene::{Culling, Interpolation, Object, Scene};
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 

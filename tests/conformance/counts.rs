@@ -3,7 +3,7 @@
 //! The hand count is written as the formulas are: so many dot products, so many reflections. Material: shininess 32.
 
 use fastphong::number::Counts;
-use fastphong::shader::{Entry, METHODS, OperationCounts, Variant};
+use fastphong::shading::{Entry, METHODS, OperationCounts, Variant};
 
 /// Additions, multiplications, divisions, roots, comparisons, trigonometric functions.
 #[derive(Clone, Copy)]
@@ -50,16 +50,16 @@ const TRIGONOMETRIC: Ops = Ops([0, 0, 0, 0, 0, 1]);
 /// A dot product of three components.
 const DOT: Ops = Ops([2, 3, 0, 0, 0, 0]);
 
-/// The terms of one light (2.1) once L·N and R·V are there: both clamped at 0, the highlight dropped behind the surface, and
-/// for each channel a product and a sum of diffuse light; the highlight compared with the faintest, dropped where it is not
-/// over that, to the power 32 by five squarings, and for each channel a product and a sum.
+/// The terms of one light (2.1) once L·N and R·V are there: L·N clamped at 0, and for each channel a product and a sum of diffuse
+/// light; the highlight dropped behind the surface, compared with the faintest, to the power 32 by five squarings, and for each
+/// channel a product and a sum.
 fn light() -> Ops {
-    matt_light() + COMPARE + ADD + 5 * MULTIPLY + 3 * (MULTIPLY + ADD)
+    3 * COMPARE + 3 * (MULTIPLY + ADD) + 5 * MULTIPLY + 3 * (MULTIPLY + ADD)
 }
 
-/// The same where the highlight is faint: it is compared, and the power spared.
-fn matt_light() -> Ops {
-    4 * COMPARE + 3 * (MULTIPLY + ADD)
+/// R·V of one light from L·N and V·N of a unit normal: 2 V·N, times L·N, less L·V (4.5).
+fn highlight() -> Ops {
+    2 * MULTIPLY + ADD
 }
 
 /// L·N and R·V of one light from a unit normal: L·N, then R = 2 (L·N) N − L, then R·V.
@@ -107,10 +107,10 @@ fn weighted_normal() -> Ops {
     3 * (2 * MULTIPLY + ADD)
 }
 
-/// How a span finds that so many steps of Newton's method suffice: N·ΔN, not over 0, ΔN·ΔN and its square, the product
-/// N·N ΔN·ΔN less the square of the former, and a product with each threshold tried.
+/// How a span finds that so many steps of Newton's method suffice: N·ΔN, ΔN·ΔN, the product N·N ΔN·ΔN less the square of the
+/// former where that is below 0, the square of the latter, and for each threshold tried its product, a difference, a comparison.
 fn fewest_steps(tried: u32) -> Ops {
-    2 * DOT + COMPARE + 3 * MULTIPLY + ADD + tried * MULTIPLY
+    2 * DOT + COMPARE + 3 * MULTIPLY + ADD + tried * (MULTIPLY + ADD + COMPARE)
 }
 
 struct ByHand {
@@ -157,14 +157,13 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: 3 * ADD,
             shade: NONE,
         },
-        // 3 with two colours, each lit on its own and not clamped; a pixel adds them. The weight of perspective is carried
-        // along edges, too, where it stays 1.
+        // 3 with two colours, lit at once and not clamped; a pixel adds them.
         "gouraud-separate" => ByHand {
-            vertex: lit + lights * (cosines_from_normal() + matt_light()),
+            vertex: lit,
             polygon: NONE,
-            edge: 7 * ramp(),
-            edge_step: 7 * ADD,
-            span: 7 * ramp(),
+            edge: 6 * ramp(),
+            edge_step: 6 * ADD,
+            span: 6 * ramp(),
             walk: 6 * ADD,
             shade: 3 * ADD,
         },
@@ -196,7 +195,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
         // The same root by the processor is counted as what it stands for, a root and a quotient: what is left is Duff's.
         "fast-phong-rsqrt" => by_hand("duff-phong", lights),
         // Three coordinates as in naive Phong; then D, K and J of each light as dot products, the root as above, K and J of each
-        // light times that, 2K once and 2JK − L·V for each light.
+        // light times that, and 2JK − L·V for each light.
         "phong-rsqrt" => ByHand {
             vertex: NONE,
             polygon: NONE,
@@ -208,12 +207,11 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 + ROOT
                 + DIVIDE
                 + (lights + 1) * MULTIPLY
-                + MULTIPLY
-                + lights * (MULTIPLY + ADD + light()),
+                + lights * (highlight() + light()),
         },
         // Duff 1979: J of each light, K and three coordinates along edges; on a span J and K by one addition each, D = N·N
         // by two. D needs N·N, N·ΔN twice, ΔN·ΔN, and its first and second difference. A pixel needs 1/√D and K and J of
-        // each light times that, then 2K once and 2JK − L·V for each light.
+        // each light times that, then 2JK − L·V for each light.
         "duff-phong" => {
             let numbers = lights + 4;
             ByHand {
@@ -223,15 +221,11 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 edge_step: numbers * ADD,
                 span: numbers * ramp() + 3 * DOT + ADD + 2 * ADD,
                 walk: (lights + 1) * ADD + 2 * ADD,
-                shade: ROOT
-                    + DIVIDE
-                    + (lights + 1) * MULTIPLY
-                    + MULTIPLY
-                    + lights * (MULTIPLY + ADD + light()),
+                shade: ROOT + DIVIDE + (lights + 1) * MULTIPLY + lights * (highlight() + light()),
             }
         }
         // 4.4: normals along edges; on a span J of each light and K, at both ends and then by their weights. A pixel
-        // needs 2K once, then 2JK − L·V for each light.
+        // needs 2JK − L·V for each light.
         "slerp-phong" => ByHand {
             vertex: NONE,
             polygon: NONE,
@@ -239,7 +233,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             edge_step: rotation(),
             span: 2 * weighted_normal() + arc() + sines() + 2 * (lights + 1) * DOT,
             walk: rotation() + (lights + 1) * (2 * MULTIPLY + ADD),
-            shade: MULTIPLY + lights * (MULTIPLY + ADD + light()),
+            shade: lights * (highlight() + light()),
         },
         // 4.4, steps i–iv: normals along edges and spans, then everything of 2.1.
         "slerp-phong-vector" => ByHand {

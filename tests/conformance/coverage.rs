@@ -6,7 +6,7 @@ use fastphong::mesh::builtin::builtin;
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
 use fastphong::scene::{Culling, Scene};
-use fastphong::shader::Variant;
+use fastphong::shading::Variant;
 
 /// How often each pixel is covered.
 fn counts(frame: &Frame) -> Vec<u32> {

@@ -2,7 +2,7 @@
 
 use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::raster;
-use fastphong::shader::Variant;
+use fastphong::shading::Variant;
 
 /// The edges that cross the centre of a row: (x of the crossing, the intensity there), from left to right.
 fn crossings(polygon: &[Corner], row: usize) -> Vec<(f64, f64)> {

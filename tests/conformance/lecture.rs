@@ -4,7 +4,7 @@
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::lighting::{Light, Lighting, Material};
 use fastphong::picture::LinearPicture;
-use fastphong::shader::{Entry, METHODS, Variant};
+use fastphong::shading::{Entry, METHODS, Variant};
 use glam::{DVec3, Vec3};
 
 /// The width of the pictures here.

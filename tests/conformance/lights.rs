@@ -9,7 +9,7 @@ use fastphong::mesh::builtin::builtin;
 use fastphong::picture::LinearPicture;
 use fastphong::reference::{self, Model};
 use fastphong::scene::{Culling, Interpolation, Scene};
-use fastphong::shader::{METHODS, SpanBench, Variant};
+use fastphong::shading::{METHODS, SpanBench, Variant};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -166,7 +166,7 @@ fn what_constant_vectors_lose() {
     assert!(constant > 4.0 / 255.0, "constant vectors lose {constant}");
 }
 
-/// Twelve additions a pixel for one light and six for each further one; two for the attenuation under perspective.
+/// Twelve additions a pixel for one light, six for each further one, and two for 1/w².
 #[test]
 fn the_six_products_take_two_additions_each() {
     let duff = Variant::parse("duff-phong").expect("a method");
@@ -181,12 +181,12 @@ fn the_six_products_take_two_additions_each() {
         );
         walk.additions
     };
-    let (none, attenuated) = (Falloff::None, Falloff::Attenuation(0.5));
-    assert_eq!(additions(1, none, Interpolation::Screen), 12);
-    assert_eq!(additions(2, none, Interpolation::Screen), 18);
-    assert_eq!(additions(1, none, Interpolation::Perspective), 12);
-    assert_eq!(additions(1, attenuated, Interpolation::Screen), 12);
-    assert_eq!(additions(1, attenuated, Interpolation::Perspective), 14);
+    for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
+        for falloff in [Falloff::None, Falloff::Attenuation(0.5)] {
+            assert_eq!(additions(1, falloff, interpolation), 14);
+        }
+    }
+    assert_eq!(additions(2, Falloff::None, Interpolation::Screen), 20);
 }
 
 /// Far away a light at a position is a light at infinity, for every method.

@@ -9,7 +9,7 @@ use fastphong::reference;
 use fastphong::scene::{
     Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Scene,
 };
-use fastphong::shader::METHODS;
+use fastphong::shading::METHODS;
 use glam::{DVec3, Vec3};
 
 /// Polygons seen by an eye one unit above the origin that looks along −z, a little downward.

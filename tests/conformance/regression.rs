@@ -13,7 +13,7 @@ use fastphong::image_file::{encode_png, read_png, write_file};
 use fastphong::metrics::difference_map;
 use fastphong::picture::Picture8;
 use fastphong::reference::Model;
-use fastphong::shader::METHODS;
+use fastphong::shading::METHODS;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -139,7 +139,7 @@ fn pictures_are_the_blessed_ones() {
 fn the_comparison_catches_what_it_should() {
     let frame = &case("coarse-sphere", Some(SIZE)).frame;
     let picture = |name: &str| {
-        fastphong::shader::Variant::parse(name)
+        fastphong::shading::Variant::parse(name)
             .expect("a method")
             .render(frame)
     };

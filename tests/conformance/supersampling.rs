@@ -9,7 +9,7 @@ use fastphong::picture::{LinearPicture, Picture};
 use fastphong::raster::{self, Edges};
 use fastphong::reference::{self, Model};
 use fastphong::scene::{Encoding, Scene};
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 use fastphong::triangulate::triangulated;
 
 const BACKGROUND: [f32; 3] = [0.25, 0.5, 0.125];

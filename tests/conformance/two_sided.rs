@@ -9,7 +9,7 @@ use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::metrics::compare;
 use fastphong::scene::{Culling, Scene};
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;

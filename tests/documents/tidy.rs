@@ -2,7 +2,7 @@
 
 use crate::markdown::{defines, files, is_word, places, quoted, read, root, rows};
 use fastphong::number::Counts;
-use fastphong::shader::{Entry, METHODS};
+use fastphong::shading::{Entry, METHODS};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -473,7 +473,7 @@ fn check_usage(document: &str, command: &str, words: &[&str]) {
         .flatten()
         .flat_map(|list| list.split(','))
     {
-        let known = method == "reference" || fastphong::shader::Variant::parse(method).is_ok();
+        let known = method == "reference" || fastphong::shading::Variant::parse(method).is_ok();
         assert!(known, "{document}: {command}: no method {method}");
     }
     let input = words.get(1).filter(|word| !word.starts_with('-'));

@@ -1,358 +1,138 @@
-//! The row engine: bands of scanlines, shaded row by row.
+//! The row engine: a deferred renderer, on SIMD.
 //!
-//! A band's polygons are drawn one after the other: where one is nearer than what was drawn before, what its walk gives to the
-//! pixel ([`Shader::Pixel`]) is written into planes beside the depth. Then each row is shaded once, two groups of pixels at a
-//! time, over the row and not over the span: shading costs the same for a pixel in a triangle of two pixels as in one of a
-//! thousand, and hidden pixels are never shaded.
+//! ```text
+//! bin ─► set up ─────────► rasterise ──────────────► G-buffer ─► shade ─► picture
+//!        triangles.rs      tiny.rs   pixel by pixel  tile.rs     shade.rs
+//!        8 in the lanes    small.rs  block by block  16 rows     a row by one
+//!        of a block        runs.rs   run by run      of blocks   call a material
+//! ```
 //!
-//! Bands are independent of one another: one is one unit of work for a thread.
+//! Polygons are binned into tiles of 16 scanlines. Those of a tile are set up in batches and rasterised, in drawing order, with a
+//! depth test: what the method interpolates is written into the tile's G-buffer, beside depth and material. Then each row is shaded
+//! once. So shading costs the same for a pixel of a triangle of two pixels as in one of a thousand, and hidden pixels are never
+//! shaded. Tiles are independent: one is one unit of work for a thread.
 //!
-//! Tried and dropped (5,040 triangles at 1920x1080, `phong-rsqrt` and `naive-phong`, AVX2, one thread, least of 30 frames or more,
-//! on a machine that varies by more than small differences): finding the runs of all triangles first, scanline by scanline,
-//! and drawing them into planes of a single row, 3.9 ms against 3.2 to 3.8; choosing pixels by a select, with all
-//! loads before the first store, 4.3 against 3.2, or by `vblendvps` itself: the compiler makes masked stores of both, and bytes are
-//! chosen instead; storing some of the background with each two groups that are shaded, as storing it at once waits for memory: 2.0 and
-//! 2.0 ms. `docs/performance.md` has the rest.
+//! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
+//! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles by the crossings of their
+//! edges, n-gons by the active edges of the span engine, and the recurrences of fast, Duff's and slerp Phong by
+//! their walk kernels, many runs at a time.
+//!
+//! Nothing here knows a method or a light: a method is its [`Kernels`](crate::shading::Kernels), called once a row or a batch of
+//! runs, and all of this is compiled once an instruction set.
 
-mod band;
-mod batch;
-mod facets;
-mod fill;
-mod paint;
-mod place;
-mod polygon;
-mod read;
+mod runs;
 mod shade;
 mod small;
+mod tile;
 mod tiny;
-mod triangle;
+mod triangles;
 
-use super::bands::{Bands, Scratch};
+use super::bands::Bands;
 use super::bins::{Bins, Listed};
 use super::depth::SampleDepth;
 use super::setup::SetUp;
-use super::sink::RowSink;
+use super::spans::active::ActiveEdges;
 use crate::frame::Frame;
-use crate::number::{Lanes, Machine, Pair, Planes, Scalar};
-use crate::shader::{Given, Shader};
-use crate::walk::Attribute;
-pub(crate) use band::Band;
-use band::Layout;
-pub(crate) use batch::Batch;
+use crate::number::Level;
+use crate::number::lanes::Lanes;
+use crate::number::simd::{Token, vectorize};
+use crate::shading::{SimdKernels, Variant};
 use core::ops::Range;
-use fill::Filler;
-use paint::Painter;
-use read::Numbers;
-use shade::{Colours, Constants};
-pub(crate) use tiny::Fragments;
-pub(crate) use triangle::Starts;
+use runs::{RunQueue, Triangle};
+use shade::Line;
+use small::{RowStarts, SmallTriangle};
+use tile::{Count, DepthTest, Tile};
+use tiny::Fragments;
+use triangles::{Batch, Kind, each_bit};
 
-/// Scanlines a band: edges are seldom started anew, and every thread gets some.
+/// Scanlines of a tile: edges are seldom started anew, and every thread gets some.
 const HEIGHT: usize = 16;
 
-/// The constants of a shader's material, for two groups at a time.
-type Consts<S, M> = <S as Shader>::Consts<Pair<<M as Machine>::F>>;
-
-/// What fills triangles with a shader's numbers.
-type FillerOf<'a, S> = Filler<'a, <S as Shader>::Attribute<f32>, <S as Shader>::Polygon<f32>>;
-
-/// Returns why the engine cannot draw `frame` with shader `S`; `None` where it can.
-pub(crate) fn refusal<S: Shader, M: Lanes>(frame: &Frame) -> Option<&'static str> {
-    let depth = SampleDepth::new(frame);
-    if !depth.is_interpolated() {
-        Some("the row engine interpolates depth and does not compute it per sample")
-    } else if depth.is_cut_by_cube() {
-        Some("the row engine does not test samples against the NDC cube")
-    } else if paint::planes::<S, M>().is_none() {
-        Some("the row engine cannot keep what this method follows along a span")
-    } else {
-        None
-    }
+/// Memory that a thread keeps from tile to tile.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    tile: Tile,
+    batch: Batch,
+    fragments: Fragments,
+    starts: RowStarts,
+    queue: RunQueue,
+    line: Line,
 }
 
-/// Draws `frame` with a shader, band by band.
-pub(crate) fn draw<S: Shader, M: Lanes>(
-    m: M,
+/// A method on a frame, and how its pixels are kept.
+struct Rows<'a> {
+    setup: SetUp<'a>,
+    kernels: &'a SimdKernels,
+    test: DepthTest,
+    /// Planes of a pixel: what is walked, or interpolated.
+    planes: usize,
+    /// Numbers of a pixel: its depth, its planes, and its material if materials differ.
+    numbers: usize,
+    has_material: bool,
+    /// The uniforms of all pixels where they do not.
+    only: u32,
+}
+
+/// Draws a method on a frame, tile by tile. `is_bytes` where `bands` stores bytes.
+pub(super) fn draw(
+    variant: &Variant,
     frame: &Frame,
-    parameters: &[u32],
+    level: Level,
+    is_bytes: bool,
     bands: &mut dyn Bands,
 ) {
-    // A constant of its own: what comes after is then not even compiled for shaders that have no planes.
-    if const { paint::planes::<S, M>().is_none() } {
-        return;
-    }
-    let bins = Bins::new(frame, HEIGHT);
-    // Only polygons of other shapes need attributes where normals are read as they are.
-    let normals = if S::ATTRIBUTE_IS_NORMAL && bins.are_triangles() {
-        frame.normals_on_screen()
+    let scale = if is_bytes && frame.samples() == 1 {
+        255.0
     } else {
-        None
+        1.0
     };
-    let setup = match normals {
-        Some(_) => SetUp::<S, Scalar>::without_attributes(Scalar, frame, parameters),
-        None => SetUp::new(Scalar, frame, parameters),
+    let setup = SetUp::new(variant, frame, level, scale);
+    let Some(kernels) = setup.kernels.on(level) else {
+        return; // no plan asks for the row engine there
     };
-    let numbers = match normals {
-        _ if S::GIVEN == Given::Polygon => Numbers::Polygons(&setup.polygons),
-        Some(normals) => Numbers::Normals(normals),
-        None => Numbers::Attributes(&setup.attributes),
+    let depth = SampleDepth::new(frame);
+    let [_, planes] = (setup.kernels.counts)(frame.light_count());
+    let planes = planes + setup.extras.count();
+    let only = only_material(&setup);
+    let rows = Rows {
+        test: DepthTest {
+            hides: depth.hides(),
+            most: depth.most(),
+        },
+        planes,
+        numbers: 1 + planes + usize::from(only.is_none()),
+        has_material: only.is_none(),
+        only: only.unwrap_or(0),
+        kernels,
+        setup,
     };
-    let only = only_material(frame);
-    let consts = Constants::<S, M>::new(m, frame, parameters, only);
-    let (depth, has_materials) = (SampleDepth::new(frame), only.is_none());
-    let painter = Painter::<S> {
-        frame,
-        setup: &setup,
-        depth,
-    };
-    let filler = Filler {
-        frame,
-        numbers,
-        depth,
-        has_materials,
-    };
-    bands.each(HEIGHT, &|number, rows, scratch, sink| {
-        scratch
-            .band
-            .prepare::<M, S::Pixel<M::F>>(HEIGHT, frame.width(), has_materials);
+    let bins = Bins::new(frame, HEIGHT);
+    bands.each(HEIGHT, &|number, band, scratch, target| {
+        scratch.tile.prepare(HEIGHT, frame.width(), rows.numbers);
         for polygons in bins.band(number) {
-            paint::<S, M>(m, (&painter, &filler), polygons, &rows, scratch);
+            match level {
+                #[cfg(target_arch = "x86_64")]
+                Level::Avx2 => rows.rasterise::<fearless_simd::Avx2>(polygons, &band, scratch),
+                #[cfg(target_arch = "x86_64")]
+                Level::Avx512 => rows.rasterise::<fearless_simd::Avx512>(polygons, &band, scratch),
+                #[cfg(target_arch = "aarch64")]
+                Level::Neon => rows.rasterise::<fearless_simd::Neon>(polygons, &band, scratch),
+                _ => return, // no plan asks for it
+            }
         }
-        for row in 0..rows.len() {
-            shade::<S, M>(m, frame, &consts, row, scratch, sink);
+        for row in 0..band.len() {
+            rows.shade(row, scratch, target);
         }
     });
 }
 
-/// Draws polygons into a band, in order.
-fn paint<S: Shader, M: Lanes>(
-    m: M,
-    (painter, filler): (&Painter<'_, S>, &FillerOf<'_, S>),
-    polygons: &[Listed],
-    rows: &Range<usize>,
-    scratch: &mut Scratch,
-) {
-    let mut edges = polygon::Edges::default();
-    let mut rest = polygons;
-    while let Some((next, others)) = rest.split_first() {
-        if const { <S::Attribute<f32> as Attribute<f32>>::IS_PLANAR } && next.is_triangle() {
-            let taken = triangles::<S, M>(m, (painter, filler), rest, rows, scratch);
-            rest = &rest[taken..];
-            continue;
-        }
-        let next = next.number;
-        let material = painter.frame.polygons()[next as usize].material;
-        edges.runs(
-            painter.frame,
-            &painter.setup.attributes,
-            rows,
-            next,
-            &mut |row, pixels, depth, attribute| {
-                let place = (rows.start, row - rows.start);
-                run::<S, M>(
-                    m,
-                    painter,
-                    place,
-                    pixels,
-                    (next, material),
-                    depth,
-                    attribute,
-                    &mut scratch.band,
-                );
-            },
-        );
-        rest = others;
+/// Returns the number of the uniforms that all polygons have, if there is only one: objects of a scene bring their own material,
+/// which are often the same.
+fn only_material(setup: &SetUp<'_>) -> Option<u32> {
+    let (frame, polygons) = (setup.frame, setup.frame.polygons());
+    if setup.is_by_polygon {
+        return None;
     }
-}
-
-/// Draws triangles from the front of `polygons`; gives how many.
-fn triangles<S: Shader, M: Lanes>(
-    m: M,
-    (painter, filler): (&Painter<'_, S>, &FillerOf<'_, S>),
-    polygons: &[Listed],
-    rows: &Range<usize>,
-    scratch: &mut Scratch,
-) -> usize {
-    let layout = scratch.band.layout::<M, S::Pixel<M::F>>();
-    // A constant of its own: only one of both is compiled.
-    if const { matches!(S::GIVEN, Given::Walked) } {
-        let Found { taken, drawn } = find(m, painter.frame, polygons, rows, None, scratch);
-        walk(m, painter, drawn, rows.start, scratch);
-        taken
-    } else {
-        let Found { taken, drawn } = find(m, painter.frame, polygons, rows, Some(layout), scratch);
-        fill::<M, _, _, S::Pixel<M::F>>(m, filler, drawn, rows.start, scratch);
-        taken
-    }
-}
-
-/// Triangles that were read from a list.
-struct Found {
-    /// How many.
-    taken: usize,
-    /// Bit k: whether triangle k may be drawn.
-    drawn: u32,
-}
-
-/// Reads triangles from the front of `polygons` and finds where they lie in a band; with `tiny`, its layout, also which pixels
-/// the tiny ones cover. Compiled once for an instruction set and not for each shader.
-#[inline(never)]
-fn find<M: Lanes>(
-    m: M,
-    frame: &Frame,
-    polygons: &[Listed],
-    rows: &Range<usize>,
-    tiny: Option<Layout>,
-    scratch: &mut Scratch,
-) -> Found {
-    let Scratch {
-        band,
-        batch,
-        fragments,
-        ..
-    } = scratch;
-    m.vectorize(
-        #[inline(always)]
-        || {
-            let taken = batch.read(frame, polygons);
-            band.extend(batch.place(m, frame.width(), rows, tiny.is_some()));
-            let mut drawn = batch.others();
-            if let Some(layout) = tiny {
-                drawn |= fragments.find(m, batch, rows.start, layout);
-            }
-            Found { taken, drawn }
-        },
-    )
-}
-
-/// Draws those triangles that were found whose bits `drawn` has, on the band that begins with row `top`.
-#[inline(never)]
-fn walk<S: Shader, M: Lanes>(
-    m: M,
-    painter: &Painter<'_, S>,
-    drawn: u32,
-    top: usize,
-    scratch: &mut Scratch,
-) {
-    let Scratch { band, batch, .. } = scratch;
-    m.vectorize(
-        #[inline(always)]
-        || {
-            batch.read_depths(m, painter.frame, drawn);
-            batch.read_materials(painter.frame, drawn);
-            painter.batch(m, (batch, drawn), top, &mut band.cells(m, painter.depth));
-        },
-    );
-}
-
-/// The same where the pixels are `P` and no walk gives them: compiled once for all shaders of which that is so.
-#[inline(never)]
-fn fill<M: Lanes, A: Attribute<f32>, Q: Planes<f32>, P: Planes<M::F>>(
-    m: M,
-    filler: &Filler<'_, A, Q>,
-    drawn: u32,
-    top: usize,
-    scratch: &mut Scratch,
-) {
-    let Scratch {
-        band,
-        batch,
-        fragments,
-        starts,
-        ..
-    } = scratch;
-    m.vectorize(
-        #[inline(always)]
-        || {
-            filler.batch::<M, P>(
-                m,
-                (batch, drawn),
-                (fragments, starts),
-                top,
-                &mut band.cells(m, filler.depth),
-            )
-        },
-    );
-}
-
-/// Draws one run of a polygon of another shape.
-#[inline(never)]
-#[allow(clippy::too_many_arguments)] // as of what it calls
-fn run<S: Shader, M: Lanes>(
-    m: M,
-    painter: &Painter<'_, S>,
-    place: (usize, usize),
-    pixels: Range<usize>,
-    polygon: (u32, u32),
-    depth: [f32; 2],
-    attribute: paint::SpanIn<S>,
-    band: &mut Band,
-) {
-    m.vectorize(
-        #[inline(always)]
-        || {
-            band.extend(pixels.start / M::WIDTH..pixels.end.div_ceil(M::WIDTH));
-            painter.run(
-                m,
-                place,
-                pixels,
-                polygon,
-                depth,
-                attribute,
-                &mut band.cells(m, painter.depth),
-            );
-        },
-    );
-}
-
-/// Shades row `row` of a band.
-#[inline(never)]
-fn shade<S: Shader, M: Lanes>(
-    m: M,
-    frame: &Frame,
-    consts: &Constants<S, M>,
-    row: usize,
-    scratch: &mut Scratch,
-    sink: &mut dyn RowSink,
-) {
-    let Scratch { band, line, .. } = scratch;
-    let width = frame.width();
-    let Range { start, end } = band.drawn();
-    let drawn = (start * M::WIDTH).min(width)..(end * M::WIDTH).min(width);
-    let mut colours = match sink.bytes(row) {
-        Some((texels, background)) => Colours::Packed(texels, background),
-        None => {
-            for channel in line.iter_mut() {
-                channel.resize(channel.len().max(width + 2 * M::WIDTH), 0.0);
-            }
-            Colours::Linear(line)
-        }
-    };
-    m.vectorize(
-        #[inline(always)]
-        || {
-            if let Colours::Packed(texels, background) = &mut colours {
-                texels[..drawn.start].fill(*background);
-                texels[drawn.end..].fill(*background);
-            }
-            shade::row::<S, M>(m, consts, row, band, &mut colours);
-        },
-    );
-    if matches!(colours, Colours::Linear(_)) {
-        let [depth, r, g, b] = &*line;
-        let from = drawn.start;
-        sink.row(
-            row,
-            drawn,
-            &depth[from..],
-            [&r[from..], &g[from..], &b[from..]],
-        );
-    }
-}
-
-/// The number of the one material that all polygons have, if there is only one: objects of a scene bring their own, which are often
-/// the same.
-fn only_material(frame: &Frame) -> Option<u32> {
     if frame
         .lightings()
         .iter()
@@ -360,13 +140,197 @@ fn only_material(frame: &Frame) -> Option<u32> {
     {
         return Some(0);
     }
-    let first = frame
-        .polygons()
-        .first()
-        .map_or(0, |polygon| polygon.material);
-    frame
-        .polygons()
+    let first = polygons.first().map_or(0, |polygon| polygon.material);
+    polygons
         .iter()
         .all(|polygon| polygon.material == first)
         .then_some(first)
 }
+
+impl Rows<'_> {
+    /// Rasterises polygons into a tile, in order.
+    fn rasterise<S: Token>(&self, polygons: &[Listed], rows: &Range<usize>, scratch: &mut Scratch) {
+        let simd = S::get();
+        let is_linear = self.setup.kernels.linear;
+        let mut active = None;
+        let mut rest = polygons;
+        while let Some((next, others)) = rest.split_first() {
+            if is_linear && next.is_triangle() {
+                if self.numbers == 4 {
+                    rest = &rest[self.triangles::<S, 4>(simd, rest, rows, scratch)..];
+                } else {
+                    rest = &rest[self.triangles::<S, 0>(simd, rest, rows, scratch)..];
+                }
+                continue;
+            }
+            if next.is_triangle() && !self.setup.varyings.great_circle {
+                rest = &rest[self.triangle_runs(simd, rest, rows, scratch)..];
+            } else {
+                let active = active.get_or_insert_with(|| {
+                    ActiveEdges::new(self.setup.frame, &self.setup.varyings)
+                });
+                scratch
+                    .queue
+                    .add_polygon(&self.setup, active, next.number, rows);
+                rest = others;
+            }
+            // Triangles that follow are drawn at once: what was before them must be drawn first.
+            if is_linear || scratch.queue.is_full() {
+                self.draw_runs(simd, scratch);
+            }
+        }
+        self.draw_runs(simd, scratch);
+    }
+
+    /// Draws triangles from the front of `polygons`; gives how many.
+    #[inline(never)]
+    fn triangles<S: Token, const N: usize>(
+        &self,
+        simd: S,
+        polygons: &[Listed],
+        rows: &Range<usize>,
+        scratch: &mut Scratch,
+    ) -> usize {
+        let (taken, drawn, others) = find(simd, self.setup.frame, polygons, rows, scratch);
+        let Scratch {
+            tile,
+            batch,
+            fragments,
+            starts,
+            ..
+        } = scratch;
+        vectorize(
+            simd,
+            #[inline(always)]
+            || {
+                let m = Lanes(simd);
+                batch.set_up_planes(m, &self.setup, Count::<N>(self.numbers), drawn | others);
+                let writer = &mut tile.writer::<S, N>(m, self.test);
+                each_bit(
+                    drawn | others,
+                    #[inline(always)]
+                    |k| {
+                        if others >> k & 1 == 0 {
+                            fragments.draw(m, batch, k, writer);
+                        } else if batch.kind[k] == Kind::Small as i32 {
+                            SmallTriangle::new(m, batch, k).draw(starts, rows.start, writer);
+                        } else {
+                            runs::draw_large(m, batch, k, rows.start, writer);
+                        }
+                    },
+                );
+            },
+        );
+        taken
+    }
+
+    /// Finds the runs of triangles from the front of `polygons`; gives how many.
+    #[inline(never)]
+    fn triangle_runs<S: Token>(
+        &self,
+        simd: S,
+        polygons: &[Listed],
+        rows: &Range<usize>,
+        scratch: &mut Scratch,
+    ) -> usize {
+        let (taken, drawn, others) = find(simd, self.setup.frame, polygons, rows, scratch);
+        let Scratch {
+            batch,
+            fragments,
+            queue,
+            ..
+        } = scratch;
+        vectorize(
+            simd,
+            #[inline(always)]
+            || {
+                each_bit(
+                    drawn | others,
+                    #[inline(always)]
+                    |k| {
+                        let (listed, top) = (&batch.listed[k], rows.start);
+                        if others >> k & 1 == 0 {
+                            let [_, b, c] = &batch.edges;
+                            let across = [b, c].map(|f| f.right[k] as f32 * batch.over_area[k]);
+                            let mut runs = queue.triangle(&self.setup, listed, across);
+                            fragments.runs(
+                                batch,
+                                k,
+                                top,
+                                #[inline(always)]
+                                |row, pixels, at| runs.add(row, pixels, at),
+                            );
+                        } else if let Some(triangle) = Triangle::of(batch, k) {
+                            let mut runs = queue.triangle(&self.setup, listed, triangle.across());
+                            triangle.runs(
+                                top,
+                                #[inline(always)]
+                                |row, pixels, at| runs.add(row, pixels, at),
+                            );
+                        }
+                    },
+                );
+            },
+        );
+        taken
+    }
+
+    /// Draws the runs that were found.
+    #[inline(never)]
+    fn draw_runs<S: Token>(&self, simd: S, scratch: &mut Scratch) {
+        let Scratch { tile, queue, .. } = scratch;
+        if queue.is_empty() {
+            return;
+        }
+        queue.extend(tile);
+        queue.walk(&self.setup, self.kernels.walk, self.planes);
+        vectorize(
+            simd,
+            #[inline(always)]
+            || {
+                let m = Lanes(simd);
+                let is_walked = self.kernels.walk.is_some();
+                queue.draw(
+                    m,
+                    &self.setup,
+                    is_walked,
+                    self.planes,
+                    &mut tile.writer(m, self.test),
+                );
+            },
+        );
+    }
+}
+
+/// Gathers triangles from the front of `polygons` and finds where they lie in a tile. Gives how many, and bits for the tiny ones that
+/// cover anything and for the others.
+#[inline(never)]
+fn find<S: Token>(
+    simd: S,
+    frame: &Frame,
+    polygons: &[Listed],
+    rows: &Range<usize>,
+    scratch: &mut Scratch,
+) -> (usize, u32, u32) {
+    let Scratch {
+        tile,
+        batch,
+        fragments,
+        ..
+    } = scratch;
+    vectorize(
+        simd,
+        #[inline(always)]
+        || {
+            let m = Lanes(simd);
+            let taken = batch.gather(frame, polygons);
+            let (blocks, others) = batch.set_up(m, frame.width(), rows);
+            tile.extend(blocks);
+            let tiny = fragments.find(m, batch, rows.start, tile.layout());
+            (taken, tiny, others)
+        },
+    )
+}
+
+#[cfg(test)]
+mod tests;

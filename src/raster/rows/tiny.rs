@@ -1,27 +1,29 @@
-//! Tiny triangles: a group of them at a time, pixel by pixel of their boxes. Where a triangle has a pixel or two, setting up
-//! its rows is most of its cost; this way nothing is set up for one triangle alone.
+//! Tiny triangles: eight of them at a time, pixel by pixel of their boxes. Where a triangle has a pixel or two, setting up its
+//! rows is most of its cost; this way nothing is set up for one triangle alone.
 
-use super::band::Layout;
-use super::batch::{Batch, Kind, MOST, TINY_HEIGHT, TINY_WIDTH};
-use super::facets::LINE;
-use crate::number::{Int, Lanes, Num};
+use super::tile::{Layout, Writer};
+use super::triangles::{BATCH, Batch, Ints, Kind, TINY_HEIGHT, TINY_WIDTH};
+use crate::number::lanes::{Int, Lanes};
+use crate::number::simd::BLOCK;
+use core::ops::Range;
+use fearless_simd::{Simd, SimdFloat};
 
 /// Pixels of a box.
 const SLOTS: usize = (TINY_WIDTH * TINY_HEIGHT) as usize;
 /// Pixels of a box that there is room for: one a bit.
 const ROOM: usize = 32;
 /// Pixels of the boxes of a batch.
-const ALL: usize = MOST * ROOM;
+const ALL: usize = BATCH * ROOM;
 
 /// The pixels that the tiny triangles of a batch cover.
 #[derive(Debug)]
 pub(crate) struct Fragments {
-    /// Where each pixel of each box is in the band: group of triangles by group, by pixel, then by triangle.
+    /// Where each pixel of each box is in the tile: eight triangles after eight, by pixel, then by triangle.
     places: [i32; ALL],
     /// The barycentric coordinates of the second and the third corner there.
     weights: [[f32; ALL]; 2],
-    /// Bit [`TINY_HEIGHT`] column + row: whether that pixel of the box is covered, for each triangle.
-    covered: [i32; MOST],
+    /// Bit [`TINY_HEIGHT`] · column + row: 1 if that pixel of the box is covered, for each triangle.
+    covered: Ints,
 }
 
 impl Default for Fragments {
@@ -29,35 +31,29 @@ impl Default for Fragments {
         Fragments {
             places: [0; ALL],
             weights: [[0.0; ALL]; 2],
-            covered: [0; MOST],
+            covered: [0; BATCH],
         }
     }
 }
 
 impl Fragments {
-    /// Finds what the tiny triangles of a batch cover in a band that begins with row `top`. Gives which of them cover anything: bit k
-    /// for triangle k.
+    /// Finds what the tiny triangles of a batch cover in a tile that begins with row `top`. Gives a bit for each that covers
+    /// anything.
     #[inline(always)]
-    pub(super) fn find<M: Lanes>(
-        &mut self,
-        m: M,
-        batch: &Batch,
-        top: usize,
-        layout: Layout,
-    ) -> u32 {
+    pub fn find<S: Simd>(&mut self, m: Lanes<S>, batch: &Batch, top: usize, layout: Layout) -> u32 {
         let (mut drawn, mut first) = (0, 0);
-        while first < batch.count() {
-            drawn |= self.find_group(m, batch, (first, top), layout) << first;
-            first += M::WIDTH;
+        while first < batch.count {
+            drawn |= self.find_eight(m, batch, (first, top), layout) << first;
+            first += BLOCK;
         }
         drawn
     }
 
-    /// Finds what those cover of the group of triangles from number `first` on; bit k for triangle `first` + k.
+    /// Finds what those cover of the eight triangles from number `first` on.
     #[inline(always)]
-    fn find_group<M: Lanes>(
+    fn find_eight<S: Simd>(
         &mut self,
-        m: M,
+        m: Lanes<S>,
         batch: &Batch,
         (first, top): (usize, usize),
         layout: Layout,
@@ -66,68 +62,53 @@ impl Fragments {
         let others = m
             .load_int(&batch.kind[first..])
             .less(m.int(Kind::Tiny as i32));
-        if !m.any(m.not_negative(others)) {
+        if !m.any_not_negative(others) {
             return 0;
         }
-        let columns = [
-            m.load_int(&batch.columns[0][first..]),
-            m.load_int(&batch.columns[1][first..]),
-        ];
-        let rows = [
-            m.load_int(&batch.rows[0][first..]),
-            m.load_int(&batch.rows[1][first..]),
-        ];
-        // From the first pixel of the group to that of the box.
-        let skipped = columns[0] & m.int(M::WIDTH as i32 - 1);
+        let load = |from: &Ints| m.load_int(&from[first..]);
+        let columns = [load(&batch.columns[0]), load(&batch.columns[1])];
+        let rows = [load(&batch.rows[0]), load(&batch.rows[1])];
+        // From the first pixel of the block to that of the box.
+        let skipped = columns[0] & m.int(BLOCK as i32 - 1);
         let [a, b, c] = &batch.edges;
-        let right = [
-            m.load_int(&a.right[first..]),
-            m.load_int(&b.right[first..]),
-            m.load_int(&c.right[first..]),
-        ];
-        let down = [
-            m.load_int(&a.down[first..]),
-            m.load_int(&b.down[first..]),
-            m.load_int(&c.down[first..]),
-        ];
+        let right = [load(&a.right), load(&b.right), load(&c.right)];
+        let down = [load(&a.down), load(&b.down), load(&c.down)];
         let mut column = [
-            m.load_int(&a.at[first..]) + skipped * right[0],
-            m.load_int(&b.at[first..]) + skipped * right[1],
-            m.load_int(&c.at[first..]) + skipped * right[2],
+            load(&a.at) + skipped * right[0],
+            load(&b.at) + skipped * right[1],
+            load(&c.at) + skipped * right[2],
         ];
         let over_area = m.load(&batch.over_area[first..]);
         let back = [m.load(&b.off[first..]), m.load(&c.off[first..])];
         // Columns and rows that are left, less 1: below 0 outside the box. As many are looked at as the widest and the highest of
         // the triangles have, whether any covers a pixel there or not: that would often be guessed wrong.
-        let (mut beside, all_below) = (
-            (columns[1] - columns[0] - one) | others,
-            (rows[1] - rows[0] - one) | others,
-        );
+        let mut beside = (columns[1] - columns[0] - one) | others;
+        let all_below = (rows[1] - rows[0] - one) | others;
         let (mut across_at, next_row) = (columns[0], layout.places(m, one, m.int(0)));
         let mut covered = m.int(0);
         let mut slot = 0;
-        while slot < SLOTS && m.any(m.not_negative(beside)) {
+        while slot < SLOTS && m.any_not_negative(beside) {
             let (mut here, mut below) = (column, all_below);
             let mut place = layout.places(m, rows[0] - m.int(top as i32), across_at);
             let mut bit = m.int(1 << slot);
-            let mut at = first * ROOM + slot * M::WIDTH;
+            let mut at = first * ROOM + slot * BLOCK;
             let mut row = 0;
-            while row < TINY_HEIGHT && m.any(m.not_negative(below)) {
+            while row < TINY_HEIGHT && m.any_not_negative(below) {
                 let outside = here[0] | here[1] | here[2] | below | beside;
-                covered = covered | (m.int(-1).less(outside) & bit);
+                covered |= m.int(-1).less(outside) & bit;
                 m.store_int(place, &mut self.places[at..]);
                 let [to_b, to_c] = &mut self.weights;
                 m.store(
-                    m.number(here[1]).mul_add(over_area, back[0]),
+                    m.float(here[1]).mul_add(over_area, back[0]),
                     &mut to_b[at..],
                 );
                 m.store(
-                    m.number(here[2]).mul_add(over_area, back[1]),
+                    m.float(here[2]).mul_add(over_area, back[1]),
                     &mut to_c[at..],
                 );
                 here = [here[0] + down[0], here[1] + down[1], here[2] + down[2]];
                 (below, place, bit) = (below - one, place + next_row, bit + bit);
-                (at, row) = (at + M::WIDTH, row + 1);
+                (at, row) = (at + BLOCK, row + 1);
             }
             column = [
                 column[0] + right[0],
@@ -138,27 +119,56 @@ impl Fragments {
             slot += TINY_HEIGHT as usize;
         }
         m.store_int(covered, &mut self.covered[first..]);
-        m.bits(m.not_negative(m.int(0).less(covered) ^ m.int(-1)))
+        m.bits_not_negative(m.int(0).less(covered) ^ m.int(-1))
     }
 
-    /// The covered pixels of tiny triangle `k`, of which there must be one: their places, and the first `facets` numbers of the
-    /// triangle there.
+    /// Gives the runs of tiny triangle `k`, which must cover a pixel: the row in the tile that begins with row `top`, the pixels, and
+    /// the barycentric coordinates at the first of them.
     #[inline(always)]
-    pub fn each<M: Lanes>(
+    pub fn runs(
         &self,
-        m: M,
-        (batch, facets): (&Batch, usize),
+        batch: &Batch,
         k: usize,
-        mut visit: impl FnMut(i32, &[f32; LINE]),
+        top: usize,
+        mut visit: impl FnMut(usize, Range<usize>, [f32; 2]),
     ) {
-        let first = k / M::WIDTH * M::WIDTH * ROOM + k % M::WIDTH;
+        let first = k / BLOCK * BLOCK * ROOM + k % BLOCK;
+        let [column, row] = [
+            batch.columns[0][k] as usize,
+            batch.rows[0][k] as usize - top,
+        ];
+        for below in 0..TINY_HEIGHT as usize {
+            let is_covered = |x: usize| self.covered[k] >> (TINY_HEIGHT as usize * x + below) & 1;
+            let columns = 0..TINY_WIDTH as usize;
+            let Some(start) = columns.clone().find(|x| is_covered(*x) == 1) else {
+                continue;
+            };
+            let end = columns
+                .rev()
+                .find(|x| is_covered(*x) == 1)
+                .map_or(start, |last| last + 1);
+            let at = first + (TINY_HEIGHT as usize * start + below) * BLOCK;
+            let weights = [self.weights[0][at], self.weights[1][at]];
+            visit(row + below, column + start..column + end, weights);
+        }
+    }
+
+    /// Draws the covered pixels of tiny triangle `k`, of which there must be one.
+    #[inline(always)]
+    pub fn draw<S: Simd, const N: usize>(
+        &self,
+        m: Lanes<S>,
+        batch: &Batch,
+        k: usize,
+        writer: &mut Writer<'_, S, N>,
+    ) {
+        let first = k / BLOCK * BLOCK * ROOM + k % BLOCK;
         let mut left = self.covered[k] as u32;
         loop {
-            let at = (first + left.trailing_zeros() as usize * M::WIDTH) % ALL;
-            let numbers = batch
-                .facets
-                .at(m, k, facets, [self.weights[0][at], self.weights[1][at]]);
-            visit(self.places[at], &numbers);
+            let at = (first + left.trailing_zeros() as usize * BLOCK) % ALL;
+            let weights = [self.weights[0][at], self.weights[1][at]];
+            let numbers = batch.planes.at(m, k, writer.count.get(), weights);
+            writer.put_one(self.places[at], &numbers);
             left &= left.wrapping_sub(1);
             if left == 0 {
                 return;

@@ -7,7 +7,7 @@ use crate::support::renderers::{distinct, name, renderers};
 use fastphong::picture::Picture;
 use fastphong::raster::Renderer;
 use fastphong::scene::Encoding;
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 
 /// What is wrong with a method's pictures of a frame, if anything.
 fn check(case: &Case, variant: &Variant, renderers: &[Renderer], failures: &mut Vec<String>) -> u8 {

@@ -7,7 +7,7 @@ use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::lighting::{Lighting, Material};
 use fastphong::scene::HiddenSurfaces;
-use fastphong::shader::Variant;
+use fastphong::shading::Variant;
 use glam::DVec3;
 
 /// Heights around those of bands, 4, 8, 16 and 32 scanlines.

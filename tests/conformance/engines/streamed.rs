@@ -5,7 +5,7 @@ use crate::support::renderers::{name, on_threads, renderers};
 use fastphong::frame::Frame;
 use fastphong::picture::{Picture, Picture8};
 use fastphong::raster::Renderer;
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 use std::convert::Infallible;
 
 /// More rows than either engine draws before it gives some away, on one thread and on two.

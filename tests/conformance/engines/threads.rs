@@ -8,7 +8,7 @@ use fastphong::mesh::builtin::builtin;
 use fastphong::picture::{Picture, Picture8};
 use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
-use fastphong::shader::{METHODS, Variant};
+use fastphong::shading::{METHODS, Variant};
 
 /// The stored picture, drawn over one that was something else, and the linear one as bits.
 fn bytes(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, Picture<[u32; 4]>) {

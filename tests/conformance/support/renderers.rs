@@ -5,7 +5,7 @@ use fastphong::picture::Picture;
 use fastphong::raster::Renderer;
 use fastphong::reference::Visibility;
 use fastphong::scene::{DepthBuffer, HiddenSurfaces};
-use fastphong::shader::Variant;
+use fastphong::shading::Variant;
 
 /// What this machine has, the lecture's own form first.
 pub fn renderers() -> Vec<Renderer> {

@@ -1,0 +1,381 @@
+//! Blocks of 8 or 16 neighbouring pixels, on the instruction set that a token proves to be there.
+
+use super::{Level, MulAdd, Num};
+use fearless_simd::{
+    Bytes, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, f32x16, i32x8, i32x16,
+};
+
+/// Pixels of a block of the G-buffer.
+pub const BLOCK: usize = 8;
+
+/// True if this machine has the instructions of `level`.
+pub(super) fn is_available(level: Level) -> bool {
+    let here = fearless_simd::Level::new();
+    match level {
+        Level::Scalar => true,
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2 => here.as_avx2().is_some(),
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512 => here.as_avx512().is_some(),
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon => here.as_neon().is_some(),
+        #[allow(unreachable_patterns)] // which ones are left depends on the platform
+        _ => {
+            let _ = here;
+            false
+        }
+    }
+}
+
+/// An instruction set that kernels are compiled for.
+pub trait Token: Simd {
+    /// The block that a row is shaded by: as many pixels as were measured to be the fastest (`docs/performance.md`).
+    type Block: Block<Self>;
+    /// Returns the token.
+    ///
+    /// # Panics
+    /// On a machine without the instruction set: kernels are called only where their level is available.
+    fn get() -> Self;
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Token for fearless_simd::Avx2 {
+    type Block = f32x16<Self>;
+    #[inline(always)]
+    fn get() -> Self {
+        let token = fearless_simd::Level::new().as_avx2();
+        token.expect("kernels are called on machines that have their level")
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Token for fearless_simd::Avx512 {
+    type Block = f32x16<Self>;
+    #[inline(always)]
+    fn get() -> Self {
+        let token = fearless_simd::Level::new().as_avx512();
+        token.expect("kernels are called on machines that have their level")
+    }
+}
+
+#[cfg(target_arch = "aarch64")]
+impl Token for fearless_simd::Neon {
+    type Block = f32x8<Self>;
+    #[inline(always)]
+    fn get() -> Self {
+        let token = fearless_simd::Level::new().as_neon();
+        token.expect("kernels are called on machines that have their level")
+    }
+}
+
+/// Aligns the stack frame that it is inlined into.
+///
+/// LLVM does not align frames for registers that it spills: on a stack of 16-byte alignment they straddle cache lines, and the
+/// same loop takes up to twice as long, depending on the caller's frame. A local of this alignment makes it align the frame;
+/// `&mut`, as a shared reference would be promoted to a static.
+#[inline(always)]
+pub(crate) fn align_stack() {
+    #[repr(align(64))]
+    struct Aligned(#[allow(dead_code)] u8); // only its address is used
+    core::hint::black_box(&mut Aligned(0));
+}
+
+/// Does `work` with the instructions of `simd`, on an aligned stack: what is inlined into it is compiled for them.
+#[inline(always)]
+pub(crate) fn vectorize<S: Simd, T>(simd: S, work: impl FnOnce() -> T) -> T {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            align_stack();
+            work()
+        },
+    )
+}
+
+#[cfg(target_arch = "x86_64")]
+pub(super) use x86::choose;
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use core::arch::x86_64::{
+        __m256, __m256i, __m512, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_packs_epi32,
+        _mm256_packus_epi16, _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_setr_epi8,
+        _mm256_shuffle_epi8, _mm512_rsqrt14_ps,
+    };
+
+    fearless_simd::kernel!(
+        /// 1/√x to 12 bits.
+        #[inline(always)]
+        pub fn rsqrt8(token: Avx2, x: __m256) -> __m256 {
+            let _ = token;
+            _mm256_rsqrt_ps(x)
+        }
+    );
+
+    fearless_simd::kernel!(
+        /// 1/√x to 14 bits.
+        #[inline(always)]
+        pub fn rsqrt16(token: Avx512, x: __m512) -> __m512 {
+            let _ = token;
+            _mm512_rsqrt14_ps(x)
+        }
+    );
+
+    fearless_simd::kernel!(
+        /// `new` where `mask` has all bits, `old` where it has none.
+        #[inline(always)]
+        pub fn choose(token: Avx2, mask: __m256i, new: __m256i, old: __m256i) -> __m256i {
+            let _ = token;
+            _mm256_blendv_epi8(old, new, mask)
+        }
+    );
+
+    fearless_simd::kernel!(
+        /// The levels of eight pixels as opaque RGBA8: rounded to the nearest whole one, half-way to the even one.
+        ///
+        /// Narrowing saturates, which is the clamp to 0..=255. What no `i32` holds is converted to the least of them, and NaN
+        /// too: both become 0.
+        #[inline(always)]
+        pub fn rgba8(token: Avx2, r: __m256, g: __m256, b: __m256) -> __m256i {
+            let _ = token;
+            let (r, g, b) = (
+                _mm256_cvtps_epi32(r),
+                _mm256_cvtps_epi32(g),
+                _mm256_cvtps_epi32(b),
+            );
+            // Four bytes of red, then of blue, of green and of alpha from each half of the pixels; then by pixel.
+            let opaque = _mm256_set1_epi32(255);
+            let (rb, ga) = (_mm256_packs_epi32(r, b), _mm256_packs_epi32(g, opaque));
+            #[rustfmt::skip]
+            let by_pixel = _mm256_setr_epi8(
+                0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15,
+                0, 8, 4, 12, 1, 9, 5, 13, 2, 10, 6, 14, 3, 11, 7, 15,
+            );
+            _mm256_shuffle_epi8(_mm256_packus_epi16(rb, ga), by_pixel)
+        }
+    );
+}
+
+macro_rules! block {
+    ($block:ident, $width:literal) => {
+        impl<S: Simd> MulAdd<Self> for $block<S> {
+            #[inline(always)]
+            fn mul_add(self, factor: Self, summand: Self) -> Self {
+                SimdFloat::mul_add(self, factor, summand)
+            }
+            #[inline(always)]
+            fn mul_sub(self, factor: Self, subtrahend: Self) -> Self {
+                SimdFloat::mul_sub(self, factor, subtrahend)
+            }
+        }
+
+        impl<S: Simd> MulAdd<f32> for $block<S> {
+            #[inline(always)]
+            fn mul_add(self, factor: f32, summand: Self) -> Self {
+                SimdFloat::mul_add(self, Self::splat(self.simd, factor), summand)
+            }
+            #[inline(always)]
+            fn mul_sub(self, factor: f32, subtrahend: Self) -> Self {
+                SimdFloat::mul_sub(self, Self::splat(self.simd, factor), subtrahend)
+            }
+        }
+
+        impl<S: Simd> Num for $block<S> {
+            const WIDTH: usize = $width;
+
+            #[inline(always)]
+            fn like(self, x: f32) -> Self {
+                Self::splat(self.simd, x)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                SimdFloat::sqrt(self)
+            }
+            /// ```text
+            /// y = y_0 (3 − x y_0²) / 2        Newton's method for y = 1/√x
+            /// ```
+            /// The estimate y_0 is off by at most e = 1.5 · 2⁻¹² (Intel's and AMD's manuals), which leaves 1.5 e² = 3.4 · 2⁻²⁴.
+            /// The product in the subtrahend, ½, the difference, 1, and the last product add at most 3 · 2⁻²⁴: below 2⁻²¹ in
+            /// all.
+            #[inline(always)]
+            fn rsqrt(self) -> Self {
+                let y = self.estimate();
+                let three_halves = Self::splat(self.simd, 1.5);
+                y * MulAdd::<Self>::mul_add(-(self * 0.5 * y), y, three_halves)
+            }
+            #[inline(always)]
+            fn powf(self, exponent: f32) -> Self {
+                self.power(exponent)
+            }
+            #[inline(always)]
+            fn max(self, least: f32) -> Self {
+                // x86 gives the second operand where one is NaN: `least`, which is a number.
+                let least = Self::splat(self.simd, least);
+                match cfg!(target_arch = "x86_64") {
+                    true => SimdBase::max(self, least),
+                    false => SimdBase::max_precise(self, least),
+                }
+            }
+            #[inline(always)]
+            fn gate(self, condition: Self, least: f32) -> Self {
+                self.masked(condition.simd_gt(Self::splat(self.simd, least)))
+            }
+            #[inline(always)]
+            fn any_over(self, least: f32) -> bool {
+                self.simd_gt(Self::splat(self.simd, least)).any_true()
+            }
+        }
+    };
+}
+block!(f32x8, 8);
+block!(f32x16, 16);
+
+/// What differs between blocks of 8 and of 16 pixels.
+trait Width {
+    type Mask;
+    /// 1/√x, of the precision that the processor estimates it to, or of all.
+    fn estimate(self) -> Self;
+    /// `self` to the power `n`.
+    fn power(self, n: f32) -> Self;
+    /// `self` where `open`, else 0.
+    fn masked(self, open: Self::Mask) -> Self;
+}
+
+impl<S: Simd> Width for f32x8<S> {
+    type Mask = fearless_simd::mask32x8<S>;
+
+    #[inline(always)]
+    fn estimate(self) -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(token) = self.simd.level().as_avx2() {
+            return Self::simd_from(self.simd, x86::rsqrt8(token, self.into()));
+        }
+        Self::splat(self.simd, 1.0) / SimdFloat::sqrt(self)
+    }
+    #[inline(always)]
+    fn power(self, n: f32) -> Self {
+        super::power::powf(self, n)
+    }
+    #[inline(always)]
+    fn masked(self, open: Self::Mask) -> Self {
+        let bits: i32x8<S> = Bytes::bitcast(self);
+        Bytes::bitcast(bits & open.to_vector())
+    }
+}
+
+impl<S: Simd> Width for f32x16<S> {
+    type Mask = fearless_simd::mask32x16<S>;
+
+    #[inline(always)]
+    fn estimate(self) -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(token) = self.simd.level().as_avx512() {
+            return Self::simd_from(self.simd, x86::rsqrt16(token, self.into()));
+        }
+        let (low, high) = self.simd.split_f32x16(self);
+        self.simd.combine_f32x8(low.estimate(), high.estimate())
+    }
+    #[inline(always)]
+    fn power(self, n: f32) -> Self {
+        let (low, high) = self.simd.split_f32x16(self);
+        self.simd.combine_f32x8(low.power(n), high.power(n))
+    }
+    #[inline(always)]
+    fn masked(self, open: Self::Mask) -> Self {
+        if self.simd.level().as_avx512().is_some() {
+            return Select::select(open, self, Self::splat(self.simd, 0.0));
+        }
+        let bits: i32x16<S> = Bytes::bitcast(self);
+        Bytes::bitcast(bits & open.to_vector())
+    }
+}
+
+/// A block of pixels that is shaded at a time: one or two blocks of the G-buffer.
+pub trait Block<S: Simd>: Num {
+    /// Blocks of the G-buffer that it holds.
+    const CELLS: usize = Self::WIDTH / BLOCK;
+
+    /// Loads the values from `at` on of each cell; where it holds one, of the first.
+    fn load(simd: S, cells: [&[f32]; 2], at: usize) -> Self;
+    /// Stores the values over the first [`Num::WIDTH`] of `to`.
+    fn store(self, to: &mut [f32]);
+    /// True if any of these depths is one of a drawn pixel: less than infinite.
+    fn any_drawn(self) -> bool;
+    /// Stores colours in grey levels, 255 for 1, clamped and rounded, opaque where `depth` is finite and `background`
+    /// elsewhere. NaN becomes 0; magnitudes are below 2³¹.
+    fn pack(levels: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]);
+}
+
+impl<S: Simd> Block<S> for f32x8<S> {
+    #[inline(always)]
+    fn load(simd: S, [cell, _]: [&[f32]; 2], at: usize) -> Self {
+        f32x8::from_slice(simd, &cell[at..at + 8])
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        self.store_slice(&mut to[..8]);
+    }
+    #[inline(always)]
+    fn any_drawn(self) -> bool {
+        self.simd_lt(f32x8::splat(self.simd, f32::INFINITY))
+            .any_true()
+    }
+    #[inline(always)]
+    fn pack(levels: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]) {
+        let simd = depth.simd;
+        let empty = i32x8::splat(simd, i32::from_le_bytes(background));
+        let drawn: i32x8<S> = depth.simd_lt(f32x8::splat(simd, f32::INFINITY)).to_vector();
+        let to = &mut to[..8].as_flattened_mut()[..32];
+        #[cfg(target_arch = "x86_64")]
+        if let Some(token) = simd.level().as_avx2() {
+            let [r, g, b] = levels;
+            let word = x86::rgba8(token, r.into(), g.into(), b.into());
+            let word = x86::choose(token, drawn.into(), word, empty.into());
+            Bytes::to_bytes(i32x8::simd_from(simd, word)).store_slice(to);
+            return;
+        }
+        // Adding 2²³ rounds, and the level stands in the lowest bits, below the bits of 2²³ itself.
+        let (integers, most) = (f32x8::splat(simd, 8_388_608.0), f32x8::splat(simd, 255.0));
+        let bits = |level: f32x8<S>| -> i32x8<S> {
+            Bytes::bitcast(SimdBase::min_precise(Num::max(level, 0.0), most) + integers)
+        };
+        let [r, g, b] = [bits(levels[0]), bits(levels[1]), bits(levels[2])];
+        let opaque = i32x8::splat(simd, (0xFF00_0000u32 ^ 8_388_608f32.to_bits()) as i32);
+        let word = (r ^ opaque) | (g << 8) | (b << 16);
+        Bytes::to_bytes(empty ^ ((empty ^ word) & drawn)).store_slice(to);
+    }
+}
+
+impl<S: Simd> Block<S> for f32x16<S> {
+    #[inline(always)]
+    fn load(simd: S, [low, high]: [&[f32]; 2], at: usize) -> Self {
+        let low = f32x8::from_slice(simd, &low[at..at + 8]);
+        let high = f32x8::from_slice(simd, &high[at..at + 8]);
+        simd.combine_f32x8(low, high)
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        self.store_slice(&mut to[..16]);
+    }
+    #[inline(always)]
+    fn any_drawn(self) -> bool {
+        self.simd_lt(f32x16::splat(self.simd, f32::INFINITY))
+            .any_true()
+    }
+    #[inline(always)]
+    fn pack([r, g, b]: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]) {
+        let simd = depth.simd;
+        let (r, g, b) = (
+            simd.split_f32x16(r),
+            simd.split_f32x16(g),
+            simd.split_f32x16(b),
+        );
+        let depth = simd.split_f32x16(depth);
+        let (low, high) = to.split_at_mut(8);
+        Block::pack([r.0, g.0, b.0], depth.0, background, low);
+        Block::pack([r.1, g.1, b.1], depth.1, background, high);
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,410 @@
+//! Blocks against plain `f32`, pixel by pixel, on every instruction set of this machine.
+
+use super::*;
+use crate::number::lanes::{Int, Lanes};
+use crate::test_random::Random;
+use std::vec;
+use std::vec::Vec;
+
+/// Calls a function for the token of each instruction set of this machine.
+macro_rules! on_each_level {
+    ($function:ident) => {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if crate::number::Level::Avx2.is_available() {
+                $function::<fearless_simd::Avx2>();
+            }
+            if crate::number::Level::Avx512.is_available() {
+                $function::<fearless_simd::Avx512>();
+            }
+        }
+        #[cfg(target_arch = "aarch64")]
+        $function::<fearless_simd::Neon>();
+    };
+}
+pub(crate) use on_each_level;
+
+/// Returns an operation on columns of numbers, a block at a time.
+fn blocks<S: Token, F: Block<S>>(
+    columns: [&[f32]; 3],
+    operation: impl Fn(F, F, F) -> F,
+) -> Vec<f32> {
+    let simd = S::get();
+    let mut out = vec![0.0; columns[0].len()];
+    for x in (0..out.len()).step_by(F::WIDTH) {
+        let load = |column: &[f32]| {
+            let column = &column[x..x + F::WIDTH];
+            F::load(simd, [column, &column[F::WIDTH - BLOCK..]], 0)
+        };
+        operation(load(columns[0]), load(columns[1]), load(columns[2])).store(&mut out[x..]);
+    }
+    out
+}
+
+/// Numbers of every kind, and random ones: every pair of them, in whole blocks.
+fn pairs() -> [Vec<f32>; 3] {
+    let mut numbers = vec![
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        0.5,
+        255.0,
+        1e-40,
+        f32::MIN_POSITIVE,
+        -3e38,
+    ];
+    numbers.extend([f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN]);
+    let mut random = Random::new(3);
+    numbers.extend((0..11).map(|_| random.signed()));
+    assert_eq!(numbers.len() % 8, 0);
+    let (mut a, mut b, mut c) = (Vec::new(), Vec::new(), Vec::new());
+    for &x in &numbers {
+        for &y in &numbers {
+            a.push(x);
+            b.push(y);
+            c.push(random.signed());
+        }
+    }
+    [a, b, c]
+}
+
+fn same(found: f32, expected: f32) -> bool {
+    found == expected || (found.is_nan() && expected.is_nan())
+}
+
+/// Compares an operation on blocks with the same text on plain numbers.
+macro_rules! compare {
+    ($s:ident, $f:ident, |$a:ident, $b:ident, $c:ident| $operation:expr) => {
+        compare!($s, $f, |$a, $b, $c| $operation, |_: [f32; 3], _: f32| false)
+    };
+    ($s:ident, $f:ident, |$a:ident, $b:ident, $c:ident| $operation:expr, $also:expr) => {{
+        #[allow(unused_variables)] // not every operation has three operands
+        let (wide, one) = (
+            |$a: $f, $b: $f, $c: $f| $operation,
+            |$a: f32, $b: f32, $c: f32| $operation,
+        );
+        let columns = pairs();
+        let columns = columns.each_ref().map(|column| &column[..]);
+        for (i, found) in blocks::<$s, $f>(columns, wide).into_iter().enumerate() {
+            let operands = columns.map(|column| column[i]);
+            let [a, b, c] = operands;
+            let expected = one(a, b, c);
+            assert!(
+                same(found, expected) || $also(operands, found),
+                "{} of {operands:?}: {found}, expected {expected}",
+                stringify!($operation)
+            );
+        }
+    }};
+}
+
+fn operations_of<S: Token, F: Block<S>>() {
+    compare!(S, F, |a, b, c| a + b);
+    compare!(S, F, |a, b, c| a - b);
+    compare!(S, F, |a, b, c| a * b);
+    compare!(S, F, |a, b, c| a / b);
+    compare!(S, F, |a, b, c| -a);
+    compare!(S, F, |a, b, c| Num::sqrt(a));
+    compare!(S, F, |a, b, c| a + 0.5);
+    compare!(S, F, |a, b, c| a - 0.5);
+    compare!(S, F, |a, b, c| a * 0.3);
+    compare!(S, F, |a, b, c| a.like(3.0));
+    compare!(S, F, |a, b, c| Num::max(a, 0.0));
+    compare!(S, F, |a, b, c| Num::max(a, -0.75));
+    compare!(S, F, |a, b, c| Num::gate(a, b, 0.0));
+    compare!(S, F, |a, b, c| Num::gate(a, b, 0.5));
+    // Rounded once or twice.
+    let add = |[a, b, c]: [f32; 3], found| same(found, f32::mul_add(a, b, c));
+    compare!(S, F, |a, b, c| MulAdd::mul_add(a, b, c), add);
+    let sub = |[a, b, c]: [f32; 3], found| same(found, f32::mul_add(a, b, -c));
+    compare!(S, F, |a, b, c| MulAdd::mul_sub(a, b, c), sub);
+    let add = |[a, _, c]: [f32; 3], found| same(found, f32::mul_add(a, 0.3, c));
+    compare!(S, F, |a, b, c| MulAdd::<f32>::mul_add(a, 0.3, c), add);
+    let sub = |[a, _, c]: [f32; 3], found| same(found, f32::mul_add(a, 0.3, -c));
+    compare!(S, F, |a, b, c| MulAdd::<f32>::mul_sub(a, 0.3, c), sub);
+}
+
+fn operations<S: Token>() {
+    operations_of::<S, f32x8<S>>();
+    operations_of::<S, f32x16<S>>();
+}
+
+#[test]
+fn every_operation_is_the_scalar_one() {
+    on_each_level!(operations);
+}
+
+fn any_over<S: Token, F: Block<S>>() {
+    let [numbers, ..] = pairs();
+    let numbers: Vec<f32> = numbers.into_iter().step_by(5).collect();
+    for least in [-1.0, 0.0, 0.5, 254.0, 255.0, f32::MAX] {
+        for block in numbers.chunks_exact(F::WIDTH) {
+            let loaded = F::load(S::get(), [block, &block[F::WIDTH - BLOCK..]], 0);
+            let expected = block.iter().any(|&x| x > least);
+            assert_eq!(loaded.any_over(least), expected, "{block:?} over {least}");
+            let is_drawn = block.iter().any(|&x| x < f32::INFINITY);
+            assert_eq!(loaded.any_drawn(), is_drawn, "{block:?}");
+        }
+    }
+    for k in 0..F::WIDTH {
+        let mut block = [f32::INFINITY; 16];
+        block[k] = 0.5;
+        let loaded = F::load(
+            S::get(),
+            [&block[..F::WIDTH], &block[F::WIDTH - BLOCK..]],
+            0,
+        );
+        assert!(loaded.any_drawn() && !(-loaded).any_over(-0.5) && (-loaded).any_over(-0.6));
+    }
+}
+
+#[test]
+fn a_block_is_over_what_any_of_it_is_over() {
+    fn of<S: Token>() {
+        any_over::<S, f32x8<S>>();
+        any_over::<S, f32x16<S>>();
+    }
+    on_each_level!(of);
+}
+
+/// Over the whole range of exponents: with the estimate off by e = 1.5 · 2⁻¹² at most, Newton's step leaves 1.5 e²; the
+/// products y/2 x y and their difference from 3/2, which is 1, and the last product are rounded four times by 2⁻²⁴ of 1 at
+/// most, two of them halved. Without an estimate a root and a quotient are rounded.
+#[test]
+fn inverse_roots_are_off_by_less_than_two_to_the_minus_21() {
+    fn of<S: Token>() {
+        let mut random = Random::new(5);
+        let mut x = Vec::new();
+        for exponent in -126..=127 {
+            let power = f32::from_bits(((exponent + 127) as u32) << 23);
+            let random = |i| 1.0 + (i as f32 + 0.5 * (1.0 + random.signed())) / 64.0;
+            x.extend((0..64).map(random).map(|factor| power * factor));
+            x.extend([
+                power,
+                power.next_up(),
+                (power * 1.999_999).next_down(),
+                1.5 * power,
+            ]);
+        }
+        x.resize(x.len().next_multiple_of(16), 1.0);
+        let bound = 1.5 * (1.5 * f64::powi(2.0, -12)).powi(2) + 3.0 * f64::powi(2.0, -24);
+        assert!(bound < f64::powi(2.0, -21));
+        let columns = [&x[..]; 3];
+        let all = [
+            blocks::<S, f32x8<S>>(columns, |x, _, _| x.rsqrt()),
+            blocks::<S, f32x16<S>>(columns, |x, _, _| x.rsqrt()),
+        ];
+        for (found, x) in all.iter().flat_map(|found| found.iter().zip(&x)) {
+            let error = (f64::from(*found) * f64::from(*x).sqrt() - 1.0).abs();
+            assert!(error <= bound, "{x:e}: {error:.2e} is over {bound:.2e}");
+        }
+    }
+    on_each_level!(of);
+}
+
+/// Numbers of 0..=1 that are 0 or normal: near 0, near 1, on both sides of where the logarithm is cut, and in between.
+fn bases() -> Vec<f32> {
+    let cut = core::f32::consts::FRAC_1_SQRT_2;
+    let mut all = vec![0.0, f32::MIN_POSITIVE, 1e-30, 1.0, 1.0f32.next_down(), 0.5];
+    all.extend([cut, cut.next_down(), cut.next_up()]);
+    let mut random = Random::new(13);
+    all.extend((0..1000).map(|_| random.signed().abs().max(f32::MIN_POSITIVE)));
+    all.extend((0..400).map(|_| 1.0 - random.signed().abs() / 64.0));
+    all.extend((0..400).map(|_| f32::powf(2.0, -126.0 * random.signed().abs())));
+    all.resize(all.len().next_multiple_of(16), 0.75);
+    all
+}
+
+#[test]
+fn powers_are_as_near_as_the_documentation_says() {
+    fn of<S: Token>() {
+        let bases = bases();
+        for n in [
+            0.1f32, 0.5, 0.999, 1.0, 1.5, 2.0, 7.5, 20.25, 63.9, 128.0, 333.3, 1000.0,
+        ] {
+            let powers = blocks::<S, f32x8<S>>([&bases[..]; 3], |x, _, _| x.powf(n));
+            let wide = blocks::<S, f32x16<S>>([&bases[..]; 3], |x, _, _| x.powf(n));
+            assert_eq!(powers, wide);
+            for (x, power) in bases.iter().zip(powers) {
+                let (x, n) = (f64::from(*x), f64::from(n));
+                let truth = x.powf(n);
+                let logarithm = if x > 0.0 { x.log2().abs() * n } else { 0.0 };
+                let reduced = f64::min(logarithm, 0.5 * n);
+                let share = (0.7 * (logarithm + 3.0 * reduced) + 2.0) * f64::powi(2.0, -23);
+                let error = (f64::from(power) - truth).abs();
+                // Below the normal numbers there is nothing to be near to.
+                let bound = truth * share + f64::powi(2.0, -126);
+                assert!(error <= bound, "{x:e}^{n}: {power:e}, {truth:e}");
+            }
+        }
+        let ends = [0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0];
+        let powers = |n: f32| blocks::<S, f32x8<S>>([&ends; 3], |x, _, _| x.powf(n));
+        for n in [0.1, 1.0, 37.5] {
+            assert_eq!(powers(n), ends, "0 and 1 to the power {n}");
+        }
+        assert_eq!(powers(0.0), [1.0; 8], "anything to the power 0");
+    }
+    on_each_level!(of);
+}
+
+const BACKGROUND: [u8; 4] = [10, 200, 255, 0];
+
+/// Every level, both borders and their neighbours, levels outside of 0..=255 and no numbers, in each channel.
+fn packing<S: Token, F: Block<S>>() {
+    let mut levels = vec![
+        f32::NAN,
+        -f32::NAN,
+        -255.0,
+        510.0,
+        -0.0,
+        1e-40,
+        -1e-40,
+        2e9,
+        -2e9,
+    ];
+    for level in 0..=255u8 {
+        let border = f32::from(level) + 0.5;
+        levels.extend([
+            f32::from(level),
+            border,
+            border.next_up(),
+            border.next_down(),
+        ]);
+    }
+    levels.resize(levels.len().next_multiple_of(F::WIDTH), 0.25);
+    let count = levels.len();
+    let turned = |by: usize| [&levels[by..], &levels[..by]].concat();
+    let channels = [levels.clone(), turned(331), turned(77)];
+    let mut random = Random::new(9);
+    let depth: Vec<f32> = (0..count)
+        .map(|_| {
+            if random.signed() < 0.5 {
+                random.signed()
+            } else {
+                f32::INFINITY
+            }
+        })
+        .collect();
+    let mut found = vec![[1, 2, 3, 4]; count + 5];
+    for x in (0..count).step_by(F::WIDTH) {
+        let load = |from: &Vec<f32>| {
+            let from = &from[x..x + F::WIDTH];
+            F::load(S::get(), [from, &from[F::WIDTH - BLOCK..]], 0)
+        };
+        F::pack(
+            channels.each_ref().map(load),
+            load(&depth),
+            BACKGROUND,
+            &mut found[x..],
+        );
+    }
+    assert_eq!(
+        found[count..],
+        [[1, 2, 3, 4]; 5],
+        "nothing behind the blocks is stored"
+    );
+    // NaN becomes 0 as it is converted.
+    let byte = |level: f32| level.clamp(0.0, 255.0).round_ties_even() as u8;
+    for i in 0..count {
+        let [r, g, b] = channels.each_ref().map(|channel| byte(channel[i]));
+        let expected = if depth[i] < f32::INFINITY {
+            [r, g, b, 255]
+        } else {
+            BACKGROUND
+        };
+        let levels = channels.each_ref().map(|channel| channel[i]);
+        assert_eq!(found[i], expected, "{levels:?}");
+    }
+}
+
+#[test]
+fn levels_are_stored_as_one_by_one() {
+    fn of<S: Token>() {
+        packing::<S, f32x8<S>>();
+        packing::<S, f32x16<S>>();
+    }
+    on_each_level!(of);
+}
+
+#[test]
+fn integers_of_lanes_are_those_of_the_processor() {
+    fn of<S: Token>() {
+        let m = Lanes(S::get());
+        let ints = |x: i32x8<S>| {
+            let mut to = [0; BLOCK];
+            m.store_int(x, &mut to);
+            to
+        };
+        let mut random = Random::new(7);
+        for round in 0..2000 {
+            let reach = [4, 300, 1 << 15][round % 3];
+            let mut numbers =
+                || [(); 8].map(|()| random.below(2 * reach + 1) as i32 - reach as i32);
+            let (a, b) = (numbers(), numbers());
+            let (x, y) = (m.load_int(&a), m.load_int(&b));
+            let each =
+                |of: fn(i32, i32) -> i32| -> [i32; 8] { core::array::from_fn(|k| of(a[k], b[k])) };
+            assert_eq!(ints(x.less(y)), each(|a, b| if a < b { -1 } else { 0 }));
+            let chosen = each(|a, b| if a < b { b } else { 7 });
+            assert_eq!(ints(x.less(y).choose(y, m.int(7))), chosen);
+            let bits = (0..8).map(|k| u32::from(a[k] >= 0) << k).sum::<u32>();
+            assert_eq!(
+                (m.bits_not_negative(x), m.any_not_negative(x)),
+                (bits, bits != 0)
+            );
+        }
+        let all = [0, -1, 1, i32::MAX, i32::MIN, 16_777_217, -300, 256];
+        let mut floats = [0.0; BLOCK];
+        m.store(m.float(m.load_int(&all)), &mut floats);
+        assert_eq!(floats, all.map(|x| x as f32), "rounded once");
+        assert_eq!(ints(m.counted()), [0, 1, 2, 3, 4, 5, 6, 7]);
+        let numbers = [0.0, -0.9, 1.9, -2.5, 1e6, -1e9, 2.147e9, 0.5];
+        assert_eq!(
+            ints(m.truncated(m.load(&numbers))),
+            numbers.map(|x| x as i32)
+        );
+        m.store(m.ramp(0.75, 0.5), &mut floats);
+        assert_eq!(floats, [0.75, 1.25, 1.75, 2.25, 2.75, 3.25, 3.75, 4.25]);
+    }
+    on_each_level!(of);
+}
+
+#[test]
+fn lanes_are_selected_bit_by_bit() {
+    fn of<S: Token>() {
+        let m = Lanes(S::get());
+        let [a, b, c] = pairs();
+        for x in (0..a.len()).step_by(BLOCK) {
+            let (old, new) = (m.load(&a[x..]), m.load(&b[x..]));
+            let outside: [i32; BLOCK] = core::array::from_fn(|k| (c[x + k] * 4.0) as i32);
+            let mut found = [0.0; BLOCK];
+            // Both depths are numbers.
+            let depth = |from: &[f32]| {
+                from[x..x + BLOCK]
+                    .iter()
+                    .map(|x| if x.is_nan() { 0.0 } else { *x })
+                    .collect::<Vec<_>>()
+            };
+            let (old_depth, new_depth) = (depth(&a), depth(&b));
+            let mask = m.depth_mask(m.load_int(&outside), m.load(&new_depth), m.load(&old_depth));
+            m.store(m.select(mask, old, new), &mut found);
+            for k in 0..BLOCK {
+                let is_kept = outside[k] < 0 || new_depth[k] >= old_depth[k];
+                let expected = if is_kept { a[x + k] } else { b[x + k] };
+                assert_eq!(
+                    found[k].to_bits(),
+                    expected.to_bits(),
+                    "{} {} {}",
+                    outside[k],
+                    a[x + k],
+                    b[x + k]
+                );
+            }
+            m.store(m.where_less(old, new, m.splat(3.0)), &mut found);
+            let expected = core::array::from_fn(|k| if a[x + k] < b[x + k] { 3.0 } else { 0.0 });
+            assert_eq!(found, expected);
+        }
+    }
+    on_each_level!(of);
+}

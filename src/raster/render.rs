@@ -1,0 +1,198 @@
+//! From a method and a frame to a picture: which engine draws, and into what.
+
+use super::barycentric::{self, Edges};
+use super::depth::SampleDepth;
+use super::engine::{Plan, Renderer};
+use super::setup::SetUp;
+use super::spans;
+use super::target::{Stored, draw_anyhow, draw_rows, linear_picture, picture8};
+use crate::encoding::store;
+use crate::frame::Frame;
+use crate::number::Level;
+use crate::picture::{LinearPicture, Picture, Picture8};
+use crate::scene::Encoding;
+use crate::shading::Variant;
+
+impl Variant {
+    /// Draws `frame` as a stored picture, by the span engine.
+    ///
+    /// ```
+    /// use fastphong::mesh::builtin::builtin;
+    /// use fastphong::scene::Scene;
+    /// use fastphong::shading::{METHODS, Variant};
+    ///
+    /// let mut scene = Scene::of_mesh(builtin("sphere")?);
+    /// (scene.width, scene.height) = (64, 48);
+    /// let frame = scene.frame()?;
+    /// let picture = Variant::parse("gouraud")?.render(&frame);
+    /// assert_eq!(picture.get(32, 24)[3], 255, "the sphere is in the middle");
+    /// // Every method covers the same pixels.
+    /// for method in METHODS {
+    ///     let other = method.variant().render(&frame);
+    ///     assert!(picture.texels().iter().zip(other.texels()).all(|(a, b)| a[3] == b[3]));
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn render(&self, frame: &Frame) -> Picture8 {
+        let mut picture = Picture8::new(0, 0, [0; 4]);
+        self.render_into(frame, &mut picture);
+        picture
+    }
+
+    /// Draws `frame` into `picture`, which is made anew unless it has the size of the frame's picture: for drawing many frames
+    /// without asking for memory each time.
+    pub fn render_into(&self, frame: &Frame, picture: &mut Picture8) {
+        self.render_with(frame, Renderer::LECTURE, picture);
+    }
+
+    /// Draws `frame` before rounding: linear channels, clamped to 0..=1.
+    pub fn render_linear(&self, frame: &Frame) -> LinearPicture {
+        self.render_linear_with(frame, Renderer::LECTURE)
+    }
+
+    /// Returns how `renderer` draws `frame` with this method: as it says where that can be, else as near to it as can be, with
+    /// the reason.
+    pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
+        let depth = SampleDepth::new(frame);
+        let reason = match renderer {
+            Renderer::Span => None,
+            Renderer::Row(level) if level == Level::Scalar || !level.is_available() => {
+                Some("this machine does not have these SIMD instructions")
+            }
+            Renderer::Row(_) if !depth.is_interpolated() => {
+                Some("the row engine interpolates depth and does not compute it per sample")
+            }
+            Renderer::Row(_) if depth.is_cut_by_cube() => {
+                Some("the row engine does not test samples against the NDC cube")
+            }
+            // The number of a material is a float in the G-buffer.
+            Renderer::Row(_) if frame.polygons().len() >= 1 << 24 => {
+                Some("the row engine takes less than 2^24 polygons")
+            }
+            Renderer::Row(_) => None,
+        };
+        let renderer = if reason.is_some() {
+            Renderer::Span
+        } else {
+            renderer
+        };
+        Plan { renderer, reason }
+    }
+
+    /// Draws `frame` with an engine and an instruction set into `picture`, which is made anew unless it has the size of the
+    /// frame's picture.
+    pub fn render_with(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture8) {
+        if frame.encoding() != Encoding::Linear {
+            *picture = store(&self.render_linear_with(frame, renderer), frame.encoding());
+            return;
+        }
+        if (picture.width(), picture.height()) != (frame.picture_width(), frame.picture_height()) {
+            *picture = picture8(frame);
+        }
+        self.draw(frame, renderer, picture);
+    }
+
+    /// Draws `frame` with an engine and an instruction set, before rounding: linear channels, clamped to 0..=1.
+    pub fn render_linear_with(&self, frame: &Frame, renderer: Renderer) -> LinearPicture {
+        let mut picture = linear_picture(frame);
+        self.draw(frame, renderer, &mut picture);
+        picture
+    }
+
+    fn draw<T: Stored>(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture<T>) {
+        #[cfg(feature = "simd")]
+        if let Renderer::Row(level) = self.plan(frame, renderer).renderer {
+            let is_bytes = T::bytes(&mut [], T::background([0.0; 3])).is_some();
+            let pixels = picture.texels_mut();
+            let mut bands = super::bands::PictureBands { frame, pixels };
+            return super::rows::draw(self, frame, level, is_bytes, &mut bands);
+        }
+        picture.texels_mut().fill(T::background(frame.background()));
+        let _ = renderer; // without SIMD there is one engine
+        let setup = SetUp::new(self, frame, Level::Scalar, 1.0);
+        draw_rows(frame, picture.texels_mut(), |target| {
+            spans::draw(&setup, target)
+        });
+    }
+
+    /// Draws `frame` as [`Variant::render_with`] does, and gives its pixels to `take` from the top, row by row, some rows at a
+    /// time and each soon after it was drawn. The picture is in memory as a whole only where the span engine draws it, and for
+    /// sRGB. When `take` fails no more is drawn.
+    ///
+    /// # Errors
+    /// Those of `take`.
+    ///
+    /// ```
+    /// use core::convert::Infallible;
+    /// use fastphong::mesh::builtin::builtin;
+    /// use fastphong::raster::Renderer;
+    /// use fastphong::scene::Scene;
+    /// use fastphong::shading::Variant;
+    ///
+    /// let frame = Scene::of_mesh(builtin("sphere")?).frame()?;
+    /// let mut pixels = 0;
+    /// Variant::parse("phong-rsqrt")?.render_rows(&frame, Renderer::fastest(), |rows| {
+    ///     pixels += rows.len();
+    ///     Ok::<(), Infallible>(())
+    /// })?;
+    /// assert_eq!(pixels, frame.picture_width() * frame.picture_height());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn render_rows<E>(
+        &self,
+        frame: &Frame,
+        renderer: Renderer,
+        mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        #[cfg(feature = "simd")]
+        if let Renderer::Row(level) = self.plan(frame, renderer).renderer
+            && frame.encoding() == Encoding::Linear
+        {
+            let mut taken = Ok(());
+            let mut take = |pixels: &[[u8; 4]]| {
+                taken = take(pixels);
+                taken.is_ok()
+            };
+            let take = &mut take;
+            let mut bands = super::bands::StreamedBands { frame, take };
+            super::rows::draw(self, frame, level, true, &mut bands);
+            return taken;
+        }
+        let mut picture = Picture8::new(0, 0, [0; 4]);
+        self.render_with(frame, renderer, &mut picture);
+        take(picture.texels())
+    }
+
+    /// Draws the triangles of `frame` with the barycentric renderer; `None` when it does not have this method.
+    pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
+        match frame.encoding() {
+            Encoding::Linear => self.triangles(frame, edges, picture8(frame)),
+            Encoding::Srgb => Some(store(
+                &self.render_barycentric_linear(frame, edges)?,
+                Encoding::Srgb,
+            )),
+        }
+    }
+
+    /// Draws as [`Variant::render_barycentric`], before rounding.
+    pub fn render_barycentric_linear(&self, frame: &Frame, edges: Edges) -> Option<LinearPicture> {
+        self.triangles(frame, edges, linear_picture(frame))
+    }
+
+    /// Draws the triangles of `frame` over an empty picture.
+    fn triangles<T: Stored>(
+        &self,
+        frame: &Frame,
+        edges: Edges,
+        mut picture: Picture<T>,
+    ) -> Option<Picture<T>> {
+        if !self.info().barycentric {
+            return None;
+        }
+        let setup = SetUp::new(self, frame, Level::Scalar, 1.0);
+        draw_anyhow(frame, picture.texels_mut(), |target| {
+            barycentric::draw(&setup, edges, target);
+        });
+        Some(picture)
+    }
+}

@@ -1,0 +1,211 @@
+//! The three coverage paths against each other, and against the spans of the lecture.
+
+use super::triangles::{BATCH, SMALL_HEIGHT, SMALL_WIDTH};
+use super::*;
+use crate::frame::{FrameBuilder, SubPixel, Vertex};
+use crate::lighting::{Lighting, Material};
+use crate::number::simd::{BLOCK, tests::on_each_level};
+use crate::raster::coverage;
+use crate::test_random::Random;
+use alloc::vec;
+use alloc::vec::Vec;
+use glam::DVec3;
+
+/// A frame of triangles given by the bits of their corners.
+fn frame(width: usize, height: usize, triangles: &[[[i32; 2]; 3]]) -> Frame {
+    let mut builder = FrameBuilder::new(width as u32, height as u32);
+    let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
+    for (number, triangle) in (0..).zip(triangles) {
+        let corners = triangle.map(|place| {
+            let [x, y] = place.map(SubPixel::from_bits);
+            builder.vertex(Vertex {
+                x,
+                y,
+                depth: 0.5,
+                inv_w: 1.0,
+                normal: [0.0, 0.0, 1.0],
+                material,
+            })
+        });
+        builder.polygon(&corners, [0.0, 0.0, 1.0], number);
+    }
+    builder.finish().expect("corners inside the guard band")
+}
+
+/// Triangles of all sizes, in and out of the picture, on a grid of half-pixels in one case of two, where centres lie on edges.
+fn soup(random: &mut Random, width: usize, height: usize) -> Vec<[[i32; 2]; 3]> {
+    let reaches = [3, 20, SMALL_WIDTH, SMALL_HEIGHT, 200, 20_000];
+    let mut triangle = |_| {
+        let grid = [1, 128][random.below(2) as usize];
+        let reach = reaches[random.below(reaches.len() as u64) as usize] * 256 / grid;
+        let middle =
+            [width, height].map(|side| random.below(side as u64 * 256) as i32 / grid * grid);
+        [(); 3].map(|()| {
+            middle.map(|at| at + (random.below(reach as u64 + 1) as i32 - reach / 2) * grid)
+        })
+    };
+    (0..150).map(&mut triangle).collect()
+}
+
+/// A pixel: row and column; and the barycentric coordinates of the second and the third corner there.
+type Pixel = ((usize, usize), [f32; 2]);
+
+/// Returns the pixels that `draw` draws into an empty tile.
+fn drawn<S: Token>(
+    simd: S,
+    (width, rows): (usize, &Range<usize>),
+    draw: impl FnOnce(&mut tile::Writer<'_, S, 0>),
+) -> Vec<Pixel> {
+    let mut tile = Tile::default();
+    tile.prepare(HEIGHT, width, 3);
+    let test = DepthTest {
+        hides: true,
+        most: None,
+    };
+    draw(&mut tile.writer(Lanes(simd), test));
+    let stride = tile.stride();
+    let mut found = vec![];
+    for row in rows.clone() {
+        let blocks = 0..width.div_ceil(BLOCK);
+        let blocks = tile.row(row - rows.start, blocks).chunks_exact(stride);
+        for (block, numbers) in blocks.enumerate() {
+            for k in (0..BLOCK).filter(|k| numbers[*k] != f32::INFINITY) {
+                let x = block * BLOCK + k;
+                assert_eq!(numbers[k], 0.5, "the depth");
+                // Pixels beyond the picture are drawn and never shown.
+                if x < width {
+                    found.push(((row, x), [numbers[BLOCK + k], numbers[2 * BLOCK + k]]));
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Inside, coordinates are in 0..=1, but for what [`SmallTriangle`] derives: 3600 · 2⁻²⁴.
+#[track_caller]
+fn assert_weights(pixels: &[Pixel]) {
+    let out = 3600.0 / (1 << 24) as f32;
+    for (place, [b, c]) in pixels {
+        let is_inside = *b >= -out && *c >= -out && b + c <= 1.0 + 2.0 * out;
+        assert!(is_inside, "{place:?}: {b} {c}");
+    }
+}
+
+fn places(pixels: &[Pixel]) -> Vec<(usize, usize)> {
+    pixels.iter().map(|(place, _)| *place).collect()
+}
+
+/// Returns how many pixels were found by each path.
+fn check<S: Token>(
+    frame: &Frame,
+    rows: Range<usize>,
+    expected: &[Vec<(usize, usize)>],
+) -> [usize; 4] {
+    let (simd, width) = (S::get(), frame.width());
+    let listed = |(number, polygon)| Listed {
+        number,
+        corners: frame.corners(polygon).try_into().expect("a triangle"),
+    };
+    let polygons: Vec<Listed> = (0..).zip(frame.polygons()).map(listed).collect();
+    let mut rest = &polygons[..];
+    let mut counts = [0; 4];
+    let mut scratch = Scratch::default();
+    while !rest.is_empty() {
+        scratch.tile.prepare(HEIGHT, width, 3);
+        let (taken, tiny, others) = find(simd, frame, rest, &rows, &mut scratch);
+        assert!(taken > 0 && tiny & others == 0);
+        let blocks = scratch.tile.drawn();
+        let Scratch {
+            batch,
+            fragments,
+            starts,
+            ..
+        } = &mut scratch;
+        for k in 0..BATCH {
+            // Depth, and the coordinates themselves.
+            batch.planes.0[k] = [[0.0; triangles::LINE]; 3];
+            (
+                batch.planes.0[k][0][0],
+                batch.planes.0[k][1][1],
+                batch.planes.0[k][2][2],
+            ) = (0.5, 1.0, 1.0);
+        }
+        for (k, listed) in rest[..taken].iter().enumerate() {
+            let expected = expected[listed.number as usize].iter().copied();
+            let expected: Vec<_> = expected.filter(|(row, _)| rows.contains(row)).collect();
+            let (m, at) = (Lanes(simd), (width, &rows));
+            if (tiny | others) >> k & 1 == 0 {
+                assert_eq!(expected, [], "{listed:?}");
+                continue;
+            }
+            let draw_large = |writer: &mut tile::Writer<'_, S, 0>| {
+                runs::draw_large(m, batch, k, rows.start, writer);
+            };
+            // Runs find the pixels of triangles of any size.
+            let mut found = vec![drawn(simd, at, draw_large)];
+            let mut path = Kind::Large;
+            if tiny >> k & 1 == 1 {
+                path = Kind::Tiny;
+                found.push(drawn(simd, at, |writer| {
+                    fragments.draw(m, batch, k, writer)
+                }));
+                let mut by_runs = vec![];
+                fragments.runs(batch, k, rows.start, |row, pixels, weights| {
+                    by_runs.push(((rows.start + row, pixels.start), weights));
+                    let rest = pixels.skip(1);
+                    by_runs.extend(rest.map(|x| ((rows.start + row, x), [0.0; 2])));
+                });
+                assert_weights(&by_runs);
+                assert_eq!(places(&by_runs), expected, "{listed:?}");
+            } else if batch.kind[k] == Kind::Small as i32 {
+                path = Kind::Small;
+                found.push(drawn(simd, at, |writer| {
+                    SmallTriangle::new(m, batch, k).draw(starts, rows.start, writer);
+                }));
+            }
+            for found in &found {
+                assert_weights(found);
+                assert_eq!(places(found), expected, "{listed:?} as {path:?}");
+                let is_inside = |&(_, x): &(usize, usize)| blocks.contains(&(x / BLOCK));
+                assert!(expected.iter().all(is_inside), "{blocks:?}");
+            }
+            counts[path as usize] += expected.len();
+        }
+        rest = &rest[taken..];
+    }
+    counts
+}
+
+#[test]
+fn tiles_cover_what_spans_do() {
+    fn of<S: Token>() {
+        let mut random = Random::new(23);
+        let mut counts = [0; 4];
+        for _ in 0..60 {
+            let (width, height) = (
+                1 + random.below(120) as usize,
+                1 + random.below(90) as usize,
+            );
+            let soup = soup(&mut random, width, height);
+            let frame = frame(width, height, &soup);
+            let mut expected = vec![vec![]; soup.len()];
+            coverage(&frame, |number, row, pixels| {
+                expected[number as usize].extend(pixels.map(|x| (row, x)));
+            });
+            expected
+                .iter_mut()
+                .for_each(|pixels| pixels.sort_unstable());
+            for first in (0..height).step_by(HEIGHT) {
+                let rows = first..(first + HEIGHT).min(height);
+                for (count, more) in counts.iter_mut().zip(check::<S>(&frame, rows, &expected)) {
+                    *count += more;
+                }
+            }
+        }
+        let [_, small, large, tiny] = counts;
+        let enough = small > 100_000 && large > 100_000 && tiny > 1_000;
+        assert!(enough, "{small}, {large} and {tiny} pixels");
+    }
+    on_each_level!(of);
+}

@@ -1,0 +1,222 @@
+//! The G-buffer: a tile of scanlines with the depth, the varyings and the material of each pixel.
+
+use crate::number::lanes::Lanes;
+use crate::number::simd::BLOCK;
+use crate::raster::depth::level_of;
+use alloc::vec::Vec;
+use core::ops::Range;
+use fearless_simd::{Simd, SimdBase, f32x8, i32x8};
+
+/// The most numbers of a pixel that is interpolated over triangles: depth, two colours and a weight, or a normal, a position and
+/// a weight, and the material.
+pub(super) const MOST: usize = 9;
+
+/// How many numbers a pixel has: `N`, or for `N` = 0 as many as it says.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Count<const N: usize>(pub usize);
+
+impl<const N: usize> Count<N> {
+    #[inline(always)]
+    pub fn get(self) -> usize {
+        if N == 0 { self.0 } else { N }
+    }
+}
+
+/// Pixels in blocks of 8: the depths of neighbouring pixels, their first plane, their second, and so on lie together. So a block
+/// is one place in memory, whatever its planes are, and what the triangle beside just wrote is read back as it was written,
+/// which processors do without waiting.
+#[derive(Debug, Default)]
+pub(crate) struct Tile {
+    rows: usize,
+    /// Blocks a row, an even number.
+    blocks: usize,
+    /// Numbers a pixel: its depth, its planes, and its material if materials differ.
+    numbers: usize,
+    values: Vec<f32>,
+    /// The blocks of a row between which anything may have been drawn: see [`Tile::drawn`].
+    drawn: Range<usize>,
+}
+
+impl Tile {
+    /// Makes room for `rows` rows of `width` pixels of `numbers` numbers, all of them empty.
+    pub fn prepare(&mut self, rows: usize, width: usize, numbers: usize) {
+        let blocks = width.div_ceil(2 * BLOCK) * 2;
+        // Tiles are empty after they were shaded: only another division of the memory has to be emptied.
+        if (self.rows, self.blocks, self.numbers) != (rows, blocks, numbers) {
+            (self.rows, self.blocks, self.numbers) = (rows, blocks, numbers);
+            self.values.clear();
+            self.values
+                .resize(rows * blocks * numbers * BLOCK, f32::INFINITY);
+        }
+        self.drawn = blocks..0;
+    }
+
+    /// Says that these blocks of any row may be drawn.
+    #[inline(always)]
+    pub fn extend(&mut self, blocks: Range<usize>) {
+        self.drawn = self.drawn.start.min(blocks.start)..self.drawn.end.max(blocks.end);
+    }
+
+    /// Returns the blocks of each row between which anything may have been drawn: an even number from an even one on.
+    pub fn drawn(&self) -> Range<usize> {
+        // Nothing drawn: from the end to the beginning.
+        self.drawn.start.min(self.drawn.end) & !1..self.drawn.end.next_multiple_of(2)
+    }
+
+    /// Returns values from one block to the next.
+    pub fn stride(&self) -> usize {
+        self.numbers * BLOCK
+    }
+
+    /// Returns blocks of a row, from left to right.
+    pub fn row(&self, row: usize, blocks: Range<usize>) -> &[f32] {
+        let first = (row * self.blocks + blocks.start) * self.stride();
+        &self.values[first..first + blocks.len() * self.stride()]
+    }
+
+    /// Empties what was drawn of a row.
+    pub fn clear_row(&mut self, row: usize) {
+        let (drawn, stride) = (self.drawn(), self.stride());
+        let first = (row * self.blocks + drawn.start) * stride;
+        for block in self.values[first..][..drawn.len() * stride].chunks_exact_mut(stride) {
+            block[..BLOCK].fill(f32::INFINITY);
+        }
+    }
+
+    /// Returns where the numbers of pixels are.
+    pub fn layout(&self) -> Layout {
+        Layout {
+            pixels: (self.blocks * BLOCK) as i32,
+            numbers: self.numbers as i32,
+        }
+    }
+
+    /// Returns write access to all blocks. Which of them are drawn is said by [`Tile::extend`]: others are not shaded.
+    #[inline(always)]
+    pub fn writer<S: Simd, const N: usize>(
+        &mut self,
+        lanes: Lanes<S>,
+        test: DepthTest,
+    ) -> Writer<'_, S, N> {
+        Writer {
+            lanes,
+            test,
+            least: lanes.splat(if test.hides {
+                f32::NEG_INFINITY
+            } else {
+                f32::INFINITY
+            }),
+            blocks: self.blocks,
+            count: Count(self.numbers),
+            values: &mut self.values,
+        }
+    }
+}
+
+/// Where the numbers of a tile are, whatever they mean.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layout {
+    /// Pixels a row, as there is room for.
+    pixels: i32,
+    /// Numbers a pixel.
+    numbers: i32,
+}
+
+impl Layout {
+    /// Returns where the first number of each pixel is, from rows and columns.
+    #[inline(always)]
+    pub fn places<S: Simd>(self, m: Lanes<S>, row: i32x8<S>, column: i32x8<S>) -> i32x8<S> {
+        let in_block = column & m.int(BLOCK as i32 - 1);
+        // As many numbers a row as 32 bits hold: a tile has at most 16 rows of them.
+        (row * m.int(self.pixels) + (column - in_block)) * m.int(self.numbers) + in_block
+    }
+}
+
+/// What is compared at a pixel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DepthTest {
+    /// True if nearer pixels hide farther ones.
+    pub hides: bool,
+    /// The largest integer, if depth is kept as one.
+    pub most: Option<u32>,
+}
+
+/// Writes pixels into a tile, with the depth test.
+pub(super) struct Writer<'a, S: Simd, const N: usize> {
+    lanes: Lanes<S>,
+    test: DepthTest,
+    /// What is stored counts as no nearer than this.
+    least: f32x8<S>,
+    /// Blocks a row.
+    pub blocks: usize,
+    pub count: Count<N>,
+    values: &'a mut [f32],
+}
+
+impl<S: Simd, const N: usize> Writer<'_, S, N> {
+    /// Returns values from one block to the next.
+    #[inline(always)]
+    pub fn stride(&self) -> usize {
+        self.count.get() * BLOCK
+    }
+
+    /// Returns depth as it is kept.
+    #[inline(always)]
+    fn kept(&self, depth: f32x8<S>) -> f32x8<S> {
+        match self.test.most {
+            Some(most) => level_of(self.lanes, depth, most as f32),
+            None => depth,
+        }
+    }
+
+    /// Writes the block whose values begin at `place` where `outside` is not below 0 and its depth passes the test. `numbers` gives
+    /// each number, depth first.
+    ///
+    /// It writes in any case: which blocks are seen, and which of them wholly, cannot be predicted where triangles are small.
+    #[inline(always)]
+    pub fn put(
+        &mut self,
+        place: usize,
+        outside: i32x8<S>,
+        depth: f32x8<S>,
+        mut number: impl FnMut(usize) -> f32x8<S>,
+    ) {
+        let (m, stride) = (self.lanes, self.stride());
+        let depth = self.kept(depth);
+        let Some(values) = self.values.get_mut(place..place + stride) else {
+            return;
+        };
+        let mask = m.depth_mask(outside, depth, m.load(values).max(self.least));
+        let mut i = 0;
+        while i < self.count.get() {
+            let place = &mut values[i * BLOCK..(i + 1) * BLOCK];
+            let new = if i == 0 { depth } else { number(i) };
+            m.store(m.select(mask, m.load(place), new), place);
+            i += 1;
+        }
+    }
+
+    /// Writes one pixel, its depth and then its numbers, at a place that [`Layout::places`] gave.
+    #[inline(always)]
+    pub fn put_one(&mut self, place: i32, numbers: &[f32]) {
+        // Places are 0 or more: so the end of what is stored is in bounds if it is at all.
+        let (place, count) = (place as u32 as usize, self.count.get());
+        let mut depth = numbers[0];
+        if self.test.most.is_some() {
+            let mut lanes = [0.0; BLOCK];
+            self.lanes
+                .store(self.kept(self.lanes.splat(depth)), &mut lanes);
+            depth = lanes[0];
+        }
+        let values = &mut self.values[place..place + (count - 1) * BLOCK + 1];
+        let numbers = &numbers[..count];
+        if !self.test.hides || depth < values[0] {
+            values[0] = depth;
+            let mut i = 1;
+            while i < count {
+                values[i * BLOCK] = numbers[i];
+                i += 1;
+            }
+        }
+    }
+}

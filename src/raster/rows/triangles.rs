@@ -1,0 +1,496 @@
+//! Triangle set-up, a batch at a time, eight triangles in the lanes of a block: gather, bounds, edge functions, and later, of
+//! those that cover something, plane equations.
+//!
+//! Where triangles have a pixel or two, many cover no pixel centre though their bounding boxes hold one. So positions are gathered
+//! first, then it is found what is covered, and only of triangles that cover something are varyings read.
+
+use super::tile::{Count, MOST};
+use crate::frame::Frame;
+use crate::number::lanes::{Int, Lanes};
+use crate::number::simd::BLOCK;
+use crate::raster::bins::Listed;
+use crate::raster::setup::{Per, SetUp};
+use core::ops::Range;
+use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
+
+/// Triangles of a batch.
+pub(super) const BATCH: usize = 32;
+/// Up to this many pixels wide coverage comes from edge functions over the bounding box: beyond, more blocks are looked at in
+/// vain than it takes to find the crossings of each row.
+pub(super) const SMALL_WIDTH: i32 = 48;
+/// And up to this many pixels high. 32 bits hold the functions: blocks begin up to 7 pixels left of the box and end as far right
+/// of it, so that none is over 2 · 62 · 64 · 2¹⁶ < 2²⁹.
+pub(super) const SMALL_HEIGHT: i32 = 64;
+
+/// Up to this many pixels wide a triangle is drawn pixel by pixel, eight triangles at a time.
+pub(super) const TINY_WIDTH: i32 = 5;
+/// And up to this many pixels high: its box has no more pixels than a number has bits.
+pub(super) const TINY_HEIGHT: i32 = 6;
+
+/// Barycentric coordinates of a small triangle grow by at most this from pixel to pixel: it is not thinner than a quarter of one.
+pub(super) const STEEPEST: i32 = 4;
+
+/// An integer, or a float, for each triangle.
+pub(super) type Ints = [i32; BATCH];
+type Floats = [f32; BATCH];
+
+/// What of a triangle is to be drawn; 0 is nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// By edge functions, block by block.
+    Small = 1,
+    /// By crossings, run by run: it is large, or not known to be small.
+    Large = 2,
+    /// By edge functions, pixel by pixel: it is at most [`TINY_WIDTH`] pixels wide and [`TINY_HEIGHT`] high.
+    Tiny = 3,
+}
+
+/// Triangles as they are gathered and set up.
+#[derive(Debug)]
+pub(crate) struct Batch {
+    pub(super) count: usize,
+    pub(super) listed: [Listed; BATCH],
+    /// Columns and rows of the corners in sub-pixels.
+    pub(super) x: [Ints; 3],
+    pub(super) y: [Ints; 3],
+    /// The pixels of the tile whose centres the bounding boxes hold: first column and the one after the last, rows.
+    pub(super) columns: [Ints; 2],
+    pub(super) rows: [Ints; 2],
+    /// What is to be drawn: see [`Kind`].
+    pub(super) kind: Ints,
+    pub(super) over_area: Floats,
+    pub(super) edges: [EdgeFunctions; 3],
+    pub(super) planes: PlaneEquations,
+}
+
+/// An edge function of each triangle, over 0 inside, in sub-pixels²: at the centre of the first pixel of the first block of the
+/// first row, less 1 for right and bottom edges, which do not own the centres that lie on them; how much it grows from column
+/// to column, from block to block, and from row to row; and what was taken off, over the area.
+#[derive(Debug)]
+pub(super) struct EdgeFunctions {
+    pub at: Ints,
+    pub right: Ints,
+    pub across: Ints,
+    pub down: Ints,
+    pub off: Floats,
+    /// What follows is that of small triangles that are not tiny. The barycentric coordinate at the centre of that first pixel, but
+    /// for edge 0, and its growth from column to column and from row to row.
+    pub weight: Floats,
+    pub growth: Floats,
+    pub fall: Floats,
+    /// Where it grows to the right, how many columns on it becomes 0, per value; else 0.
+    pub begins: Floats,
+    /// Where it falls to the right, likewise, and 0; else 0, and more columns than any has.
+    pub ends: [Floats; 2],
+}
+
+/// Numbers that a corner has room for: whole blocks.
+pub(super) const LINE: usize = MOST.next_multiple_of(BLOCK);
+
+/// Numbers over each triangle: at its first corner, and how far the other two are from it.
+///
+/// ```text
+/// A = A_a + β (A_b − A_a) + γ (A_c − A_a)
+/// ```
+/// β and γ come from exact integers and are in 0..=1 inside, so that nothing cancels, however thin the triangle is.
+///
+/// Depth first, then varyings and extras, then the material. Those of a corner lie together, as they are read and as a pixel
+/// needs them; in whole blocks, whose last numbers mean nothing.
+#[derive(Debug)]
+#[repr(align(32))]
+pub(super) struct PlaneEquations(pub [[[f32; LINE]; 3]; BATCH]);
+
+impl PlaneEquations {
+    /// Returns number `number` over triangle `k` at pixels with these barycentric coordinates of the second and third corner.
+    #[inline(always)]
+    pub fn number<S: Simd>(
+        &self,
+        m: Lanes<S>,
+        k: usize,
+        number: usize,
+        [b, c]: [f32x8<S>; 2],
+    ) -> f32x8<S> {
+        let [at, to_b, to_c] = &self.0[k];
+        let value = m.splat(to_b[number]).mul_add(b, m.splat(at[number]));
+        m.splat(to_c[number]).mul_add(c, value)
+    }
+
+    /// Returns the first `count` numbers of triangle `k` where its second and third corner have the coordinates `weights`.
+    #[inline(always)]
+    pub fn at<S: Simd>(
+        &self,
+        m: Lanes<S>,
+        k: usize,
+        count: usize,
+        weights: [f32; 2],
+    ) -> [f32; LINE] {
+        let ([at, to_b, to_c], [b, c]) = (&self.0[k], weights.map(|w| m.splat(w)));
+        let mut numbers = [0.0; LINE];
+        let mut i = 0;
+        while i < count {
+            let value = m.load(&to_b[i..]).mul_add(b, m.load(&at[i..]));
+            m.store(m.load(&to_c[i..]).mul_add(c, value), &mut numbers[i..]);
+            i += BLOCK;
+        }
+        numbers
+    }
+
+    /// Returns how much they grow where the coordinates grow by `weights`.
+    #[inline(always)]
+    pub fn growth<S: Simd>(
+        &self,
+        m: Lanes<S>,
+        k: usize,
+        count: usize,
+        weights: [f32; 2],
+    ) -> [f32; LINE] {
+        let ([_, to_b, to_c], [b, c]) = (&self.0[k], weights.map(|w| m.splat(w)));
+        let mut growth = [0.0; LINE];
+        let mut i = 0;
+        while i < count {
+            m.store(
+                m.load(&to_c[i..]).mul_add(c, m.load(&to_b[i..]) * b),
+                &mut growth[i..],
+            );
+            i += BLOCK;
+        }
+        growth
+    }
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        let (ints, floats) = ([0; BATCH], [0.0; BATCH]);
+        let edges = || EdgeFunctions {
+            at: ints,
+            right: ints,
+            across: ints,
+            down: ints,
+            off: floats,
+            weight: floats,
+            growth: floats,
+            fall: floats,
+            begins: floats,
+            ends: [floats; 2],
+        };
+        Batch {
+            count: 0,
+            listed: [Listed::default(); BATCH],
+            x: [ints; 3],
+            y: [ints; 3],
+            columns: [ints; 2],
+            rows: [ints; 2],
+            kind: ints,
+            over_area: floats,
+            edges: [edges(), edges(), edges()],
+            planes: PlaneEquations([[[0.0; LINE]; 3]; BATCH]),
+        }
+    }
+}
+
+/// What eight triangles have in common with pixels.
+struct Bounded<S: Simd> {
+    /// Corners from the left upper corner of the box on: small numbers, and 0 where 32 bits might not hold what follows.
+    x: [i32x8<S>; 3],
+    y: [i32x8<S>; 3],
+    /// The centre of the first pixel of the first block of the first row, likewise.
+    px: i32x8<S>,
+    py: i32x8<S>,
+    /// −1 where the corners run the other way around.
+    turned: i32x8<S>,
+    over_area: f32x8<S>,
+    /// Its columns: no columns where nothing is to be drawn.
+    columns: [i32x8<S>; 2],
+    /// True if any is small.
+    has_small: bool,
+}
+
+impl Batch {
+    /// Gathers the positions of triangles from the front of `polygons` until there are enough, or a polygon has another shape; gives
+    /// how many.
+    ///
+    /// In a loop of its own, in which nothing has to be guessed: so the reads of many triangles overlap. Their places in memory are
+    /// far from one another, and waiting for them took a third of the time.
+    #[inline(always)]
+    pub fn gather(&mut self, frame: &Frame, polygons: &[Listed]) -> usize {
+        let (vertices, most) = (frame.vertices(), polygons.len().min(BATCH));
+        let polygons = &polygons[..most];
+        let mut k = 0;
+        while k < most && polygons[k].is_triangle() {
+            self.listed[k] = polygons[k];
+            let mut i = 0;
+            while i < 3 {
+                let vertex = &vertices[polygons[k].corners[i] as usize];
+                (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
+                i += 1;
+            }
+            k += 1;
+        }
+        self.count = k;
+        k
+    }
+
+    /// Bounds what was gathered by a picture `width` pixels wide and the rows of a tile, and sets up edge functions. Gives the
+    /// blocks of a row between which the triangles lie, and a bit for each triangle that is small or large.
+    #[inline(always)]
+    pub fn set_up<S: Simd>(
+        &mut self,
+        m: Lanes<S>,
+        width: usize,
+        rows: &Range<usize>,
+    ) -> (Range<usize>, u32) {
+        let (mut left, mut right) = (m.int(width as i32), m.int(0));
+        let (mut others, mut first) = (0, 0);
+        while first < self.count {
+            let (bounded, here) =
+                self.bound(m, first, width as i32, [rows.start as i32, rows.end as i32]);
+            others |= here << first;
+            left = left.min(bounded.columns[0]);
+            right = right.max(bounded.columns[1]);
+            let mut edge = 0;
+            while edge < 3 {
+                self.edge(m, first, edge, &bounded);
+                edge += 1;
+            }
+            first += BLOCK;
+        }
+        let (mut lefts, mut rights) = ([0; BLOCK], [0; BLOCK]);
+        m.store_int(left, &mut lefts);
+        m.store_int(right, &mut rights);
+        let (left, right) = (lefts.iter().min(), rights.iter().max());
+        let blocks = left.map_or(0, |left| *left as usize / BLOCK)
+            ..right.map_or(0, |right| (*right as usize).div_ceil(BLOCK));
+        (blocks, others)
+    }
+
+    /// Bounds the eight triangles from number `first` on, and says what is to be drawn of each; gives a bit for each that is small
+    /// or large.
+    #[inline(always)]
+    fn bound<S: Simd>(
+        &mut self,
+        m: Lanes<S>,
+        first: usize,
+        width: i32,
+        band: [i32; 2],
+    ) -> (Bounded<S>, u32) {
+        let (zero, all) = (m.int(0), m.int(-1));
+        let load = |from: &[Ints; 3]| {
+            [
+                m.load_int(&from[0][first..]),
+                m.load_int(&from[1][first..]),
+                m.load_int(&from[2][first..]),
+            ]
+        };
+        let (x, y) = (load(&self.x), load(&self.y));
+        let (left, right) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
+        let (top, bottom) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
+        // As `first_centre` has it, in 32 bits: coordinates are within ±2²³.
+        let (columns, rows) = (
+            [
+                ((left + m.int(127)) >> 8).max(zero),
+                ((right + m.int(127)) >> 8).min(m.int(width)),
+            ],
+            [
+                ((top + m.int(127)) >> 8).max(m.int(band[0])),
+                ((bottom + m.int(127)) >> 8).min(m.int(band[1])),
+            ],
+        );
+        // What stands after the last one was there before.
+        let is_gathered = m.counted().less(m.int((self.count - first) as i32));
+        let is_there = columns[0].less(columns[1]) & rows[0].less(rows[1]) & is_gathered;
+        let is_small = (right - left).less(m.int(256 * SMALL_WIDTH + 1))
+            & (bottom - top).less(m.int(256 * SMALL_HEIGHT));
+        let exact = is_there & is_small;
+        let x = [
+            (x[0] - left) & exact,
+            (x[1] - left) & exact,
+            (x[2] - left) & exact,
+        ];
+        let y = [
+            (y[0] - top) & exact,
+            (y[1] - top) & exact,
+            (y[2] - top) & exact,
+        ];
+        let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+        let turned = area.less(zero);
+        let area = (area ^ turned) - turned;
+        let over_area = m.splat(1.0) / m.float(area);
+        let drawn = exact & zero.less(area);
+        let tiny = drawn
+            & (columns[1] - columns[0]).less(m.int(TINY_WIDTH + 1))
+            & (rows[1] - rows[0]).less(m.int(TINY_HEIGHT + 1));
+        // No edge is higher or wider than the box: coordinates grow by at most 256 times that over twice the area.
+        let longer = (right - left).max(bottom - top) & exact;
+        let steep = drawn & area.less(longer * m.int(256 / STEEPEST)) & (tiny ^ all);
+        let small = drawn & (steep ^ all);
+        let large = is_there & ((is_small ^ all) | steep);
+        let kind = (small & m.int(Kind::Small as i32))
+            | (tiny & m.int(Kind::Tiny as i32))
+            | (large & m.int(Kind::Large as i32));
+        let not_small = (small & (tiny ^ all)) ^ all;
+        let has_small = m.any_not_negative(not_small);
+        let others = m.bits_not_negative(not_small & (large ^ all));
+        m.store_int(kind, &mut self.kind[first..]);
+        m.store(over_area, &mut self.over_area[first..]);
+        for end in 0..2 {
+            m.store_int(columns[end], &mut self.columns[end][first..]);
+            m.store_int(rows[end], &mut self.rows[end][first..]);
+        }
+        let block = columns[0] & m.int(-(BLOCK as i32));
+        let bounded = Bounded {
+            x,
+            y,
+            px: (block * m.int(256) + m.int(128) - left) & exact,
+            py: (rows[0] * m.int(256) + m.int(128) - top) & exact,
+            turned,
+            over_area,
+            columns: [
+                is_there.choose(columns[0], m.int(width)),
+                columns[1] & is_there,
+            ],
+            has_small,
+        };
+        (bounded, others)
+    }
+
+    /// Sets up edge function `edge`, which is 0 at the two other corners.
+    #[inline(always)]
+    fn edge<S: Simd>(&mut self, m: Lanes<S>, first: usize, edge: usize, bounded: &Bounded<S>) {
+        let Bounded {
+            x,
+            y,
+            px,
+            py,
+            turned,
+            over_area,
+            ..
+        } = bounded;
+        let (zero, none) = (m.int(0), m.splat(0.0));
+        let (i, j) = ((edge + 1) % 3, (edge + 2) % 3);
+        let dx = ((x[j] - x[i]) ^ *turned) - *turned;
+        let dy = ((y[j] - y[i]) ^ *turned) - *turned;
+        let level = (dy.less(zero) | zero.less(dy)) ^ m.int(-1);
+        let disowns = m.int(1) + (dy.less(zero) | (level & zero.less(dx)));
+        let to = &mut self.edges[edge];
+        let at = dx * (*py - y[i]) - dy * (*px - x[i]) - disowns;
+        let (right, down) = (dy * m.int(-256), dx * m.int(256));
+        let off = m.float(disowns) * *over_area;
+        m.store_int(at, &mut to.at[first..]);
+        m.store_int(right, &mut to.right[first..]);
+        m.store_int(down, &mut to.down[first..]);
+        m.store(off, &mut to.off[first..]);
+        if !bounded.has_small {
+            return;
+        }
+        if edge != 0 {
+            m.store(
+                m.float(at).mul_add(*over_area, off),
+                &mut to.weight[first..],
+            );
+            m.store(m.float(right) * *over_area, &mut to.growth[first..]);
+            m.store(m.float(down) * *over_area, &mut to.fall[first..]);
+        }
+        m.store_int(dy * m.int(-256 * BLOCK as i32), &mut to.across[first..]);
+        let right = m.float(right);
+        let columns = m.splat(-1.0) / right;
+        m.store(m.where_less(none, right, columns), &mut to.begins[first..]);
+        m.store(m.where_less(right, none, columns), &mut to.ends[0][first..]);
+        let beyond = m.splat(2.0 * SMALL_WIDTH as f32);
+        // More columns than any has, unless it falls.
+        let falls = m.where_less(right, none, beyond);
+        m.store(beyond - falls, &mut to.ends[1][first..]);
+    }
+
+    /// Sets up the plane equations of those triangles whose bits `drawn` has: depth, varyings, and the number of the uniforms if
+    /// pixels have one. Again in a loop of its own.
+    #[inline(always)]
+    pub fn set_up_planes<S: Simd, const N: usize>(
+        &mut self,
+        m: Lanes<S>,
+        setup: &SetUp<'_>,
+        count: Count<N>,
+        drawn: u32,
+    ) {
+        let vertices = setup.frame.vertices();
+        let values = &setup.varyings.values[..];
+        // The usual three numbers a vertex, without a loop over them.
+        if N == 4 && matches!(setup.varyings.per, Per::Vertex) {
+            let values = values.as_chunks::<3>().0;
+            // Bounded once for both.
+            let most = vertices.len().min(values.len());
+            let (vertices, values) = (&vertices[..most], &values[..most]);
+            return self.read(
+                m,
+                drawn,
+                count,
+                #[inline(always)]
+                |_, _, vertex, line| {
+                    let [x, y, z] = values[vertex as usize];
+                    (line[0], line[1], line[2], line[3]) =
+                        (vertices[vertex as usize].depth, x, y, z);
+                },
+            );
+        }
+        let has_material = count.get() > 1 + setup.varyings.count;
+        self.read(
+            m,
+            drawn,
+            count,
+            #[inline(always)]
+            |number, corner, vertex, line| {
+                line[0] = vertices[vertex as usize].depth;
+                let varying = setup.varyings.of_corner(number, corner, vertex);
+                for (to, value) in line[1..].iter_mut().zip(varying) {
+                    *to = *value;
+                }
+                if has_material {
+                    line[count.get() - 1] = setup.uniforms_of(number) as f32;
+                }
+            },
+        );
+    }
+
+    /// Has `read` read the corners of triangles, by polygon, corner and vertex.
+    #[inline(always)]
+    fn read<S: Simd, const N: usize>(
+        &mut self,
+        m: Lanes<S>,
+        drawn: u32,
+        count: Count<N>,
+        mut read: impl FnMut(u32, u32, u32, &mut [f32; LINE]),
+    ) {
+        each_bit(
+            drawn,
+            #[inline(always)]
+            |k| {
+                let Listed {
+                    number,
+                    corners: [a, b, c],
+                } = self.listed[k];
+                let (mut at, mut to_b, mut to_c) = ([0.0; LINE], [0.0; LINE], [0.0; LINE]);
+                read(number, 0, a, &mut at);
+                read(number, 1, b, &mut to_b);
+                read(number, 2, c, &mut to_c);
+                let to = &mut self.planes.0[k];
+                let mut i = 0;
+                while i < count.get() {
+                    let from = m.load(&at[i..]);
+                    m.store(from, &mut to[0][i..]);
+                    m.store(m.load(&to_b[i..]) - from, &mut to[1][i..]);
+                    m.store(m.load(&to_c[i..]) - from, &mut to[2][i..]);
+                    i += BLOCK;
+                }
+            },
+        );
+    }
+}
+
+/// Gives the number of each bit that is 1, from the lowest on.
+#[inline(always)]
+pub(super) fn each_bit(bits: u32, mut visit: impl FnMut(usize)) {
+    let mut left = bits;
+    while left != 0 {
+        visit(left.trailing_zeros() as usize % BATCH);
+        left &= left - 1;
+    }
+}

@@ -1,0 +1,94 @@
+//! The edge table: all edges of a frame, by the scanline on which they begin.
+
+use super::edge::first_centre;
+use crate::frame::Frame;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+/// An edge of a polygon, from its upper to its lower end.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct TableEdge {
+    /// The polygon, an index into [`Frame::polygons`].
+    pub polygon: u32,
+    /// The corner that it starts from when one goes around the polygon: its number there.
+    pub corner: u32,
+    /// The vertex of its upper end.
+    pub top: u32,
+    /// The vertex of its lower end.
+    pub bottom: u32,
+}
+
+/// All edges that cross the centre of a scanline of the picture, bucketed by the first one that they cross.
+///
+/// Within a bucket edges come in the order of their polygons. Edges that begin above the picture stand in the first bucket;
+/// those that cross no scanline, horizontal ones among them, are left out.
+#[derive(Debug)]
+pub(crate) struct EdgeTable {
+    starts: Vec<u32>,
+    edges: Vec<TableEdge>,
+}
+
+impl EdgeTable {
+    /// Makes the table of a frame: a counting sort, linear in edges and scanlines.
+    pub fn new(frame: &Frame) -> Self {
+        let rows = frame.height();
+        let mut starts = vec![0u32; rows + 1];
+        let polygons = 0..frame.polygons().len() as u32;
+        for number in polygons.clone() {
+            for_each_edge(frame, 0..rows as i32, number, |row, _| {
+                starts[row as usize + 1] += 1
+            });
+        }
+        for row in 0..rows {
+            starts[row + 1] += starts[row];
+        }
+        let mut edges = vec![TableEdge::default(); starts[rows] as usize];
+        let mut next = starts.clone();
+        for number in polygons {
+            for_each_edge(frame, 0..rows as i32, number, |row, edge| {
+                let place = &mut next[row as usize];
+                edges[*place as usize] = edge;
+                *place += 1;
+            });
+        }
+        EdgeTable { starts, edges }
+    }
+
+    /// Returns the edges that begin on scanline `row`, in the order of their polygons; in the first bucket also those that began
+    /// above.
+    pub fn bucket(&self, row: usize) -> &[TableEdge] {
+        &self.edges[self.starts[row] as usize..self.starts[row + 1] as usize]
+    }
+}
+
+/// Gives the edges of polygon `number` that cross centres of the scanlines `rows`, each with the first one of these.
+#[inline(always)]
+pub(crate) fn for_each_edge(
+    frame: &Frame,
+    rows: Range<i32>,
+    number: u32,
+    mut visit: impl FnMut(i32, TableEdge),
+) {
+    let vertices = frame.vertices();
+    let corners = frame.corners(&frame.polygons()[number as usize]);
+    let mut from = corners[corners.len() - 1];
+    for (i, &to) in corners.iter().enumerate() {
+        let corner = if i == 0 { corners.len() - 1 } else { i - 1 } as u32;
+        let (mut top, mut bottom) = (from, to);
+        from = to;
+        if vertices[top as usize].y > vertices[bottom as usize].y {
+            core::mem::swap(&mut top, &mut bottom);
+        }
+        let first = first_centre(vertices[top as usize].y).max(rows.start);
+        if first < first_centre(vertices[bottom as usize].y).min(rows.end) {
+            let edge = TableEdge {
+                polygon: number,
+                corner,
+                top,
+                bottom,
+            };
+            visit(first, edge);
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The span engine: the lecture as written, one pixel at a time.
+//!
+//! ```text
+//! edge table ─► active edges ─► spans ─► line of depth ─► visible runs ─► pixel kernel ─► picture
+//! (by first      ΔI along edges,          which span is      ΔI along spans,
+//!  scanline)     once a scanline          seen at a pixel    once a pixel
+//! ```
+//!
+//! For each scanline the active edges give spans; a depth buffer of one line tells which span is seen at each pixel; each visible
+//! run is then walked and shaded once, so that hidden pixels are never shaded. The runs of a scanline are shaded by one call. It
+//! draws everything: polygons of any shape, every method, every depth buffer.
+
+pub(super) mod active;
+pub(super) mod edge;
+pub(super) mod edge_table;
+mod line;
+
+use active::ActiveEdges;
+pub use edge::Crossing;
+pub use line::NOTHING;
+use line::VisibleLine;
+
+use super::depth::SampleDepth;
+use super::setup::{SetUp, Varyings};
+use super::target::Target;
+use crate::frame::Frame;
+use crate::shading::{Pixels, Run};
+use alloc::vec;
+use alloc::vec::Vec;
+use edge_table::EdgeTable;
+
+/// Takes a scanline on which anything is drawn: its number, what is seen on it, and the edges that its spans refer to.
+pub(super) type Visit<'a> = dyn FnMut(usize, &VisibleLine, &ActiveEdges<'_>) + 'a;
+
+/// Goes down the scanlines of a frame.
+pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, visit: &mut Visit<'_>) {
+    let table = EdgeTable::new(frame);
+    let mut line = VisibleLine::new(frame.width(), SampleDepth::new(frame));
+    let mut active = ActiveEdges::new(frame, varyings);
+    for row in 0..frame.height() {
+        active.next(table.bucket(row).iter(), row as i32);
+        if active.is_empty() {
+            continue;
+        }
+        line.clear();
+        active.spans(frame.width() as u32, |_, span| line.draw(span));
+        visit(row, &line, &active);
+    }
+}
+
+/// Draws a method on its frame into `target`.
+pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
+    let mut colours = vec![[0.0f32; 3]; setup.frame.width()];
+    let (mut runs, mut starts) = (Vec::new(), Vec::new());
+    scan(setup.frame, &setup.varyings, &mut |row, line, edges| {
+        runs.clear();
+        starts.clear();
+        line.runs(|span, pixels| {
+            edges.start(span, pixels.start as u32 - span.start, &mut starts);
+            runs.push(Run {
+                uniforms: setup.uniforms_of(span.polygon),
+                x: pixels.start as u32,
+                pixels: pixels.len() as u32,
+            });
+        });
+        let job = Pixels {
+            parameters: setup.parameters,
+            uniforms: &setup.uniforms,
+            extras: setup.extras,
+            runs: &runs,
+            starts: &starts,
+        };
+        (setup.kernels.pixels)(&job, &mut colours);
+        let mut rest = &colours[..];
+        for run in &runs {
+            let (here, others) = rest.split_at(run.pixels as usize);
+            target.store(run.x as usize, row, here);
+            rest = others;
+        }
+    });
+}

@@ -1,0 +1,211 @@
+//! How far a method may be from its closed form: counted in roundings, not guessed.
+
+use super::lighting::highlight_gain;
+use super::spread::Spread;
+use super::{Info, Perspective};
+use crate::frame::{Frame, Polygon};
+use crate::lighting::{LightTerm, Lighting, SpecularModel};
+use crate::scene::Interpolation;
+use alloc::vec::Vec;
+
+/// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
+const ROUNDING: f64 = 1.0 / (1u64 << 24) as f64;
+
+/// How many roundings of 2⁻²⁴ a method's cosines (or colours) gather.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roundings {
+    /// Before the first step.
+    pub start: f64,
+    /// At every step along an edge or a span. Steps add the same rounded increment again and again, so their roundings
+    /// do not average out: they grow with the number of steps.
+    pub step: f64,
+    /// What is stepped.
+    pub of: Stepped,
+}
+
+/// What a method steps along edges and spans.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stepped {
+    /// Colours of at most 1: what they are off by is what the picture is off by.
+    Colours,
+    /// Colours that are clamped later: off by as much as all light together is over 1.
+    Sums,
+    /// Normals or cosines: the illumination model comes after, and multiplies what they are off by.
+    Cosines,
+    /// Products of two vectors that grow linearly: likewise.
+    Products,
+}
+
+impl Info {
+    /// The largest difference that rounding in `f32` can make between this method's picture of `frame` and its closed
+    /// form ([`Info::model`]), in a linear channel of 0..=1.
+    ///
+    /// With s steps from a corner to a pixel, a cosine is off by `e = (start + step · s) · 2⁻²⁴`. The diffuse term passes
+    /// that on times `I_p k_d`; `R·V = 2 (L·N)(N·V) − L·V` is off by up to 4 e, and the power multiplies that by n. Of
+    /// `N·H = (L·N + V·N) / h`, h = |L + V|, the sum is off by 2 e and h by e/h, so that it is off by `2 e/h + e/h²`, which
+    /// is below 4 e while h is over 0.81.
+    ///
+    /// A vector toward a place is rounded at its longest and divided by its length where it is shortest: with a spread of σ
+    /// between the two its direction is off by σ times as much, and its square by σ². A falloff of at most its strength
+    /// where the light is nearest multiplies colours and their errors, and is off by as much as the square itself.
+    ///
+    /// A faint highlight is left out: `I_p k_s (R·V)^n` of at most 2⁻²⁴ a light. Its threshold `t = (2⁻²⁴ / k)^(1/n)` is rounded,
+    /// so that t^n is off by a share of `(43 + n) 2⁻²³`; the roundings of a highlight, n times 4 · 2⁻²⁴, leave room for that.
+    ///
+    /// Where a parameter is left to the method ([`super::Auto`]), lengths may be too large by the relative error E that it
+    /// allows itself. The diffuse terms D are divided by them: they lose E D at most, of which after the clamp, as all other
+    /// terms are 0 or more, E/(1 − E) is left at most. Of N·H, which is divided by them too, the power n loses n times as much
+    /// of the specular terms. R·V is divided by the squared length, which has no such error.
+    ///
+    /// Other errors of the method itself, those of a given number of Newton's steps on short spans with large angles among
+    /// them, are no part of this: where the difference is over this bound, the report says so.
+    ///
+    /// The parameters have their default values here; [`super::Variant::bound`] is for others.
+    pub fn bound(&self, frame: &Frame) -> f64 {
+        let defaults: Vec<u32> = self.parameters.iter().map(|p| p.default).collect();
+        self.bound_with(frame, &defaults)
+    }
+
+    /// [`Info::bound`] for these values of the parameters.
+    pub(super) fn bound_with(&self, frame: &Frame, parameters: &[u32]) -> f64 {
+        let steps = frame
+            .polygons()
+            .iter()
+            .map(|p| longest_walk(frame, p))
+            .max()
+            .unwrap_or(0) as f64;
+        let spread = Spread::of(frame);
+        let gains = (0..)
+            .zip(frame.lightings())
+            .map(|(material, lighting)| Gain::of(&spread, material, lighting));
+        let gain = gains.fold(
+            Gain {
+                cosine: 1.0,
+                sum: 1.0,
+            },
+            Gain::max,
+        );
+        let allowed = (0..)
+            .zip(frame.lightings())
+            .map(|(material, lighting)| self.allowed(parameters, &spread, material, lighting))
+            .fold(0.0, f64::max);
+        let Roundings { start, step, of } = self.roundings;
+        // What is rounded where the weight of perspective is largest counts for more where it is smallest.
+        let weights = match self.perspective {
+            Perspective::Free | Perspective::Divides
+                if frame.interpolation() == Interpolation::Perspective =>
+            {
+                spread.weights
+            }
+            _ => 1.0,
+        };
+        let rounding = ROUNDING * weights;
+        // What starts a colour is lit from vectors to places, too.
+        let (toward, square) = (spread.vectors, spread.vectors * spread.vectors);
+        let lights = frame.lightings().iter().map(|l| l.lights.len()).max();
+        let faint = ROUNDING * lights.unwrap_or(0) as f64;
+        let rounded = match of {
+            Stepped::Colours => rounding * (start * gain.cosine * toward + step * steps),
+            Stepped::Sums => rounding * (start * gain.cosine * toward + step * steps * gain.sum),
+            Stepped::Cosines => rounding * (start + step * steps) * gain.cosine * toward,
+            // Squares of weighted vectors have the squares of the weights.
+            Stepped::Products => {
+                // With positions three products are stepped, where there was one product and one cosine.
+                let step = if frame.is_local() { 3.0 * step } else { step };
+                rounding * weights * (start + step * steps) * gain.cosine * square
+            }
+        };
+        rounded + faint + allowed
+    }
+
+    /// The error of a colour that the method allows itself on a material: see [`Info::bound`].
+    fn allowed(
+        &self,
+        parameters: &[u32],
+        spread: &Spread,
+        material: u32,
+        lighting: &Lighting,
+    ) -> f64 {
+        let autos = self.parameters.iter().zip(parameters);
+        let length_error = autos
+            .filter(|(parameter, value)| parameter.is_auto(**value))
+            .filter_map(|(parameter, _)| parameter.auto)
+            .map(|auto| f64::from((auto.length_error)(lighting)))
+            .fold(0.0, f64::max);
+        let specular_error = match lighting.specular {
+            SpecularModel::Phong => 0.0,
+            SpecularModel::Blinn => f64::from(lighting.shininess) * length_error,
+        };
+        // Of what the clamp leaves of a sum of these terms.
+        let lost = |error: f64, of: &dyn Fn(&LightTerm) -> f32| {
+            let lights = lighting.lights.iter().enumerate();
+            let sum = lights.map(|(i, light)| spread.strength(material, i) * f64::from(of(light)));
+            sum.sum::<f64>().min(1.0) * error / (1.0 - error)
+        };
+        (0..3)
+            .map(|c| {
+                lost(length_error, &|l| l.diffuse[c]) + lost(specular_error, &|l| l.specular[c])
+            })
+            .fold(0.0, f64::max)
+    }
+}
+
+/// By how much the illumination model multiplies an error of a cosine, and the most that it adds up to.
+#[derive(Clone, Copy)]
+struct Gain {
+    cosine: f64,
+    sum: f64,
+}
+
+impl Gain {
+    fn of(spread: &Spread, material: u32, lighting: &Lighting) -> Gain {
+        let strength = |i: usize| spread.strength(material, i);
+        let half = spread.half(material);
+        let highlight = highlight_gain(lighting.specular, lighting.shininess, half);
+        // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
+        let falls = if lighting.is_attenuated() { 2.0 } else { 0.0 };
+        let channel = |c: usize| {
+            let lights = lighting.lights.iter().enumerate();
+            let terms = lights.map(|(i, l)| {
+                let (d, s) = (
+                    strength(i) * f64::from(l.diffuse[c]),
+                    strength(i) * f64::from(l.specular[c]),
+                );
+                let cosine = d + highlight * s + falls * (d + s);
+                Gain { cosine, sum: d + s }
+            });
+            let none = Gain {
+                cosine: 0.0,
+                sum: f64::from(lighting.ambient[c]),
+            };
+            terms.fold(none, |a, b| Gain {
+                cosine: a.cosine + b.cosine,
+                sum: a.sum + b.sum,
+            })
+        };
+        channel(0).max(channel(1)).max(channel(2))
+    }
+
+    fn max(self, other: Gain) -> Gain {
+        Gain {
+            cosine: self.cosine.max(other.cosine),
+            sum: self.sum.max(other.sum),
+        }
+    }
+}
+
+/// The most steps from a corner to a pixel: down the rows of the polygon and across its columns, inside the picture.
+fn longest_walk(frame: &Frame, polygon: &Polygon) -> usize {
+    let extent = |coordinate: fn(&crate::frame::ScreenVertex) -> crate::frame::SubPixel,
+                  limit: usize| {
+        let all = frame
+            .corners(polygon)
+            .iter()
+            .map(|&v| coordinate(&frame.vertices()[v as usize]).to_bits());
+        let (low, high) = all.fold((i32::MAX, i32::MIN), |(low, high), c| {
+            (low.min(c), high.max(c))
+        });
+        ((high - low) as usize / 256 + 1).min(limit)
+    };
+    extent(|v| v.y, frame.height()) + extent(|v| v.x, frame.width())
+}

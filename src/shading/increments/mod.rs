@@ -1,0 +1,40 @@
+//! Increments: values that are stepped from pixel to pixel, or from block to block.
+//!
+//! A [`Walk`] gives the value here and steps on. One text serves one pixel at a time and blocks of pixels: a block starts from
+//! the values of each of its pixels, with steps a block long.
+
+mod linear;
+mod newton;
+mod quadratic;
+mod sines;
+
+pub use linear::{Constant, Linear};
+pub use newton::{Newton, NewtonSteps};
+pub use quadratic::Quadratic;
+pub use sines::{GreatCircle, Sines};
+
+use crate::number::Num;
+use crate::shading::varying::Planes;
+
+/// Running state along a span: all memory of the previous pixel.
+pub trait Walk<F: Num>: Copy {
+    /// What a pixel is shaded from: an entry of the G-buffer.
+    type Pixel: Planes<F>;
+    /// True if the pixel is the interpolated varying itself: the row engine then interpolates it over triangles.
+    const LINEAR: bool = false;
+
+    /// Returns the value here, and steps to the next pixel (or block).
+    fn next(&mut self) -> Self::Pixel;
+}
+
+impl<F: Num, A: Walk<F>, B: Walk<F>> Walk<F> for (A, B) {
+    type Pixel = (A::Pixel, B::Pixel);
+
+    #[inline(always)]
+    fn next(&mut self) -> Self::Pixel {
+        (self.0.next(), self.1.next())
+    }
+}
+
+#[cfg(test)]
+mod tests;

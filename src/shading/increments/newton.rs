@@ -1,0 +1,123 @@
+//! A square root that is followed from pixel to pixel by Newton's method.
+
+use super::{Linear, Walk};
+use crate::number::{Num, Vec3};
+
+/// How many steps of Newton's method a pixel takes.
+#[derive(Clone, Copy, Debug)]
+pub struct NewtonSteps {
+    /// 0 (`auto`) takes as few as suffice.
+    steps: u32,
+    /// `within[s]`: up to this δ², s steps leave no more than the largest error.
+    pub(super) within: [f32; Self::MOST as usize + 1],
+}
+
+impl NewtonSteps {
+    /// The most steps that can be asked for.
+    pub const MOST: u32 = 8;
+    /// Where so many do not suffice, `auto` takes true roots: three cost as much.
+    pub const MOST_OF_AUTO: u32 = 3;
+    /// The largest relative error of a length: of a diffuse cosine it is a quarter of a grey level.
+    pub const LARGEST_ERROR: f32 = 1e-3;
+
+    /// Makes the rule for `steps` steps, 0 for `auto`, that leave a relative error of at most `largest_error`.
+    ///
+    /// A step whose guess is off by the relative error e leaves e² / (2 (1 + e)) of a guess that is too large, and
+    /// e² / (2 (1 − e)) of one that is too small. δ is how far the true length is from that of the step before, relative to the
+    /// least length along the span; the guess has itself an error of up to E:
+    ///
+    /// ```text
+    /// |N + k ΔN|² ≥ D_min = N·N − min(0, N·ΔN)² / ΔN·ΔN,    δ² = ΔN·ΔN / D_min
+    /// e_0 ≤ δ + E (1 + δ),    e ← e² / (2 (1 − e))
+    /// ```
+    /// Backwards from E: the step before may have left e = −E + √(E² + 2E).
+    pub fn new(steps: u32, largest_error: f32) -> Self {
+        let mut within = [0.0; Self::MOST as usize + 1];
+        let mut e = largest_error;
+        for within in &mut within[1..=steps.max(Self::MOST_OF_AUTO) as usize] {
+            e = Num::sqrt(e * e + 2.0 * e) - e;
+            let change = (e - largest_error) / (1.0 + largest_error);
+            *within = change * change;
+        }
+        NewtonSteps { steps, within }
+    }
+
+    /// Chooses the steps for a span whose normal starts as `n` and grows by `dn` a step; 0 is a true root.
+    ///
+    /// One pixel at a time a number that was asked for is taken as it is, as in the lecture. In blocks the guess is a whole
+    /// block away and fails the sooner: there it gives way to true roots.
+    #[inline(always)]
+    fn of_span<F: Num>(&self, n: Vec3<F>, dn: Vec3<F>, square: F) -> u32 {
+        let NewtonSteps { steps, within } = self;
+        if *steps != 0 && F::WIDTH == 1 {
+            return *steps;
+        }
+        let (along, step) = (n.dot(dn), dn.dot(dn));
+        // δ² ≤ T is ΔN·ΔN ≤ T D_min, times ΔN·ΔN.
+        let room = square * step - (along * along).gate(-along, 0.0);
+        let growth = step * step;
+        let (first, last) = match steps {
+            0 => (1, Self::MOST_OF_AUTO),
+            _ => (*steps, *steps),
+        };
+        for count in first..=last {
+            if !(growth - room * within[count as usize]).any_over(0.0) {
+                return count;
+            }
+        }
+        0
+    }
+}
+
+/// A normal that is stepped along a span, its squared length, and its length by Newton's method from the previous pixel's.
+///
+/// ```text
+/// N_next = N_current + ΔN                          (L21 4.2)
+/// d_next = √(N_next · N_next)                      (L21 4.4)
+/// x_{n+1} = x_n − (x_n² − d_next²) / (2 x_n),      x_0 = d_current
+/// ```
+///
+/// Three additions for N, three multiplications and two additions for N · N; then each step takes one multiplication, three
+/// additions and one division. The first pixel of a span starts from a true root.
+///
+/// *Fails when* d grows by a large factor from one pixel to the next, as it does near normals that cancel: the steps then
+/// overshoot (x ≈ d²/2x_0) and the span darkens until they have come down again. [`NewtonSteps`] prevents that.
+#[derive(Clone, Copy, Debug)]
+pub struct Newton<F> {
+    normal: Linear<Vec3<F>>,
+    length: F,
+    steps: u32,
+}
+
+impl<F: Num> Newton<F> {
+    /// Follows the normal that starts as `n` and grows by `dn` a step.
+    #[inline(always)]
+    pub fn new(n: Vec3<F>, dn: Vec3<F>, steps: &NewtonSteps) -> Self {
+        let square = n.dot(n);
+        Newton {
+            normal: Linear { at: n, step: dn }, // 4.2
+            length: square.sqrt(),
+            steps: steps.of_span(n, dn, square),
+        }
+    }
+}
+
+impl<F: Num> Walk<F> for Newton<F> {
+    /// (d, D): the length, and the squared length itself, which the specular term uses.
+    type Pixel = (F, F);
+
+    #[inline(always)]
+    fn next(&mut self) -> (F, F) {
+        let n = self.normal.next(); // 4.2
+        let square = n.dot(n); // D = N · N
+        if self.steps == 0 {
+            return (square.sqrt(), square);
+        }
+        let mut x = self.length;
+        for _ in 0..self.steps {
+            x = x - (x * x - square) / (x + x); // 4.4 by Newton's method
+        }
+        self.length = x;
+        (x, square)
+    }
+}

@@ -1,0 +1,208 @@
+//! What is said about a method: the texts and bounds that the tool, the tests and the report share.
+
+use super::bound::{Roundings, Stepped};
+use crate::lighting::Lighting;
+use crate::reference::Model;
+use alloc::format;
+use alloc::string::{String, ToString};
+
+/// A number that a method can be given after its name, as in `fast-phong:steps=1`.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: &'static str,
+    /// What it means.
+    pub meaning: &'static str,
+    /// Its value when none is given.
+    pub default: u32,
+    /// The smallest value allowed.
+    pub least: u32,
+    /// The largest value allowed.
+    pub most: u32,
+    /// The choice left to the method, if it can be: written `auto`, the value [`Parameter::AUTO`].
+    pub auto: Option<Auto>,
+}
+
+/// A choice that a method makes by itself, from span to span.
+#[derive(Clone, Copy, Debug)]
+pub struct Auto {
+    /// What it takes.
+    pub meaning: &'static str,
+    /// The largest relative error of |N| that it leaves on a material: [`Info::bound`] has room for it.
+    pub length_error: fn(&Lighting) -> f32,
+}
+
+impl Parameter {
+    /// The value that stands for `auto`.
+    pub const AUTO: u32 = 0;
+
+    /// Makes a parameter of `least` to `most`, without `auto`.
+    pub const fn new(
+        name: &'static str,
+        meaning: &'static str,
+        default: u32,
+        least: u32,
+        most: u32,
+    ) -> Parameter {
+        Parameter {
+            name,
+            meaning,
+            default,
+            least,
+            most,
+            auto: None,
+        }
+    }
+
+    /// Reads a value; `None` if it is neither in the range nor `auto` where that is allowed.
+    pub fn parse(&self, text: &str) -> Option<u32> {
+        if self.auto.is_some() && text == "auto" {
+            return Some(Parameter::AUTO);
+        }
+        let is_in_range = |value: &u32| (self.least..=self.most).contains(value);
+        text.parse().ok().filter(is_in_range)
+    }
+
+    /// Writes a value as [`Parameter::parse`] reads it.
+    pub fn text(&self, value: u32) -> String {
+        if self.is_auto(value) {
+            "auto".into()
+        } else {
+            value.to_string()
+        }
+    }
+
+    /// Returns the values allowed, as people read them: `auto or 1..8`.
+    pub fn range(&self) -> String {
+        let (least, most) = (self.least, self.most);
+        match self.auto {
+            Some(_) => format!("auto or {least}..{most}"),
+            None => format!("{least}..{most}"),
+        }
+    }
+
+    /// True if the choice is left to the method.
+    pub fn is_auto(&self, value: u32) -> bool {
+        self.auto.is_some() && value == Parameter::AUTO
+    }
+}
+
+/// What a method does when the scene asks for perspective interpolation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Perspective {
+    /// Nothing is interpolated.
+    Unaffected,
+    /// Attributes are weighted at the corners; the unknown factor cancels, so a pixel costs no more.
+    Free,
+    /// One division a pixel more.
+    Divides,
+    /// Stays linear on the screen.
+    ScreenOnly,
+}
+
+impl Perspective {
+    /// One sentence for people.
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Perspective::Unaffected => "interpolates nothing, so perspective changes nothing",
+            Perspective::Free => "perspective-correct at no cost a pixel: the weight cancels",
+            Perspective::Divides => {
+                "perspective-correct for one division and three multiplications a pixel more"
+            }
+            Perspective::ScreenOnly => {
+                "stays linear on the screen: its increments are constant only there"
+            }
+        }
+    }
+}
+
+/// What a method does where a light or the eye is at a position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Local {
+    /// The vectors to them are constant along a polygon, as the lecture assumes (L21 1): those of its mean corner.
+    PerPolygon,
+    /// Each vertex has its own.
+    PerVertex,
+    /// Each pixel has its own.
+    PerPixel,
+}
+
+impl Local {
+    /// One sentence for people.
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Local::PerPolygon => {
+                "lights and eye at positions are seen from the mean of each polygon's corners"
+            }
+            Local::PerVertex => "lights and eye at positions are seen from each vertex",
+            Local::PerPixel => "lights and eye at positions are seen from each pixel",
+        }
+    }
+}
+
+/// Where a method evaluates the light model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LitAt {
+    /// Once a polygon, from its own normal.
+    Polygon,
+    /// Once a polygon, from the mean of its vertex normals.
+    PolygonMean,
+    /// Once a vertex.
+    Vertex,
+    /// Once a pixel.
+    Pixel,
+}
+
+/// What is said about a method.
+#[derive(Clone, Copy, Debug)]
+pub struct Info {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it is, in one sentence.
+    pub title: &'static str,
+    /// Its formulas, as lines of text.
+    pub formula: &'static str,
+    /// Where they are from.
+    pub source: &'static str,
+    /// The closed form that its picture is measured against.
+    pub model: Model,
+    /// How many roundings its numbers gather: [`Info::bound`] makes the largest difference to that closed form of it.
+    pub roundings: Roundings,
+    /// Why so many roundings and no more.
+    pub derivation: &'static str,
+    /// Where its picture is bad, or its arithmetic fails.
+    pub fails: &'static str,
+    /// What it can be given.
+    pub parameters: &'static [Parameter],
+    /// What perspective interpolation does to it.
+    pub perspective: Perspective,
+    /// What it does where a light or the eye is at a position.
+    pub local: Local,
+    /// Where it evaluates the light model.
+    pub lit_at: LitAt,
+    /// True if the barycentric renderer has it: it needs a pixel without its neighbours.
+    pub barycentric: bool,
+}
+
+impl Info {
+    /// A method that interpolates normals and lights pixels, with nothing said about it: to begin from.
+    pub const OF_PIXELS: Info = Info {
+        name: "",
+        title: "",
+        formula: "",
+        source: "",
+        model: Model::Phong,
+        roundings: Roundings {
+            start: f64::INFINITY,
+            step: 0.0,
+            of: Stepped::Cosines,
+        },
+        derivation: "no bound was derived",
+        fails: "",
+        parameters: &[],
+        perspective: Perspective::Free,
+        local: Local::PerPixel,
+        lit_at: LitAt::Pixel,
+        barycentric: true,
+    };
+}

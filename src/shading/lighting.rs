@@ -1,0 +1,584 @@
+//! The light model: all of equation 2.1, with the clamps that the lecture omits.
+//!
+//! ```text
+//! I = I_a k_a + Σ I_p k_d max(0, L·N) + Σ I_p k_s max(0, R·V)^n  where L·N > 0       (L21 2.1, with clamps)
+//! R = 2 (L·N) N − L
+//! ```
+//!
+//! [`Uniforms`] are made once a material, [`Lit`] is what one point (or a block of points) sees of them. What the lecture leaves
+//! open is settled here, for every method:
+//! - `L·N` and `R·V` are clamped at 0 *before* the power (an even power of a negative number would light the far side);
+//! - there is no specular light where `L·N ≤ 0`, unless the scene asks for one of the other two forms of [`SpecularGate`];
+//! - highlights below 2⁻²⁴ are none (`Model::faint`): they would change nothing, and their powers run through subnormal
+//!   numbers, which cost some processors 150 cycles each;
+//! - all lights are summed, then the sum is clamped to 0..=1 once;
+//! - with [`SpecularModel::Blinn`] the cosine is `N·H`, `H = (L + V) / |L + V|` (CS171 2); where light and eye are opposite, H has
+//!   no direction, and there is no highlight;
+//! - a light that falls off does so in both terms, and ambient light does not (CS171 2, Attenuation).
+//!
+//! A normal that vanishes has no direction: its cosines are 0/0, the clamps turn them into 0, and ambient light remains.
+
+use crate::lighting::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
+use crate::number::{Num, Vec3, vec3};
+use alloc::vec::Vec;
+
+/// Squared distances below this count as this: a light in the surface itself has no direction and no finite `1/r²`.
+pub const LEAST_SQUARE: f32 = 1e-30;
+
+/// What rounding a colour of ½ or more changes: half a unit in the last place, 2⁻²⁴.
+const FAINT: f32 = 1.0 / (1 << 24) as f32;
+
+/// The light on one material, as kernels read it: plain numbers, made once a material.
+#[derive(Clone, Debug)]
+pub struct Uniforms {
+    /// What is the same for all lights.
+    pub model: Model,
+    /// The lights.
+    pub lights: Vec<Light>,
+}
+
+/// What is the same for all lights of a material. Pixel loops copy it: what is behind a reference is loaded again after every
+/// store.
+#[derive(Clone, Copy, Debug)]
+pub struct Model {
+    /// What all colours are multiplied by: 255 where they become bytes, else 1.
+    pub scale: f32,
+    ambient: Vec3<f32>,
+    /// The unit vector toward the eye, or its position.
+    eye: Vec3<f32>,
+    eye_is_near: bool,
+    /// Which cosine is raised to the exponent.
+    pub specular: SpecularModel,
+    gate: SpecularGate,
+    /// The exponent n, as a number and as it is computed.
+    pub shininess: f32,
+    exponent: Exponent,
+    /// Cosines up to this have no highlight: `k_s cos^n ≤ 2⁻²⁴` for the strongest light.
+    faint: f32,
+    /// True if anything is asked for beside directional lights, R·V, and highlights that end where L·N = 0.
+    pub is_general: bool,
+    /// True if blocks may take the fast path: not general, an exponent of a few squarings, no colour of 2³⁰ or more.
+    pub is_fast: bool,
+}
+
+/// A light on a material.
+#[derive(Clone, Copy, Debug)]
+pub struct Light {
+    /// The unit vector toward it, or its position.
+    to: Vec3<f32>,
+    is_near: bool,
+    falloff: Falloff,
+    diffuse: Vec3<f32>,
+    specular: Vec3<f32>,
+    /// L·V and 1/|L + V| where both are at infinity.
+    l_v: f32,
+    half: f32,
+}
+
+impl Uniforms {
+    /// Prepares the light on a material, with colours multiplied by `scale`.
+    pub fn new(lighting: &Lighting, scale: f32) -> Uniforms {
+        let direction = |place| match place {
+            Place::Infinite(v) | Place::Local(v) => vec3(v),
+        };
+        let eye = direction(lighting.view);
+        let lights = lighting.lights.iter().map(|light| {
+            let to = direction(light.place);
+            let l_v = to.dot(eye);
+            Light {
+                to,
+                is_near: light.place.is_local(),
+                falloff: light.falloff,
+                diffuse: vec3(light.diffuse) * scale,
+                specular: vec3(light.specular) * scale,
+                l_v,
+                half: over_sum(l_v),
+            }
+        });
+        let lights: Vec<Light> = lights.collect();
+        let model = Model {
+            scale,
+            ambient: vec3(lighting.ambient) * scale,
+            eye,
+            eye_is_near: lighting.view.is_local(),
+            specular: lighting.specular,
+            gate: lighting.gate,
+            shininess: lighting.shininess,
+            exponent: Exponent::new(lighting.shininess),
+            faint: faint(lighting),
+            is_general: true,
+            is_fast: false,
+        };
+        Uniforms {
+            model: model.classified(&lights),
+            lights,
+        }
+    }
+
+    /// Returns the same light as directional lights: as `point` sees it. What the lecture assumes along a polygon (L21 1).
+    pub fn seen_from(&self, point: [f32; 3]) -> Uniforms {
+        let lit = Lit::new(self.model, &self.lights, vec3(point), true);
+        let lights = lit.lights().map(|seen| {
+            let strength = seen.strength.unwrap_or(1.0);
+            Light {
+                to: seen.to,
+                is_near: false,
+                falloff: Falloff::None,
+                diffuse: seen.light.diffuse * strength,
+                specular: seen.light.specular * strength,
+                l_v: seen.l_v,
+                half: seen.half,
+            }
+        });
+        let lights: Vec<Light> = lights.collect();
+        let model = Model {
+            eye: lit.view,
+            eye_is_near: false,
+            ..self.model
+        };
+        Uniforms {
+            model: model.classified(&lights),
+            lights,
+        }
+    }
+}
+
+impl Model {
+    /// Returns the model with what loops may rely on.
+    fn classified(self, lights: &[Light]) -> Model {
+        let is_general = self.eye_is_near
+            || lights.iter().any(|light| light.is_near)
+            || self.specular != SpecularModel::Phong
+            || self.gate != SpecularGate::Gated
+            || self.exponent == Exponent::Whole(0);
+        let magnitude = |v: Vec3<f32>| v.x.abs().max(v.y.abs()).max(v.z.abs());
+        let most = lights.iter().fold(magnitude(self.ambient), |sum, light| {
+            sum + magnitude(light.diffuse) + magnitude(light.specular)
+        });
+        let is_few_squarings = matches!(self.exponent, Exponent::Squarings(_));
+        Model {
+            is_general,
+            is_fast: !is_general && is_few_squarings && most < MOST_LEVELS,
+            ..self
+        }
+    }
+}
+
+/// Levels that are stored without a clamp are below this: an `i32` holds them.
+const MOST_LEVELS: f32 = 1_073_741_824.0;
+
+impl Light {
+    /// Returns the vector from a point toward the light, not normalised; both multiplied by `weight`, as under perspective.
+    #[inline(always)]
+    pub fn toward<F: Num>(&self, point: Vec3<F>, weight: F) -> Vec3<F> {
+        toward(self.to, self.is_near, point, weight)
+    }
+
+    /// Returns how strong the light is at the squared distance `square`; `None` is full strength. `unit` is 1, or what squared
+    /// distances are multiplied by.
+    #[inline(always)]
+    fn strength<F: Num>(&self, square: F, unit: F) -> Option<F> {
+        let square = square.max(LEAST_SQUARE);
+        match self.falloff {
+            _ if !self.is_near => None,
+            Falloff::None => None,
+            Falloff::Attenuation(k) => Some(unit / (unit + square * k)), // 1 / (1 + k d²)
+            Falloff::InverseSquare => Some(unit / square),               // 1 / r²
+            Falloff::Inverse => Some((unit / square).sqrt()),            // 1 / r
+        }
+    }
+}
+
+#[inline(always)]
+fn toward<F: Num>(to: Vec3<f32>, is_near: bool, point: Vec3<F>, weight: F) -> Vec3<F> {
+    let to = to.like(weight) * weight;
+    if is_near { to - point } else { to }
+}
+
+/// Returns 1 / |L + V| from L·V of unit vectors, as |L + V|² = 2 + 2 L·V; 0 where light and eye are opposite.
+#[inline(always)]
+fn over_sum<F: Num>(l_v: F) -> F {
+    let square = l_v * 2.0 + 2.0;
+    (square.like(1.0) / square.sqrt()).gate(square, SpecularModel::LEAST_SUM)
+}
+
+/// Returns the cosine up to which no light has a highlight over 2⁻²⁴, t = (2⁻²⁴ / k)^(1/n), with k the strongest highlight at
+/// its light's greatest strength. To the power 0 every cosine is 1.
+fn faint(lighting: &Lighting) -> f32 {
+    if lighting.shininess == 0.0 {
+        return f32::NEG_INFINITY;
+    }
+    let strongest = lighting.lights.iter().map(|light| {
+        let greatest = match light.falloff {
+            _ if !light.place.is_local() => 1.0,
+            Falloff::None | Falloff::Attenuation(_) => 1.0,
+            Falloff::InverseSquare => 1.0 / LEAST_SQUARE,
+            Falloff::Inverse => 1e15, // √(1 / LEAST_SQUARE)
+        };
+        light
+            .specular
+            .iter()
+            .fold(0.0, |most, c| f32::max(most, c.abs()))
+            * greatest
+    });
+    let strongest = strongest.fold(FAINT, f32::max);
+    libm::powf(FAINT / strongest, 1.0 / lighting.shininess)
+}
+
+/// By how much the highlight multiplies an error of a cosine between unit vectors, for `shininess` n; `half` is |L + V|.
+///
+/// `R·V = 2 (L·N)(N·V) − L·V` is off by up to four times as much; of `N·H = (L·N + V·N) / h` the sum is off by twice that and
+/// h by e/h, so that it is off by `2 e/h + e/h²`. The power multiplies by n.
+pub(super) fn highlight_gain(specular: SpecularModel, shininess: f32, half: f64) -> f64 {
+    let cosine = match specular {
+        SpecularModel::Phong => 4.0,
+        SpecularModel::Blinn => 2.0 / half + 1.0 / (half * half),
+    };
+    cosine * f64::from(shininess.max(1.0))
+}
+
+/// What a point (or a block of points) sees of the lights on a material.
+#[derive(Clone, Copy, Debug)]
+pub struct Lit<'a, F> {
+    /// What is the same for all lights.
+    pub model: Model,
+    all: &'a [Light],
+    /// Where the point is, if anything is at a position.
+    pub point: Vec3<F>,
+    /// The unit vector V toward the eye.
+    pub view: Vec3<F>,
+    general: bool,
+}
+
+/// A light as a point sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a, F> {
+    /// The number of the light.
+    pub index: usize,
+    /// The unit vector L toward it.
+    pub to: Vec3<F>,
+    /// L·V.
+    pub l_v: F,
+    /// 1 / |L + V|, where highlights are N·H.
+    pub half: F,
+    strength: Option<F>,
+    light: &'a Light,
+}
+
+impl<'a, F: Num> Lit<'a, F> {
+    /// Makes what `point` sees. `general` is a literal at each of the calls: loops without it decide nothing, and serve materials
+    /// whose model is not general.
+    #[inline(always)]
+    pub fn new(model: Model, lights: &'a [Light], point: Vec3<F>, general: bool) -> Self {
+        let mut view = model.eye.like(point.x);
+        if general && model.eye_is_near {
+            view = (view - point).unit();
+        }
+        Lit {
+            model,
+            all: lights,
+            point,
+            view,
+            general,
+        }
+    }
+
+    /// Returns how many lights there are.
+    #[inline(always)]
+    pub fn count(&self) -> usize {
+        self.all.len()
+    }
+
+    /// Returns the lights as they are stored.
+    #[inline(always)]
+    pub fn stored(&self) -> &'a [Light] {
+        self.all
+    }
+
+    /// Returns the vector from `point` toward the eye, not normalised; both multiplied by `weight`.
+    #[inline(always)]
+    pub fn toward_eye(&self, point: Vec3<F>, weight: F) -> Vec3<F> {
+        toward(self.model.eye, self.model.eye_is_near, point, weight)
+    }
+
+    /// Returns the lights as the point sees them.
+    #[inline(always)]
+    pub fn lights(&self) -> Lights<'a, F> {
+        Lights {
+            lit: *self,
+            next: 0,
+        }
+    }
+
+    /// Returns `I_a k_a`.
+    #[inline(always)]
+    pub fn ambient(&self) -> Vec3<F> {
+        self.model.ambient.like(self.point.x)
+    }
+
+    /// True if highlights are those of N·H.
+    #[inline(always)]
+    pub fn is_halfway(&self) -> bool {
+        self.general && self.model.specular == SpecularModel::Blinn
+    }
+
+    /// Returns R·V, or N·H where the scene asks for it, from L·N and V·N of a unit normal.
+    #[inline(always)]
+    pub fn highlight(&self, light: &Seen<'a, F>, l_n: F, v_n: F) -> F {
+        if self.is_halfway() {
+            (l_n + v_n) * light.half // N·H
+        } else {
+            (v_n * 2.0).mul_sub(l_n, light.l_v) // 4.5
+        }
+    }
+
+    /// Returns the same with R built as the lecture prints it.
+    #[inline(always)]
+    pub fn reflection(&self, light: &Seen<'a, F>, n: Vec3<F>, l_n: F) -> F {
+        if self.is_halfway() {
+            let h = (light.to + self.view) * light.half; // h = (e + l) / |e + l|
+            n.dot(h)
+        } else {
+            let r = n * (l_n * 2.0) - light.to; // R = 2 (L·N) N − L
+            r.dot(self.view)
+        }
+    }
+
+    /// Returns `colour` and what a light adds to it, from L·N and from the cosine of its highlight.
+    #[inline(always)]
+    pub fn add(&self, colour: Vec3<F>, light: &Seen<'a, F>, l_n: F, cosine: F) -> Vec3<F> {
+        let diffuse = l_n.max(0.0);
+        let colour = colour.plus(light.times_strength(diffuse), light.light.diffuse); // 2.1
+        match self.power(light, diffuse, cosine) {
+            Some(specular) => colour.plus(specular, light.light.specular), // 2.1
+            None => colour,
+        }
+    }
+
+    /// Returns `colour` and what a light of these two terms adds to it: for highlights of a method's own.
+    #[inline(always)]
+    pub fn plus(&self, colour: Vec3<F>, light: &Seen<'a, F>, diffuse: F, specular: F) -> Vec3<F> {
+        let colour = colour.plus(light.times_strength(diffuse), light.light.diffuse);
+        colour.plus(light.times_strength(specular), light.light.specular)
+    }
+
+    /// Returns the colour of a surface with the unit normal `n`.
+    #[inline(always)]
+    pub fn shade(&self, n: Vec3<F>) -> Vec3<F> {
+        let mut colour = self.ambient();
+        for light in self.lights() {
+            let l_n = n.dot(light.to);
+            colour = self.add(colour, &light, l_n, self.reflection(&light, n, l_n));
+        }
+        colour
+    }
+
+    /// Returns the same in two parts: ambient and diffuse light, and highlights.
+    #[inline(always)]
+    pub fn shade_apart(&self, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
+        let (mut dull, mut bright) = (self.ambient(), vec3([self.point.x.like(0.0); 3]));
+        for light in self.lights() {
+            let l_n = n.dot(light.to);
+            let diffuse = l_n.max(0.0);
+            dull = dull.plus(light.times_strength(diffuse), light.light.diffuse);
+            let cosine = self.reflection(&light, n, l_n);
+            if let Some(specular) = self.power(&light, diffuse, cosine) {
+                bright = bright.plus(specular, light.light.specular);
+            }
+        }
+        (dull, bright)
+    }
+
+    /// Returns the cosine of a highlight to the power n, gated and times the light's strength; `None` where no pixel has one,
+    /// as most of a surface has none and highlights are half of the work. `diffuse` is L·N, 0 or more.
+    #[inline(always)]
+    fn power(&self, light: &Seen<'a, F>, diffuse: F, cosine: F) -> Option<F> {
+        let Model {
+            gate,
+            faint,
+            exponent,
+            ..
+        } = self.model;
+        let gated = !self.general || gate == SpecularGate::Gated;
+        let cosine = if gated {
+            cosine.gate(diffuse, 0.0)
+        } else {
+            cosine
+        };
+        if !cosine.any_over(faint) {
+            return None;
+        }
+        // The pixels of a block do not depend on one another: faint ones are none here too.
+        let bright = if F::WIDTH == 1 {
+            cosine
+        } else {
+            cosine.gate(cosine, faint)
+        };
+        if !self.general && F::WIDTH > 1 {
+            let Exponent::Squarings(times) = exponent else {
+                return None; // the fast path has no other
+            };
+            return Some(squared_up_to_7(bright, times));
+        }
+        let mut power = exponent.of(bright);
+        if self.general {
+            if gated && exponent == Exponent::Whole(0) {
+                power = power.gate(diffuse, 0.0); // 0⁰ is 1, behind the surface too
+            }
+            if gate == SpecularGate::Weighted {
+                power = power * diffuse;
+            }
+            power = light.times_strength(power);
+        }
+        Some(power)
+    }
+}
+
+impl<F: Num> Seen<'_, F> {
+    #[inline(always)]
+    fn times_strength(&self, x: F) -> F {
+        match self.strength {
+            Some(strength) => x * strength,
+            None => x,
+        }
+    }
+
+    /// Returns a light seen along unit vectors whose L·V is `l_v`, from the squared distance `square`; both squared distances and
+    /// `unit` are multiplied by the same.
+    #[inline(always)]
+    pub fn from_products<'a>(
+        lit: &Lit<'a, F>,
+        index: usize,
+        l_v: F,
+        square: F,
+        unit: F,
+    ) -> Seen<'a, F> {
+        let light = &lit.all[index];
+        Seen {
+            index,
+            to: lit.view,
+            l_v,
+            half: if lit.is_halfway() { over_sum(l_v) } else { l_v },
+            strength: light.strength(square, unit),
+            light,
+        }
+    }
+}
+
+/// The lights that a point sees, one by one.
+#[derive(Debug)]
+pub struct Lights<'a, F> {
+    lit: Lit<'a, F>,
+    next: usize,
+}
+
+impl<'a, F: Num> Iterator for Lights<'a, F> {
+    type Item = Seen<'a, F>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Seen<'a, F>> {
+        let (lit, index) = (&self.lit, self.next);
+        if index >= lit.all.len() {
+            return None;
+        }
+        let light = &lit.all[index];
+        self.next += 1;
+        let like = lit.point.x;
+        let mut seen = Seen {
+            index,
+            to: light.to.like(like),
+            l_v: like.like(light.l_v),
+            half: like.like(light.half),
+            strength: None,
+            light,
+        };
+        if lit.general && (light.is_near || lit.model.eye_is_near) {
+            if light.is_near {
+                let to = seen.to - lit.point;
+                let square = to.dot(to);
+                seen.to = to * (like.like(1.0) / square.sqrt());
+                seen.strength = light.strength(square, like.like(1.0));
+            }
+            seen.l_v = seen.to.dot(lit.view);
+            if lit.is_halfway() {
+                seen.half = over_sum(seen.l_v);
+            }
+        }
+        Some(seen)
+    }
+}
+
+/// The exponent n of a highlight, as it is best computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Exponent {
+    /// 1, 2, 4, … 128: by so many squarings.
+    Squarings(u32),
+    /// Any other whole number: by repeated squaring, at most 2 log₂ n multiplications.
+    Whole(u32),
+    /// Any other: by the backend's power function.
+    Fractional(f32),
+}
+
+impl Exponent {
+    /// Makes the exponent for a shininess of 0 or more.
+    pub fn new(shininess: f32) -> Self {
+        let whole = shininess as u32;
+        match whole {
+            _ if whole as f32 != shininess => Exponent::Fractional(shininess),
+            _ if whole.is_power_of_two() && whole <= 128 => {
+                Exponent::Squarings(whole.trailing_zeros())
+            }
+            _ => Exponent::Whole(whole),
+        }
+    }
+
+    /// Returns `base`, 0 or more, to this power; anything to the power 0 is 1. The one power function of all methods, so that
+    /// none is faster by a cheaper one.
+    #[inline(always)]
+    pub fn of<F: Num>(self, base: F) -> F {
+        let mut n = match self {
+            Exponent::Squarings(times) => return squared_up_to_7(base, times),
+            Exponent::Whole(0) => return base.like(1.0),
+            Exponent::Whole(n) => n,
+            Exponent::Fractional(n) => return base.powf(n),
+        };
+        let zeros = n.trailing_zeros();
+        let mut square = squared_up_to_7(base, zeros % 8);
+        for _ in 0..zeros / 8 * 8 {
+            square = square * square;
+        }
+        let mut power = square;
+        n >>= zeros;
+        n >>= 1;
+        while n != 0 {
+            square = square * square;
+            if n & 1 == 1 {
+                power = power * square;
+            }
+            n >>= 1;
+        }
+        power
+    }
+}
+
+/// Returns `x` squared `times` times, of 7 at most. Without a loop: those of 16, 32 and 64 are most of what a highlight costs.
+#[inline(always)]
+fn squared_up_to_7<F: Num>(mut x: F, times: u32) -> F {
+    if times & 4 != 0 {
+        x = x * x;
+        x = x * x;
+        x = x * x;
+        x = x * x;
+    }
+    if times & 2 != 0 {
+        x = x * x;
+        x = x * x;
+    }
+    if times & 1 != 0 {
+        x = x * x;
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests;

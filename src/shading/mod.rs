@@ -1,0 +1,97 @@
+//! Shading methods: one trait, one table, one file a method.
+//!
+//! A method says what a vertex carries ([`Shader::vertex`]), how it is stepped along a span ([`Shader::walk`]) and how a pixel is
+//! shaded ([`Shader::shade`]), once, for every arithmetic backend. Everything else is the house's: where lights are, perspective,
+//! clamping, storing, loops.
+//!
+//! ```text
+//! vertex ──► Varying ──► edges, spans ──► Walk ──► Pixel (G-buffer entry) ──► shade ──► colour
+//!   once a vertex         interpolated     stepped from pixel to pixel        a pure function
+//! ```
+//!
+//! **All memory of the previous pixel is in the walk.** So an engine may step one row and shade another time, in blocks of 16, or
+//! on another thread, and no method changes. [`Kernels`] is a method compiled: a table of plain functions, which engines
+//! call once a row, a batch of runs or a range of vertices. [`METHODS`] lists all methods: what is in it is rendered, compared,
+//! timed, counted, tested and drawn.
+//!
+//! Start with `gouraud.rs`, then `fast_phong.rs`, then [`lighting`], which holds all of equation 2.1.
+
+mod bound;
+mod count;
+mod info;
+mod kernels;
+mod span_bench;
+mod spread;
+mod table;
+mod variant;
+
+pub mod increments;
+pub mod lighting;
+pub mod varying;
+
+mod duff_phong;
+mod fast_phong;
+mod fast_phong_rsqrt;
+mod flat;
+mod flat_average;
+mod gouraud;
+mod gouraud_separate;
+mod naive_phong;
+mod phong_rsqrt;
+mod slerp_phong;
+mod slerp_phong_vector;
+
+pub use bound::{Roundings, Stepped};
+pub use count::OperationCounts;
+use duff_phong::{DuffPhong, DuffPhongNear};
+use fast_phong::FastPhong;
+use fast_phong_rsqrt::FastPhongRsqrt;
+use flat::Flat;
+use flat_average::FlatAverage;
+use gouraud::Gouraud;
+use gouraud_separate::GouraudSeparate;
+pub use increments::{Constant, Linear, Walk};
+pub use info::{Auto, Info, LitAt, Local, Parameter, Perspective};
+pub(crate) use kernels::{Extras, Pixels, Vertices, ramp};
+pub use kernels::{Kernels, Run, Span};
+#[cfg(feature = "simd")]
+pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, start_len};
+pub use lighting::{Lit, Model, Seen};
+use naive_phong::NaivePhong;
+use phong_rsqrt::PhongRsqrt;
+use slerp_phong::SlerpPhong;
+use slerp_phong_vector::SlerpPhongVector;
+pub use span_bench::SpanBench;
+#[cfg(feature = "simd")]
+pub use span_bench::SpanRow;
+pub use table::{Entry, METHODS};
+pub use variant::{MethodError, Variant};
+pub use varying::{PerLight, Planes, UnitNormal, Varying};
+
+use crate::number::{Num, Vec3};
+
+/// A shading method: what is computed once a vertex, along a span, and once a pixel.
+///
+/// Its fields are its parameters. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
+pub trait Shader: Copy + 'static {
+    /// What is said about the method.
+    const INFO: Info;
+    /// True if `vertex` returns the normal unchanged: engines then read the frame's normals and skip the vertex pass.
+    const PASSES_NORMAL: bool = false;
+    /// What vertices carry and spans interpolate: numbers, vectors and tuples of them, or a [`UnitNormal`].
+    type Varying<F: Num>: Varying<F>;
+    /// What is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is what a pixel is shaded from.
+    type Walk<F: Num>: Walk<F>;
+
+    /// Makes the method for `parameters`, in the order of [`Info::parameters`], on a material.
+    fn new(parameters: &[u32], model: &Model) -> Self;
+    /// Returns what a vertex with the unit normal `n` carries; once a polygon for methods that are lit there.
+    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F>;
+    /// Starts the walk along a span.
+    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F>;
+    /// Returns the colour of a pixel: linear, not yet clamped.
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F>;
+}
+
+/// What a pixel is shaded from: an entry of the G-buffer.
+pub type Pixel<S, F> = <<S as Shader>::Walk<F> as Walk<F>>::Pixel;

@@ -1,0 +1,64 @@
+//! Phong shading from normals with scalars: what suits processors that shade a block of pixels at a time, row by row.
+
+use super::{
+    Info, Linear, Lit, LitAt, Local, Model, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+};
+use crate::number::{Num, Vec3};
+use crate::reference::Model as Truth;
+
+/// Naive Phong shading without its vectors: N by three additions a pixel, then `J = L·N`, `K = V·N`, `D = N·N` and the
+/// processor's reciprocal root `r = 1/√D`, of which the cosines are `J r` and `2 (J r) (K r) − L·V` (L21 4.3, 4.6).
+///
+/// It steps three numbers for any number of lights, where fast Phong steps one a light, one for K and two for D: where what is
+/// stepped is kept in memory until a row is shaded, that is less to keep, and products are cheaper than memory.
+#[derive(Clone, Copy, Debug)]
+pub struct PhongRsqrt;
+
+impl Shader for PhongRsqrt {
+    const INFO: Info = Info {
+        name: "phong-rsqrt",
+        title: "normals interpolated; J = L.N, K = V.N, D = N.N and the hardware's reciprocal root at every pixel",
+        formula: "N_next = N + dN;  J = L.N;  K = V.N;  r = rsqrt(N.N);  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
+        source: "L21 4.1-4.3, eq 4.5, with the root that processors have had since 1999 (SSE rsqrtps)",
+        model: Truth::Phong,
+        roundings: Roundings {
+            start: 10.0,
+            step: 0.9,
+            of: Stepped::Cosines,
+        },
+        derivation: "as naive-phong; J, K and D take 5 roundings each, and the estimate of the root is off by 2^-22, which is 4 more",
+        fails: "as naive-phong",
+        parameters: &[],
+        perspective: Perspective::Free,
+        local: Local::PerPixel,
+        lit_at: LitAt::Pixel,
+        barycentric: true,
+    };
+    const PASSES_NORMAL: bool = true;
+    type Varying<F: Num> = Vec3<F>; // N
+    type Walk<F: Num> = Linear<Vec3<F>>;
+
+    #[inline(always)]
+    fn new(_: &[u32], _: &Model) -> Self {
+        PhongRsqrt
+    }
+    #[inline(always)]
+    fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
+        n
+    }
+    #[inline(always)]
+    fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Linear<Vec3<F>> {
+        span // 4.2
+    }
+    #[inline(always)]
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, n: Pixel<Self, F>) -> Vec3<F> {
+        let r = n.dot(n).rsqrt(); // D = N · N
+        let v_n = n.dot(lit.view) * r; // K = V · N
+        let mut colour = lit.ambient();
+        for light in lit.lights() {
+            let l_n = n.dot(light.to) * r; // J = L · N
+            colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n));
+        }
+        colour
+    }
+}
