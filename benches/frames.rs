@@ -8,10 +8,10 @@ mod scenes;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
+use fastphong::frame::triangulate::triangulated;
 use fastphong::picture::Picture;
 use fastphong::raster::{Edges, NOTHING, Renderer, polygon_numbers};
 use fastphong::shading::METHODS;
-use fastphong::triangulate::triangulated;
 use std::hint::black_box;
 use std::time::Duration;
 

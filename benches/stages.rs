@@ -3,10 +3,10 @@
 mod scenes;
 
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use fastphong::frame::triangulate::triangulated;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::vertex_normals::{NormalSource, vertex_normals};
 use fastphong::raster::{coverage, polygon_numbers};
-use fastphong::triangulate::triangulated;
 use std::hint::black_box;
 use std::time::Duration;
 

@@ -7,11 +7,10 @@
 //!
 //! Needs no feature of the crate: it also runs with `--no-default-features`.
 
-use fastphong::camera::{Camera, Projection};
-use fastphong::lighting::{Light, Material};
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::mesh::{GivenNormals, MeshBuilder};
-use fastphong::scene::{Encoding, Object, Scene};
+use fastphong::mesh::{GivenNormals, Material, MeshBuilder};
+use fastphong::picture::Encoding;
+use fastphong::scene::{Camera, Light, Object, Projection, Scene};
 use fastphong::shading::Variant;
 use glam::{DAffine3, DVec3, Vec3};
 use std::error::Error;

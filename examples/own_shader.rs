@@ -9,8 +9,8 @@
 //!
 //! Every function of a shader is `#[inline(always)]`: one that is not costs a call a pixel.
 
-use fastphong::input;
 use fastphong::number::{Num, Vec3};
+use fastphong::scene::input;
 use fastphong::shading::{Entry, Info, Linear, Lit, Model, Parameter, Shader};
 use std::io::Write;
 

@@ -8,8 +8,8 @@
 //! # From a mesh to a number
 //!
 //! ```
+//! use fastphong::compare::metrics::compare;
 //! use fastphong::mesh::builtin::builtin;
-//! use fastphong::metrics::compare;
 //! use fastphong::reference::{self, Model};
 //! use fastphong::scene::Scene;
 //! use fastphong::shading::Variant;
@@ -33,16 +33,18 @@
 //!
 //! # Where things are
 //!
-//! | step | items |
+//! | room | items |
 //! |---|---|
+//! | pictures | [`picture::Picture`], [`picture::encoding`], `picture::image_file` |
+//! | numbers | [`number::Num`]: one text for scalar, SIMD and counted arithmetic |
 //! | shapes | [`mesh::builtin::builtin`], `mesh::obj::load_obj`, [`mesh::MeshBuilder`], [`mesh::vertex_normals`] (L21 1.1, 3.1) |
-//! | scenes | [`scene::Scene::of_mesh`], [`scene::Scene::frame`], [`projection::PreparedScene`] for many frames, `scene::file::SceneFile`, `input::load` |
-//! | the waist | [`frame::Frame`], and [`frame::FrameBuilder`] for polygons from elsewhere |
+//! | scenes | [`scene::Scene::of_mesh`], [`scene::Camera`], [`scene::Light`], `scene::file::SceneFile`, `scene::input::load` |
+//! | the waist | [`frame::Frame`] from [`scene::Scene::frame`], [`frame::PreparedScene`] for many frames, [`frame::FrameBuilder`] for polygons from elsewhere |
+//! | truth | [`mod@reference`]: four closed forms in `f64` |
 //! | methods | [`shading::Variant::render`], [`shading::METHODS`]; [`shading::Shader`] to add one from outside this crate |
 //! | loops | [`raster`]: scan lines as in the lecture, barycentric coordinates to compare with |
-//! | truth | [`mod@reference`]: four closed forms in `f64` |
-//! | numbers | [`metrics::compare`], [`metrics::difference_map`], [`shading::Variant::operations`], `comparison` |
-//! | files | `image_file` |
+//! | errors, times | [`compare::metrics::compare`], [`compare::metrics::difference_map`], [`shading::Variant::operations`], `compare::comparison` |
+//! | figures | `lectures` |
 //!
 //! # Features
 //!
@@ -55,41 +57,16 @@ extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
-#[cfg(feature = "cli")]
-pub mod bench;
-pub mod camera;
-pub mod camera_fit;
-mod clip;
-#[cfg(feature = "cli")]
-pub mod comparison;
-pub mod cs171;
-pub mod encoding;
-#[cfg(feature = "cli")]
-pub mod figures;
+pub mod compare;
 pub mod frame;
-#[cfg(feature = "io")]
-pub mod image_file;
-#[cfg(feature = "io")]
-pub mod input;
-pub mod lighting;
+#[cfg(feature = "cli")]
+pub mod lectures;
 pub mod mesh;
-pub mod metrics;
 pub mod number;
-pub mod painter;
-mod parallel;
-pub mod perspective;
 pub mod picture;
-pub mod projection;
 pub mod raster;
 pub mod reference;
 #[cfg(feature = "cli")]
 pub mod report;
 pub mod scene;
 pub mod shading;
-#[cfg(feature = "cli")]
-pub mod study;
-pub mod suggest;
-pub mod triangulate;
-
-#[cfg(test)]
-mod test_random;

@@ -1,12 +1,9 @@
 //! The scenes that are timed: built-in meshes of few and many polygons, of triangles and of n-gons.
 
-use fastphong::camera::Camera;
-use fastphong::camera_fit::Fit;
-use fastphong::lighting::Light;
 use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::scene::{Object, Scene};
+use fastphong::scene::{Camera, Fit, Light, Object, Scene};
 use glam::{DAffine3, DVec3};
 
 /// Name and mesh of each scene.

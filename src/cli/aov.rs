@@ -1,7 +1,7 @@
 //! Pictures of what is known of each pixel besides its colour.
 
-use fastphong::encoding::{quantise, store};
 use fastphong::frame::Frame;
+use fastphong::picture::encoding::{quantise, store};
 use fastphong::picture::{LinearPicture, Picture8};
 use fastphong::raster;
 

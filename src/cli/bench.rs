@@ -6,9 +6,9 @@ use super::measured::{How, TimingFlags, command_line, named_or_shipped};
 use super::scene_flags::SceneFlags;
 use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
-use fastphong::bench::Machine;
-use fastphong::comparison::{TableKind, table, to_json};
-use fastphong::image_file::write_file;
+use fastphong::compare::comparison::{TableKind, table, to_json};
+use fastphong::compare::timing::Machine;
+use fastphong::picture::image_file::write_file;
 use fastphong::raster::Renderer;
 use std::path::PathBuf;
 

@@ -5,8 +5,8 @@ use super::measured::{How, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
 use super::talk::{Talk, json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
-use fastphong::bench::Machine;
-use fastphong::comparison::{TableKind, table, to_json};
+use fastphong::compare::comparison::{TableKind, table, to_json};
+use fastphong::compare::timing::Machine;
 
 /// Compare methods on one scene: error against the reference, time, ratios
 #[derive(clap::Args, Debug)]

@@ -5,8 +5,10 @@ use super::reference_check::{SCALE, largest_difference};
 use super::table::columns;
 use super::talk::{Talk, json_to_stdout, to_stderr, to_stdout};
 use super::{Failure, Outcome, values};
-use fastphong::image_file::{FilePicture, comparable, read_picture};
-use fastphong::metrics::{Difference, METRICS, compare, difference_map, signed_difference_map};
+use fastphong::compare::metrics::{
+    Difference, METRICS, compare, difference_map, signed_difference_map,
+};
+use fastphong::picture::image_file::{FilePicture, comparable, read_picture};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 

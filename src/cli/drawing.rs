@@ -3,18 +3,17 @@
 use super::engines::{ENGINES, Engine, Simd, cs171_shading};
 use super::talk::{Talk, grouped};
 use super::{Failure, aov::Aov};
-use fastphong::cs171::{self, Reading, Shading};
-use fastphong::encoding::store;
 use fastphong::frame::Frame;
-use fastphong::image_file::FilePicture;
+use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
-use fastphong::picture::{Picture, Picture8};
+use fastphong::number::suggest::nearest;
+use fastphong::picture::encoding::store;
+use fastphong::picture::image_file::FilePicture;
+use fastphong::picture::{Encoding, Picture, Picture8};
 use fastphong::raster::{Edges, Plan, Renderer};
+use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
-use fastphong::scene::Encoding;
 use fastphong::shading::{METHODS, Variant};
-use fastphong::suggest::nearest;
-use fastphong::triangulate::triangulated;
 
 /// The name under which the reference picture can be asked for like a method.
 const REFERENCE: &str = "reference";

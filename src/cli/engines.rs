@@ -1,11 +1,11 @@
 //! What finds the pixels, and on what: the engines, instruction sets and threads that a user can ask for.
 
 use super::Failure;
-use fastphong::cs171::Shading;
 use fastphong::number::Level;
+use fastphong::number::suggest::nearest;
 use fastphong::raster::{self, Edges, Renderer};
+use fastphong::reference::cs171::Shading;
 use fastphong::shading::{Info, METHODS};
-use fastphong::suggest::nearest;
 use serde_json::{Value, json};
 
 /// What finds the pixels.

@@ -5,10 +5,8 @@ use super::list::{exactness, method_json, value_json};
 use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
-use fastphong::input;
-use fastphong::lighting::Falloff;
 use fastphong::number::Counts;
-use fastphong::scene::Interpolation;
+use fastphong::scene::{Falloff, Interpolation, input};
 use fastphong::shading::{OperationCounts, SpanBench, Variant};
 use serde_json::{Map, Value, json};
 

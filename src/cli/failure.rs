@@ -1,10 +1,10 @@
 //! How a sub-command ends.
 
+use fastphong::compare::metrics::SizeMismatch;
 use fastphong::frame::FrameError;
-use fastphong::image_file::ImageFileError;
-use fastphong::input::InputError;
-use fastphong::metrics::SizeMismatch;
-use fastphong::scene::diagnostics::SceneError;
+use fastphong::picture::image_file::ImageFileError;
+use fastphong::scene::file::diagnostics::SceneError;
+use fastphong::scene::input::InputError;
 
 /// What a sub-command found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

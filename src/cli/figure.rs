@@ -4,8 +4,8 @@ use super::measured::command_line;
 use super::progress::Progress;
 use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
-use fastphong::figures::{FIGURES, Figure};
-use fastphong::image_file::write_file;
+use fastphong::lectures::{FIGURES, Figure};
+use fastphong::picture::image_file::write_file;
 use fastphong::report::{LectureFigure, figures_page};
 use std::path::{Path, PathBuf};
 

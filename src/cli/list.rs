@@ -4,12 +4,12 @@ use super::engines::{ENGINES, EngineInfo, engines_with};
 use super::table::{columns, wrapped};
 use super::talk::{json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
-use fastphong::figures::FIGURES;
-use fastphong::input::SCENES;
+use fastphong::compare::metrics::{Better, METRICS};
+use fastphong::lectures::FIGURES;
 use fastphong::mesh::builtin::{BUILTINS, Kind, Parameter};
-use fastphong::metrics::{Better, METRICS};
 use fastphong::number::Level;
 use fastphong::scene::file::SceneFile;
+use fastphong::scene::input::SCENES;
 use fastphong::shading::{Info, METHODS, Roundings, Stepped};
 use serde_json::{Value, json};
 
@@ -210,11 +210,11 @@ fn meshes_json() -> Vec<Value> {
 
 /// Each shipped scene with its title and description.
 fn described() -> Result<Vec<[String; 3]>, Failure> {
-    let describe = |scene: &fastphong::input::ShippedScene| {
+    let describe = |scene: &fastphong::scene::input::ShippedScene| {
         let SceneFile {
             title, description, ..
         } = scene.load()?;
-        let text = |value: Option<fastphong::scene::value::Located<String>>| {
+        let text = |value: Option<fastphong::scene::file::value::Located<String>>| {
             value.map_or(String::new(), |v| v.value)
         };
         Ok([scene.name.to_owned(), text(title), text(description)])
@@ -263,7 +263,7 @@ fn metrics() -> String {
 }
 
 fn metrics_json() -> Vec<Value> {
-    let entry = |metric: &fastphong::metrics::MetricInfo| json!({ "name": metric.name, "unit": metric.unit, "better": better(metric.better), "meaning": metric.meaning });
+    let entry = |metric: &fastphong::compare::metrics::MetricInfo| json!({ "name": metric.name, "unit": metric.unit, "better": better(metric.better), "meaning": metric.meaning });
     METRICS.iter().map(entry).collect()
 }
 
@@ -280,7 +280,7 @@ fn figures() -> String {
 }
 
 fn figures_json() -> Vec<Value> {
-    let entry = |figure: &&fastphong::figures::Figure| json!({ "name": figure.name, "title": figure.title, "lecture": figure.lecture });
+    let entry = |figure: &&fastphong::lectures::Figure| json!({ "name": figure.name, "title": figure.title, "lecture": figure.lecture });
     FIGURES.iter().map(entry).collect()
 }
 

@@ -5,10 +5,10 @@ use super::engines::ThreadFlags;
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
 use super::talk::Talk;
-use fastphong::bench::{Limits, Machine};
-use fastphong::comparison::{Comparison, Input, Options, compare};
-use fastphong::input::{self, SCENES};
+use fastphong::compare::comparison::{Comparison, Input, Options, compare};
+use fastphong::compare::timing::{Limits, Machine};
 use fastphong::raster::Renderer;
+use fastphong::scene::input::{self, SCENES};
 use fastphong::shading::{METHODS, Variant};
 use std::time::Duration;
 

@@ -1,9 +1,8 @@
 //! What can be said about a mesh by looking at it.
 
-use fastphong::lighting::Material;
-use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::newell::{polygon_normal, unit_normal};
 use fastphong::mesh::weld::weld;
+use fastphong::mesh::{Material, PolygonMesh};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::talk::to_stdout_by;
-use fastphong::image_file::{FilePicture, Format, PpmWriter, write_file_by};
+use fastphong::picture::image_file::{FilePicture, Format, PpmWriter, write_file_by};
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 

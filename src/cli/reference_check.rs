@@ -3,8 +3,10 @@
 use super::drawing::Drawing;
 use super::output::Output;
 use super::{Failure, Outcome};
-use fastphong::image_file::{FilePicture, Format, comparable, read_picture, write_picture};
-use fastphong::metrics::{Difference, SizeMismatch, compare, difference_map};
+use fastphong::compare::metrics::{Difference, SizeMismatch, compare, difference_map};
+use fastphong::picture::image_file::{
+    FilePicture, Format, comparable, read_picture, write_picture,
+};
 use std::path::{Path, PathBuf};
 
 /// Grey levels at the light end of difference pictures.

@@ -11,11 +11,10 @@ use super::table::columns;
 use super::talk::{Talk, grouped, to_stderr, to_stdout};
 use super::{Failure, Outcome, values};
 use fastphong::frame::{Frame, FrameStats};
-use fastphong::image_file::Format;
-use fastphong::input;
-use fastphong::painter::{Conflicts, conflicts};
+use fastphong::picture::image_file::Format;
 use fastphong::raster::Renderer;
-use fastphong::scene::HiddenSurfaces;
+use fastphong::raster::painter::{Conflicts, conflicts};
+use fastphong::scene::{HiddenSurfaces, input};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 

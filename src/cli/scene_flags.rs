@@ -3,15 +3,16 @@
 use super::Failure;
 use super::talk::Talk;
 use super::values::{self, Normals};
-use fastphong::input;
-use fastphong::lighting::{SpecularGate, SpecularModel};
+use fastphong::picture::Encoding;
+use fastphong::scene::file::resolve::Resolved;
+use fastphong::scene::file::value::{Located, OneOrThree};
 use fastphong::scene::file::{
     CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, SceneFile,
     ViewerChoice, VisibilityChoice,
 };
-use fastphong::scene::resolve::Resolved;
-use fastphong::scene::value::{Located, OneOrThree};
-use fastphong::scene::{Clipping, Culling, DepthSource, Encoding, Interpolation, PainterKey};
+use fastphong::scene::{
+    Clipping, Culling, DepthSource, Interpolation, PainterKey, SpecularGate, SpecularModel, input,
+};
 
 /// The picture and the scene.
 #[derive(clap::Args, Clone, Debug, Default)]

@@ -3,10 +3,12 @@
 use super::Failure;
 use super::engines::ThreadFlags;
 use super::measured::TimingFlags;
-use fastphong::bench::Limits;
+use fastphong::compare::experiments::{
+    Scaling, ScalingOptions, SpeedupOptions, Speedups, StudyError,
+};
+use fastphong::compare::timing::Limits;
+use fastphong::number::suggest::nearest;
 use fastphong::report::Studies;
-use fastphong::study::{Scaling, ScalingOptions, SpeedupOptions, Speedups, StudyError};
-use fastphong::suggest::nearest;
 
 /// The studies to make.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

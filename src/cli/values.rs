@@ -1,8 +1,8 @@
 //! Values of flags: numbers in a row, sizes, lights, words.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use fastphong::scene::file::value::{Choice, Located, OneOrThree};
 use fastphong::scene::file::{LightSection, NormalChoice};
-use fastphong::scene::value::{Choice, Located, OneOrThree};
 
 /// Numbers between commas. Whether they make sense is asked where scene files are checked too.
 fn list(text: &str) -> Option<Vec<f64>> {

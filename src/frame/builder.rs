@@ -1,13 +1,15 @@
 //! Making a frame, and checking it once.
 
+use super::painter::back_to_front;
+use super::projection::Scratch;
 use super::{
     ClipCorner, DepthRange, Frame, FrameError, FrameStats, Geometry, Mean, Polygon, ScreenVertex,
     SubPixel, Vertex,
 };
-use crate::lighting::{Falloff, LightTerm, Lighting, Place, Rgb};
-use crate::painter::back_to_front;
-use crate::projection::Scratch;
-use crate::scene::{Clipping, Encoding, HiddenSurfaces, Interpolation, Scene};
+use crate::picture::{Encoding, Rgb};
+use crate::scene::{
+    Clipping, Falloff, HiddenSurfaces, Interpolation, LightTerm, Lighting, Place, Scene,
+};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 

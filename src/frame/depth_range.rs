@@ -1,5 +1,7 @@
 //! What depth means: the distances between which it goes from 0 to 1.
 
+use crate::scene::{Camera, Projection};
+
 /// The distances along the line of sight at which depth is 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DepthRange {
@@ -38,6 +40,17 @@ impl DepthRange {
             f64::NEG_INFINITY
         };
         near > least && near < far && far.is_finite()
+    }
+}
+
+impl From<&Camera> for DepthRange {
+    /// The near and the far plane of `camera`.
+    fn from(camera: &Camera) -> Self {
+        let Camera { near, far, .. } = *camera;
+        match camera.projection {
+            Projection::Orthographic { .. } => DepthRange::Orthographic { near, far },
+            Projection::Perspective { .. } => DepthRange::Perspective { near, far },
+        }
     }
 }
 

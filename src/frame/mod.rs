@@ -9,18 +9,23 @@ mod depth_range;
 mod elements;
 mod error;
 mod geometry;
+mod painter;
+pub mod perspective;
+mod projection;
+pub mod triangulate;
 
 pub use builder::FrameBuilder;
 pub use depth_range::DepthRange;
 pub use elements::{ClipCorner, FrameStats, Mean, Polygon, ScreenVertex, Vertex};
 pub use error::FrameError;
 pub(crate) use geometry::{Geometry, Models, PlacedModel};
+pub use projection::PreparedScene;
 
-use crate::lighting::{Lighting, Rgb};
-use crate::projection::Scratch;
-use crate::scene::{Clipping, Encoding, HiddenSurfaces, Interpolation, Scene};
+use crate::picture::{Encoding, Rgb};
+use crate::scene::{Clipping, HiddenSurfaces, Interpolation, Lighting, Scene};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
+use projection::Scratch;
 
 /// A coordinate on the picture in pixels (of a supersampled frame: in samples), snapped to 1/256: x to the right, y
 /// downward, (0, 0) the outer corner of the first pixel, so that pixel centres lie at ½.
@@ -29,7 +34,7 @@ pub type SubPixel = fixed::types::I24F8;
 /// Projected polygons in drawing order, and the light on them.
 ///
 /// What does not depend on the camera (normals, materials, corner lists) is shared between the frames of one
-/// [`PreparedScene`](crate::projection::PreparedScene); a frame of its own are places, and what is seen.
+/// [`PreparedScene`]; a frame of its own are places, and what is seen.
 #[derive(Clone, Debug)]
 pub struct Frame {
     pub(crate) width: u32,

@@ -9,7 +9,7 @@ pub use error::BuiltinError;
 pub use table::BUILTINS;
 
 use super::{MeshError, PolygonMesh};
-use crate::suggest::nearest;
+use crate::number::suggest::nearest;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::fmt;

@@ -1,5 +1,8 @@
 //! Polygon meshes: polygons of any number of sides, concave ones too, never triangulated.
 
+mod material;
+
+pub use material::Material;
 pub mod builtin;
 pub mod newell;
 #[cfg(feature = "io")]
@@ -9,7 +12,6 @@ pub mod vertex_normals;
 mod vertex_sums;
 pub mod weld;
 
-use crate::lighting::Material;
 use alloc::vec::Vec;
 use core::fmt;
 use glam::Vec3;

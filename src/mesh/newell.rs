@@ -1,7 +1,7 @@
 //! Polygon normals by Newell's formula (L21 1.1), and when a polygon has none.
 
 use super::PolygonMesh;
-use crate::parallel::collect;
+use crate::number::parallel::collect;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 

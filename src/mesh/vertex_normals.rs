@@ -4,7 +4,7 @@ use super::newell::{polygon_normals, unit_normal};
 use super::vertex_sums::{Sum, sums};
 use super::weld::weld;
 use super::{GivenNormals, PolygonMesh};
-use crate::parallel::collect;
+use crate::number::parallel::collect;
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};

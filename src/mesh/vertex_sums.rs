@@ -2,7 +2,7 @@
 
 use super::PolygonMesh;
 use super::newell::unit_normal;
-use crate::parallel::{collect, for_each_chunk, threads};
+use crate::number::parallel::{collect, for_each_chunk, threads};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;

@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn table_and_sorting_agree() {
-        let mut random = crate::test_random::Random::new(5);
+        let mut random = crate::number::test_random::Random::new(5);
         for count in [1, 2, 10, 1000, 5000] {
             // Few different coordinates, of either sign, zero among them.
             let mut coordinate =
@@ -123,7 +123,7 @@ mod tests {
 
     #[test]
     fn positions_that_collide_are_sorted() {
-        let mut random = crate::test_random::Random::new(6);
+        let mut random = crate::number::test_random::Random::new(6);
         let mut all = Vec::new();
         while all.len() < 200 {
             let position = Vec3::new(random.signed(), random.signed(), random.signed());

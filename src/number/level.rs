@@ -1,6 +1,6 @@
 //! Instruction sets: which one the pixel loops run on is chosen at run time.
 
-use crate::suggest::nearest;
+use super::suggest::nearest;
 use alloc::string::{String, ToString};
 use core::fmt;
 use core::str::FromStr;

@@ -13,13 +13,17 @@ mod counting;
 #[cfg(feature = "simd")]
 pub(crate) mod lanes;
 mod level;
+pub(crate) mod parallel;
 #[cfg(feature = "simd")]
 mod power;
 mod scalar;
 #[cfg(feature = "simd")]
 pub mod simd;
+pub mod suggest;
+#[cfg(test)]
+pub(crate) mod test_random;
 mod vec3;
-mod vectorized;
+pub(crate) mod vectorized;
 
 pub use counting::{Counted, Counter, Counts};
 pub use level::{Level, LevelError};

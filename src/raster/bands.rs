@@ -1,15 +1,13 @@
 //! A picture as bands of scanlines, which are drawn apart from one another.
 
-use super::rows::Scratch;
 use super::target::{Stored, Target, draw_rows};
 use crate::frame::Frame;
-use crate::parallel::{for_each_chunk, threads};
+use crate::number::parallel::{for_each_chunk, threads};
 use alloc::vec;
 use core::ops::Range;
 
-/// Draws one band: its number, its scanlines, the memory of a thread, and where its rows go, which count from its first.
-pub(super) type DrawBand<'a> =
-    dyn Fn(usize, Range<usize>, &mut Scratch, &mut dyn Target) + Sync + 'a;
+/// Draws one band: its number, its scanlines, and where its rows go, which count from its first.
+pub(super) type DrawBand<'a> = dyn Fn(usize, Range<usize>, &mut dyn Target) + Sync + 'a;
 
 /// A picture that takes bands, whatever its pixels are: engines are compiled once for all kinds.
 pub(super) trait Bands {
@@ -76,16 +74,7 @@ fn draw_bands<T: Stored>(
             pixels.fill(background); // where it is bytes, rows are stored as a whole
         }
         draw_rows(frame, pixels, |target| {
-            with_scratch(|scratch| draw(number, rows, scratch, target));
+            draw(number, rows, target);
         });
     });
-}
-
-/// Gives `work` what this thread keeps from band to band.
-#[cfg(feature = "std")]
-fn with_scratch(work: impl FnOnce(&mut Scratch)) {
-    std::thread_local! {
-        static KEPT: core::cell::RefCell<Scratch> = core::cell::RefCell::default();
-    }
-    KEPT.with_borrow_mut(work);
 }

@@ -207,9 +207,10 @@ fn bounding_box(frame: &Frame, corners: &[&ScreenVertex; 3]) -> (Range<usize>, R
 mod tests {
     use super::*;
     use crate::frame::{FrameBuilder, SubPixel, Vertex};
-    use crate::lighting::{Lighting, Material};
+    use crate::mesh::Material;
+    use crate::number::test_random::Random;
     use crate::raster::polygon_numbers;
-    use crate::test_random::Random;
+    use crate::scene::Lighting;
     use glam::DVec3;
 
     /// Small triangles of random places and depths; enough that the second half of the number is not all of it.

@@ -1,8 +1,8 @@
 //! Which polygons meet which band of scanlines: what lets bands be drawn apart, one thread each.
 
 use crate::frame::{Frame, Polygon, ScreenVertex};
+use crate::number::parallel::collect;
 use crate::number::vectorized;
-use crate::parallel::collect;
 use alloc::vec;
 use alloc::vec::Vec;
 

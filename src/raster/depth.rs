@@ -208,7 +208,7 @@ mod tests {
             return;
         };
         let m = Lanes(token);
-        let mut random = crate::test_random::Random::new(61);
+        let mut random = crate::number::test_random::Random::new(61);
         for bits in [DepthBits::Sixteen, DepthBits::TwentyFour] {
             let rule = keeping(bits);
             let most = bits.most().expect("levels");

@@ -1,7 +1,7 @@
 //! Which engine draws a frame: the span engine is scalar, the row engine SIMD.
 
 use crate::number::Level;
-use crate::suggest::nearest;
+use crate::number::suggest::nearest;
 use alloc::format;
 use alloc::string::String;
 use core::fmt;
@@ -117,7 +117,7 @@ impl Renderer {
     pub fn threads(self) -> usize {
         match self {
             Renderer::Span => 1,
-            Renderer::Row(_) => crate::parallel::threads(),
+            Renderer::Row(_) => crate::number::parallel::threads(),
         }
     }
 }

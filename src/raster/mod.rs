@@ -18,6 +18,7 @@ mod barycentric;
 mod bins;
 mod depth;
 mod engine;
+pub mod painter;
 mod render;
 #[cfg(feature = "simd")]
 mod rows;

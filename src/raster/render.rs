@@ -6,11 +6,10 @@ use super::engine::{Plan, Renderer};
 use super::setup::SetUp;
 use super::spans;
 use super::target::{Stored, draw_anyhow, draw_rows, linear_picture, picture8};
-use crate::encoding::store;
 use crate::frame::Frame;
 use crate::number::Level;
-use crate::picture::{LinearPicture, Picture, Picture8};
-use crate::scene::Encoding;
+use crate::picture::encoding::store;
+use crate::picture::{Encoding, LinearPicture, Picture, Picture8};
 use crate::shading::Variant;
 
 impl Variant {

@@ -1,8 +1,8 @@
 //! What is computed before the first scanline: uniforms once a material, varyings once a vertex, a corner or a polygon.
 
 use crate::frame::{ClipCorner, Frame, Polygon};
+use crate::number::parallel::for_each_chunk;
 use crate::number::{Level, Vec3, vec3};
-use crate::parallel::for_each_chunk;
 use crate::scene::Interpolation;
 use crate::shading::increments::GreatCircle;
 use crate::shading::lighting::Uniforms;

@@ -1,7 +1,7 @@
 //! Where colours go: bytes, linear floats, or the mean of several samples.
 
-use crate::encoding::quantise;
 use crate::frame::Frame;
+use crate::picture::encoding::quantise;
 use crate::picture::{LinearPicture, Picture, Picture8};
 use alloc::vec;
 use alloc::vec::Vec;

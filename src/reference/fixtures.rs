@@ -2,8 +2,9 @@
 
 use super::coverage::{Scanline, bounding_box};
 use crate::frame::{ClipCorner, Frame, FrameBuilder, SubPixel, Vertex};
-use crate::lighting::{Light, Lighting, Material};
+use crate::mesh::Material;
 use crate::picture::Picture;
+use crate::scene::{Light, Lighting};
 use alloc::string::String;
 use alloc::vec::Vec;
 use glam::DVec3;

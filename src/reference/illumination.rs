@@ -1,6 +1,6 @@
 //! The illumination model (L21 2.1), as it is printed, with the clamps that it leaves out.
 
-use crate::lighting::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
+use crate::scene::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
 use glam::DVec3;
 
 /// A direction or colour of the frame in double precision.
@@ -88,7 +88,7 @@ pub(crate) fn illuminate(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lighting::LightTerm;
+    use crate::scene::LightTerm;
     use alloc::vec;
     use alloc::vec::Vec;
 

@@ -14,6 +14,7 @@
 
 pub(crate) mod attributes;
 pub(crate) mod coverage;
+pub mod cs171;
 pub(crate) mod illumination;
 mod visibility;
 

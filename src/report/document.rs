@@ -3,14 +3,14 @@
 use super::Report;
 use super::lecture::{FigureData, data};
 use super::section::TriangulationData;
-use crate::bench::Machine;
-use crate::comparison::{ComparisonData, SCHEMA, WHAT_IS_COMPARED, WHAT_IS_TIMED};
-use crate::study::{Scaling, Speedups};
+use crate::compare::comparison::{ComparisonData, SCHEMA, WHAT_IS_COMPARED, WHAT_IS_TIMED};
+use crate::compare::experiments::{Scaling, Speedups};
+use crate::compare::timing::Machine;
 use alloc::string::String;
 use alloc::vec::Vec;
 use serde::Serialize;
 
-/// [`crate::comparison::Document`] with more fields, which its readers pass over.
+/// [`crate::compare::comparison::Document`] with more fields, which its readers pass over.
 #[derive(Serialize)]
 struct Data<'a> {
     schema: &'a str,

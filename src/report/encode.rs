@@ -3,8 +3,8 @@
 //! A page holds a hundred pictures, so that each is written in the way that makes it smallest: with a palette where 256
 //! colours suffice, and, where a picture hardly differs from the reference, as what differs, to be laid over it.
 
-use crate::image_file::EncodeError;
 use crate::picture::Picture8;
+use crate::picture::image_file::EncodeError;
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::String;
@@ -187,7 +187,7 @@ impl Attempt {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image_file::{FileTexels, decode_picture};
+    use crate::picture::image_file::{FileTexels, decode_picture};
 
     fn decoded(png: &[u8]) -> Picture8 {
         match decode_picture(png).unwrap().texels {

@@ -1,6 +1,15 @@
-//! What makes HTML out of text.
+//! HTML that all pages share: their style and policy, escaped text, tables.
 
+use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
+
+/// The style of every page.
+pub(super) const STYLE: &str = include_str!("page/page.css");
+
+/// The content security policy: nothing is loaded from anywhere, whatever a title may have smuggled in.
+pub(super) const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \
+                      base-uri 'none'; form-action 'none'";
 
 /// `text` as it may stand in HTML, between tags and between quotes of attributes.
 pub(super) fn escape(text: &str) -> String {
@@ -38,6 +47,42 @@ pub(super) fn identifier(text: &str) -> String {
             }
         })
         .collect()
+}
+
+/// Returns a command line as it can be typed into a shell of the Bourne family.
+pub(super) fn command(words: &[String]) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@%".contains(c);
+    let quoted = |word: &String| match word {
+        word if !word.is_empty() && word.chars().all(is_plain) => word.clone(),
+        word => format!("'{}'", word.replace('\'', "'\\''")),
+    };
+    words.iter().map(quoted).collect::<Vec<_>>().join(" ")
+}
+
+/// Returns a table with the title for screen readers; the first cell of each row is its head.
+pub(super) fn table(title: &str, head: &[String], rows: &[Vec<String>]) -> String {
+    let mut html = format!(
+        "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">",
+        escape(title)
+    );
+    html += "<table><thead><tr>";
+    for cell in head {
+        html += &format!("<th scope=\"col\">{}</th>", escape(cell));
+    }
+    html += "</tr></thead><tbody>";
+    for row in rows {
+        html += "<tr>";
+        for (i, cell) in row.iter().enumerate() {
+            let cell = escape(cell);
+            html += &if i == 0 {
+                format!("<th scope=\"row\">{cell}</th>")
+            } else {
+                format!("<td>{cell}</td>")
+            };
+        }
+        html += "</tr>";
+    }
+    html + "</tbody></table></div>"
 }
 
 #[cfg(test)]

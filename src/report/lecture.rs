@@ -1,11 +1,10 @@
 //! The lecture's figures on a page: their pictures, curves, tables and findings.
 
 use super::encode::{data_uri, opaque};
-use super::html::{escape, escape_script};
-use super::page::{POLICY, STYLE, command};
+use super::html::{POLICY, STYLE, command, escape, escape_script, table};
 use super::plot::plot;
-use crate::figures::{Block, Content, Figure, Finding, Shown};
-use crate::image_file::EncodeError;
+use crate::lectures::{Block, Content, Figure, Finding, Shown};
+use crate::picture::image_file::EncodeError;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -173,31 +172,6 @@ fn pictures<'a>(
     html + "</div>"
 }
 
-pub(super) fn table(title: &str, head: &[String], rows: &[Vec<String>]) -> String {
-    let mut html = format!(
-        "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">",
-        escape(title)
-    );
-    html += "<table><thead><tr>";
-    for cell in head {
-        html += &format!("<th scope=\"col\">{}</th>", escape(cell));
-    }
-    html += "</tr></thead><tbody>";
-    for row in rows {
-        html += "<tr>";
-        for (i, cell) in row.iter().enumerate() {
-            let cell = escape(cell);
-            html += &if i == 0 {
-                format!("<th scope=\"row\">{cell}</th>")
-            } else {
-                format!("<td>{cell}</td>")
-            };
-        }
-        html += "</tr>";
-    }
-    html + "</tbody></table></div>"
-}
-
 fn findings(title: &str, findings: &[Finding]) -> String {
     let mut html = format!(
         "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"Findings: {}\"><table class=\"findings\">",
@@ -222,7 +196,7 @@ fn findings(title: &str, findings: &[Finding]) -> String {
 fn value(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && size < 1e-3 {
-        return crate::figures::written(value);
+        return crate::lectures::written(value);
     }
     let decimals = (0..6)
         .find(|&digits| size >= libm::pow(10.0, f64::from(3 - digits)))

@@ -1,13 +1,14 @@
 //! The report in short, for the front page of a repository.
 
+use super::html::command;
 use super::html::identifier;
-use super::page::{command, paragraphs};
+use super::page::paragraphs;
 use super::section::{Figure, FigureKind, Section};
 use super::sentences::{facts, grouped, orientation};
 use super::summary::{PROJECT, Tally};
 use super::{Report, operations, scaling, speedups, tables};
-use crate::comparison::table::levels;
-use crate::comparison::{BASELINE, WHAT_IS_COMPARED, WHAT_IS_TIMED};
+use crate::compare::comparison::table::levels;
+use crate::compare::comparison::{BASELINE, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::shading::METHODS;
 use alloc::format;
 use alloc::string::{String, ToString};

@@ -1,11 +1,11 @@
 //! The report: every method on every scene, in pictures and numbers, as one page that needs nothing else.
 //!
-//! Data becomes HTML here, and nothing is computed from polygons: a [`Section`] takes a [`crate::comparison::Comparison`],
+//! Data becomes HTML here, and nothing is computed from polygons: a [`Section`] takes a [`crate::compare::comparison::Comparison`],
 //! a [`Report`] takes sections. Sentences choose their words by what was measured; the page holds no verdict of its own.
 //!
 //! ```
-//! use fastphong::bench::Machine;
-//! use fastphong::comparison::{Input, Options, compare, triangulation};
+//! use fastphong::compare::comparison::{Input, Options, compare, triangulation};
+//! use fastphong::compare::timing::Machine;
 //! use fastphong::mesh::builtin::builtin;
 //! use fastphong::report::{Caption, Detail, Report, Section, Studies};
 //! use fastphong::scene::Scene;
@@ -61,8 +61,8 @@ pub use lecture::{FIGURES_SCHEMA, LectureFigure, figures_page};
 pub use markdown::{Image, Markdown};
 pub use section::{Caption, Detail, MAP_SCALE, Section, TriangulationData};
 
-use crate::bench::Machine;
-use crate::study::{Scaling, Speedups};
+use crate::compare::experiments::{Scaling, Speedups};
+use crate::compare::timing::Machine;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -104,7 +104,7 @@ impl Report {
         markdown::markdown(self, images)
     }
 
-    /// The measured data as JSON of schema [`crate::comparison::SCHEMA`], with what the report adds to it.
+    /// The measured data as JSON of schema [`crate::compare::comparison::SCHEMA`], with what the report adds to it.
     pub fn json(&self) -> String {
         document::json(self)
     }

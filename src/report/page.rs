@@ -1,21 +1,16 @@
 //! The page around the scenes.
 
 use super::charts::{Point, scatter};
-use super::html::{escape, escape_script, identifier};
+use super::html::{POLICY, STYLE, command, escape, escape_script, identifier};
 use super::sentences::{count, opening};
 use super::summary::overall;
 use super::{Report, Section, lecture, operations, scaling, scene, speedups, tables};
-use crate::comparison::{WHAT_IS_COMPARED, WHAT_IS_TIMED};
+use crate::compare::comparison::{WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-pub(super) const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
-
-/// Nothing is loaded from anywhere, whatever a title may have smuggled in.
-pub(super) const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \
-                      base-uri 'none'; form-action 'none'";
 
 pub(super) fn page(report: &Report) -> String {
     let ids = ids(&report.sections);
@@ -215,14 +210,4 @@ fn measurement(report: &Report) -> String {
         escape(&command(&report.command_line))
     );
     html + "<p>All numbers, with every sample, are in this file: the JSON in its element <code>fastphong-data</code>.</p></section>\n"
-}
-
-/// A command line as it can be typed into a shell of the Bourne family.
-pub(super) fn command(words: &[String]) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@%".contains(c);
-    let quoted = |word: &String| match word {
-        word if !word.is_empty() && word.chars().all(is_plain) => word.clone(),
-        word => format!("'{}'", word.replace('\'', "'\\''")),
-    };
-    words.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }

@@ -2,7 +2,7 @@
 
 use super::charts::{LETTER, WIDTH, nice_step, open, power, superscript};
 use super::html::escape;
-use crate::figures::{Plot, Scale, Series};
+use crate::lectures::{Plot, Scale, Series};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec;

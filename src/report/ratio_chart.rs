@@ -2,7 +2,7 @@
 
 use super::charts::{Axis, LETTER, WIDTH, open};
 use super::html::escape;
-use crate::comparison::RatioData;
+use crate::compare::comparison::RatioData;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -112,7 +112,7 @@ fn label(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::Ratio;
+    use crate::compare::timing::Ratio;
     use alloc::vec;
 
     fn ratio(median: f64) -> Option<RatioData> {

@@ -1,13 +1,12 @@
 //! How the time of a frame grows with triangles and pixels, and what each of them costs.
 
-use super::html::escape;
-use super::lecture::table;
+use super::html::{escape, table};
 use super::plot::plot_with_fits;
 use super::sentences::{count, grouped};
 use super::tables::NONE;
-use crate::comparison::table::{milliseconds, significant};
-use crate::figures::{Plot, Scale, Series};
-use crate::study::{Axis, Costs, Curve, Point, Scaling, WHAT_A_FRAME_IS};
+use crate::compare::comparison::table::{milliseconds, significant};
+use crate::compare::experiments::{Axis, Costs, Curve, Point, Scaling, WHAT_A_FRAME_IS};
+use crate::lectures::{Plot, Scale, Series};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

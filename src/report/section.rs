@@ -1,10 +1,12 @@
 //! One scene of a report: what was measured, and its pictures as files.
 
 use super::encode::{opaque, overlay, shrunk};
-use crate::comparison::{Comparison, ComparisonData, DifferenceData, Row, RowData, Triangulation};
-use crate::encoding::store;
-use crate::image_file::EncodeError;
-use crate::metrics::difference_map_of_blocks;
+use crate::compare::comparison::{
+    Comparison, ComparisonData, DifferenceData, Row, RowData, Triangulation,
+};
+use crate::compare::metrics::difference_map_of_blocks;
+use crate::picture::encoding::store;
+use crate::picture::image_file::EncodeError;
 use crate::picture::{LinearPicture, Picture8};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -280,7 +282,7 @@ fn encoded(base: &Base<'_>, jobs: &[Job<'_>]) -> Result<Vec<Figure>, EncodeError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::comparison::{Input, Options, compare};
+    use crate::compare::comparison::{Input, Options, compare};
     use crate::mesh::builtin::builtin;
     use crate::scene::Scene;
     use crate::shading::Variant;

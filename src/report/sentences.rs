@@ -2,7 +2,7 @@
 
 use super::section::Section;
 use super::summary::{Tally, worst_error};
-use crate::bench::Machine;
+use crate::compare::timing::Machine;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

@@ -4,10 +4,12 @@ use super::html::escape;
 use super::ratio_chart::{Group, ratio_bars};
 use super::sentences::{enumeration, grouped};
 use super::tables::{NONE, ratio, verdict};
-use crate::bench::Ratio;
-use crate::comparison::table::{decimals, significant};
-use crate::comparison::{BASELINE, RatioData};
-use crate::study::{Corner, MethodSpeedups, Speedup, Speedups, WHAT_A_FRAME_IS, Work};
+use crate::compare::comparison::table::{decimals, significant};
+use crate::compare::comparison::{BASELINE, RatioData};
+use crate::compare::experiments::{
+    Corner, MethodSpeedups, Speedup, Speedups, WHAT_A_FRAME_IS, Work,
+};
+use crate::compare::timing::Ratio;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

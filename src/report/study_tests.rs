@@ -3,9 +3,9 @@
 use super::page::paragraphs;
 use super::tests::{assert_balanced, assert_tables_are_even, report, script_data};
 use super::*;
-use crate::bench::{Ratio, Timing};
-use crate::comparison::RatioData;
-use crate::study::{Corner, Costs, Curve, MethodSpeedups, Point, Speedup, Work};
+use crate::compare::comparison::RatioData;
+use crate::compare::experiments::{Corner, Costs, Curve, MethodSpeedups, Point, Speedup, Work};
+use crate::compare::timing::{Ratio, Timing};
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::vec;

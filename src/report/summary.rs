@@ -1,7 +1,7 @@
 //! What all scenes together say: the answer to the lecture's Programming Project, in numbers.
 
 use super::section::{Section, row_name};
-use crate::comparison::RowData;
+use crate::compare::comparison::RowData;
 use alloc::string::String;
 use alloc::vec::Vec;
 

@@ -4,8 +4,10 @@ use super::html::escape;
 use super::section::{Section, row_name};
 use super::sentences::grouped;
 use super::summary::{PROJECT, Tally};
-use crate::comparison::table::{decibels, levels, milliseconds, signed_levels, significant};
-use crate::comparison::{BASELINE, DifferenceData, RatioData, RowData, SpeedData};
+use crate::compare::comparison::table::{
+    decibels, levels, milliseconds, signed_levels, significant,
+};
+use crate::compare::comparison::{BASELINE, DifferenceData, RatioData, RowData, SpeedData};
 use crate::shading::Entry;
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -234,7 +236,7 @@ fn speed(row: &RowData, cell: impl Fn(&SpeedData) -> String) -> String {
 /// `12.3 ± 0.4`, in ms.
 pub(super) fn time(speed: &SpeedData) -> String {
     let timing = &speed.timing;
-    let digits = crate::comparison::table::decimals(timing.median_ns / 1e6);
+    let digits = crate::compare::comparison::table::decimals(timing.median_ns / 1e6);
     format!(
         "{} ± {:.digits$}",
         milliseconds(timing.median_ns),

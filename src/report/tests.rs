@@ -1,10 +1,10 @@
 use super::sentences::opening;
 use super::summary::{Tally, overall};
 use super::*;
-use crate::bench::{Machine, Ratio, Timing};
-use crate::comparison::{
+use crate::compare::comparison::{
     Comparison, Document, Input, Options, RatioData, RowData, SpeedData, compare, triangulation,
 };
+use crate::compare::timing::{Machine, Ratio, Timing};
 use crate::mesh::builtin::builtin;
 use crate::scene::Scene;
 use crate::shading::METHODS;
@@ -500,7 +500,7 @@ fn figures_belong_to_their_rows() {
     let (comparison, section) = compared(SPHERE, "sphere");
     for (row, figure) in comparison.rows.iter().zip(&section.figures[1..]) {
         let png = if figure.is_overlay {
-            let below = crate::encoding::store(&comparison.reference, comparison.encoding);
+            let below = crate::picture::encoding::store(&comparison.reference, comparison.encoding);
             encode::overlay(&below, &row.picture)
         } else {
             encode::opaque(&row.picture)
@@ -590,7 +590,7 @@ fn a_report_of_nothing_and_of_an_empty_frame_is_a_page() {
 #[test]
 fn commands_can_be_typed_again() {
     let words = ["fastphong", "it's", "", "a=b:c,d"].map(String::from);
-    assert_eq!(page::command(&words), r"fastphong 'it'\''s' '' a=b:c,d");
+    assert_eq!(html::command(&words), r"fastphong 'it'\''s' '' a=b:c,d");
     assert_eq!(
         [1, 2, 1_234_567].map(|n| sentences::count(n, "pixel").to_string()),
         ["1 pixel", "2 pixels", "1,234,567 pixels"]
@@ -599,7 +599,7 @@ fn commands_can_be_typed_again() {
 
 /// A figure of which every text is `text`, with one picture.
 fn lecture_figure(text: &str) -> LectureFigure {
-    use crate::figures::{Agreement, Content, FIGURES, Finding, Plot, Scale, Series, Shown};
+    use crate::lectures::{Agreement, Content, FIGURES, Finding, Plot, Scale, Series, Shown};
     let mut content = Content::default();
     content.text(text);
     content.pictures(

@@ -1,36 +1,26 @@
 //! A scene: objects, lights, a camera, and how they are to be drawn.
 
-#[cfg(feature = "io")]
-mod check;
-#[cfg(feature = "io")]
-mod choices;
-#[cfg(feature = "io")]
-pub mod diagnostics;
+mod camera;
+mod camera_fit;
 #[cfg(feature = "io")]
 pub mod file;
-mod hidden_surfaces;
 #[cfg(feature = "io")]
-mod lights;
+pub mod input;
+mod lighting;
 mod of_mesh;
-#[cfg(feature = "io")]
-mod overlay;
-#[cfg(feature = "io")]
-pub mod resolve;
-#[cfg(feature = "io")]
-pub mod value;
-#[cfg(feature = "io")]
-mod viewpoint;
-#[cfg(feature = "io")]
-mod visibility;
+mod settings;
 
-pub use hidden_surfaces::{
-    Clipping, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey,
+pub use camera::{Camera, Projection};
+pub use camera_fit::{DEPTH_SLACK, Fit};
+pub use lighting::{Falloff, Light, LightTerm, Lighting, Place, SpecularGate, SpecularModel};
+pub use settings::{
+    Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation,
+    PainterKey,
 };
 
-use crate::camera::Camera;
-use crate::lighting::{Light, Material, Rgb, SpecularGate, SpecularModel};
-use crate::mesh::PolygonMesh;
 use crate::mesh::vertex_normals::NormalSource;
+use crate::mesh::{Material, PolygonMesh};
+use crate::picture::{Encoding, Rgb};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use glam::DAffine3;
@@ -39,39 +29,6 @@ use glam::DAffine3;
 /// products with coefficients stay far inside the range of an `f32`.
 #[cfg(feature = "io")]
 const MAX_COORDINATE: f64 = 1e15;
-
-/// How attributes vary over the screen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Interpolation {
-    /// Linearly on the screen, as the lecture does.
-    #[default]
-    Screen,
-    /// Linearly in space: attributes are divided by w at the corners (`methods.md` finding: degree-0 methods need no
-    /// division a pixel).
-    Perspective,
-}
-
-/// Which polygons are left out for the direction in which they are seen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Culling {
-    /// Leave out polygons whose corners run clockwise on the screen.
-    #[default]
-    Back,
-    /// Leave out polygons whose corners run counter-clockwise on the screen.
-    Front,
-    /// Draw all.
-    None,
-}
-
-/// How linear values are stored in eight bits.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Encoding {
-    /// round(255 c): no transfer function.
-    #[default]
-    Linear,
-    /// The sRGB transfer function (IEC 61966-2-1), then rounded.
-    Srgb,
-}
 
 /// A mesh somewhere in the world.
 #[derive(Clone, Debug)]
@@ -161,6 +118,3 @@ impl Scene {
     /// The most lights a scene may have.
     pub const MAX_LIGHTS: usize = 64;
 }
-
-#[cfg(all(test, feature = "io"))]
-mod tests;

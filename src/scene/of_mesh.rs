@@ -1,11 +1,8 @@
 //! The scene that a mesh alone gets.
 
-use super::{Object, Scene};
-use crate::camera::{Camera, Projection};
-use crate::camera_fit::Fit;
-use crate::lighting::{Light, Material};
-use crate::mesh::PolygonMesh;
+use super::{Camera, Fit, Light, Object, Projection, Scene};
 use crate::mesh::vertex_normals::NormalSource;
+use crate::mesh::{Material, PolygonMesh};
 use alloc::sync::Arc;
 use alloc::vec;
 use glam::{DAffine3, DVec3};

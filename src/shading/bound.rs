@@ -4,8 +4,7 @@ use super::lighting::highlight_gain;
 use super::spread::Spread;
 use super::{Info, Perspective};
 use crate::frame::{Frame, Polygon};
-use crate::lighting::{LightTerm, Lighting, SpecularModel};
-use crate::scene::Interpolation;
+use crate::scene::{Interpolation, LightTerm, Lighting, SpecularModel};
 use alloc::vec::Vec;
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.

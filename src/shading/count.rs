@@ -3,8 +3,9 @@
 use super::increments::{GreatCircle, Walk};
 use super::kernels::{clamped, ramp};
 use super::lighting::Lit;
+use super::planes::Planes;
 use super::span_bench::FACE;
-use super::varying::{Planes, Varying};
+use super::varying::Varying;
 use super::{LitAt, Local, Shader, SpanBench, Variant};
 use crate::number::{Counted, Counter, Counts, Num, Vec3, vec3};
 use alloc::vec::Vec;

@@ -5,9 +5,9 @@ use super::{
     Auto, Info, Linear, Lit, LitAt, Local, Model, Parameter, PerLight, Perspective, Pixel,
     Roundings, Shader, Span, Stepped,
 };
-use crate::lighting::SpecularModel;
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
+use crate::scene::SpecularModel;
 
 /// Fast Phong shading as the lecture prints it, for up to `L` lights: `J = L·N` for each light, `K = V·N` and N by additions,
 /// `D = N·N`, and `d = √D` by Newton's method from the previous pixel's (L21 4.2–4.3).

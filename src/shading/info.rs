@@ -1,8 +1,8 @@
 //! What is said about a method: the texts and bounds that the tool, the tests and the report share.
 
 use super::bound::{Roundings, Stepped};
-use crate::lighting::Lighting;
 use crate::reference::Model;
+use crate::scene::Lighting;
 use alloc::format;
 use alloc::string::{String, ToString};
 

@@ -2,7 +2,8 @@
 
 use super::increments::{GreatCircle, Walk};
 use super::lighting::{Lit, Uniforms};
-use super::varying::{Planes, Varying, get_each, put_each};
+use super::planes::{Planes, get_each, put_each};
+use super::varying::Varying;
 use super::{LitAt, Pixel, Shader, Stepped};
 #[cfg(feature = "simd")]
 use crate::number::Vec3;

@@ -18,8 +18,8 @@
 //!
 //! A normal that vanishes has no direction: its cosines are 0/0, the clamps turn them into 0, and ambient light remains.
 
-use crate::lighting::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
 use crate::number::{Num, Vec3, vec3};
+use crate::scene::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
 
 /// Squared distances below this count as this: a light in the surface itself has no direction and no finite `1/r²`.

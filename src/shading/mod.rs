@@ -38,6 +38,7 @@ mod gouraud;
 mod gouraud_separate;
 mod naive_phong;
 mod phong_rsqrt;
+mod planes;
 mod slerp_phong;
 mod slerp_phong_vector;
 
@@ -59,6 +60,7 @@ pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, start_len};
 pub use lighting::{Lit, Model, Seen};
 use naive_phong::NaivePhong;
 use phong_rsqrt::PhongRsqrt;
+pub use planes::{PerLight, Planes};
 use slerp_phong::SlerpPhong;
 use slerp_phong_vector::SlerpPhongVector;
 pub use span_bench::SpanBench;
@@ -66,7 +68,7 @@ pub use span_bench::SpanBench;
 pub use span_bench::SpanRow;
 pub use table::{Entry, METHODS};
 pub use variant::{MethodError, Variant};
-pub use varying::{PerLight, Planes, UnitNormal, Varying};
+pub use varying::{UnitNormal, Varying};
 
 use crate::number::{Num, Vec3};
 

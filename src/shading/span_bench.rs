@@ -3,8 +3,8 @@
 use super::kernels::start_len;
 use super::lighting::Uniforms;
 use super::{Extras, Local, OperationCounts, Perspective, Pixels, Run, Variant, Vertices, ramp};
-use crate::lighting::{Falloff, Light, Lighting, Material, Place};
-use crate::scene::Interpolation;
+use crate::mesh::Material;
+use crate::scene::{Falloff, Interpolation, Light, Lighting, Place};
 use alloc::vec::Vec;
 use glam::DVec3;
 

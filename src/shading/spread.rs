@@ -1,7 +1,7 @@
 //! How much the vectors toward lights and eye vary over the polygons of a frame: what bounds of rounding errors need.
 
 use crate::frame::{Frame, Polygon};
-use crate::lighting::{Falloff, Lighting, Place};
+use crate::scene::{Falloff, Lighting, Place};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;

@@ -2,7 +2,7 @@
 
 use super::{Entry, Info, METHODS, Parameter};
 use crate::frame::Frame;
-use crate::suggest::nearest;
+use crate::number::suggest::nearest;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;

@@ -1,7 +1,7 @@
 //! `fastphong render --aov`: what is known of each pixel besides its colour.
 
 use super::{Folder, SPHERE, picture};
-use fastphong::image_file::{FileTexels, read_picture};
+use fastphong::picture::image_file::{FileTexels, read_picture};
 
 #[test]
 fn aovs_show_depth_normals_and_polygons() {

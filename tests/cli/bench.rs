@@ -1,7 +1,7 @@
 //! `fastphong compare` and `fastphong bench`: which engines are timed, and the data.
 
 use super::{Folder, SPHERE};
-use fastphong::comparison::Document;
+use fastphong::compare::comparison::Document;
 use fastphong::number::Level;
 use fastphong::shading::METHODS;
 

@@ -1,9 +1,9 @@
 //! `fastphong diff`: numbers, thresholds, maps.
 
 use super::{Folder, picture};
-use fastphong::image_file::{FilePicture, write_picture};
-use fastphong::metrics::METRICS;
+use fastphong::compare::metrics::METRICS;
 use fastphong::picture::Picture8;
+use fastphong::picture::image_file::{FilePicture, write_picture};
 
 /// Two pictures of 16 × 12 pixels that differ by 20 levels in one channel of one pixel.
 fn pair() -> Folder {
@@ -104,15 +104,18 @@ fn maps_show_where() {
     folder.run("diff a.png b.png -o beyond.png").done();
     assert_eq!(
         lit("beyond.png"),
-        fastphong::metrics::BEYOND,
+        fastphong::compare::metrics::BEYOND,
         "20 levels are beyond the default scale"
     );
     folder.run("diff a.png b.png -o map.png --scale 40").done();
-    assert_ne!(lit("map.png"), fastphong::metrics::BEYOND);
+    assert_ne!(lit("map.png"), fastphong::compare::metrics::BEYOND);
     folder
         .run("diff b.png a.png -o signed.ppm --signed --scale 4")
         .done();
-    assert_eq!(lit("signed.ppm"), fastphong::metrics::BEYOND_DARKER);
+    assert_eq!(
+        lit("signed.ppm"),
+        fastphong::compare::metrics::BEYOND_DARKER
+    );
     let piped = folder
         .run("diff a.png b.png -o - --scale 40")
         .done()

@@ -1,9 +1,9 @@
 //! `fastphong render`: what finds the pixels, on which instruction set, and on how many threads.
 
 use super::{Folder, SPHERE, rendered, sphere};
-use fastphong::input;
-use fastphong::metrics::compare;
+use fastphong::compare::metrics::compare;
 use fastphong::number::Level;
+use fastphong::scene::input;
 use fastphong::shading::{METHODS, Variant};
 
 #[test]

@@ -191,7 +191,7 @@ impl Ended {
 }
 
 fn picture(path: &Path) -> Picture8 {
-    fastphong::image_file::read_picture(path)
+    fastphong::picture::image_file::read_picture(path)
         .unwrap_or_else(|error| panic!("{error}"))
         .to_stored()
 }

@@ -1,7 +1,7 @@
 //! Where pictures go: files that cannot be written, pipes, and readers that go away.
 
 use super::{Ended, Folder, SPHERE, picture};
-use fastphong::image_file::{Format, decode_picture};
+use fastphong::picture::image_file::{Format, decode_picture};
 use std::fs::File;
 use std::io::Read;
 use std::process::Stdio;

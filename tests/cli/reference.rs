@@ -1,7 +1,7 @@
 //! `render --reference`: no reference yet, an equal one, one that differs.
 
 use super::{Folder, SPHERE, picture};
-use fastphong::image_file::{FilePicture, write_picture};
+use fastphong::picture::image_file::{FilePicture, write_picture};
 
 #[test]
 fn without_a_reference_the_candidate_is_kept_and_the_next_command_said() {

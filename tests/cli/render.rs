@@ -1,8 +1,8 @@
 //! `fastphong render`: pictures, and what is said of them.
 
 use super::{Folder, SPHERE, covered, picture, sphere};
-use fastphong::image_file::{FileTexels, read_picture};
 use fastphong::picture::Picture8;
+use fastphong::picture::image_file::{FileTexels, read_picture};
 
 #[test]
 fn every_kind_of_input_gives_a_picture_of_the_size_asked_for() {
@@ -58,7 +58,7 @@ fn every_method_and_the_reference_draw_and_are_near_each_other() {
             sphere(&format!("-m {method}")),
             sphere(&format!("-m reference:model={model}")),
         );
-        let difference = fastphong::metrics::compare(&a, &b).unwrap();
+        let difference = fastphong::compare::metrics::compare(&a, &b).unwrap();
         // At 64 columns and 48 rows no method is off by a tenth of a level (`Info::bound`), which moves what is stored by
         // one level at most.
         assert!(255.0 * difference.max <= 1.0, "{method}: {difference:?}");
@@ -78,7 +78,7 @@ fn a_pfm_holds_linear_floats_and_every_format_the_same_picture() {
         panic!("no floats");
     };
     // Linear whatever the encoding: rounded, it is the linear picture.
-    let rounded = floats.map(|texel| texel.map(fastphong::encoding::quantise));
+    let rounded = floats.map(|texel| texel.map(fastphong::picture::encoding::quantise));
     let colours = |picture: &Picture8| picture.map(|[r, g, b, _]| [r, g, b]);
     assert_eq!(
         colours(&rounded),

@@ -1,12 +1,12 @@
 //! `fastphong list`, `explain`, `info`, help.
 
 use super::Folder;
-use fastphong::figures::FIGURES;
-use fastphong::input::SCENES;
+use fastphong::compare::metrics::METRICS;
+use fastphong::lectures::FIGURES;
 use fastphong::mesh::builtin::BUILTINS;
-use fastphong::metrics::METRICS;
 use fastphong::number::Level;
 use fastphong::raster::Engine;
+use fastphong::scene::input::SCENES;
 use fastphong::shading::METHODS;
 
 #[test]

@@ -3,14 +3,14 @@
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
 use crate::support::{self, Random};
+use fastphong::compare::metrics::compare;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
-use fastphong::lighting::{Light, Lighting, Material, Place};
+use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
-use fastphong::metrics::compare;
 use fastphong::picture::Picture;
 use fastphong::raster::Edges;
 use fastphong::reference::{self, Model};
-use fastphong::scene::{Interpolation, Scene};
+use fastphong::scene::{Interpolation, Light, Lighting, Place, Scene};
 use fastphong::shading::{METHODS, Variant};
 use glam::DVec3;
 
@@ -170,7 +170,7 @@ fn stored_and_linear_pictures_agree() {
     for entry in METHODS {
         let stored = entry.variant().render(&frame);
         let linear = entry.variant().render_linear(&frame);
-        let rounded = linear.map(|texel| texel.map(fastphong::encoding::quantise));
+        let rounded = linear.map(|texel| texel.map(fastphong::picture::encoding::quantise));
         assert_eq!(stored, rounded, "{}", entry.info.name);
         let mut reused = Picture::new(96, 72, [7u8; 4]);
         entry.variant().render_into(&frame, &mut reused);
@@ -191,7 +191,7 @@ fn perspective_interpolation_is_the_references() {
     let near = |interpolation| {
         sphere(|scene| {
             scene.interpolation = interpolation;
-            scene.camera.projection = fastphong::camera::Projection::Perspective { fovy: 100.0 };
+            scene.camera.projection = fastphong::scene::Projection::Perspective { fovy: 100.0 };
             scene.camera.eye = scene.camera.target + scene.camera.view() * 1.4;
             (scene.camera.near, scene.camera.far) = (0.1, 3.0);
         })

@@ -1,6 +1,5 @@
 //! Interpolated attributes as pictures: vertex colours and Lecture 5's checkerboard, wrong and right.
 
-use fastphong::camera::{Camera, Projection};
 use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
@@ -8,7 +7,7 @@ use fastphong::picture::LinearPicture;
 use fastphong::raster::{
     Edges, barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours,
 };
-use fastphong::scene::{Culling, Interpolation, Object, Scene};
+use fastphong::scene::{Camera, Culling, Interpolation, Object, Projection, Scene};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 

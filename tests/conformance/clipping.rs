@@ -1,12 +1,10 @@
 //! Polygons that reach behind the eye, through the near plane, or far beyond the picture.
 
-use fastphong::camera::{Camera, Projection};
 use fastphong::frame::Frame;
-use fastphong::lighting::{Light, Material};
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
+use fastphong::mesh::{GivenNormals, Material, MeshBuilder, PolygonMesh};
 use fastphong::raster;
-use fastphong::scene::{Culling, Interpolation, Object, Scene};
+use fastphong::scene::{Camera, Culling, Interpolation, Light, Object, Projection, Scene};
 use fastphong::shading::{METHODS, Variant};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;

@@ -1,20 +1,21 @@
 //! CS171's algorithms as printed against the engines and the reference, which share no arithmetic with them.
 
 use crate::support::{Random, frame, random_polygon};
-use fastphong::cs171::{
+use fastphong::frame::Frame;
+use fastphong::frame::triangulate::triangulated;
+use fastphong::mesh::Material;
+use fastphong::mesh::builtin::builtin;
+use fastphong::raster::{Edges, NOTHING, barycentric_polygon_numbers};
+use fastphong::reference::cs171::{
     Corner, Grid, Inside, Reading, Shading, Ties, flat_shading, full_shading, gouraud_shading,
     lighting, ndc_to_screen, phong_shading, raster_colored_ndc_triangle, raster_colored_triangle,
     raster_triangle, render, world_to_ndc,
 };
-use fastphong::frame::Frame;
-use fastphong::lighting::{
-    Falloff, Light, LightTerm, Lighting, Material, Place, SpecularGate, SpecularModel,
-};
-use fastphong::mesh::builtin::builtin;
-use fastphong::raster::{Edges, NOTHING, barycentric_polygon_numbers};
 use fastphong::reference::{self, Model};
-use fastphong::scene::{Culling, Interpolation, Scene};
-use fastphong::triangulate::triangulated;
+use fastphong::scene::{
+    Culling, Falloff, Interpolation, Light, LightTerm, Lighting, Place, Scene, SpecularGate,
+    SpecularModel,
+};
 use glam::{DVec2, DVec3};
 
 /// CS171's own illumination: two coloured lights at positions, one that grows weaker, N·H and no gate.

@@ -2,16 +2,16 @@
 
 use crate::support;
 use crate::support::{Corner, Random, add, plain_lighting, random_polygon};
-use fastphong::camera::Projection;
+use fastphong::frame::triangulate::triangulated;
 use fastphong::frame::{Frame, FrameBuilder};
 use fastphong::mesh::builtin::builtin;
-use fastphong::painter::conflicts;
+use fastphong::raster::painter::conflicts;
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
 use fastphong::scene::{
-    Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Scene,
+    Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Projection,
+    Scene,
 };
-use fastphong::triangulate::triangulated;
 
 fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
     HiddenSurfaces::ZBuffer(DepthBuffer { bits, source })

@@ -2,8 +2,9 @@
 //! span, and what it says of triangles, squares and edges.
 
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
-use fastphong::lighting::{Light, Lighting, Material};
+use fastphong::mesh::Material;
 use fastphong::picture::LinearPicture;
+use fastphong::scene::{Light, Lighting};
 use fastphong::shading::{Entry, METHODS, Variant};
 use glam::{DVec3, Vec3};
 

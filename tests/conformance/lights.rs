@@ -2,13 +2,14 @@
 
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
-use fastphong::camera::Projection;
 use fastphong::frame::Frame;
-use fastphong::lighting::{Falloff, Light, Material, SpecularGate, SpecularModel};
+use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
 use fastphong::picture::LinearPicture;
 use fastphong::reference::{self, Model};
-use fastphong::scene::{Culling, Interpolation, Scene};
+use fastphong::scene::{
+    Culling, Falloff, Interpolation, Light, Projection, Scene, SpecularGate, SpecularModel,
+};
 use fastphong::shading::{METHODS, SpanBench, Variant};
 use glam::DVec3;
 use std::collections::BTreeMap;

@@ -1,13 +1,13 @@
 //! CS171's literal test of each sample against the cube, instead of clipping: where it is right, and how wrong it is.
 
 use crate::support::Random;
-use fastphong::camera::{Camera, Projection};
 use fastphong::frame::{Frame, FrameError};
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
 use fastphong::scene::{
-    Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Scene,
+    Camera, Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation,
+    Projection, Scene,
 };
 use fastphong::shading::METHODS;
 use glam::{DVec3, Vec3};

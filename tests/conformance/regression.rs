@@ -8,10 +8,10 @@
 use crate::support::cases::{case, cases};
 use crate::support::differences::levels_apart;
 use crate::support::renderers::{self, distinct};
-use fastphong::encoding::store as store_levels;
-use fastphong::image_file::{encode_png, read_png, write_file};
-use fastphong::metrics::difference_map;
+use fastphong::compare::metrics::difference_map;
 use fastphong::picture::Picture8;
+use fastphong::picture::encoding::store as store_levels;
+use fastphong::picture::image_file::{encode_png, read_png, write_file};
 use fastphong::reference::Model;
 use fastphong::shading::METHODS;
 use std::fs;

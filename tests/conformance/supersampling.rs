@@ -2,15 +2,15 @@
 
 use crate::support;
 use crate::support::{Corner, add, plain_lighting};
-use fastphong::encoding::{quantise, srgb_encode};
+use fastphong::compare::metrics::compare_where;
+use fastphong::frame::triangulate::triangulated;
 use fastphong::frame::{Frame, FrameBuilder, FrameError};
-use fastphong::metrics::compare_where;
-use fastphong::picture::{LinearPicture, Picture};
+use fastphong::picture::encoding::{quantise, srgb_encode};
+use fastphong::picture::{Encoding, LinearPicture, Picture};
 use fastphong::raster::{self, Edges};
 use fastphong::reference::{self, Model};
-use fastphong::scene::{Encoding, Scene};
+use fastphong::scene::Scene;
 use fastphong::shading::{METHODS, Variant};
-use fastphong::triangulate::triangulated;
 
 const BACKGROUND: [f32; 3] = [0.25, 0.5, 0.125];
 

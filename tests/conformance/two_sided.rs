@@ -2,13 +2,11 @@
 
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
-use fastphong::camera::{Camera, Projection};
+use fastphong::compare::metrics::compare;
 use fastphong::frame::Frame;
-use fastphong::lighting::Light;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
-use fastphong::metrics::compare;
-use fastphong::scene::{Culling, Scene};
+use fastphong::scene::{Camera, Culling, Light, Projection, Scene};
 use fastphong::shading::{METHODS, Variant};
 use glam::DVec3;
 use std::collections::BTreeSet;

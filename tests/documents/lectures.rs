@@ -3,7 +3,7 @@
 #![cfg(feature = "cli")]
 
 use crate::markdown::{defines, places, quoted, read, root, rows};
-use fastphong::figures::Figure;
+use fastphong::lectures::Figure;
 use std::collections::BTreeMap;
 
 /// How many items the lectures have, counted in the order of their sections.

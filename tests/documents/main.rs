@@ -2,4 +2,5 @@
 
 mod lectures;
 mod markdown;
+mod rooms;
 mod tidy;

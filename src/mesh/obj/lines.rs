@@ -137,7 +137,7 @@ pub(super) fn is_plain_number(word: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::is_plain_number;
-    use crate::test_random::Random;
+    use crate::number::test_random::Random;
     use std::string::String;
 
     #[test]

@@ -19,8 +19,7 @@ mod tests;
 
 pub use error::{ObjError, ObjProblem};
 
-use super::{GivenNormals, MeshBuilder, PolygonMesh};
-use crate::lighting::Material;
+use super::{GivenNormals, Material, MeshBuilder, PolygonMesh};
 use glam::{DVec3, Vec3};
 use mtl::Library;
 use prescan::{Limits, Prescan};

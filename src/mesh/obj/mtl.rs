@@ -6,7 +6,8 @@
 use super::error::quote;
 use super::lines::{Statements, decode, keyword, name_candidates, without_comment};
 use super::parser::guarded;
-use crate::lighting::{Material, Rgb};
+use crate::mesh::Material;
+use crate::picture::Rgb;
 use std::collections::HashMap;
 use std::format;
 use std::string::{String, ToString};

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::number::lanes::{Int, Lanes};
-use crate::test_random::Random;
+use crate::number::test_random::Random;
 use std::vec;
 use std::vec::Vec;
 

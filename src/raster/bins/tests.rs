@@ -2,9 +2,10 @@
 
 use super::*;
 use crate::frame::{FrameBuilder, SubPixel, Vertex};
-use crate::lighting::{Lighting, Material};
+use crate::mesh::Material;
+use crate::number::test_random::Random;
 use crate::raster::coverage;
-use crate::test_random::Random;
+use crate::scene::Lighting;
 use core::ops::Range;
 use glam::DVec3;
 use std::collections::BTreeSet;

@@ -50,7 +50,7 @@ const HEIGHT: usize = 16;
 
 /// Memory that a thread keeps from tile to tile.
 #[derive(Debug, Default)]
-pub(super) struct Scratch {
+struct Scratch {
     tile: Tile,
     batch: Batch,
     fragments: Fragments,
@@ -107,23 +107,35 @@ pub(super) fn draw(
         setup,
     };
     let bins = Bins::new(frame, HEIGHT);
-    bands.each(HEIGHT, &|number, band, scratch, target| {
-        scratch.tile.prepare(HEIGHT, frame.width(), rows.numbers);
-        for polygons in bins.band(number) {
-            match level {
-                #[cfg(target_arch = "x86_64")]
-                Level::Avx2 => rows.rasterise::<fearless_simd::Avx2>(polygons, &band, scratch),
-                #[cfg(target_arch = "x86_64")]
-                Level::Avx512 => rows.rasterise::<fearless_simd::Avx512>(polygons, &band, scratch),
-                #[cfg(target_arch = "aarch64")]
-                Level::Neon => rows.rasterise::<fearless_simd::Neon>(polygons, &band, scratch),
-                _ => return, // no plan asks for it
+    bands.each(HEIGHT, &|number, band, target| {
+        with_scratch(|scratch| {
+            scratch.tile.prepare(HEIGHT, frame.width(), rows.numbers);
+            for polygons in bins.band(number) {
+                match level {
+                    #[cfg(target_arch = "x86_64")]
+                    Level::Avx2 => rows.rasterise::<fearless_simd::Avx2>(polygons, &band, scratch),
+                    #[cfg(target_arch = "x86_64")]
+                    Level::Avx512 => {
+                        rows.rasterise::<fearless_simd::Avx512>(polygons, &band, scratch)
+                    }
+                    #[cfg(target_arch = "aarch64")]
+                    Level::Neon => rows.rasterise::<fearless_simd::Neon>(polygons, &band, scratch),
+                    _ => return, // no plan asks for it
+                }
             }
-        }
-        for row in 0..band.len() {
-            rows.shade(row, scratch, target);
-        }
+            for row in 0..band.len() {
+                rows.shade(row, scratch, target);
+            }
+        });
     });
+}
+
+/// Gives `work` what this thread keeps from band to band.
+fn with_scratch(work: impl FnOnce(&mut Scratch)) {
+    std::thread_local! {
+        static KEPT: core::cell::RefCell<Scratch> = core::cell::RefCell::default();
+    }
+    KEPT.with_borrow_mut(work);
 }
 
 /// Returns the number of the uniforms that all polygons have, if there is only one: objects of a scene bring their own material,

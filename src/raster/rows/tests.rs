@@ -3,10 +3,11 @@
 use super::triangles::{BATCH, SMALL_HEIGHT, SMALL_WIDTH};
 use super::*;
 use crate::frame::{FrameBuilder, SubPixel, Vertex};
-use crate::lighting::{Lighting, Material};
+use crate::mesh::Material;
 use crate::number::simd::{BLOCK, tests::on_each_level};
+use crate::number::test_random::Random;
 use crate::raster::coverage;
-use crate::test_random::Random;
+use crate::scene::Lighting;
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;

@@ -94,7 +94,7 @@ impl Crossing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::test_random::Random;
+    use crate::number::test_random::Random;
 
     fn at(bits: i64) -> SubPixel {
         SubPixel::from_bits(bits as i32)

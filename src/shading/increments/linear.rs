@@ -2,7 +2,7 @@
 
 use super::Walk;
 use crate::number::Num;
-use crate::shading::varying::Planes;
+use crate::shading::planes::Planes;
 
 /// A varying that is interpolated linearly: its value here, and its growth in a step.
 ///

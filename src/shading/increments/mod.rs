@@ -14,7 +14,7 @@ pub use quadratic::Quadratic;
 pub use sines::{GreatCircle, Sines};
 
 use crate::number::Num;
-use crate::shading::varying::Planes;
+use crate::shading::planes::Planes;
 
 /// Running state along a span: all memory of the previous pixel.
 pub trait Walk<F: Num>: Copy {

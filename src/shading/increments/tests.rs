@@ -1,8 +1,8 @@
 //! Every recurrence against its closed form: one pixel at a time, and in blocks by the walk kernels of methods.
 
 use super::*;
+use crate::number::test_random::Random;
 use crate::number::{Vec3, vec3};
-use crate::test_random::Random;
 use std::vec::Vec;
 
 /// Half a unit in the last place of a number near 1.
@@ -361,9 +361,10 @@ fn opposite_normals_give_the_face_normal() {
 #[cfg(feature = "simd")]
 mod blocks {
     use super::*;
-    use crate::lighting::{Light, Lighting, Material};
+    use crate::mesh::Material;
     use crate::number::Level;
     use crate::number::simd::BLOCK;
+    use crate::scene::{Light, Lighting};
     use crate::shading::lighting::Uniforms;
     use crate::shading::{Entry, Extras, Pixels, Run};
     use glam::DVec3;

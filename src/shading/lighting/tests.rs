@@ -1,8 +1,9 @@
 //! The light model: powers, highlights that are left out, and the fast path against the general one.
 
 use super::*;
-use crate::lighting::{Light, Material};
-use crate::test_random::Random;
+use crate::mesh::Material;
+use crate::number::test_random::Random;
+use crate::scene::Light;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use glam::DVec3;
 

@@ -4,9 +4,8 @@ use super::frames::kinds;
 use crate::support::cases::{Case, cases};
 use crate::support::differences::{largest_difference, levels_apart};
 use crate::support::renderers::{distinct, name, renderers};
-use fastphong::picture::Picture;
+use fastphong::picture::{Encoding, Picture};
 use fastphong::raster::Renderer;
-use fastphong::scene::Encoding;
 use fastphong::shading::{METHODS, Variant};
 
 /// What is wrong with a method's pictures of a frame, if anything.

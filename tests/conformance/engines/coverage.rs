@@ -5,8 +5,8 @@ use crate::support::differences::covered;
 use crate::support::renderers::{name, on_threads, renderers};
 use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
-use fastphong::lighting::{Lighting, Material};
-use fastphong::scene::HiddenSurfaces;
+use fastphong::mesh::Material;
+use fastphong::scene::{HiddenSurfaces, Lighting};
 use fastphong::shading::Variant;
 use glam::DVec3;
 

@@ -1,12 +1,12 @@
 //! Frames of every kind that engines draw in a way of its own.
 
-use fastphong::camera::Projection;
 use fastphong::frame::Frame;
-use fastphong::lighting::{Falloff, Light, Material, SpecularModel};
+use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
+use fastphong::picture::Encoding;
 use fastphong::scene::{
-    Clipping, DepthBits, DepthBuffer, DepthSource, Encoding, HiddenSurfaces, Interpolation,
-    PainterKey, Scene,
+    Clipping, DepthBits, DepthBuffer, DepthSource, Falloff, HiddenSurfaces, Interpolation, Light,
+    PainterKey, Projection, Scene, SpecularModel,
 };
 use glam::{DAffine3, DVec3};
 

@@ -1,7 +1,7 @@
 //! Figures of the illumination model.
 
 use super::{agreement, made, value};
-use fastphong::figures::Agreement;
+use fastphong::lectures::Agreement;
 
 #[test]
 fn illumination_adds_its_terms_and_obeys_the_cosine() {

@@ -6,7 +6,7 @@ mod projection;
 mod shading;
 mod surfaces;
 
-use fastphong::figures::{Agreement, Block, Content, FIGURES, Figure};
+use fastphong::lectures::{Agreement, Block, Content, FIGURES, Figure};
 use fastphong::report::{LectureFigure, figures_page};
 use std::collections::BTreeSet;
 

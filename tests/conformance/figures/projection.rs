@@ -1,7 +1,7 @@
 //! Figures of barycentric coordinates, of perspective and of CS171's sphere.
 
 use super::{agreement, made, value};
-use fastphong::figures::Agreement;
+use fastphong::lectures::Agreement;
 
 #[test]
 fn barycentric() {

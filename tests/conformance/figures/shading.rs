@@ -1,7 +1,7 @@
 //! Figures of what is interpolated, and how: exercises, squares, bands, Newton's root, great circles.
 
 use super::{agreement, made, value};
-use fastphong::figures::Agreement;
+use fastphong::lectures::Agreement;
 
 #[test]
 fn exercises() {

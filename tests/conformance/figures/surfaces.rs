@@ -1,7 +1,7 @@
 //! Figures of normals, and of what hides what.
 
 use super::{agreement, made, value};
-use fastphong::figures::Agreement;
+use fastphong::lectures::Agreement;
 
 #[test]
 fn newell() {

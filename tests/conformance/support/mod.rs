@@ -6,11 +6,11 @@ pub mod renderers;
 
 use cases::Size;
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
-use fastphong::lighting::{Light, Lighting, Material};
+use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
 use fastphong::mesh::obj::load_obj;
 use fastphong::scene::file::SceneFile;
-use fastphong::scene::{HiddenSurfaces, Scene};
+use fastphong::scene::{HiddenSurfaces, Light, Lighting, Scene};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

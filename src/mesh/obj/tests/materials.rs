@@ -1,7 +1,7 @@
 //! `mtllib`, `usemtl` and MTL files.
 
 use super::*;
-use crate::lighting::Material;
+use crate::mesh::Material;
 use crate::mesh::obj::read_library;
 use std::cell::RefCell;
 use std::path::Path;

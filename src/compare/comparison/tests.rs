@@ -1,0 +1,500 @@
+use super::*;
+use crate::compare::timing::{Machine, Ratio, Timing};
+use crate::frame::{FrameBuilder, SubPixel, Vertex};
+use crate::mesh::Material;
+use crate::mesh::builtin::builtin;
+use crate::mesh::vertex_normals::NormalSource;
+use crate::scene::{Camera, Fit, Light, Lighting, Object, Scene};
+use alloc::vec;
+use core::time::Duration;
+use glam::{DAffine3, DVec3};
+
+/// A built-in mesh under one light, filling 48 × 36 pixels.
+fn frame_of(mesh: &str) -> Frame {
+    let mesh = builtin(mesh).unwrap();
+    let direction = DVec3::new(0.3, 0.5, 1.0);
+    let fit = Fit {
+        direction,
+        up: DVec3::Y,
+        fraction: 0.9,
+        fovy: None,
+        aspect: 4.0 / 3.0,
+    };
+    let camera = Camera::fit(mesh.positions().iter().map(|p| p.as_dvec3()), &fit).unwrap();
+    let scene = Scene {
+        width: 48,
+        height: 36,
+        background: [0.1, 0.2, 0.3],
+        lights: vec![Light::directional(
+            DVec3::new(1.0, 1.0, 2.0).normalize(),
+            [1.0; 3],
+        )],
+        objects: vec![Object {
+            mesh: mesh.into(),
+            transform: DAffine3::IDENTITY,
+            material: None,
+            normals: NormalSource::Averaged,
+        }],
+        ..Scene::new(camera)
+    };
+    scene.frame().unwrap()
+}
+
+fn all() -> Vec<Variant> {
+    METHODS.iter().map(|entry| entry.variant()).collect()
+}
+
+fn errors_only(frame: &Frame, variants: &[Variant]) -> Comparison {
+    compare(
+        &Input {
+            name: "test".into(),
+            frame,
+        },
+        variants,
+        &Options {
+            timing: None,
+            ..Options::default()
+        },
+        &mut |_, _| {},
+    )
+}
+
+/// Five rounds, so that a comparison with times is quick.
+fn quick() -> Options {
+    let limits = Limits {
+        time_budget: Duration::ZERO,
+        rounds: 5,
+        warm_up_rounds: 1,
+    };
+    Options {
+        timing: Some(limits),
+        ..Options::default()
+    }
+}
+
+fn named<'a>(rows: &'a [Row], name: &str) -> &'a Row {
+    rows.iter().find(|row| row.name() == name).unwrap()
+}
+
+#[test]
+fn every_method_has_its_row_and_the_barycentric_renderer_its_own() {
+    let frame = frame_of("sphere?rings=6&segments=12");
+    let comparison = errors_only(&frame, &all());
+    let names = |rows: &[Row]| rows.iter().map(Row::name).collect::<Vec<_>>();
+    assert_eq!(
+        names(&comparison.rows),
+        METHODS
+            .iter()
+            .map(|e| String::from(e.info.name))
+            .collect::<Vec<_>>()
+    );
+    let in_barycentric = METHODS.iter().filter(|e| e.info.barycentric);
+    assert_eq!(
+        names(&comparison.barycentric),
+        in_barycentric
+            .map(|e| String::from(e.info.name))
+            .collect::<Vec<_>>()
+    );
+    assert!(
+        comparison.rows.iter().all(|row| row.engine == Engine::Scanlines(raster::Engine::Span) && row.speed.is_none())
+    );
+    assert!(
+        comparison
+            .barycentric
+            .iter()
+            .all(|row| row.engine == Engine::Barycentric)
+    );
+    assert!(
+        counterpart(&Variant::parse(BASELINE).unwrap()) == BASELINE,
+        "what ratios fall back on exists"
+    );
+}
+
+#[test]
+fn naive_phong_is_added_only_where_it_is_missing() {
+    let frame = frame_of("triangle");
+    let names = |variants: &[&str]| {
+        let variants: Vec<_> = variants
+            .iter()
+            .map(|text| Variant::parse(text).unwrap())
+            .collect();
+        errors_only(&frame, &variants)
+            .rows
+            .iter()
+            .map(Row::name)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        names(&["fast-phong:steps=1", "flat"]),
+        ["naive-phong", "fast-phong:steps=1", "flat"]
+    );
+    assert_eq!(
+        names(&["flat", "naive-phong", "flat"]),
+        ["flat", "naive-phong", "flat"]
+    );
+    assert_eq!(names(&[]), ["naive-phong"]);
+}
+
+#[test]
+fn numbers_of_the_frame_are_those_of_a_hand_count() {
+    // A square of 6 × 4 pixels, and in front of part of it a triangle whose legs are 4 pixels: it covers the centres
+    // with x + y < 4, where x and y are counted from its corner in halves: 3 + 2 + 1 of whole ones and 4 on the
+    // hypotenuse, which the top-left rule does not count.
+    let mut builder = FrameBuilder::new(10, 8);
+    let light = Light::directional(DVec3::Z, [1.0; 3]);
+    let material = builder.lighting(Lighting::new(
+        &Material::default(),
+        [1.0; 3],
+        &[light],
+        DVec3::Z,
+    ));
+    let mut polygon = |places: &[(i32, i32)], depth| {
+        let corners: Vec<u32> = places
+            .iter()
+            .map(|&(x, y)| {
+                let (x, y) = (SubPixel::from_num(x), SubPixel::from_num(y));
+                builder.vertex(Vertex {
+                    x,
+                    y,
+                    depth,
+                    inv_w: 1.0,
+                    normal: [0.0, 0.0, 1.0],
+                    material,
+                })
+            })
+            .collect();
+        builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
+    };
+    polygon(&[(1, 1), (7, 1), (7, 5), (1, 5)], 0.5);
+    polygon(&[(1, 1), (5, 1), (1, 5)], 0.25);
+    // A bow tie: 2 × 2 pixels in two triangles, each of which covers no centre strictly but those on its slopes.
+    polygon(&[(8, 2), (10, 4), (10, 2), (8, 4)], 0.5);
+    let frame = builder.finish().unwrap();
+    let comparison = errors_only(&frame, &all());
+    assert_eq!(
+        (comparison.polygons, comparison.triangles, comparison.lights),
+        (3, 5, 1)
+    );
+    let bow_tie = comparison.covered_pixels - 6 * 4;
+    assert!((1..=4).contains(&bow_tie), "{bow_tie} pixels");
+    assert_eq!(comparison.fragments - comparison.covered_pixels, 6);
+    assert_eq!(comparison.not_simple, 1);
+    assert!(comparison.rows.iter().all(|row| row.other_polygon == 0));
+    assert!(
+        comparison
+            .barycentric
+            .iter()
+            .all(|row| row.other_polygon == bow_tie),
+        "the bow tie is not drawn"
+    );
+    // Normals are all the same: every method computes the one colour, but for the rounding of single numbers. Slerped
+    // and stepped values add at most as many roundings as there are pixels and scanlines, 16 of 2⁻²⁴, which the power
+    // 32 multiplies by 32: 3.1e-5.
+    for row in comparison.all_rows() {
+        assert!(row.error.max <= 3.1e-5, "{} {}", row.name(), row.error.max);
+    }
+}
+
+#[test]
+fn own_closed_form_is_that_of_the_model() {
+    // With all steps of Newton's method, of which short spans over large angles need more than the default.
+    let with_all_steps =
+        |variant: Variant| match variant.info().parameters.iter().find(|p| p.name == "steps") {
+            Some(steps) => Variant::parse(&alloc::format!(
+                "{}:steps={}",
+                variant.info().name,
+                steps.most
+            ))
+            .unwrap(),
+            None => variant,
+        };
+    let variants: Vec<_> = all().into_iter().map(with_all_steps).collect();
+    for mesh in ["sphere?rings=6&segments=12", "prism"] {
+        let frame = frame_of(mesh);
+        let comparison = errors_only(&frame, &variants);
+        for row in comparison.all_rows() {
+            assert!(
+                row.is_within_bound(),
+                "{mesh}, {} {:?}: {}",
+                row.name(),
+                row.engine,
+                row.own.max
+            );
+        }
+        let naive = named(&comparison.rows, BASELINE);
+        assert_eq!(naive.own, naive.error, "it means to be the reference");
+        let gouraud = named(&comparison.rows, "gouraud");
+        assert!(
+            gouraud.error.max > 10.0 * gouraud.own.max,
+            "it is not Phong shading: {:?}",
+            gouraud.error
+        );
+    }
+}
+
+#[test]
+fn a_comparison_without_times_is_the_same_at_every_run() {
+    let frame = frame_of("sphere?rings=6&segments=12");
+    let json = || to_json(&[errors_only(&frame, &all())], &Machine::this(), &[]);
+    assert_eq!(json(), json());
+}
+
+#[test]
+fn nothing_drawn_is_no_difference() {
+    let frame = FrameBuilder::new(16, 16).finish().unwrap();
+    let comparison = compare(
+        &Input {
+            name: "empty".into(),
+            frame: &frame,
+        },
+        &all(),
+        &quick(),
+        &mut |_, _| {},
+    );
+    assert_eq!((comparison.covered_pixels, comparison.fragments), (0, 0));
+    for row in comparison.all_rows() {
+        assert!(row.error.is_none() && row.own.is_none(), "{}", row.name());
+        let speed = row.speed.as_ref().unwrap();
+        assert_eq!(speed.ns_per_covered_pixel, None);
+    }
+    let document = Document::new(core::slice::from_ref(&comparison), &Machine::this(), &[]);
+    assert!(document.comparisons[0].rows[0].error.equal);
+    assert!(document.to_text().contains("\"psnr\": null"));
+    assert!(table(&comparison, TableKind::Compare).contains("equal"));
+}
+
+#[test]
+fn speeds_belong_to_their_rows() {
+    let frame = frame_of("sphere?rings=6&segments=12");
+    let mut told = vec![];
+    let input = Input {
+        name: "sphere".into(),
+        frame: &frame,
+    };
+    let comparison = compare(&input, &all(), &quick(), &mut |part, what| {
+        told.push((part, String::from(what)))
+    });
+    for row in comparison.all_rows() {
+        let speed = row.speed.as_ref().unwrap();
+        assert_eq!(speed.timing.samples_ns.len(), 5);
+        let per_pixel = speed.ns_per_covered_pixel.unwrap();
+        assert_eq!(
+            per_pixel,
+            speed.timing.median_ns / comparison.covered_pixels as f64
+        );
+        assert!(speed.ratio_to_naive.is_some() && speed.ratio_to_barycentric.is_some());
+    }
+    let one =
+        |ratio: Option<Ratio>| ratio.map(|r| (r.low, r.median, r.high)) == Some((1.0, 1.0, 1.0));
+    let of = |row: &Row| row.speed.clone().unwrap();
+    assert!(one(of(named(&comparison.rows, BASELINE)).ratio_to_naive));
+    for row in &comparison.barycentric {
+        assert!(one(of(row).ratio_to_barycentric), "{}", row.name());
+    }
+    // The direction: what takes less time has a ratio over 1, round by round.
+    let naive = of(named(&comparison.rows, BASELINE)).timing.samples_ns;
+    for row in comparison.all_rows() {
+        let speed = of(row);
+        let mut quotients: Vec<f64> = naive
+            .iter()
+            .zip(&speed.timing.samples_ns)
+            .map(|(n, s)| n / s)
+            .collect();
+        quotients.sort_by(f64::total_cmp);
+        assert_eq!(
+            speed.ratio_to_naive.unwrap().median,
+            quotients[2],
+            "{}",
+            row.name()
+        );
+    }
+    assert!(told.is_sorted_by(|a, b| a.0 <= b.0), "{told:?}");
+    assert_eq!(
+        (told[0].0, told.last().map(|(part, _)| *part)),
+        (0.0, Some(1.0))
+    );
+    assert!(
+        told.iter().any(|(_, what)| what == "gouraud, barycentric")
+            && told.iter().any(|(_, what)| what == "timing")
+    );
+}
+
+#[test]
+fn documents_come_back_as_they_went() {
+    let frame = frame_of("prism");
+    let input = Input {
+        name: "a \"prism\"\n".into(),
+        frame: &frame,
+    };
+    let variants = [
+        Variant::parse("fast-phong:steps=3").unwrap(),
+        Variant::parse("flat").unwrap(),
+        Variant::parse("fast-phong:steps=auto").unwrap(),
+    ];
+    let comparison = compare(&input, &variants, &quick(), &mut |_, _| {});
+    let command_line = ["fastphong", "bench", "prism"].map(String::from);
+    let document = Document::new(
+        core::slice::from_ref(&comparison),
+        &Machine::this(),
+        &command_line,
+    );
+    let text = document.to_text();
+    assert!(text.starts_with("{\n  \"schema\": \"fastphong.bench/1\",\n"));
+    assert_eq!(Document::parse(&text).unwrap(), document);
+    let value = to_json(&[comparison], &Machine::this(), &command_line);
+    assert_eq!(
+        value,
+        serde_json::from_str::<serde_json::Value>(&text).unwrap()
+    );
+    let row = &value["comparisons"][0]["rows"][1];
+    assert_eq!(
+        (row["variant"].as_str(), row["parameters"]["steps"].as_u64()),
+        (Some("fast-phong:steps=3"), Some(3))
+    );
+    assert_eq!(
+        (row["model"].as_str(), row["engine"].as_str()),
+        (Some("phong-constant"), Some("span"))
+    );
+    let auto = &value["comparisons"][0]["rows"][3];
+    assert_eq!(
+        (
+            auto["variant"].as_str(),
+            auto["parameters"]["steps"].as_str()
+        ),
+        (Some("fast-phong"), Some("auto"))
+    );
+    assert!(row["speed"]["ratio_to_naive"]["tie"].is_boolean());
+    assert!(row["error"]["psnr"].is_f64() && row["error"]["equal"] == false);
+    assert!(
+        row["speed"]["timing"]["samples_ns"]
+            .as_array()
+            .is_some_and(|s| s.len() == 5)
+    );
+}
+
+/// Data from before there were other engines say nothing of them.
+#[test]
+fn older_documents_are_of_the_lectures_own_form() {
+    let comparison = errors_only(&frame_of("prism"), &[]);
+    let document = Document::new(&[comparison], &Machine::this(), &[]);
+    let mut older: serde_json::Value = serde_json::from_str(&document.to_text()).unwrap();
+    let comparison = older["comparisons"][0].as_object_mut().unwrap();
+    assert!(comparison.remove("renderer").is_some());
+    for rows in ["rows", "barycentric"] {
+        for row in comparison[rows].as_array_mut().unwrap() {
+            let row = row.as_object_mut().unwrap();
+            assert!(row.remove("level").is_some() && row.remove("threads").is_some());
+        }
+    }
+    assert_eq!(Document::parse(&older.to_string()).unwrap(), document);
+}
+
+#[test]
+fn the_description_names_every_field() {
+    let description = include_str!("../../../docs/bench-json.md");
+    let mut comparison = errors_only(&frame_of("triangle"), &[]);
+    comparison.rows[0].variant = Variant::parse("flat").unwrap(); // no parameters, whose names are not fields
+    let timing = Timing::of(vec![1.0], 1);
+    let ratio = Ratio::paired(&[1.0], &[1.0]);
+    let row = &mut comparison.rows[0];
+    row.speed = timing.map(|timing| Speed {
+        timing,
+        ns_per_covered_pixel: None,
+        ratio_to_naive: ratio,
+        ratio_to_barycentric: ratio,
+    });
+    let document = to_json(&[comparison], &Machine::this(), &[]);
+    let mut left = vec![&document];
+    let mut fields = 0;
+    while let Some(value) = left.pop() {
+        if let Some(object) = value.as_object() {
+            for (field, value) in object {
+                let (alone, in_timing) = (
+                    alloc::format!("`{field}`"),
+                    alloc::format!("`timing.{field}`"),
+                );
+                let is_named = description.contains(&alone) || description.contains(&in_timing);
+                assert!(is_named || field == "timing", "`{field}` is not described");
+                fields += 1;
+                left.push(value);
+            }
+        }
+        left.extend(value.as_array().into_iter().flatten());
+    }
+    assert!(fields > 80, "all levels were visited: {fields}");
+    for text in [super::WHAT_IS_TIMED, super::WHAT_IS_COMPARED] {
+        let last = text.rsplit([',', ';']).next().unwrap();
+        assert!(description.contains(last.trim()), "{text}");
+    }
+}
+
+#[test]
+fn what_is_no_document_is_refused() {
+    let message = |text: &str| Document::parse(text).unwrap_err().to_string();
+    assert_eq!(message("{}"), "no `schema`: expected `fastphong.bench/1`");
+    assert_eq!(
+        message(r#"{"schema": "fastphong.bench/2"}"#),
+        "schema `fastphong.bench/2`: expected `fastphong.bench/1`"
+    );
+    assert!(
+        message(r#"{"schema": "fastphong.bench/1"}"#).contains("missing field"),
+        "a field is missing"
+    );
+    assert!(message("{\n]").contains("line 2 column 1"));
+    assert!(message("").contains("fastphong.bench/1"));
+}
+
+#[test]
+fn tables_have_a_row_a_method() {
+    let frame = frame_of("sphere?rings=6&segments=12");
+    let input = Input {
+        name: "sphere".into(),
+        frame: &frame,
+    };
+    let mut comparison = compare(&input, &all(), &quick(), &mut |_, _| {});
+    for kind in [TableKind::Compare, TableKind::Bench] {
+        let text = table(&comparison, kind);
+        let (head, body) = text.split_once("\n\n").unwrap();
+        assert!(
+            head.starts_with("sphere: 48×36, ") && head.contains("speed over 1: faster"),
+            "{head}"
+        );
+        let lines: Vec<&str> = body.lines().collect();
+        assert_eq!(
+            lines.len(),
+            2 + comparison.rows.len() + comparison.barycentric.len()
+        );
+        for (line, row) in lines[2..].iter().zip(comparison.all_rows()) {
+            assert!(line.starts_with(&row.name()), "{line}");
+            let rms: Vec<f64> = line
+                .split(' ')
+                .filter_map(|word| word.parse().ok())
+                .collect();
+            // Three digits, down to the sixth place: within half of the last of them, which is 1/200 of the number, or of that
+            // place.
+            let rounded = (255.0 * row.error.rms / 200.0).max(0.5e-6);
+            let near = |shown: &f64| (shown - 255.0 * row.error.rms).abs() <= rounded;
+            assert!(line.contains(" ± ") && rms.iter().any(near), "{line}");
+        }
+        // Columns end where their heads end: all are to the right but the first.
+        let ends: Vec<usize> = lines[1..].iter().map(|line| line.chars().count()).collect();
+        assert!(ends.iter().all(|end| *end == ends[0]), "{text}");
+        assert!(!text.contains('!'));
+    }
+    comparison.rows[0].own.max = 1.0;
+    assert!(table(&comparison, TableKind::Compare).contains("!255"));
+    for row in comparison
+        .rows
+        .iter_mut()
+        .chain(&mut comparison.barycentric)
+    {
+        row.speed = None;
+    }
+    let text = table(&comparison, TableKind::Compare);
+    assert!(
+        !text.contains("speed over 1")
+            && text
+                .lines()
+                .any(|line| line.starts_with("flat") && line.ends_with('-'))
+    );
+}

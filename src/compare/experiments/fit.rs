@@ -1,0 +1,289 @@
+//! Costs that add up to times: least squares of relative errors, with no cost below zero.
+
+/// One observation: how often each cost arises, what they add up to, and how large an error of 1 is there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation<const N: usize> {
+    /// How often each cost arises.
+    pub counts: [f64; N],
+    /// What is to be explained, in the unit of the costs.
+    pub total: f64,
+    /// What errors are divided by, over 0: the total itself for relative ones.
+    pub scale: f64,
+}
+
+impl<const N: usize> Observation<N> {
+    /// What `costs` add up to here.
+    fn explained(&self, costs: &[f64; N]) -> f64 {
+        self.counts
+            .iter()
+            .zip(costs)
+            .map(|(count, cost)| count * cost)
+            .sum()
+    }
+}
+
+/// What of a column must be left when all others have explained what they can of it, as a part of its length. With less,
+/// noise of a hundredth in the totals could be taken for the whole of a cost.
+const LEAST_OF_ITS_OWN: f64 = 0.01;
+
+/// The costs c of 0 or more that make
+///
+/// ```text
+/// Σᵢ ((totalᵢ − Σⱼ cⱼ countᵢⱼ) / scaleᵢ)²
+/// ```
+///
+/// least; `None` if the observations cannot tell them apart: fewer of them than costs, a cost that never arises, or one whose
+/// counts are nearly multiples of the others'; or if a number is not finite or a scale not over 0.
+///
+/// Where the least sum has all costs over 0 it is that of ordinary least squares over those that are, so that trying every
+/// subset of the few costs finds it (Lawson & Hanson 1974, ch. 23, take more care where there are many).
+///
+/// ```
+/// use fastphong::compare::experiments::{Observation, fit};
+///
+/// let seen = |counts, total| Observation { counts, total, scale: total };
+/// let costs = fit(&[seen([1.0, 10.0], 23.0), seen([4.0, 10.0], 32.0), seen([9.0, 20.0], 67.0)]).expect("two unknowns");
+/// assert!((costs[0] - 3.0).abs() < 1e-12 && (costs[1] - 2.0).abs() < 1e-12);
+/// ```
+pub fn fit<const N: usize>(observations: &[Observation<N>]) -> Option<[f64; N]> {
+    let is_sound = |o: &Observation<N>| {
+        o.scale > 0.0
+            && o.scale.is_finite()
+            && o.total.is_finite()
+            && o.counts.iter().all(|c| c.is_finite())
+    };
+    let all = (1u32 << N) - 1;
+    if observations.len() < N || !observations.iter().all(is_sound) {
+        return None;
+    }
+    // Who cannot be told apart together are refused, also where the best subset could be.
+    solve(observations, all)?;
+    let mut best = ([0.0; N], cost_of(observations, &[0.0; N]));
+    for subset in 1..=all {
+        let Some(costs) = solve(observations, subset) else {
+            continue;
+        };
+        let left = cost_of(observations, &costs);
+        if costs.iter().all(|cost| *cost >= 0.0) && left < best.1 {
+            best = (costs, left);
+        }
+    }
+    Some(best.0)
+}
+
+fn cost_of<const N: usize>(observations: &[Observation<N>], costs: &[f64; N]) -> f64 {
+    let square = |o: &Observation<N>| {
+        let error = (o.total - o.explained(costs)) / o.scale;
+        error * error
+    };
+    observations.iter().map(square).sum()
+}
+
+/// Ordinary least squares over the costs whose bits are in `subset`, the others 0: columns of unit length made orthogonal
+/// one after the other (modified Gram–Schmidt), then solved backward.
+fn solve<const N: usize>(observations: &[Observation<N>], subset: u32) -> Option<[f64; N]> {
+    use alloc::vec::Vec;
+    let chosen: Vec<usize> = (0..N).filter(|j| subset >> j & 1 == 1).collect();
+    let mut right: Vec<f64> = observations.iter().map(|o| o.total / o.scale).collect();
+    let (mut columns, mut lengths): (Vec<Vec<f64>>, Vec<f64>) = Default::default();
+    // Row k: what the orthogonal column k has of each later column, then of the right-hand side.
+    let mut triangle: Vec<Vec<f64>> = Vec::new();
+    for &j in &chosen {
+        let column: Vec<f64> = observations.iter().map(|o| o.counts[j] / o.scale).collect();
+        let length = libm::sqrt(dot(&column, &column));
+        if length <= 0.0 || !length.is_finite() {
+            return None;
+        }
+        lengths.push(length);
+        columns.push(column.iter().map(|x| x / length).collect());
+    }
+    for k in 0..columns.len() {
+        let own = libm::sqrt(dot(&columns[k], &columns[k]));
+        if own < LEAST_OF_ITS_OWN {
+            return None;
+        }
+        let unit: Vec<f64> = columns[k].iter().map(|x| x / own).collect();
+        let mut row = alloc::vec![own];
+        for later in columns[k + 1..].iter_mut().chain([&mut right]) {
+            let part = dot(&unit, later);
+            row.push(part);
+            later
+                .iter_mut()
+                .zip(&unit)
+                .for_each(|(x, u)| *x -= part * u);
+        }
+        triangle.push(row);
+    }
+    let mut costs = [0.0; N];
+    for k in (0..chosen.len()).rev() {
+        let row = &triangle[k];
+        let later: f64 = (k + 1..chosen.len())
+            .map(|l| row[l - k] * costs[chosen[l]] * lengths[l])
+            .sum();
+        costs[chosen[k]] = (row[row.len() - 1] - later) / row[0] / lengths[k];
+    }
+    Some(costs)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec::Vec;
+
+    /// Counts as those of a mesh of `triangles` on a picture of `side`² pixels: spans grow with the root of both.
+    fn counts(triangles: f64, side: f64) -> [f64; 4] {
+        let spans = 2.0 * libm::sqrt(triangles) * side;
+        [
+            triangles,
+            spans.min(0.3 * side * side),
+            0.3 * side * side,
+            side * side * if triangles > 3e4 { 1.0 } else { 2.0 },
+        ]
+    }
+
+    fn made_up(costs: [f64; 4], noise: impl Fn(usize) -> f64) -> Vec<Observation<4>> {
+        let places = [
+            (1e3, 1e3),
+            (4e3, 1e3),
+            (16e3, 1e3),
+            (64e3, 1e3),
+            (256e3, 1e3),
+            (4e3, 150.0),
+            (4e3, 500.0),
+            (4e3, 3e3),
+        ];
+        let observation = |(i, (triangles, side)): (usize, (f64, f64))| {
+            let counts = counts(triangles, side);
+            let exact: f64 = counts.iter().zip(costs).map(|(n, c)| n * c).sum();
+            let total = exact * (1.0 + noise(i));
+            Observation {
+                counts,
+                total,
+                scale: total,
+            }
+        };
+        places.into_iter().enumerate().map(observation).collect()
+    }
+
+    /// Sums of eight products lose less than 2⁻⁴⁰ of themselves, and no column has less than a hundredth of its own, of which
+    /// the triangle of four may lose the fourth power at worst: 10⁸ · 2⁻⁵⁰ < 10⁻⁶.
+    #[test]
+    fn known_costs_are_found_again() {
+        let costs = [70.0, 20.0, 4.0, 0.5];
+        let found = fit(&made_up(costs, |_| 0.0)).unwrap();
+        for (found, cost) in found.iter().zip(costs) {
+            assert!((found / cost - 1.0).abs() < 1e-6, "{found} for {cost}");
+        }
+    }
+
+    /// What the fit finds explains the noisy totals no worse than the true costs do, as it is the least: and those are off by
+    /// the noise, 5 % of it at most 5/95 of what was measured, in each of eight.
+    #[test]
+    fn with_noise_no_total_is_missed_by_much_more_than_it() {
+        let (costs, noise) = ([70.0, 20.0, 4.0, 0.5], 0.05);
+        let observations = made_up(costs, |i| if i % 2 == 0 { noise } else { -noise });
+        let found = fit(&observations).unwrap();
+        let left = cost_of(&observations, &found);
+        assert!(left <= cost_of(&observations, &costs) && found.iter().all(|cost| *cost >= 0.0));
+        assert!(
+            left <= 8.0 * (noise / (1.0 - noise)) * (noise / (1.0 - noise)),
+            "{left}"
+        );
+    }
+
+    /// Each cost alone in two observations, one 5 % too large and one as much too small: it lies between what they say.
+    #[test]
+    fn noise_moves_a_cost_by_no_more_than_itself() {
+        let seen = |counts: [f64; 2], total| Observation {
+            counts,
+            total,
+            scale: total,
+        };
+        let observations = [
+            seen([10.0, 0.0], 1.05 * 700.0),
+            seen([90.0, 0.0], 0.95 * 6300.0),
+            seen([0.0, 3.0], 0.95 * 1.5),
+            seen([0.0, 8.0], 1.05 * 4.0),
+        ];
+        let found = fit(&observations).unwrap();
+        assert!(
+            (found[0] / 70.0 - 1.0).abs() < 0.05 && (found[1] / 0.5 - 1.0).abs() < 0.05,
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn no_cost_is_below_zero_and_the_others_are_then_the_best_without_it() {
+        // By ordinary least squares the second cost is negative: totals fall while its counts grow.
+        let seen = |counts, total| Observation {
+            counts,
+            total,
+            scale: 1.0,
+        };
+        let observations = [
+            seen([1.0, 0.0], 10.0),
+            seen([1.0, 1.0], 8.0),
+            seen([1.0, 2.0], 6.0),
+        ];
+        let plain = solve(&observations, 0b11).unwrap();
+        assert!(
+            (plain[0] - 10.0).abs() < 1e-12 && (plain[1] + 2.0).abs() < 1e-12,
+            "{plain:?}"
+        );
+        let found = fit(&observations).unwrap();
+        assert!(
+            (found[0] - 8.0).abs() < 1e-12 && found[1] == 0.0,
+            "the mean: {found:?}"
+        );
+    }
+
+    #[test]
+    fn errors_count_relative_to_their_scale() {
+        let seen = |total: f64| Observation {
+            counts: [total],
+            total: 2.0 * total,
+            scale: 2.0 * total,
+        };
+        // A thousandfold total that is off by half weighs as much as a small one that is.
+        let mut observations = [seen(1.0), seen(1.0), seen(1000.0)];
+        observations[2].total *= 1.5;
+        let found = fit(&observations).unwrap()[0];
+        // Three columns of 1/2 against right-hand sides of 1, 1 and 1.5.
+        assert!((found - 2.0 * 3.5 / 3.0).abs() < 1e-12, "{found}");
+    }
+
+    #[test]
+    fn what_cannot_be_told_apart_is_refused() {
+        let seen = |counts: [f64; 2]| Observation {
+            counts,
+            total: counts[0] + 1.0,
+            scale: 1.0,
+        };
+        assert_eq!(fit(&[seen([1.0, 2.0])]), None, "one observation");
+        assert_eq!(
+            fit(&[seen([1.0, 2.0]), seen([2.0, 4.0]), seen([3.0, 6.0])]),
+            None,
+            "twice as many vertices"
+        );
+        assert_eq!(
+            fit(&[seen([1.0, 2.0]), seen([2.0, 4.001]), seen([3.0, 6.0])]),
+            None,
+            "nearly"
+        );
+        assert_eq!(fit(&[seen([1.0, 0.0]), seen([2.0, 0.0])]), None, "never");
+        assert!(fit(&[seen([1.0, 2.0]), seen([2.0, 1.0])]).is_some());
+        for bad in [f64::NAN, f64::INFINITY] {
+            assert_eq!(fit(&[seen([1.0, 2.0]), seen([2.0, bad])]), None);
+        }
+        let without_scale = Observation {
+            counts: [1.0],
+            total: 1.0,
+            scale: 0.0,
+        };
+        assert_eq!(fit(&[without_scale]), None);
+    }
+}

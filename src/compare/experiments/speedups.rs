@@ -1,0 +1,297 @@
+//! How many times as fast as naive Phong each method is: scalar and wide, shading alone and in a whole frame.
+
+use super::{Canvas, StudyError, prepared_sphere, sphere, with_baseline};
+use crate::compare::comparison::{BASELINE, RatioData};
+use crate::compare::timing::{Candidate, Limits, Ratio, Timing, time_interleaved};
+use crate::frame::PreparedScene;
+use crate::number::Level;
+use crate::picture::Picture8;
+use crate::picture::encoding::quantise;
+use crate::raster::Renderer;
+use crate::shading::{SpanBench, SpanRow, Variant};
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec;
+use alloc::vec::Vec;
+use core::hint::black_box;
+use core::time::Duration;
+use serde::{Deserialize, Serialize};
+
+/// The angle between the normals at the ends of the span, in degrees: that of a coarse mesh.
+const DEGREES: f32 = 20.0;
+
+/// What is drawn, and for how long.
+#[derive(Clone, Debug)]
+pub struct SpeedupOptions {
+    /// Triangles of the sphere, about.
+    pub triangles: usize,
+    /// Pixels a row of its picture, and rows.
+    pub size: [u32; 2],
+    /// Pixels of a span; whole groups of eight.
+    pub span: usize,
+    /// How long all is timed.
+    pub limits: Limits,
+}
+
+impl Default for SpeedupOptions {
+    /// A sphere of 5,000 triangles on 1920 × 1080 pixels, spans of 1,024, six seconds.
+    fn default() -> Self {
+        SpeedupOptions {
+            triangles: 5_000,
+            size: [1920, 1080],
+            span: 1_024,
+            limits: Limits {
+                time_budget: Duration::from_secs(6),
+                rounds: 25,
+                warm_up_rounds: 2,
+            },
+        }
+    }
+}
+
+/// What is timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Work {
+    /// A long span shaded by the method alone: vertices and set-up, then every pixel.
+    Kernel,
+    /// A whole frame: see [`super::WHAT_A_FRAME_IS`].
+    Frame,
+}
+
+/// One of the ways in which every method is timed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Corner {
+    /// What is timed.
+    pub work: Work,
+    /// Whether it is that of the lecture: one pixel at a time, frames in [`Renderer::LECTURE`]; else all that this machine
+    /// has, frames by [`Renderer::fastest`].
+    pub scalar: bool,
+    /// The instruction set.
+    pub level: String,
+    /// Lights.
+    pub lights: usize,
+}
+
+/// How fast a method is in one corner.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Speedup {
+    /// Times of one span or frame.
+    pub timing: Timing,
+    /// Against naive Phong in the same corner; `None` if a clock too coarse gave no time over 0.
+    pub ratio_to_naive: Option<RatioData>,
+}
+
+/// How fast a method is in all corners.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MethodSpeedups {
+    /// The variant, as a user names it.
+    pub method: String,
+    /// The largest difference of a channel from naive Phong's in grey levels, in frames and in spans, in all corners.
+    pub levels_off: u8,
+    /// One a corner, in the order of [`Speedups::corners`].
+    pub corners: Vec<Speedup>,
+}
+
+impl MethodSpeedups {
+    /// Whether its picture is that of naive Phong, to one grey level.
+    pub fn is_same_picture(&self) -> bool {
+        self.levels_off <= 1
+    }
+}
+
+/// What fast Phong gained when it was invented, and what is left of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Speedups {
+    /// The mesh of the frames.
+    pub mesh: String,
+    /// Pixels a row, rows.
+    pub size: [u32; 2],
+    /// Pixels of a span.
+    pub span: usize,
+    /// Kernels scalar and wide, frames scalar and wide, with one light; then kernels with four. Where the machine has no wide
+    /// arithmetic, there are no kernels in it.
+    pub corners: Vec<Corner>,
+    /// The methods; naive Phong is among them.
+    pub methods: Vec<MethodSpeedups>,
+}
+
+impl Speedups {
+    /// Draws and times `variants`, and naive Phong, in one interleaved run on the current pool of threads. `progress` is told
+    /// which part is done, 0..=1, and what is being done; never while a time is taken.
+    ///
+    /// # Errors
+    /// [`StudyError`] if there is no such mesh or picture.
+    pub fn measure(
+        variants: &[Variant],
+        options: &SpeedupOptions,
+        progress: &mut dyn FnMut(f32, &str),
+    ) -> Result<Speedups, StudyError> {
+        let variants = with_baseline(variants);
+        progress(0.0, "pictures");
+        let scene = prepared_sphere(options.triangles, options.size)?;
+        let canvas = Canvas::new(&scene)?;
+        let corners = corners();
+        let levels_off = levels_off(&variants, &scene, &corners, options.span)?;
+        let mut candidates: Vec<Candidate<'_>> = Vec::new();
+        for corner in &corners {
+            for variant in &variants {
+                candidates.push(match corner.work {
+                    Work::Kernel => {
+                        kernel(variant, level(corner.scalar), corner.lights, options.span)
+                    }
+                    Work::Frame => canvas.draws(&scene, variant, renderer(corner.scalar)),
+                });
+            }
+        }
+        let timings = time_interleaved(&mut candidates, options.limits, |part| {
+            progress(part, "timing")
+        });
+        drop(candidates);
+        let naive = variants.iter().position(is_naive).unwrap_or(0);
+        let speedup = |method: usize, corner: usize| {
+            let of = |method: usize| &timings[corner * variants.len() + method];
+            let ratio = Ratio::paired(&of(naive).samples_ns, &of(method).samples_ns);
+            Speedup {
+                timing: of(method).clone(),
+                ratio_to_naive: ratio.map(RatioData::from),
+            }
+        };
+        let methods =
+            variants
+                .iter()
+                .zip(levels_off)
+                .enumerate()
+                .map(|(i, (variant, levels_off))| MethodSpeedups {
+                    method: variant.to_string(),
+                    levels_off,
+                    corners: (0..corners.len())
+                        .map(|corner| speedup(i, corner))
+                        .collect(),
+                });
+        let methods = methods.collect();
+        let (mesh, size) = (
+            format!("builtin:{}", sphere(options.triangles)),
+            options.size,
+        );
+        Ok(Speedups {
+            mesh,
+            size,
+            span: options.span,
+            corners,
+            methods,
+        })
+    }
+}
+
+/// How frames are drawn in the corners of the lecture, and in those of today.
+fn renderer(scalar: bool) -> Renderer {
+    if scalar {
+        Renderer::LECTURE
+    } else {
+        Renderer::fastest()
+    }
+}
+
+/// The instruction set of the kernels.
+fn level(scalar: bool) -> Level {
+    if scalar { Level::Scalar } else { Level::best() }
+}
+
+/// All corners that this machine has.
+fn corners() -> Vec<Corner> {
+    let best = Level::best();
+    let all = [
+        (Work::Kernel, true, 1),
+        (Work::Kernel, false, 1),
+        (Work::Frame, true, 1),
+        (Work::Frame, false, 1),
+        (Work::Kernel, true, 4),
+        (Work::Kernel, false, 4),
+    ];
+    // The widest kernel of a machine without wide arithmetic is the scalar one, which is there already.
+    let differ = all
+        .into_iter()
+        .filter(|(work, scalar, _)| *scalar || *work == Work::Frame || best != Level::Scalar);
+    let corner = |(work, scalar, lights)| Corner {
+        work,
+        scalar,
+        level: level(scalar).name().to_string(),
+        lights,
+    };
+    differ.map(corner).collect()
+}
+
+/// A span shaded by the method alone.
+fn kernel(variant: &Variant, level: Level, lights: usize, length: usize) -> Candidate<'_> {
+    let bench = SpanBench::new(DEGREES, lights);
+    if level == Level::Scalar {
+        let mut colours = vec![[0.0; 3]; length];
+        return Box::new(move || variant.shade_span(black_box(&bench), black_box(&mut colours)));
+    }
+    let mut row = SpanRow::new(variant, &bench, length);
+    Box::new(move || variant.shade_span_on(level, black_box(&bench), black_box(&mut row)))
+}
+
+/// How far what each variant draws is from what naive Phong does, in all corners.
+fn levels_off(
+    variants: &[Variant],
+    scene: &PreparedScene,
+    corners: &[Corner],
+    span: usize,
+) -> Result<Vec<u8>, StudyError> {
+    let frame = scene.frame()?;
+    let mut off = vec![0; variants.len()];
+    for corner in corners {
+        let drawn = |variant: &Variant| match corner.work {
+            Work::Kernel => span_picture(variant, corner, span),
+            Work::Frame => {
+                let mut picture = Picture8::new(0, 0, [0; 4]);
+                variant.render_with(&frame, renderer(corner.scalar), &mut picture);
+                picture
+            }
+        };
+        let Some(naive) = variants.iter().find(|variant| is_naive(variant)) else {
+            continue;
+        };
+        let naive = drawn(naive);
+        for (off, variant) in off.iter_mut().zip(variants) {
+            *off = farthest(&naive, &drawn(variant)).max(*off);
+        }
+    }
+    Ok(off)
+}
+
+fn is_naive(variant: &Variant) -> bool {
+    variant.info().name == BASELINE && variant.is_default()
+}
+
+/// A span as it would be stored.
+fn span_picture(variant: &Variant, corner: &Corner, length: usize) -> Picture8 {
+    let bench = SpanBench::new(DEGREES, corner.lights);
+    let mut picture = Picture8::new(length, 1, [0; 4]);
+    if corner.scalar {
+        let mut colours = vec![[0.0f32; 3]; length];
+        variant.shade_span(&bench, &mut colours);
+        for (pixel, colour) in picture.texels_mut().iter_mut().zip(&colours) {
+            let [red, green, blue] = colour.map(quantise);
+            *pixel = [red, green, blue, 255];
+        }
+    } else {
+        let mut row = SpanRow::new(variant, &bench, length);
+        variant.shade_span_on(level(corner.scalar), &bench, &mut row);
+        picture.texels_mut().copy_from_slice(row.bytes());
+    }
+    picture
+}
+
+/// The largest difference of a channel of two pictures of one size, in grey levels.
+fn farthest(a: &Picture8, b: &Picture8) -> u8 {
+    let texels = a.texels().iter().zip(b.texels());
+    texels
+        .flat_map(|(a, b)| a.iter().zip(b))
+        .map(|(a, b)| a.abs_diff(*b))
+        .max()
+        .unwrap_or(0)
+}

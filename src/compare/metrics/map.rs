@@ -1,0 +1,368 @@
+//! Difference as a picture.
+//!
+//! Both maps are drawn on a scale that the caller states, in grey levels, and never on one fitted to the picture: maps
+//! of different methods can only be compared on the same scale. What is equal is black and any difference, however
+//! small, is not; what is beyond the scale has a colour that the scale does not contain.
+
+use super::{SizeMismatch, channel_errors};
+use crate::picture::{Levels, Picture, Picture8, Texel};
+
+/// Colour of pixels without a difference.
+pub const EQUAL: [u8; 4] = [0, 0, 0, 255];
+/// Colour of pixels whose error is beyond the scale, or not finite; in the signed map, of those that are too bright.
+pub const BEYOND: [u8; 4] = [255, 0, 255, 255];
+/// Colour, in the signed map, of pixels that are too dark by more than the scale.
+pub const BEYOND_DARKER: [u8; 4] = [0, 255, 0, 255];
+/// Colour of pixels that only one of the pictures covers, whatever their difference.
+pub const COVERAGE: [u8; 4] = [255, 255, 255, 255];
+
+/// Ends of the signed map's ramp for what is too bright: orange, from dark to light.
+const BRIGHTER: [[f64; 3]; 2] = [[80.0, 32.0, 8.0], [255.0, 196.0, 120.0]];
+/// Ends of its ramp for what is too dark: blue, which is told from orange by colour-blind eyes as well.
+const DARKER: [[f64; 3]; 2] = [[16.0, 40.0, 92.0], [136.0, 200.0, 255.0]];
+
+/// The absolute difference of two pictures, the largest of a pixel's channels, in the colours of viridis.
+///
+/// Purple is the smallest difference, yellow one of `scale` grey levels. Black: equal; [`BEYOND`]: more than `scale`, or
+/// not finite; [`COVERAGE`]: covered by one picture only. Every difference is beyond a scale that is zero, negative or NaN.
+///
+/// # Errors
+/// If the sizes differ.
+pub fn difference_map<A: Texel, B: Texel>(
+    reference: &Picture<A>,
+    actual: &Picture<B>,
+    scale: f32,
+) -> Result<Picture8, SizeMismatch> {
+    difference_map_of_blocks(reference, actual, scale, 1)
+}
+
+/// The same map in squares of `side` × `side` pixels, each of the colour of its largest difference: a file of a part of the
+/// size that hides no difference. A pixel that only one picture covers is the largest.
+///
+/// # Errors
+/// If the sizes differ.
+pub fn difference_map_of_blocks<A: Texel, B: Texel>(
+    reference: &Picture<A>,
+    actual: &Picture<B>,
+    scale: f32,
+    side: usize,
+) -> Result<Picture8, SizeMismatch> {
+    SizeMismatch::check(reference, actual)?;
+    let (width, height, side) = (reference.width(), reference.height(), side.max(1));
+    let error = |x: usize, y: usize| {
+        let (r, a) = (reference.get(x, y).levels(), actual.get(x, y).levels());
+        let channels = channel_errors(r, a);
+        match channels.not_finite {
+            _ if r.alpha() != a.alpha() => Error::Coverage,
+            true => Error::Channels(f64::INFINITY),
+            false => Error::Channels(channels.errors.into_iter().fold(0.0, f64::max)),
+        }
+    };
+    let mut map = Picture8::new(width, height, EQUAL);
+    for (top, left) in (0..height)
+        .step_by(side)
+        .flat_map(|y| (0..width).step_by(side).map(move |x| (y, x)))
+    {
+        let (rows, columns) = (top..height.min(top + side), left..width.min(left + side));
+        let errors = rows
+            .clone()
+            .flat_map(|y| columns.clone().map(move |x| error(x, y)));
+        let colour = match errors.fold(Error::Channels(0.0), Error::larger) {
+            Error::Coverage => COVERAGE,
+            Error::Channels(error) => absolute_colour(error, f64::from(scale)),
+        };
+        for y in rows {
+            map.row_mut(y)[columns.clone()].fill(colour);
+        }
+    }
+    Ok(map)
+}
+
+/// What is wrong with a pixel.
+#[derive(Clone, Copy)]
+enum Error {
+    /// Only one picture covers it.
+    Coverage,
+    /// The largest error of its channels; infinite where one is not finite.
+    Channels(f64),
+}
+
+impl Error {
+    fn larger(self, other: Error) -> Error {
+        match (self, other) {
+            (Error::Channels(a), Error::Channels(b)) => Error::Channels(a.max(b)),
+            _ => Error::Coverage,
+        }
+    }
+}
+
+/// The difference of luminance of two pictures, with its sign: orange where `actual` is too bright, blue where it is too dark.
+///
+/// The darkest orange or blue is the smallest difference, the lightest one of `scale` grey levels. Black: equal in
+/// luminance; [`BEYOND`], [`BEYOND_DARKER`]: too bright or too dark by more than `scale`; [`COVERAGE`]: covered by one
+/// picture only. What is not finite is [`BEYOND`]. Every difference is beyond a scale that is zero, negative or NaN.
+///
+/// # Errors
+/// If the sizes differ.
+pub fn signed_difference_map<A: Texel, B: Texel>(
+    reference: &Picture<A>,
+    actual: &Picture<B>,
+    scale: f32,
+) -> Result<Picture8, SizeMismatch> {
+    paint(reference, actual, |r, a| {
+        if channel_errors(r, a).not_finite {
+            return BEYOND;
+        }
+        signed_colour(a.luminance() - r.luminance(), f64::from(scale))
+    })
+}
+
+/// The scale of [`difference_map`] as a picture: 0 at the left end, the full scale at the right.
+pub fn colour_bar(width: usize, height: usize) -> Picture8 {
+    bar(width, height, |at| absolute_colour(at, 1.0))
+}
+
+/// The scale of [`signed_difference_map`] as a picture: minus the full scale at the left end, zero in the middle, the
+/// full scale at the right.
+pub fn signed_colour_bar(width: usize, height: usize) -> Picture8 {
+    bar(width, height, |at| signed_colour(2.0 * at - 1.0, 1.0))
+}
+
+fn paint<A: Texel, B: Texel>(
+    reference: &Picture<A>,
+    actual: &Picture<B>,
+    colour: impl Fn(Levels, Levels) -> [u8; 4],
+) -> Result<Picture8, SizeMismatch> {
+    SizeMismatch::check(reference, actual)?;
+    let mut map = Picture8::new(reference.width(), reference.height(), EQUAL);
+    for (out, (r, a)) in map
+        .texels_mut()
+        .iter_mut()
+        .zip(reference.texels().iter().zip(actual.texels()))
+    {
+        let (r, a) = (r.levels(), a.levels());
+        *out = if r.alpha() == a.alpha() {
+            colour(r, a)
+        } else {
+            COVERAGE
+        };
+    }
+    Ok(map)
+}
+
+/// Columns of `colour` at 0..=1, ends included.
+fn bar(width: usize, height: usize, colour: impl Fn(f64) -> [u8; 4]) -> Picture8 {
+    let mut bar = Picture8::new(width, height, EQUAL);
+    let last = width.saturating_sub(1).max(1) as f64;
+    for y in 0..height {
+        for (x, out) in bar.row_mut(y).iter_mut().enumerate() {
+            *out = colour(x as f64 / last);
+        }
+    }
+    bar
+}
+
+fn absolute_colour(error: f64, scale: f64) -> [u8; 4] {
+    if error == 0.0 {
+        return EQUAL;
+    }
+    // A comparison with NaN fails: it ends beyond the scale.
+    if error <= scale {
+        let [_, r, g, b] = VIRIDIS[(255.0 * (error / scale) + 0.5) as usize].to_be_bytes();
+        [r, g, b, 255]
+    } else {
+        BEYOND
+    }
+}
+
+fn signed_colour(error: f64, scale: f64) -> [u8; 4] {
+    if error == 0.0 {
+        return EQUAL;
+    }
+    let ([from, to], beyond) = if error > 0.0 {
+        (BRIGHTER, BEYOND)
+    } else {
+        (DARKER, BEYOND_DARKER)
+    };
+    if error.abs() <= scale {
+        let share = error.abs() / scale;
+        let [r, g, b] = core::array::from_fn(|i| (from[i] + share * (to[i] - from[i]) + 0.5) as u8);
+        [r, g, b, 255]
+    } else {
+        beyond
+    }
+}
+
+/// The colour map viridis, 0xRRGGBB: equal steps look equal, in grey and to colour-blind eyes too, and its dark end is not black.
+///
+/// By Nathaniel J. Smith, Stéfan van der Walt and Eric Firing, dedicated to the public domain (CC0); 8-bit values as in
+/// Matplotlib 3.11.
+#[rustfmt::skip]
+static VIRIDIS: [u32; 256] = [
+    0x440154, 0x440256, 0x450457, 0x450559, 0x46075a, 0x46085c, 0x460a5d, 0x460b5e, 0x470d60, 0x470e61, 0x471063,
+    0x471164, 0x471365, 0x481467, 0x481668, 0x481769, 0x48186a, 0x481a6c, 0x481b6d, 0x481c6e, 0x481d6f, 0x481f70,
+    0x482071, 0x482173, 0x482374, 0x482475, 0x482576, 0x482677, 0x482878, 0x482979, 0x472a7a, 0x472c7a, 0x472d7b,
+    0x472e7c, 0x472f7d, 0x46307e, 0x46327e, 0x46337f, 0x463480, 0x453581, 0x453781, 0x453882, 0x443983, 0x443a83,
+    0x443b84, 0x433d84, 0x433e85, 0x423f85, 0x424086, 0x424186, 0x414287, 0x414487, 0x404588, 0x404688, 0x3f4788,
+    0x3f4889, 0x3e4989, 0x3e4a89, 0x3e4c8a, 0x3d4d8a, 0x3d4e8a, 0x3c4f8a, 0x3c508b, 0x3b518b, 0x3b528b, 0x3a538b,
+    0x3a548c, 0x39558c, 0x39568c, 0x38588c, 0x38598c, 0x375a8c, 0x375b8d, 0x365c8d, 0x365d8d, 0x355e8d, 0x355f8d,
+    0x34608d, 0x34618d, 0x33628d, 0x33638d, 0x32648e, 0x32658e, 0x31668e, 0x31678e, 0x31688e, 0x30698e, 0x306a8e,
+    0x2f6b8e, 0x2f6c8e, 0x2e6d8e, 0x2e6e8e, 0x2e6f8e, 0x2d708e, 0x2d718e, 0x2c718e, 0x2c728e, 0x2c738e, 0x2b748e,
+    0x2b758e, 0x2a768e, 0x2a778e, 0x2a788e, 0x29798e, 0x297a8e, 0x297b8e, 0x287c8e, 0x287d8e, 0x277e8e, 0x277f8e,
+    0x27808e, 0x26818e, 0x26828e, 0x26828e, 0x25838e, 0x25848e, 0x25858e, 0x24868e, 0x24878e, 0x23888e, 0x23898e,
+    0x238a8d, 0x228b8d, 0x228c8d, 0x228d8d, 0x218e8d, 0x218f8d, 0x21908d, 0x21918c, 0x20928c, 0x20928c, 0x20938c,
+    0x1f948c, 0x1f958b, 0x1f968b, 0x1f978b, 0x1f988b, 0x1f998a, 0x1f9a8a, 0x1e9b8a, 0x1e9c89, 0x1e9d89, 0x1f9e89,
+    0x1f9f88, 0x1fa088, 0x1fa188, 0x1fa187, 0x1fa287, 0x20a386, 0x20a486, 0x21a585, 0x21a685, 0x22a785, 0x22a884,
+    0x23a983, 0x24aa83, 0x25ab82, 0x25ac82, 0x26ad81, 0x27ad81, 0x28ae80, 0x29af7f, 0x2ab07f, 0x2cb17e, 0x2db27d,
+    0x2eb37c, 0x2fb47c, 0x31b57b, 0x32b67a, 0x34b679, 0x35b779, 0x37b878, 0x38b977, 0x3aba76, 0x3bbb75, 0x3dbc74,
+    0x3fbc73, 0x40bd72, 0x42be71, 0x44bf70, 0x46c06f, 0x48c16e, 0x4ac16d, 0x4cc26c, 0x4ec36b, 0x50c46a, 0x52c569,
+    0x54c568, 0x56c667, 0x58c765, 0x5ac864, 0x5cc863, 0x5ec962, 0x60ca60, 0x63cb5f, 0x65cb5e, 0x67cc5c, 0x69cd5b,
+    0x6ccd5a, 0x6ece58, 0x70cf57, 0x73d056, 0x75d054, 0x77d153, 0x7ad151, 0x7cd250, 0x7fd34e, 0x81d34d, 0x84d44b,
+    0x86d549, 0x89d548, 0x8bd646, 0x8ed645, 0x90d743, 0x93d741, 0x95d840, 0x98d83e, 0x9bd93c, 0x9dd93b, 0xa0da39,
+    0xa2da37, 0xa5db36, 0xa8db34, 0xaadc32, 0xaddc30, 0xb0dd2f, 0xb2dd2d, 0xb5de2b, 0xb8de29, 0xbade28, 0xbddf26,
+    0xc0df25, 0xc2df23, 0xc5e021, 0xc8e020, 0xcae11f, 0xcde11d, 0xd0e11c, 0xd2e21b, 0xd5e21a, 0xd8e219, 0xdae319,
+    0xdde318, 0xdfe318, 0xe2e418, 0xe5e419, 0xe7e419, 0xeae51a, 0xece51b, 0xefe51c, 0xf1e51d, 0xf4e61e, 0xf6e620,
+    0xf8e621, 0xfbe723, 0xfde725,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grey(level: u8) -> Picture8 {
+        Picture8::new(1, 1, [level, level, level, 255])
+    }
+
+    fn absolute(reference: u8, actual: u8, scale: f32) -> [u8; 4] {
+        difference_map(&grey(reference), &grey(actual), scale)
+            .unwrap()
+            .get(0, 0)
+    }
+
+    fn signed(reference: u8, actual: u8, scale: f32) -> [u8; 4] {
+        signed_difference_map(&grey(reference), &grey(actual), scale)
+            .unwrap()
+            .get(0, 0)
+    }
+
+    #[test]
+    fn absolute_map_has_its_colours_where_the_scale_says() {
+        assert_eq!(absolute(100, 100, 16.0), EQUAL);
+        assert_eq!(
+            absolute(100, 116, 16.0),
+            [0xfd, 0xe7, 0x25, 255],
+            "viridis ends in yellow, at the scale itself"
+        );
+        assert_eq!(
+            absolute(116, 100, 16.0),
+            [0xfd, 0xe7, 0x25, 255],
+            "whatever the sign"
+        );
+        assert_eq!(absolute(100, 117, 16.0), BEYOND);
+        // 8/16 of the way: entry 128 of 0..=255, teal.
+        assert_eq!(absolute(100, 108, 16.0), [0x21, 0x91, 0x8c, 255]);
+    }
+
+    #[test]
+    fn the_smallest_difference_is_not_black() {
+        let reference = Picture::new(1, 1, [0.5f32, 0.5, 0.5, 1.0]);
+        let actual = Picture::new(1, 1, [0.5f32, 0.5, 0.5 + 6e-8, 1.0]);
+        assert_eq!(
+            difference_map(&reference, &actual, 255.0)
+                .unwrap()
+                .get(0, 0),
+            [0x44, 0x01, 0x54, 255]
+        );
+        assert_eq!(
+            signed_difference_map(&reference, &actual, 255.0)
+                .unwrap()
+                .get(0, 0),
+            [80, 32, 8, 255]
+        );
+    }
+
+    #[test]
+    fn signed_map_tells_bright_from_dark() {
+        assert_eq!(signed(100, 100, 4.0), EQUAL);
+        assert_eq!(signed(100, 105, 4.0), BEYOND);
+        assert_eq!(signed(105, 100, 4.0), BEYOND_DARKER);
+        let (bright, dark) = (signed(100, 103, 4.0), signed(103, 100, 4.0));
+        assert!(
+            bright[0] > bright[2] && dark[2] > dark[0],
+            "{bright:?} is orange, {dark:?} is blue"
+        );
+    }
+
+    #[test]
+    fn blocks_show_their_largest_difference() {
+        let mut actual = Picture8::new(3, 3, [0, 0, 0, 255]);
+        let reference = actual.clone();
+        actual.row_mut(1)[0] = [0, 4, 0, 255];
+        actual.row_mut(0)[1] = [2, 0, 0, 255];
+        actual.row_mut(2)[2] = [9, 0, 0, 0];
+        let single = difference_map(&reference, &actual, 8.0).unwrap();
+        let blocks = difference_map_of_blocks(&reference, &actual, 8.0, 2).unwrap();
+        // The block at the top left shows 4, the larger of 2 and 4; the one cut off at the corner its coverage.
+        for (x, y) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            assert_eq!(blocks.get(x, y), single.get(0, 1));
+        }
+        assert_eq!(
+            (blocks.get(2, 0), blocks.get(1, 2), blocks.get(2, 2)),
+            (EQUAL, EQUAL, COVERAGE)
+        );
+    }
+
+    #[test]
+    fn coverage_and_nonsense_are_shown() {
+        let covered = Picture::new(1, 1, [0.5f32, 0.5, 0.5, 1.0]);
+        let uncovered = Picture::new(1, 1, [0.5f32, 0.5, 0.5, 0.0]);
+        let lost = Picture::new(1, 1, [0.5, f32::NAN, 0.5, 1.0]);
+        for map in [difference_map, signed_difference_map] {
+            assert_eq!(map(&covered, &uncovered, 1.0).unwrap().get(0, 0), COVERAGE);
+            assert_eq!(map(&covered, &lost, 255.0).unwrap().get(0, 0), BEYOND);
+        }
+        for scale in [0.0, -1.0, f32::NAN] {
+            assert_eq!(
+                [absolute(1, 1, scale), absolute(1, 2, scale)],
+                [EQUAL, BEYOND]
+            );
+            assert_eq!(
+                [signed(1, 1, scale), signed(2, 1, scale)],
+                [EQUAL, BEYOND_DARKER]
+            );
+        }
+        assert!(difference_map(&covered, &Picture::new(2, 1, [0.0f32; 4]), 1.0).is_err());
+    }
+
+    #[test]
+    fn bars_run_over_the_whole_scale() {
+        let row = |bar: Picture8| [bar.get(0, 1), bar.get(50, 1), bar.get(100, 1)];
+        assert_eq!(
+            row(colour_bar(101, 2)),
+            [EQUAL, [0x21, 0x91, 0x8c, 255], [0xfd, 0xe7, 0x25, 255]]
+        );
+        assert_eq!(
+            row(signed_colour_bar(101, 2)),
+            [[136, 200, 255, 255], EQUAL, [255, 196, 120, 255]]
+        );
+        assert_eq!(colour_bar(1, 1).get(0, 0), EQUAL);
+        assert_eq!(colour_bar(0, 3).texels(), &[] as &[[u8; 4]]);
+    }
+
+    #[test]
+    fn no_colour_of_the_scale_is_one_with_another_meaning() {
+        for level in 1..=1000 {
+            let at = f64::from(level) / 1000.0;
+            for colour in [
+                absolute_colour(at, 1.0),
+                signed_colour(at, 1.0),
+                signed_colour(-at, 1.0),
+            ] {
+                assert!(
+                    ![EQUAL, BEYOND, BEYOND_DARKER, COVERAGE].contains(&colour),
+                    "{colour:?} at {at}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,333 @@
+//! A picture against a picture: how far a method is from the reference, in numbers and as a map.
+//!
+//! Values are compared as they are stored: linear pictures in linear light, encoded ones in their encoding. Two pictures
+//! tell something about each other only if both are stored the same way.
+//!
+//! Errors are kept in 0..=1, as colours are; [`METRICS`] states them in grey levels (1/255), as people do.
+//!
+//! # Which pixels count
+//! A pixel that neither picture covers, and that has the same colour in both, is *background*: it is left out of every
+//! mean, as more of it would flatter every method. All others are *compared*, with the colours that the two pictures
+//! store; a pixel that only one of them covers is counted as a coverage mismatch as well. Only PSNR, SSIM and
+//! `frame_rms` are taken over the whole frame, so that they equal what other tools report.
+//!
+//! ```
+//! use fastphong::compare::metrics::compare;
+//! use fastphong::picture::Picture8;
+//!
+//! let reference = Picture8::new(320, 240, [200, 120, 40, 255]);
+//! let mut actual = reference.clone();
+//! actual.row_mut(7)[30] = [200, 123, 40, 255];
+//!
+//! let difference = compare(&reference, &actual)?;
+//! assert_eq!(difference.max, 3.0 / 255.0);
+//! assert_eq!(difference.worst, Some([30, 7]));
+//! assert_eq!(difference.over_one_level, 1);
+//! assert!(difference.signed_mean > 0.0, "brighter than the reference");
+//! # Ok::<(), fastphong::compare::metrics::SizeMismatch>(())
+//! ```
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use crate::picture::Picture;
+
+mod list;
+mod map;
+mod ssim;
+
+use crate::picture::{Levels, Texel};
+pub use list::{Better, METRICS, MetricInfo};
+pub use map::{
+    BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, colour_bar, difference_map, difference_map_of_blocks,
+    signed_colour_bar, signed_difference_map,
+};
+
+/// Share of the compared pixels whose error does not exceed [`Difference::p99`].
+const PERCENTILE: f64 = 0.99;
+
+/// How far one picture is from another.
+///
+/// A pixel's error is the largest absolute difference of its three channels, in 0..=1 for values in 0..=1. A channel
+/// that is not finite in one of the pictures counts as an error of 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "io", derive(serde::Serialize, serde::Deserialize))]
+pub struct Difference {
+    /// Pixels of the frame, without those excluded.
+    pub frame: usize,
+    /// Pixels left out on the caller's wish.
+    pub excluded: usize,
+    /// Pixels that the means are taken over: the frame without its background.
+    pub compared: usize,
+    /// Compared pixels whose colour is not the same to the last bit.
+    pub differing: usize,
+    /// Compared pixels with an error of more than half a grey level, 0.5/255: those that may be stored differently.
+    pub over_half_level: usize,
+    /// Compared pixels with an error of more than one grey level, 1/255.
+    pub over_one_level: usize,
+    /// Pixels whose alpha differs: only one of the pictures covers them.
+    pub coverage_mismatches: usize,
+    /// Compared pixels with a channel that is infinite or not a number in either picture.
+    pub not_finite: usize,
+    /// The largest error of a pixel.
+    pub max: f64,
+    /// Column and row of the first pixel, in reading order, with the largest error; `None` if no colour differs.
+    pub worst: Option<[usize; 2]>,
+    /// The error that 99 % of the compared pixels do not exceed.
+    pub p99: f64,
+    /// Mean absolute error over the channels of the compared pixels.
+    pub mae: f64,
+    /// Root of the mean squared error over the channels of the compared pixels.
+    pub rms: f64,
+    /// The same over the whole frame.
+    pub frame_rms: f64,
+    /// Mean of the luminance of the actual picture minus the reference's, over the compared pixels: positive if it is too bright.
+    pub signed_mean: f64,
+    /// Peak signal-to-noise ratio over the whole frame, −20 log₁₀ `frame_rms`, in dB; infinite if no colour differs (`null` when serialised).
+    #[cfg_attr(feature = "io", serde(with = "infinite_as_null"))]
+    pub psnr: f64,
+    /// Mean structural similarity of luminance over the whole frame (Wang et al. 2004: 11×11 Gaussian window, σ = 1.5,
+    /// K1 = 0.01, K2 = 0.03, L = 1), 1 for equal pictures; `None` if the frame is smaller than the window.
+    ///
+    /// Excluded pixels count as equal.
+    pub ssim: Option<f64>,
+}
+
+impl Difference {
+    /// Whether the pictures agree in the colour and coverage of every pixel, excluded ones aside.
+    pub fn is_none(&self) -> bool {
+        self.differing == 0 && self.coverage_mismatches == 0
+    }
+
+    /// The share of the compared pixels that `count` pixels are, in 0..=1; 0 if none was compared.
+    pub fn share(&self, count: usize) -> f64 {
+        if self.compared == 0 {
+            0.0
+        } else {
+            count as f64 / self.compared as f64
+        }
+    }
+}
+
+/// JSON has no infinity: an infinite ratio is stored as null.
+#[cfg(feature = "io")]
+mod infinite_as_null {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(decibels: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        decibels
+            .is_finite()
+            .then_some(*decibels)
+            .serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+}
+
+/// Two pictures that cannot be compared: their sizes differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SizeMismatch {
+    /// Width and height of the reference.
+    pub reference: [usize; 2],
+    /// Width and height of the other picture.
+    pub actual: [usize; 2],
+}
+
+impl SizeMismatch {
+    fn check<A: Copy, B: Copy>(
+        reference: &Picture<A>,
+        actual: &Picture<B>,
+    ) -> Result<(), SizeMismatch> {
+        let sizes = SizeMismatch {
+            reference: [reference.width(), reference.height()],
+            actual: [actual.width(), actual.height()],
+        };
+        if sizes.reference == sizes.actual {
+            Ok(())
+        } else {
+            Err(sizes)
+        }
+    }
+}
+
+impl fmt::Display for SizeMismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ([rw, rh], [aw, ah]) = (self.reference, self.actual);
+        write!(
+            f,
+            "the reference is {rw}×{rh} pixels, the other picture {aw}×{ah}: expected the same size"
+        )
+    }
+}
+
+impl core::error::Error for SizeMismatch {}
+
+/// The difference of `actual` from `reference`, over all pixels.
+///
+/// ```
+/// use fastphong::compare::metrics::{METRICS, compare};
+/// use fastphong::picture::LinearPicture;
+///
+/// let reference = LinearPicture::new(16, 16, [0.5, 0.5, 0.5, 1.0]);
+/// let actual = LinearPicture::new(16, 16, [0.5, 0.75, 0.5, 1.0]);
+/// let difference = compare(&reference, &actual)?;
+/// assert_eq!(difference.max, 0.25);
+/// for metric in METRICS {
+///     println!("{}: {:?} {}", metric.name, (metric.value)(&difference), metric.unit);
+/// }
+/// # Ok::<(), fastphong::compare::metrics::SizeMismatch>(())
+/// ```
+///
+/// # Errors
+/// If the sizes differ.
+pub fn compare<A: Texel, B: Texel>(
+    reference: &Picture<A>,
+    actual: &Picture<B>,
+) -> Result<Difference, SizeMismatch> {
+    compare_where(reference, actual, |_, _| true)
+}
+
+/// The difference of `actual` from `reference`, over the pixels for whose column and row `included` holds.
+///
+/// For pixels that are known to differ for a reason other than the one asked about, such as those where two renderers
+/// show different polygons: they are counted in [`Difference::excluded`] and enter nothing else.
+///
+/// # Errors
+/// If the sizes differ.
+pub fn compare_where<A: Texel, B: Texel>(
+    reference: &Picture<A>,
+    actual: &Picture<B>,
+    included: impl Fn(usize, usize) -> bool,
+) -> Result<Difference, SizeMismatch> {
+    SizeMismatch::check(reference, actual)?;
+    let (width, height) = (reference.width(), reference.height());
+    let mut tally = Tally::default();
+    let mut luminance = [
+        Vec::with_capacity(width * height),
+        Vec::with_capacity(width * height),
+    ];
+    for y in 0..height {
+        for (x, (r, a)) in reference.row(y).iter().zip(actual.row(y)).enumerate() {
+            let (r, a) = (r.levels(), a.levels());
+            let included = included(x, y);
+            if included {
+                tally.add([x, y], r, a);
+            } else {
+                tally.excluded += 1;
+            }
+            luminance[0].push(r.luminance() / 255.0);
+            luminance[1].push(if included { a } else { r }.luminance() / 255.0);
+        }
+    }
+    let [reference, actual] = &luminance;
+    Ok(tally.finish(ssim::mean_ssim(reference, actual, width)))
+}
+
+/// Sums over pixels, in grey levels.
+#[derive(Default)]
+struct Tally {
+    frame: usize,
+    excluded: usize,
+    differing: usize,
+    over_half_level: usize,
+    over_one_level: usize,
+    coverage_mismatches: usize,
+    not_finite: usize,
+    max: f64,
+    worst: Option<[usize; 2]>,
+    absolute: f64,
+    squares: f64,
+    signed: f64,
+    /// One per compared pixel.
+    errors: Vec<f64>,
+}
+
+impl Tally {
+    fn add(&mut self, at: [usize; 2], reference: Levels, actual: Levels) {
+        self.frame += 1;
+        let differs = reference.rgb() != actual.rgb();
+        self.coverage_mismatches += usize::from(reference.alpha() != actual.alpha());
+        if !differs && reference.alpha() == 0.0 && actual.alpha() == 0.0 {
+            return;
+        }
+        let channels = channel_errors(reference, actual);
+        let error = channels.errors.into_iter().fold(0.0, f64::max);
+        self.differing += usize::from(differs);
+        self.not_finite += usize::from(channels.not_finite);
+        self.over_half_level += usize::from(error > 0.5);
+        self.over_one_level += usize::from(error > 1.0);
+        if error > self.max {
+            (self.max, self.worst) = (error, Some(at));
+        }
+        self.absolute += channels.errors.iter().sum::<f64>();
+        self.squares += channels.errors.iter().map(|e| e * e).sum::<f64>();
+        self.signed += actual.luminance() - reference.luminance();
+        self.errors.push(error);
+    }
+
+    fn finish(mut self, ssim: Option<f64>) -> Difference {
+        let compared = self.errors.len();
+        let mean = |sum: f64, pixels: usize| {
+            if pixels == 0 {
+                0.0
+            } else {
+                sum / pixels as f64
+            }
+        };
+        let frame_rms = libm::sqrt(mean(self.squares, 3 * self.frame)) / 255.0;
+        Difference {
+            frame: self.frame,
+            excluded: self.excluded,
+            compared,
+            differing: self.differing,
+            over_half_level: self.over_half_level,
+            over_one_level: self.over_one_level,
+            coverage_mismatches: self.coverage_mismatches,
+            not_finite: self.not_finite,
+            max: self.max / 255.0,
+            worst: self.worst,
+            p99: percentile(&mut self.errors) / 255.0,
+            mae: mean(self.absolute, 3 * compared) / 255.0,
+            rms: libm::sqrt(mean(self.squares, 3 * compared)) / 255.0,
+            frame_rms,
+            signed_mean: mean(self.signed, compared) / 255.0,
+            psnr: -20.0 * libm::log10(frame_rms),
+            ssim,
+        }
+    }
+}
+
+/// Absolute differences of three channels, in grey levels.
+struct ChannelErrors {
+    errors: [f64; 3],
+    not_finite: bool,
+}
+
+/// The errors of one pixel; what is not finite is off by the full range, so that no mean is lost and none hides it.
+fn channel_errors(reference: Levels, actual: Levels) -> ChannelErrors {
+    let (r, a) = (reference.rgb(), actual.rgb());
+    let mut of = ChannelErrors {
+        errors: [0.0; 3],
+        not_finite: false,
+    };
+    for i in 0..3 {
+        let error = (a[i] - r[i]).abs();
+        of.not_finite |= !error.is_finite();
+        of.errors[i] = if error.is_finite() { error } else { 255.0 };
+    }
+    of
+}
+
+/// The smallest error that [`PERCENTILE`] of all do not exceed (nearest rank); 0 of none. Reorders the errors.
+fn percentile(errors: &mut [f64]) -> f64 {
+    let rank = libm::ceil(PERCENTILE * errors.len() as f64) as usize;
+    match rank.checked_sub(1) {
+        Some(index) => *errors.select_nth_unstable_by(index, f64::total_cmp).1,
+        None => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests;

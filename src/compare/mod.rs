@@ -1,0 +1,9 @@
+//! How far pictures are from each other, and what they cost.
+
+#[cfg(feature = "cli")]
+pub mod comparison;
+#[cfg(feature = "cli")]
+pub mod experiments;
+pub mod metrics;
+#[cfg(feature = "cli")]
+pub mod timing;

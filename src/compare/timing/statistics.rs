@@ -1,0 +1,283 @@
+//! From samples to numbers that can be trusted: medians, quartiles, and intervals of ratios.
+
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+
+/// How sure the interval of a [`Ratio`] is to hold the true ratio.
+pub const CONFIDENCE: f64 = 0.95;
+
+/// Resamples of a bootstrap: 2,000 put 50 beyond each end of a 95 % interval (Efron & Tibshirani 1993, 12.3, ask for
+/// 1,000 or more).
+const RESAMPLES: usize = 2000;
+
+/// Where the random numbers of every bootstrap start, so that equal samples have equal intervals.
+const SEED: u64 = 0x4C32_3153_6861_6465;
+
+/// How long something takes: samples, and what they come to. All times are in nanoseconds, of one call.
+///
+/// Noise only ever adds time and does so seldom and much, hence medians and quartiles: they do not feel how much.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// The median.
+    pub median_ns: f64,
+    /// The least: what an undisturbed machine can do.
+    pub min_ns: f64,
+    /// The lower quartile.
+    pub p25_ns: f64,
+    /// The upper quartile.
+    pub p75_ns: f64,
+    /// The interquartile range as a part of the median; 0 if that is 0.
+    pub spread: f64,
+    /// All samples in the order of their rounds; each is the mean of `calls_per_sample` calls.
+    pub samples_ns: Vec<f64>,
+    /// How many calls a sample is the mean of: more than one where a single call is too short for the clock.
+    pub calls_per_sample: u32,
+}
+
+impl Timing {
+    /// What `samples_ns` come to; `None` if there are none, or one is not a finite number of 0 or more.
+    pub fn of(samples_ns: Vec<f64>, calls_per_sample: u32) -> Option<Timing> {
+        if samples_ns.is_empty() || !samples_ns.iter().all(|s| s.is_finite() && *s >= 0.0) {
+            return None;
+        }
+        let mut sorted = samples_ns.clone();
+        sorted.sort_by(f64::total_cmp);
+        let [p25_ns, median_ns, p75_ns] = [0.25, 0.5, 0.75].map(|p| quantile(&sorted, p));
+        let spread = if median_ns > 0.0 {
+            (p75_ns - p25_ns) / median_ns
+        } else {
+            0.0
+        };
+        Some(Timing {
+            median_ns,
+            min_ns: sorted[0],
+            p25_ns,
+            p75_ns,
+            spread,
+            samples_ns,
+            calls_per_sample,
+        })
+    }
+}
+
+/// The quantile `p` of 0..=1 of ascending values, linear between them (type 7 of Hyndman & Fan 1996: that of R and
+/// NumPy).
+fn quantile(sorted: &[f64], p: f64) -> f64 {
+    let place = p * (sorted.len() - 1) as f64;
+    let below = place as usize;
+    let above = (below + 1).min(sorted.len() - 1);
+    sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
+}
+
+/// How many times as fast as a baseline something is, with the interval that holds the truth with [`CONFIDENCE`].
+///
+/// Over 1: faster than the baseline. Under 1: slower.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ratio {
+    /// The median over the rounds of the baseline's time divided by the candidate's.
+    pub median: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end of the interval.
+    pub high: f64,
+}
+
+impl Ratio {
+    /// How many times as fast as `baseline` the candidate is, where samples of one round stand at the same place.
+    ///
+    /// The interval is a percentile bootstrap of the median over whole rounds, with a fixed seed. Rounds without a
+    /// partner and rounds in which either time is not positive are left out; `None` if no round is left.
+    ///
+    /// ```
+    /// use fastphong::compare::timing::Ratio;
+    ///
+    /// // Three disturbed rounds slow both down alike: the ratio does not move.
+    /// let baseline = [200.0, 204.0, 400.0, 410.0, 800.0, 202.0];
+    /// let candidate = [100.0, 102.0, 200.0, 205.0, 400.0, 101.0];
+    /// let ratio = Ratio::paired(&baseline, &candidate).unwrap();
+    /// assert_eq!((ratio.low, ratio.median, ratio.high), (2.0, 2.0, 2.0));
+    /// ```
+    pub fn paired(baseline: &[f64], candidate: &[f64]) -> Option<Ratio> {
+        let ratios: Vec<f64> = baseline
+            .iter()
+            .zip(candidate)
+            .map(|(b, c)| b / c)
+            .filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+            .collect();
+        if ratios.is_empty() {
+            return None;
+        }
+        let mut random = SplitMix(SEED);
+        let mut resample = ratios.clone();
+        let mut medians: Vec<f64> = (0..RESAMPLES)
+            .map(|_| {
+                resample.fill_with(|| ratios[random.below(ratios.len())]);
+                median(&mut resample)
+            })
+            .collect();
+        medians.sort_by(f64::total_cmp);
+        let tail = (1.0 - CONFIDENCE) / 2.0;
+        let (low, high) = (quantile(&medians, tail), quantile(&medians, 1.0 - tail));
+        let mut ratios = ratios;
+        Some(Ratio {
+            median: median(&mut ratios),
+            low,
+            high,
+        })
+    }
+
+    /// Whether the interval holds 1: the samples do not tell which of the two is faster.
+    pub fn is_tie(&self) -> bool {
+        self.low <= 1.0 && 1.0 <= self.high
+    }
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    quantile(values, 0.5)
+}
+
+/// SplitMix64 (Steele, Lea & Flood 2014).
+struct SplitMix(u64);
+
+impl SplitMix {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// 0..n.
+    fn below(&mut self, n: usize) -> usize {
+        ((u128::from(self.next()) * n as u128) >> 64) as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec;
+
+    #[test]
+    fn medians_and_quartiles_are_those_of_numpy() {
+        // numpy.percentile([40, 10, 30, 20], [25, 50, 75]) = [17.5, 25, 32.5]
+        let timing = Timing::of(vec![40.0, 10.0, 30.0, 20.0], 1).unwrap();
+        assert_eq!(
+            (
+                timing.min_ns,
+                timing.p25_ns,
+                timing.median_ns,
+                timing.p75_ns
+            ),
+            (10.0, 17.5, 25.0, 32.5)
+        );
+        assert_eq!(timing.spread, 15.0 / 25.0);
+        assert_eq!(
+            timing.samples_ns,
+            [40.0, 10.0, 30.0, 20.0],
+            "in the order of their rounds"
+        );
+        let one = Timing::of(vec![7.0], 3).unwrap();
+        assert_eq!(
+            (
+                one.min_ns,
+                one.p25_ns,
+                one.median_ns,
+                one.p75_ns,
+                one.spread
+            ),
+            (7.0, 7.0, 7.0, 7.0, 0.0)
+        );
+        assert_eq!(
+            Timing::of(vec![0.0, 0.0], 1).unwrap().spread,
+            0.0,
+            "not 0/0"
+        );
+    }
+
+    #[test]
+    fn what_is_no_time_gives_no_timing() {
+        for samples in [vec![], vec![1.0, f64::NAN], vec![f64::INFINITY], vec![-1.0]] {
+            assert_eq!(Timing::of(samples, 1), None);
+        }
+    }
+
+    #[test]
+    fn one_disturbed_sample_moves_no_median() {
+        let calm = Timing::of(vec![10.0, 11.0, 12.0, 13.0, 14.0], 1).unwrap();
+        let disturbed = Timing::of(vec![10.0, 11.0, 12.0, 13.0, 9000.0], 1).unwrap();
+        assert_eq!(
+            (calm.median_ns, calm.p75_ns),
+            (disturbed.median_ns, disturbed.p75_ns)
+        );
+    }
+
+    #[test]
+    fn over_one_is_faster_than_the_baseline() {
+        let baseline = [300.0, 330.0, 310.0, 290.0, 305.0, 320.0];
+        let candidate = [100.0, 111.0, 102.0, 98.0, 103.0, 106.0];
+        let faster = Ratio::paired(&baseline, &candidate).unwrap();
+        assert!(
+            faster.median > 2.9 && faster.low > 2.9 && faster.high < 3.1,
+            "{faster:?}"
+        );
+        assert!(!faster.is_tie());
+        let slower = Ratio::paired(&candidate, &baseline).unwrap();
+        assert!(slower.high < 0.35 && !slower.is_tie(), "{slower:?}");
+    }
+
+    #[test]
+    fn rounds_that_disagree_are_a_tie() {
+        let baseline = [100.0; 8];
+        let candidate = [90.0, 111.0, 95.0, 106.0, 93.0, 108.0, 97.0, 103.0];
+        let ratio = Ratio::paired(&baseline, &candidate).unwrap();
+        assert!(
+            ratio.low < 1.0 && ratio.high > 1.0 && ratio.is_tie(),
+            "{ratio:?}"
+        );
+        assert!(ratio.low <= ratio.median && ratio.median <= ratio.high);
+        assert_eq!(
+            Ratio::paired(&baseline, &candidate),
+            Some(ratio),
+            "the seed is fixed"
+        );
+    }
+
+    #[test]
+    fn the_ratio_of_something_to_itself_is_one() {
+        let samples = [100.0, 170.0, 90.0, 400.0, 110.0];
+        let ratio = Ratio::paired(&samples, &samples).unwrap();
+        assert_eq!(
+            (ratio.low, ratio.median, ratio.high, ratio.is_tie()),
+            (1.0, 1.0, 1.0, true)
+        );
+    }
+
+    #[test]
+    fn with_few_rounds_the_interval_reaches_from_end_to_end() {
+        // Of five rounds at least three are the lowest one in 5.8 % of all resamples, which is over 2.5 %: the 2.5 %
+        // quantile of their medians is the lowest ratio itself, and likewise above.
+        let candidate = [100.0, 200.0, 50.0, 80.0, 125.0];
+        let ratio = Ratio::paired(&[100.0; 5], &candidate).unwrap();
+        assert_eq!((ratio.low, ratio.median, ratio.high), (0.5, 1.0, 2.0));
+    }
+
+    #[test]
+    fn rounds_without_a_time_are_left_out() {
+        assert_eq!(Ratio::paired(&[], &[1.0]), None);
+        assert_eq!(Ratio::paired(&[0.0, 1.0], &[1.0, 0.0]), None);
+        let ratio = Ratio::paired(&[0.0, 6.0, 5.0], &[1.0, 3.0]).unwrap();
+        assert_eq!((ratio.low, ratio.median, ratio.high), (2.0, 2.0, 2.0));
+    }
+
+    #[test]
+    fn random_numbers_are_those_of_the_paper() {
+        // First values for seed 1234567 (Rosetta Code, "Pseudo-random numbers/Splitmix64").
+        let mut random = SplitMix(1_234_567);
+        assert_eq!(
+            [random.next(), random.next()],
+            [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]
+        );
+    }
+}

@@ -1,0 +1,275 @@
+//! From a scene to a frame: transformed, projected, culled, clipped and snapped.
+//!
+//! In two steps. [`Scene::prepare`] does once what does not depend on the camera: vertex normals, distinct vertices,
+//! normals of polygons. [`PreparedScene::frame_into`] does for each picture what does: all vertices through the camera in
+//! blocks; then one bit for each polygon that is seen; then the polygons of those bits, in the order of the scene. Bits
+//! first, because then it is known where each polygon of the frame stands, and parts can be made on several threads.
+
+mod clip;
+mod cut;
+mod light;
+mod ndc_cube;
+mod polygons;
+mod prepare;
+mod side;
+#[cfg(all(test, feature = "io"))]
+mod tests;
+mod vertices;
+mod view;
+mod winding;
+
+use super::{DepthRange, Frame, FrameError, FrameStats, Geometry, Polygon};
+use crate::mesh::Material;
+use crate::scene::{Camera, Light, Scene};
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use cut::Cutting;
+use polygons::{Chunk, Filling, Piece, PolygonTable, Sight, add_up, for_each_cut};
+use prepare::Preparation;
+use view::{Codes, View};
+
+impl Scene {
+    /// The scene as its camera sees it: projected polygons and the light on them.
+    ///
+    /// ```
+    /// use fastphong::mesh::builtin::builtin;
+    /// use fastphong::scene::Scene;
+    ///
+    /// let scene = Scene::of_mesh(builtin("sphere?rings=16&segments=32").unwrap());
+    /// let frame = scene.frame().unwrap();
+    /// assert!(frame.polygons().len() > 100 && frame.stats().culled > 100);
+    /// ```
+    ///
+    /// # Errors
+    /// [`FrameError`] when the picture's size, the camera or the number of lights is outside its range.
+    pub fn frame(&self) -> Result<Frame, FrameError> {
+        self.prepare()?.frame()
+    }
+
+    /// The scene with everything done that does not depend on the camera: for drawing it more than once.
+    ///
+    /// ```
+    /// use fastphong::mesh::builtin::builtin;
+    /// use fastphong::scene::Scene;
+    /// use glam::DVec3;
+    ///
+    /// let scene = Scene::of_mesh(builtin("teapot?res=4").unwrap());
+    /// let mut prepared = scene.prepare().unwrap();
+    /// let mut frame = prepared.frame().unwrap();
+    /// let mut camera = scene.camera;
+    /// for _ in 0..3 {
+    ///     camera.eye += DVec3::X;
+    ///     prepared.set_camera(camera);
+    ///     prepared.frame_into(&mut frame).unwrap();
+    /// }
+    /// assert_eq!(frame.polygons(), Scene { camera, ..scene }.frame().unwrap().polygons());
+    /// ```
+    ///
+    /// # Errors
+    /// [`FrameError`] as [`Scene::frame`], for the scene's own camera.
+    pub fn prepare(&self) -> Result<PreparedScene, FrameError> {
+        View::new(self)?;
+        let Preparation {
+            geometry,
+            table,
+            materials,
+        } = Preparation::new(self)?;
+        // What is left of the scene are its settings.
+        let settings = Scene {
+            objects: Vec::new(),
+            lights: self.lights.clone(),
+            ..*self
+        };
+        Ok(PreparedScene {
+            settings,
+            geometry: Arc::new(geometry),
+            table,
+            materials,
+        })
+    }
+}
+
+/// A scene ready to be drawn by any camera: its objects as distinct vertices and corner lists.
+///
+/// Made by [`Scene::prepare`]. Objects and materials are those of that moment; camera, size and lights may change from
+/// frame to frame.
+#[derive(Clone, Debug)]
+pub struct PreparedScene {
+    /// A scene without its objects.
+    settings: Scene,
+    geometry: Arc<Geometry>,
+    table: PolygonTable,
+    materials: Vec<Material>,
+}
+
+/// Memory that making a frame needs and that the next one needs again.
+#[derive(Debug, Default)]
+pub(crate) struct Scratch {
+    codes: Vec<Codes>,
+    chunks: Vec<Chunk>,
+    pieces: Vec<Piece>,
+}
+
+impl Clone for Scratch {
+    /// Nothing of it is needed.
+    fn clone(&self) -> Self {
+        Scratch::default()
+    }
+}
+
+impl PreparedScene {
+    /// The camera of the next frame.
+    pub fn camera(&self) -> &Camera {
+        &self.settings.camera
+    }
+
+    /// Sets the camera.
+    pub fn set_camera(&mut self, camera: Camera) {
+        self.settings.camera = camera;
+    }
+
+    /// Sets the size of the picture in pixels.
+    pub fn set_size(&mut self, width: u32, height: u32) {
+        (self.settings.width, self.settings.height) = (width, height);
+    }
+
+    /// Sets the lights.
+    pub fn set_lights(&mut self, lights: Vec<Light>) {
+        self.settings.lights = lights;
+    }
+
+    /// A new frame: the scene as its camera sees it.
+    ///
+    /// # Errors
+    /// [`FrameError`] as [`Scene::frame`].
+    pub fn frame(&self) -> Result<Frame, FrameError> {
+        let mut frame = Frame::empty(1, 1);
+        self.frame_into(&mut frame)?;
+        Ok(frame)
+    }
+
+    /// Makes `frame`, whatever it was, the scene as its camera sees it, in the memory that it has: from the second frame on
+    /// nothing is allocated that grows with the scene, but what clipping and sorting take.
+    ///
+    /// # Errors
+    /// [`FrameError`] as [`Scene::frame`]; the frame then is empty.
+    pub fn frame_into(&self, frame: &mut Frame) -> Result<(), FrameError> {
+        let mut scratch = core::mem::take(&mut frame.scratch);
+        let done = self.fill(frame, &mut scratch);
+        frame.scratch = scratch;
+        if done.is_err() {
+            *frame = Frame::empty(1, 1);
+        }
+        done
+    }
+
+    fn fill(&self, frame: &mut Frame, scratch: &mut Scratch) -> Result<(), FrameError> {
+        let view = View::new(&self.settings)?;
+        self.settings(frame, &view);
+        self.settings.light(&self.materials, &mut frame.lightings);
+        frame.check_settings()?;
+        frame.check_lightings()?;
+        self.check_positions()?;
+        let is_any_beyond = self.vertices(frame, &view, &mut scratch.codes)?;
+        let Scratch {
+            codes,
+            chunks,
+            pieces,
+        } = scratch;
+        let half = self.geometry.corners.len() / if self.settings.two_sided { 2 } else { 1 };
+        let sight = Sight {
+            scene: &self.settings,
+            table: &self.table,
+            corners: &self.geometry.corners[..half],
+            vertices: &frame.vertices,
+            codes: is_any_beyond.then_some(&codes[..]),
+        };
+        sight.find(chunks);
+        frame.stats = FrameStats::default();
+        pieces.clear();
+        if is_any_beyond {
+            let mut cutting = Cutting {
+                view: &view,
+                table: &self.table,
+                frame,
+                pieces,
+            };
+            for_each_cut(chunks, |polygon| cutting.polygon(polygon));
+        }
+        let count = add_up(chunks, pieces, &mut frame.stats);
+        frame.polygons.resize(count, Polygon::default());
+        let filling = Filling {
+            table: &self.table,
+            corner_count: half as u32,
+            pieces,
+        };
+        filling.fill(0, chunks, &mut frame.polygons);
+        frame.sort();
+        Ok(())
+    }
+
+    /// Gives the frame all that is not geometry, and empties what is filled polygon by polygon.
+    fn settings(&self, frame: &mut Frame, view: &View<'_>) {
+        let scene = &self.settings;
+        (frame.width, frame.height, frame.samples) = (view.width, view.height, scene.samples);
+        frame.background = scene.background;
+        frame.interpolation = scene.interpolation;
+        frame.hidden_surfaces = scene.hidden_surfaces;
+        frame.clipping = scene.clipping;
+        frame.depth_range = DepthRange::from(&scene.camera);
+        frame.encoding = scene.encoding;
+        frame.eye = scene.camera.eye.to_array();
+        frame.geometry = self.geometry.clone();
+        frame.cut_materials.clear();
+        frame.means.clear();
+        frame.clip_corners.clear();
+        frame.cut_corners.clear();
+    }
+
+    /// Places all vertices; whether any is beyond a plane.
+    fn vertices(
+        &self,
+        frame: &mut Frame,
+        view: &View<'_>,
+        codes: &mut Vec<Codes>,
+    ) -> Result<bool, FrameError> {
+        let count = self.geometry.models.len();
+        frame
+            .vertices
+            .resize(self.geometry.vertex_count(), Default::default());
+        codes.resize(count, 0);
+        let (front, back) = frame.vertices.split_at_mut(count);
+        let is_any_beyond = vertices::place(view, &self.geometry.models, front, codes)?;
+        if self.settings.two_sided {
+            back.copy_from_slice(front);
+        }
+        Ok(is_any_beyond)
+    }
+
+    /// Whether the positions of all vertices, seen from the eye, are numbers that an `f32` can hold.
+    fn check_positions(&self) -> Result<(), FrameError> {
+        let models = &self.geometry.models;
+        for object in &models.objects {
+            let (linear, translation) = (object.transform.matrix3, object.transform.translation);
+            let farthest = linear.x_axis.abs() * object.extent.x
+                + linear.y_axis.abs() * object.extent.y
+                + linear.z_axis.abs() * object.extent.z
+                + translation.abs()
+                + self.settings.camera.eye.abs();
+            if farthest.max_element() < 0.5 * f64::from(f32::MAX) {
+                continue;
+            }
+            let eye = self.settings.camera.eye.to_array();
+            let is_finite = |v: &usize| {
+                self.geometry
+                    .position(*v as u32, eye)
+                    .iter()
+                    .all(|c| c.is_finite())
+            };
+            if let Some(index) = (object.first..object.end).find(|v| !is_finite(v)) {
+                return Err(FrameError::Vertex { index });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,388 @@
+//! The polygons of a scene that do not change with the camera, and which of them a camera sees.
+
+use super::view::{BEYOND_PLANES, Codes};
+use super::winding::{self, NO_PLACES, Places};
+use crate::frame::{FrameStats, Polygon, ScreenVertex};
+use crate::number::parallel::for_each_chunk;
+use crate::number::vectorized;
+use crate::scene::{Clipping, Culling, Scene};
+use alloc::vec::Vec;
+
+/// Words of a chunk of polygons.
+const WORDS: usize = 32;
+/// Polygons that one thread takes at a time: one a bit.
+pub(super) const CHUNK: usize = 64 * WORDS;
+
+/// All polygons of a scene: where their corners are, and what else is known before any camera.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PolygonTable {
+    pub count: usize,
+    /// Where the corners of each polygon begin and, last, where those of the last one end; empty where all are triangles.
+    pub starts: Vec<u32>,
+    /// The lighting of each polygon; empty where all have the first.
+    pub materials: Vec<u32>,
+    /// One bit a polygon: whether it has a normal. Without one it is never drawn.
+    pub has_normal: Vec<u64>,
+}
+
+impl PolygonTable {
+    /// Where the corners of a polygon begin, and how many there are.
+    #[inline(always)]
+    pub fn corners(&self, polygon: usize) -> (u32, u32) {
+        match self.starts.get(polygon..polygon + 2) {
+            Some(&[first, end]) => (first, end - first),
+            _ => (3 * polygon as u32, 3),
+        }
+    }
+
+    #[inline(always)]
+    pub fn material(&self, polygon: usize) -> u32 {
+        self.materials.get(polygon).copied().unwrap_or(0)
+    }
+}
+
+/// What is found out of 64 polygons that follow one another: a bit each.
+#[derive(Clone, Copy, Debug, Default)]
+struct Word {
+    /// It is drawn as it is.
+    drawn: u64,
+    /// It is lit from behind.
+    back: u64,
+    /// It must be cut.
+    cut: u64,
+}
+
+/// What is found out of [`CHUNK`] polygons that follow one another.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Chunk {
+    words: [Word; WORDS],
+    stats: FrameStats,
+    /// How many polygons of the frame stand before those of this chunk, pieces included.
+    before: usize,
+    /// The first piece that belongs to this chunk or a later one.
+    first_piece: usize,
+}
+
+/// A piece of a polygon that was cut.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub source: u32,
+    pub first: u32,
+    pub count: u32,
+    pub is_back: bool,
+}
+
+/// What decides whether a polygon is seen.
+pub(super) struct Sight<'a> {
+    pub scene: &'a Scene,
+    pub table: &'a PolygonTable,
+    /// The corner lists of the polygons, all vertices on their first side.
+    pub corners: &'a [u32],
+    pub vertices: &'a [ScreenVertex],
+    /// The planes that each vertex is beyond; `None` where none is beyond any.
+    pub codes: Option<&'a [Codes]>,
+}
+
+impl Sight<'_> {
+    /// Finds out which polygons are seen.
+    pub fn find(&self, chunks: &mut Vec<Chunk>) {
+        chunks.resize(self.table.count.div_ceil(CHUNK), Chunk::default());
+        for_each_chunk(&mut chunks[..], 1, &|number, chunk: &mut [Chunk]| {
+            chunk[0] = Chunk::default();
+            vectorized(
+                #[inline(always)]
+                || self.chunk(number, &mut chunk[0]),
+            );
+        });
+    }
+
+    /// Finds out of the polygons of chunk `number`.
+    #[inline(always)]
+    fn chunk(&self, number: usize, chunk: &mut Chunk) {
+        let end = self.table.count.min((number + 1) * CHUNK);
+        let mut places = NO_PLACES;
+        let (mut first, mut k) = (number * CHUNK, 0);
+        while first < end {
+            chunk.words[k] = self.word(first, (end - first).min(64), &mut places, &mut chunk.stats);
+            (first, k) = (first + 64, k + 1);
+        }
+    }
+
+    /// Finds out of up to 64 polygons from `first` on.
+    #[inline(always)]
+    fn word(
+        &self,
+        first: usize,
+        count: usize,
+        places: &mut Places,
+        stats: &mut FrameStats,
+    ) -> Word {
+        let all = u64::MAX >> (64 - count);
+        let (clockwise, counter_clockwise) = if self.table.starts.is_empty() {
+            winding::of_triangles(self.triangles(first, count), self.vertices, places)
+        } else {
+            winding::of_polygons(
+                count,
+                #[inline(always)]
+                |k| self.polygon(first + k),
+                self.vertices,
+                places,
+            )
+        };
+        let (outside, beyond) = self
+            .codes
+            .map_or((0, 0), |codes| self.beyond(codes, first, count));
+        let has_normal = self.table.has_normal[first / 64];
+        let number = |bits: u64| bits.count_ones() as usize;
+        stats.polygons += count;
+        stats.outside += number(outside);
+        let inside = all & !outside;
+        stats.zero_area += number(inside & !has_normal);
+        let mut cut = inside & has_normal & beyond;
+        let whole = inside & has_normal & !beyond;
+        if self.scene.clipping == Clipping::NdcCube {
+            stats.unprojected += number(cut);
+            cut = 0;
+        } else {
+            stats.clipped += number(cut);
+        }
+        let culled = match self.scene.culling {
+            Culling::Back => clockwise,
+            Culling::Front => counter_clockwise,
+            Culling::None => 0,
+        };
+        stats.culled += number(whole & culled);
+        stats.zero_area += number(whole & !(clockwise | counter_clockwise));
+        // y points downward on the picture: what runs clockwise there has an area over 0, and is seen from behind.
+        let back = if self.scene.two_sided { clockwise } else { 0 };
+        Word {
+            drawn: whole & (clockwise | counter_clockwise) & !culled,
+            back,
+            cut,
+        }
+    }
+
+    /// Which of some polygons are outside the view, and which have a corner beyond a plane.
+    #[inline(always)]
+    fn beyond(&self, codes: &[Codes], first: usize, count: usize) -> (u64, u64) {
+        // What all corners of each polygon are beyond, and what any is.
+        let (mut all, mut any) = ([0; 64], [0; 64]);
+        if self.table.starts.is_empty() {
+            for (k, triangle) in self.triangles(first, count.min(64)).iter().enumerate() {
+                let [a, b, c] = *triangle;
+                let (a, b, c) = (codes[a as usize], codes[b as usize], codes[c as usize]);
+                (all[k], any[k]) = (a & b & c, a | b | c);
+            }
+        } else {
+            for k in 0..count.min(64) {
+                all[k] = Codes::MAX;
+                for &v in self.polygon(first + k) {
+                    all[k] &= codes[v as usize];
+                    any[k] |= codes[v as usize];
+                }
+            }
+        }
+        let (mut outside, mut beyond) = ([0; 64], [0; 64]);
+        for k in 0..64 {
+            outside[k] = u8::from(all[k] & !BEYOND_PLANES != 0);
+            beyond[k] = u8::from(any[k] & BEYOND_PLANES != 0);
+        }
+        (winding::bits(&outside), winding::bits(&beyond))
+    }
+
+    /// The corners of some polygons, where all are triangles.
+    #[inline(always)]
+    fn triangles(&self, first: usize, count: usize) -> &[[u32; 3]] {
+        self.corners[3 * first..3 * (first + count)].as_chunks().0
+    }
+
+    #[inline(always)]
+    fn polygon(&self, polygon: usize) -> &[u32] {
+        let (first, count) = self.table.corners(polygon);
+        &self.corners[first as usize..][..count as usize]
+    }
+}
+
+/// Calls `visit` for each polygon that must be cut, in order.
+pub(super) fn for_each_cut(chunks: &[Chunk], mut visit: impl FnMut(usize)) {
+    for (number, word) in chunks.iter().flat_map(|chunk| &chunk.words).enumerate() {
+        let mut cut = word.cut;
+        while cut != 0 {
+            visit(64 * number + cut.trailing_zeros() as usize);
+            cut &= cut - 1;
+        }
+    }
+}
+
+/// Adds up what was counted, and gives each chunk its place in the frame: how many polygons that is.
+pub(super) fn add_up(chunks: &mut [Chunk], pieces: &[Piece], stats: &mut FrameStats) -> usize {
+    let (mut total, mut piece) = (0, 0);
+    for (number, chunk) in chunks.iter_mut().enumerate() {
+        (chunk.before, chunk.first_piece) = (total, piece);
+        total += chunk
+            .words
+            .iter()
+            .map(|word| word.drawn.count_ones() as usize)
+            .sum::<usize>();
+        let own = pieces[piece..]
+            .iter()
+            .take_while(|p| (p.source as usize) < (number + 1) * CHUNK)
+            .count();
+        (total, piece) = (total + own, piece + own);
+        for (sum, count) in [
+            (&mut stats.polygons, chunk.stats.polygons),
+            (&mut stats.culled, chunk.stats.culled),
+            (&mut stats.zero_area, chunk.stats.zero_area),
+            (&mut stats.outside, chunk.stats.outside),
+            (&mut stats.clipped, chunk.stats.clipped),
+            (&mut stats.unprojected, chunk.stats.unprojected),
+        ] {
+            *sum += count;
+        }
+    }
+    total
+}
+
+/// Polygons of a frame that are to be written, and the chunks that they come from.
+pub(super) struct Filling<'a> {
+    pub table: &'a PolygonTable,
+    /// How many corners the lists have before those of the second side begin.
+    pub corner_count: u32,
+    pub pieces: &'a [Piece],
+}
+
+impl Filling<'_> {
+    /// Writes all polygons that are drawn, in the order of the scene.
+    pub fn fill(&self, first: usize, chunks: &[Chunk], out: &mut [Polygon]) {
+        match chunks {
+            [] => (),
+            [chunk] => vectorized(
+                #[inline(always)]
+                || self.fill_chunk(first, chunk, out),
+            ),
+            _ => {
+                let (left, right) = chunks.split_at(chunks.len() / 2);
+                let (left_out, right_out) = out.split_at_mut(right[0].before - left[0].before);
+                let middle = first + left.len();
+                crate::number::parallel::join(
+                    || self.fill(first, left, left_out),
+                    || self.fill(middle, right, right_out),
+                );
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn fill_chunk(&self, number: usize, chunk: &Chunk, mut out: &mut [Polygon]) {
+        let mut pieces = self.pieces[chunk.first_piece..].iter();
+        let is_plain = self.table.starts.is_empty() && self.table.materials.is_empty();
+        for (k, word) in chunk.words.iter().enumerate() {
+            let first = number * CHUNK + 64 * k;
+            if word.cut != 0 {
+                out = self.fill_cut(first, word, &mut pieces, out);
+                continue;
+            }
+            let (here, rest) = out.split_at_mut(word.drawn.count_ones() as usize);
+            match is_plain && word.drawn & word.back == 0 {
+                true => fill_plain(first, word.drawn, here),
+                false => self.fill_whole(first, word, here),
+            }
+            out = rest;
+        }
+    }
+
+    /// Writes the polygons of a word of which none is cut.
+    #[inline(always)]
+    fn fill_whole(&self, first: usize, word: &Word, out: &mut [Polygon]) {
+        let mut left = word.drawn;
+        for place in out {
+            let bit = left.trailing_zeros();
+            left &= left.wrapping_sub(1);
+            *place = self.whole(first + bit as usize, word.back >> (bit & 63) & 1 != 0);
+        }
+    }
+
+    /// Writes the polygons of any word, and the pieces that stand in the place of some; gives what is left of `out`.
+    #[inline(never)]
+    fn fill_cut<'o>(
+        &self,
+        first: usize,
+        word: &Word,
+        pieces: &mut core::slice::Iter<'_, Piece>,
+        out: &'o mut [Polygon],
+    ) -> &'o mut [Polygon] {
+        let mut out = out.iter_mut();
+        let mut put = |polygon| _ = out.next().map(|place| *place = polygon);
+        let mut left = word.drawn | word.cut;
+        while left != 0 {
+            let bit = left.trailing_zeros();
+            left &= left - 1;
+            let polygon = first + bit as usize;
+            if word.cut >> bit & 1 == 0 {
+                put(self.whole(polygon, word.back >> bit & 1 != 0));
+                continue;
+            }
+            while let Some(piece) = pieces
+                .as_slice()
+                .first()
+                .filter(|piece| piece.source as usize == polygon)
+            {
+                put(self.piece(piece));
+                pieces.next();
+            }
+        }
+        out.into_slice()
+    }
+
+    #[inline(always)]
+    fn whole(&self, polygon: usize, is_back: bool) -> Polygon {
+        let (first, count) = self.table.corners(polygon);
+        let source = polygon as u32;
+        Polygon {
+            first: first + if is_back { self.corner_count } else { 0 },
+            count,
+            material: self.table.material(polygon),
+            source,
+            face: face(source, is_back),
+        }
+    }
+
+    fn piece(&self, piece: &Piece) -> Polygon {
+        let &Piece {
+            source,
+            first,
+            count,
+            is_back,
+        } = piece;
+        Polygon {
+            first,
+            count,
+            material: self.table.material(source as usize),
+            source,
+            face: face(source, is_back),
+        }
+    }
+}
+
+/// Writes triangles of the first lighting that are seen from the front: where all of a scene are such, nothing is looked up.
+#[inline(always)]
+fn fill_plain(first: usize, drawn: u64, out: &mut [Polygon]) {
+    let mut left = drawn;
+    for place in out {
+        let source = first as u32 + left.trailing_zeros();
+        left &= left.wrapping_sub(1);
+        *place = Polygon {
+            first: 3 * source,
+            count: 3,
+            material: 0,
+            source,
+            face: source,
+        };
+    }
+}
+
+/// The normal of a polygon, as the frame numbers it.
+#[inline(always)]
+fn face(source: u32, is_back: bool) -> u32 {
+    source | if is_back { Polygon::FLIPPED } else { 0 }
+}

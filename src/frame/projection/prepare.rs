@@ -1,0 +1,299 @@
+//! What of a scene does not depend on the camera, laid out for drawing: distinct vertices, corner lists, normals.
+
+use super::polygons::PolygonTable;
+use crate::frame::{FrameError, Geometry, Models, PlacedModel, Polygon};
+use crate::mesh::newell::{polygon_normals, unit_normal};
+use crate::mesh::vertex_normals::{CornerNormals, corner_normals};
+use crate::mesh::{Material, PolygonMesh};
+use crate::number::parallel::{collect, for_each_chunk};
+use crate::scene::{Object, Scene};
+use alloc::vec;
+use alloc::vec::Vec;
+use glam::{DMat3, DVec3, Vec3};
+
+const NO_VERTEX: u32 = u32::MAX;
+
+/// Elements that one thread takes at a time.
+const CHUNK: usize = 4096;
+
+/// What is collected object after object.
+#[derive(Default)]
+pub(super) struct Preparation {
+    pub geometry: Geometry,
+    pub table: PolygonTable,
+    pub materials: Vec<Material>,
+}
+
+/// One object on its way.
+struct Source<'a> {
+    mesh: &'a PolygonMesh,
+    /// Normals of the model to normals in the world, up to their lengths.
+    normal_matrix: DMat3,
+    mirrored: bool,
+    /// The lighting of the first material of the mesh; after the last follows that of polygons without one.
+    first_material: u32,
+}
+
+impl Preparation {
+    /// # Errors
+    /// [`FrameError::TooLarge`] when 32-bit numbers cannot name all corners.
+    pub fn new(scene: &Scene) -> Result<Self, FrameError> {
+        let sides = if scene.two_sided { 2 } else { 1 };
+        let meshes = || scene.objects.iter().map(|object| &object.mesh);
+        let (corners, polygons, positions) = meshes().fold((0, 0, 0), |(c, p, v), mesh| {
+            (
+                c + mesh.corners().len(),
+                p + mesh.polygon_count(),
+                v + mesh.positions().len(),
+            )
+        });
+        // Clipping adds vertices and corners: the second half of the numbers is left for them.
+        if sides * (corners.max(positions)) >= 1 << 31 || polygons >= Polygon::FLIPPED as usize {
+            return Err(FrameError::TooLarge);
+        }
+        let mut all = Preparation::default();
+        all.geometry.two_sided = scene.two_sided;
+        all.table.count = polygons;
+        for object in &scene.objects {
+            all.add(object);
+        }
+        if corners != 3 * polygons {
+            all.table.starts = starts(meshes().map(|mesh| &**mesh), polygons);
+        }
+        all.finish();
+        Ok(all)
+    }
+
+    fn add(&mut self, object: &Object) {
+        let mesh = &*object.mesh;
+        let linear = object.transform.matrix3;
+        let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
+        let determinant = x.dot(y.cross(z));
+        // The inverse transpose is the cofactor matrix over the determinant: its sign is enough, normals are
+        // normalised, and a singular matrix still has cofactors.
+        let sign = if determinant < 0.0 { -1.0 } else { 1.0 };
+        let source = Source {
+            mesh,
+            normal_matrix: DMat3::from_cols(
+                y.cross(z) * sign,
+                z.cross(x) * sign,
+                x.cross(y) * sign,
+            ),
+            mirrored: determinant < 0.0,
+            first_material: self.materials.len() as u32,
+        };
+        let default = Material::default();
+        let of_mesh = mesh.materials().iter().chain([&default]);
+        self.materials
+            .extend(of_mesh.map(|material| *object.material.as_ref().unwrap_or(material)));
+        let normals = polygon_normals(mesh);
+        self.faces(&source, &normals);
+        let normals = corner_normals(mesh, object.normals, Some(&normals));
+        self.table
+            .materials
+            .extend((0..mesh.polygon_count()).map(|p| source.material(p)));
+        let first = self.geometry.normals.len();
+        let first_corner = self.geometry.corners.len();
+        match normals {
+            CornerNormals::ByPosition { values, positions } if source.has_one_material() => {
+                self.vertices_by_position(&source, &values, &positions);
+            }
+            normals => self.vertices_by_corner(&source, normals),
+        }
+        if source.mirrored {
+            for polygon in 0..mesh.polygon_count() {
+                let range = mesh.corner_range(polygon);
+                self.geometry.corners[first_corner + range.start..first_corner + range.end]
+                    .reverse();
+            }
+        }
+        let models = &mut self.geometry.models;
+        let extent = |all: &[f32]| {
+            f64::from(
+                all[first..]
+                    .iter()
+                    .fold(0.0f32, |most, c| most.max(c.abs())),
+            )
+        };
+        let extent = DVec3::new(extent(&models.x), extent(&models.y), extent(&models.z));
+        let end = models.x.len();
+        models.objects.push(PlacedModel {
+            first,
+            end,
+            transform: object.transform,
+            extent,
+        });
+    }
+
+    /// Unit normals of polygons in the world; zero where there is none.
+    fn faces(&mut self, source: &Source<'_>, normals: &[DVec3]) {
+        let first = self.geometry.faces.len();
+        self.geometry.faces.resize(first + normals.len(), [0.0; 3]);
+        let all = (&mut self.geometry.faces[first..], normals);
+        for_each_chunk(all, CHUNK, &|_,
+                                     (faces, normals): (
+            &mut [[f32; 3]],
+            &[DVec3],
+        )| {
+            for (face, &normal) in faces.iter_mut().zip(normals) {
+                // Newell's sum is one of cross products, which the cofactor matrix carries to world space.
+                let in_world = unit_normal(source.normal_matrix * normal).unwrap_or(DVec3::ZERO);
+                *face = in_world.as_vec3().to_array();
+            }
+        });
+    }
+
+    /// Each position is a vertex, as it has one normal and one material.
+    fn vertices_by_position(&mut self, source: &Source<'_>, values: &[Vec3], normal_of: &[u32]) {
+        let mesh = source.mesh;
+        let geometry = &mut self.geometry;
+        let first = geometry.normals.len();
+        let in_world = collect(values.len(), CHUNK, |i| source.normal(values[i]));
+        geometry
+            .normals
+            .extend(normal_of.iter().map(|&n| in_world[n as usize]));
+        let material = if mesh.polygon_count() == 0 {
+            source.first_material
+        } else {
+            source.material(0)
+        };
+        geometry.materials.resize(first + normal_of.len(), material);
+        geometry
+            .models
+            .x
+            .extend(mesh.positions().iter().map(|p| p.x));
+        geometry
+            .models
+            .y
+            .extend(mesh.positions().iter().map(|p| p.y));
+        geometry
+            .models
+            .z
+            .extend(mesh.positions().iter().map(|p| p.z));
+        geometry.corners.extend(
+            mesh.corners()
+                .iter()
+                .map(|&position| first as u32 + position),
+        );
+        if !mesh.colours().is_empty() {
+            geometry.colours.resize(first, [1.0; 3]);
+            geometry
+                .colours
+                .extend(mesh.colours().iter().map(|colour| colour.to_array()));
+        }
+    }
+
+    /// A vertex for each position, normal and material that come together at a corner.
+    fn vertices_by_corner(&mut self, source: &Source<'_>, normals: CornerNormals) {
+        let mesh = source.mesh;
+        let normals = normals.by_corner(mesh);
+        let geometry = &mut self.geometry;
+        let first = geometry.normals.len();
+        // The last vertex made at each position; for each vertex its normal, and the one made there before.
+        let mut latest = vec![NO_VERTEX; mesh.positions().len()];
+        let mut made: Vec<(u32, u32)> = Vec::new();
+        for polygon in 0..mesh.polygon_count() {
+            let material = source.material(polygon);
+            for corner in mesh.corner_range(polygon) {
+                let (position, normal) = (mesh.corners()[corner] as usize, normals.corners[corner]);
+                let mut vertex = latest[position];
+                while vertex != NO_VERTEX {
+                    let (its_normal, before) = made[vertex as usize];
+                    if its_normal == normal
+                        && geometry.materials[first + vertex as usize] == material
+                    {
+                        break;
+                    }
+                    vertex = before;
+                }
+                if vertex == NO_VERTEX {
+                    vertex = made.len() as u32;
+                    made.push((normal, latest[position]));
+                    latest[position] = vertex;
+                    geometry.materials.push(material);
+                    geometry.models.push(mesh.positions()[position]);
+                    if let Some(colour) = mesh.colours().get(position) {
+                        geometry.colours.resize(first + vertex as usize, [1.0; 3]);
+                        geometry.colours.push(colour.to_array());
+                    }
+                }
+                geometry.corners.push(first as u32 + vertex);
+            }
+        }
+        drop(latest);
+        let in_world = collect(normals.values.len(), CHUNK, |i| {
+            source.normal(normals.values[i])
+        });
+        geometry
+            .normals
+            .extend(made.iter().map(|&(normal, _)| in_world[normal as usize]));
+    }
+
+    fn finish(&mut self) {
+        let geometry = &mut self.geometry;
+        let faces = &geometry.faces;
+        self.table.has_normal = collect(faces.len().div_ceil(64), CHUNK / 64, |word| {
+            let faces = &faces[64 * word..faces.len().min(64 * word + 64)];
+            faces
+                .iter()
+                .rev()
+                .fold(0, |bits, face| bits << 1 | u64::from(*face != [0.0; 3]))
+        });
+        if self.table.materials.iter().all(|&material| material == 0) {
+            self.table.materials = Vec::new();
+        }
+        if !geometry.colours.is_empty() {
+            geometry.colours.resize(geometry.normals.len(), [1.0; 3]);
+        }
+        if geometry.two_sided {
+            let second = geometry.normals.len() as u32;
+            geometry.corners.extend_from_within(..);
+            let half = geometry.corners.len() / 2;
+            geometry.corners[half..]
+                .iter_mut()
+                .for_each(|vertex| *vertex += second);
+        }
+    }
+}
+
+impl Source<'_> {
+    /// The lighting of a polygon.
+    fn material(&self, polygon: usize) -> u32 {
+        let own = self
+            .mesh
+            .polygon_material(polygon)
+            .unwrap_or(self.mesh.materials().len());
+        self.first_material + own as u32
+    }
+
+    fn has_one_material(&self) -> bool {
+        self.mesh.materials().is_empty()
+            || (1..self.mesh.polygon_count()).all(|p| self.material(p) == self.material(0))
+    }
+
+    /// A vertex normal in the world.
+    fn normal(&self, normal: Vec3) -> [f32; 3] {
+        let direction = self.normal_matrix * normal.as_dvec3();
+        direction.normalize_or(DVec3::Z).as_vec3().to_array()
+    }
+}
+
+impl Models {
+    fn push(&mut self, position: Vec3) {
+        self.x.push(position.x);
+        self.y.push(position.y);
+        self.z.push(position.z);
+    }
+}
+
+/// Where the corners of each polygon begin, and where those of the last one end.
+fn starts<'a>(meshes: impl Iterator<Item = &'a PolygonMesh>, polygons: usize) -> Vec<u32> {
+    let mut starts = Vec::with_capacity(polygons + 1);
+    let mut first = 0;
+    for mesh in meshes {
+        starts.extend((0..mesh.polygon_count()).map(|p| first + mesh.corner_range(p).start as u32));
+        first += mesh.corners().len() as u32;
+    }
+    starts.push(first);
+    starts
+}

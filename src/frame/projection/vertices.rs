@@ -1,0 +1,276 @@
+//! All vertices through the camera: blocks of them at once where nothing stands in the way.
+
+use super::view::{Codes, View, reach};
+use crate::frame::{FrameError, Models, ScreenVertex, SubPixel};
+use crate::number::parallel::for_each_chunk;
+use crate::number::vectorized;
+use crate::scene::{Clipping, Projection};
+use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use glam::{DMat4, DVec4};
+
+/// Vertices that are placed together, in arrays of their coordinates, so that the compiler makes vectors of them.
+const BLOCK: usize = 32;
+/// Vertices that one thread takes at a time.
+const CHUNK: usize = 64 * BLOCK;
+
+/// Adding it to a number of magnitude below 2⁵¹ rounds that to an integer, halves to even as `rint` does, and leaves the
+/// integer in the lowest bits.
+const ROUNDING: f64 = 6_755_399_441_055_744.0;
+
+/// Places all vertices, says for each which planes it is beyond, and returns whether any is beyond one.
+///
+/// # Errors
+/// [`FrameError::Vertex`] for the first vertex that is nowhere: a number of it is not finite, or its weight not positive.
+pub(super) fn place(
+    view: &View<'_>,
+    models: &Models,
+    vertices: &mut [ScreenVertex],
+    codes: &mut [Codes],
+) -> Result<bool, FrameError> {
+    let (is_any_beyond, first_invalid) = (AtomicBool::new(false), AtomicUsize::new(usize::MAX));
+    for_each_chunk((vertices, codes), CHUNK, &|first,
+                                               (vertices, codes): (
+        &mut [ScreenVertex],
+        &mut [Codes],
+    )| {
+        codes.fill(0);
+        let end = first + vertices.len();
+        let mut at = first;
+        while at < end {
+            let object = &models.objects[models.object_of(at)];
+            let to = end.min(object.end);
+            let range = at - first..to - first;
+            let placing = Placing::new(view, view.clip_matrix * DMat4::from(object.transform));
+            let found = vectorized(
+                #[inline(always)]
+                || placing.vertices(models, at, &mut vertices[range.clone()], &mut codes[range]),
+            );
+            match found {
+                Ok(false) => (),
+                Ok(true) => is_any_beyond.store(true, Ordering::Relaxed),
+                Err(vertex) => _ = first_invalid.fetch_min(vertex, Ordering::Relaxed),
+            }
+            at = to;
+        }
+    });
+    match first_invalid.into_inner() {
+        usize::MAX => Ok(is_any_beyond.into_inner()),
+        index => Err(FrameError::Vertex { index }),
+    }
+}
+
+/// Numbers of one coordinate of the vertices of a block.
+type Lanes = [f64; BLOCK];
+
+/// The way of one object's vertices onto the picture.
+struct Placing<'a> {
+    view: &'a View<'a>,
+    matrix: DMat4,
+    /// Samples a row, and rows.
+    size: [f64; 2],
+    is_perspective: bool,
+    /// Whether polygons are cut by the guard band, and how far it reaches in x/w and y/w.
+    clips: bool,
+    guard: [f64; 2],
+    /// The near distance.
+    near: f64,
+    /// Between them w is positive, and near/w far inside the range of an `f32`.
+    least_w: f64,
+    most_w: f64,
+}
+
+impl<'a> Placing<'a> {
+    fn new(view: &'a View<'a>, matrix: DMat4) -> Self {
+        let near = view.scene.camera.near;
+        let (is_perspective, least_w, most_w) = match view.scene.camera.projection {
+            Projection::Orthographic { .. } => (false, 1.0, 1.0),
+            Projection::Perspective { .. } => (
+                true,
+                (near * 1e-30).max(f64::MIN_POSITIVE),
+                (near * 1e30).min(f64::MAX),
+            ),
+        };
+        let size = [view.width, view.height].map(f64::from);
+        let clips = view.scene.clipping == Clipping::Planes;
+        let guard = [view.width, view.height].map(reach);
+        Placing {
+            view,
+            matrix,
+            size,
+            is_perspective,
+            clips,
+            guard,
+            near,
+            least_w,
+            most_w,
+        }
+    }
+
+    /// Places vertices from `first` on; whether any is beyond a plane, or the number of one that is nowhere.
+    #[inline(always)]
+    fn vertices(
+        &self,
+        models: &Models,
+        first: usize,
+        vertices: &mut [ScreenVertex],
+        codes: &mut [Codes],
+    ) -> Result<bool, usize> {
+        let mut is_any_beyond = false;
+        // The last block may have fewer vertices than there is room for.
+        let (mut last, mut last_codes) = ([ScreenVertex::default(); BLOCK], [0; BLOCK]);
+        let mut at = 0;
+        while at < vertices.len() {
+            let (out, codes) = (&mut vertices[at..], &mut codes[at..]);
+            let count = out.len().min(BLOCK);
+            match (out.first_chunk_mut(), codes.first_chunk_mut()) {
+                (Some(out), Some(codes)) => {
+                    is_any_beyond |= self.block(models, first + at, BLOCK, out, codes)?
+                }
+                _ => {
+                    is_any_beyond |=
+                        self.block(models, first + at, count, &mut last, &mut last_codes)?;
+                    out.copy_from_slice(&last[..count]);
+                    codes.copy_from_slice(&last_codes[..count]);
+                }
+            }
+            at += count;
+        }
+        Ok(is_any_beyond)
+    }
+
+    /// Places the `count` vertices of a block.
+    #[inline(always)]
+    fn block(
+        &self,
+        models: &Models,
+        from: usize,
+        count: usize,
+        out: &mut [ScreenVertex; BLOCK],
+        codes: &mut [Codes; BLOCK],
+    ) -> Result<bool, usize> {
+        let (x, y, z) = (
+            lanes(&models.x, from, count),
+            lanes(&models.y, from, count),
+            lanes(&models.z, from, count),
+        );
+        let (c_x, c_y) = (self.row(0, &x, &y, &z), self.row(1, &x, &y, &z));
+        let (c_z, c_w) = (self.row(2, &x, &y, &z), self.row(3, &x, &y, &z));
+        let is_inside = self.all_inside([1.0; 2], &c_x, &c_y, &c_z, &c_w);
+        if is_inside || (self.clips && self.all_inside(self.guard, &c_x, &c_y, &c_z, &c_w)) {
+            if self.is_perspective {
+                self.on_picture::<true>(&c_x, &c_y, &c_z, &c_w, out);
+            } else {
+                self.on_picture::<false>(&c_x, &c_y, &c_z, &c_w, out);
+            }
+            if !is_inside {
+                sides(&c_x, &c_y, &c_w, codes);
+            }
+            return Ok(!is_inside);
+        }
+        let mut is_any_beyond = false;
+        for i in 0..count {
+            let clip = DVec4::new(c_x[i], c_y[i], c_z[i], c_w[i]);
+            codes[i] = self.view.codes(clip);
+            out[i] = self.view.vertex(clip);
+            is_any_beyond |= codes[i] != 0;
+            if !clip.is_finite() || !self.view.is_valid(&out[i]) {
+                return Err(from + i);
+            }
+        }
+        Ok(is_any_beyond)
+    }
+
+    /// One coordinate in clip space, in the order of additions of a product of matrix and vector.
+    #[inline(always)]
+    fn row(&self, row: usize, x: &Lanes, y: &Lanes, z: &Lanes) -> Lanes {
+        let matrix = self.matrix.row(row);
+        let mut clip = [0.0; BLOCK];
+        for i in 0..BLOCK {
+            clip[i] = matrix.x * x[i] + matrix.y * y[i] + matrix.z * z[i] + matrix.w;
+        }
+        clip
+    }
+
+    /// Whether all are between the near and the far plane, and x and y within `reach` times w: finite then, and inside
+    /// every plane that is as far out or farther.
+    #[inline(always)]
+    fn all_inside(&self, reach: [f64; 2], x: &Lanes, y: &Lanes, z: &Lanes, w: &Lanes) -> bool {
+        let mut inside = true;
+        for i in 0..BLOCK {
+            // As the planes compute it: the sign of a difference is exact.
+            let (right, bottom) = (reach[0] * w[i], reach[1] * w[i]);
+            inside &=
+                (x[i].abs() <= right) & (y[i].abs() <= bottom) & (z[i] >= 0.0) & (z[i] <= w[i]);
+            inside &= (w[i] >= self.least_w) & (w[i] <= self.most_w);
+        }
+        inside
+    }
+
+    /// What [`View::vertex`] gives for vertices inside all planes, to the bit. Orthographic ones have w = 1.
+    #[inline(always)]
+    fn on_picture<const PERSPECTIVE: bool>(
+        &self,
+        x: &Lanes,
+        y: &Lanes,
+        z: &Lanes,
+        w: &Lanes,
+        out: &mut [ScreenVertex; BLOCK],
+    ) {
+        let mut weights = [1.0; BLOCK];
+        if PERSPECTIVE && self.view.needs_inv_w {
+            for i in 0..BLOCK {
+                weights[i] = (self.near / w[i]) as f32;
+            }
+        }
+        for i in 0..BLOCK {
+            out[i] = ScreenVertex {
+                x: nearest((over::<PERSPECTIVE>(x[i], w[i]) * 0.5 + 0.5) * self.size[0]),
+                y: nearest((0.5 - over::<PERSPECTIVE>(y[i], w[i]) * 0.5) * self.size[1]),
+                depth: over::<PERSPECTIVE>(z[i], w[i]) as f32,
+                inv_w: weights[i],
+            };
+        }
+    }
+}
+
+/// Divided by w, where that is not 1.
+#[inline(always)]
+fn over<const PERSPECTIVE: bool>(c: f64, w: f64) -> f64 {
+    if PERSPECTIVE { c / w } else { c }
+}
+
+/// To the nearest 1/256 pixel.
+#[inline(always)]
+fn nearest(pixels: f64) -> SubPixel {
+    SubPixel::from_bits((pixels * 256.0 + ROUNDING).to_bits() as i32)
+}
+
+/// The sides of the view that vertices between near and far plane are beyond, as [`View::codes`] has them.
+#[inline(always)]
+fn sides(x: &Lanes, y: &Lanes, w: &Lanes, codes: &mut [Codes; BLOCK]) {
+    for i in 0..BLOCK {
+        let (left, right) = (Codes::from(x[i] < -w[i]), Codes::from(x[i] > w[i]));
+        let (bottom, top) = (Codes::from(y[i] < -w[i]), Codes::from(y[i] > w[i]));
+        codes[i] = left | right << 1 | bottom << 2 | top << 3;
+    }
+}
+
+/// A block's numbers; where there are fewer, the last one fills it.
+#[inline(always)]
+fn lanes(all: &[f32], from: usize, count: usize) -> Lanes {
+    let of_block = &all[from..from + count];
+    let mut lanes = [0.0; BLOCK];
+    match of_block.first_chunk::<BLOCK>() {
+        Some(whole) => {
+            for i in 0..BLOCK {
+                lanes[i] = f64::from(whole[i]);
+            }
+        }
+        None => {
+            for i in 0..BLOCK {
+                lanes[i] = f64::from(of_block[i.min(count - 1)]);
+            }
+        }
+    }
+    lanes
+}

@@ -1,0 +1,461 @@
+//! Polygons into triangles by ear clipping, exactly, on the snapped corners.
+//!
+//! Why exact: crossing parity adds up. A triangle that is cut off and the polygon that is left share an edge, which
+//! counts twice, that is not at all; so the parities of all triangles sum to the parity of the polygon at every pixel
+//! centre, whatever is cut off. All that remains to be shown for "each pixel once" is that no two triangles overlap, and
+//! that is asked of the result.
+
+use super::{Frame, ScreenVertex, SubPixel};
+use alloc::vec::Vec;
+
+/// A frame of triangles.
+#[derive(Clone, Debug)]
+pub struct Triangulated {
+    /// The same vertices with triangles in place of the polygons of more than three corners, in the same order. They have
+    /// the material, the normal and the number in the scene of the polygon that they come from.
+    pub frame: Frame,
+    /// For each triangle the polygon that it comes from, an index into [`Frame::polygons`] of the frame that was cut.
+    pub origins: Vec<u32>,
+    /// Polygons that were left out because they cross or overlap themselves on the picture.
+    pub not_simple: usize,
+}
+
+/// `frame` with all its polygons cut into triangles that cover the same pixels.
+///
+/// A convex polygon becomes the fan about its first corner. Corners that add no area (repeated ones, points of spikes) may
+/// be left out, and a polygon that has no area altogether gives no triangle. Takes time with the square of the number of
+/// corners, with its cube in bad cases.
+pub fn triangulated(frame: &Frame) -> Triangulated {
+    let (mut not_simple, mut origins, mut number) = (0, Vec::new(), 0..);
+    let triangles = frame.with_pieces(|polygon, add| {
+        let corners = frame.corners(polygon);
+        let origin = number.next().unwrap_or(u32::MAX);
+        let mut add = |piece: &[u32]| {
+            origins.push(origin);
+            add(piece);
+        };
+        if corners.len() == 3 {
+            return add(corners);
+        }
+        let places: Vec<Place> = corners
+            .iter()
+            .map(|&v| place(&frame.vertices()[v as usize]))
+            .collect();
+        match ears(&places) {
+            Some(ears) => ears.iter().for_each(|ear| add(&ear.map(|i| corners[i]))),
+            None => not_simple += 1,
+        }
+    });
+    Triangulated {
+        frame: triangles,
+        origins,
+        not_simple,
+    }
+}
+
+/// Column and row in 1/256 pixel: at most 2²³ from 0 ([`Frame::GUARD`] pixels), so that twice an area is below 2⁵⁰.
+type Place = (i64, i64);
+
+fn place(vertex: &ScreenVertex) -> Place {
+    let bits = |c: SubPixel| i64::from(c.to_bits());
+    (bits(vertex.x), bits(vertex.y))
+}
+
+/// Twice the signed area of a triangle: positive where it runs clockwise on the picture.
+fn area(a: Place, b: Place, c: Place) -> i64 {
+    (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
+}
+
+/// The triangles of a polygon as places in its list of corners; `None` if it is not simple.
+fn ears(places: &[Place]) -> Option<Vec<[usize; 3]>> {
+    let origin = *places.first()?;
+    // A polygon of 2³² corners adds at most 2³² areas of 2⁵⁰.
+    let whole: i128 = places
+        .windows(2)
+        .map(|edge| i128::from(area(origin, edge[0], edge[1])))
+        .sum();
+    let sign = whole.signum() as i64;
+    if sign == 0 {
+        let is_line = places
+            .iter()
+            .all(|&p| places.iter().all(|&q| area(origin, p, q) == 0));
+        return is_line.then(Vec::new);
+    }
+    let mut ring = Ring {
+        places,
+        left: (0..places.len()).collect(),
+        sign,
+    };
+    let mut triangles = Vec::new();
+    // Starting beside the first corner and staying there makes the fan about it.
+    let mut at = 1;
+    while ring.left.len() > 3 {
+        let next = |test: &dyn Fn(usize) -> bool| {
+            let n = ring.left.len();
+            (at..at + n).map(|i| i % n).find(|&i| test(i))
+        };
+        let strict = next(&|i| ring.is_ear(i, true));
+        at = if let Some(ear) = strict.or_else(|| next(&|i| ring.is_ear(i, false))) {
+            triangles.push(ring.corner(ear));
+            ear
+        } else {
+            next(&|i| ring.area_at(i) == 0)?
+        };
+        ring.left.remove(at);
+    }
+    match ring.area_at(1).signum() {
+        0 => {}
+        1 => triangles.push(ring.corner(1)),
+        _ => return None,
+    }
+    are_apart(places, &triangles, sign).then_some(triangles)
+}
+
+/// What is left of a polygon while ears are cut off.
+struct Ring<'a> {
+    places: &'a [Place],
+    /// Corners that are left, in order.
+    left: Vec<usize>,
+    /// 1 for a polygon that runs clockwise on the picture, −1 for the others.
+    sign: i64,
+}
+
+impl Ring<'_> {
+    /// The corner `i` of those that are left, between its neighbours.
+    fn corner(&self, i: usize) -> [usize; 3] {
+        let n = self.left.len();
+        [
+            self.left[(i + n - 1) % n],
+            self.left[i],
+            self.left[(i + 1) % n],
+        ]
+    }
+
+    /// Twice the area at the corner `i`: positive where the polygon is convex.
+    fn area_at(&self, i: usize) -> i64 {
+        let [a, b, c] = self.corner(i).map(|k| self.places[k]);
+        self.sign * area(a, b, c)
+    }
+
+    /// Whether the triangle at the corner `i` can be cut off: the corner is convex, no other corner lies in the triangle
+    /// and no edge crosses the cut. Corners at the places of the triangle's own do not count. A corner *on* its two outer
+    /// edges, where the polygon touches itself, counts if `strict`.
+    fn is_ear(&self, i: usize, strict: bool) -> bool {
+        if self.area_at(i) <= 0 {
+            return false;
+        }
+        let [a, b, c] = self.corner(i).map(|k| self.places[k]);
+        let blocks = |p: Place| {
+            let [ab, bc, ca] =
+                [(a, b), (b, c), (c, a)].map(|(from, to)| self.sign * area(from, to, p));
+            let is_inside = if strict {
+                ab >= 0 && bc >= 0
+            } else {
+                ab > 0 && bc > 0
+            };
+            is_inside && ca >= 0 && ![a, b, c].contains(&p)
+        };
+        let n = self.left.len();
+        (0..n).all(|k| {
+            let (p, q) = (
+                self.places[self.left[k]],
+                self.places[self.left[(k + 1) % n]],
+            );
+            !blocks(p) && !segments_cross(a, c, p, q)
+        })
+    }
+}
+
+/// Whether two segments cross in a point that is an end of neither.
+fn segments_cross(a: Place, b: Place, p: Place, q: Place) -> bool {
+    let opposite = |s: i64, t: i64| s.signum() * t.signum() < 0;
+    opposite(area(a, b, p), area(a, b, q)) && opposite(area(p, q, a), area(p, q, b))
+}
+
+/// Whether no two of the triangles overlap. All have an area of this sign.
+fn are_apart(places: &[Place], triangles: &[[usize; 3]], sign: i64) -> bool {
+    // Two convex shapes are apart if an edge of one has the other on its outer side.
+    let separates = |t: &[Place; 3], other: &[Place; 3]| {
+        (0..3).any(|k| {
+            other
+                .iter()
+                .all(|&p| sign * area(t[k], t[(k + 1) % 3], p) <= 0)
+        })
+    };
+    let triangles: Vec<[Place; 3]> = triangles.iter().map(|t| t.map(|i| places[i])).collect();
+    triangles.iter().enumerate().all(|(i, t)| {
+        triangles[..i]
+            .iter()
+            .all(|u| separates(t, u) || separates(u, t))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reference::fixtures::{Dice, covered, shape};
+    use alloc::vec;
+    use alloc::vec::Vec;
+
+    type Points = Vec<(f64, f64)>;
+
+    /// Cuts polygons and asks that each pixel is covered as often as before. Returns how many were left out.
+    fn check(side: u32, polygons: &[&[(f64, f64)]]) -> usize {
+        let frame = shape(side, side, polygons);
+        let cut = triangulated(&frame);
+        assert!(cut.frame.polygons().iter().all(|p| p.count == 3));
+        if cut.not_simple == 0 {
+            assert_eq!(covered(&cut.frame), covered(&frame), "{polygons:?}");
+        }
+        cut.not_simple
+    }
+
+    fn triangles(polygon: &[(f64, f64)]) -> Option<Vec<[usize; 3]>> {
+        ears(
+            &polygon
+                .iter()
+                .map(|&(x, y)| ((x * 256.0) as i64, (y * 256.0) as i64))
+                .collect::<Vec<_>>(),
+        )
+    }
+
+    #[test]
+    fn a_convex_polygon_becomes_the_fan_about_its_first_corner() {
+        let pentagon = [(4.0, 0.0), (8.0, 3.0), (6.0, 8.0), (2.0, 8.0), (0.0, 3.0)];
+        assert_eq!(
+            triangles(&pentagon),
+            Some(vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]])
+        );
+        let reversed: Points = pentagon.iter().rev().copied().collect();
+        assert_eq!(
+            triangles(&reversed),
+            Some(vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]])
+        );
+        assert_eq!(check(9, &[&pentagon]), 0);
+    }
+
+    #[test]
+    fn triangles_pass_and_pieces_know_their_polygon() {
+        let frame = shape(
+            9,
+            9,
+            &[
+                &[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)],
+                &[(4.0, 4.0), (8.0, 4.0), (8.0, 8.0), (4.0, 8.0)],
+            ],
+        );
+        let cut = triangulated(&frame);
+        let pieces: Vec<_> = cut
+            .frame
+            .polygons()
+            .iter()
+            .map(|p| (cut.frame.corners(p).to_vec(), p.source))
+            .collect();
+        assert_eq!(
+            pieces,
+            [(vec![0, 1, 2], 0), (vec![3, 4, 5], 1), (vec![3, 5, 6], 1)]
+        );
+        assert_eq!(cut.frame.vertices(), frame.vertices());
+        assert_eq!(cut.origins, [0, 1, 1]);
+    }
+
+    #[test]
+    fn a_reflex_corner_turns_the_diagonal() {
+        // The fan about the first corner would leave the arrowhead.
+        assert_eq!(
+            triangles(&[(0.0, 0.0), (8.0, 4.0), (0.0, 8.0), (2.0, 4.0)]),
+            Some(vec![[1, 2, 3], [0, 1, 3]])
+        );
+    }
+
+    #[test]
+    fn collinear_corners_keep_their_triangles() {
+        // A corner in the middle of an edge: its attributes must not be lost.
+        let square = [(0.0, 0.0), (4.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)];
+        let cut = triangles(&square).unwrap();
+        assert_eq!(cut.len(), 3);
+        assert!(cut.iter().flatten().any(|&corner| corner == 1));
+        assert_eq!(check(9, &[&square]), 0);
+    }
+
+    #[test]
+    fn repeated_corners_and_spikes_add_nothing() {
+        let doubled: Points = [(0.5, 0.5), (8.5, 0.5), (8.5, 8.5), (0.5, 8.5)]
+            .iter()
+            .flat_map(|&p| [p, p, p])
+            .collect();
+        assert_eq!(triangles(&doubled).map(|t| t.len()), Some(2));
+        assert_eq!(check(9, &[&doubled]), 0);
+        let spike = [
+            (1.0, 1.0),
+            (5.0, 1.0),
+            (8.0, 1.0),
+            (5.0, 1.0),
+            (5.0, 6.0),
+            (1.0, 6.0),
+        ];
+        assert_eq!(triangles(&spike).map(|t| t.len()), Some(2));
+        assert_eq!(check(9, &[&spike]), 0);
+        assert_eq!(
+            triangles(&[(1.0, 1.0), (2.0, 2.0), (5.0, 5.0), (3.0, 3.0)]),
+            Some(vec![])
+        );
+        assert_eq!(triangles(&[(1.0, 1.0); 5]), Some(vec![]));
+    }
+
+    #[test]
+    fn a_hole_joined_by_a_cut_stays_open() {
+        let outer = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0), (0.0, 0.0)];
+        let hole = [(3.0, 3.0), (3.0, 6.0), (6.0, 6.0), (6.0, 3.0), (3.0, 3.0)];
+        let ring = [outer, hole].concat();
+        assert_eq!(check(9, &[&ring]), 0);
+        let reversed: Points = ring.iter().rev().copied().collect();
+        assert_eq!(check(9, &[&reversed]), 0);
+    }
+
+    #[test]
+    fn what_crosses_or_overlaps_itself_is_counted_and_left_out() {
+        let bow_tie = [(0.0, 0.0), (8.0, 8.0), (8.0, 0.0), (0.0, 8.0)];
+        let lopsided = [(0.0, 0.0), (8.0, 8.0), (8.0, 2.0), (0.0, 8.0)];
+        // Every corner of a pentagram is convex: it has ears, and they overlap.
+        let pentagram = [(4.0, 0.0), (6.0, 8.0), (0.0, 3.0), (8.0, 3.0), (2.0, 8.0)];
+        let twice_around = [
+            (0.0, 0.0),
+            (8.0, 0.0),
+            (4.0, 8.0),
+            (0.0, 0.0),
+            (8.0, 0.0),
+            (4.0, 8.0),
+        ];
+        let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)];
+        for polygon in [&bow_tie[..], &lopsided, &pentagram, &twice_around] {
+            let cut = triangulated(&shape(9, 9, &[polygon, &square]));
+            assert_eq!(
+                (cut.not_simple, cut.frame.polygons().len()),
+                (1, 2),
+                "{polygon:?}"
+            );
+            assert!(cut.frame.polygons().iter().all(|p| p.source == 1));
+        }
+    }
+
+    #[test]
+    fn the_guard_band_is_within_the_integers() {
+        let g = f64::from(Frame::GUARD);
+        assert_eq!(
+            check(4, &[&[(-g, -g), (g, -g), (g, g), (1.0, 2.0), (-g, g)]]),
+            0
+        );
+    }
+
+    /// Corners in the directions of their numbers about the middle: star-shaped, of any concavity.
+    fn star(dice: &mut Dice, corners: usize) -> Points {
+        (0..corners)
+            .map(|k| {
+                let angle = core::f64::consts::TAU * k as f64 / corners as f64;
+                // 1/64 pixel is more than enough to keep neighbours apart.
+                let radius = 4.0 + dice.below(27 * 64) as f64 / 64.0;
+                (
+                    32.5 + radius * libm::cos(angle),
+                    32.5 + radius * libm::sin(angle),
+                )
+            })
+            .collect()
+    }
+
+    #[test]
+    fn stars_and_combs() {
+        let mut dice = Dice::new(3);
+        for corners in 4..60 {
+            let mut polygon = star(&mut dice, corners);
+            assert_eq!(check(65, &[&polygon]), 0);
+            polygon.reverse();
+            assert_eq!(check(65, &[&polygon]), 0);
+        }
+        for teeth in 2..16 {
+            // Tips at random heights on pixel centres, gaps down to one row.
+            let mut comb: Points = vec![(4.0 * teeth as f64, 40.5), (0.5, 40.5)];
+            for tooth in 0..teeth {
+                let x = 4.0 * tooth as f64;
+                comb.push((x + 0.5, dice.below(30) as f64 + 0.5));
+                comb.push((x + 2.5, dice.below(30) as f64 + 0.5));
+                comb.push((x + 2.5, 39.5));
+                comb.push((x + 3.5, 39.5));
+            }
+            assert_eq!(check(65, &[&comb]), 0);
+            comb.reverse();
+            assert_eq!(check(65, &[&comb]), 0);
+        }
+    }
+
+    #[test]
+    fn polygons_that_share_a_ragged_edge_tile_the_picture() {
+        let mut dice = Dice::new(4);
+        for _ in 0..50 {
+            let ragged: Points = (0..=16)
+                .map(|k| (2.0 * k as f64, dice.below(32 * 64) as f64 / 64.0))
+                .collect();
+            let above: Points = [&[(0.0, 0.0)][..], &ragged, &[(32.0, 0.0)]].concat();
+            let below: Points = [&[(0.0, 32.0)][..], &ragged, &[(32.0, 32.0)]].concat();
+            assert_eq!(check(32, &[&above, &below]), 0);
+            let cut = triangulated(&shape(32, 32, &[&above, &below]));
+            assert!(
+                covered(&cut.frame).texels().iter().all(|&n| n == 1),
+                "{ragged:?}"
+            );
+        }
+    }
+
+    /// Whether no two edges of a polygon meet but neighbours in their common corner.
+    fn is_simple(p: &[Place]) -> bool {
+        let n = p.len();
+        let on = |a: Place, b: Place, q: Place| {
+            let within = |lo: i64, hi: i64, v: i64| lo.min(hi) <= v && v <= lo.max(hi);
+            area(a, b, q) == 0 && within(a.0, b.0, q.0) && within(a.1, b.1, q.1)
+        };
+        (0..n).all(|i| {
+            (0..i).all(|j| {
+                let (a, b, c, d) = (p[i], p[(i + 1) % n], p[j], p[(j + 1) % n]);
+                if (j + 1) % n == i {
+                    !on(c, d, b) && !on(a, b, c)
+                } else if (i + 1) % n == j {
+                    !on(c, d, a) && !on(a, b, d)
+                } else {
+                    !segments_cross(a, b, c, d)
+                        && !on(a, b, c)
+                        && !on(a, b, d)
+                        && !on(c, d, a)
+                        && !on(c, d, b)
+                }
+            })
+        })
+    }
+
+    #[test]
+    fn random_polygons_are_cut_right_or_left_out_and_simple_ones_always_cut() {
+        let mut dice = Dice::new(5);
+        let (mut simple, mut left_out, mut touching) = (0, 0, 0);
+        for round in 0..20_000 {
+            // A coarse grid: most corners repeat, touch or line up with others.
+            let corners: Vec<Place> = (0..4 + round % 6)
+                .map(|_| (dice.below(6) * 128 + 128, dice.below(6) * 128 + 128))
+                .collect();
+            let points: Points = corners
+                .iter()
+                .map(|&(x, y)| (x as f64 / 256.0, y as f64 / 256.0))
+                .collect();
+            match (is_simple(&corners), check(4, &[&points])) {
+                (true, not_simple) => {
+                    assert_eq!(not_simple, 0, "{points:?}");
+                    simple += 1;
+                }
+                (false, 0) => touching += 1,
+                (false, _) => left_out += 1,
+            }
+        }
+        assert!(
+            simple > 2000 && left_out > 2000 && touching > 1000,
+            "{simple} {left_out} {touching}"
+        );
+    }
+}

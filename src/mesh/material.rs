@@ -1,0 +1,28 @@
+//! Materials: how surfaces reflect light (L21 2.1).
+
+use crate::picture::Rgb;
+
+/// How a surface reflects light: the coefficients of L21 2.1, each per channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Ambient reflection `k_a`.
+    pub ambient: Rgb,
+    /// Diffuse reflection `k_d`.
+    pub diffuse: Rgb,
+    /// Specular reflection `k_s`.
+    pub specular: Rgb,
+    /// The exponent `n`, 0 or more. Large exponents give small, sharp highlights.
+    pub shininess: f32,
+}
+
+impl Default for Material {
+    /// A warm, slightly glossy surface: the one that a mesh without a material gets.
+    fn default() -> Self {
+        Material {
+            ambient: [0.08, 0.07, 0.06],
+            diffuse: [0.60, 0.45, 0.30],
+            specular: [0.40, 0.40, 0.40],
+            shininess: 32.0,
+        }
+    }
+}

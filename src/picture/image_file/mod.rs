@@ -1,0 +1,310 @@
+//! Pictures in files: PNG, PPM and PFM.
+//!
+//! | ending | holds | loses |
+//! |---|---|---|
+//! | `.png` | red, green, blue, alpha in 8 bits | fractions of a grey level |
+//! | `.ppm` | red, green, blue in 8 bits (P6) | the same, and alpha: which pixels are covered |
+//! | `.pfm` | red, green, blue as floats (PF) | alpha |
+//!
+//! Values are stored as they are: no file is given or read with a gamma of its own. Writing goes by the ending of the
+//! path, reading by the first bytes of the file.
+//!
+//! ```no_run
+//! use fastphong::compare::metrics::{compare, difference_map};
+//! use fastphong::picture::image_file::{FilePicture, comparable, read_picture, write_picture};
+//! use std::path::Path;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let reference = read_picture(Path::new("reference.pfm"))?;
+//! let actual = read_picture(Path::new("actual.png"))?;
+//! let [reference, actual] = comparable(&reference, &actual);
+//! println!("{} grey levels", 255.0 * compare(&reference, &actual)?.max);
+//! write_picture(Path::new("map.png"), &FilePicture::stored(difference_map(&reference, &actual, 16.0)?))?;
+//! # Ok(())
+//! # }
+//! ```
+
+use std::borrow::{Cow, ToOwned};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+use std::vec::Vec;
+
+use super::encoding::quantise;
+use super::{Levels, LinearPicture, Picture, Picture8, Texel};
+
+mod encoder;
+mod error;
+mod netpbm;
+mod png;
+mod replace;
+
+pub use encoder::Encoder;
+pub use error::{DecodeError, EncodeError, ImageFileError};
+pub use netpbm::{PpmWriter, encode_pfm, encode_ppm};
+pub use png::encode_png;
+pub use replace::{write_file, write_file_by};
+
+/// Pixels of the largest picture that is read, 8192 × 8192: beyond that a file is more likely broken, or hostile, than meant.
+pub const MAX_PIXELS: u64 = 1 << 26;
+
+/// Bytes of the largest file that is read: the largest picture as floats, and as much again for headers, text and bad compression.
+const MAX_BYTES: u64 = 2 * 12 * MAX_PIXELS;
+
+/// A format of picture files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Portable Network Graphics: 8 bits a channel, with alpha.
+    Png,
+    /// Portable pixmap, binary (P6): 8 bits a channel, no alpha.
+    Ppm,
+    /// Portable float map (PF): linear floats, no alpha.
+    Pfm,
+}
+
+impl Format {
+    /// Every format.
+    pub const ALL: [Format; 3] = [Format::Png, Format::Ppm, Format::Pfm];
+
+    /// Its ending, in lower case and without the dot.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Format::Png => "png",
+            Format::Ppm => "ppm",
+            Format::Pfm => "pfm",
+        }
+    }
+
+    /// The format that the ending of `path` names, in either case.
+    ///
+    /// # Errors
+    /// If there is no ending, or one of no format.
+    pub fn of_path(path: &Path) -> Result<Format, ImageFileError> {
+        let ending = path
+            .extension()
+            .and_then(|ending| ending.to_str())
+            .unwrap_or("");
+        Format::ALL
+            .into_iter()
+            .find(|format| format.ending().eq_ignore_ascii_case(ending))
+            .ok_or_else(|| ImageFileError::UnknownEnding {
+                path: path.to_owned(),
+            })
+    }
+}
+
+/// The texels that a file holds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FileTexels {
+    /// Grey levels, from PNG or PPM.
+    Stored(Picture8),
+    /// Floats, from PFM.
+    Linear(LinearPicture),
+}
+
+/// What a picture file holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilePicture {
+    /// The texels; alpha is full where the file has none.
+    pub texels: FileTexels,
+    /// Whether the file says which pixels are covered.
+    pub has_alpha: bool,
+}
+
+impl FilePicture {
+    /// A picture of grey levels with alpha, as it goes into a PNG file.
+    pub fn stored(picture: Picture8) -> FilePicture {
+        FilePicture {
+            texels: FileTexels::Stored(picture),
+            has_alpha: true,
+        }
+    }
+
+    /// A picture of floats with alpha, as it is before it goes into a file.
+    pub fn linear(picture: LinearPicture) -> FilePicture {
+        FilePicture {
+            texels: FileTexels::Linear(picture),
+            has_alpha: true,
+        }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        match &self.texels {
+            FileTexels::Stored(picture) => [picture.width(), picture.height()],
+            FileTexels::Linear(picture) => [picture.width(), picture.height()],
+        }
+    }
+
+    /// The picture in 8 bits a channel; floats are rounded by [`quantise`].
+    pub fn to_stored(&self) -> Picture8 {
+        match &self.texels {
+            FileTexels::Stored(picture) => picture.clone(),
+            FileTexels::Linear(picture) => picture.map(|texel| texel.map(quantise)),
+        }
+    }
+
+    /// The picture in floats; a grey level is 1/255.
+    pub fn to_linear(&self) -> LinearPicture {
+        match &self.texels {
+            FileTexels::Stored(picture) => {
+                picture.map(|texel| texel.map(|level| f32::from(level) / 255.0))
+            }
+            FileTexels::Linear(picture) => picture.clone(),
+        }
+    }
+
+    /// The bytes of a file of this picture.
+    ///
+    /// # Errors
+    /// If the picture has no pixels, or more than the format can count.
+    pub fn encode(&self, format: Format) -> Result<Vec<u8>, EncodeError> {
+        self.encoder(format).map(Encoder::bytes)
+    }
+
+    /// The same, to be written in pieces.
+    ///
+    /// # Errors
+    /// As [`FilePicture::encode`].
+    pub fn encoder(&self, format: Format) -> Result<Encoder<'_>, EncodeError> {
+        match (format, &self.texels) {
+            (Format::Png, FileTexels::Stored(picture)) => Encoder::png(picture),
+            (Format::Png, FileTexels::Linear(_)) => Encoder::png(&self.to_stored()),
+            (Format::Ppm, FileTexels::Stored(picture)) => Encoder::ppm(Cow::Borrowed(picture)),
+            (Format::Ppm, FileTexels::Linear(_)) => Encoder::ppm(Cow::Owned(self.to_stored())),
+            (Format::Pfm, FileTexels::Linear(picture)) => Encoder::pfm(Cow::Borrowed(picture)),
+            (Format::Pfm, FileTexels::Stored(_)) => Encoder::pfm(Cow::Owned(self.to_linear())),
+        }
+    }
+
+    fn levels(&self, with_alpha: bool) -> Picture<Levels> {
+        let levels = match &self.texels {
+            FileTexels::Stored(picture) => picture.map(Texel::levels),
+            FileTexels::Linear(picture) => picture.map(Texel::levels),
+        };
+        if with_alpha {
+            levels
+        } else {
+            levels.map(|Levels([r, g, b, _])| Levels([r, g, b, 255.0]))
+        }
+    }
+}
+
+/// Both pictures in grey levels, ready for [`compare`](crate::compare::metrics::compare) and the maps.
+///
+/// If one of the files has no alpha, the other's is dropped: all pixels count as covered, and none as a mismatch.
+pub fn comparable(reference: &FilePicture, actual: &FilePicture) -> [Picture<Levels>; 2] {
+    let with_alpha = reference.has_alpha && actual.has_alpha;
+    [reference.levels(with_alpha), actual.levels(with_alpha)]
+}
+
+/// Writes a picture in the format that the ending of `path` names; see [`write_file`] for what happens to a file already there.
+///
+/// # Errors
+/// If the ending names no format, the format cannot hold the picture, or the file cannot be written.
+pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFileError> {
+    let format = Format::of_path(path)?;
+    let encoder = picture
+        .encoder(format)
+        .map_err(|source| ImageFileError::Encode {
+            path: path.to_owned(),
+            source,
+        })?;
+    write_file_by(path, |file| encoder.write_to(file))
+}
+
+/// Reads a picture of any of the formats, whatever the path ends in.
+///
+/// # Errors
+/// If the file cannot be read, is none of the formats, is broken or cut off, or has more than [`MAX_PIXELS`] pixels.
+pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
+    decode_picture(&read_file(path)?).map_err(|source| ImageFileError::Decode {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Reads a PNG file of any colour type as 8 bits of red, green, blue, alpha.
+///
+/// Grey becomes three equal channels, palettes are looked up, 16 bits are rounded to 8, and alpha is full where the file has none.
+///
+/// # Errors
+/// If the file cannot be read, is not PNG, is broken or cut off, or has more than [`MAX_PIXELS`] pixels.
+pub fn read_png(path: &Path) -> Result<Picture8, ImageFileError> {
+    match png::decode(&read_file(path)?) {
+        Ok((picture, _)) => Ok(picture),
+        Err(source) => Err(ImageFileError::Decode {
+            path: path.to_owned(),
+            source,
+        }),
+    }
+}
+
+/// The picture that the bytes of a file of any of the formats hold.
+///
+/// # Errors
+/// If the bytes are none of the formats, are broken or cut off, or hold more than [`MAX_PIXELS`] pixels.
+pub fn decode_picture(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
+    let (texels, has_alpha) = match announced(bytes).ok_or(DecodeError::NotAPicture)? {
+        Format::Png => {
+            let (picture, has_alpha) = png::decode(bytes)?;
+            (FileTexels::Stored(picture), has_alpha)
+        }
+        Format::Ppm => (FileTexels::Stored(netpbm::decode_ppm(bytes)?), false),
+        Format::Pfm => (FileTexels::Linear(netpbm::decode_pfm(bytes)?), false),
+    };
+    Ok(FilePicture { texels, has_alpha })
+}
+
+/// The format that the first bytes of a file announce.
+fn announced(bytes: &[u8]) -> Option<Format> {
+    match bytes {
+        _ if bytes.starts_with(&png::SIGNATURE) => Some(Format::Png),
+        [b'P', b'6', ..] => Some(Format::Ppm),
+        [b'P', b'F' | b'f', ..] => Some(Format::Pfm),
+        _ => None,
+    }
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
+    let read = || -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        // One byte more than is allowed, to see that there is more: some files, such as devices, never end.
+        let mut file = File::open(path)?.take(MAX_BYTES + 1);
+        file.by_ref()
+            .take(png::SIGNATURE.len() as u64)
+            .read_to_end(&mut bytes)?;
+        // What does not begin like a picture is told by its beginning, and need not be read to its end.
+        if announced(&bytes).is_some() {
+            file.read_to_end(&mut bytes)?;
+        }
+        if bytes.len() as u64 > MAX_BYTES {
+            return Err(io::Error::new(
+                io::ErrorKind::FileTooLarge,
+                "the file is too large for a picture",
+            ));
+        }
+        Ok(bytes)
+    };
+    read().map_err(|source| ImageFileError::Read {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Width and height as `usize`, if a picture of that size may be read.
+fn checked_size(format: Format, width: u64, height: u64) -> Result<[usize; 2], DecodeError> {
+    if width == 0 || height == 0 {
+        return Err(DecodeError::malformed(
+            format,
+            "it has no pixels: expected a width and a height of at least 1",
+        ));
+    }
+    match width.checked_mul(height) {
+        Some(pixels) if pixels <= MAX_PIXELS => Ok([width as usize, height as usize]),
+        _ => Err(DecodeError::TooLarge { width, height }),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,93 @@
+//! Pictures: in memory, as grey levels, in files. A picture is a rectangle of texels, row 0 at the top.
+
+pub mod encoding;
+#[cfg(feature = "io")]
+pub mod image_file;
+mod texel;
+
+pub use encoding::Encoding;
+pub use texel::{Levels, Texel};
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// A colour or a per-channel coefficient: red, green, blue, linear, usually in 0..=1.
+pub type Rgb = [f32; 3];
+
+/// A rectangle of texels, stored row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture<T> {
+    width: usize,
+    height: usize,
+    texels: Vec<T>,
+}
+
+/// A stored picture: red, green, blue, alpha in 0..=255; alpha is 255 where something was drawn, 0 elsewhere.
+pub type Picture8 = Picture<[u8; 4]>;
+
+/// A picture before rounding: linear red, green, blue in 0..=1; alpha is 1 where something was drawn, 0 elsewhere.
+pub type LinearPicture = Picture<[f32; 4]>;
+
+impl<T: Copy> Picture<T> {
+    /// A picture of `width` × `height` texels, all `fill`.
+    pub fn new(width: usize, height: usize, fill: T) -> Self {
+        Picture {
+            width,
+            height,
+            texels: vec![fill; width * height],
+        }
+    }
+
+    /// A picture from `texels`, row by row from the top; `None` unless there are `width` × `height` of them.
+    pub fn from_texels(width: usize, height: usize, texels: Vec<T>) -> Option<Self> {
+        (texels.len() == width * height).then_some(Picture {
+            width,
+            height,
+            texels,
+        })
+    }
+
+    /// Texels a row.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// All texels, row by row from the top.
+    pub fn texels(&self) -> &[T] {
+        &self.texels
+    }
+
+    /// All texels, to be changed.
+    pub fn texels_mut(&mut self) -> &mut [T] {
+        &mut self.texels
+    }
+
+    /// One row of texels.
+    pub fn row(&self, y: usize) -> &[T] {
+        &self.texels[y * self.width..][..self.width]
+    }
+
+    /// One row of texels, to be changed.
+    pub fn row_mut(&mut self, y: usize) -> &mut [T] {
+        &mut self.texels[y * self.width..][..self.width]
+    }
+
+    /// The texel in column `x` of row `y`.
+    pub fn get(&self, x: usize, y: usize) -> T {
+        self.row(y)[x]
+    }
+
+    /// The same picture with every texel passed through `f`.
+    pub fn map<U: Copy>(&self, f: impl Fn(T) -> U) -> Picture<U> {
+        Picture {
+            width: self.width,
+            height: self.height,
+            texels: self.texels.iter().map(|&t| f(t)).collect(),
+        }
+    }
+}

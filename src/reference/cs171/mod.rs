@@ -1,0 +1,163 @@
+//! CS171's algorithms as they are printed, in `f64`: slow, and to be read beside the text.
+//!
+//! One function an algorithm, over triangles. They share no arithmetic with the engines of [`crate::raster`] nor with
+//! [`mod@crate::reference`], so that each can be held against the others.
+//!
+//! | algorithm | here |
+//! |---|---|
+//! | 1 Raster_Triangle | [`raster_triangle`] |
+//! | 2 Raster_Colored_Triangle | [`raster_colored_triangle`] |
+//! | 3 Lighting | [`lighting()`] |
+//! | 4 Gouraud_Shading | [`gouraud_shading`] |
+//! | 5 Raster_Colored_Triangle in NDC | [`raster_colored_ndc_triangle`] |
+//! | 6 Flat_Shading | [`flat_shading`] |
+//! | 7 Phong_Shading | [`phong_shading`] |
+//! | 8 the full one: depth buffer, back faces culled | [`full_shading`] |
+//!
+//! # Where the text is not followed
+//!
+//! * γ is `f_ab(p) / f_ab(c)`; the text divides by `f_ac(p)` ([`barycentric::printed_gamma`]).
+//! * "very shiny … p value close to 1" is the wrong way round: a large exponent gives the small highlight of a shiny
+//!   surface, as its own Figure 7 shows. The exponent is the material's.
+//! * Algorithm 4 hands the corners on where it means their places in NDC and their colours.
+//! * The text has a point inside where 0 < α, β, γ < 1, the algorithms where they are in [0, 1]: [`Inside`].
+//! * The text renders what is *less* deep than the buffer, Algorithm 8 what is *not deeper*: [`Ties`].
+//! * Algorithm 7 gives an interpolated normal to a lighting model that asks for a unit normal. [`Reading::normalise`]
+//!   makes it one; without it highlights are lost between the corners.
+//! * Colours, world coordinates and normals are interpolated linearly on the screen, which is right under an orthographic
+//!   camera only; NDC is right under both. A frame that asks for perspective interpolation gets it
+//!   ([`crate::frame::perspective`]).
+//! * The test against the cube is not clipping: a corner behind the eye has no place on the picture
+//!   ([`world_to_ndc`]). What comes from a frame is clipped, and tested besides.
+//! * `cross.z < 0` lets a triangle without area through, and then f_ij divides by zero: it is left out.
+//! * Pixels are tested at their centres, and only those of the grid.
+
+pub mod barycentric;
+mod lighting;
+mod rasterize;
+mod shading;
+
+pub use lighting::lighting;
+pub use rasterize::{
+    ndc_to_screen, raster_colored_ndc_triangle, raster_colored_triangle, raster_triangle,
+    world_to_ndc,
+};
+pub use shading::{flat_shading, full_shading, gouraud_shading, phong_shading, render};
+
+use crate::picture::Picture;
+use glam::DVec3;
+
+/// To whom pixels whose centres lie on an edge belong.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Inside {
+    /// To every triangle that has the edge: α, β, γ ∈ [0, 1], as in the algorithms. Shared edges are drawn twice.
+    #[default]
+    Closed,
+    /// To none: 0 < α, β, γ < 1, as in the text. Shared edges are holes.
+    Open,
+}
+
+/// Which of two points at the same depth is seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ties {
+    /// The later one: `!(NDC.z > buffer(x, y))`, as in Algorithm 8.
+    #[default]
+    Later,
+    /// The earlier one: "less than the value stored", as in the text, and as in every other engine here.
+    Earlier,
+}
+
+/// How the text is read where it can be read in two ways.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reading {
+    /// Pixels on edges.
+    pub inside: Inside,
+    /// Points at the same depth.
+    pub ties: Ties,
+    /// Whether interpolated and averaged normals are made unit vectors, which Algorithms 6 and 7 leave out.
+    pub normalise: bool,
+    /// Whether [`full_shading`] leaves out back faces, as Algorithm 8 does.
+    pub cull: bool,
+}
+
+impl Default for Reading {
+    /// The algorithms' lines, with unit normals.
+    fn default() -> Self {
+        Reading {
+            inside: Inside::Closed,
+            ties: Ties::Later,
+            normalise: true,
+            cull: true,
+        }
+    }
+}
+
+/// What is interpolated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shading {
+    /// Nothing: one colour a triangle, of the average corner (Algorithm 6).
+    Flat,
+    /// The colours of the corners (Algorithms 4 and 5).
+    Gouraud,
+    /// World coordinates and normals (Algorithm 7).
+    Phong,
+}
+
+/// A corner of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// v: its place in the space where lights and eye are.
+    pub world: DVec3,
+    /// n: its unit normal there.
+    pub normal: DVec3,
+    /// Its normalised device coordinates: x to the right, y upward, z from near to far; what is seen is in −1..=1.
+    pub ndc: DVec3,
+    /// The reciprocal of its depth in any unit, over 0, for perspective interpolation; the same at all corners for
+    /// interpolation on the screen, as printed.
+    pub inv_w: f64,
+}
+
+/// The raster grid, and the buffer grid of Algorithm 8.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    /// Red, green, blue in 0..=1; alpha is 1 where a triangle was drawn.
+    pub colours: Picture<[f64; 4]>,
+    /// The NDC depth of what was drawn; the largest double where nothing was.
+    pub buffer: Picture<f64>,
+}
+
+impl Grid {
+    /// A grid of `width` × `height` pixels of this colour, on which nothing was drawn.
+    pub fn new(width: usize, height: usize, background: DVec3) -> Grid {
+        let [r, g, b] = background.to_array();
+        Grid {
+            colours: Picture::new(width, height, [r, g, b, 0.0]),
+            buffer: Picture::new(width, height, f64::MAX),
+        }
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> [usize; 2] {
+        [self.colours.width(), self.colours.height()]
+    }
+
+    /// The mean of each `side` × `side` samples, alpha too; 0 counts as 1, and samples beyond the last whole square are
+    /// left out.
+    pub fn filtered(&self, side: usize) -> Picture<[f64; 4]> {
+        let side = side.max(1);
+        let [width, height] = self.size().map(|count| count / side);
+        let mut picture = Picture::new(width, height, [0.0; 4]);
+        let share = 1.0 / (side * side) as f64;
+        for (x, y) in (0..height * side).flat_map(|y| (0..width * side).map(move |x| (x, y))) {
+            let sample = self.colours.get(x, y);
+            let texel = &mut picture.row_mut(y / side)[x / side];
+            *texel = core::array::from_fn(|c| texel[c] + share * sample[c]);
+        }
+        picture
+    }
+
+    /// Fill(x, y, grid, color).
+    fn fill(&mut self, x: usize, y: usize, colour: DVec3) {
+        self.colours.row_mut(y)[x] = [colour.x, colour.y, colour.z, 1.0];
+    }
+}

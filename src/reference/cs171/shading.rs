@@ -1,0 +1,162 @@
+//! Algorithms 4, 6, 7 and 8: what colour pixels get; and a frame drawn by them.
+
+use super::barycentric::Weights;
+use super::rasterize::{blend, raster_ndc_triangle, raster_visible_triangle};
+use super::{Corner, Grid, Reading, Shading, lighting, raster_colored_ndc_triangle};
+use crate::frame::{Frame, ScreenVertex};
+use crate::scene::{Interpolation, Lighting};
+use alloc::vec::Vec;
+use glam::DVec3;
+
+/// Algorithm 4: the corners are lit, and Algorithm 5 fills what is between them.
+pub fn gouraud_shading(corners: &[Corner; 3], light: &Lighting, reading: Reading, grid: &mut Grid) {
+    let colours = corners.map(|corner| lighting(corner.world, corner.normal, light));
+    raster_colored_ndc_triangle(corners, colours, reading, grid);
+}
+
+/// Algorithm 6: the average corner is lit, and its colour fills the triangle.
+pub fn flat_shading(corners: &[Corner; 3], light: &Lighting, reading: Reading, grid: &mut Grid) {
+    let colour = flat_colour(average(corners), light, reading);
+    raster_ndc_triangle(corners, reading, grid, |_| colour);
+}
+
+/// Algorithm 7: every pixel is lit, at the place and with the normal between those of the corners.
+pub fn phong_shading(corners: &[Corner; 3], light: &Lighting, reading: Reading, grid: &mut Grid) {
+    raster_ndc_triangle(corners, reading, grid, |weights| {
+        phong_colour(corners, weights, light, reading)
+    });
+}
+
+/// Algorithm 8, which stands for Gouraud shading, and the same for the other two: a depth buffer, and back faces left out.
+pub fn full_shading(
+    shading: Shading,
+    corners: &[Corner; 3],
+    light: &Lighting,
+    reading: Reading,
+    grid: &mut Grid,
+) {
+    match shading {
+        Shading::Flat => {
+            let colour = flat_colour(average(corners), light, reading);
+            raster_visible_triangle(corners, reading, grid, |_| colour);
+        }
+        Shading::Gouraud => {
+            let colours = corners.map(|corner| lighting(corner.world, corner.normal, light));
+            raster_visible_triangle(corners, reading, grid, |weights| blend(weights, colours));
+        }
+        Shading::Phong => {
+            raster_visible_triangle(corners, reading, grid, |w| {
+                phong_colour(corners, w, light, reading)
+            });
+        }
+    }
+}
+
+/// The average position and the average normal.
+fn average(corners: &[Corner; 3]) -> [DVec3; 2] {
+    let [a, b, c] = corners;
+    [
+        (a.world + b.world + c.world) / 3.0,
+        (a.normal + b.normal + c.normal) / 3.0,
+    ]
+}
+
+/// `n`, made a unit vector if the reading asks for it.
+fn read(n: DVec3, reading: Reading) -> DVec3 {
+    if reading.normalise {
+        n.normalize_or_zero()
+    } else {
+        n
+    }
+}
+
+fn flat_colour([v_avg, n_avg]: [DVec3; 2], light: &Lighting, reading: Reading) -> DVec3 {
+    lighting(v_avg, read(n_avg, reading), light)
+}
+
+fn phong_colour(
+    corners: &[Corner; 3],
+    weights: Weights,
+    light: &Lighting,
+    reading: Reading,
+) -> DVec3 {
+    let n = blend(weights, corners.map(|corner| corner.normal));
+    let v = blend(weights, corners.map(|corner| corner.world));
+    lighting(v, read(n, reading), light)
+}
+
+/// The triangles of `frame` by Algorithm 8; without a depth test by Algorithms 4 to 7, in drawing order.
+///
+/// Polygons of more than three corners are passed over: [`triangulated`](crate::frame::triangulate::triangulated) cuts them. The
+/// average corner is that of the scene's polygon ([`Frame::mean`]). A corner that clipping made is not lit, but lies
+/// between two that are. A point on the near or far plane itself may be lost to rounding, as the cube is closed and tested
+/// in `f64`. Of a frame with several samples a pixel the grid is one of samples: [`Grid::filtered`].
+pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Grid {
+    let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
+    let corners = corners(frame);
+    let light = |number: u32| &frame.lightings()[frame.material(number) as usize];
+    let mut colours: Vec<DVec3> = match shading {
+        Shading::Gouraud => {
+            let lit = (0..).zip(&corners);
+            lit.map(|(number, corner)| lighting(corner.world, corner.normal, light(number)))
+                .collect()
+        }
+        Shading::Flat | Shading::Phong => Vec::new(),
+    };
+    if !colours.is_empty() {
+        for cut in frame.clip_corners() {
+            let (a, b) = (colours[cut.a as usize], colours[cut.b as usize]);
+            colours[cut.vertex as usize] = a.lerp(b, f64::from(cut.t));
+        }
+    }
+    let mut grid = Grid::new(frame.width(), frame.height(), wide(frame.background()));
+    for polygon in frame.polygons() {
+        let &[a, b, c] = frame.corners(polygon) else {
+            continue;
+        };
+        let numbers = [a, b, c].map(|number| number as usize);
+        let triangle = numbers.map(|number| corners[number]);
+        let light = &frame.lightings()[polygon.material as usize];
+        let colour: &dyn Fn(Weights) -> DVec3 = match shading {
+            Shading::Flat => {
+                let mean = frame.mean(polygon);
+                let colour = flat_colour([wide(mean.position), wide(mean.normal)], light, reading);
+                &move |_| colour
+            }
+            Shading::Gouraud => &|weights| blend(weights, numbers.map(|number| colours[number])),
+            Shading::Phong => &|weights| phong_colour(&triangle, weights, light, reading),
+        };
+        if frame.depth_test() {
+            raster_visible_triangle(&triangle, reading, &mut grid, colour);
+        } else {
+            raster_ndc_triangle(&triangle, reading, &mut grid, colour);
+        }
+    }
+    grid
+}
+
+/// The vertices of a frame as corners: NDC from places and depths, world coordinates from the eye.
+fn corners(frame: &Frame) -> Vec<Corner> {
+    let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
+    let size = [frame.width() as f64, frame.height() as f64];
+    let corner = |(number, v): (u32, &ScreenVertex)| Corner {
+        world: wide(frame.position(number)),
+        normal: wide(frame.normal(number)),
+        ndc: DVec3::new(
+            2.0 * v.x.to_num::<f64>() / size[0] - 1.0,
+            1.0 - 2.0 * v.y.to_num::<f64>() / size[1],
+            2.0 * f64::from(v.depth) - 1.0,
+        ),
+        inv_w: match frame.interpolation() {
+            Interpolation::Screen => 1.0,
+            Interpolation::Perspective => f64::from(v.inv_w),
+        },
+    };
+    let mut all: Vec<Corner> = (0..).zip(frame.vertices()).map(corner).collect();
+    for cut in frame.clip_corners() {
+        let (a, b, t) = (all[cut.a as usize], all[cut.b as usize], f64::from(cut.t));
+        let vertex = &mut all[cut.vertex as usize];
+        (vertex.world, vertex.normal) = (a.world.lerp(b.world, t), a.normal.lerp(b.normal, t));
+    }
+    all
+}

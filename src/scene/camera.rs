@@ -1,0 +1,80 @@
+//! The camera: from world space to clip space, and the one view vector of the scene.
+
+use glam::{DMat4, DVec3, DVec4};
+
+/// How depth is folded onto the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// Parallel rays; `half_height` is half of the height that is seen, in world units.
+    Orthographic {
+        /// Half of the height seen.
+        half_height: f64,
+    },
+    /// Rays through the eye; `fovy` is the vertical field of view in degrees, inside (0, 180).
+    Perspective {
+        /// Vertical field of view in degrees.
+        fovy: f64,
+    },
+}
+
+/// Where the scene is seen from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Position of the eye in world space.
+    pub eye: DVec3,
+    /// The point in the middle of the picture.
+    pub target: DVec3,
+    /// The direction that is upward in the picture; not parallel to the line of sight.
+    pub up: DVec3,
+    /// Orthographic or perspective.
+    pub projection: Projection,
+    /// Distance of the near plane along the line of sight; over 0 under perspective.
+    pub near: f64,
+    /// Distance of the far plane, over `near`.
+    pub far: f64,
+}
+
+impl Camera {
+    /// Unit vector `V` toward the eye: one for the whole scene, under perspective too (L21 1).
+    pub fn view(&self) -> DVec3 {
+        (self.eye - self.target).normalize()
+    }
+
+    /// Right, up and forward unit vectors: a right-handed camera looking along `forward`.
+    pub fn axes(&self) -> [DVec3; 3] {
+        let forward = -self.view();
+        let right = forward.cross(self.up).normalize();
+        [right, right.cross(forward), forward]
+    }
+
+    /// World space to clip space: x and y in −w..=w from left to right and bottom to top, z in 0..=w from near to far.
+    pub fn clip_matrix(&self, aspect: f64) -> DMat4 {
+        let [right, up, forward] = self.axes();
+        let depth = self.far - self.near;
+        let row = |axis: DVec3, scale: f64, offset: f64| {
+            let axis = axis * scale;
+            axis.extend(offset - axis.dot(self.eye))
+        };
+        let rows = match self.projection {
+            Projection::Orthographic { half_height } => {
+                let scale = 1.0 / half_height;
+                [
+                    row(right, scale / aspect, 0.0),
+                    row(up, scale, 0.0),
+                    row(forward, 1.0 / depth, -self.near / depth),
+                    DVec4::W,
+                ]
+            }
+            Projection::Perspective { fovy } => {
+                let scale = 1.0 / libm::tan(fovy.to_radians() / 2.0);
+                [
+                    row(right, scale / aspect, 0.0),
+                    row(up, scale, 0.0),
+                    row(forward, self.far / depth, -self.far * self.near / depth),
+                    row(forward, 1.0, 0.0),
+                ]
+            }
+        };
+        DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
+    }
+}

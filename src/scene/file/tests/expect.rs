@@ -1,0 +1,60 @@
+//! How the tests say which error they expect, and where.
+
+use super::cubes;
+use crate::scene::file::SceneFile;
+use crate::scene::file::diagnostics::SceneError;
+use std::format;
+
+/// The error that `text` leads to, in reading or in resolving.
+pub(super) fn error(text: &str) -> SceneError {
+    match SceneFile::parse(text, "scene.toml").and_then(|file| file.resolve(cubes)) {
+        Ok(_) => panic!("no error in\n{text}"),
+        Err(error) => error,
+    }
+}
+
+/// One wrong scene: the mark `«…»` is taken out before it is read, and the caret must stand under what it held.
+pub(super) fn check(marked: &str, message: &str, expected: &str, hint: Option<&str>) {
+    let start = marked.find('«').expect("a mark");
+    let line = marked[..start].matches('\n').count() + 1;
+    let column = start - marked[..start].rfind('\n').map_or(0, |i| i + 1) + 1;
+    let inside = &marked[start + '«'.len_utf8()..marked.find('»').expect("a mark")];
+    let error = error(&marked.replace(['«', '»'], ""));
+    let got = (
+        error.message(),
+        error.expected(),
+        error.hint(),
+        error.line_and_column(),
+    );
+    assert_eq!(
+        got,
+        (message, expected, hint, Some((line, column))),
+        "in\n{marked}\n{error}"
+    );
+    let shown = format!("{error}");
+    assert!(shown.starts_with(&format!("error: {message}\n")), "{shown}");
+    assert!(
+        shown.contains(&format!("--> scene.toml:{line}:{column}\n")),
+        "{shown}"
+    );
+    // A caret under each character of the first line of what is marked, from the same column on.
+    let carets = "^".repeat(
+        inside
+            .lines()
+            .next()
+            .map_or(1, |line| line.chars().count().max(1)),
+    );
+    if !inside.contains('\n') {
+        let caret_line = shown
+            .lines()
+            .find(|line| line.contains('^'))
+            .unwrap_or_else(|| panic!("no caret in\n{shown}"));
+        let under = caret_line.split_once("| ").map_or("", |(_, under)| under);
+        let end = column - 1 + carets.len();
+        assert_eq!(under.find('^'), Some(column - 1), "{shown}");
+        assert!(
+            under[column - 1..].starts_with(&carets) && !under[end..].starts_with('^'),
+            "{shown}"
+        );
+    }
+}

@@ -1,0 +1,268 @@
+//! What is refused of lights, of the viewer and of highlights, and how it is said.
+
+use super::expect::{check, error};
+use super::{cubes, with_object};
+use crate::scene::file::value::Located;
+use crate::scene::file::{LightSection, SceneFile};
+use std::format;
+use std::vec;
+
+const AT: &str = "[[light]]\nposition = [0, 3, 3]\n";
+const TOWARD: &str = "[[light]]\ndirection = [0, 3, 3]\n";
+
+#[test]
+fn positions_and_attenuations_out_of_range() {
+    let coordinates = "expected numbers between -1e15 and 1e15";
+    check(
+        "[[light]]\nposition = «[0, nan, 0]»\n",
+        "`light.position` has y = NaN",
+        coordinates,
+        None,
+    );
+    check(
+        "[[light]]\nposition = «[0, 0, inf]»\n",
+        "`light.position` has z = inf",
+        coordinates,
+        None,
+    );
+    check(
+        "[[light]]\nposition = «[2e15, 0, 0]»\n",
+        "`light.position` has x = 2000000000000000",
+        coordinates,
+        None,
+    );
+    let at_least_0 = "expected 0 or more";
+    check(
+        &format!("{AT}attenuation = «-0.5»\n"),
+        "`light.attenuation` is -0.5",
+        at_least_0,
+        None,
+    );
+    check(
+        &format!("{AT}attenuation = «nan»\n"),
+        "`light.attenuation` is NaN",
+        at_least_0,
+        None,
+    );
+    check(
+        &format!("{AT}attenuation = «inf»\n"),
+        "`light.attenuation` is inf",
+        at_least_0,
+        None,
+    );
+    let three = "expected three numbers [x, y, z]";
+    check(
+        "[[light]]\nposition = «[0, 3]»\n",
+        three,
+        "found a list of 2",
+        None,
+    );
+    check(
+        "[[light]]\nposition = «\"up\"»\n",
+        three,
+        "found string \"up\"",
+        None,
+    );
+}
+
+/// A light is at infinity or at a position; only at a position it has a distance.
+#[test]
+fn a_light_is_in_one_place() {
+    let message = "`light.position` and `light.direction` exclude each other";
+    let expected = "expected one of them: a light is at infinity or at a place";
+    check(
+        &format!("{TOWARD}position = «[1, 2, 3]»\n"),
+        message,
+        expected,
+        None,
+    );
+    check(
+        "[[light]]\nposition = «[1, 2, 3]»\ndirection = [0, 0, 1]\n",
+        message,
+        expected,
+        None,
+    );
+    let expected = "expected it beside `position`: a light at infinity has no distance";
+    let key = |key: &str| format!("`light.{key}` is given for a light with a `direction`");
+    check(
+        &format!("{TOWARD}attenuation = «0.5»\n"),
+        &key("attenuation"),
+        expected,
+        None,
+    );
+    check(
+        &format!("{TOWARD}falloff = «\"inverse\"»\n"),
+        &key("falloff"),
+        expected,
+        None,
+    );
+    check(
+        &format!("{AT}falloff = \"inverse\"\nattenuation = «0.5»\n"),
+        "`light.attenuation` and `light.falloff` exclude each other",
+        "expected one of them: `attenuation` is a falloff too",
+        None,
+    );
+}
+
+/// A light without a place is pointed at where its table begins.
+#[test]
+fn a_light_is_somewhere() {
+    let expected = "expected one of them in every [[light]]";
+    let number = |n: usize| format!("light number {n} has neither `direction` nor `position`");
+    check("«[[light]]»\n", &number(1), expected, None);
+    for key in [
+        "colour = [1, 0.5, 0]",
+        "intensity = 2",
+        "attenuation = 0.5",
+        "falloff = \"inverse\"",
+    ] {
+        check(
+            &format!("{AT}{TOWARD}«[[light]]»\n{key}\n"),
+            &number(3),
+            expected,
+            None,
+        );
+    }
+    check(
+        "light = [{ direction = [0, 0, 1] }, «{ colour = 1 }»]\n",
+        &number(2),
+        expected,
+        None,
+    );
+    let by_program = SceneFile {
+        light: Some(vec![LightSection::default()]),
+        ..SceneFile::default()
+    };
+    let error = by_program
+        .resolve(cubes)
+        .expect_err("a light without a place");
+    assert_eq!(
+        (error.message(), error.line_and_column()),
+        (&*number(1), None)
+    );
+}
+
+/// The corners of the cube are ±1: the light is at one, or as near to one as `f32` can tell.
+#[test]
+fn a_light_at_a_vertex() {
+    let expected =
+        "expected a place off the vertices: there the direction toward the light is undefined";
+    let message = "`light.position` is at a vertex, (1, -1, 1)";
+    check(
+        &with_object("[[light]]\nposition = «[1, -1, 1]»\n"),
+        message,
+        expected,
+        None,
+    );
+    check(
+        &with_object("[[light]]\nposition = «[1, -1, 1.0000001]»\n"),
+        message,
+        expected,
+        None,
+    );
+    let moved = "translate = [0, 10, 0]\n";
+    let text = format!(
+        "{}{moved}",
+        with_object("[[light]]\nposition = «[1, 9, 1]»\n")
+    );
+    check(
+        &text,
+        "`light.position` is at a vertex, (1, 9, 1)",
+        expected,
+        None,
+    );
+    // On a face, on an edge and inside the cube there is no vertex.
+    for place in ["[1, 0, 0]", "[1, 1, 0]", "[0, 0, 0]", "[1, -1, 1.00001]"] {
+        let file = SceneFile::parse(
+            &with_object(&format!("[[light]]\nposition = {place}\n")),
+            "scene.toml",
+        );
+        assert!(file.expect("valid").resolve(cubes).is_ok(), "{place}");
+    }
+}
+
+#[test]
+fn words_that_do_not_exist() {
+    for (text, word, expected, hint) in [
+        (
+            "viewer = «\"lokal\"»\n",
+            "lokal",
+            "expected `infinite` or `local`",
+            Some("did you mean `local`?"),
+        ),
+        (
+            "viewer = «\"here\"»\n",
+            "here",
+            "expected `infinite` or `local`",
+            None,
+        ),
+        (
+            "specular = «\"blin\"»\n",
+            "blin",
+            "expected `phong` or `blinn`",
+            Some("did you mean `blinn`?"),
+        ),
+        (
+            "shininess_for = «\"pong\"»\n",
+            "pong",
+            "expected `phong` or `blinn`",
+            Some("did you mean `phong`?"),
+        ),
+        (
+            "specular_gate = «\"ungatet\"»\n",
+            "ungatet",
+            "expected one of `gated`, `ungated`, `weighted`",
+            Some("did you mean `ungated`?"),
+        ),
+        (
+            "[[light]]\nposition = [0, 3, 3]\nfalloff = «\"inverse-sqare\"»\n",
+            "inverse-sqare",
+            "expected one of `none`, `inverse-square`, `inverse`",
+            Some("did you mean `inverse-square`?"),
+        ),
+    ] {
+        check(text, &format!("unknown word `{word}`"), expected, hint);
+    }
+    check(
+        "«speclar» = \"blinn\"\n",
+        "unknown key `speclar`",
+        error("speclar = 1\n").expected(),
+        Some("did you mean `specular`?"),
+    );
+}
+
+#[test]
+fn lights_from_flags() {
+    let refused = |light: LightSection| {
+        let mut file = SceneFile::parse(&with_object(""), "scene.toml").expect("valid");
+        file.light = Some(vec![light]);
+        let error = file.resolve(cubes).expect_err("refused");
+        assert_eq!(error.line_and_column(), None);
+        format!("{error}")
+    };
+    let at = |place: [f64; 3]| LightSection::at(Located::flag(place, "--light-at"));
+    assert!(
+        refused(at([1.0, 1.0, 1.0]))
+            .starts_with("error: `--light-at` is at a vertex, (1, 1, 1): expected a place off")
+    );
+    assert_eq!(
+        refused(at([f64::NAN, 0.0, 0.0])),
+        "error: `--light-at` has x = NaN: expected numbers between -1e15 and 1e15"
+    );
+    let attenuation = Some(Located::flag(-1.0, "--attenuation"));
+    assert_eq!(
+        refused(LightSection {
+            attenuation: attenuation.clone(),
+            ..at([5.0; 3])
+        }),
+        "error: `--attenuation` is -1: expected 0 or more"
+    );
+    let toward = LightSection::toward(Located::flag([1.0; 3], "--light"));
+    assert!(
+        refused(LightSection {
+            attenuation,
+            ..toward
+        })
+        .starts_with("error: `--attenuation` is given for a light with")
+    );
+}

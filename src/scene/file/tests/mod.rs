@@ -1,0 +1,53 @@
+//! Scene files: what each key means, what is refused and how it is said, and the scenes that are shipped.
+
+mod errors;
+mod expect;
+mod light_errors;
+mod meaning;
+mod reading;
+mod round_trip;
+mod shipped;
+
+use super::resolve::LoadedMesh;
+use crate::mesh::{MeshBuilder, PolygonMesh};
+use glam::Vec3;
+use std::path::Path;
+use std::string::String;
+use std::sync::Arc;
+use std::vec::Vec;
+
+/// The cube −1..=1, six quads counter-clockwise from outside.
+fn cube() -> PolygonMesh {
+    let sign = |bit: u32| if bit == 0 { -1.0 } else { 1.0 };
+    let corner = |i: u32| Vec3::new(sign(i & 1), sign(i & 2), sign(i & 4));
+    let mut mesh = MeshBuilder::new((0..8).map(corner).collect());
+    for face in [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ] {
+        mesh.polygon(&face);
+    }
+    mesh.finish().expect("a cube is a valid mesh")
+}
+
+/// A loader for which every mesh is a cube.
+fn cubes(_: &str, _: &Path) -> LoadedMesh {
+    Ok((Arc::new(cube()), Vec::new()))
+}
+
+/// The scene of `text`, all meshes being cubes.
+fn resolve(text: &str) -> crate::scene::file::resolve::Resolved {
+    let file = crate::scene::file::SceneFile::parse(text, "scene.toml")
+        .unwrap_or_else(|error| panic!("{error}"));
+    file.resolve(cubes)
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// `text` with an object after it.
+fn with_object(text: &str) -> String {
+    std::format!("{text}\n[[object]]\nmesh = \"builtin:cube\"\n")
+}

@@ -1,0 +1,422 @@
+//! What a user names as input: a scene file, a mesh file, a built-in mesh, or a scene that is shipped.
+//!
+//! | input | is |
+//! |---|---|
+//! | `path/to/scene.toml` | a scene file |
+//! | `path/to/mesh.obj` | a mesh file, seen as [`SceneFile::for_mesh`] says |
+//! | `builtin:NAME?key=value&key=value` | a built-in mesh, seen likewise |
+//! | `teapot` | the shipped scene of that name: one of [`SCENES`] |
+//!
+//! Shipped scenes and the mesh files that they use are part of the program. A mesh among them is named `shipped:vase.obj`
+//! in scene files that do not stand beside it.
+//!
+//! ```
+//! let file = fastphong::scene::input::load("football")?;
+//! let resolved = fastphong::scene::input::resolve(&file)?;
+//! assert_eq!(resolved.scene.objects.len(), 2);
+//! # Ok::<(), fastphong::scene::input::InputError>(())
+//! ```
+
+use super::file::diagnostics::SceneError;
+use super::file::resolve::{LoadedMesh, Resolved};
+use super::file::value::Origin;
+use super::file::{ObjectSection, SceneFile};
+use crate::mesh::PolygonMesh;
+use crate::mesh::builtin::{BUILTINS, builtin};
+use crate::mesh::obj::{load_obj, parse_obj};
+use crate::number::suggest::nearest;
+use std::borrow::ToOwned;
+use std::fmt;
+use std::format;
+use std::path::{Path, PathBuf};
+use std::string::{String, ToString};
+use std::sync::Arc;
+use std::vec::Vec;
+
+/// A scene that is part of the program.
+#[derive(Clone, Copy, Debug)]
+pub struct ShippedScene {
+    /// Its name: that of its file, without the ending.
+    pub name: &'static str,
+    /// What the file says.
+    pub text: &'static str,
+}
+
+macro_rules! shipped {
+    ($($name:literal)*) => {
+        &[$(ShippedScene { name: $name, text: include_str!(concat!("../../scenes/", $name, ".toml")) }),*]
+    };
+}
+
+/// The shipped scenes, in the order of `scenes/README.md`, which says what each of them tests.
+pub static SCENES: &[ShippedScene] = shipped![
+    "coarse-sphere" "fine-sphere" "teapot" "knot-100k" "million" "sharp-highlight" "four-lights" "polygons" "vase"
+    "football" "perspective" "figure5" "ellipsoid" "mirrored" "corrugated" "terrain"
+    "cyclic-triangles" "interpenetration" "z-fighting"
+    "local-lights" "blinn" "two-lights"
+];
+
+/// The files that shipped scenes refer to.
+static SHIPPED_FILES: &[(&str, &[u8])] = &[
+    ("vase.obj", include_bytes!("../../scenes/vase.obj")),
+    ("vase.mtl", include_bytes!("../../scenes/vase.mtl")),
+    ("football.obj", include_bytes!("../../scenes/football.obj")),
+    ("football.mtl", include_bytes!("../../scenes/football.mtl")),
+];
+
+const BUILTIN: &str = "builtin:";
+const SHIPPED: &str = "shipped:";
+
+impl ShippedScene {
+    /// The shipped scene called `name`.
+    pub fn named(name: &str) -> Option<&'static ShippedScene> {
+        SCENES.iter().find(|scene| scene.name == name)
+    }
+
+    /// The scene; its meshes can be found from anywhere.
+    ///
+    /// # Errors
+    /// None, as long as the shipped files are those that were tested.
+    pub fn load(&self) -> Result<SceneFile, SceneError> {
+        let mut file = SceneFile::parse(self.text, format!("{SHIPPED}{}.toml", self.name))?;
+        for object in &mut file.object {
+            if shipped_file(&object.mesh.value).is_some() {
+                object.mesh.value.insert_str(0, SHIPPED);
+            }
+        }
+        Ok(file)
+    }
+}
+
+fn shipped_file(name: &str) -> Option<&'static [u8]> {
+    SHIPPED_FILES
+        .iter()
+        .find(|(file, _)| *file == name)
+        .map(|(_, bytes)| *bytes)
+}
+
+/// Why an input gives no scene.
+#[derive(Clone, Debug)]
+pub enum InputError {
+    /// The input is neither a file nor anything known.
+    Unknown {
+        /// As it was given.
+        input: String,
+        /// What may be meant.
+        suggestion: Option<String>,
+    },
+    /// The mesh that the input names cannot be used: file, line, what was expected.
+    Mesh(String),
+    /// The scene file cannot be read, or a value of it or of a flag is wrong.
+    Scene(SceneError),
+}
+
+impl InputError {
+    /// The error as text that starts with `error: `, with terminal colours or without.
+    pub fn render(&self, colour: bool) -> String {
+        match self {
+            InputError::Scene(error) => error.render(colour),
+            other if colour => format!("\x1b[1;31merror\x1b[0m: {other}"),
+            other => format!("error: {other}"),
+        }
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            InputError::Unknown { input, suggestion } => {
+                write!(f, "`{input}` is neither a file nor a shipped scene")?;
+                if let Some(suggestion) = suggestion {
+                    return write!(f, "; did you mean `{suggestion}`?");
+                }
+                if has_known_ending(Path::new(input)) {
+                    return Ok(());
+                }
+                write!(
+                    f,
+                    " (expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of "
+                )?;
+                for (i, scene) in SCENES.iter().enumerate() {
+                    write!(f, "{}{}", if i == 0 { "" } else { ", " }, scene.name)?;
+                }
+                write!(f, ")")
+            }
+            InputError::Mesh(reason) => f.write_str(reason),
+            InputError::Scene(error) => match error.expected() {
+                "" => f.write_str(error.message()),
+                expected => write!(f, "{}: {expected}", error.message()),
+            },
+        }
+    }
+}
+
+impl std::error::Error for InputError {}
+
+impl From<SceneError> for InputError {
+    fn from(error: SceneError) -> Self {
+        InputError::Scene(error)
+    }
+}
+
+/// The scene that `input` names; its meshes are not loaded yet.
+///
+/// # Errors
+/// [`InputError`] when there is no such thing, or the scene file is not one.
+pub fn load(input: &str) -> Result<SceneFile, InputError> {
+    let path = Path::new(input);
+    if input.starts_with(BUILTIN) || input.starts_with(SHIPPED) {
+        return Ok(SceneFile::for_mesh(input.to_owned()));
+    }
+    if let Some(scene) = ShippedScene::named(input) {
+        return Ok(scene.load()?);
+    }
+    if !has_known_ending(path) || !path.exists() {
+        return Err(unknown(input, path));
+    }
+    if has_ending(path, "toml") {
+        Ok(SceneFile::load(path)?)
+    } else {
+        Ok(SceneFile::for_mesh(input.to_owned()))
+    }
+}
+
+/// The error for what is not there, or is there and of no kind that is known.
+fn unknown(input: &str, path: &Path) -> InputError {
+    if path.exists() {
+        let expected = "expected a scene file that ends in .toml or a mesh file that ends in .obj";
+        return InputError::Mesh(format!(
+            "{input}: neither a scene nor a mesh file by its ending: {expected}"
+        ));
+    }
+    // Who writes `scenes/teapto.toml` means `teapot`, and who writes `sphere` the built-in mesh.
+    let stem = path
+        .file_stem()
+        .and_then(|stem| stem.to_str())
+        .unwrap_or(input);
+    let shape = BUILTINS
+        .iter()
+        .find(|shape| shape.name == stem)
+        .map(|shape| format!("{BUILTIN}{}", shape.name));
+    let scene = || nearest(stem, SCENES.iter().map(|scene| scene.name)).map(ToString::to_string);
+    InputError::Unknown {
+        input: input.to_owned(),
+        suggestion: scene().or(shape),
+    }
+}
+
+fn has_known_ending(path: &Path) -> bool {
+    has_ending(path, "toml") || has_ending(path, "obj")
+}
+
+fn has_ending(path: &Path, ending: &str) -> bool {
+    path.extension()
+        .is_some_and(|found| found.eq_ignore_ascii_case(ending))
+}
+
+/// The scene that `file` describes, with its meshes, and what is odd about it.
+///
+/// # Errors
+/// [`InputError`] when a value is out of its range or a mesh cannot be used.
+pub fn resolve(file: &SceneFile) -> Result<Resolved, InputError> {
+    let mut refused = None;
+    let resolved = file.resolve(|mesh, folder| {
+        load_mesh(mesh, folder)
+            .inspect_err(|reason| refused = Some((mesh.to_owned(), reason.clone())))
+    });
+    resolved.map_err(|error| match refused {
+        // A mesh that the input itself named needs no line of a scene file, and no key.
+        Some((mesh, reason)) if !is_named_in_file(&file.object, &mesh) => InputError::Mesh(reason),
+        _ => InputError::Scene(error),
+    })
+}
+
+fn is_named_in_file(objects: &[ObjectSection], mesh: &str) -> bool {
+    objects
+        .iter()
+        .any(|object| object.mesh.value == mesh && matches!(object.mesh.origin, Origin::File(_)))
+}
+
+/// The mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
+///
+/// # Errors
+/// One sentence: what is wrong with which file, in which line, and what was expected.
+pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
+    let without_warnings = |mesh: PolygonMesh| (Arc::new(mesh), Vec::new());
+    if let Some(spec) = name.strip_prefix(BUILTIN) {
+        return builtin(spec)
+            .map(without_warnings)
+            .map_err(|error| error.to_string());
+    }
+    let loaded = if let Some(file) = name.strip_prefix(SHIPPED) {
+        let Some(bytes) = shipped_file(file) else {
+            let meshes: Vec<&str> = SHIPPED_FILES
+                .iter()
+                .map(|(name, _)| *name)
+                .filter(|name| name.ends_with(".obj"))
+                .collect();
+            return Err(format!(
+                "no mesh `{file}` is shipped: expected one of {}",
+                meshes.join(", ")
+            ));
+        };
+        let library = |name: &str| {
+            shipped_file(name)
+                .map(<[u8]>::to_vec)
+                .ok_or(std::io::ErrorKind::NotFound.into())
+        };
+        parse_obj(name, bytes, library)
+    } else {
+        let path: PathBuf = folder.join(name);
+        if !has_ending(&path, "obj") {
+            return Err(
+                match BUILTINS
+                    .iter()
+                    .find(|shape| name.split('?').next() == Some(shape.name))
+                {
+                    Some(_) => {
+                        format!("`{name}` is not a mesh file; did you mean `{BUILTIN}{name}`?")
+                    }
+                    None => format!(
+                        "`{name}` is not a mesh: expected a file that ends in .obj, or {BUILTIN}NAME"
+                    ),
+                },
+            );
+        }
+        load_obj(&path)
+    };
+    let loaded = loaded.map_err(|error| error.to_string())?;
+    let warnings = loaded
+        .warnings
+        .iter()
+        .map(|warning| format!("{name}: {warning}"))
+        .collect();
+    Ok((Arc::new(loaded.mesh), warnings))
+}
+
+/// Makes the meshes of `file` findable from the current folder, so that the scene may be written down anywhere in it.
+pub fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
+    let Some(folder) = file.path().and_then(Path::parent).map(Path::to_owned) else {
+        return;
+    };
+    for object in &mut file.object {
+        let mesh = &mut object.mesh;
+        let is_file = !mesh.value.starts_with(BUILTIN) && !mesh.value.starts_with(SHIPPED);
+        if is_file && matches!(mesh.origin, Origin::File(_)) {
+            mesh.value = folder.join(&mesh.value).to_string_lossy().into_owned();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every scene file of the folder is in the table, in the order of the README, and says what the file says.
+    #[test]
+    fn the_table_holds_every_shipped_scene() {
+        let readme = include_str!("../../scenes/README.md");
+        let rows = readme
+            .lines()
+            .filter_map(|line| line.strip_prefix("| `")?.split_once(".toml` |"));
+        let listed: Vec<&str> = rows.map(|(name, _)| name).collect();
+        assert_eq!(
+            SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>(),
+            listed
+        );
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+        for entry in std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+        {
+            let name = entry.file_name().unwrap().to_str().unwrap();
+            match name.strip_suffix(".toml") {
+                Some(scene) => assert!(ShippedScene::named(scene).is_some(), "{name}"),
+                None => assert!(
+                    name == "README.md" || shipped_file(name).is_some(),
+                    "{name}"
+                ),
+            }
+        }
+    }
+
+    #[test]
+    fn a_shipped_scene_is_the_scene_in_its_file() {
+        for scene in SCENES.iter().filter(|scene| scene.name != "million") {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("scenes")
+                .join(scene.name)
+                .with_extension("toml");
+            let from_file = resolve(&load(path.to_str().unwrap()).unwrap()).unwrap();
+            let embedded = resolve(&load(scene.name).unwrap()).unwrap();
+            assert_eq!(
+                format!("{:?}", embedded.scene),
+                format!("{:?}", from_file.scene),
+                "{}",
+                scene.name
+            );
+            assert_eq!(
+                (embedded.warnings, from_file.warnings),
+                (Vec::new(), Vec::new()),
+                "{}",
+                scene.name
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_is_said_in_one_sentence() {
+        for (input, said) in [
+            (
+                "taepot",
+                "`taepot` is neither a file nor a shipped scene; did you mean `teapot`?",
+            ),
+            ("scenes/taepot.toml", "did you mean `teapot`?"),
+            ("torus", "did you mean `builtin:torus`?"),
+            (
+                "nothing-like-it.obj",
+                "`nothing-like-it.obj` is neither a file nor a shipped scene",
+            ),
+            (
+                "nothing-like-it",
+                "is neither a file nor a shipped scene (expected a scene file .toml, a mesh file .obj,",
+            ),
+            (
+                "Cargo.lock",
+                "Cargo.lock: neither a scene nor a mesh file by its ending",
+            ),
+        ] {
+            let error = load(input).unwrap_err();
+            assert!(error.to_string().contains(said), "{error}");
+            assert!(!error.to_string().contains('\n'));
+        }
+        let error = resolve(&load("builtin:spere").unwrap()).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .starts_with("no built-in mesh is named `spere`; did you mean `sphere`?"),
+            "{error}"
+        );
+        let error = resolve(&load("shipped:teapot.obj").unwrap()).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "no mesh `teapot.obj` is shipped: expected one of vase.obj, football.obj"
+        );
+    }
+
+    #[test]
+    fn a_mesh_that_a_scene_file_names_is_told_with_its_line() {
+        let file =
+            SceneFile::parse("[[object]]\nmesh = \"sphere\"\n", "folder/scene.toml").unwrap();
+        let error = resolve(&file).unwrap_err();
+        assert!(
+            error.render(false).contains("folder/scene.toml:2:8"),
+            "{}",
+            error.render(false)
+        );
+        assert!(
+            error.to_string().contains("did you mean `builtin:sphere`?"),
+            "{error}"
+        );
+    }
+}
