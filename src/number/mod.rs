@@ -15,7 +15,7 @@ pub(crate) mod lanes;
 mod level;
 pub(crate) mod parallel;
 #[cfg(feature = "simd")]
-mod power;
+mod powf;
 mod scalar;
 #[cfg(feature = "simd")]
 pub mod simd;

@@ -254,7 +254,7 @@ impl<S: Simd> Width for f32x8<S> {
     }
     #[inline(always)]
     fn power(self, n: f32) -> Self {
-        super::power::powf(self, n)
+        super::powf::powf(self, n)
     }
     #[inline(always)]
     fn masked(self, open: Self::Mask) -> Self {

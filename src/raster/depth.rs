@@ -1,4 +1,5 @@
-//! Depth at a sample: from what is interpolated to what is compared.
+//! Depth at a sample: from what is interpolated to what is compared. The depth tests are `VisibleLine::draw` in `spans/line.rs` and
+//! `Writer::put` in `rows/tile.rs`.
 
 use crate::frame::{DepthRange, Frame, ScreenVertex};
 use crate::scene::{Clipping, DepthBits, DepthSource, HiddenSurfaces};

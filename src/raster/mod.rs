@@ -1,12 +1,15 @@
-//! The engines: they own the loops, and know nothing of lights.
+//! The engines: they own the loops over polygons, scanlines and runs, and know nothing of lights. The loops over pixels are those
+//! of a method's kernels (`shading/kernels.rs`).
 //!
 //! - `spans` is the lecture's, scalar: an edge table, active edges that step their varyings from scanline to scanline, a depth
 //!   buffer of one line, and visible runs that are walked and shaded once. Everything can be drawn by it.
 //! - `rows` (feature `simd`) is a deferred renderer: bands of scanlines, a G-buffer, each row shaded once.
 //! - `barycentric` is what the first is measured against: a bounding box a triangle, three edge functions a pixel.
 //!
-//! All of them draw exactly the same pixels: those whose centres have an odd number of polygon edges to their left, counted in
+//! All of them have the same fill rule, and draw exactly the same pixels: those whose centres have an odd number of polygon edges to their left, counted in
 //! exact integers on corners snapped to 1/256 pixel. Polygons that share an edge share none of its pixels and leave no hole.
+//! The rule is `first_centre` and `Crossing` in `spans/edge.rs` with the parity in `ActiveEdges::spans` (`spans/active.rs`), and as
+//! edge functions `EdgeFunctions` in `rows/triangles.rs`.
 //!
 //! Start with `spans/mod.rs`; `render.rs` says which engine draws, `setup.rs` what is computed before the first scanline.
 

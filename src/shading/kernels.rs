@@ -1,4 +1,4 @@
-//! Methods as tables of plain functions: engines are compiled once and call these.
+//! Methods as tables of plain functions, with the loops over pixels in them: engines are compiled once and call these.
 
 use super::increments::{GreatCircle, Walk};
 use super::lighting::{Lit, Uniforms};

@@ -5,7 +5,8 @@
 //! R = 2 (L·N) N − L
 //! ```
 //!
-//! [`Uniforms`] are made once a material, [`Lit`] is what one point (or a block of points) sees of them. What the lecture leaves
+//! [`Uniforms`] are made once a material, [`Lit`] is what one point (or a block of points) sees of them. The power of
+//! the highlight is `Exponent::of`, for every method. What the lecture leaves
 //! open is settled here, for every method:
 //! - `L·N` and `R·V` are clamped at 0 *before* the power (an even power of a negative number would light the far side);
 //! - there is no specular light where `L·N ≤ 0`, unless the scene asks for one of the other two forms of [`SpecularGate`];

@@ -1,4 +1,5 @@
-//! Shading: one row of the G-buffer to colours, by one call of the method for each material on it.
+//! Shading: one row of the G-buffer to colours, by one call of the method for each material on it. The loop
+//! over its pixels is the method's kernel: `shade_any` in `shading/kernels.rs`.
 
 use super::tile::Tile;
 use super::{Rows, Scratch};

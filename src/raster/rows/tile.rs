@@ -1,4 +1,5 @@
-//! The G-buffer: a tile of scanlines with the depth, the varyings and the material of each pixel.
+//! The G-buffer: a tile of scanlines with the depth, the varyings and the material of each pixel; and the depth test of the row
+//! engine (`Writer::put`).
 
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;

@@ -1,4 +1,4 @@
-//! Where an edge crosses the scanlines, in exact integers.
+//! The fill rule: where an edge crosses the scanlines, and which pixel centres are right of it, in exact integers.
 
 use crate::frame::SubPixel;
 use core::cmp::Ordering;

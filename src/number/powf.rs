@@ -1,4 +1,5 @@
-//! Powers in lanes: xⁿ = 2^(n log₂ x), for exponents that are not whole.
+//! Powers in lanes: xⁿ = 2^(n log₂ x), for exponents that are not whole; whole ones are
+//! `Exponent` in `shading/lighting.rs`.
 
 use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
 
