@@ -17,7 +17,7 @@ pub enum Engine {
     Barycentric(Edges),
     /// CS171's algorithms as printed, in `f64`.
     Cs171 {
-        /// Whether interpolated normals are made unit vectors, which the text leaves out.
+        /// True if interpolated normals are made unit vectors, which the text leaves out.
         normalise: bool,
     },
 }

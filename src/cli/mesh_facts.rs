@@ -41,7 +41,7 @@ pub struct MeshFacts {
     pub materials: usize,
     /// Polygons without a material of the mesh.
     pub without_material: usize,
-    /// Whether normals come with the mesh.
+    /// True if normals come with the mesh.
     pub given_normals: bool,
     /// Bytes that the mesh takes in memory.
     pub bytes: usize,
@@ -82,7 +82,7 @@ impl MeshFacts {
         facts
     }
 
-    /// Whether every edge has two polygons that are wound alike.
+    /// True if every edge has two polygons that are wound alike.
     pub fn is_closed(&self) -> bool {
         self.edges > 0 && self.open_edges + self.non_manifold_edges + self.reversed_edges == 0
     }

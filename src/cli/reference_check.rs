@@ -33,7 +33,7 @@ pub struct ReferenceCheck<'a> {
 
 /// What came of it, and what to say.
 pub struct Verdict {
-    /// Whether the pictures agree.
+    /// True if the pictures agree.
     pub outcome: Outcome,
     /// Lines to print.
     pub text: String,

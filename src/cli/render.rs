@@ -227,7 +227,7 @@ impl Render {
     }
 }
 
-/// Whether both paths lead to one file that is there.
+/// True if both paths lead to one file that is there.
 fn same_file(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
         (Ok(a), Ok(b)) => a == b,

@@ -53,7 +53,7 @@ impl Talk {
     }
 }
 
-/// Whether standard error may be coloured: a terminal, and `NO_COLOR` not set (<https://no-color.org>).
+/// True if standard error may be coloured: a terminal, and `NO_COLOR` not set (<https://no-color.org>).
 pub fn colour() -> bool {
     io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }

@@ -257,7 +257,7 @@ impl Frame {
         }
     }
 
-    /// Whether size, samples, eye and depth make sense together.
+    /// True if size, samples, eye and depth make sense together.
     pub(crate) fn check_settings(&self) -> Result<(), FrameError> {
         let side = 1..=Scene::MAX_SIDE;
         let &Frame {
@@ -285,7 +285,7 @@ impl Frame {
         Ok(())
     }
 
-    /// Whether every material has the same number of lights, and all numbers of them make sense.
+    /// True if every material has the same number of lights, and all numbers of them make sense.
     pub(crate) fn check_lightings(&self) -> Result<(), FrameError> {
         let lights = self.light_count();
         for lighting in &self.lightings {
@@ -336,7 +336,7 @@ impl Frame {
     }
 }
 
-/// Whether all numbers of the light on a material are finite, and none negative that must not be.
+/// True if all numbers of the light on a material are finite, and none negative that must not be.
 fn is_valid(lighting: &Lighting) -> bool {
     let finite = |v: [f32; 3]| v.iter().all(|c| c.is_finite());
     let vector = |place: Place<[f32; 3]>| match place {

@@ -31,7 +31,7 @@ impl DepthRange {
         }
     }
 
-    /// Whether near and far are finite numbers in order, over 0 under perspective.
+    /// True if near and far are finite numbers in order, over 0 under perspective.
     pub(super) fn is_valid(self) -> bool {
         let (near, far) = self.ends();
         let least = if matches!(self, DepthRange::Perspective { .. }) {

@@ -17,7 +17,7 @@ pub(crate) struct Geometry {
     pub positions: Vec<[f32; 3]>,
     /// Positions of vertices in model space, one a vertex, or none.
     pub models: Models,
-    /// Whether all vertices are there a second time, numbered after all others, with their normals negated.
+    /// True if all vertices are there a second time, numbered after all others, with their normals negated.
     pub two_sided: bool,
     /// The corner lists of all polygons; where there are two sides, once more for the vertices of the second.
     pub corners: Vec<u32>,

@@ -113,7 +113,7 @@ impl Frame {
         self.clipping
     }
 
-    /// Whether nearer polygons hide farther ones (strictly less depth wins); without it, later ones hide earlier ones.
+    /// True if nearer polygons hide farther ones (strictly less depth wins); without it, later ones hide earlier ones.
     pub fn depth_test(&self) -> bool {
         matches!(self.hidden_surfaces, HiddenSurfaces::ZBuffer(_))
     }
@@ -221,7 +221,7 @@ impl Frame {
         Mean { position, normal }
     }
 
-    /// Whether the vectors toward a light or toward the eye differ from point to point.
+    /// True if the vectors toward a light or toward the eye differ from point to point.
     pub fn is_local(&self) -> bool {
         self.lightings.iter().any(Lighting::is_local)
     }

@@ -137,7 +137,7 @@ impl Ring<'_> {
         self.sign * area(a, b, c)
     }
 
-    /// Whether the triangle at the corner `i` can be cut off: the corner is convex, no other corner lies in the triangle
+    /// True if the triangle at the corner `i` can be cut off: the corner is convex, no other corner lies in the triangle
     /// and no edge crosses the cut. Corners at the places of the triangle's own do not count. A corner *on* its two outer
     /// edges, where the polygon touches itself, counts if `strict`.
     fn is_ear(&self, i: usize, strict: bool) -> bool {
@@ -166,13 +166,13 @@ impl Ring<'_> {
     }
 }
 
-/// Whether two segments cross in a point that is an end of neither.
+/// True if two segments cross in a point that is an end of neither.
 fn segments_cross(a: Place, b: Place, p: Place, q: Place) -> bool {
     let opposite = |s: i64, t: i64| s.signum() * t.signum() < 0;
     opposite(area(a, b, p), area(a, b, q)) && opposite(area(p, q, a), area(p, q, b))
 }
 
-/// Whether no two of the triangles overlap. All have an area of this sign.
+/// True if no two of the triangles overlap. All have an area of this sign.
 fn are_apart(places: &[Place], triangles: &[[usize; 3]], sign: i64) -> bool {
     // Two convex shapes are apart if an edge of one has the other on its outer side.
     let separates = |t: &[Place; 3], other: &[Place; 3]| {
@@ -406,7 +406,7 @@ mod tests {
         }
     }
 
-    /// Whether no two edges of a polygon meet but neighbours in their common corner.
+    /// True if no two edges of a polygon meet but neighbours in their common corner.
     fn is_simple(p: &[Place]) -> bool {
         let n = p.len();
         let on = |a: Place, b: Place, q: Place| {

@@ -34,7 +34,7 @@ fn pixels() -> impl Iterator<Item = (usize, usize, DVec2)> {
         .map(|(x, y)| (x, y, DVec2::new(x as f64 + 0.5, y as f64 + 0.5)))
 }
 
-/// Whether Algorithm 1 fills a pixel of these weights.
+/// True if Algorithm 1 fills a pixel of these weights.
 fn is_in(weights: Weights) -> bool {
     weights.iter().all(|w| (0.0..=1.0).contains(w))
 }

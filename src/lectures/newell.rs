@@ -21,7 +21,7 @@ struct Example {
     key: &'static str,
     what: &'static str,
     corners: Vec<DVec2>,
-    /// Whether the lecture names the case.
+    /// True if the lecture names the case.
     is_named: bool,
 }
 

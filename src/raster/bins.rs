@@ -25,7 +25,7 @@ impl Listed {
     /// Of what is no triangle.
     pub const OTHER: [u32; 3] = [u32::MAX; 3];
 
-    /// Whether it is a triangle.
+    /// True if it is a triangle.
     #[inline(always)]
     pub fn is_triangle(&self) -> bool {
         self.corners[0] != Listed::OTHER[0]

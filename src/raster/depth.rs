@@ -60,7 +60,7 @@ impl SampleDepth {
         }
     }
 
-    /// Whether nearer samples hide farther ones.
+    /// True if nearer samples hide farther ones.
     pub fn hides(&self) -> bool {
         self.hides
     }
@@ -81,7 +81,7 @@ impl SampleDepth {
         self.most
     }
 
-    /// Whether what is interpolated is what is compared, and nothing else is asked.
+    /// True if what is interpolated is what is compared, and nothing else is asked.
     pub fn is_plain(&self) -> bool {
         self.quantity == Quantity::Depth && self.most.is_none() && !self.cube
     }

@@ -52,7 +52,7 @@ pub(crate) struct VertexAttributes<'a> {
     model: Model,
     /// Colours (Gouraud) or normals (Phong, slerp); none for flat shading.
     values: Vec<DVec3>,
-    /// Whether a light or the eye is at a position.
+    /// True if a light or the eye is at a position.
     is_local: bool,
     /// Positions, where each pixel sees light and eye from its own.
     positions: Vec<DVec3>,

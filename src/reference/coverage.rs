@@ -76,7 +76,7 @@ impl Crossing {
         })
     }
 
-    /// Whether the crossing lies at the column `xc` or left of it.
+    /// True if the crossing lies at the column `xc` or left of it.
     fn is_not_right_of(&self, xc: i64) -> bool {
         self.x_height <= xc * self.height
     }

@@ -20,9 +20,9 @@ pub(super) struct Bar {
     pub low: f64,
     /// Its upper end.
     pub high: f64,
-    /// Whether the interval holds 1.
+    /// True if the interval holds 1.
     pub is_tie: bool,
-    /// Whether it stands for the renderer that others are measured against.
+    /// True if it stands for the renderer that others are measured against.
     pub is_barycentric: bool,
 }
 
@@ -125,7 +125,7 @@ pub(super) struct Point {
     pub time: f64,
     /// Error; 0 is drawn on the bottom line.
     pub error: f64,
-    /// Whether it stands for the renderer that others are measured against.
+    /// True if it stands for the renderer that others are measured against.
     pub is_barycentric: bool,
 }
 

@@ -23,7 +23,7 @@ const TIMES: &str = "How often each cost arises, and least times of whole frames
 const LINEAR: f64 = 0.1;
 const NEARLY: f64 = 0.35;
 
-/// Whether cost grows linearly: words by how far the worst time is from its fitted line.
+/// True if cost grows linearly: words by how far the worst time is from its fitted line.
 pub(super) fn growth(scaling: &Scaling) -> String {
     let costs = scaling
         .curves

@@ -79,7 +79,7 @@ pub(super) struct Figure {
     pub kind: FigureKind,
     /// The PNG file.
     pub picture: Vec<u8>,
-    /// Whether the file holds only what differs from the reference, to be laid over that.
+    /// True if the file holds only what differs from the reference, to be laid over that.
     pub is_overlay: bool,
     /// The PNG file of the difference map; the reference has none.
     pub map: Option<Vec<u8>>,
@@ -200,7 +200,7 @@ pub(super) fn row_name(row: &RowData) -> String {
     }
 }
 
-/// Whether no channel of two pictures of one size is more than a grey level apart.
+/// True if no channel of two pictures of one size is more than a grey level apart.
 fn within_a_level(a: &Picture8, b: &Picture8) -> bool {
     let is_near = |(a, b): (&[u8; 4], &[u8; 4])| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 1);
     a.texels().iter().zip(b.texels()).all(is_near)

@@ -7,7 +7,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-/// Whether fast and slerp Phong shading beat naive Phong shading here, one sentence or two each; then what else a reader
+/// True if fast and slerp Phong shading beat naive Phong shading here, one sentence or two each; then what else a reader
 /// should know before the numbers.
 pub(super) fn opening(sections: &[Section], machine: &Machine) -> Vec<String> {
     let mut sentences = Vec::new();

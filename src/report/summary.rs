@@ -95,7 +95,7 @@ pub(super) struct Overall {
     pub time: f64,
     /// The quadratic mean of its RMS errors, in 0..=1: scenes count alike, whatever they cover.
     pub rms: f64,
-    /// Whether the barycentric renderer drew it.
+    /// True if the barycentric renderer drew it.
     pub is_barycentric: bool,
 }
 

@@ -25,7 +25,7 @@ impl<V: Copy> Place<V> {
         }
     }
 
-    /// Whether it is at a position.
+    /// True if it is at a position.
     pub fn is_local(self) -> bool {
         matches!(self, Place::Local(_))
     }
@@ -171,12 +171,12 @@ impl Lighting {
         }
     }
 
-    /// Whether the vectors toward a light or toward the eye differ from point to point.
+    /// True if the vectors toward a light or toward the eye differ from point to point.
     pub fn is_local(&self) -> bool {
         self.view.is_local() || self.lights.iter().any(|light| light.place.is_local())
     }
 
-    /// Whether a light grows weaker with its distance.
+    /// True if a light grows weaker with its distance.
     pub fn is_attenuated(&self) -> bool {
         self.lights
             .iter()

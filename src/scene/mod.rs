@@ -59,7 +59,7 @@ pub struct Scene {
     pub ambient: Rgb,
     /// Lights; none means ambient light only.
     pub lights: Vec<Light>,
-    /// Whether the eye is where the camera is, as each point sees it; without it, it is at infinity along the line of
+    /// True if the eye is where the camera is, as each point sees it; without it, it is at infinity along the line of
     /// sight, as the lecture assumes (L21 1).
     pub local_viewer: bool,
     /// The cosine that is raised to the exponents.
@@ -76,7 +76,7 @@ pub struct Scene {
     pub hidden_surfaces: HiddenSurfaces,
     /// What keeps polygons within the view.
     pub clipping: Clipping,
-    /// Whether polygons seen from behind, their corners clockwise on the screen, are lit with negated normals.
+    /// True if polygons seen from behind, their corners clockwise on the screen, are lit with negated normals.
     pub two_sided: bool,
     /// Samples a pixel along each side, 1, 2, 4 or 8: `samples`² of them are hidden, lit and shaded each on its own, and
     /// their mean in linear light is the pixel. `samples` times a side is at most [`Scene::MAX_SIDE`].

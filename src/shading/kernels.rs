@@ -101,7 +101,7 @@ pub struct Kernels {
 
 /// The kernels of a method on one instruction set.
 #[derive(Clone, Copy)]
-#[cfg_attr(not(feature = "simd"), allow(dead_code))]
+#[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub(crate) struct SimdKernels {
     /// Varyings of vertices, for methods that are lit there: else the scalar kernel.
     pub vertices: Option<VertexKernel>,
@@ -347,7 +347,7 @@ const MOST_DIVIDED: usize = 8;
 
 /// What a row of the G-buffer is shaded with.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(not(feature = "simd"), allow(dead_code))]
+#[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub(crate) struct ShadeRow<'a> {
     pub parameters: &'a [u32],
     pub uniforms: &'a Uniforms,
@@ -358,7 +358,7 @@ pub(crate) struct ShadeRow<'a> {
 
 /// Where the colours of a row go, a block of pixels after the other.
 #[derive(Debug)]
-#[cfg_attr(not(feature = "simd"), allow(dead_code))]
+#[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub enum RowColours<'a> {
     /// Bytes, and the background of those that nothing covers.
     Bytes(&'a mut [[u8; 4]], [u8; 4]),

@@ -70,7 +70,7 @@ impl Variant {
         &self.parameters
     }
 
-    /// Whether all parameters have their default values.
+    /// True if all parameters have their default values.
     pub fn is_default(&self) -> bool {
         self.parameters
             .iter()

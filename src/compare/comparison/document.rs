@@ -150,7 +150,7 @@ pub struct RowData {
     pub own: DifferenceData,
     /// See [`Row::bound`].
     pub bound: f64,
-    /// Whether `own.max` is within it.
+    /// True if `own.max` is within it.
     pub within_bound: bool,
     /// See [`Row::other_polygon`].
     pub other_polygon: usize,
@@ -167,7 +167,7 @@ fn lecture_threads() -> usize {
 }
 
 impl RowData {
-    /// Whether the barycentric renderer drew it.
+    /// True if the barycentric renderer drew it.
     pub fn is_barycentric(&self) -> bool {
         self.engine == super::Engine::Barycentric.name()
     }
@@ -176,7 +176,7 @@ impl RowData {
 /// A [`Difference`], and whether there is none.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DifferenceData {
-    /// Whether the pictures agree in every pixel compared.
+    /// True if the pictures agree in every pixel compared.
     pub equal: bool,
     /// In how far they do not.
     #[serde(flatten)]

@@ -199,7 +199,7 @@ impl Row {
         self.variant.to_string()
     }
 
-    /// Whether its difference from its own closed form is what rounding makes, [`Row::bound`]. Newton's method on short
+    /// True if its difference from its own closed form is what rounding makes, [`Row::bound`]. Newton's method on short
     /// spans with large angles may be over it, and is then shown to be.
     pub fn is_within_bound(&self) -> bool {
         self.own.max <= self.bound

@@ -145,7 +145,7 @@ impl References {
     }
 }
 
-/// Whether all samples of a pixel of `picture` show the same polygon in both.
+/// True if all samples of a pixel of `picture` show the same polygon in both.
 pub(super) fn same_polygons(
     seen: &Picture<u32>,
     shown: &Picture<u32>,

@@ -79,7 +79,7 @@ pub struct Point {
     pub asked: usize,
     /// Pixels a row, rows.
     pub size: [u32; 2],
-    /// Whether the sphere is farther away, so that it covers less.
+    /// True if the sphere is farther away, so that it covers less.
     pub away: bool,
     /// Vertices of the mesh.
     pub vertices: usize,

@@ -65,7 +65,7 @@ pub enum Work {
 pub struct Corner {
     /// What is timed.
     pub work: Work,
-    /// Whether it is that of the lecture: one pixel at a time, frames in [`Renderer::LECTURE`]; else all that this machine
+    /// True if it is that of the lecture: one pixel at a time, frames in [`Renderer::LECTURE`]; else all that this machine
     /// has, frames by [`Renderer::fastest`].
     pub scalar: bool,
     /// The instruction set.
@@ -95,7 +95,7 @@ pub struct MethodSpeedups {
 }
 
 impl MethodSpeedups {
-    /// Whether its picture is that of naive Phong, to one grey level.
+    /// True if its picture is that of naive Phong, to one grey level.
     pub fn is_same_picture(&self) -> bool {
         self.levels_off <= 1
     }

@@ -94,7 +94,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Whether the pictures agree in the colour and coverage of every pixel, excluded ones aside.
+    /// True if the pictures agree in the colour and coverage of every pixel, excluded ones aside.
     pub fn is_none(&self) -> bool {
         self.differing == 0 && self.coverage_mismatches == 0
     }

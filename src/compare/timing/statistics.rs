@@ -126,7 +126,7 @@ impl Ratio {
         })
     }
 
-    /// Whether the interval holds 1: the samples do not tell which of the two is faster.
+    /// True if the interval holds 1: the samples do not tell which of the two is faster.
     pub fn is_tie(&self) -> bool {
         self.low <= 1.0 && 1.0 <= self.high
     }

@@ -8,7 +8,7 @@ use glam::DVec4;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
     pub normal: DVec4,
-    /// Whether w is positive on both sides, so that a parameter linear on the screen exists.
+    /// True if w is positive on both sides, so that a parameter linear on the screen exists.
     pub in_front: bool,
 }
 

@@ -71,7 +71,7 @@ impl Cutting<'_> {
         }
     }
 
-    /// Whether a piece of this signed area on the picture is drawn; counts it if not.
+    /// True if a piece of this signed area on the picture is drawn; counts it if not.
     fn is_drawn(&mut self, area: i128) -> bool {
         let culled = match self.view.scene.culling {
             Culling::Back => area > 0,

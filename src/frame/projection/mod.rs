@@ -246,7 +246,7 @@ impl PreparedScene {
         Ok(is_any_beyond)
     }
 
-    /// Whether the positions of all vertices, seen from the eye, are numbers that an `f32` can hold.
+    /// True if the positions of all vertices, seen from the eye, are numbers that an `f32` can hold.
     fn check_positions(&self) -> Result<(), FrameError> {
         let models = &self.geometry.models;
         for object in &models.objects {

@@ -69,8 +69,9 @@ struct Placing<'a> {
     /// Samples a row, and rows.
     size: [f64; 2],
     is_perspective: bool,
-    /// Whether polygons are cut by the guard band, and how far it reaches in x/w and y/w.
+    /// True if polygons are cut by the guard band.
     clips: bool,
+    /// Reach of the guard band in x/w and y/w.
     guard: [f64; 2],
     /// The near distance.
     near: f64,
@@ -191,7 +192,7 @@ impl<'a> Placing<'a> {
         clip
     }
 
-    /// Whether all are between the near and the far plane, and x and y within `reach` times w: finite then, and inside
+    /// True if all are between the near and the far plane, and x and y within `reach` times w: finite then, and inside
     /// every plane that is as far out or farther.
     #[inline(always)]
     fn all_inside(&self, reach: [f64; 2], x: &Lanes, y: &Lanes, z: &Lanes, w: &Lanes) -> bool {

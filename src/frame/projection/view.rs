@@ -24,7 +24,7 @@ pub(super) struct View<'a> {
     pub clip_matrix: DMat4,
     /// Near and far, then the four sides of the guard band.
     pub planes: [Plane; 6],
-    /// Whether anything is to be interpolated with 1/w.
+    /// True if anything is to be interpolated with 1/w.
     pub needs_inv_w: bool,
 }
 
@@ -127,7 +127,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Whether all numbers of a vertex are such as a frame may have.
+    /// True if all numbers of a vertex are such as a frame may have.
     pub fn is_valid(&self, v: &ScreenVertex) -> bool {
         let guard = SubPixel::from_num(Frame::GUARD);
         let inside = |c: SubPixel| -guard <= c && c <= guard;

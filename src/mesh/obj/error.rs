@@ -64,7 +64,7 @@ pub enum ObjProblem {
     NotText,
     /// The file is text, but has no face of three corners or more.
     NoPolygons {
-        /// Whether it has points or lines instead.
+        /// True if it has points or lines instead.
         points_or_lines: bool,
     },
     /// A `v` or `vn` has fewer than three numbers.

@@ -37,7 +37,7 @@ pub(super) struct Statements<'a> {
     rest: Option<&'a str>,
     separator: char,
     line: usize,
-    /// Whether any line may be continued: nearly no file has one.
+    /// True if any line may be continued: nearly no file has one.
     backslashes: bool,
 }
 
@@ -122,7 +122,7 @@ pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {
     core::iter::once(rest).chain(comment.map(|at| rest[..at].trim_end()))
 }
 
-/// Whether `word` is a finite `f32` by its looks: a sign or none, then digits with at most one point among them.
+/// True if `word` is a finite `f32` by its looks: a sign or none, then digits with at most one point among them.
 pub(super) fn is_plain_number(word: &str) -> bool {
     let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word).as_bytes();
     let (mut digits, mut points) = (0, 0);

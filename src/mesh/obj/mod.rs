@@ -179,7 +179,7 @@ struct Libraries {
     tried: HashMap<String, bool>,
     /// Why libraries could not be had, until it is told.
     failures: HashMap<String, io::Error>,
-    /// Whether every library could be had.
+    /// True if every library could be had.
     complete: bool,
 }
 

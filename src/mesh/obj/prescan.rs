@@ -83,7 +83,7 @@ pub(super) struct Prescan {
 /// Which positions have a colour.
 #[derive(Default)]
 struct Colours {
-    /// Whether the first one has: then the parser is given a colour with each, white where there is none.
+    /// True if the first one has: then the parser is given a colour with each, white where there is none.
     written: bool,
     /// Positions with a colour.
     count: usize,
@@ -134,12 +134,12 @@ pub(super) fn prescan(text: &str, limits: Limits) -> Result<Prescan, Failure> {
 }
 
 impl Prescan {
-    /// Whether every corner has a normal: only then the normals of the file are used.
+    /// True if every corner has a normal: only then the normals of the file are used.
     pub(super) fn has_normals(&self) -> bool {
         self.corners_with_normal > 0 && self.faces_without_normal.count == 0
     }
 
-    /// Whether every position has a colour: only then the colours of the file are used.
+    /// True if every position has a colour: only then the colours of the file are used.
     pub(super) fn has_colours(&self) -> bool {
         self.colours.count > 0 && self.colours.missing.count == 0
     }

@@ -24,7 +24,7 @@ pub struct Grid {
     pub columns: usize,
     /// Cells along the second parameter; 2 at least on a ball, 3 on a tube, else 1.
     pub rows: usize,
-    /// Whether quads are split into two triangles.
+    /// True if quads are split into two triangles.
     pub triangles: bool,
 }
 

@@ -102,7 +102,7 @@ fn patches(bottom: bool) -> &'static [[u16; 16]] {
     }
 }
 
-/// Whether the first row of a patch is one point: at the knob's top and the bottom's middle.
+/// True if the first row of a patch is one point: at the knob's top and the bottom's middle.
 fn has_pole(patch: &[u16; 16]) -> bool {
     patch[..4].iter().all(|&p| p == patch[0])
 }

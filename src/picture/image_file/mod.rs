@@ -107,7 +107,7 @@ pub enum FileTexels {
 pub struct FilePicture {
     /// The texels; alpha is full where the file has none.
     pub texels: FileTexels,
-    /// Whether the file says which pixels are covered.
+    /// True if the file says which pixels are covered.
     pub has_alpha: bool,
 }
 

@@ -172,7 +172,7 @@ impl<W: Write> Pieces<W> {
     }
 }
 
-/// Whether both sides can be written down.
+/// True if both sides can be written down.
 pub(super) fn check_size(width: usize, height: usize) -> Result<(), EncodeError> {
     let fits = |side| (1..=MAX_SIDE).contains(&side);
     if fits(width) && fits(height) {

@@ -74,7 +74,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Picture8, bool), DecodeError> {
         })
 }
 
-/// Whether the chunks lead to a complete IEND (ISO/IEC 15948, 5.3: length, type, data, CRC).
+/// True if the chunks lead to a complete IEND (ISO/IEC 15948, 5.3: length, type, data, CRC).
 fn has_end(bytes: &[u8]) -> bool {
     let mut rest = &bytes[SIGNATURE.len()..];
     while let Some((&[a, b, c, d, ref kind @ ..], data)) = rest.split_first_chunk::<8>() {

@@ -168,7 +168,7 @@ fn the_bands_of_a_polygon_are_those_of_its_bounding_box() {
     }
 }
 
-/// Whether the bounding box of a polygon holds the centre of a pixel of the scanlines `rows`, from left and top on, up to
+/// True if the bounding box of a polygon holds the centre of a pixel of the scanlines `rows`, from left and top on, up to
 /// but not including right and bottom.
 fn has_centre(frame: &Frame, number: u32, rows: Range<usize>) -> bool {
     let corners = frame.corners(&frame.polygons()[number as usize]);

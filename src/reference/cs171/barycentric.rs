@@ -140,7 +140,7 @@ mod tests {
         }
     }
 
-    /// Whether two formulas agree: each is one rounded quotient of exact numbers and at most two sums of such, at sizes up
+    /// True if two formulas agree: each is one rounded quotient of exact numbers and at most two sums of such, at sizes up
     /// to those of the weights themselves: four half-ulps of the largest, for each of the two.
     #[track_caller]
     fn agree(found: Weights, expected: Weights) {

@@ -74,9 +74,9 @@ pub struct Reading {
     pub inside: Inside,
     /// Points at the same depth.
     pub ties: Ties,
-    /// Whether interpolated and averaged normals are made unit vectors, which Algorithms 6 and 7 leave out.
+    /// True if interpolated and averaged normals are made unit vectors, which Algorithms 6 and 7 leave out.
     pub normalise: bool,
-    /// Whether [`full_shading`] leaves out back faces, as Algorithm 8 does.
+    /// True if [`full_shading`] leaves out back faces, as Algorithm 8 does.
     pub cull: bool,
 }
 

@@ -82,7 +82,7 @@ pub(super) fn blend([alpha, beta, gamma]: Weights, [a, b, c]: [DVec3; 3]) -> DVe
     alpha * a + beta * b + gamma * c
 }
 
-/// Whether a point is one that the camera sees.
+/// True if a point is one that the camera sees.
 fn is_in_cube(ndc: DVec3) -> bool {
     ndc.abs().max_element() <= 1.0
 }

@@ -189,12 +189,12 @@ impl<'a> Check<'a> {
     }
 }
 
-/// Whether `value` may be a coordinate: finite, and not over [`MAX_COORDINATE`].
+/// True if `value` may be a coordinate: finite, and not over [`MAX_COORDINATE`].
 pub(super) fn is_coordinate(value: f64) -> bool {
     value.abs() <= MAX_COORDINATE
 }
 
-/// Whether all three may be coordinates.
+/// True if all three may be coordinates.
 pub(super) fn is_position(point: DVec3) -> bool {
     point.to_array().into_iter().all(is_coordinate)
 }

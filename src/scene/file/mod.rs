@@ -85,7 +85,7 @@ pub struct SceneFile {
     /// What keeps polygons within the view: `"planes"` (default) or `"ndc-cube"`, CS171's test of each pixel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clipping: Option<Located<Clipping>>,
-    /// Whether polygons seen from behind are lit with negated normals. Default: false.
+    /// True if polygons seen from behind are lit with negated normals. Default: false.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub two_sided: Option<Located<bool>>,
     /// Size and encoding of the picture.
@@ -132,7 +132,7 @@ macro_rules! section {
         }
 
         impl $name {
-            /// Whether no key is given.
+            /// True if no key is given.
             pub fn is_empty(&self) -> bool {
                 $(self.$field.is_none())&&*
             }

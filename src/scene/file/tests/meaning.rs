@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
-/// Whether two vectors differ by a few roundings only: coordinates here are below 10, and each comes from fewer than 50
+/// True if two vectors differ by a few roundings only: coordinates here are below 10, and each comes from fewer than 50
 /// operations with an error of 2^-53 each.
 fn near(a: DVec3, b: DVec3) -> bool {
     (a - b).abs().max_element() < 10.0 * 50.0 * f64::EPSILON
