@@ -13,8 +13,7 @@ pub enum Level {
     Scalar,
     /// Registers of 256 bits, 8 pixels, with fused multiplication and addition (x86-64-v3).
     Avx2,
-    /// Registers of 512 bits, 16 pixels (x86-64-v4). `auto` does not take it yet: its pictures were not
-    /// compared on a machine that has it.
+    /// Registers of 512 bits, 16 pixels, with fused multiplication and addition (x86-64-v4).
     Avx512,
     /// Registers of 128 bits, 4 pixels, with fused multiplication and addition (64-bit ARM).
     Neon,
@@ -24,10 +23,9 @@ impl Level {
     /// All levels, from the least to the most.
     pub const ALL: [Level; 4] = [Level::Scalar, Level::Avx2, Level::Avx512, Level::Neon];
 
-    /// Returns the best one of this machine that `auto` takes.
+    /// Returns the best one of this machine, which `auto` takes.
     pub fn best() -> Level {
-        let taken = Level::available().filter(|level| *level != Level::Avx512);
-        taken.last().unwrap_or_default()
+        Level::available().last().unwrap_or_default()
     }
 
     /// Returns those that this machine has, from the least to the most.
@@ -70,7 +68,7 @@ impl Level {
         match self {
             Level::Scalar => "one pixel at a time, the same bits on every platform",
             Level::Avx2 => "registers of 8 pixels, with fused multiply-add (x86-64-v3)",
-            Level::Avx512 => "registers of 16 pixels (x86-64-v4); `auto` stops at avx2",
+            Level::Avx512 => "registers of 16 pixels, with fused multiply-add (x86-64-v4)",
             Level::Neon => "registers of 4 pixels, with fused multiply-add (64-bit ARM)",
         }
     }

@@ -144,14 +144,19 @@ impl<'a> SetUp<'a> {
 
     fn light_vertices(&mut self, level: Level, is_weighted: bool) {
         let (frame, near) = (self.frame, self.frame.is_local());
-        if self.kernels.passes_normal
-            && self.extras == Extras::default()
+        let only = frame.lightings().len() == 1;
+        if self.extras == Extras::default()
             && let Some(normals) = frame.normals_on_screen()
         {
-            self.varyings.values = Cow::Borrowed(normals.as_flattened());
-            return;
+            if self.kernels.passes_normal {
+                self.varyings.values = Cow::Borrowed(normals.as_flattened());
+                return;
+            }
+            if only && !near {
+                self.varyings.values = Cow::Owned(self.lit_in_place(level, normals));
+                return;
+            }
         }
-        let only = frame.lightings().len() == 1;
         let item = |i: usize| {
             let vertex = i as u32;
             let point = if near {
@@ -239,8 +244,6 @@ impl<'a> SetUp<'a> {
         if stride == 0 {
             return values;
         }
-        let simd = self.kernels.on(level).and_then(|simd| simd.vertices);
-        let kernel = simd.unwrap_or(self.kernels.vertices);
         for_each_chunk(
             &mut values[..],
             CHUNK * stride,
@@ -267,13 +270,43 @@ impl<'a> SetUp<'a> {
                         points: &points[..k],
                         stride,
                     };
-                    kernel(&vertices, here);
+                    self.light(level, &vertices, here);
                     self.add_extras(here, &points[..k]);
                     (rest, first) = (others, first + k);
                 }
             },
         );
         values
+    }
+
+    /// Lights vertices of one material, far from all lights, whose normals need not be gathered.
+    fn lit_in_place(&self, level: Level, normals: &[[f32; 3]]) -> Vec<f32> {
+        let stride = self.varyings.count;
+        let mut values = vec![0.0; normals.len() * stride];
+        if stride == 0 {
+            return values;
+        }
+        for_each_chunk(
+            &mut values[..],
+            CHUNK * stride,
+            &|first, values: &mut [f32]| {
+                let vertices = Vertices {
+                    parameters: self.parameters,
+                    uniforms: &self.uniforms[0],
+                    normals: &normals[first / stride..][..values.len() / stride],
+                    points: &[],
+                    stride,
+                };
+                self.light(level, &vertices, values);
+            },
+        );
+        values
+    }
+
+    /// Lights vertices of one material by the kernel of an instruction set.
+    fn light(&self, level: Level, vertices: &Vertices<'_>, to: &mut [f32]) {
+        let simd = self.kernels.on(level).and_then(|simd| simd.vertices);
+        simd.unwrap_or(self.kernels.vertices)(vertices, to);
     }
 
     /// Stores what the house interpolates behind what the method does.

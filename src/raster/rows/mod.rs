@@ -43,7 +43,7 @@ use shade::Line;
 use small::{RowStarts, SmallTriangle};
 use tile::{Count, DepthTest, Tile};
 use tiny::Fragments;
-use triangles::{Batch, Kind, each_bit};
+use triangles::{Batch, Kind, LINE, each_bit};
 
 /// Scanlines of a tile: edges are seldom started anew, and every thread gets some.
 const HEIGHT: usize = 16;
@@ -168,6 +168,8 @@ impl Rows<'_> {
         let mut rest = polygons;
         while let Some((next, others)) = rest.split_first() {
             if is_linear && next.is_triangle() {
+                // Triangles are drawn at once: what was before them must be drawn first.
+                self.draw_runs(simd, scratch);
                 if self.numbers == 4 {
                     rest = &rest[self.triangles::<S, 4>(simd, rest, rows, scratch)..];
                 } else {
@@ -175,7 +177,8 @@ impl Rows<'_> {
                 }
                 continue;
             }
-            if next.is_triangle() && !self.setup.varyings.great_circle {
+            let varyings = &self.setup.varyings;
+            if next.is_triangle() && !varyings.great_circle && varyings.count < LINE {
                 rest = &rest[self.triangle_runs(simd, rest, rows, scratch)..];
             } else {
                 let active = active.get_or_insert_with(|| {
@@ -186,8 +189,7 @@ impl Rows<'_> {
                     .add_polygon(&self.setup, active, next.number, rows);
                 rest = others;
             }
-            // Triangles that follow are drawn at once: what was before them must be drawn first.
-            if is_linear || scratch.queue.is_full() {
+            if scratch.queue.is_full() {
                 self.draw_runs(simd, scratch);
             }
         }
@@ -256,15 +258,18 @@ impl Rows<'_> {
             simd,
             #[inline(always)]
             || {
+                let m = Lanes(simd);
+                let count = Count::<0>(1 + self.setup.varyings.count);
+                batch.set_up_planes(m, &self.setup, count, drawn | others);
                 each_bit(
                     drawn | others,
                     #[inline(always)]
                     |k| {
-                        let (listed, top) = (&batch.listed[k], rows.start);
+                        let top = rows.start;
                         if others >> k & 1 == 0 {
                             let [_, b, c] = &batch.edges;
                             let across = [b, c].map(|f| f.right[k] as f32 * batch.over_area[k]);
-                            let mut runs = queue.triangle(&self.setup, listed, across);
+                            let mut runs = queue.triangle(m, &self.setup, batch, k, across);
                             fragments.runs(
                                 batch,
                                 k,
@@ -273,7 +278,8 @@ impl Rows<'_> {
                                 |row, pixels, at| runs.add(row, pixels, at),
                             );
                         } else if let Some(triangle) = Triangle::of(batch, k) {
-                            let mut runs = queue.triangle(&self.setup, listed, triangle.across());
+                            let across = triangle.across();
+                            let mut runs = queue.triangle(m, &self.setup, batch, k, across);
                             triangle.runs(
                                 top,
                                 #[inline(always)]

@@ -6,7 +6,6 @@ use super::triangles::{Batch, LINE};
 use crate::frame::SubPixel;
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
-use crate::raster::bins::Listed;
 use crate::raster::setup::SetUp;
 use crate::raster::spans::active::{ActiveEdges, Span};
 use crate::raster::spans::edge::{Crossing, first_centre};
@@ -35,8 +34,6 @@ pub(crate) struct RunQueue {
     walked: Vec<f32>,
     /// Blocks of all runs.
     blocks: usize,
-    /// The varyings over a triangle: at its first corner, how far the others are from it, and their growth from pixel to pixel.
-    planes: Vec<[f32; 4]>,
     /// The edges of a polygon that are still to come.
     edges: Vec<(i32, TableEdge)>,
 }
@@ -71,28 +68,25 @@ impl RunQueue {
         self.blocks = 0;
     }
 
-    /// Returns what adds runs of a triangle, for a method that is walked along: its varyings are linear over it, and `across` is how
-    /// much its barycentric coordinates grow from pixel to pixel.
+    /// Returns what adds runs of triangle `k` of a batch, for a method that is walked along: its varyings are linear over it, and
+    /// `across` is how much its barycentric coordinates grow from pixel to pixel.
     #[inline(always)]
-    pub fn triangle(
-        &mut self,
+    pub fn triangle<'a, S: Simd>(
+        &'a mut self,
+        m: Lanes<S>,
         setup: &SetUp<'_>,
-        &Listed { number, corners }: &Listed,
+        batch: &'a Batch,
+        k: usize,
         across: [f32; 2],
-    ) -> TriangleRuns<'_> {
-        let values = |i: usize| setup.varyings.of_corner(number, i as u32, corners[i]);
-        let depth = |i: usize| setup.frame.vertices()[corners[i] as usize].depth;
-        let plane = |[a, b, c]: [f32; 3]| {
-            let (to_b, to_c) = (b - a, c - a);
-            [a, to_b, to_c, across[0] * to_b + across[1] * to_c]
-        };
-        self.planes.clear();
-        let corners = values(0).iter().zip(values(1)).zip(values(2));
-        self.planes
-            .extend(corners.map(|((a, b), c)| plane([*a, *b, *c])));
+    ) -> TriangleRuns<'a, S> {
+        let count = setup.varyings.count;
         TriangleRuns {
-            depth: plane([depth(0), depth(1), depth(2)]),
-            uniforms: setup.uniforms_of(number),
+            m,
+            batch,
+            k,
+            count,
+            step: batch.planes.growth(m, k, 1 + count, across),
+            uniforms: setup.uniforms_of(batch.listed[k].number),
             queue: self,
         }
     }
@@ -223,22 +217,31 @@ impl RunQueue {
 }
 
 /// Adds the runs of a triangle to a queue.
-pub(super) struct TriangleRuns<'a> {
+pub(super) struct TriangleRuns<'a, S> {
+    m: Lanes<S>,
     queue: &'a mut RunQueue,
-    /// Depth at the first corner, how far the others are from it, and its growth from pixel to pixel.
-    depth: [f32; 4],
+    batch: &'a Batch,
+    k: usize,
+    count: usize,
+    /// Growth of depth and varyings from pixel to pixel.
+    step: [f32; LINE],
     uniforms: u32,
 }
 
-impl TriangleRuns<'_> {
+impl<S: Simd> TriangleRuns<'_, S> {
     /// Adds a run, with the barycentric coordinates of the second and the third corner at its first pixel.
     #[inline(always)]
-    pub fn add(&mut self, row: usize, pixels: Range<usize>, [b, c]: [f32; 2]) {
-        let at = |p: &[f32; 4]| p[0] + b * p[1] + c * p[2];
-        let RunQueue { planes, starts, .. } = self.queue;
-        starts.extend(planes.iter().map(at));
-        starts.extend(planes.iter().map(|p| p[3]));
-        let depth = [at(&self.depth), self.depth[3]];
+    pub fn add(&mut self, row: usize, pixels: Range<usize>, weights: [f32; 2]) {
+        let Self { m, k, count, .. } = *self;
+        let at = self.batch.planes.at(m, k, 1 + count, weights);
+        let starts = &mut self.queue.starts;
+        // Whole lines: what is past the last number is cut off.
+        let first = starts.len();
+        starts.extend_from_slice(&at[1..]);
+        starts.truncate(first + count);
+        starts.extend_from_slice(&self.step[1..]);
+        starts.truncate(first + 2 * count);
+        let depth = [at[0], self.step[0]];
         self.queue.push(self.uniforms, Place { row, pixels, depth });
     }
 }

@@ -12,12 +12,11 @@ use core::ops::Range;
 /// Pixels that kernels take at a time, at most: rows are shaded from a multiple of this on.
 const STEP: usize = 2 * BLOCK;
 
-/// The colours of a row, and of a step whose pixels do not all go where they lie.
+/// The colours of a row, where they do not go straight into the picture.
 #[derive(Debug, Default)]
 pub(crate) struct Line {
-    row: [Vec<f32>; 3],
-    aside: [[f32; STEP]; 3],
-    bytes: [[u8; 4]; STEP],
+    bytes: Vec<[u8; 4]>,
+    channels: [Vec<f32>; 3],
     run: Vec<[f32; 3]>,
 }
 
@@ -31,18 +30,37 @@ impl Rows<'_> {
         if let Some((to, background)) = target.bytes(row) {
             to[..drawn.start].fill(background);
             to[drawn.end..].fill(background);
-            self.each_material(tile, row, drawn, |uniforms, pixels| {
-                self.bytes(tile, row, uniforms, pixels, line, to, background);
-            });
-        } else {
-            for channel in &mut line.row {
-                channel.resize(channel.len().max(width + STEP), 0.0);
-            }
-            self.each_material(tile, row, drawn.clone(), |uniforms, pixels| {
-                self.linear(tile, row, uniforms, pixels, line);
-            });
-            store(tile, row, drawn, line, target);
         }
+        self.each_material(tile, row, drawn, |uniforms, pixels| {
+            let steps = pixels.start / STEP * STEP..pixels.end.next_multiple_of(STEP);
+            let cells = tile.row(row, steps.start / BLOCK..steps.end / BLOCK);
+            let job = ShadeRow {
+                parameters: self.setup.parameters,
+                uniforms: &self.setup.uniforms[uniforms as usize],
+                extras: self.setup.extras,
+                numbers: self.numbers,
+            };
+            let part = pixels.start - steps.start..pixels.end - steps.start;
+            if let Some((to, background)) = target.bytes(row) {
+                if pixels == steps {
+                    let mut out = RowColours::Bytes(&mut to[pixels], background);
+                    return (self.kernels.shade)(&job, cells, &mut out);
+                }
+                line.bytes.resize(steps.len(), background);
+                let mut out = RowColours::Bytes(&mut line.bytes, background);
+                (self.kernels.shade)(&job, cells, &mut out);
+                to[pixels].copy_from_slice(&line.bytes[part]);
+            } else {
+                let channels = line.channels.each_mut().map(|channel| {
+                    channel.resize(steps.len(), 0.0);
+                    &mut channel[..]
+                });
+                (self.kernels.shade)(&job, cells, &mut RowColours::Linear(channels));
+                let is_drawn =
+                    |x: usize| cells[x / BLOCK * tile.stride() + x % BLOCK] < f32::INFINITY;
+                line.store(part, steps.start, row, is_drawn, target);
+            }
+        });
         scratch.tile.clear_row(row);
     }
 
@@ -80,106 +98,32 @@ impl Rows<'_> {
         }
         visit(same.unwrap_or(0), from..drawn.end);
     }
-
-    fn job(&self, uniforms: u32) -> ShadeRow<'_> {
-        ShadeRow {
-            parameters: self.setup.parameters,
-            uniforms: &self.setup.uniforms[uniforms as usize],
-            extras: self.setup.extras,
-            numbers: self.numbers,
-        }
-    }
-
-    #[expect(clippy::too_many_arguments)] // where from, what, and where to
-    fn bytes(
-        &self,
-        tile: &Tile,
-        row: usize,
-        uniforms: u32,
-        pixels: Range<usize>,
-        line: &mut Line,
-        to: &mut [[u8; 4]],
-        background: [u8; 4],
-    ) {
-        let job = self.job(uniforms);
-        each_step(&pixels, |steps, is_here| {
-            let cells = tile.row(row, steps.start / BLOCK..steps.end / BLOCK);
-            if is_here {
-                let mut out = RowColours::Bytes(&mut to[steps], background);
-                (self.kernels.shade)(&job, cells, &mut out);
-                return;
-            }
-            let mut out = RowColours::Bytes(&mut line.bytes, background);
-            (self.kernels.shade)(&job, cells, &mut out);
-            let part = pixels.start.max(steps.start)..pixels.end.min(steps.end);
-            let from = part.start - steps.start..part.end - steps.start;
-            to[part].copy_from_slice(&line.bytes[from]);
-        });
-    }
-
-    fn linear(
-        &self,
-        tile: &Tile,
-        row: usize,
-        uniforms: u32,
-        pixels: Range<usize>,
-        line: &mut Line,
-    ) {
-        let job = self.job(uniforms);
-        each_step(&pixels, |steps, is_here| {
-            let cells = tile.row(row, steps.start / BLOCK..steps.end / BLOCK);
-            if is_here {
-                let to = line
-                    .row
-                    .each_mut()
-                    .map(|channel| &mut channel[steps.clone()]);
-                return (self.kernels.shade)(&job, cells, &mut RowColours::Linear(to));
-            }
-            let to = line.aside.each_mut().map(|channel| &mut channel[..]);
-            (self.kernels.shade)(&job, cells, &mut RowColours::Linear(to));
-            let part = pixels.start.max(steps.start)..pixels.end.min(steps.end);
-            let from = part.start - steps.start..part.end - steps.start;
-            for (to, aside) in line.row.iter_mut().zip(&line.aside) {
-                to[part.clone()].copy_from_slice(&aside[from.clone()]);
-            }
-        });
-    }
 }
 
-/// Gives the steps that hold some pixels: as many as go where they lie (`true`), or one that does not.
-fn each_step(pixels: &Range<usize>, mut visit: impl FnMut(Range<usize>, bool)) {
-    let mut x = pixels.start / STEP * STEP;
-    while x < pixels.end {
-        let is_here = pixels.start <= x && x + STEP <= pixels.end;
-        let count = if is_here {
-            (pixels.end - x) / STEP * STEP
-        } else {
-            STEP
-        };
-        visit(x..x + count, is_here);
-        x += count;
-    }
-}
-
-/// Stores the pixels of a row that were drawn.
-fn store(tile: &Tile, row: usize, drawn: Range<usize>, line: &mut Line, target: &mut dyn Target) {
-    let first = drawn.start / BLOCK;
-    let cells = tile.row(row, first..drawn.end.div_ceil(BLOCK));
-    let is_drawn =
-        |x: usize| cells[(x / BLOCK - first) * tile.stride() + x % BLOCK] < f32::INFINITY;
-    let mut x = drawn.start;
-    while x < drawn.end {
-        line.run.clear();
-        let start = x;
-        while x < drawn.end && is_drawn(x) {
-            line.run
-                .push([line.row[0][x], line.row[1][x], line.row[2][x]]);
-            x += 1;
-        }
-        if line.run.is_empty() {
-            x += 1;
-        } else {
-            target.store(start, row, &line.run);
+impl Line {
+    /// Stores those of the pixels `part` of a row that are drawn, `first` pixels from its beginning.
+    fn store(
+        &mut self,
+        part: Range<usize>,
+        first: usize,
+        row: usize,
+        is_drawn: impl Fn(usize) -> bool,
+        target: &mut dyn Target,
+    ) {
+        let [r, g, b] = &self.channels;
+        let mut x = part.start;
+        while x < part.end {
+            self.run.clear();
+            let start = x;
+            while x < part.end && is_drawn(x) {
+                self.run.push([r[x], g[x], b[x]]);
+                x += 1;
+            }
+            if self.run.is_empty() {
+                x += 1;
+            } else {
+                target.store(first + start, row, &self.run);
+            }
         }
     }
 }

@@ -46,7 +46,7 @@ pub(super) enum Kind {
 }
 
 /// Triangles as they are gathered and set up.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Batch {
     pub(super) count: usize,
     pub(super) listed: [Listed; BATCH],
@@ -66,7 +66,7 @@ pub(crate) struct Batch {
 /// An edge function of each triangle, over 0 inside, in sub-pixels²: at the centre of the first pixel of the first block of the
 /// first row, less 1 for right and bottom edges, which do not own the centres that lie on them; how much it grows from column
 /// to column, from block to block, and from row to row; and what was taken off, over the area.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct EdgeFunctions {
     pub at: Ints,
     pub right: Ints,
@@ -96,7 +96,7 @@ pub(super) const LINE: usize = MOST.next_multiple_of(BLOCK);
 ///
 /// Depth first, then varyings and extras, then the material. Those of a corner lie together, as they are read and as a pixel
 /// needs them; in whole blocks, whose last numbers mean nothing.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 #[repr(align(32))]
 pub(super) struct PlaneEquations(pub [[[f32; LINE]; 3]; BATCH]);
 
@@ -155,36 +155,6 @@ impl PlaneEquations {
             i += BLOCK;
         }
         growth
-    }
-}
-
-impl Default for Batch {
-    fn default() -> Self {
-        let (ints, floats) = ([0; BATCH], [0.0; BATCH]);
-        let edges = || EdgeFunctions {
-            at: ints,
-            right: ints,
-            across: ints,
-            down: ints,
-            off: floats,
-            weight: floats,
-            growth: floats,
-            fall: floats,
-            begins: floats,
-            ends: [floats; 2],
-        };
-        Batch {
-            count: 0,
-            listed: [Listed::default(); BATCH],
-            x: [ints; 3],
-            y: [ints; 3],
-            columns: [ints; 2],
-            rows: [ints; 2],
-            kind: ints,
-            over_area: floats,
-            edges: [edges(), edges(), edges()],
-            planes: PlaneEquations([[[0.0; LINE]; 3]; BATCH]),
-        }
     }
 }
 
