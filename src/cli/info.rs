@@ -48,10 +48,10 @@ impl Info {
                 .or_insert_with(|| MeshFacts::of(&object.mesh));
             facts.clone()
         };
-        let objects = scene.objects.iter().zip(&file.object);
+        let objects = scene.objects.iter().zip(file.meshes());
         let objects: Vec<Described> = objects
-            .map(|(object, section)| Described {
-                name: &section.mesh.value,
+            .map(|(object, name)| Described {
+                name,
                 object,
                 facts: facts(object),
             })
@@ -79,12 +79,12 @@ fn scene_text(
     chosen: &[Choice],
 ) -> String {
     let mut text = input.to_owned();
-    if let Some(title) = &file.title {
-        text += &format!(": {}", title.value);
+    if let Some(title) = file.title() {
+        text += &format!(": {title}");
     }
     text.push('\n');
-    if let Some(description) = &file.description {
-        text += &wrapped(&description.value, 2);
+    if let Some(description) = file.description() {
+        text += &wrapped(description, 2);
     }
     let camera = &scene.camera;
     let projection = match camera.projection {
@@ -232,8 +232,8 @@ fn scene_json(
     json!({
         "schema": "fastphong.info/1",
         "input": input,
-        "title": file.title.as_ref().map(|title| &title.value),
-        "description": file.description.as_ref().map(|description| &description.value),
+        "title": file.title(),
+        "description": file.description(),
         "width": scene.width,
         "height": scene.height,
         "camera": {

@@ -8,8 +8,7 @@ use fastphong::compare::metrics::{Better, METRICS};
 use fastphong::lectures::FIGURES;
 use fastphong::mesh::builtin::{BUILTINS, Kind, Parameter};
 use fastphong::number::Level;
-use fastphong::scene::file::SceneFile;
-use fastphong::scene::input::SCENES;
+use fastphong::scene::input::{SCENES, ShippedScene};
 use fastphong::shading::{Info, METHODS, Roundings, Stepped};
 use serde_json::{Value, json};
 
@@ -208,16 +207,16 @@ fn meshes_json() -> Vec<Value> {
     BUILTINS.iter().map(shape).collect()
 }
 
-/// Each shipped scene with its title and description.
+/// Returns each shipped scene with its title and description.
 fn described() -> Result<Vec<[String; 3]>, Failure> {
-    let describe = |scene: &fastphong::scene::input::ShippedScene| {
-        let SceneFile {
-            title, description, ..
-        } = scene.load()?;
-        let text = |value: Option<fastphong::scene::file::value::Located<String>>| {
-            value.map_or(String::new(), |v| v.value)
-        };
-        Ok([scene.name.to_owned(), text(title), text(description)])
+    let describe = |scene: &ShippedScene| {
+        let file = scene.load()?;
+        let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
+        Ok([
+            scene.name.to_owned(),
+            text(file.title()),
+            text(file.description()),
+        ])
     };
     SCENES.iter().map(describe).collect()
 }

@@ -44,10 +44,7 @@ impl Output {
     /// # Errors
     /// When it cannot be written.
     pub fn write(&self, picture: &FilePicture) -> Result<(), Failure> {
-        let encoder = picture
-            .encoder(self.format)
-            .map_err(|error| error.to_string())?;
-        self.write_by(|out| encoder.write_to(out))
+        self.write_by(|out| picture.write_to(self.format, out))
     }
 
     /// Writes a PPM file whose texels `rows` gives from the top; a file whole or not at all.

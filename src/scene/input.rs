@@ -17,10 +17,10 @@
 //! # Ok::<(), fastphong::scene::input::InputError>(())
 //! ```
 
-use super::file::diagnostics::SceneError;
+use super::file::SceneFile;
+use super::file::diagnostics::{Origin, SceneError};
 use super::file::resolve::{LoadedMesh, Resolved};
-use super::file::value::Origin;
-use super::file::{ObjectSection, SceneFile};
+use super::file::value::{Data, Value};
 use crate::mesh::PolygonMesh;
 use crate::mesh::builtin::{BUILTINS, builtin};
 use crate::mesh::obj::{load_obj, parse_obj};
@@ -79,11 +79,9 @@ impl ShippedScene {
     /// None, as long as the shipped files are those that were tested.
     pub fn load(&self) -> Result<SceneFile, SceneError> {
         let mut file = SceneFile::parse(self.text, format!("{SHIPPED}{}.toml", self.name))?;
-        for object in &mut file.object {
-            if shipped_file(&object.mesh.value).is_some() {
-                object.mesh.value.insert_str(0, SHIPPED);
-            }
-        }
+        rename_meshes(&mut file, |mesh| {
+            shipped_file(mesh).map(|_| format!("{SHIPPED}{mesh}"))
+        });
         Ok(file)
     }
 }
@@ -226,15 +224,16 @@ pub fn resolve(file: &SceneFile) -> Result<Resolved, InputError> {
     });
     resolved.map_err(|error| match refused {
         // A mesh that the input itself named needs no line of a scene file, and no key.
-        Some((mesh, reason)) if !is_named_in_file(&file.object, &mesh) => InputError::Mesh(reason),
+        Some((mesh, reason)) if !is_named_in_file(file, &mesh) => InputError::Mesh(reason),
         _ => InputError::Scene(error),
     })
 }
 
-fn is_named_in_file(objects: &[ObjectSection], mesh: &str) -> bool {
-    objects
-        .iter()
-        .any(|object| object.mesh.value == mesh && matches!(object.mesh.origin, Origin::File(_)))
+fn is_named_in_file(file: &SceneFile, mesh: &str) -> bool {
+    file.table().tables("object").iter().any(|object| {
+        let is_in_file = |value: &Value| matches!(value.origin, Origin::File(_));
+        object.text("mesh") == Some(mesh) && object.get("mesh").is_some_and(is_in_file)
+    })
 }
 
 /// The mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
@@ -299,11 +298,22 @@ pub fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
     let Some(folder) = file.path().and_then(Path::parent).map(Path::to_owned) else {
         return;
     };
-    for object in &mut file.object {
-        let mesh = &mut object.mesh;
-        let is_file = !mesh.value.starts_with(BUILTIN) && !mesh.value.starts_with(SHIPPED);
-        if is_file && matches!(mesh.origin, Origin::File(_)) {
-            mesh.value = folder.join(&mesh.value).to_string_lossy().into_owned();
+    rename_meshes(file, |mesh| {
+        let is_file = !mesh.starts_with(BUILTIN) && !mesh.starts_with(SHIPPED);
+        is_file.then(|| folder.join(mesh).to_string_lossy().into_owned())
+    });
+}
+
+/// Gives each mesh that the scene file itself names the name that `rename` returns, if it returns one.
+fn rename_meshes(file: &mut SceneFile, rename: impl Fn(&str) -> Option<String>) {
+    for object in file.objects_mut() {
+        if let Some(Value {
+            data: Data::Text(mesh),
+            origin: Origin::File(_),
+        }) = object.entries.get_mut("mesh")
+            && let Some(new) = rename(mesh)
+        {
+            *mesh = new;
         }
     }
 }

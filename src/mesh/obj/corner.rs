@@ -15,7 +15,7 @@ pub(super) struct WrittenCorner {
 
 impl WrittenCorner {
     pub(super) fn read(word: &str) -> Result<Self, ObjProblem> {
-        let bad = || ObjProblem::BadCorner { found: quote(word) };
+        let bad = || ObjProblem::BadCorner(quote(word));
         let (position, rest) = leading_integer(word.as_bytes()).ok_or_else(bad)?;
         let (texture, rest) = slash_integer(rest).ok_or_else(bad)?;
         let (normal, rest) = slash_integer(rest).ok_or_else(bad)?;
@@ -88,20 +88,4 @@ pub(super) fn resolve(
         ahead.push((line, entry));
     }
     Ok(entry)
-}
-
-/// Appends `number` in decimal. Faster than `write!`, and there are as many numbers as corners.
-pub(super) fn push_decimal(text: &mut Vec<u8>, mut number: usize) {
-    // 20 digits hold every 64-bit number.
-    let mut digits = [0_u8; 20];
-    let mut start = digits.len();
-    loop {
-        start -= 1;
-        digits[start] = b'0' + (number % 10) as u8;
-        number /= 10;
-        if number == 0 {
-            break;
-        }
-    }
-    text.extend_from_slice(&digits[start..]);
 }

@@ -1,12 +1,13 @@
 //! Why an OBJ file could not be read.
 
 use super::super::{MeshError, PolygonMesh};
-use core::fmt;
+use std::format;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
 
 /// Why an OBJ file could not be read: which file, which line, what is wrong and what was expected.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}{}: {problem}", path.display(), line.map_or(String::new(), |line| format!(":{line}")))]
 pub struct ObjError {
     path: PathBuf,
     line: Option<usize>,
@@ -38,36 +39,33 @@ impl ObjError {
     }
 }
 
-impl fmt::Display for ObjError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.path.display())?;
-        if let Some(line) = self.line {
-            write!(f, ":{line}")?;
-        }
-        write!(f, ": {}", self.problem)
-    }
-}
-
-impl std::error::Error for ObjError {}
-
 /// What can be wrong with an OBJ file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjProblem {
     /// The file cannot be opened or read; the operating system's words.
+    #[error("cannot be read ({0}): expected an OBJ file")]
     Unreadable(String),
     /// The path names a directory.
+    #[error("is a directory: expected an OBJ file")]
     Directory,
     /// The file has no bytes, or white space only.
+    #[error("is empty: expected OBJ text with `v` and `f` lines")]
     Empty,
     /// The file holds bytes that no text has.
+    #[error("holds binary data: expected OBJ text with `v` and `f` lines")]
     NotText,
     /// The file is text, but has no face of three corners or more.
+    #[error("has {}an `f` line of at least three corners", match points_or_lines {
+        true => "points or lines but no polygon: expected ",
+        false => "no polygon: expected OBJ text with ",
+    })]
     NoPolygons {
         /// True if it has points or lines instead.
         points_or_lines: bool,
     },
     /// A `v` or `vn` has fewer than three numbers.
+    #[error("`{keyword}` has too few numbers: expected three, found {found}")]
     TooFewNumbers {
         /// The statement.
         keyword: &'static str,
@@ -75,6 +73,7 @@ pub enum ObjProblem {
         found: usize,
     },
     /// Something stands where a finite number should.
+    #[error("`{found}` in `{keyword}`: expected a finite number")]
     BadNumber {
         /// The statement.
         keyword: &'static str,
@@ -82,11 +81,10 @@ pub enum ObjProblem {
         found: String,
     },
     /// A corner is none of `v`, `v/vt`, `v//vn`, `v/vt/vn`.
-    BadCorner {
-        /// What stands there.
-        found: String,
-    },
+    #[error("`{0}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers")]
+    BadCorner(String),
     /// A corner names a position or normal that the file does not have.
+    #[error("{what} index {index}{}", expected_index(what, *index, *count))]
     IndexOutOfRange {
         /// `position` or `normal`.
         what: &'static str,
@@ -96,103 +94,23 @@ pub enum ObjProblem {
         count: usize,
     },
     /// More polygons than [`PolygonMesh::MAX_POLYGONS`].
+    #[error("too many polygons: expected at most {}", PolygonMesh::MAX_POLYGONS)]
     TooManyPolygons,
     /// More corners than [`PolygonMesh::MAX_CORNERS`].
+    #[error("too many corners: expected at most {}", PolygonMesh::MAX_CORNERS)]
     TooManyCorners,
-    /// The parser refused text that had passed every check here.
-    Parser(String),
     /// The mesh refused its data.
+    #[error("{0}: expected a mesh within its limits")]
     Mesh(MeshError),
 }
 
-impl fmt::Display for ObjProblem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ObjProblem::Unreadable(why) => {
-                write!(f, "cannot be read ({why}): expected an OBJ file")
-            }
-            ObjProblem::Directory => write!(f, "is a directory: expected an OBJ file"),
-            ObjProblem::Empty => write!(f, "is empty: expected OBJ text with `v` and `f` lines"),
-            ObjProblem::NotText => write!(
-                f,
-                "holds binary data: expected OBJ text with `v` and `f` lines"
-            ),
-            ObjProblem::NoPolygons {
-                points_or_lines: false,
-            } => {
-                write!(
-                    f,
-                    "has no polygon: expected OBJ text with an `f` line of at least three corners"
-                )
-            }
-            ObjProblem::NoPolygons {
-                points_or_lines: true,
-            } => {
-                write!(
-                    f,
-                    "has points or lines but no polygon: expected an `f` line of at least three corners"
-                )
-            }
-            ObjProblem::TooFewNumbers { keyword, found } => {
-                write!(
-                    f,
-                    "`{keyword}` has too few numbers: expected three, found {found}"
-                )
-            }
-            ObjProblem::BadNumber { keyword, found } => {
-                write!(f, "`{found}` in `{keyword}`: expected a finite number")
-            }
-            ObjProblem::BadCorner { found } => {
-                write!(
-                    f,
-                    "`{found}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers"
-                )
-            }
-            ObjProblem::IndexOutOfRange { what, index: 0, .. } => {
-                write!(
-                    f,
-                    "{what} index 0: expected 1 or more (or -1 and below, counted backwards)"
-                )
-            }
-            ObjProblem::IndexOutOfRange {
-                what,
-                index,
-                count: 0,
-            } => {
-                write!(
-                    f,
-                    "{what} index {index} is out of range: expected a {what} to be given first, there is none"
-                )
-            }
-            ObjProblem::IndexOutOfRange { what, index, count } if *index < 0 => {
-                write!(
-                    f,
-                    "{what} index {index} is out of range: expected -{count} to -1 at this line"
-                )
-            }
-            ObjProblem::IndexOutOfRange { what, index, count } => {
-                write!(
-                    f,
-                    "{what} index {index} is out of range: expected 1 to {count}"
-                )
-            }
-            ObjProblem::TooManyPolygons => {
-                write!(
-                    f,
-                    "too many polygons: expected at most {}",
-                    PolygonMesh::MAX_POLYGONS
-                )
-            }
-            ObjProblem::TooManyCorners => write!(
-                f,
-                "too many corners: expected at most {}",
-                PolygonMesh::MAX_CORNERS
-            ),
-            ObjProblem::Parser(why) => {
-                write!(f, "the OBJ parser gave up ({why}): expected plain polygons")
-            }
-            ObjProblem::Mesh(why) => write!(f, "{why}: expected a mesh within its limits"),
-        }
+/// Says what is wrong with an index, and which would do.
+fn expected_index(what: &str, index: i64, count: usize) -> String {
+    match (index, count) {
+        (0, _) => ": expected 1 or more (or -1 and below, counted backwards)".into(),
+        (_, 0) => format!(" is out of range: expected a {what} to be given first, there is none"),
+        (..0, _) => format!(" is out of range: expected -{count} to -1 at this line"),
+        _ => format!(" is out of range: expected 1 to {count}"),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The text of OBJ and MTL files: decoding, lines, comments, continued lines, words that are plainly numbers.
+//! The text of OBJ and MTL files: decoding, lines, comments, continued lines.
 
 use std::borrow::Cow;
 use std::string::String;
@@ -120,42 +120,4 @@ pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {
         .map(|(at, _)| at)
         .find(|&at| rest[..at].ends_with(char::is_whitespace));
     core::iter::once(rest).chain(comment.map(|at| rest[..at].trim_end()))
-}
-
-/// True if `word` is a finite `f32` by its looks: a sign or none, then digits with at most one point among them.
-pub(super) fn is_plain_number(word: &str) -> bool {
-    let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word).as_bytes();
-    let (mut digits, mut points) = (0, 0);
-    for &byte in unsigned {
-        digits += usize::from(byte.is_ascii_digit());
-        points += usize::from(byte == b'.');
-    }
-    // f32 reaches past 10^38.
-    digits + points == unsigned.len() && points <= 1 && (1..=38).contains(&digits)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_plain_number;
-    use crate::number::test_random::Random;
-    use std::string::String;
-
-    #[test]
-    fn what_looks_like_a_number_is_one() {
-        let mut random = Random::new(9);
-        let mut plain = 0;
-        for _ in 0..200_000 {
-            let length = 1 + random.below(5);
-            let letter = |_| b"+-..012789e"[random.below(11) as usize] as char;
-            let word: String = (0..length).map(letter).collect();
-            if is_plain_number(&word) {
-                plain += 1;
-                assert!(word.parse().is_ok_and(f32::is_finite), "{word}");
-            }
-        }
-        assert!(plain > 10_000, "{plain}");
-        let nines = "9".repeat(39);
-        assert!(nines[1..].parse().is_ok_and(f32::is_finite) && is_plain_number(&nines[1..]));
-        assert!(!is_plain_number(&nines) && !is_plain_number(""));
-    }
 }

@@ -5,15 +5,13 @@
 //! `usemtl`. All objects and groups become one mesh that shares positions by their index in the file; positions that no
 //! face uses are dropped, the others keep the order in which faces first name them.
 //!
-//! `tobj` does the parsing, between a pass that checks the text and knows its lines, and the checks of
-//! [`MeshBuilder`]. What cannot be read is an [`ObjError`]; what can be read only in part is a warning.
+//! One pass reads the text and knows its lines; [`MeshBuilder`] checks the mesh. What cannot be read is an [`ObjError`]; what can be read only in part is a warning.
 
 mod corner;
 mod error;
 mod lines;
 mod mtl;
-mod parser;
-mod prescan;
+mod scan;
 #[cfg(test)]
 mod tests;
 
@@ -22,7 +20,7 @@ pub use error::{ObjError, ObjProblem};
 use super::{GivenNormals, Material, MeshBuilder, PolygonMesh};
 use glam::{DVec3, Vec3};
 use mtl::Library;
-use prescan::{Limits, Prescan};
+use scan::{Limits, Scan};
 use std::borrow::ToOwned;
 use std::collections::HashMap;
 use std::path::Path;
@@ -107,24 +105,30 @@ fn parse_limited(
     if text.trim().is_empty() {
         return Err(ObjError::new(path, None, ObjProblem::Empty));
     }
-    let scan = prescan::prescan(&text, limits)
-        .map_err(|(line, problem)| ObjError::new(path, line, problem))?;
-    let parsed =
-        parser::parse(&scan).map_err(|why| ObjError::new(path, None, ObjProblem::Parser(why)))?;
+    let scan =
+        scan::scan(&text, limits).map_err(|(line, problem)| ObjError::new(path, line, problem))?;
     let mut warnings = scan.warnings();
 
-    let mut builder = MeshBuilder::new(vectors(&parsed.positions));
-    builder.reserve(scan.polygons, scan.corners);
-    let mut rest = &parsed.indices[..];
-    for &sides in &parsed.face_arities {
-        let (polygon, others) = rest.split_at(sides as usize);
+    let (used, corners) = in_order_of_use(
+        scan.positions.len(),
+        scan.corners.iter().map(|corner| corner.0),
+    );
+    let mut builder = MeshBuilder::new(used.iter().map(|&i| scan.positions[i]).collect());
+    builder.reserve(scan.sides.len(), corners.len());
+    let mut rest = &corners[..];
+    for &sides in &scan.sides {
+        let (polygon, others) = rest.split_at(sides);
         builder.polygon(polygon);
         rest = others;
     }
     if scan.has_normals() {
-        let values: Vec<Vec3> = vectors(&parsed.normals)
-            .into_iter()
-            .map(unit_or_zero)
+        let (used, corners) = in_order_of_use(
+            scan.normals.len(),
+            scan.corners.iter().filter_map(|corner| corner.1),
+        );
+        let values: Vec<Vec3> = used
+            .iter()
+            .map(|&i| unit_or_zero(scan.normals[i]))
             .collect();
         let zeros = values.iter().filter(|&&n| n == Vec3::ZERO).count();
         if zeros > 0 {
@@ -139,11 +143,11 @@ fn parse_limited(
         }
         builder.normals(GivenNormals {
             values,
-            corners: Some(parsed.normal_indices),
+            corners: Some(corners),
         });
     }
     if scan.has_colours() {
-        builder.colours(vectors(&parsed.vertex_color));
+        builder.colours(used.iter().map(|&i| scan.colours[i]).collect());
     }
     if !scan.material_names.is_empty() {
         let libraries = Libraries::load(&scan, &mut load_mtl, &mut warnings);
@@ -156,8 +160,19 @@ fn parse_limited(
     Ok(LoadedObj { mesh, warnings })
 }
 
-fn vectors(flat: &[f32]) -> Vec<Vec3> {
-    flat.chunks_exact(3).map(Vec3::from_slice).collect()
+/// Returns those of `count` entries that `indices` name, in the order in which they first do, and for each index the place
+/// of its entry among them.
+fn in_order_of_use(count: usize, indices: impl Iterator<Item = usize>) -> (Vec<usize>, Vec<u32>) {
+    let mut places: Vec<Option<u32>> = vec![None; count];
+    let mut used = Vec::new();
+    let place = |index: usize| {
+        *places[index].get_or_insert_with(|| {
+            used.push(index);
+            used.len() as u32 - 1
+        })
+    };
+    let corners = indices.map(place).collect();
+    (used, corners)
 }
 
 /// `normal` with length one, or zero when it has no direction.
@@ -185,7 +200,7 @@ struct Libraries {
 
 impl Libraries {
     fn load(
-        scan: &Prescan,
+        scan: &Scan,
         load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
         warnings: &mut Vec<String>,
     ) -> Libraries {
@@ -265,7 +280,7 @@ fn library_names(rest: &str) -> Vec<String> {
 
 /// The materials that polygons use, and for each polygon the one it has.
 fn assign_materials(
-    scan: &Prescan,
+    scan: &Scan,
     libraries: &Libraries,
     warnings: &mut Vec<String>,
 ) -> (Vec<Material>, Vec<u32>) {
@@ -274,12 +289,12 @@ fn assign_materials(
     let mut unknown = Vec::new();
     // For each name: not asked for yet, or the material it stands for.
     let mut numbers: Vec<Option<u32>> = vec![None; scan.material_names.len()];
-    let mut of_polygons = vec![NONE; scan.polygons];
+    let mut of_polygons = vec![NONE; scan.sides.len()];
     for (run, &(start, name)) in scan.material_runs.iter().enumerate() {
         let end = scan
             .material_runs
             .get(run + 1)
-            .map_or(scan.polygons, |&(next, _)| next);
+            .map_or(scan.sides.len(), |&(next, _)| next);
         let Some(name) = name.filter(|_| start < end) else {
             continue;
         };

@@ -1,11 +1,7 @@
-//! Materials: MTL files made fit for their parser, and turned into [`Material`].
-//!
-//! The parser (`tobj`) panics on the legal `Kd 0.5`, loses all materials at `Kd spectral …`, `illum 2.0` or a `map_Kd` without a
-//! name, takes a comment into a name and lets NaN through. So it is given only what Phong illumination uses, each line checked.
+//! Materials: the statements of MTL files that Phong illumination uses, turned into [`Material`].
 
 use super::error::quote;
 use super::lines::{Statements, decode, keyword, name_candidates, without_comment};
-use super::parser::guarded;
 use crate::mesh::Material;
 use crate::picture::Rgb;
 use std::collections::HashMap;
@@ -34,32 +30,78 @@ pub(super) struct Library {
 impl Library {
     /// Adds the materials of the MTL file `bytes`; warnings begin with its `name`.
     pub(super) fn add(&mut self, name: &str, bytes: &[u8], warnings: &mut Vec<String>) {
-        let mut found = Vec::new();
-        let text = sanitise(name, &decode(bytes), &mut found);
+        let mut found = self.read(name, &decode(bytes));
         let more = found.len().saturating_sub(WARNINGS_SHOWN);
         found.truncate(WARNINGS_SHOWN);
         warnings.append(&mut found);
         if more > 0 {
             warnings.push(format!("{name}: {more} more lines are ignored"));
         }
-        match guarded(|| tobj::load_mtl_buf(&mut text.as_bytes())) {
-            Ok((materials, _)) => materials
-                .iter()
-                .for_each(|parsed| self.insert(&parsed.name, material(parsed))),
-            Err(why) => warnings.push(format!(
-                "{name}: the MTL parser gave up ({why}): its materials are not used"
-            )),
-        }
     }
 
-    /// Of two materials with one name the first wins: the format asks for it where they are in two libraries.
-    fn insert(&mut self, name: &str, material: Material) {
-        self.materials.entry(name.to_string()).or_insert(material);
-        if let Some(short) = name_candidates(name).nth(1) {
-            self.uncommented
-                .entry(short.to_string())
-                .or_insert(material);
+    /// Reads the statements that Phong illumination uses. Returns a warning for each line that is ignored.
+    fn read(&mut self, file: &str, text: &str) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let mut current: Option<Draft> = None;
+        for (line, statement) in Statements::new(text) {
+            let (word, rest) = keyword(&statement);
+            let values = without_comment(rest).trim();
+            let mut nameless = Draft::new("");
+            let draft = current.as_mut().unwrap_or(&mut nameless);
+            let material = &mut draft.material;
+            let read = match word {
+                "newmtl" => {
+                    self.insert(current.take());
+                    current = (!rest.is_empty()).then(|| Draft::new(rest));
+                    match current {
+                        Some(_) => continue,
+                        None => Err("expected a name"),
+                    }
+                }
+                "Ka" => colour(values).map(|colour| material.ambient = colour),
+                "Kd" => colour(values).map(|colour| material.diffuse = colour),
+                "Ks" => colour(values).map(|colour| material.specular = colour),
+                "Ns" => number(values)
+                    .map(|exponent| material.shininess = exponent)
+                    .ok_or("expected one finite number, 0 or more"),
+                // Models 0 (constant) and 1 (diffuse) have no highlight.
+                "illum" => (values.parse().map(|model: u8| draft.is_matte = model < 2))
+                    .map_err(|_| "expected the number of an illumination model, 0 to 10"),
+                _ => continue,
+            };
+            match read {
+                Ok(()) if current.is_none() => warnings.push(format!(
+                    "{file}:{line}: `{word}` before any `newmtl` is ignored"
+                )),
+                Ok(()) => {}
+                Err(expected) => {
+                    let what = quote(&format!("{word} {values}"));
+                    warnings.push(format!("{file}:{line}: `{what}` is ignored: {expected}"));
+                }
+            }
         }
+        self.insert(current);
+        warnings
+    }
+
+    /// Adds a material. Of two with one name the first wins: the format asks for it where they are in two libraries.
+    fn insert(&mut self, draft: Option<Draft>) {
+        let Some(Draft {
+            name,
+            mut material,
+            is_matte,
+        }) = draft
+        else {
+            return;
+        };
+        if is_matte {
+            material.specular = SPECULAR;
+        }
+        if let Some(short) = name_candidates(&name).nth(1) {
+            let short = short.to_string();
+            self.uncommented.entry(short).or_insert(material);
+        }
+        self.materials.entry(name).or_insert(material);
     }
 
     /// The material that `usemtl` names with `rest`.
@@ -74,82 +116,38 @@ impl Library {
     }
 }
 
-fn material(parsed: &tobj::Material) -> Material {
-    // Illumination models 0 (constant) and 1 (diffuse) have no highlight.
-    let matte = matches!(parsed.illumination_model, Some(0 | 1));
-    Material {
-        ambient: parsed.ambient.unwrap_or(AMBIENT),
-        diffuse: parsed.diffuse.unwrap_or(DIFFUSE),
-        specular: if matte {
-            SPECULAR
-        } else {
-            parsed.specular.unwrap_or(SPECULAR)
-        },
-        shininess: parsed.shininess.unwrap_or(Material::default().shininess),
-    }
+/// A material that is being read.
+struct Draft {
+    name: String,
+    material: Material,
+    is_matte: bool,
 }
 
-/// The lines of `text` that the parser needs, as it can take them.
-fn sanitise(file: &str, text: &str, warnings: &mut Vec<String>) -> String {
-    let mut clean = String::new();
-    let mut named = false;
-    for (line, statement) in Statements::new(text) {
-        let (word, rest) = keyword(&statement);
-        let values = without_comment(rest).trim();
-        let accepted = match word {
-            "newmtl" => {
-                named = !rest.is_empty();
-                if named {
-                    Ok(rest.to_string())
-                } else {
-                    Err("expected a name")
-                }
-            }
-            "Ka" | "Kd" | "Ks" => colour(values),
-            "Ns" => number(values)
-                .map(|n| n.to_string())
-                .ok_or("expected one finite number, 0 or more"),
-            "illum" => match values.parse::<u8>() {
-                Ok(model) => Ok(model.to_string()),
-                Err(_) => Err("expected the number of an illumination model, 0 to 10"),
+impl Draft {
+    fn new(name: &str) -> Draft {
+        Draft {
+            name: name.to_string(),
+            material: Material {
+                ambient: AMBIENT,
+                diffuse: DIFFUSE,
+                specular: SPECULAR,
+                ..Material::default()
             },
-            _ => continue,
-        };
-        match accepted {
-            Ok(_) if !named => warnings.push(format!(
-                "{file}:{line}: `{word}` before any `newmtl` is ignored"
-            )),
-            Ok(value) => {
-                clean.push_str(word);
-                clean.push(' ');
-                clean.push_str(&value);
-                clean.push('\n');
-            }
-            Err(expected) => {
-                let what = quote(&format!("{word} {values}"));
-                warnings.push(format!("{file}:{line}: `{what}` is ignored: {expected}"));
-            }
+            is_matte: false,
         }
     }
-    clean
 }
 
-/// Three numbers, or one for all three channels.
-fn colour(values: &str) -> Result<String, &'static str> {
-    let expected = "expected one or three finite numbers, 0 or more";
-    let mut channels = Vec::new();
-    for word in values.split_ascii_whitespace() {
-        match word {
-            "spectral" | "xyz" if channels.is_empty() => {
-                return Err("expected red, green and blue, other colour models are not read");
-            }
-            _ => channels.push(number(word).ok_or(expected)?),
-        }
+/// Reads three numbers, or one for all three channels.
+fn colour(values: &str) -> Result<Rgb, &'static str> {
+    if values.starts_with("spectral") || values.starts_with("xyz") {
+        return Err("expected red, green and blue, other colour models are not read");
     }
-    match channels[..] {
-        [grey] => Ok(format!("{grey} {grey} {grey}")),
-        [red, green, blue] => Ok(format!("{red} {green} {blue}")),
-        _ => Err(expected),
+    let channels: Option<Vec<f32>> = values.split_ascii_whitespace().map(number).collect();
+    match channels.as_deref() {
+        Some(&[grey]) => Ok([grey; 3]),
+        Some(&[red, green, blue]) => Ok([red, green, blue]),
+        _ => Err("expected one or three finite numbers, 0 or more"),
     }
 }
 

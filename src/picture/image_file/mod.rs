@@ -24,24 +24,22 @@
 //! # }
 //! ```
 
-use std::borrow::{Cow, ToOwned};
+use std::borrow::ToOwned;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::Path;
 use std::vec::Vec;
 
 use super::encoding::quantise;
 use super::{Levels, LinearPicture, Picture, Picture8, Texel};
 
-mod encoder;
 mod error;
 mod netpbm;
 mod png;
 mod replace;
 
-pub use encoder::Encoder;
 pub use error::{DecodeError, EncodeError, ImageFileError};
-pub use netpbm::{PpmWriter, encode_pfm, encode_ppm};
+pub use netpbm::PpmWriter;
 pub use png::encode_png;
 pub use replace::{write_file, write_file_by};
 
@@ -154,26 +152,31 @@ impl FilePicture {
         }
     }
 
-    /// The bytes of a file of this picture.
+    /// Returns the bytes of a file of this picture.
     ///
     /// # Errors
-    /// If the picture has no pixels, or more than the format can count.
-    pub fn encode(&self, format: Format) -> Result<Vec<u8>, EncodeError> {
-        self.encoder(format).map(Encoder::bytes)
+    /// If the picture has no pixels, or more than the format can count: [`EncodeError`], inside.
+    pub fn encode(&self, format: Format) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        self.write_to(format, &mut bytes)?;
+        Ok(bytes)
     }
 
-    /// The same, to be written in pieces.
+    /// Writes a file of this picture to `out`, which needs no buffer.
     ///
     /// # Errors
-    /// As [`FilePicture::encode`].
-    pub fn encoder(&self, format: Format) -> Result<Encoder<'_>, EncodeError> {
+    /// As [`FilePicture::encode`], and those of `out`.
+    pub fn write_to(&self, format: Format, out: &mut dyn Write) -> io::Result<()> {
         match (format, &self.texels) {
-            (Format::Png, FileTexels::Stored(picture)) => Encoder::png(picture),
-            (Format::Png, FileTexels::Linear(_)) => Encoder::png(&self.to_stored()),
-            (Format::Ppm, FileTexels::Stored(picture)) => Encoder::ppm(Cow::Borrowed(picture)),
-            (Format::Ppm, FileTexels::Linear(_)) => Encoder::ppm(Cow::Owned(self.to_stored())),
-            (Format::Pfm, FileTexels::Linear(picture)) => Encoder::pfm(Cow::Borrowed(picture)),
-            (Format::Pfm, FileTexels::Stored(_)) => Encoder::pfm(Cow::Owned(self.to_linear())),
+            (Format::Png, FileTexels::Stored(picture)) => {
+                out.write_all(&encode_png(picture).map_err(io::Error::other)?)
+            }
+            (Format::Ppm, FileTexels::Stored(picture)) => netpbm::write_ppm(picture, out),
+            (Format::Pfm, FileTexels::Linear(picture)) => netpbm::write_pfm(picture, out),
+            (Format::Pfm, FileTexels::Stored(_)) => netpbm::write_pfm(&self.to_linear(), out),
+            (Format::Png | Format::Ppm, FileTexels::Linear(_)) => {
+                FilePicture::stored(self.to_stored()).write_to(format, out)
+            }
         }
     }
 
@@ -182,10 +185,9 @@ impl FilePicture {
             FileTexels::Stored(picture) => picture.map(Texel::levels),
             FileTexels::Linear(picture) => picture.map(Texel::levels),
         };
-        if with_alpha {
-            levels
-        } else {
-            levels.map(|Levels([r, g, b, _])| Levels([r, g, b, 255.0]))
+        match with_alpha {
+            true => levels,
+            false => levels.map(|Levels([r, g, b, _])| Levels([r, g, b, 255.0])),
         }
     }
 }
@@ -204,13 +206,7 @@ pub fn comparable(reference: &FilePicture, actual: &FilePicture) -> [Picture<Lev
 /// If the ending names no format, the format cannot hold the picture, or the file cannot be written.
 pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFileError> {
     let format = Format::of_path(path)?;
-    let encoder = picture
-        .encoder(format)
-        .map_err(|source| ImageFileError::Encode {
-            path: path.to_owned(),
-            source,
-        })?;
-    write_file_by(path, |file| encoder.write_to(file))
+    write_file_by(path, |file| picture.write_to(format, file))
 }
 
 /// Reads a picture of any of the formats, whatever the path ends in.
@@ -218,26 +214,8 @@ pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFile
 /// # Errors
 /// If the file cannot be read, is none of the formats, is broken or cut off, or has more than [`MAX_PIXELS`] pixels.
 pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
-    decode_picture(&read_file(path)?).map_err(|source| ImageFileError::Decode {
-        path: path.to_owned(),
-        source,
-    })
-}
-
-/// Reads a PNG file of any colour type as 8 bits of red, green, blue, alpha.
-///
-/// Grey becomes three equal channels, palettes are looked up, 16 bits are rounded to 8, and alpha is full where the file has none.
-///
-/// # Errors
-/// If the file cannot be read, is not PNG, is broken or cut off, or has more than [`MAX_PIXELS`] pixels.
-pub fn read_png(path: &Path) -> Result<Picture8, ImageFileError> {
-    match png::decode(&read_file(path)?) {
-        Ok((picture, _)) => Ok(picture),
-        Err(source) => Err(ImageFileError::Decode {
-            path: path.to_owned(),
-            source,
-        }),
-    }
+    let (path, bytes) = (path.to_owned(), read_file(path)?);
+    decode_picture(&bytes).map_err(|cause| ImageFileError::Decode { path, cause })
 }
 
 /// The picture that the bytes of a file of any of the formats hold.
@@ -267,7 +245,7 @@ fn announced(bytes: &[u8]) -> Option<Format> {
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
-    let read = || -> io::Result<Vec<u8>> {
+    let read = || {
         let mut bytes = Vec::new();
         // One byte more than is allowed, to see that there is more: some files, such as devices, never end.
         let mut file = File::open(path)?.take(MAX_BYTES + 1);
@@ -279,17 +257,13 @@ fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
             file.read_to_end(&mut bytes)?;
         }
         if bytes.len() as u64 > MAX_BYTES {
-            return Err(io::Error::new(
-                io::ErrorKind::FileTooLarge,
-                "the file is too large for a picture",
-            ));
+            let problem = "the file is too large for a picture";
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, problem));
         }
         Ok(bytes)
     };
-    read().map_err(|source| ImageFileError::Read {
-        path: path.to_owned(),
-        source,
-    })
+    let path = path.to_owned();
+    read().map_err(|cause| ImageFileError::Read { path, cause })
 }
 
 /// Width and height as `usize`, if a picture of that size may be read.

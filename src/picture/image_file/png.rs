@@ -40,20 +40,13 @@ pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
 
 /// The picture in a PNG file of any colour type, and whether the file has alpha.
 pub(super) fn decode(bytes: &[u8]) -> Result<(Picture8, bool), DecodeError> {
-    if !bytes.starts_with(&SIGNATURE) {
-        return Err(DecodeError::NotPng);
-    }
     // The decoder is content once it has all pixels; a file without its end has been cut off all the same.
     if !has_end(bytes) {
-        return Err(DecodeError::malformed(
-            Format::Png,
-            "it ends too early: expected an IEND chunk",
-        ));
+        let problem = "it ends too early: expected an IEND chunk";
+        return Err(DecodeError::malformed(Format::Png, problem));
     }
-    let broken = |error: image::ImageError| DecodeError::Malformed {
-        format: Format::Png,
-        problem: format!("{error}"),
-    };
+    let broken =
+        |error: image::ImageError| DecodeError::malformed(Format::Png, &format!("{error}"));
     let mut limits = Limits::no_limits();
     // Four channels of 16 bits, and the same picture again in 8.
     limits.max_alloc = Some(12 * MAX_PIXELS);

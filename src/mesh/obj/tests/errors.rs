@@ -1,7 +1,7 @@
 //! What is no mesh: each with its line, and with what was expected.
 
 use super::*;
-use crate::mesh::obj::prescan::Limits;
+use crate::mesh::obj::scan::Limits;
 use crate::mesh::obj::{ObjProblem, load_obj, parse_limited};
 use std::error::Error;
 use std::path::Path;

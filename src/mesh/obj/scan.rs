@@ -1,13 +1,9 @@
-//! The pass over an OBJ file before its parser: every check that needs a line number, and text the parser can take.
-//!
-//! The parser (`tobj`) gives no line numbers and goes wrong on legal files: it refuses comments after a face and continued
-//! lines, reads `l 1 2 3` as a triangle, divides by the weight of `v x y z w`, panics on a relative normal index
-//! that is out of range, and starts again with other vertices at each `g`. So it is given positions, normals and faces only,
-//! with absolute indices, as one group; groups, materials and smoothing are followed here.
+//! The pass over an OBJ file: positions, normals, faces and materials as they are written, checked line by line.
 
-use super::corner::{Corner, WrittenCorner, push_decimal, resolve};
+use super::corner::{Corner, WrittenCorner, resolve};
 use super::error::{ObjProblem, quote};
-use super::lines::{Statements, is_plain_number, keyword, without_comment};
+use super::lines::{Statements, keyword, without_comment};
+use glam::Vec3;
 use std::collections::HashMap;
 use std::format;
 use std::string::String;
@@ -47,13 +43,17 @@ impl Tally {
 
 /// What the pass found.
 #[derive(Default)]
-pub(super) struct Prescan {
-    /// The text for the parser.
-    pub text: Vec<u8>,
-    /// How many polygons it holds.
-    pub polygons: usize,
-    /// How many corners they have together.
-    pub corners: usize,
+pub(super) struct Scan {
+    /// Positions, with or without a face that uses them.
+    pub positions: Vec<Vec3>,
+    /// A colour for each position, if all have one.
+    pub colours: Vec<Vec3>,
+    /// Normals as they are written, of any length.
+    pub normals: Vec<Vec3>,
+    /// The corners of all polygons.
+    pub corners: Vec<Corner>,
+    /// How many corners each polygon has.
+    pub sides: Vec<usize>,
     /// The names of `usemtl`, each once.
     pub material_names: Vec<String>,
     /// Which of the names holds from which polygon on; `None` for none.
@@ -63,8 +63,6 @@ pub(super) struct Prescan {
     material_numbers: HashMap<String, usize>,
     corners_with_normal: usize,
     faces_without_normal: Tally,
-    positions: usize,
-    normals: usize,
     texture_coordinates: usize,
     /// Indices past the positions (first) or normals (second) so far, each larger than those before it.
     ahead: [Vec<(usize, usize)>; 2],
@@ -76,21 +74,9 @@ pub(super) struct Prescan {
     small_faces: Tally,
     repeated_corners: Tally,
     weights: Tally,
-    colours: Colours,
+    uncoloured: Tally,
+    strange_colours: Tally,
     lost_texture_indices: Tally,
-}
-
-/// Which positions have a colour.
-#[derive(Default)]
-struct Colours {
-    /// True if the first one has: then the parser is given a colour with each, white where there is none.
-    written: bool,
-    /// Positions with a colour.
-    count: usize,
-    /// Positions without one.
-    missing: Tally,
-    /// Colours over 1 or below 0.
-    out_of_range: Tally,
 }
 
 /// Which smoothing groups the faces are in.
@@ -111,18 +97,15 @@ type Failure = (Option<usize>, ObjProblem);
 ///
 /// # Errors
 /// The first line that is wrong, and how.
-pub(super) fn prescan(text: &str, limits: Limits) -> Result<Prescan, Failure> {
-    let mut scan = Prescan {
-        text: Vec::with_capacity(text.len()),
-        ..Prescan::default()
-    };
+pub(super) fn scan(text: &str, limits: Limits) -> Result<Scan, Failure> {
+    let mut scan = Scan::default();
     let mut corners = Vec::new();
     for (line, statement) in Statements::new(text) {
         scan.statement(line, &statement, &mut corners, limits)
             .map_err(|problem| (Some(line), problem))?;
     }
     scan.check_ahead()?;
-    if scan.polygons == 0 {
+    if scan.sides.is_empty() {
         return Err((
             None,
             ObjProblem::NoPolygons {
@@ -133,7 +116,7 @@ pub(super) fn prescan(text: &str, limits: Limits) -> Result<Prescan, Failure> {
     Ok(scan)
 }
 
-impl Prescan {
+impl Scan {
     /// True if every corner has a normal: only then the normals of the file are used.
     pub(super) fn has_normals(&self) -> bool {
         self.corners_with_normal > 0 && self.faces_without_normal.count == 0
@@ -141,7 +124,7 @@ impl Prescan {
 
     /// True if every position has a colour: only then the colours of the file are used.
     pub(super) fn has_colours(&self) -> bool {
-        self.colours.count > 0 && self.colours.missing.count == 0
+        !self.colours.is_empty() && self.uncoloured.count == 0
     }
 
     /// What was passed over or read in another way than it may be meant.
@@ -169,15 +152,14 @@ impl Prescan {
             .warn("a corner that repeats the one before it is left out", w);
         self.weights
             .warn("the weight w of a position is ignored", w);
-        if self.colours.count > 0 {
-            self.colours.missing.warn(
+        if !self.colours.is_empty() {
+            self.uncoloured.warn(
                 "a position has no colour: the colours of the others are not used",
                 w,
             );
         }
         if self.has_colours() {
-            self.colours
-                .out_of_range
+            self.strange_colours
                 .warn("the colour of a position is not within 0 to 1: what is shown is clamped at each pixel", w);
         }
         self.lost_texture_indices.warn(
@@ -226,69 +208,42 @@ impl Prescan {
         Ok(())
     }
 
-    /// A position or a normal: three finite numbers; a position may have a colour, three more. What else follows (a weight)
-    /// is checked and dropped.
+    /// Reads a position or a normal: three finite numbers; a position may have a colour, three more. Others (a weight)
+    /// are checked and dropped.
     fn vector(&mut self, keyword: &'static str, line: usize, rest: &str) -> Result<(), ObjProblem> {
-        let bad = |word: &str| ObjProblem::BadNumber {
-            keyword,
-            found: quote(word),
-        };
-        let mut found = 0;
-        let mut more = [0.0; 3];
-        self.text.extend_from_slice(keyword.as_bytes());
+        let (mut numbers, mut found) = ([0.0; 6], 0);
         for word in without_comment(rest).split_ascii_whitespace() {
+            let number = word.parse().ok().filter(|number: &f32| number.is_finite());
+            let number = number.ok_or_else(|| ObjProblem::BadNumber {
+                keyword,
+                found: quote(word),
+            })?;
+            if let Some(place) = numbers.get_mut(found) {
+                *place = number;
+            }
             found += 1;
-            if found <= 3 {
-                self.text.push(b' ');
-                self.text.extend_from_slice(word.as_bytes());
-                // The parser finds its value; most are plainly numbers, and need not be read twice.
-                if is_plain_number(word) {
-                    continue;
+        }
+        let [x, y, z, r, g, b] = numbers;
+        let vector = Vec3::new(x, y, z);
+        match (keyword, found) {
+            (_, ..3) => return Err(ObjProblem::TooFewNumbers { keyword, found }),
+            ("vn", _) => self.normals.push(vector),
+            _ => {
+                self.positions.push(vector);
+                if found == 4 && r != 1.0 {
+                    self.weights.add(line);
+                }
+                if found != 6 {
+                    self.uncoloured.add(line);
+                } else {
+                    self.colours.push(Vec3::new(r, g, b));
+                    if ![r, g, b].iter().all(|c| (0.0..=1.0).contains(c)) {
+                        self.strange_colours.add(line);
+                    }
                 }
             }
-            let number: f32 = word.parse().map_err(|_| bad(word))?;
-            if !number.is_finite() {
-                return Err(bad(word));
-            }
-            if (4..=6).contains(&found) {
-                more[found - 4] = number;
-            }
-        }
-        if found < 3 {
-            return Err(ObjProblem::TooFewNumbers { keyword, found });
-        }
-        if keyword == "vn" {
-            self.text.push(b'\n');
-            self.normals += 1;
-            return Ok(());
-        }
-        self.colour(line, (found == 6).then_some(more));
-        self.text.push(b'\n');
-        self.positions += 1;
-        if found == 4 && more[0] != 1.0 {
-            self.weights.add(line);
         }
         Ok(())
-    }
-
-    /// The colour of the position that was just read, if it has one.
-    fn colour(&mut self, line: usize, colour: Option<[f32; 3]>) {
-        let colours = &mut self.colours;
-        colours.written |= self.positions == 0 && colour.is_some();
-        match colour {
-            Some(colour) => {
-                colours.count += 1;
-                if !colour.iter().all(|c| (0.0..=1.0).contains(c)) {
-                    colours.out_of_range.add(line);
-                }
-            }
-            None => colours.missing.add(line),
-        }
-        if colours.written {
-            let [r, g, b] = colour.unwrap_or([1.0; 3]);
-            self.text
-                .extend_from_slice(format!(" {r} {g} {b}").as_bytes());
-        }
     }
 
     fn face(
@@ -322,34 +277,21 @@ impl Prescan {
         if repeats {
             self.repeated_corners.add(line);
         }
-        if self.polygons == limits.polygons {
+        if self.sides.len() == limits.polygons {
             return Err(ObjProblem::TooManyPolygons);
         }
-        if corners.len() > limits.corners - self.corners {
+        if corners.len() > limits.corners - self.corners.len() {
             return Err(ObjProblem::TooManyCorners);
         }
-        self.polygons += 1;
-        self.corners += corners.len();
+        self.sides.push(corners.len());
         self.smoothing.face(line);
-        self.write_face(line, corners);
-        Ok(())
-    }
-
-    fn write_face(&mut self, line: usize, corners: &[Corner]) {
-        self.text.push(b'f');
-        for &(position, normal) in corners {
-            self.text.push(b' ');
-            push_decimal(&mut self.text, position + 1);
-            if let Some(normal) = normal {
-                self.text.extend_from_slice(b"//");
-                push_decimal(&mut self.text, normal + 1);
-                self.corners_with_normal += 1;
-            }
-        }
-        self.text.push(b'\n');
-        if corners.iter().any(|(_, normal)| normal.is_none()) {
+        let with_normal = corners.iter().filter(|corner| corner.1.is_some()).count();
+        self.corners_with_normal += with_normal;
+        if with_normal < corners.len() {
             self.faces_without_normal.add(line);
         }
+        self.corners.append(corners);
+        Ok(())
     }
 
     fn corner(&mut self, line: usize, word: &str) -> Result<Corner, ObjProblem> {
@@ -359,48 +301,28 @@ impl Prescan {
         {
             self.lost_texture_indices.add(line);
         }
-        let position = resolve(
-            "position",
-            written.position,
-            self.positions,
-            line,
-            &mut self.ahead[0],
-        )?;
-        let normal = match written.normal {
-            Some(index) => Some(resolve(
-                "normal",
-                index,
-                self.normals,
-                line,
-                &mut self.ahead[1],
-            )?),
-            None => None,
-        };
-        Ok((position, normal))
+        let [far_positions, far_normals] = &mut self.ahead;
+        let (positions, normals) = (self.positions.len(), self.normals.len());
+        let normal = |index| resolve("normal", index, normals, line, far_normals);
+        Ok((
+            resolve("position", written.position, positions, line, far_positions)?,
+            written.normal.map(normal).transpose()?,
+        ))
     }
 
     /// The indices that were past the end when they were met: a later line may have brought what they name.
     fn check_ahead(&self) -> Result<(), Failure> {
         let missing = |which: usize, what: &'static str, count: usize| {
-            let &(line, index) = self.ahead[which]
-                .iter()
-                .find(|&&(_, index)| index >= count)?;
-            Some((
-                line,
-                ObjProblem::IndexOutOfRange {
-                    what,
-                    index: index as i64 + 1,
-                    count,
-                },
-            ))
+            let is_missing = |&&(_, index): &&(usize, usize)| index >= count;
+            let &(line, index) = self.ahead[which].iter().find(is_missing)?;
+            let index = index as i64 + 1;
+            Some((line, ObjProblem::IndexOutOfRange { what, index, count }))
         };
-        let position = missing(0, "position", self.positions);
-        let normal = missing(1, "normal", self.normals);
-        match position
-            .into_iter()
-            .chain(normal)
-            .min_by_key(|&(line, _)| line)
-        {
+        let missing = [
+            missing(0, "position", self.positions.len()),
+            missing(1, "normal", self.normals.len()),
+        ];
+        match missing.into_iter().flatten().min_by_key(|&(line, _)| line) {
             Some((line, problem)) => Err((Some(line), problem)),
             None => Ok(()),
         }
@@ -416,7 +338,7 @@ impl Prescan {
                 next
             }
         });
-        self.material_runs.push((self.polygons, current));
+        self.material_runs.push((self.sides.len(), current));
     }
 }
 
