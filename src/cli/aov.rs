@@ -51,13 +51,9 @@ impl Aov {
             Aov::Normal => raster::normals(frame).map(|texel| texel.map(quantise)),
             Aov::Depth => {
                 let depth = raster::depth(frame);
-                let drawn = depth
-                    .texels()
-                    .iter()
-                    .copied()
-                    .filter(|depth| depth.is_finite());
+                let drawn = depth.texels().iter().filter(|depth| depth.is_finite());
                 let (near, far) = drawn.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), d| {
-                    (a.min(d), b.max(d))
+                    (d.min(a), d.max(b))
                 });
                 let range = if far > near { far - near } else { 1.0 };
                 depth.map(|depth| match depth.is_finite() {
@@ -69,10 +65,8 @@ impl Aov {
                 })
             }
             Aov::Polygon => raster::polygon_numbers(frame).map(|number| {
-                frame
-                    .polygons()
-                    .get(number as usize)
-                    .map_or([0; 4], |polygon| colour_of_number(polygon.source))
+                let polygon = frame.polygons().get(number as usize);
+                polygon.map_or([0; 4], |polygon| colour_of_number(polygon.source))
             }),
         }
     }

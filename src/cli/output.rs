@@ -29,9 +29,8 @@ impl Output {
             });
         }
         if std::io::stdout().is_terminal() {
-            return Err("a picture is not for a terminal: expected `-o FILE`, or `-o -` into a pipe or a file"
-                .to_owned()
-                .into());
+            let expected = "expected `-o FILE`, or `-o -` into a pipe or a file";
+            return Err(format!("a picture is not for a terminal: {expected}").into());
         }
         Ok(Output {
             path: None,
@@ -76,8 +75,7 @@ impl Output {
 
 /// `png`, `ppm` or `pfm`.
 pub fn format(text: &str) -> Result<Format, String> {
-    let format = Format::ALL
-        .into_iter()
-        .find(|format| format.ending() == text);
+    let mut formats = Format::ALL.into_iter();
+    let format = formats.find(|format| format.ending() == text);
     format.ok_or_else(|| "expected png, ppm or pfm".to_owned())
 }

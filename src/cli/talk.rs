@@ -28,14 +28,10 @@ impl Talk {
 
     /// Says what the user should know before trusting the result.
     pub fn warning(self, text: &str) {
-        if self != Talk::Quiet {
-            let word = if colour() {
-                "\x1b[1;33mwarning\x1b[0m"
-            } else {
-                "warning"
-            };
-            to_stderr(&format!("{word}: {text}\n"));
-        }
+        self.note(&match colour() {
+            true => format!("\x1b[1;33mwarning\x1b[0m: {text}"),
+            false => format!("warning: {text}"),
+        });
     }
 
     /// Says what was done.
@@ -93,15 +89,19 @@ pub fn json_to_stdout(value: &serde_json::Value) -> Result<(), Failure> {
     to_stdout(format!("{value:#}\n").as_bytes())
 }
 
-/// `1234567` as `1,234,567`.
+/// Writes `1234567` as `1,234,567`.
 pub fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
+    match number {
+        0..1000 => number.to_string(),
+        _ => format!("{},{:03}", grouped(number / 1000), number % 1000),
     }
-    text
+}
+
+/// Writes a number with its noun and verb: `one` after 1, `more` after others.
+pub fn counted(number: usize, one: &str, more: &str) -> String {
+    format!(
+        "{} {}",
+        grouped(number),
+        if number == 1 { one } else { more }
+    )
 }

@@ -21,12 +21,10 @@ use super::file::SceneFile;
 use super::file::diagnostics::{Origin, SceneError};
 use super::file::resolve::{LoadedMesh, Resolved};
 use super::file::value::{Data, Value};
-use crate::mesh::PolygonMesh;
 use crate::mesh::builtin::{BUILTINS, builtin};
 use crate::mesh::obj::{load_obj, parse_obj};
 use crate::number::suggest::nearest;
 use std::borrow::ToOwned;
-use std::fmt;
 use std::format;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
@@ -94,62 +92,26 @@ fn shipped_file(name: &str) -> Option<&'static [u8]> {
 }
 
 /// Why an input gives no scene.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, thiserror::Error)]
 pub enum InputError {
-    /// The input is neither a file nor anything known.
-    Unknown {
-        /// As it was given.
-        input: String,
-        /// What may be meant.
-        suggestion: Option<String>,
-    },
-    /// The mesh that the input names cannot be used: file, line, what was expected.
-    Mesh(String),
+    /// There is no such input, or the mesh that it names cannot be used: file, line, what was expected.
+    #[error("{0}")]
+    Message(String),
     /// The scene file cannot be read, or a value of it or of a flag is wrong.
+    #[error("{}{}{}", .0.message(), if .0.expected().is_empty() { "" } else { ": " }, .0.expected())]
     Scene(SceneError),
 }
 
 impl InputError {
-    /// The error as text that starts with `error: `, with terminal colours or without.
+    /// Returns the error as text that starts with `error: `, with terminal colours or without.
     pub fn render(&self, colour: bool) -> String {
         match self {
             InputError::Scene(error) => error.render(colour),
-            other if colour => format!("\x1b[1;31merror\x1b[0m: {other}"),
-            other => format!("error: {other}"),
+            InputError::Message(text) if colour => format!("\x1b[1;31merror\x1b[0m: {text}"),
+            InputError::Message(text) => format!("error: {text}"),
         }
     }
 }
-
-impl fmt::Display for InputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            InputError::Unknown { input, suggestion } => {
-                write!(f, "`{input}` is neither a file nor a shipped scene")?;
-                if let Some(suggestion) = suggestion {
-                    return write!(f, "; did you mean `{suggestion}`?");
-                }
-                if has_known_ending(Path::new(input)) {
-                    return Ok(());
-                }
-                write!(
-                    f,
-                    " (expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of "
-                )?;
-                for (i, scene) in SCENES.iter().enumerate() {
-                    write!(f, "{}{}", if i == 0 { "" } else { ", " }, scene.name)?;
-                }
-                write!(f, ")")
-            }
-            InputError::Mesh(reason) => f.write_str(reason),
-            InputError::Scene(error) => match error.expected() {
-                "" => f.write_str(error.message()),
-                expected => write!(f, "{}: {expected}", error.message()),
-            },
-        }
-    }
-}
-
-impl std::error::Error for InputError {}
 
 impl From<SceneError> for InputError {
     fn from(error: SceneError) -> Self {
@@ -179,28 +141,35 @@ pub fn load(input: &str) -> Result<SceneFile, InputError> {
     }
 }
 
-/// The error for what is not there, or is there and of no kind that is known.
+/// Makes the error for what is not there, or is there and of no kind that is known.
 fn unknown(input: &str, path: &Path) -> InputError {
     if path.exists() {
         let expected = "expected a scene file that ends in .toml or a mesh file that ends in .obj";
-        return InputError::Mesh(format!(
-            "{input}: neither a scene nor a mesh file by its ending: {expected}"
-        ));
+        let problem = "neither a scene nor a mesh file by its ending";
+        return InputError::Message(format!("{input}: {problem}: {expected}"));
     }
+    let scenes = || SCENES.iter().map(|scene| scene.name);
     // Who writes `scenes/teapto.toml` means `teapot`, and who writes `sphere` the built-in mesh.
-    let stem = path
-        .file_stem()
-        .and_then(|stem| stem.to_str())
-        .unwrap_or(input);
-    let shape = BUILTINS
-        .iter()
-        .find(|shape| shape.name == stem)
-        .map(|shape| format!("{BUILTIN}{}", shape.name));
-    let scene = || nearest(stem, SCENES.iter().map(|scene| scene.name)).map(ToString::to_string);
-    InputError::Unknown {
-        input: input.to_owned(),
-        suggestion: scene().or(shape),
-    }
+    let stem = path.file_stem().and_then(|stem| stem.to_str());
+    let stem = stem.unwrap_or(input);
+    let shape = || is_builtin(stem).then(|| format!("{BUILTIN}{stem}"));
+    let hint = match nearest(stem, scenes())
+        .map(ToString::to_string)
+        .or_else(shape)
+    {
+        Some(meant) => format!("; did you mean `{meant}`?"),
+        None if has_known_ending(path) => String::new(),
+        None => format!(
+            " (expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of {})",
+            scenes().collect::<Vec<_>>().join(", ")
+        ),
+    };
+    let problem = "is neither a file nor a shipped scene";
+    InputError::Message(format!("`{input}` {problem}{hint}"))
+}
+
+fn is_builtin(name: &str) -> bool {
+    BUILTINS.iter().any(|shape| shape.name == name)
 }
 
 fn has_known_ending(path: &Path) -> bool {
@@ -224,7 +193,7 @@ pub fn resolve(file: &SceneFile) -> Result<Resolved, InputError> {
     });
     resolved.map_err(|error| match refused {
         // A mesh that the input itself named needs no line of a scene file, and no key.
-        Some((mesh, reason)) if !is_named_in_file(file, &mesh) => InputError::Mesh(reason),
+        Some((mesh, reason)) if !is_named_in_file(file, &mesh) => InputError::Message(reason),
         _ => InputError::Scene(error),
     })
 }
@@ -241,42 +210,30 @@ fn is_named_in_file(file: &SceneFile, mesh: &str) -> bool {
 /// # Errors
 /// One sentence: what is wrong with which file, in which line, and what was expected.
 pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
-    let without_warnings = |mesh: PolygonMesh| (Arc::new(mesh), Vec::new());
     if let Some(spec) = name.strip_prefix(BUILTIN) {
-        return builtin(spec)
-            .map(without_warnings)
-            .map_err(|error| error.to_string());
+        let mesh = builtin(spec).map_err(|error| error.to_string())?;
+        return Ok((Arc::new(mesh), Vec::new()));
     }
     let loaded = if let Some(file) = name.strip_prefix(SHIPPED) {
         let Some(bytes) = shipped_file(file) else {
-            let meshes: Vec<&str> = SHIPPED_FILES
-                .iter()
-                .map(|(name, _)| *name)
-                .filter(|name| name.ends_with(".obj"))
-                .collect();
+            let files = SHIPPED_FILES.iter().map(|(name, _)| *name);
+            let meshes: Vec<&str> = files.filter(|name| name.ends_with(".obj")).collect();
+            let meshes = meshes.join(", ");
             return Err(format!(
-                "no mesh `{file}` is shipped: expected one of {}",
-                meshes.join(", ")
+                "no mesh `{file}` is shipped: expected one of {meshes}"
             ));
         };
-        let library = |name: &str| {
-            shipped_file(name)
-                .map(<[u8]>::to_vec)
-                .ok_or(std::io::ErrorKind::NotFound.into())
-        };
-        parse_obj(name, bytes, library)
+        parse_obj(name, bytes, |name| {
+            let bytes = shipped_file(name).map(<[u8]>::to_vec);
+            bytes.ok_or(std::io::ErrorKind::NotFound.into())
+        })
     } else {
         let path: PathBuf = folder.join(name);
         if !has_ending(&path, "obj") {
             return Err(
-                match BUILTINS
-                    .iter()
-                    .find(|shape| name.split('?').next() == Some(shape.name))
-                {
-                    Some(_) => {
-                        format!("`{name}` is not a mesh file; did you mean `{BUILTIN}{name}`?")
-                    }
-                    None => format!(
+                match is_builtin(name.split('?').next().unwrap_or_default()) {
+                    true => format!("`{name}` is not a mesh file; did you mean `{BUILTIN}{name}`?"),
+                    false => format!(
                         "`{name}` is not a mesh: expected a file that ends in .obj, or {BUILTIN}NAME"
                     ),
                 },
@@ -285,12 +242,9 @@ pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
         load_obj(&path)
     };
     let loaded = loaded.map_err(|error| error.to_string())?;
-    let warnings = loaded
-        .warnings
-        .iter()
-        .map(|warning| format!("{name}: {warning}"))
-        .collect();
-    Ok((Arc::new(loaded.mesh), warnings))
+    let warnings = loaded.warnings.iter();
+    let warnings = warnings.map(|warning| format!("{name}: {warning}"));
+    Ok((Arc::new(loaded.mesh), warnings.collect()))
 }
 
 /// Makes the meshes of `file` findable from the current folder, so that the scene may be written down anywhere in it.
