@@ -5,14 +5,14 @@ use fastphong::picture::encoding::{quantise, store};
 use fastphong::picture::{LinearPicture, Picture8};
 use fastphong::raster;
 
-/// What a picture shows instead of colours.
+/// A quantity that a picture shows instead of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Aov {
     /// Depth: the nearest pixel white, the farthest black; in .pfm as it is, 0 at the near plane, 1 at the far plane
     Depth,
     /// World-space normal N as the colour (N + 1)/2
     Normal,
-    /// Which polygon is seen, each in a colour of its own; in .pfm its number in the scene, -1 where none is
+    /// Number of the polygon that is seen, each in a colour of its own; in .pfm its number in the scene, -1 where none is
     Polygon,
     /// Colours of vertices, interpolated; white where the mesh has none
     Colours,

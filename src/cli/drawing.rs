@@ -1,4 +1,4 @@
-//! How a frame becomes a picture: which method, which engine.
+//! From a frame to a picture, by a method and an engine.
 
 use super::engines::{ENGINES, Engine, Simd, cs171_shading};
 use super::talk::{Talk, counted, grouped};
@@ -18,7 +18,7 @@ use fastphong::shading::{METHODS, Variant};
 /// The name under which the reference picture can be asked for like a method.
 const REFERENCE: &str = "reference";
 
-/// What shades the pixels.
+/// The source of the colours.
 #[derive(Clone, Debug)]
 pub enum Method {
     /// A method of the table.
@@ -63,7 +63,7 @@ impl std::fmt::Display for Method {
     }
 }
 
-/// What of a frame is put into a picture.
+/// The part of a frame that is put into a picture.
 #[derive(Clone, Debug)]
 pub enum Content {
     /// Colours; the engine and the instruction set asked for, and what these mean by scanlines.

@@ -1,4 +1,4 @@
-//! What finds the pixels, and on what: the engines, instruction sets and threads that a user can ask for.
+//! The engines, instruction sets and threads that a user can ask for.
 
 use super::Failure;
 use fastphong::number::suggest::nearest;
@@ -8,7 +8,7 @@ use fastphong::reference::cs171::Shading;
 use fastphong::shading::{Info, METHODS};
 use serde_json::{Value, json};
 
-/// What finds the pixels.
+/// An engine, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engine {
     /// Scanlines, by spans or by rows; `None` is the one that suits method and frame.
@@ -22,15 +22,15 @@ pub enum Engine {
     },
 }
 
-/// What is said about an engine.
+/// A description of an engine.
 pub struct EngineInfo {
-    /// Its name on the command line.
+    /// The name on the command line.
     pub name: &'static str,
-    /// What it is.
+    /// One sentence.
     pub title: &'static str,
-    /// What it can draw.
+    /// The scenes and methods that it can draw.
     pub draws: &'static str,
-    /// Its instruction sets and threads.
+    /// The instruction sets and threads.
     pub runs: &'static str,
 }
 
@@ -64,7 +64,7 @@ pub const ENGINES: [EngineInfo; 4] = [
 ];
 
 impl EngineInfo {
-    /// The methods that it has.
+    /// Returns the names of the methods that it has.
     pub fn methods(&self) -> impl Iterator<Item = &'static str> {
         let all = METHODS.iter().map(|entry| entry.info);
         all.filter(|info| self.has(info)).map(|info| info.name)
@@ -78,7 +78,7 @@ impl EngineInfo {
         }
     }
 
-    /// All that is said about it.
+    /// Returns the description as data.
     pub fn json(&self) -> Value {
         json!({
             "name": self.name, "title": self.title, "draws": self.draws, "runs": self.runs,
@@ -87,7 +87,7 @@ impl EngineInfo {
     }
 }
 
-/// The engines that have a method, by their names.
+/// Lists the names of the engines that have a method.
 pub fn engines_with(info: &Info) -> String {
     let engines = ENGINES.iter().filter(|engine| engine.has(info));
     let names: Vec<&str> = engines.map(|engine| engine.name).collect();
@@ -258,10 +258,10 @@ pub fn renderer_of(
     }
 }
 
-/// How methods are drawn where they are compared with the lecture.
+/// Flags for drawing methods that are compared with the lecture.
 #[derive(clap::Args, Clone, Debug)]
 pub struct LectureFlags {
-    /// What finds the pixels: `span`, the lecture's way, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
+    /// Engine that finds the pixels: `span`, the lecture's way, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
     /// where it can draw the frame [default: span]
     #[arg(long, value_parser = scanline_engine)]
     engine: Option<ScanlineEngine>,
@@ -274,7 +274,7 @@ pub struct LectureFlags {
 }
 
 impl LectureFlags {
-    /// How to draw.
+    /// Returns the renderer that the flags ask for.
     ///
     /// # Errors
     /// As [`renderer`].
@@ -291,7 +291,7 @@ impl LectureFlags {
     }
 }
 
-/// On how many threads.
+/// The number of threads.
 #[derive(clap::Args, Clone, Debug)]
 pub struct ThreadFlags {
     /// Threads, 1 to 1024 [default: as many as there are processors]; comparisons in the lecture's own form take one

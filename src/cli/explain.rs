@@ -27,7 +27,7 @@ const LIGHTS: [usize; 2] = [1, 4];
 /// The numbers of lights at positions that operations are counted for, the eye being at one, too.
 const LIGHTS_AT_POSITIONS: [usize; 2] = [1, 2];
 
-/// How often something is computed, and how to take it from the counts.
+/// A rate at which something is computed, and a function that takes it from the counts.
 type Rate = (&'static str, fn(&OperationCounts) -> Counts);
 
 const RATES: [Rate; 7] = [
@@ -40,7 +40,7 @@ const RATES: [Rate; 7] = [
     ("pixel: shade", |c| c.shade),
 ];
 
-/// A kind of operation, and how to take it from the counts.
+/// A kind of operation, and a function that takes it from the counts.
 type Kind = (&'static str, fn(&Counts) -> u32);
 
 const KINDS: [Kind; 7] = [

@@ -1,10 +1,10 @@
-//! How a sub-command ends.
+//! The ways in which a sub-command ends.
 
 use fastphong::scene::file::diagnostics::SceneError;
 use fastphong::scene::input::InputError;
 use std::error::Error;
 
-/// What a sub-command found.
+/// The finding of a sub-command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// All that was asked for is done: exit code 0.

@@ -167,7 +167,7 @@ fn object_text(described: &Described) -> String {
     columns(&rows, false, &[])
 }
 
-/// Where the vertex normals of an object come from.
+/// Says where the vertex normals of an object come from.
 fn normals(described: &Described) -> String {
     match (described.object.normals, described.facts.given_normals) {
         (NormalSource::Given, true) => "given with the mesh".to_owned(),

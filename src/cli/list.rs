@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 /// List methods, meshes, scenes, metrics, figures of the lectures, engines or instruction sets
 #[derive(clap::Args, Debug)]
 pub struct List {
-    /// What to list
+    /// Things to list
     #[arg(value_enum)]
     subject: Subject,
     /// Print the list as JSON
@@ -35,7 +35,7 @@ enum Subject {
     Metrics,
     /// Figures of the lectures
     Figures,
-    /// What finds the pixels
+    /// Engines that find the pixels
     Engines,
     /// Instruction sets of the pixel loops
     Simd,
@@ -132,7 +132,7 @@ fn stepped(of: Stepped) -> &'static str {
     }
 }
 
-/// What is said about a method, without its texts of more than one line.
+/// Describes a method as data, without its texts of more than one line.
 pub fn method_json(info: &Info) -> Value {
     let parameter = |p: &fastphong::shading::Parameter| {
         json!({
@@ -155,7 +155,7 @@ pub fn method_json(info: &Info) -> Value {
     })
 }
 
-/// The value of a parameter of a method: a number, or `"auto"`.
+/// Returns the value of a parameter of a method: a number, or `"auto"`.
 pub fn value_json(parameter: &fastphong::shading::Parameter, value: u32) -> Value {
     match parameter.is_auto(value) {
         true => "auto".into(),
@@ -163,7 +163,7 @@ pub fn value_json(parameter: &fastphong::shading::Parameter, value: u32) -> Valu
     }
 }
 
-/// The default as it is written; `polygons` has none, as it stands for others.
+/// Returns the default as it is written; `polygons` has none, as it stands for others.
 fn default_text(parameter: &Parameter) -> Option<Value> {
     match parameter.kind {
         _ if parameter.default < parameter.min => None,

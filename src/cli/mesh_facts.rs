@@ -1,4 +1,4 @@
-//! What can be said about a mesh by looking at it.
+//! Facts about a mesh: counts, closedness, flatness.
 
 use fastphong::mesh::newell::{polygon_normal, unit_normal};
 use fastphong::mesh::weld::weld;
@@ -6,16 +6,16 @@ use fastphong::mesh::{Material, PolygonMesh};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// How far out of its plane a polygon may be and still count as planar, in parts of its extent.
+/// The distance from its plane up to which a polygon counts as planar, in parts of its extent.
 pub const PLANAR: f64 = 1e-3;
 /// The sine of the angle by which a polygon turns the wrong way at a corner before it counts as concave: larger than
 /// what rounding the corners of a straight edge to `f32` makes of it.
 const REFLEX: f64 = 1e-3;
 
-/// What was found out about a mesh.
+/// The facts about a mesh.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct MeshFacts {
-    /// How many polygons there are of each number of sides.
+    /// The number of polygons of each number of sides.
     pub polygons_by_sides: BTreeMap<usize, usize>,
     /// Polygons without area.
     pub degenerate: usize,
@@ -48,7 +48,7 @@ pub struct MeshFacts {
 }
 
 impl MeshFacts {
-    /// Looks at `mesh`.
+    /// Finds out the facts about `mesh`.
     pub fn of(mesh: &PolygonMesh) -> MeshFacts {
         let (vertex, _) = weld(mesh.positions());
         let bounds = mesh.bounds().map(|(low, high)| [low, high]);

@@ -1,4 +1,4 @@
-//! Where a picture goes: a file, or standard output.
+//! The destination of a picture: a file, or standard output.
 
 use super::Failure;
 use super::talk::to_stdout_by;
@@ -6,7 +6,7 @@ use fastphong::picture::image_file::{FilePicture, Format, PpmWriter, write_file_
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-/// Where a picture goes, and in which format.
+/// The destination of a picture, and its format.
 #[derive(Clone, Debug)]
 pub struct Output {
     /// `None`: standard output.
@@ -16,7 +16,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// From the values of `-o` and `--format`.
+    /// Reads the values of `-o` and `--format`.
     ///
     /// # Errors
     /// When neither names a format, or standard output is a terminal.

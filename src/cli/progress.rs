@@ -7,9 +7,9 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How long nothing is shown.
+/// The time for which nothing is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// How fine the bar is.
+/// The steps of the bar.
 const STEPS: u64 = 1000;
 
 /// A progress bar that is gone when this is dropped.

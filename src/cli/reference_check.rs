@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Grey levels at the light end of difference pictures.
 pub const SCALE: f32 = 16.0;
 
-/// The largest difference of a channel in grey levels; coverage is a channel too, which is either all there or not.
+/// Returns the largest difference of a channel in grey levels; coverage is a channel too, which is either all there or not.
 pub fn largest_difference(difference: &Difference) -> f64 {
     if difference.coverage_mismatches > 0 {
         255.0
@@ -21,13 +21,13 @@ pub fn largest_difference(difference: &Difference) -> f64 {
     }
 }
 
-/// What is to be compared with what.
+/// A picture to compare with the one that was accepted.
 pub struct ReferenceCheck<'a> {
     /// The accepted picture.
     pub reference: &'a Path,
     /// Grey levels that a channel may differ.
     pub threshold: f64,
-    /// Where the picture was written already, if it was.
+    /// The place where the picture was written already, if it was.
     pub written: Option<&'a Output>,
 }
 
@@ -92,7 +92,7 @@ impl ReferenceCheck<'_> {
         )
     }
 
-    /// The file that holds the picture in the format of the reference: the one already written, or one beside the
+    /// Returns the file that holds the picture in the format of the reference: the one already written, or one beside the
     /// reference.
     fn keep(&self, actual: &FilePicture, format: Format) -> Result<PathBuf, Failure> {
         if let Some(Output {

@@ -23,7 +23,7 @@ use std::time::Instant;
 pub struct Render {
     /// A scene file, a mesh file, builtin:NAME?key=value, or the name of a shipped scene
     input: String,
-    /// Where the picture goes: .png, .ppm or .pfm (linear floats); `-` is standard output
+    /// Destination of the picture: .png, .ppm or .pfm (linear floats); `-` is standard output
     #[arg(short, long, value_name = "FILE", required_unless_present_any = ["print_scene", "reference", "stats"])]
     output: Option<PathBuf>,
     /// Format of the picture, whatever the file is called [default: by its ending, png on standard output]
@@ -33,7 +33,7 @@ pub struct Render {
     /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
     #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
     method: Method,
-    /// What finds the pixels: `span`, the lecture's way, one pixel at a time (also called `scanline`); `row`, SIMD; `auto`,
+    /// Engine that finds the pixels: `span`, the lecture's way, one pixel at a time (also called `scanline`); `row`, SIMD; `auto`,
     /// `row` where it can draw the frame; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See `fastphong
     /// list engines`
     #[arg(long, default_value = "auto", value_parser = engines::engine)]
@@ -146,7 +146,7 @@ impl Render {
         Ok(outcome)
     }
 
-    /// Where the picture goes, if that is not where its reference is.
+    /// Returns the destination of the picture, if that is not the place of its reference.
     fn checked_output(&self) -> Result<Option<Output>, Failure> {
         let output = self.output.as_deref();
         let output = output

@@ -56,7 +56,7 @@ static FLAGS: &[Flag] = flags! {
     "light-at" "X,Y,Z[,I|,R,G,B]" ["light.position"]
     /// Attenuation 1 / (1 + k d²) of the lights given by --light-at
     "attenuation" "K" ["light.attenuation"]
-    /// How they grow weaker instead: 1 / r² or 1 / r
+    /// Falloff of those lights instead: 1 / r² or 1 / r
     "falloff" "HOW" ["light.falloff"]
     /// No lights: ambient light only
     "no-lights" "" ["light"]
@@ -72,35 +72,35 @@ static FLAGS: &[Flag] = flags! {
     "shininess" "N" ["material.shininess"]
     /// Colour where nothing is drawn
     "background" "C|R,G,B" ["image.background"]
-    /// How attributes vary: linearly on the screen, as in the lecture, or linearly in space
+    /// Variation of attributes: linearly on the screen, as in the lecture, or linearly in space
     "interpolation" "HOW" ["interpolation"]
-    /// Where the eye is for the highlights: at infinity, as in the lecture, or where the camera is
+    /// Place of the eye for the highlights: at infinity, as in the lecture, or where the camera is
     "viewer" "WHERE" ["viewer"]
     /// The cosine of the highlights: phong (R.V) or blinn (N.H)
     "specular" "MODEL" ["specular"]
     /// The cosine that exponents are meant for; they are converted if it is not that of --specular
     "shininess-for" "MODEL" ["shininess_for"]
-    /// What becomes of highlights where the light is behind the surface
+    /// Treatment of highlights where the light is behind the surface
     "specular-gate" "HOW" ["specular_gate"]
-    /// How values are stored in 8 bits
+    /// Storage of values in 8 bits
     "encoding" "HOW" ["image.encoding"]
-    /// Which polygons are left out
+    /// Polygons to leave out, by the side that is seen
     "cull" "SIDE" ["cull"]
-    /// What hides a polygon: a nearer sample, or what is drawn later, sorted from back to front or not
+    /// Way of hiding polygons: by a nearer sample, or by those drawn later, sorted from back to front or not
     "visibility" "HOW" ["visibility"]
     /// Bits of the depth buffer: 16, 24 or 32
     "depth-bits" "BITS" ["depth_bits"]
-    /// Where depth comes from: interpolated between corners, or computed from the distance at each sample
+    /// Source of depth: interpolated between corners, or computed from the distance at each sample
     "depth" "HOW" ["depth"]
-    /// By what the painter sorts: the mean depth of the corners or that of the farthest one
+    /// Key of the painter's sorting: the mean depth of the corners or that of the farthest one
     "painter-key" "KEY" ["painter_key"]
-    /// What keeps polygons within the view: clipping by planes, or CS171's test of each pixel
+    /// Limits of the view: clipping by planes, or CS171's test of each pixel
     "clipping" "HOW" ["clipping"]
     /// Light polygons seen from behind with negated normals (with `--cull none`)
     "two-sided" "" ["two_sided"]
     /// Supersampling: so many samples a pixel along each side, 1, 2, 4 or 8, hidden and shaded each on its own
     "samples" "N" ["image.samples"]
-    /// Where vertex normals come from: `averaged`, `given`, or averaged up to an angle, `crease=30`
+    /// Source of vertex normals: `averaged`, `given`, or averaged up to an angle, `crease=30`
     "normals" "SOURCE" ["object.normals"]
 };
 

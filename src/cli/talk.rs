@@ -1,11 +1,11 @@
-//! What is said: results on standard output, everything else on standard error.
+//! Output: results on standard output, everything else on standard error.
 //!
 //! A reader that went away is no error. `println!` would panic then, so that nothing here uses it.
 
 use super::Failure;
 use std::io::{self, IsTerminal, Write};
 
-/// How much is said on standard error.
+/// The amount of talk on standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Talk {
     /// Nothing but errors.
@@ -17,7 +17,7 @@ pub enum Talk {
 }
 
 impl Talk {
-    /// What the global flags ask for.
+    /// Reads the global flags.
     pub fn new(quiet: bool, verbose: bool) -> Talk {
         match (quiet, verbose) {
             (true, _) => Talk::Quiet,
@@ -67,7 +67,7 @@ pub fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
     to_stdout_by(|out| out.write_all(bytes))
 }
 
-/// The same for what `write` writes.
+/// Writes the result of `write` to standard output, as [`to_stdout`] does.
 ///
 /// # Errors
 /// As [`to_stdout`].

@@ -2,7 +2,7 @@
 
 use super::{LinearPicture, Picture8};
 
-/// How linear values are stored in eight bits.
+/// A way to store linear values in eight bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
     /// round(255 c): no transfer function.

@@ -1,4 +1,4 @@
-//! What a user names as input: a scene file, a mesh file, a built-in mesh, or a scene that is shipped.
+//! Inputs that a user names: a scene file, a mesh file, a built-in mesh, or a scene that is shipped.
 //!
 //! | input | is |
 //! |---|---|
@@ -34,9 +34,9 @@ use std::vec::Vec;
 /// A scene that is part of the program.
 #[derive(Clone, Copy, Debug)]
 pub struct ShippedScene {
-    /// Its name: that of its file, without the ending.
+    /// The name: that of its file, without the ending.
     pub name: &'static str,
-    /// What the file says.
+    /// The contents of the file.
     pub text: &'static str,
 }
 
@@ -66,12 +66,12 @@ const BUILTIN: &str = "builtin:";
 const SHIPPED: &str = "shipped:";
 
 impl ShippedScene {
-    /// The shipped scene called `name`.
+    /// Returns the shipped scene called `name`.
     pub fn named(name: &str) -> Option<&'static ShippedScene> {
         SCENES.iter().find(|scene| scene.name == name)
     }
 
-    /// The scene; its meshes can be found from anywhere.
+    /// Reads the scene; its meshes can be found from anywhere.
     ///
     /// # Errors
     /// None, as long as the shipped files are those that were tested.
@@ -119,7 +119,7 @@ impl From<SceneError> for InputError {
     }
 }
 
-/// The scene that `input` names; its meshes are not loaded yet.
+/// Reads the scene that `input` names; its meshes are not loaded yet.
 ///
 /// # Errors
 /// [`InputError`] when there is no such thing, or the scene file is not one.
@@ -181,7 +181,7 @@ fn has_ending(path: &Path, ending: &str) -> bool {
         .is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
-/// The scene that `file` describes, with its meshes, and what is odd about it.
+/// Returns the scene that `file` describes, with its meshes, and what is odd about it.
 ///
 /// # Errors
 /// [`InputError`] when a value is out of its range or a mesh cannot be used.
@@ -205,7 +205,7 @@ fn is_named_in_file(file: &SceneFile, mesh: &str) -> bool {
     })
 }
 
-/// The mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
+/// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
 ///
 /// # Errors
 /// One sentence: what is wrong with which file, in which line, and what was expected.

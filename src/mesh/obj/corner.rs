@@ -19,41 +19,26 @@ impl WrittenCorner {
         let (position, rest) = leading_integer(word.as_bytes()).ok_or_else(bad)?;
         let (texture, rest) = slash_integer(rest).ok_or_else(bad)?;
         let (normal, rest) = slash_integer(rest).ok_or_else(bad)?;
-        if rest.is_empty() {
-            Ok(WrittenCorner {
-                position,
-                texture,
-                normal,
-            })
-        } else {
-            Err(bad())
-        }
+        let corner = WrittenCorner {
+            position,
+            texture,
+            normal,
+        };
+        rest.is_empty().then_some(corner).ok_or_else(bad)
     }
 }
 
-/// The integer at the start of `bytes`, and what follows it; `None` when there is none or it does not fit.
+/// Reads the integer at the start of `bytes`. Returns it and the rest; `None` when there is none or it does not fit.
 fn leading_integer(bytes: &[u8]) -> Option<(i64, &[u8])> {
-    let (negative, digits) = match bytes {
-        [b'-', rest @ ..] => (true, rest),
-        [b'+', rest @ ..] => (false, rest),
-        _ => (false, bytes),
-    };
-    let end = digits
+    let sign = usize::from(matches!(bytes.first(), Some(b'-' | b'+')));
+    let digits = bytes[sign..]
         .iter()
-        .position(|byte| !byte.is_ascii_digit())
-        .unwrap_or(digits.len());
-    if end == 0 {
-        return None;
-    }
-    // Summed downwards: the smallest integer has no positive counterpart.
-    let sum = digits[..end].iter().try_fold(0_i64, |n, &digit| {
-        n.checked_mul(10)?.checked_sub(i64::from(digit - b'0'))
-    })?;
-    let number = if negative { sum } else { sum.checked_neg()? };
-    Some((number, &digits[end..]))
+        .take_while(|byte| byte.is_ascii_digit());
+    let (number, rest) = bytes.split_at(sign + digits.count());
+    Some((str::from_utf8(number).ok()?.parse().ok()?, rest))
 }
 
-/// The integer after a `/`, if there is one, and what follows; `None` when something else stands there.
+/// Reads the integer after a `/`, if there is one, and what follows; `None` when something else stands there.
 fn slash_integer(bytes: &[u8]) -> Option<(Option<i64>, &[u8])> {
     match bytes {
         [] => Some((None, bytes)),
@@ -64,7 +49,7 @@ fn slash_integer(bytes: &[u8]) -> Option<(Option<i64>, &[u8])> {
     }
 }
 
-/// The entry, counted from 0, that `index` names among `count` so far.
+/// Returns the entry, counted from 0, that `index` names among `count` so far.
 ///
 /// A positive index may be ahead of what it names: that is noted in `ahead` and checked at the end of the file.
 pub(super) fn resolve(

@@ -33,13 +33,13 @@ impl ObjError {
         self.line
     }
 
-    /// What is wrong.
+    /// Returns the problem.
     pub fn problem(&self) -> &ObjProblem {
         &self.problem
     }
 }
 
-/// What can be wrong with an OBJ file.
+/// A problem with an OBJ file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjProblem {
@@ -69,7 +69,7 @@ pub enum ObjProblem {
     TooFewNumbers {
         /// The statement.
         keyword: &'static str,
-        /// How many numbers it has.
+        /// The number of its numbers.
         found: usize,
     },
     /// Something stands where a finite number should.
@@ -77,7 +77,7 @@ pub enum ObjProblem {
     BadNumber {
         /// The statement.
         keyword: &'static str,
-        /// What stands there.
+        /// The text that stands there.
         found: String,
     },
     /// A corner is none of `v`, `v/vt`, `v//vn`, `v/vt/vn`.
@@ -90,7 +90,7 @@ pub enum ObjProblem {
         what: &'static str,
         /// The index as written: counted from 1, or backwards from -1.
         index: i64,
-        /// How many there are: in the whole file, or so far when the index counts backwards.
+        /// The number of entries: in the whole file, or so far when the index counts backwards.
         count: usize,
     },
     /// More polygons than [`PolygonMesh::MAX_POLYGONS`].

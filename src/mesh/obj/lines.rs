@@ -111,7 +111,7 @@ pub(super) fn keyword(statement: &str) -> (&str, &str) {
     }
 }
 
-/// Where a statement's name may end: the whole rest first, then up to a comment.
+/// Returns the names that a statement may hold: the whole rest first, then up to a comment.
 ///
 /// `usemtl red # the lid` and the name `Material #25` are both met in real files; what exists decides.
 pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {

@@ -109,10 +109,8 @@ fn parse_limited(
         scan::scan(&text, limits).map_err(|(line, problem)| ObjError::new(path, line, problem))?;
     let mut warnings = scan.warnings();
 
-    let (used, corners) = in_order_of_use(
-        scan.positions.len(),
-        scan.corners.iter().map(|corner| corner.0),
-    );
+    let corners = scan.corners.iter().map(|corner| corner.0);
+    let (used, corners) = in_order_of_use(scan.positions.len(), corners);
     let mut builder = MeshBuilder::new(used.iter().map(|&i| scan.positions[i]).collect());
     builder.reserve(scan.sides.len(), corners.len());
     let mut rest = &corners[..];
@@ -122,24 +120,18 @@ fn parse_limited(
         rest = others;
     }
     if scan.has_normals() {
-        let (used, corners) = in_order_of_use(
-            scan.normals.len(),
-            scan.corners.iter().filter_map(|corner| corner.1),
-        );
-        let values: Vec<Vec3> = used
-            .iter()
-            .map(|&i| unit_or_zero(scan.normals[i]))
-            .collect();
+        let corners = scan.corners.iter().filter_map(|corner| corner.1);
+        let (used, corners) = in_order_of_use(scan.normals.len(), corners);
+        let values = used.iter().map(|&i| unit_or_zero(scan.normals[i]));
+        let values: Vec<Vec3> = values.collect();
         let zeros = values.iter().filter(|&&n| n == Vec3::ZERO).count();
         if zeros > 0 {
-            let have = if zeros == 1 {
-                "normal of the file has"
-            } else {
-                "normals of the file have"
+            let have = match zeros {
+                1 => "normal of the file has",
+                _ => "normals of the file have",
             };
-            warnings.push(format!(
-                "{zeros} {have} length zero: averaged ones are used there"
-            ));
+            let what = format!("{have} length zero: averaged ones are used there");
+            warnings.push(format!("{zeros} {what}"));
         }
         builder.normals(GivenNormals {
             values,
@@ -188,14 +180,13 @@ fn unit_or_zero(normal: Vec3) -> Vec3 {
 }
 
 /// The materials of every `mtllib`.
+#[derive(Default)]
 struct Libraries {
     library: Library,
-    /// Which names were asked for, and whether there was such a library.
-    tried: HashMap<String, bool>,
-    /// Why libraries could not be had, until it is told.
-    failures: HashMap<String, io::Error>,
-    /// True if every library could be had.
-    complete: bool,
+    /// The names that were asked for: why there is no such library, until it is told.
+    tried: HashMap<String, Result<(), Option<io::Error>>>,
+    /// True if a library could not be had.
+    incomplete: bool,
 }
 
 impl Libraries {
@@ -204,54 +195,41 @@ impl Libraries {
         load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
         warnings: &mut Vec<String>,
     ) -> Libraries {
-        let mut libraries = Libraries {
-            library: Library::default(),
-            tried: HashMap::new(),
-            failures: HashMap::new(),
-            complete: true,
-        };
+        let mut libraries = Libraries::default();
         for (line, rest) in &scan.libraries {
-            if lines::name_candidates(rest).any(|name| libraries.add(name, load_mtl, warnings)) {
+            let mut names = lines::name_candidates(rest);
+            if names.any(|name| libraries.add(name, load_mtl, warnings).is_ok()) {
                 continue;
             }
             for name in library_names(lines::without_comment(rest)) {
-                if libraries.add(&name, load_mtl, warnings) {
+                let Err(error) = libraries.add(&name, load_mtl, warnings) else {
                     continue;
-                }
-                libraries.complete = false;
-                if let Some(error) = libraries.failures.remove(&name) {
+                };
+                if let Some(error) = error.take() {
                     let name = error::quote(&name);
                     warnings.push(format!(
                         "material library `{name}` (line {line}) cannot be read: {error}"
                     ));
                 }
+                libraries.incomplete = true;
             }
         }
         libraries
     }
 
-    /// Adds the library `name`, unless it was added before; false when there is none.
+    /// Adds the library `name`, unless it was added before.
     fn add(
         &mut self,
         name: &str,
         load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
         warnings: &mut Vec<String>,
-    ) -> bool {
-        if let Some(&found) = self.tried.get(name) {
-            return found;
-        }
-        let loaded = load_mtl(name);
-        self.tried.insert(name.to_owned(), loaded.is_ok());
-        match loaded {
-            Ok(bytes) => {
-                self.library.add(name, &bytes, warnings);
-                true
-            }
-            Err(error) => {
-                self.failures.insert(name.to_owned(), error);
-                false
-            }
-        }
+    ) -> &mut Result<(), Option<io::Error>> {
+        let Libraries { library, tried, .. } = self;
+        tried.entry(name.to_owned()).or_insert_with(|| {
+            let bytes = load_mtl(name).map_err(Some)?;
+            library.add(name, &bytes, warnings);
+            Ok(())
+        })
     }
 }
 
@@ -261,21 +239,14 @@ fn library_names(rest: &str) -> Vec<String> {
     let mut open = false;
     for word in rest.split_whitespace() {
         match names.last_mut() {
-            Some(name) if open => {
-                name.push(' ');
-                name.push_str(word);
-            }
+            Some(name) if open => *name += &format!(" {word}"),
             _ => names.push(word.to_owned()),
         }
-        open = !word
-            .trim_end_matches('"')
-            .to_ascii_lowercase()
-            .ends_with(".mtl");
+        let ending = word.trim_end_matches('"').to_ascii_lowercase();
+        open = !ending.ends_with(".mtl");
     }
-    names
-        .iter()
-        .map(|name| name.trim_matches('"').to_owned())
-        .collect()
+    let bare = |name: &String| name.trim_matches('"').to_owned();
+    names.iter().map(bare).collect()
 }
 
 /// The materials that polygons use, and for each polygon the one it has.
@@ -290,11 +261,9 @@ fn assign_materials(
     // For each name: not asked for yet, or the material it stands for.
     let mut numbers: Vec<Option<u32>> = vec![None; scan.material_names.len()];
     let mut of_polygons = vec![NONE; scan.sides.len()];
-    for (run, &(start, name)) in scan.material_runs.iter().enumerate() {
-        let end = scan
-            .material_runs
-            .get(run + 1)
-            .map_or(scan.sides.len(), |&(next, _)| next);
+    let starts = scan.material_runs.iter().map(|&(start, _)| start);
+    let ends = starts.skip(1).chain([scan.sides.len()]);
+    for (&(start, name), end) in scan.material_runs.iter().zip(ends) {
         let Some(name) = name.filter(|_| start < end) else {
             continue;
         };
@@ -313,26 +282,24 @@ fn assign_materials(
         of_polygons[start..end].fill(number);
     }
     // One missing library explains all names that are missing.
-    if libraries.complete && !unknown.is_empty() {
+    if !libraries.incomplete && !unknown.is_empty() {
         warnings.push(format!(
             "no material library defines {}: the default material is used",
             list(&unknown)
         ));
     }
     if materials.is_empty() {
-        (materials, Vec::new())
-    } else {
-        (materials, of_polygons)
+        of_polygons.clear();
     }
+    (materials, of_polygons)
 }
 
 /// `a`, `b` and 7 more: at most five names.
 fn list(names: &[String]) -> String {
-    const SHOWN: usize = 5;
-    let shown = names[..names.len().min(SHOWN)].join(", ");
-    if names.len() > SHOWN {
-        format!("{shown} and {} more", names.len() - SHOWN)
-    } else {
-        shown
+    match names.split_at_checked(5) {
+        Some((shown, more)) if !more.is_empty() => {
+            format!("{} and {} more", shown.join(", "), more.len())
+        }
+        _ => names.join(", "),
     }
 }

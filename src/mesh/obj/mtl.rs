@@ -23,7 +23,7 @@ const SPECULAR: Rgb = [0.0; 3];
 #[derive(Default)]
 pub(super) struct Library {
     materials: HashMap<String, Material>,
-    /// The same by their names up to a comment, for `newmtl red # the lid`.
+    /// These materials by their names up to a comment, for `newmtl red # the lid`.
     uncommented: HashMap<String, Material>,
 }
 

@@ -9,7 +9,7 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// How large a mesh may become; the true limits except in tests.
+/// The largest size of a mesh; the true limits except in tests.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
     pub polygons: usize,
@@ -30,18 +30,9 @@ impl Tally {
         }
         self.count += 1;
     }
-
-    /// The warning, if there was anything: `(4 times, first in line 12)` follows `what`.
-    fn warn(&self, what: &str, warnings: &mut Vec<String>) {
-        match self.count {
-            0 => {}
-            1 => warnings.push(format!("{what} (line {})", self.line)),
-            n => warnings.push(format!("{what} ({n} times, first in line {})", self.line)),
-        }
-    }
 }
 
-/// What the pass found.
+/// The contents of an OBJ file.
 #[derive(Default)]
 pub(super) struct Scan {
     /// Positions, with or without a face that uses them.
@@ -52,13 +43,13 @@ pub(super) struct Scan {
     pub normals: Vec<Vec3>,
     /// The corners of all polygons.
     pub corners: Vec<Corner>,
-    /// How many corners each polygon has.
+    /// The number of corners of each polygon.
     pub sides: Vec<usize>,
     /// The names of `usemtl`, each once.
     pub material_names: Vec<String>,
-    /// Which of the names holds from which polygon on; `None` for none.
+    /// The first polygon of each run and the number of its name; `None` for none.
     pub material_runs: Vec<(usize, Option<usize>)>,
-    /// What follows each `mtllib`, with its line.
+    /// The text after each `mtllib`, with its line.
     pub libraries: Vec<(usize, String)>,
     material_numbers: HashMap<String, usize>,
     corners_with_normal: usize,
@@ -79,7 +70,7 @@ pub(super) struct Scan {
     lost_texture_indices: Tally,
 }
 
-/// Which smoothing groups the faces are in.
+/// The smoothing groups of the faces.
 #[derive(Default)]
 struct Smoothing {
     /// The group that holds now: `None` before any `s`, 0 for `s off`.
@@ -90,7 +81,7 @@ struct Smoothing {
     edges: Tally,
 }
 
-/// Where and what: an error without its path.
+/// An error without its path: line and problem.
 type Failure = (Option<usize>, ObjProblem);
 
 /// Reads all of `text`.
@@ -106,12 +97,8 @@ pub(super) fn scan(text: &str, limits: Limits) -> Result<Scan, Failure> {
     }
     scan.check_ahead()?;
     if scan.sides.is_empty() {
-        return Err((
-            None,
-            ObjProblem::NoPolygons {
-                points_or_lines: scan.points_or_lines.count > 0,
-            },
-        ));
+        let points_or_lines = scan.points_or_lines.count > 0;
+        return Err((None, ObjProblem::NoPolygons { points_or_lines }));
     }
     Ok(scan)
 }
@@ -127,53 +114,42 @@ impl Scan {
         !self.colours.is_empty() && self.uncoloured.count == 0
     }
 
-    /// What was passed over or read in another way than it may be meant.
+    /// Says what was passed over or read in another way than it may be meant.
     pub(super) fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        let w = &mut warnings;
-        self.points_or_lines
-            .warn("points and lines are not drawn", w);
-        self.free_form.warn(
-            "free-form curves and surfaces are not read, only polygons",
-            w,
-        );
-        self.unknown.warn(
-            &format!(
-                "`{}` is no OBJ statement and is passed over",
-                self.unknown_word
-            ),
-            w,
-        );
-        self.small_faces.warn(
-            "a face of fewer than three different corners is left out",
-            w,
-        );
-        self.repeated_corners
-            .warn("a corner that repeats the one before it is left out", w);
-        self.weights
-            .warn("the weight w of a position is ignored", w);
+        let mut warn = |tally: &Tally, what: &str| match (tally.count, tally.line) {
+            (0, _) => {}
+            (1, line) => warnings.push(format!("{what} (line {line})")),
+            (n, line) => warnings.push(format!("{what} ({n} times, first in line {line})")),
+        };
+        warn(&self.points_or_lines, "points and lines are not drawn");
+        let what = "free-form curves and surfaces are not read, only polygons";
+        warn(&self.free_form, what);
+        let what = "is no OBJ statement and is passed over";
+        warn(&self.unknown, &format!("`{}` {what}", self.unknown_word));
+        let what = "a face of fewer than three different corners is left out";
+        warn(&self.small_faces, what);
+        let what = "a corner that repeats the one before it is left out";
+        warn(&self.repeated_corners, what);
+        warn(&self.weights, "the weight w of a position is ignored");
         if !self.colours.is_empty() {
-            self.uncoloured.warn(
-                "a position has no colour: the colours of the others are not used",
-                w,
-            );
+            let what = "a position has no colour: the colours of the others are not used";
+            warn(&self.uncoloured, what);
         }
         if self.has_colours() {
-            self.strange_colours
-                .warn("the colour of a position is not within 0 to 1: what is shown is clamped at each pixel", w);
+            let what = "the colour of a position is not within 0 to 1: what is shown is clamped at each pixel";
+            warn(&self.strange_colours, what);
         }
-        self.lost_texture_indices.warn(
-            "a texture coordinate that does not exist is ignored, as all of them are",
-            w,
-        );
+        let what = "a texture coordinate that does not exist is ignored, as all of them are";
+        warn(&self.lost_texture_indices, what);
         if self.corners_with_normal > 0 {
             let what =
                 "a face has corners without a normal: averaged normals are used for the whole mesh";
-            self.faces_without_normal.warn(what, w);
+            warn(&self.faces_without_normal, what);
         }
         if !self.has_normals() {
             let what = "smoothing groups are ignored, normals are averaged over all polygons: a crease angle keeps edges sharp";
-            self.smoothing.edges.warn(what, w);
+            warn(&self.smoothing.edges, what);
         }
         warnings
     }
@@ -196,8 +172,8 @@ impl Scan {
             "mtllib" => self.libraries.push((line, rest.into())),
             "s" => self.smoothing.current = Some(smoothing_group(without_comment(rest).trim())),
             "p" | "l" => self.points_or_lines.add(line),
-            _ if word.is_empty() || word.starts_with('#') || GROUPING.contains(&word) => {}
-            _ if FREE_FORM.contains(&word) => self.free_form.add(line),
+            _ if word.is_empty() || word.starts_with('#') || is_among(word, GROUPING) => {}
+            _ if is_among(word, FREE_FORM) => self.free_form.add(line),
             _ => {
                 if self.unknown.count == 0 {
                     self.unknown_word = quote(word);
@@ -357,25 +333,12 @@ fn smoothing_group(word: &str) -> u64 {
 }
 
 /// Statements that change nothing in a picture of polygons: names, groups, textures, levels of detail, display.
-const GROUPING: [&str; 14] = [
-    "o",
-    "g",
-    "mg",
-    "usemap",
-    "maplib",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "shadow_obj",
-    "trace_obj",
-    "ctech",
-    "stech",
-    "call",
-];
+const GROUPING: &str =
+    "o g mg usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj ctech stech call";
 
 /// Statements of free-form curves and surfaces.
-const FREE_FORM: [&str; 22] = [
-    "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
-    "sp", "end", "con", "bsp", "bzp", "cdc", "cdp", "res", "csh", "fm",
-];
+const FREE_FORM: &str = "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con bsp bzp cdc cdp res csh fm";
+
+fn is_among(word: &str, words: &str) -> bool {
+    words.split(' ').any(|other| other == word)
+}

@@ -43,7 +43,7 @@ pub enum ImageFileError {
     },
 }
 
-/// What is wrong with the bytes of a picture file.
+/// A problem with the bytes of a picture file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DecodeError {
     /// The first bytes are those of no format.
@@ -62,7 +62,7 @@ pub enum DecodeError {
     Malformed {
         /// The format that the first bytes announce.
         format: Format,
-        /// What was found and what was expected.
+        /// The finding, and what was expected.
         problem: String,
     },
 }
@@ -80,8 +80,8 @@ impl DecodeError {
     "a picture of {width}×{height} pixels does not fit: expected 1 to 2147483647 pixels a side"
 )]
 pub struct EncodeError {
-    /// Its width in pixels.
+    /// The width in pixels.
     pub width: usize,
-    /// Its height in pixels.
+    /// The height in pixels.
     pub height: usize,
 }

@@ -64,7 +64,7 @@ impl Format {
     /// Every format.
     pub const ALL: [Format; 3] = [Format::Png, Format::Ppm, Format::Pfm];
 
-    /// Its ending, in lower case and without the dot.
+    /// Returns its ending, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Format::Png => "png",
@@ -73,7 +73,7 @@ impl Format {
         }
     }
 
-    /// The format that the ending of `path` names, in either case.
+    /// Returns the format that the ending of `path` names, in either case.
     ///
     /// # Errors
     /// If there is no ending, or one of no format.
@@ -100,7 +100,7 @@ pub enum FileTexels {
     Linear(LinearPicture),
 }
 
-/// What a picture file holds.
+/// The contents of a picture file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilePicture {
     /// The texels; alpha is full where the file has none.
@@ -110,7 +110,7 @@ pub struct FilePicture {
 }
 
 impl FilePicture {
-    /// A picture of grey levels with alpha, as it goes into a PNG file.
+    /// Makes a picture of grey levels with alpha, as it goes into a PNG file.
     pub fn stored(picture: Picture8) -> FilePicture {
         FilePicture {
             texels: FileTexels::Stored(picture),
@@ -118,7 +118,7 @@ impl FilePicture {
         }
     }
 
-    /// A picture of floats with alpha, as it is before it goes into a file.
+    /// Makes a picture of floats with alpha, as it is before it goes into a file.
     pub fn linear(picture: LinearPicture) -> FilePicture {
         FilePicture {
             texels: FileTexels::Linear(picture),
@@ -126,7 +126,7 @@ impl FilePicture {
         }
     }
 
-    /// Width and height in pixels.
+    /// Returns width and height in pixels.
     pub fn size(&self) -> [usize; 2] {
         match &self.texels {
             FileTexels::Stored(picture) => [picture.width(), picture.height()],
@@ -134,7 +134,7 @@ impl FilePicture {
         }
     }
 
-    /// The picture in 8 bits a channel; floats are rounded by [`quantise`].
+    /// Returns the picture in 8 bits a channel; floats are rounded by [`quantise`].
     pub fn to_stored(&self) -> Picture8 {
         match &self.texels {
             FileTexels::Stored(picture) => picture.clone(),
@@ -142,7 +142,7 @@ impl FilePicture {
         }
     }
 
-    /// The picture in floats; a grey level is 1/255.
+    /// Returns the picture in floats; a grey level is 1/255.
     pub fn to_linear(&self) -> LinearPicture {
         match &self.texels {
             FileTexels::Stored(picture) => {
@@ -192,7 +192,7 @@ impl FilePicture {
     }
 }
 
-/// Both pictures in grey levels, ready for [`compare`](crate::compare::metrics::compare) and the maps.
+/// Returns both pictures in grey levels, ready for [`compare`](crate::compare::metrics::compare) and the maps.
 ///
 /// If one of the files has no alpha, the other's is dropped: all pixels count as covered, and none as a mismatch.
 pub fn comparable(reference: &FilePicture, actual: &FilePicture) -> [Picture<Levels>; 2] {
@@ -218,7 +218,7 @@ pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
     decode_picture(&bytes).map_err(|cause| ImageFileError::Decode { path, cause })
 }
 
-/// The picture that the bytes of a file of any of the formats hold.
+/// Reads the picture that the bytes of a file of any of the formats hold.
 ///
 /// # Errors
 /// If the bytes are none of the formats, are broken or cut off, or hold more than [`MAX_PIXELS`] pixels.
@@ -234,7 +234,7 @@ pub fn decode_picture(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     Ok(FilePicture { texels, has_alpha })
 }
 
-/// The format that the first bytes of a file announce.
+/// Returns the format that the first bytes of a file announce.
 fn announced(bytes: &[u8]) -> Option<Format> {
     match bytes {
         _ if bytes.starts_with(&png::SIGNATURE) => Some(Format::Png),
@@ -266,7 +266,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
     read().map_err(|cause| ImageFileError::Read { path, cause })
 }
 
-/// Width and height as `usize`, if a picture of that size may be read.
+/// Returns width and height as `usize`, if a picture of that size may be read.
 fn checked_size(format: Format, width: u64, height: u64) -> Result<[usize; 2], DecodeError> {
     if width == 0 || height == 0 {
         return Err(DecodeError::malformed(

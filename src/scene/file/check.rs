@@ -1,4 +1,4 @@
-//! What values of a scene may be: the one place that decides, for files and flags alike.
+//! Ranges of the values of a scene: the one place that decides, for files and flags alike.
 
 use super::diagnostics::{Origin, SceneError, SourceText};
 use super::schema::Word;
@@ -263,5 +263,5 @@ pub(super) fn is_position(point: DVec3) -> bool {
     point.to_array().into_iter().all(is_coordinate)
 }
 
-/// What coordinates may be, in words; see [`MAX_COORDINATE`].
+/// The range of coordinates in words; see [`MAX_COORDINATE`].
 pub(super) const COORDINATES: &str = "numbers between -1e15 and 1e15";

@@ -12,7 +12,7 @@ use std::string::{String, ToString};
 use std::sync::Arc;
 use std::vec::Vec;
 
-/// Where a value was given: what an error about it points at.
+/// The place where a value was given: errors about it point there.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
     /// By the program.
@@ -29,7 +29,7 @@ pub enum Origin {
 pub struct SourceText {
     /// As the user named it.
     pub path: PathBuf,
-    /// What the file says.
+    /// The contents of the file.
     pub text: String,
 }
 
@@ -51,7 +51,7 @@ struct Diagnostic {
 }
 
 impl SceneError {
-    /// An error at `origin`: `title` says what is wrong, `expected` what should be there (may be empty).
+    /// Makes an error at `origin`: `title` says what is wrong, `expected` what should be there (may be empty).
     pub(super) fn new(
         origin: Origin,
         title: impl Into<String>,
@@ -91,22 +91,22 @@ impl SceneError {
         self
     }
 
-    /// What is wrong, in one sentence.
+    /// Returns the problem, in one sentence.
     pub fn message(&self) -> &str {
         &self.0.title
     }
 
-    /// What was expected instead; may be empty.
+    /// Returns the values that were expected instead; may be empty.
     pub fn expected(&self) -> &str {
         &self.0.expected
     }
 
-    /// A hint, if there is one: what may have been meant.
+    /// Returns a hint, if there is one: what may have been meant.
     pub fn hint(&self) -> Option<&str> {
         self.0.help.as_deref()
     }
 
-    /// Line and column in the scene file, both from 1, the column counted in characters; `None` for errors that do not
+    /// Returns line and column in the scene file, both from 1, the column counted in characters; `None` for errors that do not
     /// stand in a file.
     pub fn line_and_column(&self) -> Option<(usize, usize)> {
         let span = self.span()?;
@@ -118,7 +118,7 @@ impl SceneError {
         ))
     }
 
-    /// The bytes that the error is about, kept inside the text and on character boundaries.
+    /// Returns the bytes that the error is about, kept inside the text and on character boundaries.
     fn span(&self) -> Option<Range<usize>> {
         let text = &self.0.source.as_ref()?.text;
         let Origin::File(span) = &self.0.origin else {
@@ -128,7 +128,7 @@ impl SceneError {
         Some(start..text.ceil_char_boundary(span.end).max(start))
     }
 
-    /// The error as text, with terminal colours or without.
+    /// Returns the error as text, with terminal colours or without.
     pub fn render(&self, colour: bool) -> String {
         let error = &*self.0;
         let span = self.span();

@@ -87,22 +87,16 @@ impl SceneFile {
     /// Every default that matters is spelt out, so that the printed scene shows what there is to change.
     pub fn for_mesh(mesh: impl Into<String>) -> SceneFile {
         let (width, height) = Self::DEFAULT_SIZE;
-        let (fit, direction, light) = (
-            Self::DEFAULT_FIT,
-            Self::DEFAULT_DIRECTION,
-            Self::DEFAULT_LIGHT,
-        );
-        let Material {
-            ambient,
-            diffuse,
-            specular,
-            shininess,
-        } = Material::default();
+        let (fit, direction) = (Self::DEFAULT_FIT, Self::DEFAULT_DIRECTION);
+        let light = Self::DEFAULT_LIGHT;
+        let material = Material::default();
+        let (ka, kd, ks) = (material.ambient, material.diffuse, material.specular);
+        let shininess = material.shininess;
         let text = format!(
             "ambient = 1\n\
              image = {{ width = {width}, height = {height}, background = 0 }}\n\
              camera = {{ fit = {fit}, direction = {direction:?} }}\n\
-             material = {{ ka = {ambient:?}, kd = {diffuse:?}, ks = {specular:?}, shininess = {shininess} }}\n\
+             material = {{ ka = {ka:?}, kd = {kd:?}, ks = {ks:?}, shininess = {shininess} }}\n\
              light = {{ direction = {light:?} }}\n\
              object = {{ mesh = '' }}\n"
         );
@@ -184,26 +178,15 @@ impl SceneFile {
 /// Removes from the camera `below` what `over` excludes or makes meaningless.
 fn make_way(below: &mut Table, over: &Table) {
     /// If one of the first keys is given, the others are dropped.
-    const DROPPED: [(&[&str], &[&str]); 6] = [
-        (&["half_height", "fovy"], &["half_height", "fovy"]),
-        (&["fit"], &["half_height"]),
+    const DROPPED: [(&str, &str); 6] = [
+        ("half_height fovy", "half_height fovy"),
+        ("fit", "half_height"),
+        ("direction azimuth elevation", "eye target direction"),
+        ("direction", "azimuth elevation"),
+        ("eye", "direction azimuth elevation fit"),
         (
-            &["direction", "azimuth", "elevation"],
-            &["eye", "target", "direction"],
-        ),
-        (&["direction"], &["azimuth", "elevation"]),
-        (&["eye"], &["direction", "azimuth", "elevation", "fit"]),
-        (
-            &[
-                "direction",
-                "azimuth",
-                "elevation",
-                "eye",
-                "target",
-                "fit",
-                "fovy",
-            ],
-            &["near", "far"],
+            "direction azimuth elevation eye target fit fovy",
+            "near far",
         ),
     ];
     // `half_height` replaces `fit`; where an eye was given only for its direction, that direction is all that stays of it.
@@ -225,8 +208,9 @@ fn make_way(below: &mut Table, over: &Table) {
         below.set("direction", Data::Triple(direction), origin);
     }
     for (given, dropped) in DROPPED {
-        if given.iter().any(|key| over.get(key).is_some()) {
-            below.entries.retain(|key, _| !dropped.contains(key));
+        if given.split(' ').any(|key| over.get(key).is_some()) {
+            let is_dropped = |key: &str| dropped.split(' ').any(|dropped| dropped == key);
+            below.entries.retain(|key, _| !is_dropped(key));
         }
     }
 }

@@ -25,7 +25,7 @@ use std::vec::Vec;
 pub struct Resolved {
     /// The scene.
     pub scene: Scene,
-    /// What the user should know, one sentence each.
+    /// Remarks for the user, one sentence each.
     pub warnings: Vec<String>,
 }
 
@@ -260,7 +260,7 @@ fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, Scene
     })
 }
 
-/// The mesh with `default` as the material of each polygon that had none.
+/// Returns the mesh with `default` as the material of each polygon that had none.
 fn with_default_material(mesh: Arc<PolygonMesh>, default: Material) -> Arc<PolygonMesh> {
     if (0..mesh.polygon_count()).all(|polygon| mesh.polygon_material(polygon).is_some()) {
         return mesh;
@@ -285,7 +285,7 @@ fn with_default_material(mesh: Arc<PolygonMesh>, default: Material) -> Arc<Polyg
     builder.finish().map_or(mesh, Arc::new)
 }
 
-/// The positions in world space that the polygons of `object` use, each once.
+/// Returns the positions in world space that the polygons of `object` use, each once.
 fn world_points(object: &Object) -> impl Iterator<Item = DVec3> {
     let mesh = &object.mesh;
     let mut used = vec![false; mesh.positions().len()];

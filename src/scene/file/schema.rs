@@ -11,9 +11,9 @@ use crate::scene::{
 /// A key and what may stand on the right of its equals sign.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
-    /// Its name.
+    /// The name.
     pub name: &'static str,
-    /// What it stands for.
+    /// The kind of its value.
     pub kind: Kind,
     /// True if the table makes no sense without it.
     pub needed: bool,

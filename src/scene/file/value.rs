@@ -18,11 +18,11 @@ use toml_writer::ToTomlValue;
 pub struct Value {
     /// The value: of the kind that its key asks for, its range not yet checked.
     pub data: Data,
-    /// Where it was given.
+    /// The place where it was given.
     pub origin: Origin,
 }
 
-/// What a value says.
+/// The contents of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Data {
     /// Text, or a word.
@@ -48,7 +48,7 @@ pub enum Data {
 pub struct Table {
     /// The values.
     pub entries: BTreeMap<&'static str, Value>,
-    /// Where its header stands.
+    /// The place of its header.
     pub origin: Origin,
 }
 
@@ -133,18 +133,9 @@ impl Table {
     /// Replaces what `over` gives: key by key within tables, lists as a whole.
     pub fn overlay(&mut self, over: Table) {
         for (key, value) in over.entries {
-            match (self.entries.get_mut(key), value) {
-                (
-                    Some(Value {
-                        data: Data::Table(below),
-                        ..
-                    }),
-                    Value {
-                        data: Data::Table(over),
-                        ..
-                    },
-                ) => below.overlay(over),
-                (_, value) => {
+            match value.data {
+                Data::Table(over) if self.table(key).is_some() => self.table_mut(key).overlay(over),
+                _ => {
                     self.entries.insert(key, value);
                 }
             }
@@ -152,19 +143,16 @@ impl Table {
     }
 
     /// Appends the table as TOML: first the values in it, then its tables, under headers that begin with `path`.
-    pub fn write(&self, keys: &[Key], path: &str, out: &mut String) {
-        let given = || {
-            keys.iter()
-                .filter_map(|key| Some((key, &self.get(key.name)?.data)))
-        };
-        for (key, data) in given() {
+    pub fn write(&self, keys: &'static [Key], path: &str, out: &mut String) {
+        let given = |key: &'static Key| Some((key, &self.get(key.name)?.data));
+        for (key, data) in keys.iter().filter_map(given) {
             if let Some(text) = inline(data, key.kind) {
                 *out += &format!("{} = {text}\n", key.name);
             }
         }
-        for (key, data) in given() {
+        for (key, data) in keys.iter().filter_map(given) {
             let path = format!("{path}{}", key.name);
-            let mut write = |header: String, table: &Table, keys: &[Key]| {
+            let mut write = |header: String, table: &Table, keys| {
                 let gap = if out.is_empty() { "" } else { "\n" };
                 *out += &format!("{gap}{header}\n");
                 table.write(keys, &format!("{path}."), out);

@@ -104,7 +104,7 @@ impl<'a> Viewpoint<'a> {
         Ok(camera)
     }
 
-    /// A camera at a given place; the planes, and without a projection the half height, follow from the objects.
+    /// Makes a camera at a given place; the planes, and without a projection the half height, follow from the objects.
     fn fixed(
         &self,
         eye: DVec3,
@@ -139,13 +139,10 @@ impl<'a> Viewpoint<'a> {
 
 /// Refuses keys that exclude or need each other.
 fn exclusions(section: &Section) -> Result<(), SceneError> {
-    for (key, why) in [
-        (
-            "fovy",
-            "expected one of them: `half_height` is orthographic, `fovy` is perspective",
-        ),
-        ("fit", "expected one of them: `fit` finds the half height"),
-    ] {
+    let two_projections =
+        "expected one of them: `half_height` is orthographic, `fovy` is perspective";
+    let two_sizes = "expected one of them: `fit` finds the half height";
+    for (key, why) in [("fovy", two_projections), ("fit", two_sizes)] {
         if section.has("half_height") && section.has(key) {
             return Err(section.conflict(key, "half_height", why));
         }

@@ -1,4 +1,4 @@
-//! What the parser does to legal and illegal files was tried on `tobj` 4.0.5; each case that goes wrong has a test here.
+//! Legal and illegal files; among them are those that the crate `tobj` 4.0.5 goes wrong on.
 
 mod errors;
 mod fuzz;
