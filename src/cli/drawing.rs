@@ -10,7 +10,7 @@ use fastphong::number::suggest::nearest;
 use fastphong::picture::encoding::store;
 use fastphong::picture::image_file::FilePicture;
 use fastphong::picture::{Encoding, Picture, Picture8};
-use fastphong::raster::{Edges, Plan, Renderer};
+use fastphong::raster::{Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
 use fastphong::shading::{METHODS, Variant};
@@ -120,26 +120,22 @@ impl Drawing {
             let threads = counted(threads, "thread", "threads");
             format!("drawn by {engine}, {level}, {threads}")
         };
+        let one = |engine: &str, level: &str| (line(engine, level, 1), 1, None);
         let (text, used, reason) = match &self.content {
-            Content::Aov(..) => (line("the span engine", "scalar", 1), 1, None),
-            Content::Shaded(Method::Reference(_), ..) => (line("the reference", "f64", 1), 1, None),
+            Content::Aov(..) => one("the span engine", "scalar"),
+            Content::Shaded(Method::Reference(_), ..) => one("the reference", "f64"),
             Content::Shaded(_, Engine::Barycentric(_), ..) => {
-                (line("the barycentric engine", "scalar", 1), 1, None)
+                one("the barycentric engine", "scalar")
             }
-            Content::Shaded(_, Engine::Cs171 { .. }, ..) => {
-                (line("the cs171 engine", "f64", 1), 1, None)
-            }
+            Content::Shaded(_, Engine::Cs171 { .. }, ..) => one("the cs171 engine", "f64"),
             Content::Shaded(Method::Variant(variant), Engine::Scanlines(asked), simd, renderer) => {
-                let Plan {
-                    renderer: drawn_by,
-                    reason,
-                } = variant.plan(&self.frame, *renderer);
-                let (engine, level) = (drawn_by.engine(), drawn_by.level());
-                let used = drawn_by.threads();
+                let plan = variant.plan(&self.frame, *renderer);
+                let (engine, level) = (plan.renderer.engine(), plan.renderer.level());
+                let used = plan.renderer.threads();
                 let text = line(&format!("the {engine} engine"), level.name(), used);
                 let is_other = asked.is_some_and(|asked| asked != engine)
                     || matches!(simd, Simd::Level(asked) if *asked != level);
-                let reason = reason.map(|reason| (reason, is_other));
+                let reason = plan.reason.map(|reason| (reason, is_other));
                 (text, used, reason)
             }
         };

@@ -149,9 +149,8 @@ impl Render {
     /// Returns the destination of the picture, if that is not the place of its reference.
     fn checked_output(&self) -> Result<Option<Output>, Failure> {
         let output = self.output.as_deref();
-        let output = output
-            .map(|path| Output::new(path, self.format))
-            .transpose()?;
+        let output = output.map(|path| Output::new(path, self.format));
+        let output = output.transpose()?;
         let Some(reference) = &self.reference else {
             return Ok(output);
         };

@@ -125,90 +125,76 @@ impl Flag {
             .action(ArgAction::Set)
             .value_parser(parser)
             .allow_hyphen_values(!is_switch);
+        let arg = match is_switch {
+            true => arg.num_args(0).default_missing_value(""),
+            false => arg.value_name(self.value_name),
+        };
         match self.name {
-            "resolution" => arg.visible_alias("size").value_name(self.value_name),
-            "light" | "light-at" => arg.action(ArgAction::Append).value_name(self.value_name),
-            "attenuation" | "falloff" => arg.requires("light-at").value_name(self.value_name),
-            "no-lights" => arg
-                .num_args(0)
-                .default_missing_value("")
-                .conflicts_with_all(["light", "light-at"]),
-            _ if is_switch => arg.num_args(0).default_missing_value(""),
-            _ => arg.value_name(self.value_name),
+            "resolution" => arg.visible_alias("size"),
+            "light" | "light-at" => arg.action(ArgAction::Append),
+            "attenuation" | "falloff" => arg.requires("light-at"),
+            "no-lights" => arg.conflicts_with_all(["light", "light-at"]),
+            _ => arg,
         }
     }
 
     /// Reads the value. Its range is checked where scene files are checked too.
     fn parse(&self, text: &str) -> Result<Vec<Setting>, String> {
         let key = self.keys[0];
-        if let [first, second] = *self.keys {
-            let both = text.split_once(['x', 'X', ',']).and_then(|(a, b)| {
-                Some(vec![
-                    (first, number(first, a)?),
-                    (second, number(second, b)?),
-                ])
-            });
-            let expected = match self.name {
-                "resolution" => "expected WIDTHxHEIGHT, for example 640x480",
-                _ => "expected two numbers azimuth,elevation",
-            };
-            return both.ok_or_else(|| expected.to_owned());
-        }
-        let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
-        let numbers = numbers.unwrap_or_default();
-        let data = match (self.name, schema::kind(key), &numbers[..]) {
-            ("light" | "light-at", ..) => return light(key, &numbers),
-            ("normals", ..) => return normals(text),
-            (_, Some(Kind::Switch), _) => Ok(Data::Switch(true)),
-            (_, Some(Kind::Tables(_)), _) => Ok(Data::Tables(Vec::new())),
-            (_, Some(Kind::Triple | Kind::OneOrThree), &[x, y, z]) => Ok(Data::Triple([x, y, z])),
-            (_, Some(Kind::OneOrThree), &[all]) => Ok(Data::Triple([all; 3])),
-            (_, Some(Kind::Triple), _) => Err("expected three numbers x,y,z"),
-            (_, Some(Kind::OneOrThree), _) => Err("expected one number, or three r,g,b"),
-            (_, Some(Kind::Whole), _) => number(key, text).ok_or("expected a whole number"),
-            _ => number(key, text).ok_or("expected a number"),
+        let one = |key, text| Some(vec![(key, data(key, text).ok()?)]);
+        let settings = match (self.name, text.strip_prefix("crease=")) {
+            ("resolution" | "view", _) => text
+                .split_once(['x', 'X', ','])
+                .and_then(|(a, b)| Some([one(key, a)?, one(self.keys[1], b)?].concat())),
+            ("light" | "light-at", _) => light(key, text),
+            ("normals", Some(degrees)) => one("object.crease", degrees),
+            ("normals", None) => one(key, text),
+            _ => return Ok(vec![(key, data(key, text)?)]),
         };
-        Ok(vec![(key, data?)])
+        let expected = match self.name {
+            "resolution" => "WIDTHxHEIGHT, for example 640x480",
+            "view" => "two numbers azimuth,elevation",
+            "light" => "a direction x,y,z, with an intensity or a colour r,g,b after it",
+            "light-at" => "a position x,y,z, with an intensity or a colour r,g,b after it",
+            _ => "`averaged`, `given` or `crease=DEGREES`",
+        };
+        settings.ok_or_else(|| format!("expected {expected}"))
     }
 }
 
-/// Reads one number of the kind of `key`.
-fn number(key: &str, text: &str) -> Option<Data> {
-    match schema::kind(key) {
-        Some(Kind::Whole) => text.trim().parse().ok().map(Data::Whole),
-        _ => text.trim().parse().ok().map(Data::Number),
+/// Reads a value of the kind of `key`, its numbers between commas.
+fn data(key: &str, text: &str) -> Result<Data, &'static str> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    match (schema::kind(key), &numbers.unwrap_or_default()[..]) {
+        (Some(Kind::Switch), _) => Ok(Data::Switch(true)),
+        (Some(Kind::Tables(_)), _) => Ok(Data::Tables(Vec::new())),
+        (Some(Kind::Word(words)), _) if words.contains(&text) => Ok(Data::Text(text.to_owned())),
+        (Some(Kind::Triple | Kind::OneOrThree), &[x, y, z]) => Ok(Data::Triple([x, y, z])),
+        (Some(Kind::Triple), _) => Err("expected three numbers x,y,z"),
+        (Some(Kind::OneOrThree), &[all]) => Ok(Data::Triple([all; 3])),
+        (Some(Kind::OneOrThree), _) => Err("expected one number, or three r,g,b"),
+        (Some(Kind::Whole), _) => {
+            let whole = text.trim().parse().map(Data::Whole);
+            whole.map_err(|_| "expected a whole number")
+        }
+        (Some(Kind::Number), &[number]) => Ok(Data::Number(number)),
+        _ => Err("expected a number"),
     }
 }
 
 /// Reads `x,y,z` with an intensity or a colour after it.
-fn light(key: &'static str, numbers: &[f64]) -> Result<Vec<Setting>, String> {
-    let at = |[x, y, z]: [f64; 3]| (key, Data::Triple([x, y, z]));
-    match *numbers {
-        [x, y, z] => Ok(vec![at([x, y, z])]),
-        [x, y, z, i] => Ok(vec![at([x, y, z]), ("light.intensity", Data::Number(i))]),
-        [x, y, z, r, g, b] => {
-            let colour = Data::Triple([r, g, b]);
-            Ok(vec![at([x, y, z]), ("light.colour", colour)])
-        }
-        _ => {
-            let place = key.trim_start_matches("light.");
-            Err(format!(
-                "expected a {place} x,y,z, with an intensity or a colour r,g,b after it"
-            ))
-        }
+fn light(key: &'static str, text: &str) -> Option<Vec<Setting>> {
+    let third = text.match_indices(',').nth(2);
+    let (place, more) = third.map_or((text, ""), |(at, _)| text.split_at(at));
+    let mut settings = vec![(key, data(key, place).ok()?)];
+    if let Some(more) = more.strip_prefix(',') {
+        let key = match more.contains(',') {
+            true => "light.colour",
+            false => "light.intensity",
+        };
+        settings.push((key, data(key, more).ok()?));
     }
-}
-
-/// Reads `averaged`, `given` or `crease=DEGREES`.
-fn normals(text: &str) -> Result<Vec<Setting>, String> {
-    let setting = match text.strip_prefix("crease=") {
-        Some(degrees) => number("object.crease", degrees).map(|degrees| ("object.crease", degrees)),
-        None => ["averaged", "given"]
-            .contains(&text)
-            .then(|| ("object.normals", Data::Text(text.to_owned()))),
-    };
-    let expected = || "expected `averaged`, `given` or `crease=DEGREES`".to_owned();
-    setting.map(|setting| vec![setting]).ok_or_else(expected)
+    Some(settings)
 }
 
 /// The changes that flags ask for, as a scene file says them.
@@ -244,14 +230,15 @@ impl clap::FromArgMatches for SceneFlags {
                     let origin = origin.clone();
                     match path.split_once('.') {
                         None => flags.over.set(path, data, origin),
-                        // The last light, or those that have a falloff.
                         Some(("light", key)) if flag.name.starts_with("light") => {
                             lights.last_mut().expect("a light").set(key, data, origin);
                         }
-                        Some(("light", key)) => lights
-                            .iter_mut()
-                            .filter(|light| light.get("position").is_some())
-                            .for_each(|light| light.set(key, data.clone(), origin.clone())),
+                        Some(("light", key)) => {
+                            let is_near = |light: &&mut Table| light.get("position").is_some();
+                            for light in lights.iter_mut().filter(is_near) {
+                                light.set(key, data.clone(), origin.clone());
+                            }
+                        }
                         Some(("object", key)) => flags.every_object.set(key, data, origin),
                         Some((table, key)) => flags.over.table_mut(table).set(key, data, origin),
                     }

@@ -18,8 +18,10 @@ use std::sync::Arc;
 pub(super) struct Section<'a> {
     /// The table.
     pub table: &'a Table,
-    name: &'static str,
-    source: &'a Option<Arc<SourceText>>,
+    /// The name of it in errors; empty for the scene.
+    pub name: &'static str,
+    /// The file, if there is one.
+    pub source: &'a Option<Arc<SourceText>>,
 }
 
 /// A table that is not given.
@@ -29,30 +31,20 @@ static NONE: Table = Table {
 };
 
 impl<'a> Section<'a> {
-    /// Begins to read a table, which errors call `name`.
-    pub fn new(
-        table: &'a Table,
-        name: &'static str,
-        source: &'a Option<Arc<SourceText>>,
-    ) -> Section<'a> {
-        Section {
-            table,
-            name,
-            source,
-        }
-    }
-
     /// Returns the table called `key`, empty if it is not given; errors call it `name`.
     pub fn section(&self, key: &str, name: &'static str) -> Section<'a> {
         let table = self.table.table(key).unwrap_or(&NONE);
-        Section::new(table, name, self.source)
+        Section {
+            table,
+            name,
+            ..*self
+        }
     }
 
     /// Returns the tables called `key`; errors call each of them `name`.
     pub fn sections(&self, key: &str, name: &'static str) -> impl Iterator<Item = Section<'a>> {
-        let source = self.source;
-        let tables = self.table.tables(key).iter();
-        tables.map(move |table| Section::new(table, name, source))
+        let (section, tables) = (Section { name, ..*self }, self.table.tables(key));
+        tables.iter().map(move |table| Section { table, ..section })
     }
 
     /// True if `key` is given.
@@ -90,18 +82,10 @@ impl<'a> Section<'a> {
         SceneError::new(Origin::Program, problem, expected).within(self.source)
     }
 
-    /// Makes an error at `key` that points at `other`, too, if that is given.
-    pub fn error_beside(
-        &self,
-        key: &str,
-        problem: &str,
-        expected: &str,
-        other: &str,
-        label: &str,
-    ) -> SceneError {
-        let error = self.error(key, problem, expected);
-        match self.table.get(other) {
-            Some(other) => error.related(&other.origin, label),
+    /// Makes `error` point at the value of `key`, too, if that is given.
+    pub fn pointing_at(&self, key: &str, label: &str, error: SceneError) -> SceneError {
+        match self.table.get(key) {
+            Some(value) => error.related(&value.origin, label),
             None => error,
         }
     }
@@ -109,7 +93,11 @@ impl<'a> Section<'a> {
     /// Makes the error for two keys that exclude each other.
     pub fn conflict(&self, key: &str, other: &str, why: &str) -> SceneError {
         let problem = format!("and `{}` exclude each other", self.name(other));
-        self.error_beside(key, &problem, why, other, "the other one is here")
+        self.pointing_at(
+            other,
+            "the other one is here",
+            self.error(key, &problem, why),
+        )
     }
 
     /// Returns a number for which `is_valid` holds; NaN and infinities are refused first.

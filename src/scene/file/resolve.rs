@@ -46,7 +46,11 @@ impl SceneFile {
         &self,
         load_mesh: impl FnMut(&str, &Path) -> LoadedMesh,
     ) -> Result<Resolved, SceneError> {
-        let file = Section::new(&self.table, "", &self.source);
+        let file = Section {
+            table: &self.table,
+            name: "",
+            source: &self.source,
+        };
         let (image, mut warnings) = (file.section("image", "image"), Vec::new());
         let width = image.side("width")?.unwrap_or(Self::DEFAULT_SIZE.0);
         let height = image.side("height")?.unwrap_or(Self::DEFAULT_SIZE.1);

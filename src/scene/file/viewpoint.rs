@@ -180,11 +180,9 @@ fn planes(section: &Section) -> Result<(Option<f64>, Option<f64>), SceneError> {
     let far = section.coordinate("far")?;
     match (near, far) {
         (Some(near), Some(far)) if far <= near => {
-            let (problem, expected) = (
-                format!("is {far}"),
-                format!("expected more than near = {near}"),
-            );
-            Err(section.error_beside("far", &problem, &expected, "near", "near is here"))
+            let expected = format!("expected more than near = {near}");
+            let error = section.error("far", &format!("is {far}"), expected);
+            Err(section.pointing_at("near", "near is here", error))
         }
         planes => Ok(planes),
     }
@@ -195,10 +193,10 @@ fn stand(section: &Section) -> Result<Stand, SceneError> {
     if let Some(eye) = section.point("eye")? {
         let target = section.point("target")?.unwrap_or(DVec3::ZERO);
         if eye == target {
-            let (problem, expected) = ("is where `target` is", "expected two different points");
-            let error = section.error_beside("eye", problem, expected, "target", "target is here");
+            let expected = "expected two different points";
+            let error = section.error("eye", "is where `target` is", expected);
             return Err(match section.has("target") {
-                true => error,
+                true => section.pointing_at("target", "target is here", error),
                 false => error.help("without `target` the camera looks at the origin"),
             });
         }
