@@ -24,7 +24,7 @@ pub enum Aov {
 const BOARD: [[f32; 3]; 2] = [[0.9; 3], [0.1, 0.15, 0.35]];
 
 impl Aov {
-    /// As floats. Depth is infinite where nothing is seen. `square` is the side of a square, in world units.
+    /// Returns the quantity as floats. Depth is infinite where nothing is seen. `square` is the side of a square, in world units.
     pub fn linear(self, frame: &Frame, square: f64) -> LinearPicture {
         let grey = |value: f32, seen: bool| [value, value, value, f32::from(u8::from(seen))];
         match self {
@@ -42,7 +42,7 @@ impl Aov {
         }
     }
 
-    /// In 8 bits, for eyes.
+    /// Returns the quantity in 8 bits, for eyes.
     pub fn stored(self, frame: &Frame, square: f64) -> Picture8 {
         match self {
             Aov::Colours | Aov::Checkerboard => {
@@ -72,7 +72,7 @@ impl Aov {
     }
 }
 
-/// A colour that looks nothing like those of the numbers around, and is the same in every view.
+/// Returns a colour that looks nothing like those of the numbers around, and is the same in every view.
 fn colour_of_number(number: u32) -> [u8; 4] {
     // The finaliser of MurmurHash3 (Austin Appleby, public domain): every bit of the number moves every bit.
     let mut h = number.wrapping_add(1);

@@ -70,6 +70,7 @@ impl Diff {
         Ok(Outcome::Differs)
     }
 
+    /// Returns the numbers as data.
     fn json(&self, difference: &Difference, [width, height]: [usize; 2]) -> Value {
         // JSON has neither infinity nor NaN: they become null.
         let value = |metric: &MetricInfo| json!((metric.value)(difference));
@@ -92,6 +93,7 @@ impl Diff {
     }
 }
 
+/// Returns the numbers as a table.
 fn table(difference: &Difference) -> String {
     let value = |value: Option<f64>| match value {
         None => "-".to_owned(),

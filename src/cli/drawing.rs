@@ -27,7 +27,7 @@ pub enum Method {
     Reference(Model),
 }
 
-/// `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
+/// Reads `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
 pub fn method(text: &str) -> Result<Method, String> {
     let (name, rest) = text.split_once(':').unwrap_or((text, ""));
     if name == REFERENCE {
@@ -164,12 +164,12 @@ impl Drawing {
         }
     }
 
-    /// Width and height of the picture in pixels.
+    /// Returns width and height of the picture in pixels.
     pub fn size(&self) -> [usize; 2] {
         [self.frame.picture_width(), self.frame.picture_height()]
     }
 
-    /// The picture: floats if `linear`, else as it is stored in 8 bits.
+    /// Draws the picture: floats if `linear`, else as it is stored in 8 bits.
     pub fn picture(&self, linear: bool) -> FilePicture {
         let frame = &self.frame;
         match (&self.content, linear) {
@@ -212,7 +212,7 @@ fn pixel_by_pixel(what: &str, simd: Simd) -> Result<(), Failure> {
     }
 }
 
-/// `frame` with its polygons cut into triangles, if it has others.
+/// Returns `frame` with its polygons cut into triangles, if it has others.
 fn in_triangles(frame: Frame, engine: &str, talk: Talk) -> Frame {
     let polygons = frame.polygons().iter();
     let with_more_corners = polygons.filter(|polygon| polygon.count > 3).count();
@@ -233,7 +233,7 @@ fn in_triangles(frame: Frame, engine: &str, talk: Talk) -> Frame {
     cut.frame
 }
 
-/// A picture in `f64` as a file has it.
+/// Returns a picture in `f64` as a file has it.
 fn wide(picture: &Picture<[f64; 4]>, encoding: Encoding, linear: bool) -> FilePicture {
     let single = || picture.map(|texel| texel.map(|c| c as f32));
     match (linear, encoding) {

@@ -104,7 +104,7 @@ pub fn cs171_shading(info: &Info) -> Option<Shading> {
     }
 }
 
-/// `auto`, `span` (or `scanline`), `row`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or
+/// Reads `auto`, `span` (or `scanline`), `row`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or
 /// `cs171:normals=unit|as-printed`.
 pub fn engine(text: &str) -> Result<Engine, String> {
     const NAMES: [&str; 6] = ["auto", "span", "scanline", "row", "barycentric", "cs171"];
@@ -137,7 +137,7 @@ pub fn engine(text: &str) -> Result<Engine, String> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScanlineEngine(pub Option<raster::Engine>);
 
-/// `auto`, `span` (or `scanline`) or `row`.
+/// Reads `auto`, `span` (or `scanline`) or `row`.
 pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
     match engine(text) {
         Ok(Engine::Scanlines(engine)) => Ok(ScanlineEngine(engine)),
@@ -193,7 +193,7 @@ pub fn renderer(
     }
 }
 
-/// `auto`, or an instruction set of this machine.
+/// Reads `auto`, or an instruction set of this machine.
 pub fn simd(text: &str) -> Result<Simd, String> {
     match text {
         "auto" => Ok(Simd::Auto),
@@ -213,7 +213,7 @@ pub enum Levels {
     These(Vec<Simd>),
 }
 
-/// Instruction sets of this machine between commas, or `all` that it has.
+/// Reads instruction sets of this machine between commas, or `all` that it has.
 pub fn levels(text: &str) -> Result<Levels, String> {
     if text == "all" {
         return Ok(Levels::All);
@@ -246,7 +246,7 @@ impl Levels {
     }
 }
 
-/// As [`renderer`], of flags of which either may be missing: `--engine auto` alone is the fastest.
+/// Returns the [`renderer`] of flags of which either may be missing: `--engine auto` alone is the fastest.
 pub fn renderer_of(
     engine: Option<ScanlineEngine>,
     simd: Option<Simd>,
@@ -305,7 +305,7 @@ const MOST_THREADS: usize = 1024;
 /// Bytes of each thread's stack: what the first thread of a program has on most systems.
 const STACK: usize = 8 << 20;
 
-/// A number of threads.
+/// Reads a number of threads.
 pub fn threads(text: &str) -> Result<usize, String> {
     let threads = text.parse().ok();
     let threads = threads.filter(|threads| (1..=MOST_THREADS).contains(threads));
@@ -328,7 +328,7 @@ impl ThreadFlags {
         Ok(pool.install(work))
     }
 
-    /// As [`ThreadFlags::install`] for what `renderer` draws: the lecture's own form is on one thread from end to end, so
+    /// Does `work` as [`ThreadFlags::install`] does, for the pictures of `renderer`: the lecture's own form is on one thread from end to end, so
     /// that a comparison with it is not one of how well vertices are shared out.
     ///
     /// # Errors

@@ -64,6 +64,7 @@ impl Explain {
         Ok(Outcome::Done)
     }
 
+    /// Explains the method in text.
     fn text(&self) -> Result<String, Failure> {
         let info = self.method.info();
         let mut text = format!("{}: {}\n", self.method, info.title);
@@ -109,7 +110,7 @@ impl Explain {
         Ok(text)
     }
 
-    /// The operations with `lights` lights and the eye at positions, no falloff, attributes linear on the screen.
+    /// Counts the operations with `lights` lights and the eye at positions, no falloff, attributes linear on the screen.
     fn near(&self, lights: usize) -> OperationCounts {
         // The angle of the span's normals is not counted: any will do.
         let span = SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
@@ -128,6 +129,7 @@ impl Explain {
         ))
     }
 
+    /// Returns the explanation as data.
     fn json(&self) -> Result<Value, Failure> {
         let info = self.method.info();
         let mut json = method_json(info);
@@ -158,6 +160,7 @@ fn example_bound(method: &Variant) -> Result<f64, Failure> {
     Ok(method.bound(&frame))
 }
 
+/// Returns counted operations as a table.
 fn costs(counts: &OperationCounts) -> String {
     let cells = |first: String, kind: &dyn Fn(&Kind) -> String| {
         let [a, b, c, d, e, f, g] = KINDS.each_ref().map(kind);
@@ -177,6 +180,7 @@ fn costs(counts: &OperationCounts) -> String {
     columns(&rows, false, &[1, 2, 3, 4, 5, 6, 7])
 }
 
+/// Returns counted operations as data.
 fn costs_json(counts: &OperationCounts) -> Value {
     let kinds = |counts: Counts| -> Map<String, Value> {
         let kinds = KINDS

@@ -68,6 +68,7 @@ fn row(name: &str, value: impl Into<String>) -> [String; 2] {
     [format!("  {name}"), value.into()]
 }
 
+/// Describes a scene in text.
 fn scene_text(
     input: &str,
     file: &SceneFile,
@@ -111,6 +112,7 @@ fn point(p: impl Into<DVec3>) -> String {
     format!("({:.4}, {:.4}, {:.4})", p.x, p.y, p.z)
 }
 
+/// Describes an object in text.
 fn object_text(described: &Described) -> String {
     let facts = &described.facts;
     let polygons = grouped(described.object.mesh.polygon_count());
@@ -179,6 +181,7 @@ fn normals(described: &Described) -> String {
     }
 }
 
+/// Describes a scene as data.
 fn scene_json(
     input: &str,
     file: &SceneFile,

@@ -89,6 +89,7 @@ fn word(variant: impl std::fmt::Debug) -> String {
     format!("{variant:?}").to_lowercase()
 }
 
+/// Lists the methods.
 fn methods() -> String {
     let mut text = String::new();
     for entry in METHODS {
@@ -173,6 +174,7 @@ fn default_text(parameter: &Parameter) -> Option<Value> {
     }
 }
 
+/// Lists the built-in meshes.
 fn meshes() -> String {
     let mut text = String::new();
     for shape in BUILTINS {
@@ -232,6 +234,7 @@ fn metrics() -> String {
     columns(&rows, true, &[])
 }
 
+/// Lists the figures of the lectures.
 fn figures() -> String {
     let entry = |figure: &&Figure| {
         let Figure {
@@ -245,6 +248,7 @@ fn figures() -> String {
     FIGURES.iter().map(entry).collect()
 }
 
+/// Lists the engines.
 fn engines() -> String {
     let entry = |engine: &EngineInfo| {
         let EngineInfo {

@@ -88,6 +88,7 @@ impl MeshFacts {
         self.edges > 0 && self.open_edges + self.non_manifold_edges + self.reversed_edges == 0
     }
 
+    /// Counts the edges by the polygons at them.
     fn count_edges(&mut self, mesh: &PolygonMesh, vertex: &[u32]) {
         // An edge with its ends in ascending order, and whether it is passed in that direction.
         let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(mesh.corners().len());
@@ -131,6 +132,7 @@ fn is_planar(points: &[DVec3], normal: DVec3) -> bool {
         .all(|p| (*p - middle).dot(normal).abs() <= height)
 }
 
+/// Returns the bytes that a mesh takes in memory.
 fn bytes(mesh: &PolygonMesh) -> usize {
     let normals = mesh.given_normals().map_or(0, |normals| {
         let corners = normals.corners.as_deref().map_or(0, size_of_val);

@@ -73,7 +73,7 @@ impl Output {
     }
 }
 
-/// `png`, `ppm` or `pfm`.
+/// Reads `png`, `ppm` or `pfm`.
 pub fn format(text: &str) -> Result<Format, String> {
     let mut formats = Format::ALL.into_iter();
     let format = formats.find(|format| format.ending() == text);

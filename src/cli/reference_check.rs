@@ -108,6 +108,7 @@ impl ReferenceCheck<'_> {
         Ok(path)
     }
 
+    /// Says how the pictures differ, and how to accept the new one.
     fn difference_text(&self, difference: &Difference, candidate: &Path, map: &Path) -> String {
         let (found, most) = (largest_difference(difference), self.threshold);
         let shown = self.reference.display();
@@ -130,14 +131,14 @@ impl ReferenceCheck<'_> {
     }
 }
 
-/// `STEM.word.ending` in the folder of `beside`, where `STEM` is that of the reference.
+/// Returns `STEM.word.ending` in the folder of `beside`, where `STEM` is that of the reference.
 fn sibling(beside: &Path, reference: &Path, word: &str, format: Format) -> PathBuf {
     let mut name = reference.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{word}.{}", format.ending()));
     beside.with_file_name(name)
 }
 
-/// A path as a shell reads it back.
+/// Writes a path as a shell reads it back.
 fn quoted(path: &Path) -> String {
     let text = path.display().to_string();
     let plain = |c: char| c.is_alphanumeric() || "-_./+=:@%,".contains(c);

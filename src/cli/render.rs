@@ -76,6 +76,7 @@ impl Render {
         self.threads.install(|| self.draw(talk))?
     }
 
+    /// Loads, draws, writes and compares.
     fn draw(&self, talk: Talk) -> Result<Outcome, Failure> {
         let output = self.checked_output()?;
         // A picture on standard output leaves no room there for words.
@@ -164,6 +165,7 @@ impl Render {
         }
     }
 
+    /// Writes the picture, and says so.
     fn write(
         &self,
         drawing: &Drawing,
@@ -223,6 +225,7 @@ fn milliseconds(started: Instant) -> f64 {
     1e3 * started.elapsed().as_secs_f64()
 }
 
+/// Warns of polygons that cannot be drawn.
 fn warn_of_polygons_left_out(stats: FrameStats, talk: Talk) {
     let (flat, all) = (stats.zero_area, grouped(stats.polygons));
     if flat > 0 {
@@ -280,6 +283,7 @@ fn painter_text(conflicts: &Conflicts) -> Option<String> {
     ))
 }
 
+/// Returns the numbers of polygons as a table.
 fn stats_text(frame: &Frame) -> String {
     let stats = frame.stats();
     let row = |name: &str, count, what: &str| [name.to_owned(), grouped(count), what.to_owned()];

@@ -216,6 +216,7 @@ impl clap::Args for SceneFlags {
 }
 
 impl clap::FromArgMatches for SceneFlags {
+    /// Collects the values of all flags that are given.
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let mut flags = SceneFlags::default();
         let mut lights: Vec<Table> = Vec::new();

@@ -60,11 +60,11 @@ impl SpecularModel {
     /// and V (in one plane), and `cos^n φ ≈ cos^4n (φ/2)`, as both fall by n φ²/2 (Fisher & Woo 1994).
     pub const EXPONENT_RATIO: f32 = 4.0;
 
-    /// Where |L + V|² is less, light and eye are opposite and H has no direction: no highlight. L·V is rounded four times
+    /// The least |L + V|²: where it is less, light and eye are opposite and H has no direction: no highlight. L·V is rounded four times
     /// by up to 2⁻²⁵ in `f32`, so that |L + V|² = 2 + 2 L·V of this size, 2⁻²⁰, is a quarter rounding.
     pub const LEAST_SUM: f32 = 1.0 / (1 << 20) as f32;
 
-    /// The exponent for this model that gives the highlight which `exponent` gives for the model `of`.
+    /// Returns the exponent for this model that gives the highlight which `exponent` gives for the model `of`.
     pub fn exponent(self, exponent: f32, of: SpecularModel) -> f32 {
         match (of, self) {
             (SpecularModel::Phong, SpecularModel::Blinn) => exponent * Self::EXPONENT_RATIO,

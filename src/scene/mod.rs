@@ -88,7 +88,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Nothing, seen by `camera` on 640 × 480 texels under white ambient light; everything else as in a scene file that
+    /// Makes a scene of nothing, seen by `camera` on 640 × 480 texels under white ambient light; everything else as in a scene file that
     /// says nothing, but without its light. For `Scene { objects, ..Scene::new(camera) }`.
     pub fn new(camera: Camera) -> Scene {
         Scene {

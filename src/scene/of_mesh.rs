@@ -17,7 +17,7 @@ impl Scene {
     /// Toward the one light that is there when no light is given.
     pub const DEFAULT_LIGHT: [f64; 3] = [0.4, 0.7, 0.9];
 
-    /// A scene of `mesh` alone: an orthographic three-quarter view fitted to it, one white light, the default material
+    /// Makes a scene of `mesh` alone: an orthographic three-quarter view fitted to it, one white light, the default material
     /// for polygons that have none, averaged vertex normals (L21 3.1).
     ///
     /// The fields are there to be changed; a mesh without polygons gives an empty picture.

@@ -64,7 +64,7 @@ pub enum DepthBits {
 }
 
 impl DepthBits {
-    /// The largest whole number that is kept, 2ᵇ − 1; `None` for floats.
+    /// Returns the largest whole number that is kept, 2ᵇ − 1; `None` for floats.
     pub fn most(self) -> Option<u32> {
         match self {
             DepthBits::Sixteen => Some((1 << 16) - 1),

@@ -14,6 +14,7 @@ pub(super) struct WrittenCorner {
 }
 
 impl WrittenCorner {
+    /// Reads a word of a face.
     pub(super) fn read(word: &str) -> Result<Self, ObjProblem> {
         let bad = || ObjProblem::BadCorner(quote(word));
         let (position, rest) = leading_integer(word.as_bytes()).ok_or_else(bad)?;

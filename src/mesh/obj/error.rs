@@ -15,6 +15,7 @@ pub struct ObjError {
 }
 
 impl ObjError {
+    /// Makes an error at a line, or about the whole file.
     pub(super) fn new(path: &Path, line: Option<usize>, problem: ObjProblem) -> Self {
         ObjError {
             path: path.to_path_buf(),
@@ -23,12 +24,12 @@ impl ObjError {
         }
     }
 
-    /// The file, as it was named when it was asked for.
+    /// Returns the file, as it was named when it was asked for.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The line, counted from 1; `None` when the whole file is meant.
+    /// Returns the line, counted from 1; `None` when the whole file is meant.
     pub fn line(&self) -> Option<usize> {
         self.line
     }
@@ -117,7 +118,7 @@ fn expected_index(what: &str, index: i64, count: usize) -> String {
 /// At most this many characters of a file are quoted in an error: more would not be read.
 const QUOTED: usize = 32;
 
-/// `text` as it can stand in a one-line message: control characters escaped, long text cut.
+/// Returns `text` as it can stand in a one-line message: control characters escaped, long text cut.
 pub(super) fn quote(text: &str) -> String {
     let mut characters = text.chars();
     let mut quoted: String = characters

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::string::String;
 
-/// The text of a file: UTF-8 without its mark, else Latin-1, which no byte sequence fails.
+/// Decodes the text of a file: UTF-8 without its mark, else Latin-1, which no byte sequence fails.
 ///
 /// Latin-1 and not replacement characters: two names that differ stay different, and are found in the other file.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
@@ -14,7 +14,7 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// The number, counted from 1, of the first line with a byte that text does not have (a NUL), if there is one.
+/// Returns the number, counted from 1, of the first line with a byte that text does not have (a NUL), if there is one.
 pub(super) fn binary_line(bytes: &[u8]) -> Option<usize> {
     // Nearly no file has one, and `contains` looks at several bytes at a time.
     let at = if bytes.contains(&0) {
@@ -25,7 +25,7 @@ pub(super) fn binary_line(bytes: &[u8]) -> Option<usize> {
     Some(1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count())
 }
 
-/// `line` up to its comment, if it has one.
+/// Returns `line` up to its comment, if it has one.
 pub(super) fn without_comment(line: &str) -> &str {
     line.find('#').map_or(line, |at| &line[..at])
 }
@@ -42,6 +42,7 @@ pub(super) struct Statements<'a> {
 }
 
 impl<'a> Statements<'a> {
+    /// Begins to read `text`.
     pub(super) fn new(text: &'a str) -> Self {
         // Files from before Mac OS X end lines by a carriage return alone.
         let separator = if text.contains('\n') { '\n' } else { '\r' };
@@ -65,7 +66,7 @@ impl<'a> Statements<'a> {
     }
 }
 
-/// The part before a `\` at the end of a line, if the line goes on in the next one.
+/// Returns the part before a `\` at the end of a line, if the line goes on in the next one.
 fn continued(line: &str) -> Option<&str> {
     without_comment(line).trim_end().strip_suffix('\\')
 }
@@ -73,6 +74,7 @@ fn continued(line: &str) -> Option<&str> {
 impl<'a> Iterator for Statements<'a> {
     type Item = (usize, Cow<'a, str>);
 
+    /// Returns the next statement.
     fn next(&mut self) -> Option<Self::Item> {
         let line = self.physical_line()?;
         let number = self.line;
@@ -99,7 +101,7 @@ impl<'a> Iterator for Statements<'a> {
     }
 }
 
-/// The first word of a statement and the rest, both without white space around them.
+/// Returns the first word of a statement and the rest, both without white space around them.
 pub(super) fn keyword(statement: &str) -> (&str, &str) {
     let statement = statement.trim();
     match statement

@@ -55,7 +55,7 @@ pub fn load_obj(path: &Path) -> Result<LoadedObj, ObjError> {
     parse_obj(path, &bytes, |library| read_library(directory, library))
 }
 
-/// The bytes of the material library `name`, looked for from `directory`, and last by its bare file name there.
+/// Reads the bytes of the material library `name`, looked for from `directory`, and last by its bare file name there.
 fn read_library(directory: &Path, name: &str) -> io::Result<Vec<u8>> {
     // A device or a pipe might never end.
     let read = |file: &Path| {
@@ -167,7 +167,7 @@ fn in_order_of_use(count: usize, indices: impl Iterator<Item = usize>) -> (Vec<u
     (used, corners)
 }
 
-/// `normal` with length one, or zero when it has no direction.
+/// Returns `normal` with length one, or zero when it has no direction.
 fn unit_or_zero(normal: Vec3) -> Vec3 {
     // In f64 the squares of f32 numbers neither overflow nor, unless the normal is zero, vanish.
     let wide = DVec3::new(normal.x.into(), normal.y.into(), normal.z.into());
@@ -233,7 +233,7 @@ impl Libraries {
     }
 }
 
-/// The file names in an `mtllib` line that is not one file name: each ends with `.mtl`, as names may hold spaces.
+/// Returns the file names in an `mtllib` line that is not one file name: each ends with `.mtl`, as names may hold spaces.
 fn library_names(rest: &str) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let mut open = false;
@@ -249,7 +249,7 @@ fn library_names(rest: &str) -> Vec<String> {
     names.iter().map(bare).collect()
 }
 
-/// The materials that polygons use, and for each polygon the one it has.
+/// Returns the materials that polygons use, and for each polygon the one it has.
 fn assign_materials(
     scan: &Scan,
     libraries: &Libraries,
@@ -294,7 +294,7 @@ fn assign_materials(
     (materials, of_polygons)
 }
 
-/// `a`, `b` and 7 more: at most five names.
+/// Writes `a`, `b` and 7 more: at most five names.
 fn list(names: &[String]) -> String {
     match names.split_at_checked(5) {
         Some((shown, more)) if !more.is_empty() => {

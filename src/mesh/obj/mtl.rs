@@ -104,7 +104,7 @@ impl Library {
         self.materials.entry(name).or_insert(material);
     }
 
-    /// The material that `usemtl` names with `rest`.
+    /// Returns the material that `usemtl` names with `rest`.
     pub(super) fn find(&self, rest: &str) -> Option<Material> {
         name_candidates(rest)
             .find_map(|name| {
@@ -124,6 +124,7 @@ struct Draft {
 }
 
 impl Draft {
+    /// Begins a material.
     fn new(name: &str) -> Draft {
         Draft {
             name: name.to_string(),

@@ -154,6 +154,7 @@ impl Scan {
         warnings
     }
 
+    /// Reads one statement.
     fn statement(
         &mut self,
         line: usize,
@@ -222,6 +223,7 @@ impl Scan {
         Ok(())
     }
 
+    /// Reads a face: its corners without repetitions.
     fn face(
         &mut self,
         line: usize,
@@ -270,6 +272,7 @@ impl Scan {
         Ok(())
     }
 
+    /// Reads a corner; notes indices that are ahead of their entries.
     fn corner(&mut self, line: usize, word: &str) -> Result<Corner, ObjProblem> {
         let written = WrittenCorner::read(word)?;
         if let Some(index) = written.texture
@@ -286,7 +289,7 @@ impl Scan {
         ))
     }
 
-    /// The indices that were past the end when they were met: a later line may have brought what they name.
+    /// Checks the indices that were past the end when they were met: a later line may have brought what they name.
     fn check_ahead(&self) -> Result<(), Failure> {
         let missing = |which: usize, what: &'static str, count: usize| {
             let is_missing = |&&(_, index): &&(usize, usize)| index >= count;
@@ -304,6 +307,7 @@ impl Scan {
         }
     }
 
+    /// Begins a run of polygons of one material.
     fn use_material(&mut self, name: &str) {
         let next = self.material_numbers.len();
         let current = (!name.is_empty()).then(|| match self.material_numbers.get(name) {
@@ -327,7 +331,7 @@ impl Smoothing {
     }
 }
 
-/// The number of a smoothing group: 0 for `off`, and for what is no number.
+/// Returns the number of a smoothing group: 0 for `off`, and for what is no number.
 fn smoothing_group(word: &str) -> u64 {
     word.parse().unwrap_or(if word == "on" { 1 } else { 0 })
 }

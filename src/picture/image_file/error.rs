@@ -68,6 +68,7 @@ pub enum DecodeError {
 }
 
 impl DecodeError {
+    /// Makes the error for a broken file.
     pub(super) fn malformed(format: Format, problem: &str) -> DecodeError {
         let problem = problem.to_owned();
         DecodeError::Malformed { format, problem }

@@ -244,6 +244,7 @@ fn announced(bytes: &[u8]) -> Option<Format> {
     }
 }
 
+/// Reads a file, unless it does not begin like a picture or is too large.
 fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
     let read = || {
         let mut bytes = Vec::new();

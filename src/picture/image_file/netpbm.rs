@@ -28,7 +28,7 @@ pub struct PpmWriter<W> {
 }
 
 impl<W: Write> PpmWriter<W> {
-    /// A file of `width` × `height` pixels into `out`, which needs no buffer.
+    /// Begins a file of `width` × `height` pixels into `out`, which needs no buffer.
     ///
     /// # Errors
     /// If there are no pixels, or a side is longer than 2³¹ − 1.
@@ -41,7 +41,7 @@ impl<W: Write> PpmWriter<W> {
         })
     }
 
-    /// The next texels, row by row; alpha is dropped.
+    /// Writes the next texels, row by row; alpha is dropped.
     ///
     /// # Errors
     /// If they cannot be written, or are more than the file has pixels.
@@ -89,7 +89,7 @@ pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<
     pieces.finish()
 }
 
-/// The colours of `texels`, three bytes each, into `bytes`.
+/// Writes the colours of `texels`, three bytes each, into `bytes`.
 fn without_alpha(texels: &[[u8; 4]], bytes: &mut [u8]) {
     // Four texels fill three words.
     let (fours, last_texels) = texels.as_chunks::<4>();
@@ -131,7 +131,7 @@ impl<W: Write> Pieces<W> {
         }
     }
 
-    /// The next `count` bytes, at most those of a run, to be filled.
+    /// Returns the next `count` bytes, at most those of a run, to be filled.
     fn room(&mut self, count: usize) -> io::Result<&mut [u8]> {
         if self.filled >= PIECE {
             self.out.write_all(&self.bytes[..PIECE])?;
@@ -157,7 +157,7 @@ fn check_size(width: usize, height: usize) -> Result<(), EncodeError> {
     }
 }
 
-/// The picture in a binary PPM file (P6); samples of another range than 255 are scaled to it and rounded.
+/// Reads the picture in a binary PPM file (P6); samples of another range than 255 are scaled to it and rounded.
 pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
     let mut header = Header {
         format: Format::Ppm,
@@ -193,7 +193,7 @@ pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
     Ok(picture)
 }
 
-/// The picture in a PFM file, colour (PF) or grey (Pf), of either order of bytes.
+/// Reads the picture in a PFM file, colour (PF) or grey (Pf), of either order of bytes.
 ///
 /// The size of the scale is a unit that nobody agrees on, and is passed over.
 pub(super) fn decode_pfm(bytes: &[u8]) -> Result<LinearPicture, DecodeError> {
@@ -249,6 +249,7 @@ impl<'a> Header<'a> {
         })
     }
 
+    /// Returns the next word of the header.
     fn word(&mut self) -> &'a [u8] {
         loop {
             self.rest = self.rest.trim_ascii_start();
@@ -265,7 +266,7 @@ impl<'a> Header<'a> {
         word
     }
 
-    /// All that follows the single white space after the header, which must be `expected` bytes.
+    /// Returns all that follows the single white space after the header, which must be `expected` bytes.
     fn samples(&self, expected: usize) -> Result<&'a [u8], DecodeError> {
         let samples = self.rest.get(1..).unwrap_or_default();
         let found = samples.len();

@@ -16,7 +16,7 @@ pub(super) const SIGNATURE: [u8; 8] = [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1
 /// Longest side that PNG can state (ISO/IEC 15948, 7.1).
 const MAX_SIDE: usize = (1 << 31) - 1;
 
-/// The bytes of a PNG file: 8 bits of red, green, blue, alpha, as they are stored.
+/// Returns the bytes of a PNG file: 8 bits of red, green, blue, alpha, as they are stored.
 ///
 /// # Errors
 /// If the picture has no pixels, or a side longer than 2³¹ − 1.
@@ -38,7 +38,7 @@ pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
     Ok(bytes)
 }
 
-/// The picture in a PNG file of any colour type, and whether the file has alpha.
+/// Reads the picture in a PNG file of any colour type, and whether the file has alpha.
 pub(super) fn decode(bytes: &[u8]) -> Result<(Picture8, bool), DecodeError> {
     // The decoder is content once it has all pixels; a file without its end has been cut off all the same.
     if !has_end(bytes) {

@@ -22,7 +22,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
     write_file_by(path, |file| file.write_all(bytes))
 }
 
-/// As [`write_file`], with the bytes that `write` writes.
+/// Writes a file as [`write_file`] does, with the bytes that `write` writes.
 ///
 /// # Errors
 /// As [`write_file`], and if `write` fails.
@@ -36,6 +36,7 @@ pub fn write_file_by(
     })
 }
 
+/// Writes beside the place of `path`, then renames.
 fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
     let old = match fs::metadata(path) {
         Ok(old) => Some(old),

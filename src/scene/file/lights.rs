@@ -40,6 +40,7 @@ fn colour(section: &Section) -> Result<Rgb, SceneError> {
     Err(section.error("intensity", &format!("is {intensity}"), expected))
 }
 
+/// Returns the falloff, which only a light at a position has.
 fn falloff(section: &Section) -> Result<Falloff, SceneError> {
     let mut given = ["attenuation", "falloff"]
         .into_iter()

@@ -38,15 +38,6 @@ impl PartialEq for SceneFile {
 }
 
 impl SceneFile {
-    /// Width and height of a picture when nothing else is said.
-    pub const DEFAULT_SIZE: (u32, u32) = Scene::DEFAULT_SIZE;
-    /// The part of the frame that objects fill when nothing else is said.
-    pub const DEFAULT_FIT: f64 = Scene::DEFAULT_FIT;
-    /// From the objects toward the eye when nothing else is said: a three-quarter view.
-    pub const DEFAULT_DIRECTION: [f64; 3] = Scene::DEFAULT_DIRECTION;
-    /// Toward the one light that is there when no light is given.
-    pub const DEFAULT_LIGHT: [f64; 3] = Scene::DEFAULT_LIGHT;
-
     /// Reads a scene from `text`; `path` is what messages call it and what its mesh files are relative to.
     ///
     /// # Errors
@@ -86,9 +77,9 @@ impl SceneFile {
     ///
     /// Every default that matters is spelt out, so that the printed scene shows what there is to change.
     pub fn for_mesh(mesh: impl Into<String>) -> SceneFile {
-        let (width, height) = Self::DEFAULT_SIZE;
-        let (fit, direction) = (Self::DEFAULT_FIT, Self::DEFAULT_DIRECTION);
-        let light = Self::DEFAULT_LIGHT;
+        let (width, height) = Scene::DEFAULT_SIZE;
+        let (fit, direction) = (Scene::DEFAULT_FIT, Scene::DEFAULT_DIRECTION);
+        let light = Scene::DEFAULT_LIGHT;
         let material = Material::default();
         let (ka, kd, ks) = (material.ambient, material.diffuse, material.specular);
         let shininess = material.shininess;

@@ -52,8 +52,8 @@ impl SceneFile {
             source: &self.source,
         };
         let (image, mut warnings) = (file.section("image", "image"), Vec::new());
-        let width = image.side("width")?.unwrap_or(Self::DEFAULT_SIZE.0);
-        let height = image.side("height")?.unwrap_or(Self::DEFAULT_SIZE.1);
+        let width = image.side("width")?.unwrap_or(Scene::DEFAULT_SIZE.0);
+        let height = image.side("height")?.unwrap_or(Scene::DEFAULT_SIZE.1);
         let background = image.channels("background", 1.0)?.unwrap_or([0.0; 3]);
         let ambient = file.channels("ambient", f64::INFINITY)?;
         let lights = lights(&file)?;
@@ -91,6 +91,7 @@ impl SceneFile {
         Ok(Resolved { scene, warnings })
     }
 
+    /// Returns the objects with their meshes, each of which is loaded once.
     fn objects(
         &self,
         file: &Section,
@@ -165,6 +166,7 @@ impl SceneFile {
     }
 }
 
+/// Returns the lights, or the one that is there when none are given.
 fn lights(file: &Section) -> Result<Vec<Light>, SceneError> {
     if !file.has("light") {
         let usual = unit(DVec3::from_array(Scene::DEFAULT_LIGHT));
@@ -240,6 +242,7 @@ fn placement(object: &Section) -> Result<DAffine3, SceneError> {
     ))
 }
 
+/// Returns the transform that is given by a matrix.
 fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, SceneError> {
     let others = ["scale", "rotate", "translate"];
     if let Some(key) = others.into_iter().find(|key| object.has(key)) {

@@ -1,10 +1,9 @@
 //! From the camera of a scene file to the camera of the scene.
 
-use super::SceneFile;
 use super::check::{Section, is_coordinate, is_position};
 use super::diagnostics::SceneError;
 use crate::scene::of_mesh::unit;
-use crate::scene::{Camera, Fit, Projection};
+use crate::scene::{Camera, Fit, Projection, Scene};
 use glam::DVec3;
 use std::format;
 use std::string::String;
@@ -56,7 +55,7 @@ impl<'a> Viewpoint<'a> {
             fovy,
             near,
             far,
-            fraction: fit.unwrap_or(SceneFile::DEFAULT_FIT),
+            fraction: fit.unwrap_or(Scene::DEFAULT_FIT),
         })
     }
 
@@ -213,7 +212,7 @@ fn stand(section: &Section) -> Result<Stand, SceneError> {
         let (sin_e, cos_e) = libm::sincos(elevation);
         DVec3::new(cos_e * sin_a, sin_e, cos_e * cos_a)
     } else {
-        let usual = || unit(DVec3::from_array(SceneFile::DEFAULT_DIRECTION));
+        let usual = || unit(DVec3::from_array(Scene::DEFAULT_DIRECTION));
         section.direction("direction")?.unwrap_or_else(usual)
     };
     Ok(Stand::Fitted { direction })

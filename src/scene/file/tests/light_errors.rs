@@ -1,4 +1,4 @@
-//! What is refused of lights, of the viewer and of highlights, and how it is said.
+//! Errors about lights, the viewer and highlights.
 
 use super::expect::{check, error};
 use super::{cubes, with_object};

@@ -8,7 +8,7 @@ use crate::scene::file::resolve::Resolved;
 use crate::scene::file::value::Data;
 use crate::scene::{
     Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Light,
-    Object, PainterKey, Place, Projection,
+    Object, PainterKey, Place, Projection, Scene,
 };
 use glam::{DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
@@ -47,14 +47,14 @@ fn defaults() {
     };
     assert!(near(
         direction,
-        DVec3::from_array(SceneFile::DEFAULT_LIGHT).normalize()
+        DVec3::from_array(Scene::DEFAULT_LIGHT).normalize()
     ));
     assert_eq!(scene.lights[0].colour, [1.0; 3]);
     assert_eq!(scene.objects[0].material, Some(Material::default()));
     assert_eq!(scene.objects[0].normals, NormalSource::Averaged);
     assert!(near(
         scene.camera.view(),
-        DVec3::from_array(SceneFile::DEFAULT_DIRECTION).normalize()
+        DVec3::from_array(Scene::DEFAULT_DIRECTION).normalize()
     ));
     assert_eq!(
         (scene.camera.target, scene.camera.up),

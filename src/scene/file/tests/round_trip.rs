@@ -90,7 +90,7 @@ impl Random {
     }
 }
 
-/// What is written reads back as the same scene, values bit for bit, however odd they are.
+/// A scene that is written reads back as the same scene, values bit for bit, however odd they are.
 #[test]
 fn written_scenes_read_back_equal() {
     let mut random = Random(21);
