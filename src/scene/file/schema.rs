@@ -1,6 +1,6 @@
 //! The keys of a scene file: one list for reading, for checking, for printing and for command-line flags.
 //!
-//! Every key is optional but those of [`needed`]. Angles are in degrees, lengths in world units, colours linear.
+//! Every key is optional but those marked as needed. Angles are in degrees, lengths in world units, colours linear.
 
 use crate::mesh::vertex_normals::NormalSource;
 use crate::picture::Encoding;
