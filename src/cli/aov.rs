@@ -5,14 +5,14 @@ use fastphong::picture::encoding::{quantise, store};
 use fastphong::picture::{LinearPicture, Picture8};
 use fastphong::raster;
 
-/// What a picture shows instead of colours.
+/// A quantity that a picture shows instead of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Aov {
     /// Depth: the nearest pixel white, the farthest black; in .pfm as it is, 0 at the near plane, 1 at the far plane
     Depth,
     /// World-space normal N as the colour (N + 1)/2
     Normal,
-    /// Which polygon is seen, each in a colour of its own; in .pfm its number in the scene, -1 where none is
+    /// Number of the polygon that is seen, each in a colour of its own; in .pfm its number in the scene, -1 where none is
     Polygon,
     /// Colours of vertices, interpolated; white where the mesh has none
     Colours,
@@ -24,7 +24,7 @@ pub enum Aov {
 const BOARD: [[f32; 3]; 2] = [[0.9; 3], [0.1, 0.15, 0.35]];
 
 impl Aov {
-    /// As floats. Depth is infinite where nothing is seen. `square` is the side of a square, in world units.
+    /// Returns the quantity as floats. Depth is infinite where nothing is seen. `square` is the side of a square, in world units.
     pub fn linear(self, frame: &Frame, square: f64) -> LinearPicture {
         let grey = |value: f32, seen: bool| [value, value, value, f32::from(u8::from(seen))];
         match self {
@@ -42,7 +42,7 @@ impl Aov {
         }
     }
 
-    /// In 8 bits, for eyes.
+    /// Returns the quantity in 8 bits, for eyes.
     pub fn stored(self, frame: &Frame, square: f64) -> Picture8 {
         match self {
             Aov::Colours | Aov::Checkerboard => {
@@ -51,13 +51,9 @@ impl Aov {
             Aov::Normal => raster::normals(frame).map(|texel| texel.map(quantise)),
             Aov::Depth => {
                 let depth = raster::depth(frame);
-                let drawn = depth
-                    .texels()
-                    .iter()
-                    .copied()
-                    .filter(|depth| depth.is_finite());
+                let drawn = depth.texels().iter().filter(|depth| depth.is_finite());
                 let (near, far) = drawn.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), d| {
-                    (a.min(d), b.max(d))
+                    (d.min(a), d.max(b))
                 });
                 let range = if far > near { far - near } else { 1.0 };
                 depth.map(|depth| match depth.is_finite() {
@@ -69,16 +65,14 @@ impl Aov {
                 })
             }
             Aov::Polygon => raster::polygon_numbers(frame).map(|number| {
-                frame
-                    .polygons()
-                    .get(number as usize)
-                    .map_or([0; 4], |polygon| colour_of_number(polygon.source))
+                let polygon = frame.polygons().get(number as usize);
+                polygon.map_or([0; 4], |polygon| colour_of_number(polygon.source))
             }),
         }
     }
 }
 
-/// A colour that looks nothing like those of the numbers around, and is the same in every view.
+/// Returns a colour that looks nothing like those of the numbers around, and is the same in every view.
 fn colour_of_number(number: u32) -> [u8; 4] {
     // The finaliser of MurmurHash3 (Austin Appleby, public domain): every bit of the number moves every bit.
     let mut h = number.wrapping_add(1);

@@ -1,4 +1,4 @@
-//! What `auto` would choose for a scene: which engine, on which instruction set, for which methods.
+//! The engine and the instruction set that `auto` would choose for a scene, for which methods.
 
 use fastphong::frame::Frame;
 use fastphong::raster::{Plan, Renderer};
@@ -11,7 +11,7 @@ pub struct Choice {
     methods: Vec<&'static str>,
 }
 
-/// What `--engine auto --simd auto` chooses on this machine: each choice once, in the order of the methods.
+/// Returns the choices of `--engine auto --simd auto` on this machine: each once, in the order of the methods.
 pub fn choices(frame: &Frame) -> Vec<Choice> {
     let mut choices: Vec<Choice> = Vec::new();
     for entry in METHODS {
@@ -29,7 +29,7 @@ pub fn choices(frame: &Frame) -> Vec<Choice> {
 }
 
 impl Choice {
-    /// In words.
+    /// Says the choice in words.
     pub fn text(&self) -> String {
         let Plan { renderer, reason } = self.plan;
         let (engine, level) = (renderer.engine(), renderer.level());
@@ -37,7 +37,7 @@ impl Choice {
         format!("{engine}, {level}: {}{reason}", self.methods.join(", "))
     }
 
-    /// As data.
+    /// Returns the choice as data.
     pub fn json(&self) -> Value {
         let Plan { renderer, reason } = self.plan;
         let (engine, level) = (renderer.engine(), renderer.level());

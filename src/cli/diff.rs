@@ -3,10 +3,10 @@
 use super::output::Output;
 use super::reference_check::{SCALE, largest_difference};
 use super::table::columns;
-use super::talk::{Talk, json_to_stdout, to_stderr, to_stdout};
+use super::talk::{Talk, to_stderr, to_stdout};
 use super::{Failure, Outcome, values};
 use fastphong::compare::metrics::{
-    Difference, METRICS, compare, difference_map, signed_difference_map,
+    Difference, METRICS, MetricInfo, compare, difference_map, signed_difference_map,
 };
 use fastphong::picture::image_file::{FilePicture, comparable, read_picture};
 use serde_json::{Map, Value, json};
@@ -40,51 +40,44 @@ pub struct Diff {
 impl Diff {
     /// Compares, prints, and writes the map.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        let output = self
-            .output
-            .as_deref()
-            .map(|path| Output::new(path, None))
-            .transpose()?;
+        let output = self.output.as_deref().map(|path| Output::new(path, None));
+        let output = output.transpose()?;
         let (reference, actual) = (read_picture(&self.reference)?, read_picture(&self.actual)?);
         let [r, a] = comparable(&reference, &actual);
         let difference = compare(&r, &a)?;
         if let Some(output) = &output {
-            let map = if self.signed {
-                signed_difference_map
-            } else {
-                difference_map
+            let map = match self.signed {
+                true => signed_difference_map,
+                false => difference_map,
             };
             output.write(&FilePicture::stored(map(&r, &a, self.scale)?))?;
         }
-        let above = self
-            .fail_above
-            .is_some_and(|most| largest_difference(&difference) > most);
-        let on_stdout = matches!(&output, Some(Output { path: None, .. }));
-        match (self.json, on_stdout) {
-            (true, true) => to_stderr(&format!("{:#}\n", self.json(&difference, reference.size()))),
-            (true, false) => json_to_stdout(&self.json(&difference, reference.size()))?,
-            (false, true) => to_stderr(&table(&difference)),
-            (false, false) => to_stdout(table(&difference).as_bytes())?,
+        let text = match self.json {
+            true => format!("{:#}\n", self.json(&difference, reference.size())),
+            false => table(&difference),
+        };
+        match output {
+            Some(Output { path: None, .. }) => to_stderr(&text),
+            _ => to_stdout(text.as_bytes())?,
         }
-        if let (true, Some(most)) = (above, self.fail_above) {
-            let found = largest_difference(&difference);
-            talk.note(&format!(
-                "the pictures differ by {found:.4} grey levels, more than {most}"
-            ));
-        }
-        Ok(if above {
-            Outcome::Differs
-        } else {
-            Outcome::Done
-        })
+        let found = largest_difference(&difference);
+        let Some(most) = self.fail_above.filter(|most| found > *most) else {
+            return Ok(Outcome::Done);
+        };
+        talk.note(&format!(
+            "the pictures differ by {found:.4} grey levels, more than {most}"
+        ));
+        Ok(Outcome::Differs)
     }
 
+    /// Returns the numbers as data.
     fn json(&self, difference: &Difference, [width, height]: [usize; 2]) -> Value {
         // JSON has neither infinity nor NaN: they become null.
-        let metrics: Map<String, Value> = METRICS
+        let value = |metric: &MetricInfo| json!((metric.value)(difference));
+        let metrics = METRICS
             .iter()
-            .map(|metric| (metric.name.to_owned(), json!((metric.value)(difference))))
-            .collect();
+            .map(|metric| (metric.name.to_owned(), value(metric)));
+        let metrics: Map<String, Value> = metrics.collect();
         json!({
             "schema": "fastphong.diff/1",
             "reference": self.reference.display().to_string(),
@@ -100,6 +93,7 @@ impl Diff {
     }
 }
 
+/// Returns the numbers as a table.
 fn table(difference: &Difference) -> String {
     let value = |value: Option<f64>| match value {
         None => "-".to_owned(),
@@ -108,12 +102,8 @@ fn table(difference: &Difference) -> String {
         Some(value) => format!("{value:.4}"),
     };
     let rows = METRICS.iter().map(|metric| {
-        vec![
-            metric.name.to_owned(),
-            value((metric.value)(difference)),
-            metric.unit.to_owned(),
-            metric.meaning.to_owned(),
-        ]
+        let value = value((metric.value)(difference));
+        [metric.name, &value, metric.unit, metric.meaning].map(str::to_owned)
     });
     let mut text = columns(&rows.collect::<Vec<_>>(), false, &[1]);
     if let Some([x, y]) = difference.worst {

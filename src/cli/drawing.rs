@@ -1,7 +1,7 @@
-//! How a frame becomes a picture: which method, which engine.
+//! From a frame to a picture, by a method and an engine.
 
 use super::engines::{ENGINES, Engine, Simd, cs171_shading};
-use super::talk::{Talk, grouped};
+use super::talk::{Talk, counted, grouped};
 use super::{Failure, aov::Aov};
 use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
@@ -10,7 +10,7 @@ use fastphong::number::suggest::nearest;
 use fastphong::picture::encoding::store;
 use fastphong::picture::image_file::FilePicture;
 use fastphong::picture::{Encoding, Picture, Picture8};
-use fastphong::raster::{Edges, Plan, Renderer};
+use fastphong::raster::{Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
 use fastphong::shading::{METHODS, Variant};
@@ -18,7 +18,7 @@ use fastphong::shading::{METHODS, Variant};
 /// The name under which the reference picture can be asked for like a method.
 const REFERENCE: &str = "reference";
 
-/// What shades the pixels.
+/// The source of the colours.
 #[derive(Clone, Debug)]
 pub enum Method {
     /// A method of the table.
@@ -27,37 +27,30 @@ pub enum Method {
     Reference(Model),
 }
 
-/// `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
+/// Reads `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
 pub fn method(text: &str) -> Result<Method, String> {
     let (name, rest) = text.split_once(':').unwrap_or((text, ""));
     if name == REFERENCE {
         if rest.is_empty() {
             return Ok(Method::Reference(Model::Phong));
         }
-        let named = |name: &str| {
-            Model::ALL
-                .into_iter()
-                .find(|model| model.name() == name)
-                .map(Method::Reference)
+        let named = Model::ALL.map(|model| (format!("model={}", model.name()), model));
+        return match named.iter().find(|(name, _)| name == rest) {
+            Some((_, model)) => Ok(Method::Reference(*model)),
+            None => {
+                let names = named.map(|(name, _)| name).join(", ");
+                Err(format!("`{rest}`: expected one of {names}"))
+            }
         };
-        return rest.strip_prefix("model=").and_then(named).ok_or_else(|| {
-            let models: Vec<String> = Model::ALL
-                .iter()
-                .map(|model| format!("model={}", model.name()))
-                .collect();
-            format!("`{rest}`: expected one of {}", models.join(", "))
-        });
     }
     let is_method = METHODS.iter().any(|entry| entry.info.name == name);
     let means_method = nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some();
     if !is_method && !means_method && nearest(name, [REFERENCE]).is_some() {
-        return Err(format!(
-            "unknown method `{name}`: did you mean `{REFERENCE}`?"
-        ));
+        let problem = format!("unknown method `{name}`");
+        return Err(format!("{problem}: did you mean `{REFERENCE}`?"));
     }
-    Variant::parse(text)
-        .map(Method::Variant)
-        .map_err(|error| error.to_string())
+    let variant = Variant::parse(text).map_err(|error| error.to_string());
+    variant.map(Method::Variant)
 }
 
 impl std::fmt::Display for Method {
@@ -70,7 +63,7 @@ impl std::fmt::Display for Method {
     }
 }
 
-/// What of a frame is put into a picture.
+/// The part of a frame that is put into a picture.
 #[derive(Clone, Debug)]
 pub enum Content {
     /// Colours; the engine and the instruction set asked for, and what these mean by scanlines.
@@ -98,9 +91,8 @@ impl Drawing {
             (Engine::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
             (Engine::Cs171 { .. }, _) => ("cs171", "CS171"),
             (Engine::Scanlines(Some(engine)), Method::Reference(_)) => {
-                return Err(
-                    format!("the {engine} engine does not have `{method}`, which is none: leave out --engine").into()
-                );
+                let problem = format!("the {engine} engine does not have `{method}`");
+                return Err(format!("{problem}, which is none: leave out --engine").into());
             }
             (Engine::Scanlines(None), Method::Reference(_)) => {
                 pixel_by_pixel("the reference", *simd)?;
@@ -108,19 +100,12 @@ impl Drawing {
             }
             _ => return Ok(Drawing { frame, content }),
         };
-        let has: Vec<&str> = ENGINES
-            .iter()
-            .filter(|e| e.name == name)
-            .flat_map(|e| e.methods())
-            .collect();
-        let known =
-            matches!(method, Method::Variant(variant) if has.contains(&variant.info().name));
-        if !known {
-            return Err(format!(
-                "{title} does not have `{method}`: expected one of {}",
-                has.join(", ")
-            )
-            .into());
+        let engine = ENGINES.iter().filter(|engine| engine.name == name);
+        let has: Vec<&str> = engine.flat_map(|engine| engine.methods()).collect();
+        let is_known = |variant: &Variant| has.contains(&variant.info().name);
+        if !matches!(method, Method::Variant(variant) if is_known(variant)) {
+            let problem = format!("{title} does not have `{method}`");
+            return Err(format!("{problem}: expected one of {}", has.join(", ")).into());
         }
         pixel_by_pixel(title, *simd)?;
         Ok(Drawing {
@@ -132,35 +117,26 @@ impl Drawing {
     /// Says what draws the picture: in full to the curious, and to all where it is not what they asked for.
     pub fn tell(&self, threads: Option<usize>, talk: Talk) {
         let line = |engine: &str, level: &str, threads: usize| {
-            format!(
-                "drawn by {engine}, {level}, {threads} thread{}",
-                if threads == 1 { "" } else { "s" }
-            )
+            let threads = counted(threads, "thread", "threads");
+            format!("drawn by {engine}, {level}, {threads}")
         };
+        let one = |engine: &str, level: &str| (line(engine, level, 1), 1, None);
         let (text, used, reason) = match &self.content {
-            Content::Aov(..) => (line("the span engine", "scalar", 1), 1, None),
-            Content::Shaded(Method::Reference(_), ..) => (line("the reference", "f64", 1), 1, None),
+            Content::Aov(..) => one("the span engine", "scalar"),
+            Content::Shaded(Method::Reference(_), ..) => one("the reference", "f64"),
             Content::Shaded(_, Engine::Barycentric(_), ..) => {
-                (line("the barycentric engine", "scalar", 1), 1, None)
+                one("the barycentric engine", "scalar")
             }
-            Content::Shaded(_, Engine::Cs171 { .. }, ..) => {
-                (line("the cs171 engine", "f64", 1), 1, None)
-            }
+            Content::Shaded(_, Engine::Cs171 { .. }, ..) => one("the cs171 engine", "f64"),
             Content::Shaded(Method::Variant(variant), Engine::Scanlines(asked), simd, renderer) => {
-                let Plan {
-                    renderer: drawn_by,
-                    reason,
-                } = variant.plan(&self.frame, *renderer);
-                let (engine, level) = (drawn_by.engine(), drawn_by.level());
-                let text = line(
-                    &format!("the {engine} engine"),
-                    level.name(),
-                    drawn_by.threads(),
-                );
+                let plan = variant.plan(&self.frame, *renderer);
+                let (engine, level) = (plan.renderer.engine(), plan.renderer.level());
+                let used = plan.renderer.threads();
+                let text = line(&format!("the {engine} engine"), level.name(), used);
                 let is_other = asked.is_some_and(|asked| asked != engine)
                     || matches!(simd, Simd::Level(asked) if *asked != level);
-                let reason = reason.map(|reason| (reason, is_other));
-                (text, drawn_by.threads(), reason)
+                let reason = plan.reason.map(|reason| (reason, is_other));
+                (text, used, reason)
             }
         };
         match reason {
@@ -169,9 +145,8 @@ impl Drawing {
             None => talk.detail(&text),
         }
         if let (Some(threads @ 2..), 1) = (threads, used) {
-            talk.note(&format!(
-                "--threads {threads} leaves the pixels on one thread: {text}"
-            ));
+            let what = format!("--threads {threads} leaves the pixels on one thread");
+            talk.note(&format!("{what}: {text}"));
         }
     }
 
@@ -189,22 +164,21 @@ impl Drawing {
         }
     }
 
-    /// Width and height of the picture in pixels.
+    /// Returns width and height of the picture in pixels.
     pub fn size(&self) -> [usize; 2] {
         [self.frame.picture_width(), self.frame.picture_height()]
     }
 
-    /// The picture: floats if `linear`, else as it is stored in 8 bits.
+    /// Draws the picture: floats if `linear`, else as it is stored in 8 bits.
     pub fn picture(&self, linear: bool) -> FilePicture {
         let frame = &self.frame;
         match (&self.content, linear) {
             (Content::Aov(aov, square), true) => FilePicture::linear(aov.linear(frame, *square)),
             (Content::Aov(aov, square), false) => FilePicture::stored(aov.stored(frame, *square)),
-            (Content::Shaded(Method::Reference(model), ..), linear) => wide(
-                &reference::render(frame, *model).picture,
-                frame.encoding(),
-                linear,
-            ),
+            (Content::Shaded(Method::Reference(model), ..), linear) => {
+                let picture = reference::render(frame, *model).picture;
+                wide(&picture, frame.encoding(), linear)
+            }
             (Content::Shaded(Method::Variant(variant), engine, _, renderer), linear) => {
                 match engine {
                     Engine::Scanlines(_) => by_scanlines(frame, variant, *renderer, linear),
@@ -217,11 +191,9 @@ impl Drawing {
                             cull: false,
                             ..Reading::default()
                         };
-                        wide(
-                            &cs171::render(frame, shading, reading).filtered(frame.samples()),
-                            frame.encoding(),
-                            linear,
-                        )
+                        let picture = cs171::render(frame, shading, reading);
+                        let picture = picture.filtered(frame.samples());
+                        wide(&picture, frame.encoding(), linear)
                     }
                 }
             }
@@ -233,42 +205,35 @@ impl Drawing {
 fn pixel_by_pixel(what: &str, simd: Simd) -> Result<(), Failure> {
     match simd {
         Simd::Auto | Simd::Level(Level::Scalar) => Ok(()),
-        Simd::Level(level) => Err(format!(
-            "{what} goes pixel by pixel and has no `{level}`: expected --simd auto or scalar"
-        )
-        .into()),
+        Simd::Level(level) => {
+            let problem = format!("{what} goes pixel by pixel and has no `{level}`");
+            Err(format!("{problem}: expected --simd auto or scalar").into())
+        }
     }
 }
 
-/// `frame` with its polygons cut into triangles, if it has others.
+/// Returns `frame` with its polygons cut into triangles, if it has others.
 fn in_triangles(frame: Frame, engine: &str, talk: Talk) -> Frame {
-    let with_more_corners = frame
-        .polygons()
-        .iter()
-        .filter(|polygon| polygon.count > 3)
-        .count();
+    let polygons = frame.polygons().iter();
+    let with_more_corners = polygons.filter(|polygon| polygon.count > 3).count();
     if with_more_corners == 0 {
         return frame;
     }
     let cut = triangulated(&frame);
-    let (of, into) = (
-        grouped(with_more_corners),
-        grouped(cut.frame.polygons().len()),
-    );
-    talk.note(&format!("{of} polygons of more than three corners are cut into triangles for {engine}: {into} in all"));
+    let [of, into] = [with_more_corners, cut.frame.polygons().len()].map(grouped);
+    let what = format!("{of} polygons of more than three corners are cut into triangles");
+    talk.note(&format!("{what} for {engine}: {into} in all"));
     if cut.not_simple > 0 {
-        talk.warning(&match cut.not_simple {
-            1 => "1 polygon crosses or overlaps itself and is left out".to_owned(),
-            n => format!(
-                "{} polygons cross or overlap themselves and are left out",
-                grouped(n)
-            ),
-        });
+        talk.warning(&counted(
+            cut.not_simple,
+            "polygon crosses or overlaps itself and is left out",
+            "polygons cross or overlap themselves and are left out",
+        ));
     }
     cut.frame
 }
 
-/// A picture in `f64` as a file has it.
+/// Returns a picture in `f64` as a file has it.
 fn wide(picture: &Picture<[f64; 4]>, encoding: Encoding, linear: bool) -> FilePicture {
     let single = || picture.map(|texel| texel.map(|c| c as f32));
     match (linear, encoding) {
@@ -292,13 +257,12 @@ fn by_scanlines(frame: &Frame, variant: &Variant, renderer: Renderer, linear: bo
 }
 
 fn barycentric(frame: &Frame, variant: &Variant, edges: Edges, linear: bool) -> FilePicture {
-    let picture = match linear {
-        true => variant
-            .render_barycentric_linear(frame, edges)
-            .map(FilePicture::linear),
-        false => variant
-            .render_barycentric(frame, edges)
-            .map(FilePicture::stored),
+    let picture = if linear {
+        let picture = variant.render_barycentric_linear(frame, edges);
+        picture.map(FilePicture::linear)
+    } else {
+        let picture = variant.render_barycentric(frame, edges);
+        picture.map(FilePicture::stored)
     };
     // `Drawing::new` asked whether the barycentric renderer has the method; were it not so, the lecture's engine does.
     picture.unwrap_or_else(|| by_scanlines(frame, variant, Renderer::LECTURE, linear))

@@ -1,14 +1,14 @@
-//! What finds the pixels, and on what: the engines, instruction sets and threads that a user can ask for.
+//! The engines, instruction sets and threads that a user can ask for.
 
 use super::Failure;
-use fastphong::number::Level;
 use fastphong::number::suggest::nearest;
+use fastphong::number::{Level, LevelError};
 use fastphong::raster::{self, Edges, Renderer};
 use fastphong::reference::cs171::Shading;
 use fastphong::shading::{Info, METHODS};
 use serde_json::{Value, json};
 
-/// What finds the pixels.
+/// An engine, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engine {
     /// Scanlines, by spans or by rows; `None` is the one that suits method and frame.
@@ -22,15 +22,15 @@ pub enum Engine {
     },
 }
 
-/// What is said about an engine.
+/// A description of an engine.
 pub struct EngineInfo {
-    /// Its name on the command line.
+    /// The name on the command line.
     pub name: &'static str,
-    /// What it is.
+    /// One sentence.
     pub title: &'static str,
-    /// What it can draw.
+    /// The scenes and methods that it can draw.
     pub draws: &'static str,
-    /// Its instruction sets and threads.
+    /// The instruction sets and threads.
     pub runs: &'static str,
 }
 
@@ -64,13 +64,10 @@ pub const ENGINES: [EngineInfo; 4] = [
 ];
 
 impl EngineInfo {
-    /// The methods that it has.
+    /// Returns the names of the methods that it has.
     pub fn methods(&self) -> impl Iterator<Item = &'static str> {
-        METHODS
-            .iter()
-            .map(|entry| entry.info)
-            .filter(|info| self.has(info))
-            .map(|info| info.name)
+        let all = METHODS.iter().map(|entry| entry.info);
+        all.filter(|info| self.has(info)).map(|info| info.name)
     }
 
     fn has(&self, info: &Info) -> bool {
@@ -81,47 +78,49 @@ impl EngineInfo {
         }
     }
 
-    /// All that is said about it.
+    /// Returns the description as data.
     pub fn json(&self) -> Value {
-        let EngineInfo {
-            name,
-            title,
-            draws,
-            runs,
-        } = self;
-        let methods: Vec<&str> = self.methods().collect();
-        json!({ "name": name, "title": title, "draws": draws, "runs": runs, "methods": methods })
+        json!({
+            "name": self.name, "title": self.title, "draws": self.draws, "runs": self.runs,
+            "methods": self.methods().collect::<Vec<_>>(),
+        })
     }
 }
 
-/// The engines that have a method, by their names.
+/// Lists the names of the engines that have a method.
 pub fn engines_with(info: &Info) -> String {
-    let names = ENGINES
-        .iter()
-        .filter(|engine| engine.has(info))
-        .map(|engine| engine.name);
-    names.collect::<Vec<_>>().join(", ")
+    let engines = ENGINES.iter().filter(|engine| engine.has(info));
+    let names: Vec<&str> = engines.map(|engine| engine.name).collect();
+    names.join(", ")
 }
 
-/// The methods that CS171 has, by their names here.
-const CS171: [(&str, Shading); 3] = [
-    ("flat-average", Shading::Flat),
-    ("gouraud", Shading::Gouraud),
-    ("naive-phong", Shading::Phong),
-];
-
-/// What CS171 calls a method, if it has it.
+/// Returns CS171's name of a method, if it has it.
 pub fn cs171_shading(info: &Info) -> Option<Shading> {
-    CS171
-        .iter()
-        .find(|(name, _)| *name == info.name)
-        .map(|(_, shading)| *shading)
+    match info.name {
+        "flat-average" => Some(Shading::Flat),
+        "gouraud" => Some(Shading::Gouraud),
+        "naive-phong" => Some(Shading::Phong),
+        _ => None,
+    }
 }
 
-/// `auto`, `span` (or `scanline`), `row`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or
+/// Reads `auto`, `span` (or `scanline`), `row`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or
 /// `cs171:normals=unit|as-printed`.
 pub fn engine(text: &str) -> Result<Engine, String> {
     const NAMES: [&str; 6] = ["auto", "span", "scanline", "row", "barycentric", "cs171"];
+    let expected = match text.split_once(':') {
+        Some(("barycentric", _)) => "expected edges=top-left or edges=closed".to_owned(),
+        Some(("cs171", _)) => "expected normals=unit or normals=as-printed".to_owned(),
+        Some((name, _)) if NAMES.contains(&name) => {
+            format!("the engine `{name}` has no parameters")
+        }
+        _ => match nearest(text, NAMES) {
+            Some(near) => format!("unknown engine: did you mean `{near}`?"),
+            None => {
+                "unknown engine: expected `auto`, `span`, `row`, `barycentric` or `cs171`".into()
+            }
+        },
+    };
     match text {
         "auto" => Ok(Engine::Scanlines(None)),
         "span" | "scanline" => Ok(Engine::Scanlines(Some(raster::Engine::Span))),
@@ -130,18 +129,7 @@ pub fn engine(text: &str) -> Result<Engine, String> {
         "barycentric:edges=closed" => Ok(Engine::Barycentric(Edges::Closed)),
         "cs171" | "cs171:normals=unit" => Ok(Engine::Cs171 { normalise: true }),
         "cs171:normals=as-printed" => Ok(Engine::Cs171 { normalise: false }),
-        _ => Err(match text.split_once(':') {
-            Some(("barycentric", _)) => "expected edges=top-left or edges=closed".to_owned(),
-            Some(("cs171", _)) => "expected normals=unit or normals=as-printed".to_owned(),
-            Some((name, _)) if NAMES.contains(&name) => {
-                format!("the engine `{name}` has no parameters")
-            }
-            _ => match nearest(text, NAMES) {
-                Some(near) => format!("unknown engine: did you mean `{near}`?"),
-                None => "unknown engine: expected `auto`, `span`, `row`, `barycentric` or `cs171`"
-                    .to_owned(),
-            },
-        }),
+        _ => Err(expected),
     }
 }
 
@@ -149,7 +137,7 @@ pub fn engine(text: &str) -> Result<Engine, String> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScanlineEngine(pub Option<raster::Engine>);
 
-/// `auto`, `span` (or `scanline`) or `row`.
+/// Reads `auto`, `span` (or `scanline`) or `row`.
 pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
     match engine(text) {
         Ok(Engine::Scanlines(engine)) => Ok(ScanlineEngine(engine)),
@@ -205,14 +193,14 @@ pub fn renderer(
     }
 }
 
-/// `auto`, or an instruction set of this machine.
+/// Reads `auto`, or an instruction set of this machine.
 pub fn simd(text: &str) -> Result<Simd, String> {
     match text {
         "auto" => Ok(Simd::Auto),
-        name => name
-            .parse()
-            .map(Simd::Level)
-            .map_err(|error: fastphong::number::LevelError| error.to_string()),
+        name => {
+            let level = name.parse().map_err(|error: LevelError| error.to_string());
+            level.map(Simd::Level)
+        }
     }
 }
 
@@ -225,7 +213,7 @@ pub enum Levels {
     These(Vec<Simd>),
 }
 
-/// Instruction sets of this machine between commas, or `all` that it has.
+/// Reads instruction sets of this machine between commas, or `all` that it has.
 pub fn levels(text: &str) -> Result<Levels, String> {
     if text == "all" {
         return Ok(Levels::All);
@@ -240,18 +228,13 @@ impl Levels {
     /// # Errors
     /// As [`renderer`].
     pub fn renderers(&self, engine: Option<raster::Engine>) -> Result<Vec<Renderer>, String> {
-        let mut renderers: Vec<Renderer> = match self {
-            Levels::All => {
-                let is_asked = |renderer: &Renderer| engine.is_none_or(|e| e == renderer.engine());
-                Renderer::available().filter(is_asked).collect()
-            }
-            Levels::These(_) => Vec::new(),
-        };
+        let is_asked = |renderer: &Renderer| engine.is_none_or(|e| e == renderer.engine());
+        let all = Renderer::available().filter(is_asked).collect();
         // Where the machine has none of them, the error is that of `auto`.
-        let named: &[Simd] = match self {
-            Levels::These(levels) => levels,
-            Levels::All if renderers.is_empty() => &[Simd::Auto],
-            Levels::All => &[],
+        let (mut renderers, named): (Vec<_>, &[Simd]) = match self {
+            Levels::These(levels) => (Vec::new(), levels),
+            Levels::All if Vec::is_empty(&all) => (all, &[Simd::Auto]),
+            Levels::All => (all, &[]),
         };
         for simd in named {
             let renderer = renderer(engine, Some(*simd), Renderer::LECTURE)?;
@@ -263,7 +246,7 @@ impl Levels {
     }
 }
 
-/// As [`renderer`], of flags of which either may be missing: `--engine auto` alone is the fastest.
+/// Returns the [`renderer`] of flags of which either may be missing: `--engine auto` alone is the fastest.
 pub fn renderer_of(
     engine: Option<ScanlineEngine>,
     simd: Option<Simd>,
@@ -271,18 +254,14 @@ pub fn renderer_of(
 ) -> Result<Renderer, String> {
     match (engine, simd) {
         (Some(ScanlineEngine(None)), None) => renderer(None, Some(Simd::Auto), usual),
-        (engine, simd) => renderer(
-            engine.and_then(|ScanlineEngine(engine)| engine),
-            simd,
-            usual,
-        ),
+        (engine, simd) => renderer(engine.and_then(|engine| engine.0), simd, usual),
     }
 }
 
-/// How methods are drawn where they are compared with the lecture.
+/// Flags for drawing methods that are compared with the lecture.
 #[derive(clap::Args, Clone, Debug)]
 pub struct LectureFlags {
-    /// What finds the pixels: `span`, the lecture's way, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
+    /// Engine that finds the pixels: `span`, the lecture's way, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
     /// where it can draw the frame [default: span]
     #[arg(long, value_parser = scanline_engine)]
     engine: Option<ScanlineEngine>,
@@ -295,7 +274,7 @@ pub struct LectureFlags {
 }
 
 impl LectureFlags {
-    /// How to draw.
+    /// Returns the renderer that the flags ask for.
     ///
     /// # Errors
     /// As [`renderer`].
@@ -312,7 +291,7 @@ impl LectureFlags {
     }
 }
 
-/// On how many threads.
+/// The number of threads.
 #[derive(clap::Args, Clone, Debug)]
 pub struct ThreadFlags {
     /// Threads, 1 to 1024 [default: as many as there are processors]; comparisons in the lecture's own form take one
@@ -326,12 +305,10 @@ const MOST_THREADS: usize = 1024;
 /// Bytes of each thread's stack: what the first thread of a program has on most systems.
 const STACK: usize = 8 << 20;
 
-/// A number of threads.
+/// Reads a number of threads.
 pub fn threads(text: &str) -> Result<usize, String> {
-    let threads = text
-        .parse()
-        .ok()
-        .filter(|threads| (1..=MOST_THREADS).contains(threads));
+    let threads = text.parse().ok();
+    let threads = threads.filter(|threads| (1..=MOST_THREADS).contains(threads));
     threads.ok_or_else(|| format!("expected a number of threads from 1 to {MOST_THREADS}"))
 }
 
@@ -342,18 +319,16 @@ impl ThreadFlags {
     /// When the system does not give that many.
     pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
         // 0 stands for as many as there are processors.
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads.unwrap_or(0))
-            .stack_size(STACK)
-            .build();
-        let pool = pool.map_err(|error| match self.threads {
-            Some(threads) => format!("{threads} threads cannot be started: {error}"),
-            None => format!("threads cannot be started: {error}"),
+        let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
+        let pool = builder.stack_size(STACK).build().map_err(|error| {
+            let threads = self.threads.map(|threads| format!("{threads} "));
+            let threads = threads.unwrap_or_default();
+            format!("{threads}threads cannot be started: {error}")
         })?;
         Ok(pool.install(work))
     }
 
-    /// As [`ThreadFlags::install`] for what `renderer` draws: the lecture's own form is on one thread from end to end, so
+    /// Does `work` as [`ThreadFlags::install`] does, for the pictures of `renderer`: the lecture's own form is on one thread from end to end, so
     /// that a comparison with it is not one of how well vertices are shared out.
     ///
     /// # Errors
@@ -363,11 +338,8 @@ impl ThreadFlags {
         renderer: Renderer,
         work: impl FnOnce() -> T + Send,
     ) -> Result<T, Failure> {
-        let threads = if renderer == Renderer::LECTURE {
-            Some(1)
-        } else {
-            self.threads
-        };
+        let is_lecture = renderer == Renderer::LECTURE;
+        let threads = if is_lecture { Some(1) } else { self.threads };
         ThreadFlags { threads }.install(work)
     }
 }

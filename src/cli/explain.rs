@@ -27,7 +27,7 @@ const LIGHTS: [usize; 2] = [1, 4];
 /// The numbers of lights at positions that operations are counted for, the eye being at one, too.
 const LIGHTS_AT_POSITIONS: [usize; 2] = [1, 2];
 
-/// How often something is computed, and how to take it from the counts.
+/// A rate at which something is computed, and a function that takes it from the counts.
 type Rate = (&'static str, fn(&OperationCounts) -> Counts);
 
 const RATES: [Rate; 7] = [
@@ -40,7 +40,7 @@ const RATES: [Rate; 7] = [
     ("pixel: shade", |c| c.shade),
 ];
 
-/// A kind of operation, and how to take it from the counts.
+/// A kind of operation, and a function that takes it from the counts.
 type Kind = (&'static str, fn(&Counts) -> u32);
 
 const KINDS: [Kind; 7] = [
@@ -64,101 +64,78 @@ impl Explain {
         Ok(Outcome::Done)
     }
 
+    /// Explains the method in text.
     fn text(&self) -> Result<String, Failure> {
         let info = self.method.info();
         let mut text = format!("{}: {}\n", self.method, info.title);
         let mut section = |title: &str, body: &str| text += &format!("\n{title}\n{body}");
         // Formulas keep their lines.
-        section(
-            "formula",
-            &info
-                .formula
-                .lines()
-                .map(|line| format!("  {line}\n"))
-                .collect::<String>(),
-        );
+        let formula = info.formula.lines().map(|line| format!("  {line}\n"));
+        section("formula", &formula.collect::<String>());
         section("source", &wrapped(info.source, 2));
         for lights in LIGHTS {
-            let title = format!(
-                "operations with {lights} light{}, as counted",
-                if lights == 1 { "" } else { "s" }
-            );
+            let s = if lights == 1 { "" } else { "s" };
+            let title = format!("operations with {lights} light{s}, as counted");
             section(&title, &costs(&self.method.operations(lights)));
         }
         for lights in LIGHTS_AT_POSITIONS {
-            let what = if lights == 1 {
-                "light and eye"
-            } else {
-                "lights and eye"
-            };
-            section(
-                &format!("operations with {lights} {what} at positions, as counted"),
-                &costs(&self.near(lights)),
-            );
+            let s = if lights == 1 { "" } else { "s" };
+            let title =
+                format!("operations with {lights} light{s} and eye at positions, as counted");
+            section(&title, &costs(&self.near(lights)));
         }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
         section("lights at positions", &wrapped(info.local.sentence(), 2));
         section("engines", &format!("  {}\n", engines_with(info)));
-        let parameters = info.parameters.iter().zip(self.method.parameters());
-        let parameters: String = parameters
-            .map(|(p, value)| {
-                let mut text = format!(
-                    "{}={}: {}; {}, default {}",
-                    p.name,
-                    p.text(*value),
-                    p.meaning,
-                    p.range(),
-                    p.text(p.default)
-                );
-                if let Some(auto) = p.auto {
-                    text += &format!("\nauto: {}", auto.meaning);
-                }
-                wrapped(&text, 2)
-            })
-            .collect();
-        section(
-            "parameters",
-            if parameters.is_empty() {
-                "  none\n"
-            } else {
-                &parameters
-            },
-        );
+        let mut parameters = String::new();
+        for (p, value) in info.parameters.iter().zip(self.method.parameters()) {
+            let (value, usual) = (p.text(*value), p.text(p.default));
+            let mut text = format!(
+                "{}={value}: {}; {}, default {usual}",
+                p.name,
+                p.meaning,
+                p.range()
+            );
+            if let Some(auto) = p.auto {
+                text += &format!("\nauto: {}", auto.meaning);
+            }
+            parameters += &wrapped(&text, 2);
+        }
+        if parameters.is_empty() {
+            parameters += "  none\n";
+        }
+        section("parameters", &parameters);
         Ok(text)
     }
 
-    /// The operations with `lights` lights and the eye at positions, no falloff, attributes linear on the screen.
+    /// Counts the operations with `lights` lights and the eye at positions, no falloff, attributes linear on the screen.
     fn near(&self, lights: usize) -> OperationCounts {
         // The angle of the span's normals is not counted: any will do.
-        self.method.operations_on(&SpanBench::local(
-            20.0,
-            lights,
-            Falloff::None,
-            Interpolation::Screen,
-        ))
+        let span = SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
+        self.method.operations_on(&span)
     }
 
     fn tolerance(&self) -> Result<String, Failure> {
         let info = self.method.info();
         let levels = 255.0 * example_bound(&self.method)?;
+        let example =
+            format!("at most {levels:.3} grey levels on the scene `{EXAMPLE}` at 640x480");
         Ok(format!(
-            "{}\n{}\nfor example, at most {levels:.3} grey levels on the scene `{EXAMPLE}` at 640x480",
+            "{}\n{}\nfor example, {example}",
             exactness(info),
             info.derivation
         ))
     }
 
+    /// Returns the explanation as data.
     fn json(&self) -> Result<Value, Failure> {
         let info = self.method.info();
         let mut json = method_json(info);
         let by_lights = |lights: &[usize], of: &dyn Fn(usize) -> OperationCounts| -> Value {
-            lights
-                .iter()
-                .map(|&n| (n.to_string(), costs_json(&of(n))))
-                .collect::<Map<String, Value>>()
-                .into()
+            let costs = lights.iter().map(|&n| (n.to_string(), costs_json(&of(n))));
+            costs.collect::<Map<String, Value>>().into()
         };
         json["variant"] = self.method.to_string().into();
         let values = info.parameters.iter().zip(self.method.parameters());
@@ -183,41 +160,37 @@ fn example_bound(method: &Variant) -> Result<f64, Failure> {
     Ok(method.bound(&frame))
 }
 
+/// Returns counted operations as a table.
 fn costs(counts: &OperationCounts) -> String {
-    let mut rows = vec![
-        std::iter::once("  once a")
-            .chain(KINDS.map(|(name, _)| name))
-            .map(str::to_owned)
-            .collect(),
-    ];
-    for (rate, of) in RATES {
+    let cells = |first: String, kind: &dyn Fn(&Kind) -> String| {
+        let [a, b, c, d, e, f, g] = KINDS.each_ref().map(kind);
+        [first, a, b, c, d, e, f, g]
+    };
+    let mut rows = vec![cells("  once a".to_owned(), &|(name, _)| {
+        (*name).to_owned()
+    })];
+    rows.extend(RATES.map(|(rate, of)| {
         let counts = of(counts);
-        let mut row = vec![format!("  {rate}")];
-        // A zero says less than nothing: what is done stands out.
-        row.extend(KINDS.map(|(_, kind)| match kind(&counts) {
+        // A zero says less than nothing: the operations that are done stand out.
+        cells(format!("  {rate}"), &|(_, kind)| match kind(&counts) {
             0 => ".".to_owned(),
             n => n.to_string(),
-        }));
-        rows.push(row);
-    }
+        })
+    }));
     columns(&rows, false, &[1, 2, 3, 4, 5, 6, 7])
 }
 
+/// Returns counted operations as data.
 fn costs_json(counts: &OperationCounts) -> Value {
     let kinds = |counts: Counts| -> Map<String, Value> {
-        KINDS
+        let kinds = KINDS
             .iter()
-            .map(|(name, kind)| ((*name).to_owned(), json!(kind(&counts))))
-            .collect()
+            .map(|(name, kind)| (name.to_string(), json!(kind(&counts))));
+        kinds.collect()
     };
-    let rates: Map<String, Value> = RATES
-        .iter()
-        .map(|(name, of)| {
-            (
-                name.replace(": ", "_").replace(' ', "_"),
-                kinds(of(counts)).into(),
-            )
-        })
-        .collect();
-    rates.into()
+    let rates = RATES.iter().map(|(name, of)| {
+        let name = name.replace(": ", "_").replace(' ', "_");
+        (name, kinds(of(counts)).into())
+    });
+    rates.collect::<Map<String, Value>>().into()
 }

@@ -1,12 +1,10 @@
-//! How a sub-command ends.
+//! The ways in which a sub-command ends.
 
-use fastphong::compare::metrics::SizeMismatch;
-use fastphong::frame::FrameError;
-use fastphong::picture::image_file::ImageFileError;
 use fastphong::scene::file::diagnostics::SceneError;
 use fastphong::scene::input::InputError;
+use std::error::Error;
 
-/// What a sub-command found.
+/// The finding of a sub-command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// All that was asked for is done: exit code 0.
@@ -15,62 +13,29 @@ pub enum Outcome {
     Differs,
 }
 
-/// Why a sub-command could not do what was asked for: exit code 2.
+/// Why a sub-command could not do its work: exit code 2.
 #[derive(Debug)]
-pub enum Failure {
-    /// One sentence.
-    Message(String),
-    /// An input, which shows its errors itself. Boxed: results are passed about more often than they fail.
-    Input(Box<InputError>),
+pub struct Failure(Box<dyn Error + Send + Sync>);
+
+impl<E: Into<Box<dyn Error + Send + Sync>>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Failure(error.into())
+    }
 }
 
 impl Failure {
-    /// The error as text that starts with `error: ` and ends a line.
+    /// Returns the error as text that starts with `error: ` and ends a line. Errors of inputs show themselves.
     pub fn render(&self, colour: bool) -> String {
-        let mut text = match self {
-            Failure::Message(message) if colour => format!("\x1b[1;31merror\x1b[0m: {message}"),
-            Failure::Message(message) => format!("error: {message}"),
-            Failure::Input(error) => error.render(colour),
+        let (input, scene) = (
+            self.0.downcast_ref::<InputError>(),
+            self.0.downcast_ref::<SceneError>(),
+        );
+        let text = match (input, scene) {
+            (Some(error), _) => error.render(colour),
+            (_, Some(error)) => error.render(colour),
+            _ if colour => format!("\x1b[1;31merror\x1b[0m: {}", self.0),
+            _ => format!("error: {}", self.0),
         };
-        if !text.ends_with('\n') {
-            text.push('\n');
-        }
-        text
-    }
-}
-
-impl From<String> for Failure {
-    fn from(message: String) -> Self {
-        Failure::Message(message)
-    }
-}
-
-impl From<InputError> for Failure {
-    fn from(error: InputError) -> Self {
-        Failure::Input(Box::new(error))
-    }
-}
-
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
-        InputError::Scene(error).into()
-    }
-}
-
-impl From<ImageFileError> for Failure {
-    fn from(error: ImageFileError) -> Self {
-        Failure::Message(error.to_string())
-    }
-}
-
-impl From<FrameError> for Failure {
-    fn from(error: FrameError) -> Self {
-        Failure::Message(error.to_string())
-    }
-}
-
-impl From<SizeMismatch> for Failure {
-    fn from(error: SizeMismatch) -> Self {
-        Failure::Message(error.to_string())
+        format!("{}\n", text.trim_end_matches('\n'))
     }
 }

@@ -9,7 +9,7 @@ use super::{Failure, Outcome};
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{Object, Projection, Scene, input};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -42,35 +42,33 @@ impl Info {
         let scene = &resolved.scene;
         // A mesh that several objects share is looked at once.
         let mut seen = BTreeMap::new();
-        let mut facts = |object: &Object| {
-            let facts = seen
-                .entry(Arc::as_ptr(&object.mesh))
-                .or_insert_with(|| MeshFacts::of(&object.mesh));
-            facts.clone()
+        let mut facts = |Object { mesh, .. }: &Object| {
+            let facts = seen.entry(Arc::as_ptr(mesh));
+            facts.or_insert_with(|| MeshFacts::of(mesh)).clone()
         };
-        let objects = scene.objects.iter().zip(&file.object);
+        let objects = scene.objects.iter().zip(file.meshes());
         let objects: Vec<Described> = objects
-            .map(|(object, section)| Described {
-                name: &section.mesh.value,
+            .map(|(object, name)| Described {
+                name,
                 object,
                 facts: facts(object),
             })
             .collect();
         let chosen = choices(&scene.frame()?);
+        let input = &self.input;
         match self.json {
-            true => json_to_stdout(&scene_json(&self.input, &file, scene, &objects, &chosen))?,
-            false => {
-                to_stdout(scene_text(&self.input, &file, scene, &objects, &chosen).as_bytes())?
-            }
-        }
+            true => json_to_stdout(&scene_json(input, &file, scene, &objects, &chosen)),
+            false => to_stdout(scene_text(input, &file, scene, &objects, &chosen).as_bytes()),
+        }?;
         Ok(Outcome::Done)
     }
 }
 
-fn row(name: &str, value: impl Into<String>) -> Vec<String> {
-    vec![format!("  {name}"), value.into()]
+fn row(name: &str, value: impl Into<String>) -> [String; 2] {
+    [format!("  {name}"), value.into()]
 }
 
+/// Describes a scene in text.
 fn scene_text(
     input: &str,
     file: &SceneFile,
@@ -78,14 +76,11 @@ fn scene_text(
     objects: &[Described],
     chosen: &[Choice],
 ) -> String {
-    let mut text = input.to_owned();
-    if let Some(title) = &file.title {
-        text += &format!(": {}", title.value);
-    }
-    text.push('\n');
-    if let Some(description) = &file.description {
-        text += &wrapped(&description.value, 2);
-    }
+    let mut text = match file.title() {
+        Some(title) => format!("{input}: {title}\n"),
+        None => format!("{input}\n"),
+    };
+    text += &wrapped(file.description().unwrap_or_default(), 2);
     let camera = &scene.camera;
     let projection = match camera.projection {
         Projection::Orthographic { half_height } => {
@@ -93,25 +88,14 @@ fn scene_text(
         }
         Projection::Perspective { fovy } => format!("perspective, {fovy} degrees"),
     };
-    let total: usize = objects
-        .iter()
-        .map(|object| object.object.mesh.polygon_count())
-        .sum();
+    let (eye, target) = (point(camera.eye), point(camera.target));
+    let polygons = objects.iter().map(|o| o.object.mesh.polygon_count());
+    let (count, polygons) = (objects.len(), grouped(polygons.sum()));
     let mut rows = vec![
         row("picture", format!("{} x {}", scene.width, scene.height)),
-        row(
-            "camera",
-            format!(
-                "at {}, toward {}; {projection}",
-                point(camera.eye),
-                point(camera.target)
-            ),
-        ),
+        row("camera", format!("at {eye}, toward {target}; {projection}")),
         row("lights", scene.lights.len().to_string()),
-        row(
-            "objects",
-            format!("{}, {} polygons in all", objects.len(), grouped(total)),
-        ),
+        row("objects", format!("{count}, {polygons} polygons in all")),
     ];
     for (number, choice) in chosen.iter().enumerate() {
         rows.push(row(if number == 0 { "auto" } else { "" }, choice.text()));
@@ -123,89 +107,69 @@ fn scene_text(
     text
 }
 
-fn point(p: DVec3) -> String {
+fn point(p: impl Into<DVec3>) -> String {
+    let p = p.into();
     format!("({:.4}, {:.4}, {:.4})", p.x, p.y, p.z)
 }
 
+/// Describes an object in text.
 fn object_text(described: &Described) -> String {
     let facts = &described.facts;
-    let sides: Vec<String> = facts
-        .by_sides
-        .iter()
-        .map(|(sides, count)| format!("{} of {sides} sides", grouped(*count)))
+    let polygons = grouped(described.object.mesh.polygon_count());
+    let sides = facts.polygons_by_sides.iter();
+    let sides = sides.map(|(sides, count)| format!("{} of {sides} sides", grouped(*count)));
+    let sides = sides.collect::<Vec<_>>().join(", ");
+    let odd = [
+        (facts.open_edges, "open"),
+        (
+            facts.non_manifold_edges,
+            "non-manifold (three polygons or more)",
+        ),
+        (facts.reversed_edges, "between polygons wound differently"),
+    ];
+    let odd = odd.iter().filter(|(count, _)| *count > 0);
+    let odd: Vec<String> = odd
+        .map(|(count, what)| format!("{} {what}", grouped(*count)))
         .collect();
-    let edges = match facts.is_closed() {
-        true => format!("{}: closed", grouped(facts.edges)),
-        false => {
-            let odd = [
-                (facts.open_edges, "open"),
-                (
-                    facts.non_manifold_edges,
-                    "non-manifold (three polygons or more)",
-                ),
-                (facts.reversed_edges, "between polygons wound differently"),
-            ];
-            let odd = odd
-                .iter()
-                .filter(|(count, _)| *count > 0)
-                .map(|(count, what)| format!("{} {what}", grouped(*count)));
-            format!(
-                "{}: {}",
-                grouped(facts.edges),
-                odd.collect::<Vec<_>>().join(", ")
-            )
-        }
+    let closed = if facts.is_closed() {
+        "closed"
+    } else {
+        &odd.join(", ")
     };
-    let materials = match (facts.materials, facts.without_material) {
+    let materials = match (facts.materials, facts.polygons_without_material) {
         (0, _) => "none of its own".to_owned(),
         (n, 0) => n.to_string(),
         (n, without) => format!("{n}; {} polygons have none of them", grouped(without)),
     };
+    let [degenerate, concave, bent] =
+        [facts.degenerate, facts.concave, facts.not_planar].map(grouped);
+    let [vertices, positions, edges, bytes] =
+        [facts.vertices, facts.positions, facts.edges, facts.bytes].map(grouped);
+    let share = 100.0 * PLANAR;
     let mut rows = vec![
-        row(
-            "polygons",
-            format!(
-                "{}: {}",
-                grouped(described.object.mesh.polygon_count()),
-                sides.join(", ")
-            ),
-        ),
-        row(
-            "degenerate",
-            format!("{} without area", grouped(facts.degenerate)),
-        ),
-        row("concave", grouped(facts.concave)),
+        row("polygons", format!("{polygons}: {sides}")),
+        row("degenerate", format!("{degenerate} without area")),
+        row("concave", concave),
         row(
             "not planar",
-            format!(
-                "{} by more than {} % of their extent",
-                grouped(facts.not_planar),
-                100.0 * PLANAR
-            ),
+            format!("{bent} by more than {share} % of their extent"),
         ),
         row(
             "vertices",
-            format!(
-                "{} places, {} positions",
-                grouped(facts.vertices),
-                grouped(facts.positions)
-            ),
+            format!("{vertices} places, {positions} positions"),
         ),
-        row("edges", edges),
+        row("edges", format!("{edges}: {closed}")),
     ];
-    if let Some((low, high)) = facts.bounds {
-        rows.push(row(
-            "bounds",
-            format!("{} to {}", point(low.as_dvec3()), point(high.as_dvec3())),
-        ));
+    if let Some([low, high]) = facts.bounds {
+        rows.push(row("bounds", format!("{} to {}", point(low), point(high))));
     }
     rows.push(row("materials", materials));
     rows.push(row("normals", normals(described)));
-    rows.push(row("memory", format!("{} bytes", grouped(facts.bytes))));
+    rows.push(row("memory", format!("{bytes} bytes")));
     columns(&rows, false, &[])
 }
 
-/// Where the vertex normals of an object come from.
+/// Says where the vertex normals of an object come from.
 fn normals(described: &Described) -> String {
     match (described.object.normals, described.facts.given_normals) {
         (NormalSource::Given, true) => "given with the mesh".to_owned(),
@@ -217,6 +181,7 @@ fn normals(described: &Described) -> String {
     }
 }
 
+/// Describes a scene as data.
 fn scene_json(
     input: &str,
     file: &SceneFile,
@@ -232,18 +197,13 @@ fn scene_json(
     json!({
         "schema": "fastphong.info/1",
         "input": input,
-        "title": file.title.as_ref().map(|title| &title.value),
-        "description": file.description.as_ref().map(|description| &description.value),
+        "title": file.title(),
+        "description": file.description(),
         "width": scene.width,
         "height": scene.height,
         "camera": {
-            "eye": camera.eye.to_array(),
-            "target": camera.target.to_array(),
-            "up": camera.up.to_array(),
-            "half_height": half_height,
-            "fovy": fovy,
-            "near": camera.near,
-            "far": camera.far,
+            "eye": camera.eye.to_array(), "target": camera.target.to_array(), "up": camera.up.to_array(),
+            "half_height": half_height, "fovy": fovy, "near": camera.near, "far": camera.far,
         },
         "lights": scene.lights.len(),
         "auto": chosen.iter().map(Choice::json).collect::<Vec<_>>(),
@@ -252,34 +212,10 @@ fn scene_json(
 }
 
 fn object_json(described: &Described) -> Value {
-    let facts = &described.facts;
-    let by_sides: serde_json::Map<String, Value> = facts
-        .by_sides
-        .iter()
-        .map(|(sides, count)| (sides.to_string(), json!(count)))
-        .collect();
-    let bounds = facts
-        .bounds
-        .map(|(low, high)| [low, high].map(|p: Vec3| p.as_dvec3().to_array()));
-    json!({
-        "mesh": described.name,
-        "polygons": described.object.mesh.polygon_count(),
-        "polygons_by_sides": by_sides,
-        "degenerate": facts.degenerate,
-        "concave": facts.concave,
-        "not_planar": facts.not_planar,
-        "vertices": facts.vertices,
-        "positions": facts.positions,
-        "bounds": bounds,
-        "edges": facts.edges,
-        "open_edges": facts.open_edges,
-        "non_manifold_edges": facts.non_manifold_edges,
-        "reversed_edges": facts.reversed_edges,
-        "closed": facts.is_closed(),
-        "materials": facts.materials,
-        "polygons_without_material": facts.without_material,
-        "given_normals": facts.given_normals,
-        "normals": normals(described),
-        "bytes": facts.bytes,
-    })
+    let mut json = json!(described.facts);
+    json["mesh"] = described.name.into();
+    json["polygons"] = described.object.mesh.polygon_count().into();
+    json["closed"] = described.facts.is_closed().into();
+    json["normals"] = normals(described).into();
+    json
 }

@@ -1,22 +1,22 @@
-//! What can be said about a mesh by looking at it.
+//! Facts about a mesh: counts, closedness, flatness.
 
 use fastphong::mesh::newell::{polygon_normal, unit_normal};
 use fastphong::mesh::weld::weld;
 use fastphong::mesh::{Material, PolygonMesh};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// How far out of its plane a polygon may be and still count as planar, in parts of its extent.
+/// The distance from its plane up to which a polygon counts as planar, in parts of its extent.
 pub const PLANAR: f64 = 1e-3;
 /// The sine of the angle by which a polygon turns the wrong way at a corner before it counts as concave: larger than
 /// what rounding the corners of a straight edge to `f32` makes of it.
 const REFLEX: f64 = 1e-3;
 
-/// What was found out about a mesh.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The facts about a mesh.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct MeshFacts {
-    /// How many polygons there are of each number of sides.
-    pub by_sides: BTreeMap<usize, usize>,
+    /// The number of polygons of each number of sides.
+    pub polygons_by_sides: BTreeMap<usize, usize>,
     /// Polygons without area.
     pub degenerate: usize,
     /// Polygons with a corner that turns the wrong way.
@@ -28,7 +28,7 @@ pub struct MeshFacts {
     /// Positions of the mesh.
     pub positions: usize,
     /// Smallest and largest coordinates.
-    pub bounds: Option<(Vec3, Vec3)>,
+    pub bounds: Option<[[f64; 3]; 2]>,
     /// Edges, coinciding ones once.
     pub edges: usize,
     /// Edges of one polygon only: none on a closed mesh.
@@ -40,7 +40,7 @@ pub struct MeshFacts {
     /// Materials that come with the mesh.
     pub materials: usize,
     /// Polygons without a material of the mesh.
-    pub without_material: usize,
+    pub polygons_without_material: usize,
     /// True if normals come with the mesh.
     pub given_normals: bool,
     /// Bytes that the mesh takes in memory.
@@ -48,12 +48,13 @@ pub struct MeshFacts {
 }
 
 impl MeshFacts {
-    /// Looks at `mesh`.
+    /// Finds out the facts about `mesh`.
     pub fn of(mesh: &PolygonMesh) -> MeshFacts {
         let (vertex, _) = weld(mesh.positions());
+        let bounds = mesh.bounds().map(|(low, high)| [low, high]);
         let mut facts = MeshFacts {
             positions: mesh.positions().len(),
-            bounds: mesh.bounds(),
+            bounds: bounds.map(|ends| ends.map(|p| p.as_dvec3().to_array())),
             materials: mesh.materials().len(),
             given_normals: mesh.given_normals().is_some(),
             bytes: bytes(mesh),
@@ -65,8 +66,8 @@ impl MeshFacts {
         }
         facts.vertices = used.iter().filter(|used| **used).count();
         for (p, corners) in mesh.polygons().enumerate() {
-            *facts.by_sides.entry(corners.len()).or_default() += 1;
-            facts.without_material += usize::from(mesh.polygon_material(p).is_none());
+            *facts.polygons_by_sides.entry(corners.len()).or_default() += 1;
+            facts.polygons_without_material += usize::from(mesh.polygon_material(p).is_none());
             let Some(normal) = unit_normal(polygon_normal(mesh, p)) else {
                 facts.degenerate += 1;
                 continue;
@@ -87,15 +88,14 @@ impl MeshFacts {
         self.edges > 0 && self.open_edges + self.non_manifold_edges + self.reversed_edges == 0
     }
 
+    /// Counts the edges by the polygons at them.
     fn count_edges(&mut self, mesh: &PolygonMesh, vertex: &[u32]) {
         // An edge with its ends in ascending order, and whether it is passed in that direction.
         let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(mesh.corners().len());
         for corners in mesh.polygons() {
             for (i, &from) in corners.iter().enumerate() {
-                let (a, b) = (
-                    vertex[from as usize],
-                    vertex[corners[(i + 1) % corners.len()] as usize],
-                );
+                let to = corners[(i + 1) % corners.len()];
+                let (a, b) = (vertex[from as usize], vertex[to as usize]);
                 if a != b {
                     edges.push((a.min(b), a.max(b), a < b));
                 }
@@ -125,22 +125,18 @@ fn is_concave(points: &[DVec3], normal: DVec3) -> bool {
 
 fn is_planar(points: &[DVec3], normal: DVec3) -> bool {
     let middle = points.iter().sum::<DVec3>() / points.len() as f64;
-    let extent = points
-        .iter()
-        .map(|p| (*p - middle).length())
-        .fold(0.0, f64::max);
+    let lengths = points.iter().map(|p| (*p - middle).length());
+    let height = PLANAR * lengths.fold(0.0, f64::max);
     points
         .iter()
-        .all(|p| (*p - middle).dot(normal).abs() <= PLANAR * extent)
+        .all(|p| (*p - middle).dot(normal).abs() <= height)
 }
 
+/// Returns the bytes that a mesh takes in memory.
 fn bytes(mesh: &PolygonMesh) -> usize {
     let normals = mesh.given_normals().map_or(0, |normals| {
-        size_of_val(&normals.values[..])
-            + normals
-                .corners
-                .as_ref()
-                .map_or(0, |corners| size_of_val(&corners[..]))
+        let corners = normals.corners.as_deref().map_or(0, size_of_val);
+        size_of_val(&normals.values[..]) + corners
     });
     let materials = match mesh.materials() {
         [] => 0,

@@ -73,6 +73,7 @@ impl Cli {
 }
 
 impl Command {
+    /// Runs the sub-command.
     fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         match self {
             Command::Render(command) => command.run(talk),

@@ -1,4 +1,4 @@
-//! Where a picture goes: a file, or standard output.
+//! The destination of a picture: a file, or standard output.
 
 use super::Failure;
 use super::talk::to_stdout_by;
@@ -6,7 +6,7 @@ use fastphong::picture::image_file::{FilePicture, Format, PpmWriter, write_file_
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-/// Where a picture goes, and in which format.
+/// The destination of a picture, and its format.
 #[derive(Clone, Debug)]
 pub struct Output {
     /// `None`: standard output.
@@ -16,7 +16,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// From the values of `-o` and `--format`.
+    /// Reads the values of `-o` and `--format`.
     ///
     /// # Errors
     /// When neither names a format, or standard output is a terminal.
@@ -29,9 +29,8 @@ impl Output {
             });
         }
         if std::io::stdout().is_terminal() {
-            return Err("a picture is not for a terminal: expected `-o FILE`, or `-o -` into a pipe or a file"
-                .to_owned()
-                .into());
+            let expected = "expected `-o FILE`, or `-o -` into a pipe or a file";
+            return Err(format!("a picture is not for a terminal: {expected}").into());
         }
         Ok(Output {
             path: None,
@@ -44,10 +43,7 @@ impl Output {
     /// # Errors
     /// When it cannot be written.
     pub fn write(&self, picture: &FilePicture) -> Result<(), Failure> {
-        let encoder = picture
-            .encoder(self.format)
-            .map_err(|error| error.to_string())?;
-        self.write_by(|out| encoder.write_to(out))
+        self.write_by(|out| picture.write_to(self.format, out))
     }
 
     /// Writes a PPM file whose texels `rows` gives from the top; a file whole or not at all.
@@ -77,10 +73,9 @@ impl Output {
     }
 }
 
-/// `png`, `ppm` or `pfm`.
+/// Reads `png`, `ppm` or `pfm`.
 pub fn format(text: &str) -> Result<Format, String> {
-    let format = Format::ALL
-        .into_iter()
-        .find(|format| format.ending() == text);
+    let mut formats = Format::ALL.into_iter();
+    let format = formats.find(|format| format.ending() == text);
     format.ok_or_else(|| "expected png, ppm or pfm".to_owned())
 }

@@ -7,9 +7,9 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How long nothing is shown.
+/// The time for which nothing is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// How fine the bar is.
+/// The steps of the bar.
 const STEPS: u64 = 1000;
 
 /// A progress bar that is gone when this is dropped.
@@ -22,7 +22,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar that is shown when work takes long, also if it is not moved until then.
+    /// Makes a bar that is shown when work takes long, also if it is not moved until then.
     pub fn watched(talk: Talk) -> Progress {
         let mut progress = Progress::silent_between_moves(talk);
         if progress.allowed {
@@ -39,7 +39,7 @@ impl Progress {
         progress
     }
 
-    /// A bar that is drawn only when it is moved: it disturbs no measurement between two moves.
+    /// Makes a bar that is drawn only when it is moved: it disturbs no measurement between two moves.
     pub fn silent_between_moves(talk: Talk) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template("{spinner} [{bar:30}] {elapsed} {msg}") {

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Grey levels at the light end of difference pictures.
 pub const SCALE: f32 = 16.0;
 
-/// The largest difference of a channel in grey levels; coverage is a channel too, which is either all there or not.
+/// Returns the largest difference of a channel in grey levels; coverage is a channel too, which is either all there or not.
 pub fn largest_difference(difference: &Difference) -> f64 {
     if difference.coverage_mismatches > 0 {
         255.0
@@ -21,23 +21,18 @@ pub fn largest_difference(difference: &Difference) -> f64 {
     }
 }
 
-/// What is to be compared with what.
+/// A picture to compare with the one that was accepted.
 pub struct ReferenceCheck<'a> {
     /// The accepted picture.
     pub reference: &'a Path,
     /// Grey levels that a channel may differ.
     pub threshold: f64,
-    /// Where the picture was written already, if it was.
+    /// The place where the picture was written already, if it was.
     pub written: Option<&'a Output>,
 }
 
-/// What came of it, and what to say.
-pub struct Verdict {
-    /// True if the pictures agree.
-    pub outcome: Outcome,
-    /// Lines to print.
-    pub text: String,
-}
+/// The outcome, and the lines to print.
+pub type Verdict = (Outcome, String);
 
 impl ReferenceCheck<'_> {
     /// Compares the picture with its reference; on a difference both are left beside each other, with a map.
@@ -45,70 +40,59 @@ impl ReferenceCheck<'_> {
     /// # Errors
     /// When the reference is there and cannot be read, or a picture cannot be written.
     pub fn run(&self, drawing: &Drawing) -> Result<Verdict, Failure> {
-        let reference = self.reference;
+        let (reference, shown) = (self.reference, self.reference.display());
         let format = Format::of_path(reference)?;
         let actual = drawing.picture(format == Format::Pfm);
-        let shown = reference.display();
-        if !reference
-            .try_exists()
-            .map_err(|error| format!("{shown}: cannot be read: {error}"))?
-        {
+        let unreadable = |error| format!("{shown}: cannot be read: {error}");
+        if !reference.try_exists().map_err(unreadable)? {
             let candidate = self.keep(&actual, format)?;
             let text = format!(
-                "no reference {shown} yet: the picture is in {}\nto accept it: cp {} {}\n",
+                "no reference {shown} yet: the picture is in {}\n{}",
                 candidate.display(),
-                quoted(&candidate),
-                quoted(reference)
+                self.how_to_accept(&candidate)
             );
-            return Ok(Verdict {
-                outcome: Outcome::Differs,
-                text,
-            });
+            return Ok((Outcome::Differs, text));
         }
         let accepted = read_picture(reference)?;
         let [r, a] = comparable(&accepted, &actual);
-        match compare(&r, &a) {
-            Ok(difference) if largest_difference(&difference) <= self.threshold => {
-                let text = format!(
-                    "{shown}: equal within {} grey levels: largest difference {}\n",
-                    self.threshold,
-                    largest_difference(&difference)
-                );
-                Ok(Verdict {
-                    outcome: Outcome::Done,
-                    text,
-                })
-            }
+        let difference = compare(&r, &a);
+        if let Ok(difference) = &difference
+            && largest_difference(difference) <= self.threshold
+        {
+            let (within, found) = (self.threshold, largest_difference(difference));
+            let text =
+                format!("{shown}: equal within {within} grey levels: largest difference {found}\n");
+            return Ok((Outcome::Done, text));
+        }
+        let candidate = self.keep(&actual, format)?;
+        let text = match difference {
             Ok(difference) => {
-                let candidate = self.keep(&actual, format)?;
                 let map = difference_map(&r, &a, SCALE)?;
                 let map_path = sibling(&candidate, reference, "diff", Format::Png);
                 write_picture(&map_path, &FilePicture::stored(map))?;
-                let text = self.difference_text(&difference, &candidate, &map_path);
-                Ok(Verdict {
-                    outcome: Outcome::Differs,
-                    text,
-                })
+                self.difference_text(&difference, &candidate, &map_path)
             }
-            Err(sizes) => {
-                let candidate = self.keep(&actual, format)?;
-                let SizeMismatch {
-                    reference: [rw, rh],
-                    actual: [aw, ah],
-                } = sizes;
-                let text = format!(
-                    "{shown}: the sizes differ: the reference has {rw}x{rh} pixels, the picture {aw}x{ah}\nactual: {}\n",
-                    candidate.display()
-                );
-                Ok(Verdict {
-                    outcome: Outcome::Differs,
-                    text,
-                })
+            Err(SizeMismatch {
+                reference: [rw, rh],
+                actual: [aw, ah],
+            }) => {
+                let sizes = format!("the reference has {rw}x{rh} pixels, the picture {aw}x{ah}");
+                let candidate = candidate.display();
+                format!("{shown}: the sizes differ: {sizes}\nactual: {candidate}\n")
             }
-        }
+        };
+        Ok((Outcome::Differs, text))
     }
 
-    /// The file that holds the picture in the format of the reference: the one already written, or one beside the
+    fn how_to_accept(&self, candidate: &Path) -> String {
+        format!(
+            "to accept it: cp {} {}\n",
+            quoted(candidate),
+            quoted(self.reference)
+        )
+    }
+
+    /// Returns the file that holds the picture in the format of the reference: the one already written, or one beside the
     /// reference.
     fn keep(&self, actual: &FilePicture, format: Format) -> Result<PathBuf, Failure> {
         if let Some(Output {
@@ -124,43 +108,37 @@ impl ReferenceCheck<'_> {
         Ok(path)
     }
 
+    /// Says how the pictures differ, and how to accept the new one.
     fn difference_text(&self, difference: &Difference, candidate: &Path, map: &Path) -> String {
-        let mut text = format!(
-            "{}: differs by {:.4} grey levels, more than {}",
-            self.reference.display(),
-            largest_difference(difference),
-            self.threshold
-        );
+        let (found, most) = (largest_difference(difference), self.threshold);
+        let shown = self.reference.display();
+        let mut text = format!("{shown}: differs by {found:.4} grey levels, more than {most}");
         if difference.coverage_mismatches > 0 {
-            text += &format!(
-                " ({} pixels are covered in one picture only)",
-                difference.coverage_mismatches
-            );
+            let count = difference.coverage_mismatches;
+            text += &format!(" ({count} pixels are covered in one picture only)");
         }
         if let Some([x, y]) = difference.worst {
-            text += &format!(
-                "; {} pixels differ, most at column {x}, row {y}",
-                difference.differing
-            );
+            let count = difference.differing;
+            text += &format!("; {count} pixels differ, most at column {x}, row {y}");
         }
-        text + &format!(
-            "\nactual: {}\ndifference, {SCALE} levels from black to yellow: {}\nto accept it: cp {} {}\n",
+        let (accept, candidate, map) = (
+            self.how_to_accept(candidate),
             candidate.display(),
             map.display(),
-            quoted(candidate),
-            quoted(self.reference)
-        )
+        );
+        let scale = format!("{SCALE} levels from black to yellow");
+        text + &format!("\nactual: {candidate}\ndifference, {scale}: {map}\n{accept}")
     }
 }
 
-/// `STEM.word.ending` in the folder of `beside`, where `STEM` is that of the reference.
+/// Returns `STEM.word.ending` in the folder of `beside`, where `STEM` is that of the reference.
 fn sibling(beside: &Path, reference: &Path, word: &str, format: Format) -> PathBuf {
     let mut name = reference.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{word}.{}", format.ending()));
     beside.with_file_name(name)
 }
 
-/// A path as a shell reads it back.
+/// Writes a path as a shell reads it back.
 fn quoted(path: &Path) -> String {
     let text = path.display().to_string();
     let plain = |c: char| c.is_alphanumeric() || "-_./+=:@%,".contains(c);

@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
 use super::table::columns;
-use super::talk::{Talk, grouped, to_stderr, to_stdout};
+use super::talk::{Talk, counted, grouped, to_stderr, to_stdout};
 use super::{Failure, Outcome, values};
 use fastphong::frame::{Frame, FrameStats};
 use fastphong::picture::image_file::Format;
@@ -23,7 +23,7 @@ use std::time::Instant;
 pub struct Render {
     /// A scene file, a mesh file, builtin:NAME?key=value, or the name of a shipped scene
     input: String,
-    /// Where the picture goes: .png, .ppm or .pfm (linear floats); `-` is standard output
+    /// Destination of the picture: .png, .ppm or .pfm (linear floats); `-` is standard output
     #[arg(short, long, value_name = "FILE", required_unless_present_any = ["print_scene", "reference", "stats"])]
     output: Option<PathBuf>,
     /// Format of the picture, whatever the file is called [default: by its ending, png on standard output]
@@ -33,7 +33,7 @@ pub struct Render {
     /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
     #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
     method: Method,
-    /// What finds the pixels: `span`, the lecture's way, one pixel at a time (also called `scanline`); `row`, SIMD; `auto`,
+    /// Engine that finds the pixels: `span`, the lecture's way, one pixel at a time (also called `scanline`); `row`, SIMD; `auto`,
     /// `row` where it can draw the frame; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See `fastphong
     /// list engines`
     #[arg(long, default_value = "auto", value_parser = engines::engine)]
@@ -76,6 +76,7 @@ impl Render {
         self.threads.install(|| self.draw(talk))?
     }
 
+    /// Loads, draws, writes and compares.
     fn draw(&self, talk: Talk) -> Result<Outcome, Failure> {
         let output = self.checked_output()?;
         // A picture on standard output leaves no room there for words.
@@ -112,8 +113,7 @@ impl Render {
         let frame = resolved.scene.frame()?;
         progress.aside(|| {
             talk.detail(&format!("projected in {:.1} ms", milliseconds(started)));
-            warn_of_polygons_without_area(frame.stats(), talk);
-            warn_of_polygons_without_place(frame.stats(), talk);
+            warn_of_polygons_left_out(frame.stats(), talk);
             if self.stats {
                 return say(&stats_text(&frame));
             }
@@ -142,34 +142,30 @@ impl Render {
             threshold: self.reference_threshold,
             written: output.as_ref(),
         };
-        let verdict = check.run(&drawing)?;
-        progress.aside(|| say(&verdict.text))?;
-        Ok(verdict.outcome)
+        let (outcome, text) = check.run(&drawing)?;
+        progress.aside(|| say(&text))?;
+        Ok(outcome)
     }
 
-    /// Where the picture goes, if that is not where its reference is.
+    /// Returns the destination of the picture, if that is not the place of its reference.
     fn checked_output(&self) -> Result<Option<Output>, Failure> {
-        let output = self
-            .output
-            .as_deref()
-            .map(|path| Output::new(path, self.format))
-            .transpose()?;
+        let output = self.output.as_deref();
+        let output = output.map(|path| Output::new(path, self.format));
+        let output = output.transpose()?;
         let Some(reference) = &self.reference else {
             return Ok(output);
         };
         Format::of_path(reference)?;
         match output.as_ref().and_then(|output| output.path.as_deref()) {
             Some(path) if same_file(path, reference) => {
-                let shown = reference.display();
-                Err(
-                    format!("`--output` is the reference itself, {shown}: expected another file")
-                        .into(),
-                )
+                let problem = format!("is the reference itself, {}", reference.display());
+                Err(format!("`--output` {problem}: expected another file").into())
             }
             _ => Ok(output),
         }
     }
 
+    /// Writes the picture, and says so.
     fn write(
         &self,
         drawing: &Drawing,
@@ -181,12 +177,8 @@ impl Render {
         if output.format == Format::Ppm {
             // Its rows can be written while others are not yet drawn.
             output.write_ppm(drawing.size(), |take| drawing.rows(take))?;
-            progress.aside(|| {
-                talk.detail(&format!(
-                    "shaded and written in {:.1} ms",
-                    milliseconds(started)
-                ))
-            });
+            let spent = milliseconds(started);
+            progress.aside(|| talk.detail(&format!("shaded and written in {spent:.1} ms")));
         } else {
             let picture = drawing.picture(output.format == Format::Pfm);
             progress.aside(|| talk.detail(&format!("shaded in {:.1} ms", milliseconds(started))));
@@ -194,14 +186,8 @@ impl Render {
             output.write(&picture)?;
         }
         if let Some(path) = &output.path {
-            let [width, height] = drawing.size();
-            progress.aside(|| {
-                talk.note(&format!(
-                    "{}: {width}x{height}, {}",
-                    path.display(),
-                    self.what()
-                ))
-            });
+            let ([width, height], path, what) = (drawing.size(), path.display(), self.what());
+            progress.aside(|| talk.note(&format!("{path}: {width}x{height}, {what}")));
         }
         Ok(())
     }
@@ -239,31 +225,29 @@ fn milliseconds(started: Instant) -> f64 {
     1e3 * started.elapsed().as_secs_f64()
 }
 
-fn warn_of_polygons_without_area(stats: FrameStats, talk: Talk) {
-    match stats.zero_area {
-        0 => {}
-        1 => talk.warning(&format!(
-            "1 of {} polygons has no area and is left out",
-            grouped(stats.polygons)
-        )),
-        n => talk.warning(&format!(
-            "{} of {} polygons have no area and are left out",
-            grouped(n),
-            grouped(stats.polygons)
-        )),
+/// Warns of polygons that cannot be drawn.
+fn warn_of_polygons_left_out(stats: FrameStats, talk: Talk) {
+    let (flat, all) = (stats.zero_area, grouped(stats.polygons));
+    if flat > 0 {
+        let have = if flat == 1 {
+            "polygons has"
+        } else {
+            "polygons have"
+        };
+        let are = if flat == 1 { "is" } else { "are" };
+        let flat = grouped(flat);
+        talk.warning(&format!(
+            "{flat} of {all} {have} no area and {are} left out"
+        ));
     }
-}
-
-fn warn_of_polygons_without_place(stats: FrameStats, talk: Talk) {
-    let left_out = match stats.unprojected {
-        0 => return,
-        1 => "1 polygon has a corner at the plane of the eye and is left out".to_owned(),
-        n => format!(
-            "{} polygons have a corner at the plane of the eye and are left out",
-            grouped(n)
-        ),
-    };
-    talk.warning(&format!("{left_out}: --clipping planes draws what is seen"));
+    if stats.unprojected > 0 {
+        let left_out = counted(
+            stats.unprojected,
+            "polygon has a corner at the plane of the eye and is left out",
+            "polygons have a corner at the plane of the eye and are left out",
+        );
+        talk.warning(&format!("{left_out}: --clipping planes draws what is seen"));
+    }
 }
 
 fn tell_of_conflicts(found: &Conflicts, talk: Talk) {
@@ -273,70 +257,58 @@ fn tell_of_conflicts(found: &Conflicts, talk: Talk) {
     }
 }
 
-/// What the painter's algorithm draws wrongly, if anything.
+/// Says what the painter's algorithm draws wrongly, if anything.
 fn painter_text(conflicts: &Conflicts) -> Option<String> {
-    let counted = |n: usize, one: &str, more: &str| {
-        format!("{} {}", grouped(n), if n == 1 { one } else { more })
-    };
     if conflicts.wrong.is_empty() {
         // A cycle has a pair in the wrong order, whatever the order.
         return None;
     }
     let wrong = counted(conflicts.wrong.len(), "pair is drawn", "pairs are drawn");
     if conflicts.cycles.is_empty() {
+        let hope = "though an order exists that is right";
         return Some(format!(
-            "{wrong} in the wrong order by the painter's key, though an order exists that is right"
+            "{wrong} in the wrong order by the painter's key, {hope}"
         ));
     }
-    let in_cycles = counted(
-        conflicts.cycles.iter().map(Vec::len).sum(),
-        "polygon",
-        "polygons",
-    );
+    let in_cycles = conflicts.cycles.iter().map(Vec::len).sum();
+    let in_cycles = counted(in_cycles, "polygon", "polygons");
     let cycles = counted(conflicts.cycles.len(), "cycle", "cycles");
     let cutting = match conflicts.interpenetrating {
         0 => String::new(),
         n => format!(", {} each other", counted(n, "pair cuts", "pairs cut")),
     };
+    let wrong = format!("{wrong} in the wrong order{cutting}");
     Some(format!(
-        "{in_cycles} in {cycles}: no order draws them right; {wrong} in the wrong order{cutting}"
+        "{in_cycles} in {cycles}: no order draws them right; {wrong}"
     ))
 }
 
+/// Returns the numbers of polygons as a table.
 fn stats_text(frame: &Frame) -> String {
     let stats = frame.stats();
+    let row = |name: &str, count, what: &str| [name.to_owned(), grouped(count), what.to_owned()];
+    let no_place = "left out: a corner has no place on the picture (--clipping ndc-cube)";
+    let cut = "cut by the near plane, the far plane or the guard band";
     let rows = [
-        ("polygons", stats.polygons, "of the scene"),
-        (
+        row("polygons", stats.polygons, "of the scene"),
+        row(
             "culled",
             stats.culled,
             "left out: seen from the culled side",
         ),
-        (
+        row(
             "zero-area",
             stats.zero_area,
             "left out: no area, in space or on the picture",
         ),
-        ("outside", stats.outside, "left out: outside the view"),
-        (
-            "clipped",
-            stats.clipped,
-            "cut by the near plane, the far plane or the guard band",
-        ),
-        (
-            "unprojected",
-            stats.unprojected,
-            "left out: a corner has no place on the picture (--clipping ndc-cube)",
-        ),
-        (
+        row("outside", stats.outside, "left out: outside the view"),
+        row("clipped", stats.clipped, cut),
+        row("unprojected", stats.unprojected, no_place),
+        row(
             "drawn",
             frame.polygons().len(),
             "left, pieces of cut ones counted each",
         ),
     ];
-    columns(
-        &rows.map(|(name, count, what)| vec![name.to_owned(), grouped(count), what.to_owned()]),
-        false,
-        &[1],
-    )
+    columns(&rows, false, &[1])
 }

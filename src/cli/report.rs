@@ -15,7 +15,6 @@ use fastphong::picture::image_file::write_file;
 use fastphong::report::{Caption, Detail, Report as Page, Section, utc_date};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::file::value::Located;
 use fastphong::scene::input;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -177,10 +176,9 @@ impl Report {
         );
         told(0.9, "pictures");
         let triangles = triangulation(&frame, &comparison.reference);
-        let text = |text: &Option<Located<String>>| text.as_ref().map(|t| t.value.clone());
         let caption = Caption {
-            title: text(&file.title).unwrap_or_else(|| name.to_owned()),
-            description: text(&file.description).unwrap_or_default(),
+            title: file.title().unwrap_or(name).to_owned(),
+            description: file.description().unwrap_or_default().to_owned(),
         };
         let detail = if self.full {
             Detail::Full

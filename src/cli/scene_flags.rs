@@ -1,151 +1,292 @@
-//! Flags that change the scene: what they say stands over what the scene file says, and is checked with it.
+//! Flags that change the scene: each stands for keys of a scene file. Their values stand over those of the scene file,
+//! and are checked with them.
 
 use super::Failure;
 use super::talk::Talk;
-use super::values::{self, Normals};
-use fastphong::picture::Encoding;
+use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::{Arg, ArgAction, ArgMatches, Command};
+use fastphong::scene::file::SceneFile;
+use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::file::value::{Located, OneOrThree};
-use fastphong::scene::file::{
-    CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, SceneFile,
-    ViewerChoice, VisibilityChoice,
-};
-use fastphong::scene::{
-    Clipping, Culling, DepthSource, Interpolation, PainterKey, SpecularGate, SpecularModel, input,
-};
+use fastphong::scene::file::schema::{self, Kind};
+use fastphong::scene::file::value::{Data, Table};
+use fastphong::scene::input;
 
-/// The picture and the scene.
-#[derive(clap::Args, Clone, Debug, Default)]
-#[command(next_help_heading = "Scene")]
-pub struct SceneFlags {
-    /// Size of the picture, 1x1 to 16384x16384 [default: that of the scene, 640x480]
-    #[arg(long, visible_alias = "size", value_name = "WIDTHxHEIGHT", value_parser = values::size, allow_hyphen_values = true)]
-    resolution: Option<[i64; 2]>,
-    /// See the scene from this direction, in degrees: 0,0 is from +z, azimuth turns toward +x, elevation toward +y (up)
-    #[arg(long, value_name = "AZIMUTH,ELEVATION", value_parser = values::pair, allow_hyphen_values = true)]
-    view: Option<[f64; 2]>,
-    /// Put the eye here
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::triple, allow_hyphen_values = true)]
-    eye: Option<[f64; 3]>,
-    /// Look at this point [default, with --eye: the origin]
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::triple, allow_hyphen_values = true)]
-    target: Option<[f64; 3]>,
-    /// The direction that is upward in the picture [default: y]
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::triple, allow_hyphen_values = true)]
-    up: Option<[f64; 3]>,
-    /// Perspective, with this vertical field of view
-    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
-    fovy: Option<f64>,
-    /// Orthographic: half of the height that is seen
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    half_height: Option<f64>,
-    /// Distance of the near plane
-    #[arg(long, value_name = "DISTANCE", allow_hyphen_values = true)]
-    near: Option<f64>,
-    /// Distance of the far plane
-    #[arg(long, value_name = "DISTANCE", allow_hyphen_values = true)]
-    far: Option<f64>,
-    /// Fit the camera: the objects fill this part of the frame
-    #[arg(long, value_name = "PART", allow_hyphen_values = true)]
-    fit: Option<f64>,
-    /// A light from this direction, instead of those of the scene; can be given several times
-    #[arg(long, value_name = "X,Y,Z[,I|,R,G,B]", value_parser = values::light, allow_hyphen_values = true)]
-    light: Vec<LightSection>,
-    /// A light at this position, likewise
-    #[arg(long, value_name = "X,Y,Z[,I|,R,G,B]", value_parser = values::light_at, allow_hyphen_values = true)]
-    light_at: Vec<LightSection>,
-    /// Attenuation 1 / (1 + k d²) of the lights given by --light-at
-    #[arg(
-        long,
-        value_name = "K",
-        allow_hyphen_values = true,
-        requires = "light_at"
-    )]
-    attenuation: Option<f64>,
-    /// How they grow weaker instead: 1 / r² or 1 / r
-    #[arg(long, value_name = "HOW", value_parser = values::word::<FalloffChoice>(), requires = "light_at")]
-    falloff: Option<FalloffChoice>,
-    /// No lights: ambient light only
-    #[arg(long, conflicts_with_all = ["light", "light_at"])]
-    no_lights: bool,
-    /// Ambient intensity
-    #[arg(long, value_name = "I|R,G,B", value_parser = values::one_or_three, allow_hyphen_values = true)]
-    ambient: Option<OneOrThree>,
-    /// Ambient reflection of all objects; materials that come with a mesh file are replaced
-    #[arg(long, value_name = "K|R,G,B", value_parser = values::one_or_three, allow_hyphen_values = true)]
-    ka: Option<OneOrThree>,
-    /// Diffuse reflection of all objects, likewise
-    #[arg(long, value_name = "K|R,G,B", value_parser = values::one_or_three, allow_hyphen_values = true)]
-    kd: Option<OneOrThree>,
-    /// Specular reflection of all objects, likewise
-    #[arg(long, value_name = "K|R,G,B", value_parser = values::one_or_three, allow_hyphen_values = true)]
-    ks: Option<OneOrThree>,
-    /// Exponent of the highlight of all objects, likewise
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    shininess: Option<f64>,
-    /// Colour where nothing is drawn
-    #[arg(long, value_name = "C|R,G,B", value_parser = values::one_or_three, allow_hyphen_values = true)]
-    background: Option<OneOrThree>,
-    /// How attributes vary: linearly on the screen, as in the lecture, or linearly in space
-    #[arg(long, value_name = "HOW", value_parser = values::word::<Interpolation>())]
-    interpolation: Option<Interpolation>,
-    /// Where the eye is for the highlights: at infinity, as in the lecture, or where the camera is
-    #[arg(long, value_name = "WHERE", value_parser = values::word::<ViewerChoice>())]
-    viewer: Option<ViewerChoice>,
-    /// The cosine of the highlights: phong (R.V) or blinn (N.H)
-    #[arg(long, value_name = "MODEL", value_parser = values::word::<SpecularModel>())]
-    specular: Option<SpecularModel>,
-    /// The cosine that exponents are meant for; they are converted if it is not that of --specular
-    #[arg(long, value_name = "MODEL", value_parser = values::word::<SpecularModel>())]
-    shininess_for: Option<SpecularModel>,
-    /// What becomes of highlights where the light is behind the surface
-    #[arg(long, value_name = "HOW", value_parser = values::word::<SpecularGate>())]
-    specular_gate: Option<SpecularGate>,
-    /// How values are stored in 8 bits
-    #[arg(long, value_name = "HOW", value_parser = values::word::<Encoding>())]
-    encoding: Option<Encoding>,
-    /// Which polygons are left out
-    #[arg(long, value_name = "SIDE", value_parser = values::word::<Culling>())]
-    cull: Option<Culling>,
-    /// What hides a polygon: a nearer sample, or what is drawn later, sorted from back to front or not
-    #[arg(long, value_name = "HOW", value_parser = values::word::<VisibilityChoice>())]
-    visibility: Option<VisibilityChoice>,
-    /// Bits of the depth buffer: 16, 24 or 32
-    #[arg(long, value_name = "BITS", allow_hyphen_values = true)]
-    depth_bits: Option<i64>,
-    /// Where depth comes from: interpolated between corners, or computed from the distance at each sample
-    #[arg(long, value_name = "HOW", value_parser = values::word::<DepthSource>())]
-    depth: Option<DepthSource>,
-    /// By what the painter sorts: the mean depth of the corners or that of the farthest one
-    #[arg(long, value_name = "KEY", value_parser = values::word::<PainterKey>())]
-    painter_key: Option<PainterKey>,
-    /// What keeps polygons within the view: clipping by planes, or CS171's test of each pixel
-    #[arg(long, value_name = "HOW", value_parser = values::word::<Clipping>())]
-    clipping: Option<Clipping>,
-    /// Light polygons seen from behind with negated normals (with `--cull none`)
-    #[arg(long)]
-    two_sided: bool,
-    /// Supersampling: so many samples a pixel along each side, 1, 2, 4 or 8, hidden and shaded each on its own
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    samples: Option<i64>,
-    /// Where vertex normals come from: `averaged`, `given`, or averaged up to an angle, `crease=30`
-    #[arg(long, value_name = "SOURCE", value_parser = values::normals)]
-    normals: Option<Normals>,
+/// A flag that gives values to keys of a scene file.
+struct Flag {
+    name: &'static str,
+    /// Empty for a switch.
+    value_name: &'static str,
+    /// The keys, as in `camera.eye`; where there are two, there is a value for each.
+    keys: &'static [&'static str],
+    help: &'static str,
 }
 
-fn flag<T: Copy>(value: Option<T>, name: &str) -> Option<Located<T>> {
-    value.map(|value| Located::flag(value, name))
+/// Declares flags: name, value and keys, with the help text above.
+macro_rules! flags {
+    ($($(#[doc = $help:literal])+ $name:literal $value_name:literal [$($key:literal),+])+) => {
+        &[$(Flag { name: $name, value_name: $value_name, keys: &[$($key),+], help: concat!($($help),+) }),+]
+    };
+}
+
+static FLAGS: &[Flag] = flags! {
+    /// Size of the picture, 1x1 to 16384x16384 [default: that of the scene, 640x480]
+    "resolution" "WIDTHxHEIGHT" ["image.width", "image.height"]
+    /// See the scene from this direction, in degrees: 0,0 is from +z, azimuth turns toward +x, elevation toward +y (up)
+    "view" "AZIMUTH,ELEVATION" ["camera.azimuth", "camera.elevation"]
+    /// Put the eye here
+    "eye" "X,Y,Z" ["camera.eye"]
+    /// Look at this point [default, with --eye: the origin]
+    "target" "X,Y,Z" ["camera.target"]
+    /// The direction that is upward in the picture [default: y]
+    "up" "X,Y,Z" ["camera.up"]
+    /// Perspective, with this vertical field of view
+    "fovy" "DEGREES" ["camera.fovy"]
+    /// Orthographic: half of the height that is seen
+    "half-height" "LENGTH" ["camera.half_height"]
+    /// Distance of the near plane
+    "near" "DISTANCE" ["camera.near"]
+    /// Distance of the far plane
+    "far" "DISTANCE" ["camera.far"]
+    /// Fit the camera: the objects fill this part of the frame
+    "fit" "PART" ["camera.fit"]
+    /// A light from this direction, instead of those of the scene; can be given several times
+    "light" "X,Y,Z[,I|,R,G,B]" ["light.direction"]
+    /// A light at this position, likewise
+    "light-at" "X,Y,Z[,I|,R,G,B]" ["light.position"]
+    /// Attenuation 1 / (1 + k d²) of the lights given by --light-at
+    "attenuation" "K" ["light.attenuation"]
+    /// Falloff of those lights instead: 1 / r² or 1 / r
+    "falloff" "HOW" ["light.falloff"]
+    /// No lights: ambient light only
+    "no-lights" "" ["light"]
+    /// Ambient intensity
+    "ambient" "I|R,G,B" ["ambient"]
+    /// Ambient reflection of all objects; materials that come with a mesh file are replaced
+    "ka" "K|R,G,B" ["material.ka"]
+    /// Diffuse reflection of all objects, likewise
+    "kd" "K|R,G,B" ["material.kd"]
+    /// Specular reflection of all objects, likewise
+    "ks" "K|R,G,B" ["material.ks"]
+    /// Exponent of the highlight of all objects, likewise
+    "shininess" "N" ["material.shininess"]
+    /// Colour where nothing is drawn
+    "background" "C|R,G,B" ["image.background"]
+    /// Variation of attributes: linearly on the screen, as in the lecture, or linearly in space
+    "interpolation" "HOW" ["interpolation"]
+    /// Place of the eye for the highlights: at infinity, as in the lecture, or where the camera is
+    "viewer" "WHERE" ["viewer"]
+    /// The cosine of the highlights: phong (R.V) or blinn (N.H)
+    "specular" "MODEL" ["specular"]
+    /// The cosine that exponents are meant for; they are converted if it is not that of --specular
+    "shininess-for" "MODEL" ["shininess_for"]
+    /// Treatment of highlights where the light is behind the surface
+    "specular-gate" "HOW" ["specular_gate"]
+    /// Storage of values in 8 bits
+    "encoding" "HOW" ["image.encoding"]
+    /// Polygons to leave out, by the side that is seen
+    "cull" "SIDE" ["cull"]
+    /// Way of hiding polygons: by a nearer sample, or by those drawn later, sorted from back to front or not
+    "visibility" "HOW" ["visibility"]
+    /// Bits of the depth buffer: 16, 24 or 32
+    "depth-bits" "BITS" ["depth_bits"]
+    /// Source of depth: interpolated between corners, or computed from the distance at each sample
+    "depth" "HOW" ["depth"]
+    /// Key of the painter's sorting: the mean depth of the corners or that of the farthest one
+    "painter-key" "KEY" ["painter_key"]
+    /// Limits of the view: clipping by planes, or CS171's test of each pixel
+    "clipping" "HOW" ["clipping"]
+    /// Light polygons seen from behind with negated normals (with `--cull none`)
+    "two-sided" "" ["two_sided"]
+    /// Supersampling: so many samples a pixel along each side, 1, 2, 4 or 8, hidden and shaded each on its own
+    "samples" "N" ["image.samples"]
+    /// Source of vertex normals: `averaged`, `given`, or averaged up to an angle, `crease=30`
+    "normals" "SOURCE" ["object.normals"]
+};
+
+/// A key, as in `camera.eye`, and its value.
+type Setting = (&'static str, Data);
+
+impl Flag {
+    /// Returns the flag as the parser of the command line takes it.
+    fn arg(&'static self) -> Arg {
+        let is_switch = self.value_name.is_empty();
+        let parser: ValueParser = match schema::kind(self.keys[0]) {
+            Some(Kind::Word(words)) if self.name != "normals" => {
+                let setting = |word| vec![(self.keys[0], Data::Text(word))];
+                PossibleValuesParser::new(words).map(setting).into()
+            }
+            _ => ValueParser::new(|text: &str| self.parse(text)),
+        };
+        let arg = Arg::new(self.name)
+            .long(self.name)
+            .help(self.help.trim())
+            .help_heading("Scene")
+            .action(ArgAction::Set)
+            .value_parser(parser)
+            .allow_hyphen_values(!is_switch);
+        let arg = match is_switch {
+            true => arg.num_args(0).default_missing_value(""),
+            false => arg.value_name(self.value_name),
+        };
+        match self.name {
+            "resolution" => arg.visible_alias("size"),
+            "light" | "light-at" => arg.action(ArgAction::Append),
+            "attenuation" | "falloff" => arg.requires("light-at"),
+            "no-lights" => arg.conflicts_with_all(["light", "light-at"]),
+            _ => arg,
+        }
+    }
+
+    /// Reads the value. Its range is checked where scene files are checked too.
+    fn parse(&self, text: &str) -> Result<Vec<Setting>, String> {
+        let key = self.keys[0];
+        let one = |key, text| Some(vec![(key, data(key, text).ok()?)]);
+        let settings = match (self.name, text.strip_prefix("crease=")) {
+            ("resolution" | "view", _) => text
+                .split_once(['x', 'X', ','])
+                .and_then(|(a, b)| Some([one(key, a)?, one(self.keys[1], b)?].concat())),
+            ("light" | "light-at", _) => light(key, text),
+            ("normals", Some(degrees)) => one("object.crease", degrees),
+            ("normals", None) => one(key, text),
+            _ => return Ok(vec![(key, data(key, text)?)]),
+        };
+        let expected = match self.name {
+            "resolution" => "WIDTHxHEIGHT, for example 640x480",
+            "view" => "two numbers azimuth,elevation",
+            "light" => "a direction x,y,z, with an intensity or a colour r,g,b after it",
+            "light-at" => "a position x,y,z, with an intensity or a colour r,g,b after it",
+            _ => "`averaged`, `given` or `crease=DEGREES`",
+        };
+        settings.ok_or_else(|| format!("expected {expected}"))
+    }
+}
+
+/// Reads a value of the kind of `key`, its numbers between commas.
+fn data(key: &str, text: &str) -> Result<Data, &'static str> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    match (schema::kind(key), &numbers.unwrap_or_default()[..]) {
+        (Some(Kind::Switch), _) => Ok(Data::Switch(true)),
+        (Some(Kind::Tables(_)), _) => Ok(Data::Tables(Vec::new())),
+        (Some(Kind::Word(words)), _) if words.contains(&text) => Ok(Data::Text(text.to_owned())),
+        (Some(Kind::Triple | Kind::OneOrThree), &[x, y, z]) => Ok(Data::Triple([x, y, z])),
+        (Some(Kind::Triple), _) => Err("expected three numbers x,y,z"),
+        (Some(Kind::OneOrThree), &[all]) => Ok(Data::Triple([all; 3])),
+        (Some(Kind::OneOrThree), _) => Err("expected one number, or three r,g,b"),
+        (Some(Kind::Whole), _) => {
+            let whole = text.trim().parse().map(Data::Whole);
+            whole.map_err(|_| "expected a whole number")
+        }
+        (Some(Kind::Number), &[number]) => Ok(Data::Number(number)),
+        _ => Err("expected a number"),
+    }
+}
+
+/// Reads `x,y,z` with an intensity or a colour after it.
+fn light(key: &'static str, text: &str) -> Option<Vec<Setting>> {
+    let third = text.match_indices(',').nth(2);
+    let (place, more) = third.map_or((text, ""), |(at, _)| text.split_at(at));
+    let mut settings = vec![(key, data(key, place).ok()?)];
+    if let Some(more) = more.strip_prefix(',') {
+        let key = match more.contains(',') {
+            true => "light.colour",
+            false => "light.intensity",
+        };
+        settings.push((key, data(key, more).ok()?));
+    }
+    Some(settings)
+}
+
+/// The changes that flags ask for, as a scene file says them.
+#[derive(Clone, Debug, Default)]
+pub struct SceneFlags {
+    over: Table,
+    /// The keys that every object gets, whatever the scene file says of it.
+    every_object: Table,
+}
+
+impl clap::Args for SceneFlags {
+    fn augment_args(command: Command) -> Command {
+        command.args(FLAGS.iter().map(Flag::arg))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl clap::FromArgMatches for SceneFlags {
+    /// Collects the values of all flags that are given.
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut flags = SceneFlags::default();
+        let mut lights: Vec<Table> = Vec::new();
+        for flag in FLAGS {
+            let origin = Origin::Flag(format!("--{}", flag.name));
+            let given = matches.get_many::<Vec<Setting>>(flag.name);
+            for settings in given.into_iter().flatten() {
+                if matches!(flag.name, "light" | "light-at") {
+                    lights.push(Table::default());
+                }
+                for (path, data) in settings.clone() {
+                    let origin = origin.clone();
+                    match path.split_once('.') {
+                        None => flags.over.set(path, data, origin),
+                        Some(("light", key)) if flag.name.starts_with("light") => {
+                            lights.last_mut().expect("a light").set(key, data, origin);
+                        }
+                        Some(("light", key)) => {
+                            let is_near = |light: &&mut Table| light.get("position").is_some();
+                            for light in lights.iter_mut().filter(is_near) {
+                                light.set(key, data.clone(), origin.clone());
+                            }
+                        }
+                        Some(("object", key)) => flags.every_object.set(key, data, origin),
+                        Some((table, key)) => flags.over.table_mut(table).set(key, data, origin),
+                    }
+                }
+            }
+        }
+        if let Some(material) = flags.over.get("material") {
+            flags
+                .every_object
+                .entries
+                .insert("material", material.clone());
+        }
+        if !lights.is_empty() {
+            flags
+                .over
+                .set("light", Data::Tables(lights), Origin::Program);
+        }
+        Ok(flags)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
 }
 
 impl SceneFlags {
-    /// The scene that `input` names, with what the flags change.
+    /// Loads the scene that `input` names, with the changes of the flags.
     ///
     /// # Errors
     /// When there is no such input.
     pub fn load(&self, input: &str) -> Result<SceneFile, Failure> {
         let mut file = input::load(input)?;
-        file.overlay(self.overlay());
-        self.change_objects(&mut file);
+        file.overlay(self.over.clone());
+        for object in file.objects_mut() {
+            if self
+                .every_object
+                .get("normals")
+                .or(self.every_object.get("crease"))
+                .is_some()
+            {
+                object
+                    .entries
+                    .retain(|key, _| !["normals", "crease"].contains(key));
+            }
+            object.overlay(self.every_object.clone());
+        }
         Ok(file)
     }
 
@@ -154,103 +295,11 @@ impl SceneFlags {
         for warning in &resolved.warnings {
             talk.warning(warning);
         }
-        let with_own = resolved
-            .scene
-            .objects
-            .iter()
-            .filter(|object| !object.mesh.materials().is_empty())
-            .count();
-        if with_own > 0 && !self.material().is_empty() {
+        let mut objects = resolved.scene.objects.iter();
+        if self.over.get("material").is_some()
+            && objects.any(|object| !object.mesh.materials().is_empty())
+        {
             talk.note("the material given by flags replaces those of the mesh file");
-        }
-    }
-
-    fn material(&self) -> MaterialSection {
-        MaterialSection {
-            ka: flag(self.ka, "--ka"),
-            kd: flag(self.kd, "--kd"),
-            ks: flag(self.ks, "--ks"),
-            shininess: flag(self.shininess, "--shininess"),
-        }
-    }
-
-    fn camera(&self) -> CameraSection {
-        CameraSection {
-            eye: flag(self.eye, "--eye"),
-            target: flag(self.target, "--target"),
-            up: flag(self.up, "--up"),
-            half_height: flag(self.half_height, "--half-height"),
-            fovy: flag(self.fovy, "--fovy"),
-            near: flag(self.near, "--near"),
-            far: flag(self.far, "--far"),
-            fit: flag(self.fit, "--fit"),
-            direction: None,
-            azimuth: flag(self.view.map(|view| view[0]), "--view"),
-            elevation: flag(self.view.map(|view| view[1]), "--view"),
-        }
-    }
-
-    /// What the flags say, as a scene file.
-    fn overlay(&self) -> SceneFile {
-        let mut over = SceneFile::default();
-        over.image = ImageSection {
-            width: flag(self.resolution.map(|sides| sides[0]), "--resolution"),
-            height: flag(self.resolution.map(|sides| sides[1]), "--resolution"),
-            background: flag(self.background, "--background"),
-            encoding: flag(self.encoding, "--encoding"),
-            samples: flag(self.samples, "--samples"),
-        };
-        over.camera = self.camera();
-        over.material = self.material();
-        over.ambient = flag(self.ambient, "--ambient");
-        over.interpolation = flag(self.interpolation, "--interpolation");
-        over.cull = flag(self.cull, "--cull");
-        over.visibility = flag(self.visibility, "--visibility");
-        over.depth_bits = flag(self.depth_bits, "--depth-bits");
-        over.depth = flag(self.depth, "--depth");
-        over.clipping = flag(self.clipping, "--clipping");
-        over.two_sided = self.two_sided.then(|| Located::flag(true, "--two-sided"));
-        over.painter_key = flag(self.painter_key, "--painter-key");
-        over.viewer = flag(self.viewer, "--viewer");
-        over.specular = flag(self.specular, "--specular");
-        over.shininess_for = flag(self.shininess_for, "--shininess-for");
-        over.specular_gate = flag(self.specular_gate, "--specular-gate");
-        if self.no_lights || !self.light.is_empty() || !self.light_at.is_empty() {
-            let attenuated = |light: &LightSection| LightSection {
-                attenuation: flag(self.attenuation, "--attenuation"),
-                falloff: flag(self.falloff, "--falloff"),
-                ..light.clone()
-            };
-            over.light = Some(
-                self.light
-                    .iter()
-                    .cloned()
-                    .chain(self.light_at.iter().map(attenuated))
-                    .collect(),
-            );
-        }
-        over
-    }
-
-    /// Flags that are about every object, whatever a scene file says of it.
-    fn change_objects(&self, file: &mut SceneFile) {
-        let material = self.material();
-        for object in &mut file.object {
-            if !material.is_empty() {
-                let own = object.material.take().unwrap_or_default();
-                object.material = Some(material.clone().or(&own));
-            }
-            match self.normals {
-                None => {}
-                Some(Normals::Choice(choice)) => {
-                    object.normals = Some(Located::flag(choice, "--normals"));
-                    object.crease = None;
-                }
-                Some(Normals::Crease(degrees)) => {
-                    object.normals = None;
-                    object.crease = Some(Located::flag(degrees, "--normals"));
-                }
-            }
         }
     }
 }

@@ -3,48 +3,26 @@
 /// The longest line of running text.
 const LINE: usize = 96;
 
-/// Rows of cells, of which the first row is the heading if `headed`; columns named in `right` are set flush right.
-pub fn columns(rows: &[Vec<String>], headed: bool, right: &[usize]) -> String {
-    let count = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |column: usize| {
-        rows.iter()
-            .filter_map(|row| row.get(column))
-            .map(|cell| cell.chars().count())
-            .max()
+/// Sets rows of cells in columns. The first row is the heading if `headed`; columns named in `right` are set flush right.
+pub fn columns<const N: usize>(rows: &[[String; N]], headed: bool, right: &[usize]) -> String {
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
+    let widths: [usize; N] = std::array::from_fn(|column| width(column).unwrap_or(0));
+    let line = |row: &[String; N]| {
+        let cells = row.iter().zip(widths).enumerate();
+        let cells = cells.map(|(column, (cell, width))| match right.contains(&column) {
+            true => format!("{cell:>width$}"),
+            false => format!("{cell:width$}"),
+        });
+        format!("{}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
     };
-    let widths: Vec<usize> = (0..count)
-        .map(|column| width(column).unwrap_or(0))
-        .collect();
-    let mut text = String::new();
-    let mut push = |row: &[String]| {
-        let mut line = String::new();
-        for (column, cell) in row.iter().enumerate() {
-            let width = widths[column];
-            let gap = if column == 0 { "" } else { "  " };
-            line += &if right.contains(&column) {
-                format!("{gap}{cell:>width$}")
-            } else {
-                format!("{gap}{cell:width$}")
-            };
-        }
-        text += line.trim_end();
-        text.push('\n');
-    };
-    for (i, row) in rows.iter().enumerate() {
-        push(row);
-        if i == 0 && headed {
-            push(
-                &widths
-                    .iter()
-                    .map(|&width| "-".repeat(width))
-                    .collect::<Vec<_>>(),
-            );
-        }
+    let mut lines: Vec<String> = rows.iter().map(line).collect();
+    if headed {
+        lines.insert(1, line(&widths.map(|width| "-".repeat(width))));
     }
-    text
+    lines.concat()
 }
 
-/// `text` with every line indented by `indent` and broken between words where it would be too long.
+/// Indents every line of `text` by `indent`, and breaks it between words where it would be too long.
 pub fn wrapped(text: &str, indent: usize) -> String {
     let mut out = String::new();
     for line in text.lines() {

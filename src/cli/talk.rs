@@ -1,11 +1,11 @@
-//! What is said: results on standard output, everything else on standard error.
+//! Output: results on standard output, everything else on standard error.
 //!
 //! A reader that went away is no error. `println!` would panic then, so that nothing here uses it.
 
 use super::Failure;
 use std::io::{self, IsTerminal, Write};
 
-/// How much is said on standard error.
+/// The amount of talk on standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Talk {
     /// Nothing but errors.
@@ -17,7 +17,7 @@ pub enum Talk {
 }
 
 impl Talk {
-    /// What the global flags ask for.
+    /// Reads the global flags.
     pub fn new(quiet: bool, verbose: bool) -> Talk {
         match (quiet, verbose) {
             (true, _) => Talk::Quiet,
@@ -28,14 +28,10 @@ impl Talk {
 
     /// Says what the user should know before trusting the result.
     pub fn warning(self, text: &str) {
-        if self != Talk::Quiet {
-            let word = if colour() {
-                "\x1b[1;33mwarning\x1b[0m"
-            } else {
-                "warning"
-            };
-            to_stderr(&format!("{word}: {text}\n"));
-        }
+        self.note(&match colour() {
+            true => format!("\x1b[1;33mwarning\x1b[0m: {text}"),
+            false => format!("warning: {text}"),
+        });
     }
 
     /// Says what was done.
@@ -71,7 +67,7 @@ pub fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
     to_stdout_by(|out| out.write_all(bytes))
 }
 
-/// The same for what `write` writes.
+/// Writes the result of `write` to standard output, as [`to_stdout`] does.
 ///
 /// # Errors
 /// As [`to_stdout`].
@@ -93,15 +89,19 @@ pub fn json_to_stdout(value: &serde_json::Value) -> Result<(), Failure> {
     to_stdout(format!("{value:#}\n").as_bytes())
 }
 
-/// `1234567` as `1,234,567`.
+/// Writes `1234567` as `1,234,567`.
 pub fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
+    match number {
+        0..1000 => number.to_string(),
+        _ => format!("{},{:03}", grouped(number / 1000), number % 1000),
     }
-    text
+}
+
+/// Writes a number with its noun and verb: `one` after 1, `more` after others.
+pub fn counted(number: usize, one: &str, more: &str) -> String {
+    format!(
+        "{} {}",
+        grouped(number),
+        if number == 1 { one } else { more }
+    )
 }

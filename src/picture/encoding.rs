@@ -2,7 +2,7 @@
 
 use super::{LinearPicture, Picture8};
 
-/// How linear values are stored in eight bits.
+/// A way to store linear values in eight bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
     /// round(255 c): no transfer function.
@@ -12,7 +12,7 @@ pub enum Encoding {
     Srgb,
 }
 
-/// The stored grey level of intensity `c`: 255 c, rounded to the nearest integer.
+/// Returns the stored grey level of intensity `c`: 255 c, rounded to the nearest integer.
 ///
 /// `c` is clamped to 0..=1 first; NaN becomes 0. The only `f32` for which 255 c is a half is ½ itself; it gives 128. In
 /// `f32` the product is rounded too, so that values within 2⁻¹⁷ of a half may fall on either side of it: far less than
@@ -25,7 +25,7 @@ pub fn quantise(c: f32) -> u8 {
     quantise_level(255.0 * c)
 }
 
-/// The integer nearest to `level`, which is clamped to 0..=255 first; NaN becomes 0, a half the even one of its neighbours.
+/// Returns the integer nearest to `level`, which is clamped to 0..=255 first; NaN becomes 0, a half the even one of its neighbours.
 #[inline(always)]
 pub(crate) fn quantise_level(level: f32) -> u8 {
     /// 2²³: from here on floats are integers, so that adding it rounds, and its lowest bits are the result.
@@ -36,7 +36,7 @@ pub(crate) fn quantise_level(level: f32) -> u8 {
     (level + INTEGERS).to_bits() as u8
 }
 
-/// The sRGB value of linear intensity `c`, both in 0..=1 (IEC 61966-2-1:1999, 5.2).
+/// Returns the sRGB value of linear intensity `c`, both in 0..=1 (IEC 61966-2-1:1999, 5.2).
 ///
 /// ```text
 /// 12.92 c                  c ≤ 0.0031308
@@ -64,7 +64,7 @@ pub struct Encoder {
 impl Encoder {
     const PARTS: usize = 1024;
 
-    /// The encoder of the sRGB transfer function.
+    /// Makes the encoder of the sRGB transfer function.
     pub fn srgb() -> Self {
         let level = |c: f32| quantise(srgb_encode(c));
         let mut least = [f32::INFINITY; 257];
@@ -92,7 +92,7 @@ impl Encoder {
         Encoder { least, guess }
     }
 
-    /// The stored level of intensity `c`: that of [`srgb_encode`] and [`quantise`].
+    /// Returns the stored level of intensity `c`: that of [`srgb_encode`] and [`quantise`].
     #[inline(always)]
     pub fn level(&self, c: f32) -> u8 {
         let c = if c > 0.0 { c } else { 0.0 };
@@ -104,14 +104,14 @@ impl Encoder {
         level
     }
 
-    /// A linear texel as it is stored; alpha has no transfer function.
+    /// Returns a linear texel as it is stored; alpha has no transfer function.
     #[inline(always)]
     pub fn store(&self, [r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
         [self.level(r), self.level(g), self.level(b), quantise(alpha)]
     }
 }
 
-/// A linear picture as it is stored.
+/// Returns a linear picture as it is stored.
 pub fn store(picture: &LinearPicture, encoding: Encoding) -> Picture8 {
     match encoding {
         Encoding::Linear => picture.map(|texel| texel.map(quantise)),

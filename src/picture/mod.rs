@@ -29,7 +29,7 @@ pub type Picture8 = Picture<[u8; 4]>;
 pub type LinearPicture = Picture<[f32; 4]>;
 
 impl<T: Copy> Picture<T> {
-    /// A picture of `width` × `height` texels, all `fill`.
+    /// Makes a picture of `width` × `height` texels, all `fill`.
     pub fn new(width: usize, height: usize, fill: T) -> Self {
         Picture {
             width,
@@ -38,7 +38,7 @@ impl<T: Copy> Picture<T> {
         }
     }
 
-    /// A picture from `texels`, row by row from the top; `None` unless there are `width` × `height` of them.
+    /// Makes a picture from `texels`, row by row from the top; `None` unless there are `width` × `height` of them.
     pub fn from_texels(width: usize, height: usize, texels: Vec<T>) -> Option<Self> {
         (texels.len() == width * height).then_some(Picture {
             width,
@@ -47,42 +47,42 @@ impl<T: Copy> Picture<T> {
         })
     }
 
-    /// Texels a row.
+    /// Returns the number of texels a row.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// All texels, row by row from the top.
+    /// Returns all texels, row by row from the top.
     pub fn texels(&self) -> &[T] {
         &self.texels
     }
 
-    /// All texels, to be changed.
+    /// Returns all texels, to be changed.
     pub fn texels_mut(&mut self) -> &mut [T] {
         &mut self.texels
     }
 
-    /// One row of texels.
+    /// Returns one row of texels.
     pub fn row(&self, y: usize) -> &[T] {
         &self.texels[y * self.width..][..self.width]
     }
 
-    /// One row of texels, to be changed.
+    /// Returns one row of texels, to be changed.
     pub fn row_mut(&mut self, y: usize) -> &mut [T] {
         &mut self.texels[y * self.width..][..self.width]
     }
 
-    /// The texel in column `x` of row `y`.
+    /// Returns the texel in column `x` of row `y`.
     pub fn get(&self, x: usize, y: usize) -> T {
         self.row(y)[x]
     }
 
-    /// The same picture with every texel passed through `f`.
+    /// Returns the picture with every texel passed through `f`.
     pub fn map<U: Copy>(&self, f: impl Fn(T) -> U) -> Picture<U> {
         Picture {
             width: self.width,

@@ -11,17 +11,17 @@ const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 pub struct Levels(pub [f64; 4]);
 
 impl Levels {
-    /// Red, green, blue.
+    /// Returns red, green, blue.
     pub fn rgb(self) -> [f64; 3] {
         [self.0[0], self.0[1], self.0[2]]
     }
 
-    /// Coverage: 255 where something was drawn.
+    /// Returns the coverage: 255 where something was drawn.
     pub fn alpha(self) -> f64 {
         self.0[3]
     }
 
-    /// Luminance in grey levels, Rec. 709 weights on the values as they are stored; a channel that is not finite counts as 0.
+    /// Returns the luminance in grey levels, Rec. 709 weights on the values as they are stored; a channel that is not finite counts as 0.
     pub fn luminance(self) -> f64 {
         LUMINANCE
             .iter()

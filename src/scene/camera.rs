@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-/// How depth is folded onto the picture.
+/// A way to fold depth onto the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// Parallel rays; `half_height` is half of the height that is seen, in world units.
@@ -17,7 +17,7 @@ pub enum Projection {
     },
 }
 
-/// Where the scene is seen from.
+/// The place from which the scene is seen, and the direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Position of the eye in world space.
@@ -35,19 +35,19 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Unit vector `V` toward the eye: one for the whole scene, under perspective too (L21 1).
+    /// Returns the unit vector `V` toward the eye: one for the whole scene, under perspective too (L21 1).
     pub fn view(&self) -> DVec3 {
         (self.eye - self.target).normalize()
     }
 
-    /// Right, up and forward unit vectors: a right-handed camera looking along `forward`.
+    /// Returns right, up and forward unit vectors: a right-handed camera looking along `forward`.
     pub fn axes(&self) -> [DVec3; 3] {
         let forward = -self.view();
         let right = forward.cross(self.up).normalize();
         [right, right.cross(forward), forward]
     }
 
-    /// World space to clip space: x and y in −w..=w from left to right and bottom to top, z in 0..=w from near to far.
+    /// Returns the matrix from world space to clip space: x and y in −w..=w from left to right and bottom to top, z in 0..=w from near to far.
     pub fn clip_matrix(&self, aspect: f64) -> DMat4 {
         let [right, up, forward] = self.axes();
         let depth = self.far - self.near;

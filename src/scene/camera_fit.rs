@@ -3,7 +3,7 @@
 use super::{Camera, Projection};
 use glam::DVec3;
 
-/// How a camera is to be fitted around points.
+/// Settings for fitting a camera around points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     /// From the points toward the eye; any length but 0.
@@ -24,12 +24,12 @@ pub const DEPTH_SLACK: f64 = 0.05;
 /// The least near distance of a perspective camera, as a part of the far distance: keeps the depth of 24 bits usable.
 const LEAST_NEAR: f64 = 1e-3;
 
-/// How far before a fitted perspective eye the nearest point is at least, as a part of the radius: matters only for
+/// The least distance of the nearest point before a fitted perspective eye, as a part of the radius: matters only for
 /// points on the line of sight and for fields of view near 180 degrees.
 const LEAST_CLEARANCE: f64 = 1e-2;
 
 impl Camera {
-    /// A camera that looks at the middle of the bounding box of `points`; they fill a part of the frame. `None` without
+    /// Makes a camera that looks at the middle of the bounding box of `points`; they fill a part of the frame. `None` without
     /// points.
     ///
     /// Orthographic: the eye is four times the radius of the box away, and the half height is the least one that leaves
@@ -70,7 +70,7 @@ impl Camera {
         Some(camera)
     }
 
-    /// The half height with which `points` fill `fraction` of an orthographic picture around the target; 1 where they
+    /// Returns the half height with which `points` fill `fraction` of an orthographic picture around the target; 1 where they
     /// have no extent across the line of sight.
     pub fn half_height_around(
         &self,
@@ -86,7 +86,7 @@ impl Camera {
         if half_height > 0.0 { half_height } else { 1.0 }
     }
 
-    /// The distance between eye and target from which no point lies outside `fraction` of a perspective picture or
+    /// Returns the distance between eye and target from which no point lies outside `fraction` of a perspective picture or
     /// less than `clearance` before the eye.
     fn distance_around(
         &self,
@@ -108,7 +108,7 @@ impl Camera {
         })
     }
 
-    /// Distances of a near and a far plane that hold all of `points` between them with [`DEPTH_SLACK`]; `None` without
+    /// Returns distances of a near and a far plane that hold all of `points` between them with [`DEPTH_SLACK`]; `None` without
     /// points, or when a perspective camera has none of them before it.
     pub fn depth_range(&self, points: impl Iterator<Item = DVec3>) -> Option<(f64, f64)> {
         let [_, _, forward] = self.axes();
@@ -137,7 +137,7 @@ impl Camera {
     }
 }
 
-/// The smallest box with sides along the axes around `points`; `None` without points.
+/// Returns the smallest box with sides along the axes around `points`; `None` without points.
 fn bounds(mut points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
     let first = points.next()?;
     Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))

@@ -1,4 +1,4 @@
-//! What a user names as input: a scene file, a mesh file, a built-in mesh, or a scene that is shipped.
+//! Inputs that a user names: a scene file, a mesh file, a built-in mesh, or a scene that is shipped.
 //!
 //! | input | is |
 //! |---|---|
@@ -17,16 +17,14 @@
 //! # Ok::<(), fastphong::scene::input::InputError>(())
 //! ```
 
-use super::file::diagnostics::SceneError;
+use super::file::SceneFile;
+use super::file::diagnostics::{Origin, SceneError};
 use super::file::resolve::{LoadedMesh, Resolved};
-use super::file::value::Origin;
-use super::file::{ObjectSection, SceneFile};
-use crate::mesh::PolygonMesh;
+use super::file::value::{Data, Value};
 use crate::mesh::builtin::{BUILTINS, builtin};
 use crate::mesh::obj::{load_obj, parse_obj};
 use crate::number::suggest::nearest;
 use std::borrow::ToOwned;
-use std::fmt;
 use std::format;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
@@ -36,9 +34,9 @@ use std::vec::Vec;
 /// A scene that is part of the program.
 #[derive(Clone, Copy, Debug)]
 pub struct ShippedScene {
-    /// Its name: that of its file, without the ending.
+    /// The name: that of its file, without the ending.
     pub name: &'static str,
-    /// What the file says.
+    /// The contents of the file.
     pub text: &'static str,
 }
 
@@ -68,22 +66,20 @@ const BUILTIN: &str = "builtin:";
 const SHIPPED: &str = "shipped:";
 
 impl ShippedScene {
-    /// The shipped scene called `name`.
+    /// Returns the shipped scene called `name`.
     pub fn named(name: &str) -> Option<&'static ShippedScene> {
         SCENES.iter().find(|scene| scene.name == name)
     }
 
-    /// The scene; its meshes can be found from anywhere.
+    /// Reads the scene; its meshes can be found from anywhere.
     ///
     /// # Errors
     /// None, as long as the shipped files are those that were tested.
     pub fn load(&self) -> Result<SceneFile, SceneError> {
         let mut file = SceneFile::parse(self.text, format!("{SHIPPED}{}.toml", self.name))?;
-        for object in &mut file.object {
-            if shipped_file(&object.mesh.value).is_some() {
-                object.mesh.value.insert_str(0, SHIPPED);
-            }
-        }
+        rename_meshes(&mut file, |mesh| {
+            shipped_file(mesh).map(|_| format!("{SHIPPED}{mesh}"))
+        });
         Ok(file)
     }
 }
@@ -96,62 +92,26 @@ fn shipped_file(name: &str) -> Option<&'static [u8]> {
 }
 
 /// Why an input gives no scene.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, thiserror::Error)]
 pub enum InputError {
-    /// The input is neither a file nor anything known.
-    Unknown {
-        /// As it was given.
-        input: String,
-        /// What may be meant.
-        suggestion: Option<String>,
-    },
-    /// The mesh that the input names cannot be used: file, line, what was expected.
-    Mesh(String),
+    /// There is no such input, or the mesh that it names cannot be used: file, line, what was expected.
+    #[error("{0}")]
+    Message(String),
     /// The scene file cannot be read, or a value of it or of a flag is wrong.
+    #[error("{}{}{}", .0.message(), if .0.expected().is_empty() { "" } else { ": " }, .0.expected())]
     Scene(SceneError),
 }
 
 impl InputError {
-    /// The error as text that starts with `error: `, with terminal colours or without.
+    /// Returns the error as text that starts with `error: `, with terminal colours or without.
     pub fn render(&self, colour: bool) -> String {
         match self {
             InputError::Scene(error) => error.render(colour),
-            other if colour => format!("\x1b[1;31merror\x1b[0m: {other}"),
-            other => format!("error: {other}"),
+            InputError::Message(text) if colour => format!("\x1b[1;31merror\x1b[0m: {text}"),
+            InputError::Message(text) => format!("error: {text}"),
         }
     }
 }
-
-impl fmt::Display for InputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            InputError::Unknown { input, suggestion } => {
-                write!(f, "`{input}` is neither a file nor a shipped scene")?;
-                if let Some(suggestion) = suggestion {
-                    return write!(f, "; did you mean `{suggestion}`?");
-                }
-                if has_known_ending(Path::new(input)) {
-                    return Ok(());
-                }
-                write!(
-                    f,
-                    " (expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of "
-                )?;
-                for (i, scene) in SCENES.iter().enumerate() {
-                    write!(f, "{}{}", if i == 0 { "" } else { ", " }, scene.name)?;
-                }
-                write!(f, ")")
-            }
-            InputError::Mesh(reason) => f.write_str(reason),
-            InputError::Scene(error) => match error.expected() {
-                "" => f.write_str(error.message()),
-                expected => write!(f, "{}: {expected}", error.message()),
-            },
-        }
-    }
-}
-
-impl std::error::Error for InputError {}
 
 impl From<SceneError> for InputError {
     fn from(error: SceneError) -> Self {
@@ -159,7 +119,7 @@ impl From<SceneError> for InputError {
     }
 }
 
-/// The scene that `input` names; its meshes are not loaded yet.
+/// Reads the scene that `input` names; its meshes are not loaded yet.
 ///
 /// # Errors
 /// [`InputError`] when there is no such thing, or the scene file is not one.
@@ -181,28 +141,35 @@ pub fn load(input: &str) -> Result<SceneFile, InputError> {
     }
 }
 
-/// The error for what is not there, or is there and of no kind that is known.
+/// Makes the error for what is not there, or is there and of no kind that is known.
 fn unknown(input: &str, path: &Path) -> InputError {
     if path.exists() {
         let expected = "expected a scene file that ends in .toml or a mesh file that ends in .obj";
-        return InputError::Mesh(format!(
-            "{input}: neither a scene nor a mesh file by its ending: {expected}"
-        ));
+        let problem = "neither a scene nor a mesh file by its ending";
+        return InputError::Message(format!("{input}: {problem}: {expected}"));
     }
+    let scenes = || SCENES.iter().map(|scene| scene.name);
     // Who writes `scenes/teapto.toml` means `teapot`, and who writes `sphere` the built-in mesh.
-    let stem = path
-        .file_stem()
-        .and_then(|stem| stem.to_str())
-        .unwrap_or(input);
-    let shape = BUILTINS
-        .iter()
-        .find(|shape| shape.name == stem)
-        .map(|shape| format!("{BUILTIN}{}", shape.name));
-    let scene = || nearest(stem, SCENES.iter().map(|scene| scene.name)).map(ToString::to_string);
-    InputError::Unknown {
-        input: input.to_owned(),
-        suggestion: scene().or(shape),
-    }
+    let stem = path.file_stem().and_then(|stem| stem.to_str());
+    let stem = stem.unwrap_or(input);
+    let shape = || is_builtin(stem).then(|| format!("{BUILTIN}{stem}"));
+    let hint = match nearest(stem, scenes())
+        .map(ToString::to_string)
+        .or_else(shape)
+    {
+        Some(meant) => format!("; did you mean `{meant}`?"),
+        None if has_known_ending(path) => String::new(),
+        None => format!(
+            " (expected a scene file .toml, a mesh file .obj, builtin:NAME, or one of {})",
+            scenes().collect::<Vec<_>>().join(", ")
+        ),
+    };
+    let problem = "is neither a file nor a shipped scene";
+    InputError::Message(format!("`{input}` {problem}{hint}"))
+}
+
+fn is_builtin(name: &str) -> bool {
+    BUILTINS.iter().any(|shape| shape.name == name)
 }
 
 fn has_known_ending(path: &Path) -> bool {
@@ -214,7 +181,7 @@ fn has_ending(path: &Path, ending: &str) -> bool {
         .is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
-/// The scene that `file` describes, with its meshes, and what is odd about it.
+/// Returns the scene that `file` describes, with its meshes, and what is odd about it.
 ///
 /// # Errors
 /// [`InputError`] when a value is out of its range or a mesh cannot be used.
@@ -226,58 +193,47 @@ pub fn resolve(file: &SceneFile) -> Result<Resolved, InputError> {
     });
     resolved.map_err(|error| match refused {
         // A mesh that the input itself named needs no line of a scene file, and no key.
-        Some((mesh, reason)) if !is_named_in_file(&file.object, &mesh) => InputError::Mesh(reason),
+        Some((mesh, reason)) if !is_named_in_file(file, &mesh) => InputError::Message(reason),
         _ => InputError::Scene(error),
     })
 }
 
-fn is_named_in_file(objects: &[ObjectSection], mesh: &str) -> bool {
-    objects
-        .iter()
-        .any(|object| object.mesh.value == mesh && matches!(object.mesh.origin, Origin::File(_)))
+fn is_named_in_file(file: &SceneFile, mesh: &str) -> bool {
+    file.table().tables("object").iter().any(|object| {
+        let is_in_file = |value: &Value| matches!(value.origin, Origin::File(_));
+        object.text("mesh") == Some(mesh) && object.get("mesh").is_some_and(is_in_file)
+    })
 }
 
-/// The mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
+/// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
 ///
 /// # Errors
 /// One sentence: what is wrong with which file, in which line, and what was expected.
 pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
-    let without_warnings = |mesh: PolygonMesh| (Arc::new(mesh), Vec::new());
     if let Some(spec) = name.strip_prefix(BUILTIN) {
-        return builtin(spec)
-            .map(without_warnings)
-            .map_err(|error| error.to_string());
+        let mesh = builtin(spec).map_err(|error| error.to_string())?;
+        return Ok((Arc::new(mesh), Vec::new()));
     }
     let loaded = if let Some(file) = name.strip_prefix(SHIPPED) {
         let Some(bytes) = shipped_file(file) else {
-            let meshes: Vec<&str> = SHIPPED_FILES
-                .iter()
-                .map(|(name, _)| *name)
-                .filter(|name| name.ends_with(".obj"))
-                .collect();
+            let files = SHIPPED_FILES.iter().map(|(name, _)| *name);
+            let meshes: Vec<&str> = files.filter(|name| name.ends_with(".obj")).collect();
+            let meshes = meshes.join(", ");
             return Err(format!(
-                "no mesh `{file}` is shipped: expected one of {}",
-                meshes.join(", ")
+                "no mesh `{file}` is shipped: expected one of {meshes}"
             ));
         };
-        let library = |name: &str| {
-            shipped_file(name)
-                .map(<[u8]>::to_vec)
-                .ok_or(std::io::ErrorKind::NotFound.into())
-        };
-        parse_obj(name, bytes, library)
+        parse_obj(name, bytes, |name| {
+            let bytes = shipped_file(name).map(<[u8]>::to_vec);
+            bytes.ok_or(std::io::ErrorKind::NotFound.into())
+        })
     } else {
         let path: PathBuf = folder.join(name);
         if !has_ending(&path, "obj") {
             return Err(
-                match BUILTINS
-                    .iter()
-                    .find(|shape| name.split('?').next() == Some(shape.name))
-                {
-                    Some(_) => {
-                        format!("`{name}` is not a mesh file; did you mean `{BUILTIN}{name}`?")
-                    }
-                    None => format!(
+                match is_builtin(name.split('?').next().unwrap_or_default()) {
+                    true => format!("`{name}` is not a mesh file; did you mean `{BUILTIN}{name}`?"),
+                    false => format!(
                         "`{name}` is not a mesh: expected a file that ends in .obj, or {BUILTIN}NAME"
                     ),
                 },
@@ -286,12 +242,9 @@ pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
         load_obj(&path)
     };
     let loaded = loaded.map_err(|error| error.to_string())?;
-    let warnings = loaded
-        .warnings
-        .iter()
-        .map(|warning| format!("{name}: {warning}"))
-        .collect();
-    Ok((Arc::new(loaded.mesh), warnings))
+    let warnings = loaded.warnings.iter();
+    let warnings = warnings.map(|warning| format!("{name}: {warning}"));
+    Ok((Arc::new(loaded.mesh), warnings.collect()))
 }
 
 /// Makes the meshes of `file` findable from the current folder, so that the scene may be written down anywhere in it.
@@ -299,11 +252,22 @@ pub fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
     let Some(folder) = file.path().and_then(Path::parent).map(Path::to_owned) else {
         return;
     };
-    for object in &mut file.object {
-        let mesh = &mut object.mesh;
-        let is_file = !mesh.value.starts_with(BUILTIN) && !mesh.value.starts_with(SHIPPED);
-        if is_file && matches!(mesh.origin, Origin::File(_)) {
-            mesh.value = folder.join(&mesh.value).to_string_lossy().into_owned();
+    rename_meshes(file, |mesh| {
+        let is_file = !mesh.starts_with(BUILTIN) && !mesh.starts_with(SHIPPED);
+        is_file.then(|| folder.join(mesh).to_string_lossy().into_owned())
+    });
+}
+
+/// Gives each mesh that the scene file itself names the name that `rename` returns, if it returns one.
+fn rename_meshes(file: &mut SceneFile, rename: impl Fn(&str) -> Option<String>) {
+    for object in file.objects_mut() {
+        if let Some(Value {
+            data: Data::Text(mesh),
+            origin: Origin::File(_),
+        }) = object.entries.get_mut("mesh")
+            && let Some(new) = rename(mesh)
+        {
+            *mesh = new;
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::picture::Rgb;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// Where a light or the viewer is, as a surface sees it.
+/// The place of a light or of the viewer, as a surface sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place<V> {
     /// At infinity, as the lecture assumes (L21 1): the unit vector toward it, the same everywhere.
@@ -17,7 +17,7 @@ pub enum Place<V> {
 }
 
 impl<V: Copy> Place<V> {
-    /// The same place with its vector in another form.
+    /// Returns the place with its vector in another form.
     pub fn map<W>(self, of: impl FnOnce(V) -> W) -> Place<W> {
         match self {
             Place::Infinite(v) => Place::Infinite(of(v)),
@@ -31,7 +31,7 @@ impl<V: Copy> Place<V> {
     }
 }
 
-/// How a light at a position grows weaker with the distance r.
+/// The falloff of a light at a position with the distance r.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Falloff {
     /// Not at all.
@@ -45,7 +45,7 @@ pub enum Falloff {
     Inverse,
 }
 
-/// Which cosine is raised to the exponent for the highlight.
+/// The cosine that is raised to the exponent for the highlight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SpecularModel {
     /// R·V: the reflected ray and the ray to the eye (L21 2.1; Phong 1975).
@@ -60,11 +60,11 @@ impl SpecularModel {
     /// and V (in one plane), and `cos^n φ ≈ cos^4n (φ/2)`, as both fall by n φ²/2 (Fisher & Woo 1994).
     pub const EXPONENT_RATIO: f32 = 4.0;
 
-    /// Where |L + V|² is less, light and eye are opposite and H has no direction: no highlight. L·V is rounded four times
+    /// The least |L + V|²: where it is less, light and eye are opposite and H has no direction: no highlight. L·V is rounded four times
     /// by up to 2⁻²⁵ in `f32`, so that |L + V|² = 2 + 2 L·V of this size, 2⁻²⁰, is a quarter rounding.
     pub const LEAST_SUM: f32 = 1.0 / (1 << 20) as f32;
 
-    /// The exponent for this model that gives the highlight which `exponent` gives for the model `of`.
+    /// Returns the exponent for this model that gives the highlight which `exponent` gives for the model `of`.
     pub fn exponent(self, exponent: f32, of: SpecularModel) -> f32 {
         match (of, self) {
             (SpecularModel::Phong, SpecularModel::Blinn) => exponent * Self::EXPONENT_RATIO,
@@ -74,7 +74,7 @@ impl SpecularModel {
     }
 }
 
-/// What becomes of a highlight where the light is behind the surface, L·N ≤ 0, which no lecture settles.
+/// The treatment of a highlight where the light is behind the surface, L·N ≤ 0, which no lecture settles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SpecularGate {
     /// None there: the highlight ends in a hard line where L·N = 0.
@@ -93,12 +93,12 @@ pub struct Light {
     pub place: Place<DVec3>,
     /// Intensity `I_p` of each channel, 0 or more; where there is a falloff, that of a light of strength 1.
     pub colour: Rgb,
-    /// How it grows weaker; a light at infinity does not.
+    /// The falloff; a light at infinity has none.
     pub falloff: Falloff,
 }
 
 impl Light {
-    /// A light at infinity: a unit vector toward it (L21 1).
+    /// Makes a light at infinity: a unit vector toward it (L21 1).
     pub fn directional(direction: DVec3, colour: Rgb) -> Self {
         Light {
             place: Place::Infinite(direction),
@@ -107,7 +107,7 @@ impl Light {
         }
     }
 
-    /// A light at a position that does not grow weaker.
+    /// Makes a light at a position that does not grow weaker.
     pub fn positional(position: DVec3, colour: Rgb) -> Self {
         Light {
             place: Place::Local(position),
@@ -126,7 +126,7 @@ pub struct LightTerm {
     pub diffuse: Rgb,
     /// `I_p k_s` of each channel.
     pub specular: Rgb,
-    /// How it grows weaker with the distance.
+    /// The falloff with the distance.
     pub falloff: Falloff,
 }
 
@@ -143,12 +143,12 @@ pub struct Lighting {
     pub shininess: f32,
     /// The cosine that is raised to it.
     pub specular: SpecularModel,
-    /// What becomes of highlights from behind.
+    /// The treatment of highlights from behind.
     pub gate: SpecularGate,
 }
 
 impl Lighting {
-    /// What falls on `material` from `lights` and from the ambient intensity `ambient`, seen from far away along `view`;
+    /// Returns the light on `material` from `lights` and from the ambient intensity `ambient`, seen from far away along `view`;
     /// Phong's highlights, gated. Positions stay as they are.
     pub fn new(material: &Material, ambient: Rgb, lights: &[Light], view: DVec3) -> Self {
         let times = |a: Rgb, b: Rgb| [a[0] * b[0], a[1] * b[1], a[2] * b[2]];

@@ -33,14 +33,14 @@ const MAX_COORDINATE: f64 = 1e15;
 /// A mesh somewhere in the world.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// Its shape; may be shared between objects.
+    /// The shape; may be shared between objects.
     pub mesh: Arc<PolygonMesh>,
     /// Model space to world space. Normals follow by the inverse transpose; a mirroring transform keeps the winding
     /// (outside stays outside).
     pub transform: DAffine3,
     /// Replaces the materials of the mesh.
     pub material: Option<Material>,
-    /// Where the vertex normals come from.
+    /// The source of the vertex normals.
     pub normals: NormalSource,
 }
 
@@ -53,7 +53,7 @@ pub struct Scene {
     pub height: u32,
     /// Colour where nothing is drawn, 0..=1.
     pub background: Rgb,
-    /// Where the scene is seen from.
+    /// The camera.
     pub camera: Camera,
     /// Ambient intensity `I_a` of each channel.
     pub ambient: Rgb,
@@ -66,29 +66,29 @@ pub struct Scene {
     pub specular: SpecularModel,
     /// The model that the materials' exponents are meant for; they are converted where it is not [`Scene::specular`].
     pub shininess_for: SpecularModel,
-    /// What becomes of highlights where the light is behind the surface.
+    /// The treatment of highlights where the light is behind the surface.
     pub gate: SpecularGate,
-    /// How attributes vary over the screen.
+    /// The variation of attributes over the screen.
     pub interpolation: Interpolation,
-    /// Which sides are left out.
+    /// The sides that are left out.
     pub culling: Culling,
-    /// How polygons that are hidden by others are kept out of the picture.
+    /// The search for hidden surfaces.
     pub hidden_surfaces: HiddenSurfaces,
-    /// What keeps polygons within the view.
+    /// The limits of the view.
     pub clipping: Clipping,
     /// True if polygons seen from behind, their corners clockwise on the screen, are lit with negated normals.
     pub two_sided: bool,
     /// Samples a pixel along each side, 1, 2, 4 or 8: `samples`² of them are hidden, lit and shaded each on its own, and
     /// their mean in linear light is the pixel. `samples` times a side is at most [`Scene::MAX_SIDE`].
     pub samples: u32,
-    /// How values are stored in eight bits.
+    /// The storage of values in eight bits.
     pub encoding: Encoding,
-    /// What is drawn, in this order.
+    /// The objects, in the order of drawing.
     pub objects: Vec<Object>,
 }
 
 impl Scene {
-    /// Nothing, seen by `camera` on 640 × 480 texels under white ambient light; everything else as in a scene file that
+    /// Makes a scene of nothing, seen by `camera` on 640 × 480 texels under white ambient light; everything else as in a scene file that
     /// says nothing, but without its light. For `Scene { objects, ..Scene::new(camera) }`.
     pub fn new(camera: Camera) -> Scene {
         Scene {

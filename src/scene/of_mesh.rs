@@ -17,7 +17,7 @@ impl Scene {
     /// Toward the one light that is there when no light is given.
     pub const DEFAULT_LIGHT: [f64; 3] = [0.4, 0.7, 0.9];
 
-    /// A scene of `mesh` alone: an orthographic three-quarter view fitted to it, one white light, the default material
+    /// Makes a scene of `mesh` alone: an orthographic three-quarter view fitted to it, one white light, the default material
     /// for polygons that have none, averaged vertex normals (L21 3.1).
     ///
     /// The fields are there to be changed; a mesh without polygons gives an empty picture.
@@ -35,7 +35,7 @@ impl Scene {
     pub fn of_mesh(mesh: PolygonMesh) -> Scene {
         let (width, height) = Scene::DEFAULT_SIZE;
         let fit = Fit {
-            direction: unit(Scene::DEFAULT_DIRECTION),
+            direction: unit(DVec3::from_array(Scene::DEFAULT_DIRECTION)),
             up: DVec3::Y,
             fraction: Scene::DEFAULT_FIT,
             fovy: None,
@@ -58,7 +58,10 @@ impl Scene {
         Scene {
             width,
             height,
-            lights: vec![Light::directional(unit(Scene::DEFAULT_LIGHT), [1.0; 3])],
+            lights: vec![Light::directional(
+                unit(DVec3::from_array(Scene::DEFAULT_LIGHT)),
+                [1.0; 3],
+            )],
             objects: vec![Object {
                 mesh: Arc::new(mesh),
                 transform: DAffine3::IDENTITY,
@@ -70,9 +73,8 @@ impl Scene {
     }
 }
 
-/// The unit vector along `direction`, to the last bit as a scene file's direction becomes one.
-fn unit(direction: [f64; 3]) -> DVec3 {
-    let vector = DVec3::from_array(direction);
+/// Returns the unit vector along `vector`, which is scaled first: squares neither overflow nor vanish.
+pub(super) fn unit(vector: DVec3) -> DVec3 {
     (vector / vector.abs().max_element()).normalize()
 }
 

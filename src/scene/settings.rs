@@ -1,6 +1,6 @@
 //! Settings of a picture: interpolation, culling, clipping, and the search for hidden surfaces.
 
-/// How attributes vary over the screen.
+/// The variation of attributes over the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
     /// Linearly on the screen, as the lecture does.
@@ -11,7 +11,7 @@ pub enum Interpolation {
     Perspective,
 }
 
-/// Which polygons are left out for the direction in which they are seen.
+/// The polygons that are left out for the direction in which they are seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Culling {
     /// Leave out polygons whose corners run clockwise on the screen.
@@ -23,7 +23,7 @@ pub enum Culling {
     None,
 }
 
-/// How polygons that are hidden by others are kept out of the picture.
+/// The way in which hidden polygons are kept out of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HiddenSurfaces {
     /// The nearest polygon at each sample is seen (CS171 4, L5 *Z-Buffer*). The order of drawing decides ties only: of
@@ -42,16 +42,16 @@ impl Default for HiddenSurfaces {
     }
 }
 
-/// How depth is made at a sample, and how finely it is kept.
+/// The making of depth at a sample, and its precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DepthBuffer {
-    /// What a place of the buffer holds.
+    /// The contents of a place of the buffer.
     pub bits: DepthBits,
-    /// Where its depth comes from.
+    /// The source of depth.
     pub source: DepthSource,
 }
 
-/// What a place of the depth buffer holds (L5: 16 to 32 bits).
+/// The contents of a place of the depth buffer (L5: 16 to 32 bits).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DepthBits {
     /// The whole number round(z · (2¹⁶ − 1)), halves up.
@@ -64,7 +64,7 @@ pub enum DepthBits {
 }
 
 impl DepthBits {
-    /// The largest whole number that is kept, 2ᵇ − 1; `None` for floats.
+    /// Returns the largest whole number that is kept, 2ᵇ − 1; `None` for floats.
     pub fn most(self) -> Option<u32> {
         match self {
             DepthBits::Sixteen => Some((1 << 16) - 1),
@@ -74,7 +74,7 @@ impl DepthBits {
     }
 }
 
-/// How depth is computed at a sample (L5 *Z-value Computation*): both ways give the same numbers but for rounding.
+/// The computation of depth at a sample (L5 *Z-value Computation*): both ways give the same numbers but for rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DepthSource {
     /// The second way: z/w is computed at the corners and interpolated linearly on the screen.
@@ -95,7 +95,7 @@ pub enum PainterKey {
     Farthest,
 }
 
-/// What keeps polygons within the view.
+/// The limits of the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Clipping {
     /// They are cut by the near and the far plane before anything is divided by w.

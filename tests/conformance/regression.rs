@@ -11,7 +11,7 @@ use crate::support::renderers::{self, distinct};
 use fastphong::compare::metrics::difference_map;
 use fastphong::picture::Picture8;
 use fastphong::picture::encoding::store as store_levels;
-use fastphong::picture::image_file::{encode_png, read_png, write_file};
+use fastphong::picture::image_file::{encode_png, read_picture, write_file};
 use fastphong::reference::Model;
 use fastphong::shading::METHODS;
 use std::fs;
@@ -51,7 +51,7 @@ fn check_where(
     counts: impl Fn(usize, usize) -> bool,
 ) -> Option<String> {
     let output = folder("target/regression").join(format!("{name}.actual.png"));
-    let expected = match read_png(blessed) {
+    let expected = match read_picture(blessed).map(|picture| picture.to_stored()) {
         Ok(expected) => expected,
         Err(error) => {
             store(&output, actual);

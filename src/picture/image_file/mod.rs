@@ -24,24 +24,22 @@
 //! # }
 //! ```
 
-use std::borrow::{Cow, ToOwned};
+use std::borrow::ToOwned;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::Path;
 use std::vec::Vec;
 
 use super::encoding::quantise;
 use super::{Levels, LinearPicture, Picture, Picture8, Texel};
 
-mod encoder;
 mod error;
 mod netpbm;
 mod png;
 mod replace;
 
-pub use encoder::Encoder;
 pub use error::{DecodeError, EncodeError, ImageFileError};
-pub use netpbm::{PpmWriter, encode_pfm, encode_ppm};
+pub use netpbm::PpmWriter;
 pub use png::encode_png;
 pub use replace::{write_file, write_file_by};
 
@@ -66,7 +64,7 @@ impl Format {
     /// Every format.
     pub const ALL: [Format; 3] = [Format::Png, Format::Ppm, Format::Pfm];
 
-    /// Its ending, in lower case and without the dot.
+    /// Returns its ending, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Format::Png => "png",
@@ -75,7 +73,7 @@ impl Format {
         }
     }
 
-    /// The format that the ending of `path` names, in either case.
+    /// Returns the format that the ending of `path` names, in either case.
     ///
     /// # Errors
     /// If there is no ending, or one of no format.
@@ -102,7 +100,7 @@ pub enum FileTexels {
     Linear(LinearPicture),
 }
 
-/// What a picture file holds.
+/// The contents of a picture file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilePicture {
     /// The texels; alpha is full where the file has none.
@@ -112,7 +110,7 @@ pub struct FilePicture {
 }
 
 impl FilePicture {
-    /// A picture of grey levels with alpha, as it goes into a PNG file.
+    /// Makes a picture of grey levels with alpha, as it goes into a PNG file.
     pub fn stored(picture: Picture8) -> FilePicture {
         FilePicture {
             texels: FileTexels::Stored(picture),
@@ -120,7 +118,7 @@ impl FilePicture {
         }
     }
 
-    /// A picture of floats with alpha, as it is before it goes into a file.
+    /// Makes a picture of floats with alpha, as it is before it goes into a file.
     pub fn linear(picture: LinearPicture) -> FilePicture {
         FilePicture {
             texels: FileTexels::Linear(picture),
@@ -128,7 +126,7 @@ impl FilePicture {
         }
     }
 
-    /// Width and height in pixels.
+    /// Returns width and height in pixels.
     pub fn size(&self) -> [usize; 2] {
         match &self.texels {
             FileTexels::Stored(picture) => [picture.width(), picture.height()],
@@ -136,7 +134,7 @@ impl FilePicture {
         }
     }
 
-    /// The picture in 8 bits a channel; floats are rounded by [`quantise`].
+    /// Returns the picture in 8 bits a channel; floats are rounded by [`quantise`].
     pub fn to_stored(&self) -> Picture8 {
         match &self.texels {
             FileTexels::Stored(picture) => picture.clone(),
@@ -144,7 +142,7 @@ impl FilePicture {
         }
     }
 
-    /// The picture in floats; a grey level is 1/255.
+    /// Returns the picture in floats; a grey level is 1/255.
     pub fn to_linear(&self) -> LinearPicture {
         match &self.texels {
             FileTexels::Stored(picture) => {
@@ -154,26 +152,31 @@ impl FilePicture {
         }
     }
 
-    /// The bytes of a file of this picture.
+    /// Returns the bytes of a file of this picture.
     ///
     /// # Errors
-    /// If the picture has no pixels, or more than the format can count.
-    pub fn encode(&self, format: Format) -> Result<Vec<u8>, EncodeError> {
-        self.encoder(format).map(Encoder::bytes)
+    /// If the picture has no pixels, or more than the format can count: [`EncodeError`], inside.
+    pub fn encode(&self, format: Format) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        self.write_to(format, &mut bytes)?;
+        Ok(bytes)
     }
 
-    /// The same, to be written in pieces.
+    /// Writes a file of this picture to `out`, which needs no buffer.
     ///
     /// # Errors
-    /// As [`FilePicture::encode`].
-    pub fn encoder(&self, format: Format) -> Result<Encoder<'_>, EncodeError> {
+    /// As [`FilePicture::encode`], and those of `out`.
+    pub fn write_to(&self, format: Format, out: &mut dyn Write) -> io::Result<()> {
         match (format, &self.texels) {
-            (Format::Png, FileTexels::Stored(picture)) => Encoder::png(picture),
-            (Format::Png, FileTexels::Linear(_)) => Encoder::png(&self.to_stored()),
-            (Format::Ppm, FileTexels::Stored(picture)) => Encoder::ppm(Cow::Borrowed(picture)),
-            (Format::Ppm, FileTexels::Linear(_)) => Encoder::ppm(Cow::Owned(self.to_stored())),
-            (Format::Pfm, FileTexels::Linear(picture)) => Encoder::pfm(Cow::Borrowed(picture)),
-            (Format::Pfm, FileTexels::Stored(_)) => Encoder::pfm(Cow::Owned(self.to_linear())),
+            (Format::Png, FileTexels::Stored(picture)) => {
+                out.write_all(&encode_png(picture).map_err(io::Error::other)?)
+            }
+            (Format::Ppm, FileTexels::Stored(picture)) => netpbm::write_ppm(picture, out),
+            (Format::Pfm, FileTexels::Linear(picture)) => netpbm::write_pfm(picture, out),
+            (Format::Pfm, FileTexels::Stored(_)) => netpbm::write_pfm(&self.to_linear(), out),
+            (Format::Png | Format::Ppm, FileTexels::Linear(_)) => {
+                FilePicture::stored(self.to_stored()).write_to(format, out)
+            }
         }
     }
 
@@ -182,15 +185,14 @@ impl FilePicture {
             FileTexels::Stored(picture) => picture.map(Texel::levels),
             FileTexels::Linear(picture) => picture.map(Texel::levels),
         };
-        if with_alpha {
-            levels
-        } else {
-            levels.map(|Levels([r, g, b, _])| Levels([r, g, b, 255.0]))
+        match with_alpha {
+            true => levels,
+            false => levels.map(|Levels([r, g, b, _])| Levels([r, g, b, 255.0])),
         }
     }
 }
 
-/// Both pictures in grey levels, ready for [`compare`](crate::compare::metrics::compare) and the maps.
+/// Returns both pictures in grey levels, ready for [`compare`](crate::compare::metrics::compare) and the maps.
 ///
 /// If one of the files has no alpha, the other's is dropped: all pixels count as covered, and none as a mismatch.
 pub fn comparable(reference: &FilePicture, actual: &FilePicture) -> [Picture<Levels>; 2] {
@@ -204,13 +206,7 @@ pub fn comparable(reference: &FilePicture, actual: &FilePicture) -> [Picture<Lev
 /// If the ending names no format, the format cannot hold the picture, or the file cannot be written.
 pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFileError> {
     let format = Format::of_path(path)?;
-    let encoder = picture
-        .encoder(format)
-        .map_err(|source| ImageFileError::Encode {
-            path: path.to_owned(),
-            source,
-        })?;
-    write_file_by(path, |file| encoder.write_to(file))
+    write_file_by(path, |file| picture.write_to(format, file))
 }
 
 /// Reads a picture of any of the formats, whatever the path ends in.
@@ -218,29 +214,11 @@ pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFile
 /// # Errors
 /// If the file cannot be read, is none of the formats, is broken or cut off, or has more than [`MAX_PIXELS`] pixels.
 pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
-    decode_picture(&read_file(path)?).map_err(|source| ImageFileError::Decode {
-        path: path.to_owned(),
-        source,
-    })
+    let (path, bytes) = (path.to_owned(), read_file(path)?);
+    decode_picture(&bytes).map_err(|cause| ImageFileError::Decode { path, cause })
 }
 
-/// Reads a PNG file of any colour type as 8 bits of red, green, blue, alpha.
-///
-/// Grey becomes three equal channels, palettes are looked up, 16 bits are rounded to 8, and alpha is full where the file has none.
-///
-/// # Errors
-/// If the file cannot be read, is not PNG, is broken or cut off, or has more than [`MAX_PIXELS`] pixels.
-pub fn read_png(path: &Path) -> Result<Picture8, ImageFileError> {
-    match png::decode(&read_file(path)?) {
-        Ok((picture, _)) => Ok(picture),
-        Err(source) => Err(ImageFileError::Decode {
-            path: path.to_owned(),
-            source,
-        }),
-    }
-}
-
-/// The picture that the bytes of a file of any of the formats hold.
+/// Reads the picture that the bytes of a file of any of the formats hold.
 ///
 /// # Errors
 /// If the bytes are none of the formats, are broken or cut off, or hold more than [`MAX_PIXELS`] pixels.
@@ -256,7 +234,7 @@ pub fn decode_picture(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     Ok(FilePicture { texels, has_alpha })
 }
 
-/// The format that the first bytes of a file announce.
+/// Returns the format that the first bytes of a file announce.
 fn announced(bytes: &[u8]) -> Option<Format> {
     match bytes {
         _ if bytes.starts_with(&png::SIGNATURE) => Some(Format::Png),
@@ -266,8 +244,9 @@ fn announced(bytes: &[u8]) -> Option<Format> {
     }
 }
 
+/// Reads a file, unless it does not begin like a picture or is too large.
 fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
-    let read = || -> io::Result<Vec<u8>> {
+    let read = || {
         let mut bytes = Vec::new();
         // One byte more than is allowed, to see that there is more: some files, such as devices, never end.
         let mut file = File::open(path)?.take(MAX_BYTES + 1);
@@ -279,20 +258,16 @@ fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
             file.read_to_end(&mut bytes)?;
         }
         if bytes.len() as u64 > MAX_BYTES {
-            return Err(io::Error::new(
-                io::ErrorKind::FileTooLarge,
-                "the file is too large for a picture",
-            ));
+            let problem = "the file is too large for a picture";
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, problem));
         }
         Ok(bytes)
     };
-    read().map_err(|source| ImageFileError::Read {
-        path: path.to_owned(),
-        source,
-    })
+    let path = path.to_owned();
+    read().map_err(|cause| ImageFileError::Read { path, cause })
 }
 
-/// Width and height as `usize`, if a picture of that size may be read.
+/// Returns width and height as `usize`, if a picture of that size may be read.
 fn checked_size(format: Format, width: u64, height: u64) -> Result<[usize; 2], DecodeError> {
     if width == 0 || height == 0 {
         return Err(DecodeError::malformed(

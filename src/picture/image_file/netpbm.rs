@@ -1,33 +1,25 @@
 //! PPM and PFM: a short header in text, then the samples.
 
-use std::borrow::Cow;
+use std::cmp::Ordering;
 use std::io::{self, Write};
 use std::vec::Vec;
 use std::{format, str, vec};
 
-use super::{DecodeError, EncodeError, Encoder, Format, checked_size};
+use super::{DecodeError, EncodeError, Format, checked_size};
 use crate::picture::{LinearPicture, Picture8};
 
 /// Longest side that is written; readers are not bound to accept more.
 const MAX_SIDE: usize = (1 << 31) - 1;
 
-/// The bytes of a binary PPM file (P6, 255 levels): red, green, blue as they are stored; alpha is dropped.
-///
-/// # Errors
-/// If the picture has no pixels, or a side longer than 2³¹ − 1.
-pub fn encode_ppm(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
-    Encoder::ppm(Cow::Borrowed(picture)).map(Encoder::bytes)
+/// Writes a binary PPM file (P6, 255 levels): red, green, blue as they are stored; alpha is dropped.
+pub(super) fn write_ppm(picture: &Picture8, out: impl Write) -> io::Result<()> {
+    let (width, height) = (picture.width(), picture.height());
+    let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
+    file.texels(picture.texels())?;
+    file.finish()
 }
 
-/// The bytes of a PFM file: red, green, blue as little-endian floats, the bottom row first; alpha is dropped.
-///
-/// # Errors
-/// If the picture has no pixels, or a side longer than 2³¹ − 1.
-pub fn encode_pfm(picture: &LinearPicture) -> Result<Vec<u8>, EncodeError> {
-    Encoder::pfm(Cow::Borrowed(picture)).map(Encoder::bytes)
-}
-
-/// Writes a binary PPM file from the top, as [`encode_ppm`] has it, of a picture that need not be in memory as a whole.
+/// Writes a binary PPM file from the top, of a picture that need not be in memory as a whole.
 #[derive(Debug)]
 pub struct PpmWriter<W> {
     pieces: Pieces<W>,
@@ -36,7 +28,7 @@ pub struct PpmWriter<W> {
 }
 
 impl<W: Write> PpmWriter<W> {
-    /// A file of `width` × `height` pixels into `out`, which needs no buffer.
+    /// Begins a file of `width` × `height` pixels into `out`, which needs no buffer.
     ///
     /// # Errors
     /// If there are no pixels, or a side is longer than 2³¹ − 1.
@@ -49,21 +41,15 @@ impl<W: Write> PpmWriter<W> {
         })
     }
 
-    /// The next texels, row by row; alpha is dropped.
+    /// Writes the next texels, row by row; alpha is dropped.
     ///
     /// # Errors
     /// If they cannot be written, or are more than the file has pixels.
     pub fn texels(&mut self, texels: &[[u8; 4]]) -> io::Result<()> {
-        let wrong = || {
-            io::Error::new(
-                io::ErrorKind::InvalidInput,
-                "there are more texels than pixels of the picture",
-            )
-        };
-        self.missing = self
-            .missing
-            .checked_sub(texels.len() as u64)
-            .ok_or_else(wrong)?;
+        let problem = "there are more texels than pixels of the picture";
+        let missing = self.missing.checked_sub(texels.len() as u64);
+        self.missing =
+            missing.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, problem))?;
         for texels in texels.chunks(RUN) {
             without_alpha(texels, self.pieces.room(3 * texels.len())?);
         }
@@ -85,21 +71,16 @@ impl<W: Write> PpmWriter<W> {
     }
 }
 
-/// Writes the bytes of [`encode_pfm`], of a picture that fits.
+/// Writes a PFM file: red, green, blue as little-endian floats, the bottom row first; alpha is dropped.
 pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<()> {
+    let (width, height) = (picture.width(), picture.height());
+    check_size(width, height).map_err(io::Error::other)?;
     // The sign of the scale tells the order of bytes: negative is little-endian.
-    let mut pieces = Pieces::new(
-        out,
-        &format!("PF\n{} {}\n-1.0\n", picture.width(), picture.height()),
-    );
-    for y in (0..picture.height()).rev() {
+    let mut pieces = Pieces::new(out, &format!("PF\n{width} {height}\n-1.0\n"));
+    for y in (0..height).rev() {
         for texels in picture.row(y).chunks(RUN) {
-            let samples = pieces
-                .room(12 * texels.len())?
-                .as_chunks_mut::<4>()
-                .0
-                .as_chunks_mut::<3>()
-                .0;
+            let samples = pieces.room(12 * texels.len())?.as_chunks_mut::<4>().0;
+            let samples = samples.as_chunks_mut::<3>().0;
             for (samples, &[r, g, b, _]) in samples.iter_mut().zip(texels) {
                 *samples = [r, g, b].map(f32::to_le_bytes);
             }
@@ -108,19 +89,13 @@ pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<
     pieces.finish()
 }
 
-/// The colours of `texels`, three bytes each, into `bytes`.
+/// Writes the colours of `texels`, three bytes each, into `bytes`.
 fn without_alpha(texels: &[[u8; 4]], bytes: &mut [u8]) {
     // Four texels fill three words.
     let (fours, last_texels) = texels.as_chunks::<4>();
     let (words, last_bytes) = bytes.split_at_mut(12 * fours.len());
-    for (words, &four) in words
-        .as_chunks_mut::<4>()
-        .0
-        .as_chunks_mut::<3>()
-        .0
-        .iter_mut()
-        .zip(fours)
-    {
+    let words = words.as_chunks_mut::<4>().0.as_chunks_mut::<3>().0;
+    for (words, &four) in words.iter_mut().zip(fours) {
         let [a, b, c, d] = four.map(|[r, g, b, _]| u32::from_le_bytes([r, g, b, 0]));
         *words = [a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8].map(u32::to_le_bytes);
     }
@@ -156,7 +131,7 @@ impl<W: Write> Pieces<W> {
         }
     }
 
-    /// The next `count` bytes, at most those of a run, to be filled.
+    /// Returns the next `count` bytes, at most those of a run, to be filled.
     fn room(&mut self, count: usize) -> io::Result<&mut [u8]> {
         if self.filled >= PIECE {
             self.out.write_all(&self.bytes[..PIECE])?;
@@ -173,7 +148,7 @@ impl<W: Write> Pieces<W> {
 }
 
 /// True if both sides can be written down.
-pub(super) fn check_size(width: usize, height: usize) -> Result<(), EncodeError> {
+fn check_size(width: usize, height: usize) -> Result<(), EncodeError> {
     let fits = |side| (1..=MAX_SIDE).contains(&side);
     if fits(width) && fits(height) {
         Ok(())
@@ -182,7 +157,7 @@ pub(super) fn check_size(width: usize, height: usize) -> Result<(), EncodeError>
     }
 }
 
-/// The picture in a binary PPM file (P6); samples of another range than 255 are scaled to it and rounded.
+/// Reads the picture in a binary PPM file (P6); samples of another range than 255 are scaled to it and rounded.
 pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
     let mut header = Header {
         format: Format::Ppm,
@@ -209,11 +184,8 @@ pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
         Ok(((510 * value + range) / (2 * range)) as u8)
     };
     let mut picture = Picture8::new(width, height, [255; 4]);
-    for (texel, samples) in picture
-        .texels_mut()
-        .iter_mut()
-        .zip(samples.chunks_exact(3 * sample_bytes))
-    {
+    let samples = samples.chunks_exact(3 * sample_bytes);
+    for (texel, samples) in picture.texels_mut().iter_mut().zip(samples) {
         for (channel, sample) in texel.iter_mut().zip(samples.chunks_exact(sample_bytes)) {
             *channel = level(sample)?;
         }
@@ -221,7 +193,7 @@ pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
     Ok(picture)
 }
 
-/// The picture in a PFM file, colour (PF) or grey (Pf), of either order of bytes.
+/// Reads the picture in a PFM file, colour (PF) or grey (Pf), of either order of bytes.
 ///
 /// The size of the scale is a unit that nobody agrees on, and is passed over.
 pub(super) fn decode_pfm(bytes: &[u8]) -> Result<LinearPicture, DecodeError> {
@@ -233,24 +205,19 @@ pub(super) fn decode_pfm(bytes: &[u8]) -> Result<LinearPicture, DecodeError> {
     let [width, height] = header.size()?;
     let scale: f32 = header.number("the scale")?;
     if scale == 0.0 || !scale.is_finite() {
-        return Err(header.broken(
-            "the scale tells no order of bytes: expected a negative or a positive number",
-        ));
+        let problem = "the scale tells no order of bytes: expected a negative or a positive number";
+        return Err(header.broken(problem));
     }
-    let from_bytes = if scale < 0.0 {
-        f32::from_le_bytes
-    } else {
-        f32::from_be_bytes
+    let from_bytes = match scale < 0.0 {
+        true => f32::from_le_bytes,
+        false => f32::from_be_bytes,
     };
     let samples = header.samples(width * height * channels * 4)?;
     let (samples, _) = samples.as_chunks::<4>();
     let mut picture = LinearPicture::new(width, height, [1.0; 4]);
     for (row, samples) in samples.chunks_exact(width * channels).rev().enumerate() {
-        for (texel, samples) in picture
-            .row_mut(row)
-            .iter_mut()
-            .zip(samples.chunks_exact(channels))
-        {
+        let samples = samples.chunks_exact(channels);
+        for (texel, samples) in picture.row_mut(row).iter_mut().zip(samples) {
             for (i, channel) in texel[..3].iter_mut().enumerate() {
                 *channel = from_bytes(samples[i % channels]);
             }
@@ -282,45 +249,34 @@ impl<'a> Header<'a> {
         })
     }
 
+    /// Returns the next word of the header.
     fn word(&mut self) -> &'a [u8] {
         loop {
             self.rest = self.rest.trim_ascii_start();
             if self.rest.first() != Some(&b'#') {
                 break;
             }
-            let end = self
-                .rest
-                .iter()
-                .position(|&byte| byte == b'\n')
-                .unwrap_or(self.rest.len());
-            self.rest = &self.rest[end..];
+            let end = self.rest.iter().position(|&byte| byte == b'\n');
+            self.rest = &self.rest[end.unwrap_or(self.rest.len())..];
         }
-        let end = self
-            .rest
-            .iter()
-            .position(u8::is_ascii_whitespace)
-            .unwrap_or(self.rest.len());
+        let end = self.rest.iter().position(u8::is_ascii_whitespace);
+        let end = end.unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
         word
     }
 
-    /// All that follows the single white space after the header, which must be `expected` bytes.
+    /// Returns all that follows the single white space after the header, which must be `expected` bytes.
     fn samples(&self, expected: usize) -> Result<&'a [u8], DecodeError> {
         let samples = self.rest.get(1..).unwrap_or_default();
-        match samples.len() {
-            found if found == expected => Ok(samples),
-            found => {
-                let problem = if found < expected {
-                    "it ends too early"
-                } else {
-                    "it goes on after its last pixel"
-                };
-                Err(self.broken(&format!(
-                    "{problem}: expected {expected} bytes of samples, found {found}"
-                )))
-            }
-        }
+        let found = samples.len();
+        let problem = match found.cmp(&expected) {
+            Ordering::Equal => return Ok(samples),
+            Ordering::Less => "it ends too early",
+            Ordering::Greater => "it goes on after its last pixel",
+        };
+        let problem = format!("{problem}: expected {expected} bytes of samples, found {found}");
+        Err(self.broken(&problem))
     }
 
     fn broken(&self, problem: &str) -> DecodeError {

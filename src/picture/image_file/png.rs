@@ -16,7 +16,7 @@ pub(super) const SIGNATURE: [u8; 8] = [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1
 /// Longest side that PNG can state (ISO/IEC 15948, 7.1).
 const MAX_SIDE: usize = (1 << 31) - 1;
 
-/// The bytes of a PNG file: 8 bits of red, green, blue, alpha, as they are stored.
+/// Returns the bytes of a PNG file: 8 bits of red, green, blue, alpha, as they are stored.
 ///
 /// # Errors
 /// If the picture has no pixels, or a side longer than 2³¹ − 1.
@@ -38,22 +38,15 @@ pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
     Ok(bytes)
 }
 
-/// The picture in a PNG file of any colour type, and whether the file has alpha.
+/// Reads the picture in a PNG file of any colour type, and whether the file has alpha.
 pub(super) fn decode(bytes: &[u8]) -> Result<(Picture8, bool), DecodeError> {
-    if !bytes.starts_with(&SIGNATURE) {
-        return Err(DecodeError::NotPng);
-    }
     // The decoder is content once it has all pixels; a file without its end has been cut off all the same.
     if !has_end(bytes) {
-        return Err(DecodeError::malformed(
-            Format::Png,
-            "it ends too early: expected an IEND chunk",
-        ));
+        let problem = "it ends too early: expected an IEND chunk";
+        return Err(DecodeError::malformed(Format::Png, problem));
     }
-    let broken = |error: image::ImageError| DecodeError::Malformed {
-        format: Format::Png,
-        problem: format!("{error}"),
-    };
+    let broken =
+        |error: image::ImageError| DecodeError::malformed(Format::Png, &format!("{error}"));
     let mut limits = Limits::no_limits();
     // Four channels of 16 bits, and the same picture again in 8.
     limits.max_alloc = Some(12 * MAX_PIXELS);

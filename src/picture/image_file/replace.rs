@@ -3,9 +3,9 @@
 use std::borrow::ToOwned;
 use std::format;
 use std::fs::{self, File, OpenOptions};
+use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process;
 
 use super::ImageFileError;
 
@@ -22,7 +22,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
     write_file_by(path, |file| file.write_all(bytes))
 }
 
-/// As [`write_file`], with the bytes that `write` writes.
+/// Writes a file as [`write_file`] does, with the bytes that `write` writes.
 ///
 /// # Errors
 /// As [`write_file`], and if `write` fails.
@@ -30,12 +30,13 @@ pub fn write_file_by(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), ImageFileError> {
-    replace(path, |file| write(file)).map_err(|source| ImageFileError::Write {
+    replace(path, |file| write(file)).map_err(|cause| ImageFileError::Write {
         path: path.to_owned(),
-        source,
+        cause,
     })
 }
 
+/// Writes beside the place of `path`, then renames.
 fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
     let old = match fs::metadata(path) {
         Ok(old) => Some(old),
@@ -51,18 +52,17 @@ fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
         }
         // A rename would not ask.
         if old.permissions().readonly() {
-            return Err(io::Error::new(
-                io::ErrorKind::PermissionDenied,
-                "the file there is read-only",
-            ));
+            let problem = "the file there is read-only";
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, problem));
         }
     }
-    let place = if old.is_some() {
-        fs::canonicalize(path)?
-    } else {
-        path.to_owned()
+    let place = match old.is_some() {
+        true => fs::canonicalize(path)?,
+        false => path.to_owned(),
     };
-    let (draft, mut file) = Draft::beside(&place)?;
+    let random = RandomState::new().build_hasher().finish();
+    let draft = Draft(place.with_file_name(format!(".fastphong-{random:016x}.tmp")));
+    let mut file = File::create_new(&draft.0)?;
     write(&mut file)?;
     if let Some(old) = old {
         file.set_permissions(old.permissions())?;
@@ -70,45 +70,16 @@ fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
         file.sync_all()?;
     }
     drop(file);
-    draft.rename(&place)
+    fs::rename(&draft.0, place)
 }
 
-/// A file that is removed unless it is renamed.
-struct Draft {
-    path: Option<PathBuf>,
-}
-
-impl Draft {
-    fn beside(place: &Path) -> io::Result<(Draft, File)> {
-        let mut attempt = 0u32;
-        loop {
-            let path = place.with_file_name(format!(".fastphong-{}-{attempt}.tmp", process::id()));
-            match OpenOptions::new().write(true).create_new(true).open(&path) {
-                Ok(file) => return Ok((Draft { path: Some(path) }, file)),
-                // Another thread's, or left by a process that was killed.
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => {
-                    attempt += 1
-                }
-                Err(error) => return Err(error),
-            }
-        }
-    }
-
-    fn rename(mut self, place: &Path) -> io::Result<()> {
-        if let Some(path) = &self.path {
-            fs::rename(path, place)?;
-        }
-        self.path = None;
-        Ok(())
-    }
-}
+/// A file that is removed in the end, unless it was renamed.
+struct Draft(PathBuf);
 
 impl Drop for Draft {
     fn drop(&mut self) {
-        if let Some(path) = &self.path {
-            // The failure that led here is the one to report.
-            let _ = fs::remove_file(path);
-        }
+        // The failure that led here is the one to report.
+        let _ = fs::remove_file(&self.0);
     }
 }
 
@@ -118,6 +89,7 @@ mod tests {
     use std::vec::Vec;
 
     use super::*;
+    use std::process;
 
     /// An empty directory that is removed in the end.
     struct Directory(PathBuf);

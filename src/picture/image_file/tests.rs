@@ -32,6 +32,14 @@ fn linear() -> LinearPicture {
     LinearPicture::from_texels(5, 3, (0..15).map(texel).collect()).unwrap()
 }
 
+fn encode_ppm(picture: &Picture8) -> io::Result<Vec<u8>> {
+    FilePicture::stored(picture.clone()).encode(Format::Ppm)
+}
+
+fn encode_pfm(picture: &LinearPicture) -> io::Result<Vec<u8>> {
+    FilePicture::linear(picture.clone()).encode(Format::Pfm)
+}
+
 fn opaque(picture: &Picture8) -> Picture8 {
     picture.map(|[r, g, b, _]| [r, g, b, 255])
 }
@@ -186,11 +194,7 @@ fn files_are_written_in_whole_pages() {
     for format in [Format::Ppm, Format::Pfm] {
         let picture = FilePicture::linear(LinearPicture::new(301, 300, [0.5; 4]));
         let mut sizes = Sizes::default();
-        picture
-            .encoder(format)
-            .unwrap()
-            .write_to(&mut sizes)
-            .unwrap();
+        picture.write_to(format, &mut sizes).unwrap();
         let (last, pieces) = sizes.0.split_last().unwrap();
         assert!(
             !pieces.is_empty() && pieces.iter().all(|size| size.is_multiple_of(4096)),
@@ -253,13 +257,12 @@ fn pictures_are_converted_to_what_a_format_holds() {
 fn pictures_without_pixels_do_not_fit() {
     let nothing = FilePicture::stored(Picture8::new(0, 5, [0; 4]));
     for format in Format::ALL {
-        assert_eq!(
-            nothing.encode(format),
-            Err(EncodeError {
-                width: 0,
-                height: 5
-            })
-        );
+        let error = nothing.encode(format).unwrap_err();
+        let expected = EncodeError {
+            width: 0,
+            height: 5,
+        };
+        assert_eq!(error.to_string(), expected.to_string());
     }
 }
 
@@ -520,13 +523,7 @@ fn files_go_by_path_and_errors_name_it() {
             opaque(&stored())
         );
     }
-    assert_eq!(read_png(&path("a.png")).unwrap(), stored());
-    let error = read_png(&path("a.ppm")).unwrap_err().to_string();
-    let name = path("a.ppm").display().to_string();
-    assert_eq!(
-        error,
-        format!("{name}: not a PNG file: expected the PNG signature in its first 8 bytes")
-    );
+    assert_eq!(read_picture(&path("a.png")).unwrap().to_stored(), stored());
     for name in ["a.png", "a.ppm", "a.pfm"] {
         std::fs::remove_file(path(name)).unwrap();
         let error = read_picture(&path(name)).unwrap_err().to_string();
@@ -552,7 +549,7 @@ fn files_go_by_path_and_errors_name_it() {
         write_picture(&path("b.png"), &nothing)
             .unwrap_err()
             .to_string()
-            .contains("b.png: a picture of 0×5 pixels")
+            .contains("b.png: cannot be written: a picture of 0×5 pixels")
     );
     assert!(matches!(
         write_picture(&path("b.gif"), &picture),

@@ -1,191 +1,243 @@
-//! What values of a scene may be: the one place that decides, for files and flags alike.
+//! Ranges of the values of a scene: the one place that decides, for files and flags alike.
 
-use super::diagnostics::{SceneError, SourceText};
-use super::value::{Located, OneOrThree, Origin};
+use super::diagnostics::{Origin, SceneError, SourceText};
+use super::schema::Word;
+use super::value::{Data, Table, Value};
 use crate::picture::Rgb;
+use crate::scene::of_mesh::unit;
 use crate::scene::{MAX_COORDINATE, Scene};
 use glam::DVec3;
+use std::borrow::ToOwned;
+use std::collections::BTreeMap;
 use std::format;
 use std::string::String;
 use std::sync::Arc;
 
-/// Makes errors that point into the scene file, if there is one.
-pub(super) struct Check<'a> {
-    source: &'a Option<Arc<SourceText>>,
+/// A table that is read: values in their ranges, or errors that name the key, or the flag that stands for it, and its place.
+#[derive(Clone, Copy)]
+pub(super) struct Section<'a> {
+    /// The table.
+    pub table: &'a Table,
+    /// The name of it in errors; empty for the scene.
+    pub name: &'static str,
+    /// The file, if there is one.
+    pub source: &'a Option<Arc<SourceText>>,
 }
 
-impl<'a> Check<'a> {
-    pub fn new(source: &'a Option<Arc<SourceText>>) -> Self {
-        Check { source }
+/// A table that is not given.
+static NONE: Table = Table {
+    entries: BTreeMap::new(),
+    origin: Origin::Program,
+};
+
+impl<'a> Section<'a> {
+    /// Returns the table called `key`, empty if it is not given; errors call it `name`.
+    pub fn section(&self, key: &str, name: &'static str) -> Section<'a> {
+        let table = self.table.table(key).unwrap_or(&NONE);
+        Section {
+            table,
+            name,
+            ..*self
+        }
     }
 
-    /// An error about the value named `key` given at `origin`: its flag stands for the key when it came from one.
-    pub fn error(
-        &self,
-        origin: &Origin,
-        key: &str,
-        problem: &str,
-        expected: impl Into<String>,
-    ) -> SceneError {
-        let name = match origin {
-            Origin::Flag(flag) => flag,
-            Origin::File(_) | Origin::Program => key,
-        };
-        SceneError::new(
-            self.source.clone(),
-            origin.clone(),
-            format!("`{name}` {problem}"),
-            expected,
-        )
+    /// Returns the tables called `key`; errors call each of them `name`.
+    pub fn sections(&self, key: &str, name: &'static str) -> impl Iterator<Item = Section<'a>> {
+        let (section, tables) = (Section { name, ..*self }, self.table.tables(key));
+        tables.iter().map(move |table| Section { table, ..section })
     }
 
-    /// An error about what no single value says; it points at `origin`.
-    pub fn error_at(&self, origin: &Origin, problem: &str, expected: &str) -> SceneError {
-        SceneError::new(self.source.clone(), origin.clone(), problem, expected)
+    /// True if `key` is given.
+    pub fn has(&self, key: &str) -> bool {
+        self.table.get(key).is_some()
     }
 
-    /// An error about the scene as a whole.
+    /// Returns what the user called `key`: the flag, where one gave it.
+    pub fn name(&self, key: &str) -> String {
+        match self.table.get(key).map(|value| &value.origin) {
+            Some(Origin::Flag(flag)) => flag.clone(),
+            _ if self.name.is_empty() => key.to_owned(),
+            _ => format!("{}.{key}", self.name),
+        }
+    }
+
+    fn origin(&self, key: &str) -> &'a Origin {
+        let value = self.table.get(key);
+        value.map_or(&self.table.origin, |value| &value.origin)
+    }
+
+    /// Makes an error about the value of `key`.
+    pub fn error(&self, key: &str, problem: &str, expected: impl Into<String>) -> SceneError {
+        let title = format!("`{}` {problem}", self.name(key));
+        SceneError::new(self.origin(key).clone(), title, expected).within(self.source)
+    }
+
+    /// Makes an error about the table.
+    pub fn table_error(&self, problem: &str, expected: &str) -> SceneError {
+        SceneError::new(self.table.origin.clone(), problem, expected).within(self.source)
+    }
+
+    /// Makes an error about the scene as a whole.
     pub fn scene_error(&self, problem: &str, expected: &str) -> SceneError {
-        SceneError::new(self.source.clone(), Origin::Program, problem, expected)
+        SceneError::new(Origin::Program, problem, expected).within(self.source)
     }
 
-    /// Two keys that exclude each other.
-    pub fn conflict(
-        &self,
-        key: &str,
-        at: &Origin,
-        other_key: &str,
-        other: &Origin,
-        why: &str,
-    ) -> SceneError {
-        let other_name = match other {
-            Origin::Flag(flag) => flag,
-            Origin::File(_) | Origin::Program => other_key,
-        };
-        self.error(
-            at,
-            key,
-            &format!("and `{other_name}` exclude each other"),
-            why,
+    /// Makes `error` point at the value of `key`, too, if that is given.
+    pub fn pointing_at(&self, key: &str, label: &str, error: SceneError) -> SceneError {
+        match self.table.get(key) {
+            Some(value) => error.related(&value.origin, label),
+            None => error,
+        }
+    }
+
+    /// Makes the error for two keys that exclude each other.
+    pub fn conflict(&self, key: &str, other: &str, why: &str) -> SceneError {
+        let problem = format!("and `{}` exclude each other", self.name(other));
+        self.pointing_at(
+            other,
+            "the other one is here",
+            self.error(key, &problem, why),
         )
-        .related(other, "the other one is here")
     }
 
-    /// A number for which `is_valid` holds; NaN and infinities are refused first.
+    /// Returns a number for which `is_valid` holds; NaN and infinities are refused first.
     pub fn number(
         &self,
-        given: &Located<f64>,
         key: &str,
         is_valid: impl Fn(f64) -> bool,
         expected: &str,
-    ) -> Result<f64, SceneError> {
-        let value = given.value;
-        // What is finite in 64 bits need not be so in the 32 bits of the pixel loops.
-        if (value as f32).is_finite() && is_valid(value) {
-            Ok(value)
-        } else {
-            Err(self.error(
-                &given.origin,
-                key,
-                &format!("is {value}"),
-                format!("expected {expected}"),
-            ))
+    ) -> Result<Option<f64>, SceneError> {
+        match self.table.get(key).map(|value| &value.data) {
+            // A number that is finite in 64 bits need not be so in the 32 bits of the pixel loops.
+            Some(Data::Number(value)) if !((*value as f32).is_finite() && is_valid(*value)) => {
+                let problem = format!("is {value}");
+                Err(self.error(key, &problem, format!("expected {expected}")))
+            }
+            Some(Data::Number(value)) => Ok(Some(*value)),
+            _ => Ok(None),
         }
     }
 
-    /// A length: a number over 0 whose reciprocal stays within the range of coordinates too.
-    pub fn length(&self, given: &Located<f64>, key: &str) -> Result<f64, SceneError> {
+    /// Returns a length: a number over 0 whose reciprocal stays within the range of coordinates too.
+    pub fn length(&self, key: &str) -> Result<Option<f64>, SceneError> {
         let is_length = |value| (1.0 / MAX_COORDINATE..=MAX_COORDINATE).contains(&value);
-        self.number(given, key, is_length, "a number over 0 (1e-15 to 1e15)")
+        self.number(key, is_length, "a number over 0 (1e-15 to 1e15)")
     }
 
-    /// A number that is 0 or more.
-    pub fn not_negative(&self, given: &Located<f64>, key: &str) -> Result<f64, SceneError> {
-        self.number(given, key, |value| value >= 0.0, "0 or more")
+    /// Returns a number that is 0 or more.
+    pub fn not_negative(&self, key: &str) -> Result<Option<f64>, SceneError> {
+        self.number(key, |value| value >= 0.0, "0 or more")
     }
 
-    /// A number within the range of coordinates.
-    pub fn coordinate(&self, given: &Located<f64>, key: &str) -> Result<f64, SceneError> {
-        self.number(given, key, is_coordinate, EXPECTED_COORDINATE)
+    /// Returns a number within the range of coordinates.
+    pub fn coordinate(&self, key: &str) -> Result<Option<f64>, SceneError> {
+        self.number(key, is_coordinate, COORDINATES)
     }
 
-    /// A point: three numbers within the range of coordinates.
-    pub fn point(&self, given: &Located<[f64; 3]>, key: &str) -> Result<DVec3, SceneError> {
-        for (axis, value) in ["x", "y", "z"].into_iter().zip(given.value) {
+    /// Returns an angle in radians, given as at most `most` degrees in either direction.
+    pub fn angle(&self, key: &str, most: f64) -> Result<Option<f64>, SceneError> {
+        let expected = format!("degrees between -{most} and {most}");
+        let degrees = self.number(key, |value| value.abs() <= most, &expected)?;
+        Ok(degrees.map(f64::to_radians))
+    }
+
+    /// Returns three numbers as they are given.
+    pub fn triple(&self, key: &str) -> Option<DVec3> {
+        match self.table.get(key)?.data {
+            Data::Triple(values) => Some(DVec3::from_array(values)),
+            _ => None,
+        }
+    }
+
+    /// Returns a point: three numbers within the range of coordinates.
+    pub fn point(&self, key: &str) -> Result<Option<DVec3>, SceneError> {
+        let Some(point) = self.triple(key) else {
+            return Ok(None);
+        };
+        for (axis, value) in ["x", "y", "z"].into_iter().zip(point.to_array()) {
             if !is_coordinate(value) {
                 let problem = format!("has {axis} = {value}");
-                return Err(self.error(
-                    &given.origin,
-                    key,
-                    &problem,
-                    format!("expected {EXPECTED_COORDINATE}"),
-                ));
+                return Err(self.error(key, &problem, format!("expected {COORDINATES}")));
             }
         }
-        Ok(DVec3::from_array(given.value))
+        Ok(Some(point))
     }
 
-    /// A direction as a unit vector.
-    pub fn direction(&self, given: &Located<[f64; 3]>, key: &str) -> Result<DVec3, SceneError> {
-        let vector = DVec3::from_array(given.value);
-        if !vector.is_finite() {
-            return Err(self.error(
-                &given.origin,
-                key,
-                "is not finite",
-                "expected three finite numbers",
-            ));
+    /// Returns a direction as a unit vector.
+    pub fn direction(&self, key: &str) -> Result<Option<DVec3>, SceneError> {
+        match self.triple(key) {
+            Some(vector) if !vector.is_finite() => {
+                Err(self.error(key, "is not finite", "expected three finite numbers"))
+            }
+            Some(vector) if vector == DVec3::ZERO => {
+                let expected = "expected a direction: not all numbers 0";
+                Err(self.error(key, "has no length", expected))
+            }
+            vector => Ok(vector.map(unit)),
         }
-        // Scaled first, so that squares neither overflow nor vanish.
-        let largest = vector.abs().max_element();
-        if largest == 0.0 {
-            return Err(self.error(
-                &given.origin,
-                key,
-                "has no length",
-                "expected a direction: not all numbers 0",
-            ));
-        }
-        Ok((vector / largest).normalize())
     }
 
-    /// A colour or a coefficient of each channel: 0 or more, and at most `most`.
-    pub fn channels(
+    /// Returns a colour or a coefficient of each channel: 0 or more, and at most `most`.
+    pub fn channels(&self, key: &str, most: f64) -> Result<Option<Rgb>, SceneError> {
+        let Some(values) = self.triple(key).map(|values| values.to_array()) else {
+            return Ok(None);
+        };
+        let is_wrong = |v: f64| !((v as f32).is_finite() && (0.0..=most).contains(&v));
+        let Some(wrong) = values.iter().position(|&value| is_wrong(value)) else {
+            return Ok(Some(values.map(|value| value as f32)));
+        };
+        let value = values[wrong];
+        let problem = match values.map(|v| v == value || v.is_nan() && value.is_nan()) {
+            [true, true, true] => format!("is {value}"),
+            _ => format!("has {} = {value}", ["red", "green", "blue"][wrong]),
+        };
+        let expected = match most.is_finite() {
+            true => format!("expected 0 to {most}"),
+            false => "expected 0 or more".to_owned(),
+        };
+        Err(self.error(key, &problem, expected))
+    }
+
+    /// Returns a whole number for which `is_valid` holds.
+    pub fn whole(
         &self,
-        given: &Located<OneOrThree>,
         key: &str,
-        most: f64,
-    ) -> Result<Rgb, SceneError> {
-        let values = given.value.0;
-        for (name, value) in ["red", "green", "blue"].into_iter().zip(values) {
-            if (value as f32).is_finite() && (0.0..=most).contains(&value) {
-                continue;
-            }
-            let problem =
-                if values == [value; 3] || value.is_nan() && values.iter().all(|v| v.is_nan()) {
-                    format!("is {value}")
-                } else {
-                    format!("has {name} = {value}")
-                };
-            let expected = if most.is_finite() {
-                format!("expected 0 to {most}")
-            } else {
-                "expected 0 or more".into()
-            };
-            return Err(self.error(&given.origin, key, &problem, expected));
-        }
-        Ok(values.map(|value| value as f32))
+        is_valid: impl Fn(u32) -> bool,
+        expected: &str,
+    ) -> Result<Option<u32>, SceneError> {
+        let Some(&Value {
+            data: Data::Whole(value),
+            ..
+        }) = self.table.get(key)
+        else {
+            return Ok(None);
+        };
+        let valid = u32::try_from(value).ok().filter(|&value| is_valid(value));
+        let refused = || self.error(key, &format!("is {value}"), format!("expected {expected}"));
+        valid.map(Some).ok_or_else(refused)
     }
 
-    /// A side of the picture.
-    pub fn side(&self, given: &Located<i64>, key: &str) -> Result<u32, SceneError> {
-        match u32::try_from(given.value) {
-            Ok(side) if (1..=Scene::MAX_SIDE).contains(&side) => Ok(side),
-            _ => {
-                let expected = format!("expected 1 to {}", Scene::MAX_SIDE);
-                Err(self.error(&given.origin, key, &format!("is {}", given.value), expected))
-            }
-        }
+    /// Returns a side of the picture.
+    pub fn side(&self, key: &str) -> Result<Option<u32>, SceneError> {
+        let sides = 1..=Scene::MAX_SIDE;
+        let expected = format!("1 to {}", Scene::MAX_SIDE);
+        self.whole(key, |side| sides.contains(&side), &expected)
+    }
+
+    /// Returns a choice, if it is given.
+    pub fn choice<T: Word>(&self, key: &str) -> Option<T> {
+        self.table.text(key).and_then(T::from_word)
+    }
+
+    /// Returns a choice, its default if none is given.
+    pub fn word<T: Word>(&self, key: &str) -> T {
+        self.choice(key).unwrap_or_default()
+    }
+
+    /// True if a switch is given and on.
+    pub fn is_on(&self, key: &str) -> bool {
+        let value = self.table.get(key);
+        value.is_some_and(|value| value.data == Data::Switch(true))
     }
 }
 
@@ -199,5 +251,5 @@ pub(super) fn is_position(point: DVec3) -> bool {
     point.to_array().into_iter().all(is_coordinate)
 }
 
-/// What a coordinate may be, in words; see [`MAX_COORDINATE`].
-const EXPECTED_COORDINATE: &str = "numbers between -1e15 and 1e15";
+/// The range of coordinates in words; see [`MAX_COORDINATE`].
+pub(super) const COORDINATES: &str = "numbers between -1e15 and 1e15";

@@ -1,7 +1,5 @@
 //! Errors of scene files: what is wrong, where it stands, what was expected.
 
-use super::value::Origin;
-use crate::number::suggest;
 use annotate_snippets::{
     AnnotationKind, Group, Level, Origin as Path, Renderer, Snippet, normalize_untrusted_str,
 };
@@ -14,12 +12,24 @@ use std::string::{String, ToString};
 use std::sync::Arc;
 use std::vec::Vec;
 
+/// The place where a value was given: errors about it point there.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Origin {
+    /// By the program.
+    #[default]
+    Program,
+    /// In the scene file, at these bytes.
+    File(Range<usize>),
+    /// By this command-line flag, for example `--fovy`.
+    Flag(String),
+}
+
 /// The text of a scene file and its path, kept to show lines of it.
 #[derive(Debug)]
 pub struct SourceText {
     /// As the user named it.
     pub path: PathBuf,
-    /// What the file says.
+    /// The contents of the file.
     pub text: String,
 }
 
@@ -29,7 +39,7 @@ pub struct SourceText {
 #[derive(Clone, Debug)]
 pub struct SceneError(Box<Diagnostic>);
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Diagnostic {
     title: String,
     expected: String,
@@ -41,23 +51,24 @@ struct Diagnostic {
 }
 
 impl SceneError {
-    /// An error at `origin`: `title` says what is wrong, `expected` what should be there (may be empty).
+    /// Makes an error at `origin`: `title` says what is wrong, `expected` what should be there (may be empty).
     pub(super) fn new(
-        source: Option<Arc<SourceText>>,
         origin: Origin,
         title: impl Into<String>,
         expected: impl Into<String>,
     ) -> Self {
-        let (title, expected) = (title.into(), expected.into());
         SceneError(Box::new(Diagnostic {
-            title,
-            expected,
-            help: None,
-            note: None,
+            title: title.into(),
+            expected: expected.into(),
             origin,
-            related: Vec::new(),
-            source,
+            ..Diagnostic::default()
         }))
+    }
+
+    /// Adds the file, lines of which are shown.
+    pub(super) fn within(mut self, source: &Option<Arc<SourceText>>) -> Self {
+        self.0.source = source.clone();
+        self
     }
 
     /// Adds a hint.
@@ -80,22 +91,22 @@ impl SceneError {
         self
     }
 
-    /// What is wrong, in one sentence.
+    /// Returns the problem, in one sentence.
     pub fn message(&self) -> &str {
         &self.0.title
     }
 
-    /// What was expected instead; may be empty.
+    /// Returns the values that were expected instead; may be empty.
     pub fn expected(&self) -> &str {
         &self.0.expected
     }
 
-    /// A hint, if there is one: what may have been meant.
+    /// Returns a hint, if there is one: what may have been meant.
     pub fn hint(&self) -> Option<&str> {
         self.0.help.as_deref()
     }
 
-    /// Line and column in the scene file, both from 1, the column counted in characters; `None` for errors that do not
+    /// Returns line and column in the scene file, both from 1, the column counted in characters; `None` for errors that do not
     /// stand in a file.
     pub fn line_and_column(&self) -> Option<(usize, usize)> {
         let span = self.span()?;
@@ -107,7 +118,7 @@ impl SceneError {
         ))
     }
 
-    /// The bytes that the error is about, kept inside the text and on character boundaries.
+    /// Returns the bytes that the error is about, kept inside the text and on character boundaries.
     fn span(&self) -> Option<Range<usize>> {
         let text = &self.0.source.as_ref()?.text;
         let Origin::File(span) = &self.0.origin else {
@@ -117,16 +128,15 @@ impl SceneError {
         Some(start..text.ceil_char_boundary(span.end).max(start))
     }
 
-    /// The error as text, with terminal colours or without.
+    /// Returns the error as text, with terminal colours or without.
     pub fn render(&self, colour: bool) -> String {
         let error = &*self.0;
         let span = self.span();
-        let title = match (&span, error.expected.is_empty()) {
-            (Some(_), _) | (None, true) => normalize_untrusted_str(&error.title),
-            (None, false) => {
-                normalize_untrusted_str(&format!("{}: {}", error.title, error.expected))
-            }
+        let title = match (&span, &*error.expected) {
+            (Some(_), _) | (None, "") => error.title.clone(),
+            (None, expected) => format!("{}: {expected}", error.title),
         };
+        let title = normalize_untrusted_str(&title);
         let mut group = Group::with_title(Level::ERROR.primary_title(title));
         if let Some(source) = &error.source {
             let path = source.path.display().to_string();
@@ -150,87 +160,25 @@ impl SceneError {
             };
         }
         if let Some(note) = &error.note {
-            group = group.element(
-                Level::NOTE.message(
-                    note.lines()
-                        .map(normalize_untrusted_str)
-                        .collect::<Vec<_>>()
-                        .join("\n"),
-                ),
-            );
+            let lines: Vec<String> = note.lines().map(normalize_untrusted_str).collect();
+            group = group.element(Level::NOTE.message(lines.join("\n")));
         }
         if let Some(help) = &error.help {
             group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
         }
-        let renderer = if colour {
-            Renderer::styled()
-        } else {
-            Renderer::plain()
-        };
-        renderer.render(&[group])
+        match colour {
+            true => Renderer::styled().render(&[group]),
+            false => Renderer::plain().render(&[group]),
+        }
     }
 
-    /// What the TOML reader says of `source`, in this tool's words and with what may have been meant.
-    pub(super) fn from_toml(error: &toml::de::Error, source: Arc<SourceText>) -> Self {
+    /// Makes the error for text that is not TOML.
+    pub(super) fn from_toml(error: &toml::de::Error) -> Self {
         let origin = error.span().map_or(Origin::Program, Origin::File);
         let message = error.message();
-        // The reader passes serde's sentences on as text, so that they must be taken apart again.
-        let parts = message.split_once(", ").unwrap_or((message, ""));
-        for (unknown, name) in [
-            ("unknown field `", "unknown key"),
-            ("unknown variant `", "unknown word"),
-        ] {
-            if let Some(word) = parts
-                .0
-                .strip_prefix(unknown)
-                .and_then(|rest| rest.strip_suffix('`'))
-            {
-                let candidates = quoted(parts.1);
-                let error =
-                    SceneError::new(Some(source), origin, format!("{name} `{word}`"), parts.1);
-                if word == "depth_test" {
-                    return error.help("what hides a polygon is said by `visibility`");
-                }
-                return match suggest::nearest(word, candidates) {
-                    Some(nearest) => error.help(format!("did you mean `{nearest}`?")),
-                    None => error,
-                };
-            }
-        }
-        if let Some(key) = message
-            .strip_prefix("missing field `")
-            .and_then(|rest| rest.strip_suffix('`'))
-        {
-            return SceneError::new(
-                Some(source),
-                origin,
-                format!("the key `{key}` is missing"),
-                "in this table",
-            );
-        }
-        if let (Some(found), Some(expected)) = (
-            parts.0.strip_prefix("invalid type: "),
-            parts.1.strip_prefix("expected "),
-        ) {
-            return SceneError::new(
-                Some(source),
-                origin,
-                format!("expected {expected}"),
-                format!("found {found}"),
-            );
-        }
-        SceneError::new(
-            Some(source),
-            origin,
-            format!("not valid TOML: {}", parts.0),
-            parts.1,
-        )
+        let (problem, expected) = message.split_once(", ").unwrap_or((message, ""));
+        SceneError::new(origin, format!("not valid TOML: {problem}"), expected)
     }
-}
-
-/// The words between backticks.
-fn quoted(text: &str) -> impl Iterator<Item = &str> {
-    text.split('`').skip(1).step_by(2)
 }
 
 impl fmt::Display for SceneError {

@@ -1,13 +1,15 @@
 //! From a scene file to a scene: values are checked, meshes loaded, the camera is fitted.
 
-use super::check::{Check, is_coordinate, is_position};
-use super::diagnostics::SceneError;
-use super::value::{Located, OneOrThree, Origin};
+use super::SceneFile;
+use super::check::{COORDINATES, Section, is_coordinate, is_position};
+use super::diagnostics::{Origin, SceneError};
+use super::lights::{check_distance, light};
+use super::value::{Data, Table};
 use super::viewpoint::Viewpoint;
-use super::{LightSection, MaterialSection, NormalChoice, ObjectSection, SceneFile, ViewerChoice};
+use super::visibility::{clipping, hidden_surfaces, samples};
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, MeshBuilder, PolygonMesh};
-use crate::picture::Rgb;
+use crate::scene::of_mesh::unit;
 use crate::scene::{Light, MAX_COORDINATE, Object, Scene};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::BTreeMap;
@@ -23,7 +25,7 @@ use std::vec::Vec;
 pub struct Resolved {
     /// The scene.
     pub scene: Scene,
-    /// What the user should know, one sentence each.
+    /// Remarks for the user, one sentence each.
     pub warnings: Vec<String>,
 }
 
@@ -31,7 +33,7 @@ pub struct Resolved {
 pub type LoadedMesh = Result<(Arc<PolygonMesh>, Vec<String>), String>;
 
 impl SceneFile {
-    /// The scene that the file describes.
+    /// Returns the scene that the file describes.
     ///
     /// `load_mesh` is asked once for each different mesh: with what the file says (`vase.obj`, `builtin:sphere?rings=8`)
     /// and the folder to which files are relative. That is the folder of the scene file, or the empty path (the current
@@ -44,133 +46,89 @@ impl SceneFile {
         &self,
         load_mesh: impl FnMut(&str, &Path) -> LoadedMesh,
     ) -> Result<Resolved, SceneError> {
-        let check = Check::new(&self.source.0);
-        let side = |given: &Option<Located<i64>>, key, default| match given {
-            Some(given) => check.side(given, key),
-            None => Ok(default),
+        let file = Section {
+            table: &self.table,
+            name: "",
+            source: &self.source,
         };
-        let width = side(&self.image.width, "image.width", Self::DEFAULT_SIZE.0)?;
-        let height = side(&self.image.height, "image.height", Self::DEFAULT_SIZE.1)?;
-        let background = channels(
-            &check,
-            &self.image.background,
-            "image.background",
-            1.0,
-            [0.0; 3],
-        )?;
-        let ambient = channels(&check, &self.ambient, "ambient", f64::INFINITY, [1.0; 3])?;
-        let lights = self.lights(&check)?;
-        let viewpoint = Viewpoint::new(&self.camera, &check)?;
-        let samples = self.samples([width, height], &check)?;
-        let clipping = self.clipping(&check)?;
-        let mut warnings = Vec::new();
-        let hidden_surfaces = self.hidden_surfaces(&check, &mut warnings)?;
-        let objects = self.objects(&check, load_mesh, &mut warnings)?;
+        let (image, mut warnings) = (file.section("image", "image"), Vec::new());
+        let width = image.side("width")?.unwrap_or(Scene::DEFAULT_SIZE.0);
+        let height = image.side("height")?.unwrap_or(Scene::DEFAULT_SIZE.1);
+        let background = image.channels("background", 1.0)?.unwrap_or([0.0; 3]);
+        let ambient = file.channels("ambient", f64::INFINITY)?;
+        let lights = lights(&file)?;
+        let viewpoint = Viewpoint::new(file.section("camera", "camera"))?;
+        let samples = samples(&image, [width, height])?;
+        let clipping = clipping(&file)?;
+        let hidden_surfaces = hidden_surfaces(&file, &mut warnings)?;
+        let objects = self.objects(&file, load_mesh, &mut warnings)?;
         let points: Vec<DVec3> = objects.iter().flat_map(world_points).collect();
         let aspect = f64::from(width) / f64::from(height);
-        let camera = viewpoint.camera(points.iter().copied(), aspect, &check, &mut warnings)?;
-        for section in self.light.iter().flatten() {
-            section.check_distance(&points, &check)?;
-        }
-        let specular = self
-            .specular
-            .as_ref()
-            .map_or_else(Default::default, |given| given.value);
+        let camera = viewpoint.camera(points.iter().copied(), aspect, &mut warnings)?;
+        file.sections("light", "light")
+            .try_for_each(|light| check_distance(&light, &points))?;
+        let specular = file.word("specular");
         let scene = Scene {
             width,
             height,
             background,
             camera,
-            ambient,
+            ambient: ambient.unwrap_or([1.0; 3]),
             lights,
-            local_viewer: self
-                .viewer
-                .as_ref()
-                .is_some_and(|given| given.value == ViewerChoice::Local),
+            local_viewer: file.table.text("viewer") == Some("local"),
             specular,
-            shininess_for: self
-                .shininess_for
-                .as_ref()
-                .map_or(specular, |given| given.value),
-            gate: self
-                .specular_gate
-                .as_ref()
-                .map_or_else(Default::default, |given| given.value),
-            interpolation: self
-                .interpolation
-                .as_ref()
-                .map_or_else(Default::default, |given| given.value),
-            culling: self
-                .cull
-                .as_ref()
-                .map_or_else(Default::default, |given| given.value),
+            shininess_for: file.choice("shininess_for").unwrap_or(specular),
+            gate: file.word("specular_gate"),
+            interpolation: file.word("interpolation"),
+            culling: file.word("cull"),
             hidden_surfaces,
             clipping,
-            two_sided: self.two_sided.as_ref().is_some_and(|given| given.value),
+            two_sided: file.is_on("two_sided"),
             samples,
-            encoding: self
-                .image
-                .encoding
-                .as_ref()
-                .map_or_else(Default::default, |given| given.value),
+            encoding: image.word("encoding"),
             objects,
         };
         Ok(Resolved { scene, warnings })
     }
 
-    fn lights(&self, check: &Check) -> Result<Vec<Light>, SceneError> {
-        let default = [LightSection::toward(Self::DEFAULT_LIGHT)];
-        let sections = self.light.as_deref().unwrap_or(&default);
-        if let Some(over) = sections.get(Scene::MAX_LIGHTS) {
-            let problem = format!("light number {} is one too many", Scene::MAX_LIGHTS + 1);
-            let expected = format!("expected {} lights at most", Scene::MAX_LIGHTS);
-            return Err(check.error_at(&over.table.origin, &problem, &expected));
-        }
-        (1..)
-            .zip(sections)
-            .map(|(number, section)| section.resolve(number, check))
-            .collect()
-    }
-
+    /// Returns the objects with their meshes, each of which is loaded once.
     fn objects(
         &self,
-        check: &Check,
+        file: &Section,
         mut load_mesh: impl FnMut(&str, &Path) -> LoadedMesh,
         warnings: &mut Vec<String>,
     ) -> Result<Vec<Object>, SceneError> {
-        let default = material(&self.material, &Material::default(), check, "material")?;
-        if self.object.is_empty() {
-            return Err(check
-                .scene_error(
-                    "the scene has no objects",
-                    "expected at least one [[object]]",
-                )
-                .help("for example: [[object]] with mesh = \"builtin:sphere\""));
+        let given = file.section("material", "material");
+        let default = material(&given, &Material::default())?;
+        if file.table.tables("object").is_empty() {
+            let expected = "expected at least one [[object]]";
+            let error = file.scene_error("the scene has no objects", expected);
+            return Err(error.help("for example: [[object]] with mesh = \"builtin:sphere\""));
         }
         // All that can be checked without a mesh is, before the first one costs time.
-        let mut placed = Vec::with_capacity(self.object.len());
-        for section in &self.object {
-            let own = section.material.as_ref();
-            let own = own
-                .map(|own| material(own, &default, check, "object.material"))
-                .transpose()?;
-            placed.push((
+        let placed = file.sections("object", "object").map(|section| {
+            let own = section.has("material").then(|| {
+                let own = section.section("material", "object.material");
+                material(&own, &default)
+            });
+            Ok((
                 section,
-                placement(section, check)?,
-                normals(section, check)?,
-                own,
-            ));
-        }
+                placement(&section)?,
+                normals(&section)?,
+                own.transpose()?,
+            ))
+        });
+        let placed = placed.collect::<Result<Vec<_>, _>>()?;
         let mut meshes: BTreeMap<(PathBuf, &str), Arc<PolygonMesh>> = BTreeMap::new();
         let mut objects = Vec::with_capacity(placed.len());
         for (section, transform, normals, own) in placed {
-            let spec = section.mesh.value.as_str();
-            let folder = self.mesh_folder(&section.mesh.origin);
+            let spec = section.table.text("mesh").unwrap_or_default();
+            let folder = self.mesh_folder(section.table);
             let mesh = match meshes.get(&(folder.clone(), spec)) {
                 Some(mesh) => mesh.clone(),
                 None => {
                     let (mesh, found_odd) = load_mesh(spec, &folder)
-                        .map_err(|reason| mesh_error(check, &section.mesh, &reason))?;
+                        .map_err(|reason| mesh_error(&section, spec, &reason))?;
                     warnings.extend(found_odd);
                     meshes.insert((folder, spec), mesh.clone());
                     mesh
@@ -179,7 +137,7 @@ impl SceneFile {
             let (mesh, material) = match own {
                 Some(own) => (mesh, Some(own)),
                 None if mesh.materials().is_empty() => (mesh, Some(default)),
-                None if self.material.is_empty() => (mesh, None),
+                None if given.table.entries.is_empty() => (mesh, None),
                 None => (with_default_material(mesh, default), None),
             };
             let object = Object {
@@ -191,145 +149,92 @@ impl SceneFile {
             if !world_points(&object).all(is_position) {
                 let problem = format!("`{spec}` reaches too far");
                 let expected = "expected coordinates between -1e15 and 1e15 after the transform";
-                return Err(check.error(&section.mesh.origin, "object.mesh", &problem, expected));
+                return Err(section.error("mesh", &problem, expected));
             }
             objects.push(object);
         }
         Ok(objects)
     }
 
-    /// The folder to which a mesh that was named at `origin` is relative.
-    fn mesh_folder(&self, origin: &Origin) -> PathBuf {
+    /// Returns the folder to which the mesh of `object` is relative.
+    fn mesh_folder(&self, object: &Table) -> PathBuf {
+        let origin = object.get("mesh").map(|mesh| &mesh.origin);
         match (origin, self.path().and_then(Path::parent)) {
-            (Origin::File(_), Some(folder)) => folder.into(),
+            (Some(Origin::File(_)), Some(folder)) => folder.into(),
             _ => PathBuf::new(),
         }
     }
 }
 
-/// The error for a mesh that could not be loaded; the caret stands under its name.
-fn mesh_error(check: &Check, mesh: &Located<String>, reason: &str) -> SceneError {
-    let problem = format!("`{}` cannot be used", mesh.value);
+/// Returns the lights, or the one that is there when none are given.
+fn lights(file: &Section) -> Result<Vec<Light>, SceneError> {
+    if !file.has("light") {
+        let usual = unit(DVec3::from_array(Scene::DEFAULT_LIGHT));
+        return Ok(vec![Light::directional(usual, [1.0; 3])]);
+    }
+    if let Some(over) = file.sections("light", "light").nth(Scene::MAX_LIGHTS) {
+        let problem = format!("light number {} is one too many", Scene::MAX_LIGHTS + 1);
+        let expected = format!("expected {} lights at most", Scene::MAX_LIGHTS);
+        return Err(over.table_error(&problem, &expected));
+    }
+    file.sections("light", "light")
+        .zip(1..)
+        .map(|(section, number)| light(&section, number))
+        .collect()
+}
+
+/// Makes the error for a mesh that could not be loaded; the caret stands under its name.
+fn mesh_error(object: &Section, mesh: &str, reason: &str) -> SceneError {
+    let problem = format!("`{mesh}` cannot be used");
     match reason.contains('\n') {
-        false => check.error(&mesh.origin, "object.mesh", &problem, reason),
-        true => check
-            .error(&mesh.origin, "object.mesh", &problem, "")
-            .note(reason),
+        false => object.error("mesh", &problem, reason),
+        true => object.error("mesh", &problem, "").note(reason),
     }
 }
 
-fn channels(
-    check: &Check,
-    given: &Option<Located<OneOrThree>>,
-    key: &str,
-    most: f64,
-    default: Rgb,
-) -> Result<Rgb, SceneError> {
-    given
-        .as_ref()
-        .map_or(Ok(default), |given| check.channels(given, key, most))
-}
-
-/// The coefficients given in `section`, those of `default` where none are.
-fn material(
-    section: &MaterialSection,
-    default: &Material,
-    check: &Check,
-    table: &str,
-) -> Result<Material, SceneError> {
-    let coefficient = |given: &Option<Located<OneOrThree>>, key: &str, default: Rgb| {
-        channels(
-            check,
-            given,
-            &format!("{table}.{key}"),
-            f64::INFINITY,
-            default,
-        )
-    };
+/// Returns the coefficients given in a table, those of `default` where none are.
+fn material(section: &Section, default: &Material) -> Result<Material, SceneError> {
+    let coefficient = |key| section.channels(key, f64::INFINITY);
+    let shininess = section.not_negative("shininess")?;
     Ok(Material {
-        ambient: coefficient(&section.ka, "ka", default.ambient)?,
-        diffuse: coefficient(&section.kd, "kd", default.diffuse)?,
-        specular: coefficient(&section.ks, "ks", default.specular)?,
-        shininess: match &section.shininess {
-            Some(given) => check.not_negative(given, &format!("{table}.shininess"))? as f32,
-            None => default.shininess,
-        },
+        ambient: coefficient("ka")?.unwrap_or(default.ambient),
+        diffuse: coefficient("kd")?.unwrap_or(default.diffuse),
+        specular: coefficient("ks")?.unwrap_or(default.specular),
+        shininess: shininess.map_or(default.shininess, |n| n as f32),
     })
 }
 
-fn normals(section: &ObjectSection, check: &Check) -> Result<NormalSource, SceneError> {
-    match (&section.normals, &section.crease) {
-        (Some(normals), Some(crease)) => {
-            let why = "expected one of them: `crease` averages up to an angle";
-            Err(check.conflict(
-                "object.crease",
-                &crease.origin,
-                "object.normals",
-                &normals.origin,
-                why,
-            ))
-        }
-        (_, Some(crease)) => check
-            .number(
-                crease,
-                "object.crease",
-                |v| (0.0..=180.0).contains(&v),
-                "degrees between 0 and 180",
-            )
-            .map(NormalSource::Crease),
-        (
-            Some(Located {
-                value: NormalChoice::Given,
-                ..
-            }),
-            None,
-        ) => Ok(NormalSource::Given),
-        (
-            Some(Located {
-                value: NormalChoice::Averaged,
-                ..
-            })
-            | None,
-            None,
-        ) => Ok(NormalSource::Averaged),
+fn normals(object: &Section) -> Result<NormalSource, SceneError> {
+    if object.has("crease") && object.has("normals") {
+        let why = "expected one of them: `crease` averages up to an angle";
+        return Err(object.conflict("crease", "normals", why));
     }
+    let is_crease = |v| (0.0..=180.0).contains(&v);
+    let crease = object.number("crease", is_crease, "degrees between 0 and 180")?;
+    Ok(crease.map_or_else(|| object.word("normals"), NormalSource::Crease))
 }
 
-/// Model space to world space.
-fn placement(section: &ObjectSection, check: &Check) -> Result<DAffine3, SceneError> {
-    if let Some(matrix) = &section.matrix {
-        return from_matrix(section, matrix, check);
+/// Returns the transform from model space to world space.
+fn placement(object: &Section) -> Result<DAffine3, SceneError> {
+    if let Some(Data::Matrix(rows)) = object.table.get("matrix").map(|value| &value.data) {
+        return from_matrix(object, rows);
     }
-    let scale = match &section.scale {
-        Some(given) => {
-            let valid =
-                |v: f64| v != 0.0 && v.abs() <= MAX_COORDINATE && v.abs() >= 1.0 / MAX_COORDINATE;
-            if let Some(value) = given.value.0.into_iter().find(|v| !valid(*v)) {
-                let problem = format!("has the factor {value}");
-                let expected =
-                    "expected factors that are not 0, their sizes between 1e-15 and 1e15";
-                return Err(check.error(&given.origin, "object.scale", &problem, expected));
-            }
-            DVec3::from_array(given.value.0)
-        }
-        None => DVec3::ONE,
-    };
+    let scale = object.triple("scale").unwrap_or(DVec3::ONE);
+    let sizes = 1.0 / MAX_COORDINATE..=MAX_COORDINATE;
+    let is_wrong = |factor: &f64| !sizes.contains(&factor.abs());
+    if let Some(factor) = scale.to_array().into_iter().find(is_wrong) {
+        let problem = format!("has the factor {factor}");
+        let expected = "expected factors that are not 0, their sizes between 1e-15 and 1e15";
+        return Err(object.error("scale", &problem, expected));
+    }
     let mut rotation = DQuat::IDENTITY;
-    for turn in section.rotate.iter().flat_map(|rotations| &rotations.0) {
-        let axis = check.direction(&turn.axis, "object.rotate.axis")?;
-        let expected = "degrees between -36000 and 36000";
-        let angle = check.number(
-            &turn.angle,
-            "object.rotate.angle",
-            |v| v.abs() <= 36_000.0,
-            expected,
-        )?;
-        rotation = DQuat::from_axis_angle(axis, angle.to_radians()) * rotation;
+    for turn in object.sections("rotate", "object.rotate") {
+        if let (Some(axis), Some(angle)) = (turn.direction("axis")?, turn.angle("angle", 36_000.0)?)
+        {
+            rotation = DQuat::from_axis_angle(axis, angle) * rotation;
+        }
     }
-    let translation = match &section.translate {
-        Some(given) => check.point(given, "object.translate")?,
-        None => DVec3::ZERO,
-    };
+    let translation = object.point("translate")?.unwrap_or(DVec3::ZERO);
     Ok(DAffine3::from_scale_rotation_translation(
         scale,
         rotation.normalize(),
@@ -337,44 +242,16 @@ fn placement(section: &ObjectSection, check: &Check) -> Result<DAffine3, SceneEr
     ))
 }
 
-fn from_matrix(
-    section: &ObjectSection,
-    matrix: &Located<[[f64; 4]; 3]>,
-    check: &Check,
-) -> Result<DAffine3, SceneError> {
-    let others = [
-        (
-            "object.scale",
-            section.scale.as_ref().map(|given| &given.origin),
-        ),
-        (
-            "object.rotate",
-            section
-                .rotate
-                .as_ref()
-                .and_then(|r| r.0.first())
-                .map(|turn| &turn.axis.origin),
-        ),
-        (
-            "object.translate",
-            section.translate.as_ref().map(|given| &given.origin),
-        ),
-    ];
-    for (key, at) in others {
-        if let Some(at) = at {
-            let why = "expected `matrix`, or `scale`, `rotate` and `translate`";
-            return Err(check.conflict("object.matrix", &matrix.origin, key, at, why));
-        }
+/// Returns the transform that is given by a matrix.
+fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, SceneError> {
+    let others = ["scale", "rotate", "translate"];
+    if let Some(key) = others.into_iter().find(|key| object.has(key)) {
+        let why = "expected `matrix`, or `scale`, `rotate` and `translate`";
+        return Err(object.conflict("matrix", key, why));
     }
-    let rows = matrix.value;
     if let Some(value) = rows.iter().flatten().find(|v| !is_coordinate(**v)) {
         let problem = format!("has the entry {value}");
-        return Err(check.error(
-            &matrix.origin,
-            "object.matrix",
-            &problem,
-            "expected numbers between -1e15 and 1e15",
-        ));
+        return Err(object.error("matrix", &problem, format!("expected {COORDINATES}")));
     }
     let column = |i: usize| DVec3::new(rows[0][i], rows[1][i], rows[2][i]);
     let linear = DMat3::from_cols(column(0), column(1), column(2));
@@ -382,12 +259,7 @@ fn from_matrix(
     let edges = column(0).length() * column(1).length() * column(2).length();
     if linear.determinant().abs() <= 1e-12 * edges {
         let expected = "expected a matrix that can be inverted: columns not in one plane";
-        return Err(check.error(
-            &matrix.origin,
-            "object.matrix",
-            "flattens the object",
-            expected,
-        ));
+        return Err(object.error("matrix", "flattens the object", expected));
     }
     Ok(DAffine3 {
         matrix3: linear,
@@ -395,7 +267,7 @@ fn from_matrix(
     })
 }
 
-/// The mesh with `default` as the material of each polygon that had none.
+/// Returns the mesh with `default` as the material of each polygon that had none.
 fn with_default_material(mesh: Arc<PolygonMesh>, default: Material) -> Arc<PolygonMesh> {
     if (0..mesh.polygon_count()).all(|polygon| mesh.polygon_material(polygon).is_some()) {
         return mesh;
@@ -420,7 +292,7 @@ fn with_default_material(mesh: Arc<PolygonMesh>, default: Material) -> Arc<Polyg
     builder.finish().map_or(mesh, Arc::new)
 }
 
-/// The positions in world space that the polygons of `object` use, each once.
+/// Returns the positions in world space that the polygons of `object` use, each once.
 fn world_points(object: &Object) -> impl Iterator<Item = DVec3> {
     let mesh = &object.mesh;
     let mut used = vec![false; mesh.positions().len()];

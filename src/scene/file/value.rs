@@ -1,396 +1,355 @@
-//! Values of a scene file: what can be written, and where each one was given.
+//! Values of a scene file, and where each one was given: read from TOML by the list of keys, and written again.
 
-use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Unexpected, Visitor};
-use serde::ser::{Serialize, Serializer};
-use std::fmt;
-use std::marker::PhantomData;
+use super::diagnostics::{Origin, SceneError};
+use super::schema::{Key, Kind, SCENE, TURN};
+use crate::number::suggest;
+use std::borrow::ToOwned;
+use std::collections::BTreeMap;
+use std::format;
 use std::ops::Range;
 use std::string::String;
 use std::vec::Vec;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+use toml_writer::ToTomlValue;
 
-/// Where a value was given: what an error about it points at.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Origin {
-    /// By the program.
-    #[default]
-    Program,
-    /// In the scene file, at these bytes.
-    File(Range<usize>),
-    /// By this command-line flag, for example `--fovy`.
-    Flag(String),
-}
-
-/// A value and where it was given. Two of them are equal when their values are.
-#[derive(Clone, Debug, Default)]
-pub struct Located<T> {
-    /// The value, not yet checked.
-    pub value: T,
-    /// Where it was given.
+/// A value and where it was given. Two of them are equal when their data are.
+#[derive(Clone, Debug)]
+pub struct Value {
+    /// The value: of the kind that its key asks for, its range not yet checked.
+    pub data: Data,
+    /// The place where it was given.
     pub origin: Origin,
 }
 
-impl<T> Located<T> {
-    /// A value given by a command-line flag, for example `--fovy`.
-    pub fn flag(value: T, flag: impl Into<String>) -> Self {
-        Located {
-            value,
-            origin: Origin::Flag(flag.into()),
-        }
-    }
+/// The contents of a value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Data {
+    /// Text, or a word.
+    Text(String),
+    /// True or false.
+    Switch(bool),
+    /// A whole number.
+    Whole(i64),
+    /// A number.
+    Number(f64),
+    /// Three numbers, or one that stands for all of them.
+    Triple([f64; 3]),
+    /// Three rows of four numbers.
+    Matrix([[f64; 4]; 3]),
+    /// A table.
+    Table(Table),
+    /// A list of tables.
+    Tables(Vec<Table>),
 }
 
-impl<T> From<T> for Located<T> {
-    fn from(value: T) -> Self {
-        Located {
-            value,
-            origin: Origin::Program,
-        }
-    }
+/// A table: values by their keys.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    /// The values.
+    pub entries: BTreeMap<&'static str, Value>,
+    /// The place of its header.
+    pub origin: Origin,
 }
 
-impl<T: PartialEq> PartialEq for Located<T> {
+impl PartialEq for Value {
     fn eq(&self, other: &Self) -> bool {
-        self.value == other.value
+        self.data == other.data
     }
 }
 
-impl<'de, T: Value> Deserialize<'de> for Located<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let spanned = toml::Spanned::<Plain<T>>::deserialize(deserializer)?;
-        let origin = Origin::File(spanned.span());
-        Ok(Located {
-            value: spanned.into_inner().0,
-            origin,
-        })
+impl PartialEq for Table {
+    fn eq(&self, other: &Self) -> bool {
+        self.entries == other.entries
     }
 }
 
-impl<T: Value> Serialize for Located<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.value.write(serializer)
-    }
-}
+/// Turns the place of a value in TOML text into its origin.
+type Place<'a> = &'a dyn Fn(Range<usize>) -> Origin;
 
-/// What can be written on the right of an equals sign in a scene file.
-///
-/// Not serde's own traits: their messages speak of `f64` and sequences, these of numbers and `[x, y, z]`.
-pub trait Value: Sized {
-    /// Reads the value.
+impl Table {
+    /// Reads a scene from TOML text.
     ///
     /// # Errors
-    /// When something else stands there: says what was expected.
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error>;
-
-    /// Writes the value.
-    ///
-    /// # Errors
-    /// Those of the serializer.
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
-}
-
-/// A value without a place, seen by serde.
-struct Plain<T>(T);
-
-impl<'de, T: Value> Deserialize<'de> for Plain<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        T::read(deserializer).map(Plain)
-    }
-}
-
-struct NumberVisitor;
-
-impl Visitor<'_> for NumberVisitor {
-    type Value = f64;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a number")
+    /// Where the text is not TOML, a key or word is unknown, or a value is of the wrong kind.
+    pub fn parse(text: &str, place: Place) -> Result<Table, SceneError> {
+        let table = DeTable::parse(text).map_err(|error| SceneError::from_toml(&error))?;
+        let span = table.span();
+        let mut scene = read_table(table.get_ref(), place(span), SCENE, place)?;
+        // An empty table says as much as none.
+        scene.entries.retain(|_, value| match &value.data {
+            Data::Table(table) => !table.entries.is_empty(),
+            _ => true,
+        });
+        Ok(scene)
     }
 
-    fn visit_f64<E: Error>(self, value: f64) -> Result<f64, E> {
-        Ok(value)
+    /// Gives a value to `key`.
+    pub fn set(&mut self, key: &'static str, data: Data, origin: Origin) {
+        self.entries.insert(key, Value { data, origin });
     }
 
-    fn visit_i64<E: Error>(self, value: i64) -> Result<f64, E> {
-        Ok(value as f64)
-    }
-}
-
-impl Value for f64 {
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_f64(NumberVisitor)
+    /// Returns the value of `key`, if it is given.
+    pub fn get(&self, key: &str) -> Option<&Value> {
+        self.entries.get(key)
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_f64(*self)
-    }
-}
-
-struct WholeNumberVisitor;
-
-impl Visitor<'_> for WholeNumberVisitor {
-    type Value = i64;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a whole number")
-    }
-
-    fn visit_i64<E: Error>(self, value: i64) -> Result<i64, E> {
-        Ok(value)
-    }
-}
-
-impl Value for i64 {
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_i64(WholeNumberVisitor)
-    }
-
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_i64(*self)
-    }
-}
-
-struct SwitchVisitor;
-
-impl Visitor<'_> for SwitchVisitor {
-    type Value = bool;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("true or false")
-    }
-
-    fn visit_bool<E: Error>(self, value: bool) -> Result<bool, E> {
-        Ok(value)
-    }
-}
-
-impl Value for bool {
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_bool(SwitchVisitor)
-    }
-
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_bool(*self)
-    }
-}
-
-struct TextVisitor;
-
-impl Visitor<'_> for TextVisitor {
-    type Value = String;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("text in quotes")
-    }
-
-    fn visit_str<E: Error>(self, value: &str) -> Result<String, E> {
-        Ok(value.into())
-    }
-}
-
-impl Value for String {
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_str(TextVisitor)
-    }
-
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self)
-    }
-}
-
-/// Reads `N` values in brackets; `expected` says so in words.
-struct ArrayVisitor<T, const N: usize> {
-    expected: &'static str,
-    item: PhantomData<T>,
-}
-
-impl<T, const N: usize> ArrayVisitor<T, N> {
-    fn new(expected: &'static str) -> Self {
-        ArrayVisitor {
-            expected,
-            item: PhantomData,
+    /// Returns the text or word that `key` stands for, if it is given.
+    pub fn text(&self, key: &str) -> Option<&str> {
+        match &self.get(key)?.data {
+            Data::Text(text) => Some(text),
+            _ => None,
         }
     }
-}
 
-impl<'de, T: Value, const N: usize> Visitor<'de> for ArrayVisitor<T, N> {
-    type Value = [T; N];
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(self.expected)
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<[T; N], A::Error> {
-        let mut values = Vec::new();
-        while let Some(Plain(value)) = items.next_element()? {
-            values.push(value);
+    /// Returns the table called `key`, if it is given.
+    pub fn table(&self, key: &str) -> Option<&Table> {
+        match &self.get(key)?.data {
+            Data::Table(table) => Some(table),
+            _ => None,
         }
-        let found = values.len();
-        values
-            .try_into()
-            .map_err(|_| A::Error::invalid_type(Unexpected::Other(&counted(found)), &self))
-    }
-}
-
-/// How many numbers were found, in words.
-fn counted(numbers: usize) -> String {
-    match numbers {
-        0 => "an empty list".into(),
-        1 => "a list of one".into(),
-        _ => std::format!("a list of {numbers}"),
-    }
-}
-
-impl Value for [f64; 3] {
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_seq(ArrayVisitor::new("three numbers [x, y, z]"))
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.serialize(serializer)
-    }
-}
-
-impl Value for [f64; 4] {
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_seq(ArrayVisitor::new("four numbers [x, y, z, offset]"))
-    }
-
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.serialize(serializer)
-    }
-}
-
-impl Value for [[f64; 4]; 3] {
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_seq(ArrayVisitor::new("three rows of four numbers"))
+    /// Returns the table called `key`, made if it is not given.
+    pub fn table_mut(&mut self, key: &'static str) -> &mut Table {
+        let value = self.entries.entry(key).or_insert_with(|| Value {
+            data: Data::Table(Table::default()),
+            origin: Origin::Program,
+        });
+        match &mut value.data {
+            Data::Table(table) => table,
+            other => panic!("`{key}` is no table: {other:?}"),
+        }
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.serialize(serializer)
-    }
-}
-
-/// Three numbers that may be written as one when they are the same: a colour, a coefficient, a scale.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OneOrThree(pub [f64; 3]);
-
-impl OneOrThree {
-    /// Three times the same number.
-    pub const fn splat(value: f64) -> Self {
-        OneOrThree([value; 3])
+    /// Returns the tables called `key`; none if they are not given.
+    pub fn tables(&self, key: &str) -> &[Table] {
+        match self.get(key).map(|value| &value.data) {
+            Some(Data::Tables(tables)) => tables,
+            _ => &[],
+        }
     }
 
-    /// From values stored in 32 bits: the shortest decimals that name them, 0.1 and not 0.10000000149.
-    pub fn shortest(values: [f32; 3]) -> Self {
-        OneOrThree(values.map(shortest))
-    }
-}
-
-/// The double nearest to the shortest decimal that names `value`.
-pub(super) fn shortest(value: f32) -> f64 {
-    // What is printed can be read; the fallback is there to have no panic in this path.
-    std::format!("{value}").parse().unwrap_or(f64::from(value))
-}
-
-impl From<f64> for OneOrThree {
-    fn from(value: f64) -> Self {
-        OneOrThree::splat(value)
-    }
-}
-
-impl From<[f64; 3]> for OneOrThree {
-    fn from(values: [f64; 3]) -> Self {
-        OneOrThree(values)
-    }
-}
-
-struct OneOrThreeVisitor;
-
-impl<'de> Visitor<'de> for OneOrThreeVisitor {
-    type Value = OneOrThree;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("one number or three in brackets")
-    }
-
-    fn visit_f64<E: Error>(self, value: f64) -> Result<OneOrThree, E> {
-        Ok(OneOrThree::splat(value))
-    }
-
-    fn visit_i64<E: Error>(self, value: i64) -> Result<OneOrThree, E> {
-        Ok(OneOrThree::splat(value as f64))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, items: A) -> Result<OneOrThree, A::Error> {
-        ArrayVisitor::new("one number or three in brackets")
-            .visit_seq(items)
-            .map(OneOrThree)
-    }
-}
-
-impl Value for OneOrThree {
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(OneOrThreeVisitor)
-    }
-
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self.0 {
-            // By their bits: 0 and −0 are kept apart.
-            [r, g, b] if [g, b].map(f64::to_bits) == [r; 2].map(f64::to_bits) => {
-                serializer.serialize_f64(r)
+    /// Replaces what `over` gives: key by key within tables, lists as a whole.
+    pub fn overlay(&mut self, over: Table) {
+        for (key, value) in over.entries {
+            match value.data {
+                Data::Table(over) if self.table(key).is_some() => self.table_mut(key).overlay(over),
+                _ => {
+                    self.entries.insert(key, value);
+                }
             }
-            values => values.serialize(serializer),
+        }
+    }
+
+    /// Appends the table as TOML: first the values in it, then its tables, under headers that begin with `path`.
+    pub fn write(&self, keys: &'static [Key], path: &str, out: &mut String) {
+        let given = |key: &'static Key| Some((key, &self.get(key.name)?.data));
+        for (key, data) in keys.iter().filter_map(given) {
+            if let Some(text) = inline(data, key.kind) {
+                *out += &format!("{} = {text}\n", key.name);
+            }
+        }
+        for (key, data) in keys.iter().filter_map(given) {
+            let path = format!("{path}{}", key.name);
+            let mut write = |header: String, table: &Table, keys| {
+                let gap = if out.is_empty() { "" } else { "\n" };
+                *out += &format!("{gap}{header}\n");
+                table.write(keys, &format!("{path}."), out);
+            };
+            match (data, key.kind) {
+                (Data::Table(table), Kind::Table(keys)) => write(format!("[{path}]"), table, keys),
+                (Data::Tables(tables), Kind::Tables(keys)) => tables
+                    .iter()
+                    .for_each(|table| write(format!("[[{path}]]"), table, keys)),
+                _ => {}
+            }
         }
     }
 }
 
-/// A choice that is written as one of a few words.
-pub trait Choice: Copy + PartialEq + 'static {
-    /// The words, in the order in which messages list them.
-    const WORDS: &'static [&'static str];
-    /// What each word means, in the same order.
-    const MEANINGS: &'static [Self];
-
-    /// What `word` means, if it is one of [`Choice::WORDS`].
-    fn from_word(word: &str) -> Option<Self> {
-        Self::WORDS
-            .iter()
-            .position(|w| *w == word)
-            .map(|i| Self::MEANINGS[i])
-    }
-
-    /// The word for this choice.
-    fn word(self) -> &'static str {
-        Self::MEANINGS
-            .iter()
-            .position(|m| *m == self)
-            .map_or("", |i| Self::WORDS[i])
-    }
-}
-
-struct ChoiceVisitor<T>(PhantomData<T>);
-
-impl<T: Choice> Visitor<'_> for ChoiceVisitor<T> {
-    type Value = T;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        for (i, word) in T::WORDS.iter().enumerate() {
-            write!(f, "{}\"{word}\"", if i == 0 { "" } else { " or " })?;
+/// Returns a value as it is written on the right of an equals sign; `None` for tables under headers.
+fn inline(data: &Data, kind: Kind) -> Option<String> {
+    Some(match (data, kind) {
+        (Data::Text(text), _) => text.to_toml_value(),
+        (Data::Switch(value), _) => value.to_toml_value(),
+        (Data::Whole(value), _) => value.to_toml_value(),
+        (Data::Number(value), _) => value.to_toml_value(),
+        // By their bits: 0 and −0 are kept apart.
+        (Data::Triple([r, g, b]), Kind::OneOrThree)
+            if [g, b].map(|v| v.to_bits()) == [r.to_bits(); 2] =>
+        {
+            r.to_toml_value()
         }
-        Ok(())
-    }
+        (Data::Triple(values), _) => values.to_toml_value(),
+        (Data::Matrix(rows), _) => rows.to_toml_value(),
+        (Data::Tables(turns), Kind::Turns) => {
+            let turn = |turn: &Table| {
+                let keys = TURN.iter().filter_map(|key| {
+                    let text = inline(&turn.get(key.name)?.data, key.kind)?;
+                    Some(format!("{} = {text}", key.name))
+                });
+                format!("{{ {} }}", keys.collect::<Vec<_>>().join(", "))
+            };
+            match &turns[..] {
+                [one] => turn(one),
+                more => format!("[{}]", more.iter().map(turn).collect::<Vec<_>>().join(", ")),
+            }
+        }
+        (Data::Tables(tables), _) if tables.is_empty() => "[]".to_owned(),
+        (Data::Table(_) | Data::Tables(_), _) => return None,
+    })
+}
 
-    fn visit_str<E: Error>(self, word: &str) -> Result<T, E> {
-        T::from_word(word).ok_or_else(|| E::unknown_variant(word, T::WORDS))
+/// Reads a table that may have `keys`.
+fn read_table(
+    table: &DeTable,
+    origin: Origin,
+    keys: &'static [Key],
+    place: Place,
+) -> Result<Table, SceneError> {
+    let mut entries = BTreeMap::new();
+    for (name, value) in table {
+        let known = keys.iter().find(|key| key.name == name.get_ref());
+        let key = known.ok_or_else(|| {
+            let names = keys.iter().map(|key| key.name);
+            unknown("key", name.get_ref(), names, place(name.span()))
+        })?;
+        let (data, origin) = (read(value, key.kind, place)?, place(value.span()));
+        entries.insert(key.name, Value { data, origin });
+    }
+    let missing = |key: &&Key| key.needed && !entries.contains_key(key.name);
+    if let Some(key) = keys.iter().find(missing) {
+        let title = format!("the key `{}` is missing", key.name);
+        return Err(SceneError::new(origin, title, "in this table"));
+    }
+    Ok(Table { entries, origin })
+}
+
+/// Reads a value of the kind that its key asks for.
+fn read(value: &Spanned<DeValue>, kind: Kind, place: Place) -> Result<Data, SceneError> {
+    let table = |value: &Spanned<DeValue>, keys| match value.get_ref() {
+        DeValue::Table(table) => read_table(table, place(value.span()), keys, place),
+        _ => Err(wrong(value, "a table", place)),
+    };
+    let tables = |keys, expected| match value.get_ref() {
+        DeValue::Array(items) => items.iter().map(|item| table(item, keys)).collect(),
+        DeValue::Table(_) => table(value, keys).map(|table| [table].into()),
+        _ => Err(wrong(value, expected, place)),
+    };
+    match (kind, value.get_ref()) {
+        (Kind::Text, DeValue::String(text)) => Ok(Data::Text(text.clone().into_owned())),
+        (Kind::Text, _) => Err(wrong(value, "text in quotes", place)),
+        (Kind::Switch, DeValue::Boolean(switch)) => Ok(Data::Switch(*switch)),
+        (Kind::Switch, _) => Err(wrong(value, "true or false", place)),
+        (Kind::Whole, other) => whole(other)
+            .map(Data::Whole)
+            .ok_or_else(|| wrong(value, "a whole number", place)),
+        (Kind::Number, _) => number(value, place).map(Data::Number),
+        (Kind::OneOrThree, DeValue::Integer(_) | DeValue::Float(_)) => {
+            Ok(Data::Triple([number(value, place)?; 3]))
+        }
+        (Kind::OneOrThree, _) => {
+            list(value, "one number or three in brackets", place, number).map(Data::Triple)
+        }
+        (Kind::Triple, _) => {
+            list(value, "three numbers [x, y, z]", place, number).map(Data::Triple)
+        }
+        (Kind::Matrix, _) => {
+            let row = |row: &Spanned<DeValue>, place: Place| {
+                list(row, "four numbers [x, y, z, offset]", place, number)
+            };
+            list(value, "three rows of four numbers", place, row).map(Data::Matrix)
+        }
+        (Kind::Word(words), DeValue::String(word)) if words.contains(&&**word) => {
+            Ok(Data::Text(word.clone().into_owned()))
+        }
+        (Kind::Word(words), DeValue::String(word)) => {
+            let origin = place(value.span());
+            Err(unknown("word", word, words.iter().copied(), origin))
+        }
+        (Kind::Word(words), _) => Err(wrong(
+            value,
+            &format!("\"{}\"", words.join("\" or \"")),
+            place,
+        )),
+        (Kind::Table(keys), _) => table(value, keys).map(Data::Table),
+        (Kind::Tables(keys), _) => tables(keys, "a list of tables").map(Data::Tables),
+        (Kind::Turns, _) => {
+            let expected = "{ axis = [x, y, z], angle = degrees } or a list of those";
+            tables(TURN, expected).map(Data::Tables)
+        }
     }
 }
 
-impl<T: Choice> Value for T {
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_str(ChoiceVisitor(PhantomData))
-    }
+fn whole(value: &DeValue) -> Option<i64> {
+    let integer = value.as_integer()?;
+    i64::from_str_radix(integer.as_str(), integer.radix()).ok()
+}
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.word())
+fn number(value: &Spanned<DeValue>, place: Place) -> Result<f64, SceneError> {
+    let number = match value.get_ref() {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        other => whole(other).map(|whole| whole as f64),
+    };
+    number.ok_or_else(|| wrong(value, "a number", place))
+}
+
+/// Reads `N` values in brackets, each by `item`.
+fn list<T, const N: usize>(
+    value: &Spanned<DeValue>,
+    expected: &str,
+    place: Place,
+    item: impl Fn(&Spanned<DeValue>, Place) -> Result<T, SceneError>,
+) -> Result<[T; N], SceneError> {
+    let DeValue::Array(items) = value.get_ref() else {
+        return Err(wrong(value, expected, place));
+    };
+    let items: Vec<T> = items
+        .iter()
+        .map(|value| item(value, place))
+        .collect::<Result<_, _>>()?;
+    items.try_into().map_err(|items: Vec<T>| {
+        let found = match items.len() {
+            0 => "found an empty list".to_owned(),
+            1 => "found a list of one".to_owned(),
+            n => format!("found a list of {n}"),
+        };
+        SceneError::new(place(value.span()), format!("expected {expected}"), found)
+    })
+}
+
+/// Makes the error for a value of the wrong kind.
+fn wrong(value: &Spanned<DeValue>, expected: &str, place: Place) -> SceneError {
+    let found = match value.get_ref() {
+        DeValue::String(text) => format!("string {text:?}"),
+        DeValue::Integer(number) => format!("integer `{number}`"),
+        DeValue::Float(number) => format!("floating point `{number}`"),
+        DeValue::Boolean(value) => format!("boolean `{value}`"),
+        DeValue::Datetime(_) => "a date or a time".to_owned(),
+        DeValue::Array(_) => "a list".to_owned(),
+        DeValue::Table(_) => "a table".to_owned(),
+    };
+    let (origin, found) = (place(value.span()), format!("found {found}"));
+    SceneError::new(origin, format!("expected {expected}"), found)
+}
+
+/// Makes the error for a key or a word that does not exist, with the one that may have been meant.
+fn unknown(
+    what: &str,
+    found: &str,
+    known: impl Iterator<Item = &'static str> + Clone,
+    origin: Origin,
+) -> SceneError {
+    let names: Vec<String> = known.clone().map(|name| format!("`{name}`")).collect();
+    let expected = match &names[..] {
+        [one, other] => format!("expected {one} or {other}"),
+        all => format!("expected one of {}", all.join(", ")),
+    };
+    let error = SceneError::new(origin, format!("unknown {what} `{found}`"), expected);
+    match suggest::nearest(found, known) {
+        _ if found == "depth_test" => error.help("what hides a polygon is said by `visibility`"),
+        Some(nearest) => error.help(format!("did you mean `{nearest}`?")),
+        None => error,
     }
 }

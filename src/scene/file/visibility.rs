@@ -1,9 +1,7 @@
-//! From a scene file to what decides which polygon is seen: hidden surfaces, clipping, samples.
+//! From a scene file to the settings that decide which polygon is seen: hidden surfaces, clipping, samples.
 
-use super::check::Check;
+use super::check::Section;
 use super::diagnostics::SceneError;
-use super::value::{Choice, Located, Origin};
-use super::{SceneFile, VisibilityChoice};
 use crate::scene::{
     Clipping, Culling, DepthBits, DepthBuffer, HiddenSurfaces, Interpolation, Scene,
 };
@@ -11,142 +9,67 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-impl SceneFile {
-    /// How hidden surfaces are found; a key that means nothing under the way chosen is worth a warning.
-    pub(super) fn hidden_surfaces(
-        &self,
-        check: &Check,
-        warnings: &mut Vec<String>,
-    ) -> Result<HiddenSurfaces, SceneError> {
-        let bits = self
-            .depth_bits
-            .as_ref()
-            .map_or(Ok(DepthBits::default()), |given| depth_bits(given, check))?;
-        let source = self
-            .depth
-            .as_ref()
-            .map_or_else(Default::default, |given| given.value);
-        let key = self
-            .painter_key
-            .as_ref()
-            .map_or_else(Default::default, |given| given.value);
-        let choice = self
-            .visibility
-            .as_ref()
-            .map_or(VisibilityChoice::ZBuffer, |given| given.value);
-        let given = [
-            (
-                "depth_bits",
-                self.depth_bits.as_ref().map(|given| &given.origin),
-                VisibilityChoice::ZBuffer,
-            ),
-            (
-                "depth",
-                self.depth.as_ref().map(|given| &given.origin),
-                VisibilityChoice::ZBuffer,
-            ),
-            (
-                "painter_key",
-                self.painter_key.as_ref().map(|given| &given.origin),
-                VisibilityChoice::Painter,
-            ),
-        ];
-        for (key, origin, needs) in given {
-            if let Some(origin) = origin.filter(|_| choice != needs) {
-                let name = name(key, origin);
-                warnings.push(format!(
-                    "`{name}` means nothing without visibility = \"{}\"",
-                    needs.word()
-                ));
-            }
-        }
-        let culls_back = self
-            .cull
-            .as_ref()
-            .is_none_or(|given| given.value == Culling::Back);
-        if let Some(Located { origin, .. }) = self
-            .two_sided
-            .as_ref()
-            .filter(|given| given.value && culls_back)
-        {
-            let name = name("two_sided", origin);
+/// Returns how hidden surfaces are found. A key that means nothing under the way chosen is worth a warning.
+pub(super) fn hidden_surfaces(
+    scene: &Section,
+    warnings: &mut Vec<String>,
+) -> Result<HiddenSurfaces, SceneError> {
+    let bits = scene.whole(
+        "depth_bits",
+        |bits| [16, 24, 32].contains(&bits),
+        "16, 24 or 32",
+    )?;
+    let bits = match bits {
+        Some(16) => DepthBits::Sixteen,
+        Some(24) => DepthBits::TwentyFour,
+        _ => DepthBits::ThirtyTwo,
+    };
+    let choice = scene.table.text("visibility").unwrap_or("z-buffer");
+    for (key, needs) in [
+        ("depth_bits", "z-buffer"),
+        ("depth", "z-buffer"),
+        ("painter_key", "painter"),
+    ] {
+        if scene.has(key) && choice != needs {
+            let name = scene.name(key);
             warnings.push(format!(
-                "`{name}` means nothing with cull = \"back\": what is seen from behind is left out"
+                "`{name}` means nothing without visibility = \"{needs}\""
             ));
         }
-        Ok(match choice {
-            VisibilityChoice::ZBuffer => HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }),
-            VisibilityChoice::Painter => HiddenSurfaces::Painter(key),
-            VisibilityChoice::DrawOrder => HiddenSurfaces::DrawOrder,
-        })
     }
-
-    /// What keeps polygons within the view: CS171's test goes with its interpolation only.
-    pub(super) fn clipping(&self, check: &Check) -> Result<Clipping, SceneError> {
-        let Some(given) = &self.clipping else {
-            return Ok(Clipping::default());
-        };
-        match &self.interpolation {
-            Some(Located {
-                value: Interpolation::Perspective,
-                origin,
-            }) if given.value == Clipping::NdcCube => {
-                let why = "expected interpolation = \"screen\" with \"ndc-cube\": corners behind the eye have no weight";
-                Err(check.conflict("clipping", &given.origin, "interpolation", origin, why))
-            }
-            _ => Ok(given.value),
-        }
+    if scene.is_on("two_sided") && scene.word::<Culling>("cull") == Culling::Back {
+        let name = scene.name("two_sided");
+        warnings.push(format!(
+            "`{name}` means nothing with cull = \"back\": what is seen from behind is left out"
+        ));
     }
-
-    /// Samples a pixel along each side of a picture of these sides.
-    pub(super) fn samples(&self, sides: [u32; 2], check: &Check) -> Result<u32, SceneError> {
-        let Some(given) = &self.image.samples else {
-            return Ok(1);
-        };
-        let refused = |expected: String| {
-            check.error(
-                &given.origin,
-                "image.samples",
-                &format!("is {}", given.value),
-                expected,
-            )
-        };
-        let Some(samples) = u32::try_from(given.value)
-            .ok()
-            .filter(|samples| [1, 2, 4, 8].contains(samples))
-        else {
-            return Err(refused("expected 1, 2, 4 or 8".into()));
-        };
-        let longest = sides[0].max(sides[1]);
-        if longest * samples > Scene::MAX_SIDE {
-            let most = Scene::MAX_SIDE;
-            return Err(refused(format!(
-                "expected at most {most} samples a side, and there are {longest} pixels"
-            )));
-        }
-        Ok(samples)
-    }
+    Ok(match choice {
+        "painter" => HiddenSurfaces::Painter(scene.word("painter_key")),
+        "draw-order" => HiddenSurfaces::DrawOrder,
+        _ => HiddenSurfaces::ZBuffer(DepthBuffer {
+            bits,
+            source: scene.word("depth"),
+        }),
+    })
 }
 
-/// The bits of the depth buffer.
-fn depth_bits(given: &Located<i64>, check: &Check) -> Result<DepthBits, SceneError> {
-    match given.value {
-        16 => Ok(DepthBits::Sixteen),
-        24 => Ok(DepthBits::TwentyFour),
-        32 => Ok(DepthBits::ThirtyTwo),
-        bits => Err(check.error(
-            &given.origin,
-            "depth_bits",
-            &format!("is {bits}"),
-            "expected 16, 24 or 32",
-        )),
+/// Returns the test that keeps polygons within the view: CS171's goes with its interpolation only.
+pub(super) fn clipping(scene: &Section) -> Result<Clipping, SceneError> {
+    let clipping = scene.word("clipping");
+    let is_perspective = scene.word::<Interpolation>("interpolation") == Interpolation::Perspective;
+    if clipping == Clipping::NdcCube && is_perspective {
+        let why = "expected interpolation = \"screen\" with \"ndc-cube\": corners behind the eye have no weight";
+        return Err(scene.conflict("clipping", "interpolation", why));
     }
+    Ok(clipping)
 }
 
-/// What a user called the key: the flag, where one gave it.
-fn name<'a>(key: &'a str, origin: &'a Origin) -> &'a str {
-    match origin {
-        Origin::Flag(flag) => flag,
-        Origin::File(_) | Origin::Program => key,
-    }
+/// Returns the samples a pixel along each side of a picture of these sides.
+pub(super) fn samples(image: &Section, [width, height]: [u32; 2]) -> Result<u32, SceneError> {
+    let is_known = |samples| [1, 2, 4, 8].contains(&samples);
+    let samples = image.whole("samples", is_known, "1, 2, 4 or 8")?;
+    let (longest, most) = (width.max(height), Scene::MAX_SIDE);
+    let expected = format!("at most {most} samples a side, and there are {longest} pixels");
+    image.whole("samples", |samples| longest * samples <= most, &expected)?;
+    Ok(samples.unwrap_or(1))
 }

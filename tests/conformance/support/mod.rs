@@ -64,8 +64,9 @@ pub fn scene(name: &str, size: Size) -> Scene {
     let path = scenes().join(format!("{name}.toml"));
     let mut file = SceneFile::load(path).unwrap_or_else(|e| panic!("{e}"));
     if let Some((width, height)) = size {
-        file.image.width = Some(width.into());
-        file.image.height = Some(height.into());
+        let sides = format!("[image]\nwidth = {width}\nheight = {height}");
+        let sides = SceneFile::parse(&sides, "size").unwrap_or_else(|e| panic!("{e}"));
+        file.overlay(sides.table().clone());
     }
     let load = |spec: &str, folder: &Path| match spec.strip_prefix("builtin:") {
         Some(spec) => builtin(spec)

@@ -1,8 +1,9 @@
 use super::expect::{check, error};
 use super::{cubes, with_object};
 use crate::scene::Scene;
-use crate::scene::file::value::Located;
-use crate::scene::file::{LightSection, SceneFile};
+use crate::scene::file::SceneFile;
+use crate::scene::file::diagnostics::Origin;
+use crate::scene::file::value::{Data, Table};
 use std::format;
 use std::string::String;
 use std::vec;
@@ -458,25 +459,33 @@ error: unknown word `bakc`
 fn values_from_flags() {
     let file =
         SceneFile::parse(&with_object("[camera]\nhalf_height = 2\n"), "scene.toml").expect("valid");
+    let flag = |name: &str| Origin::Flag(name.into());
+    let mut over = Table::default();
+    let camera = over.table_mut("camera");
+    camera.set("half_height", Data::Number(-1.0), flag("--half-height"));
     let mut flagged = file.clone();
-    flagged.camera.half_height = Some(Located::flag(-1.0, "--half-height"));
+    flagged.overlay(over);
     let error = flagged.resolve(cubes).expect_err("negative");
     assert_eq!(
         format!("{error}"),
         "error: `--half-height` is -1: expected a number over 0 (1e-15 to 1e15)"
     );
     assert_eq!(error.line_and_column(), None);
+    let mut light = Table::default();
+    light.set("direction", Data::Triple([0.0; 3]), flag("--light"));
+    let mut over = Table::default();
+    over.set("light", Data::Tables(vec![light]), Origin::Program);
     let mut flagged = file.clone();
-    flagged.light = Some(vec![LightSection::toward(Located::flag(
-        [0.0; 3], "--light",
-    ))]);
+    flagged.overlay(over);
     let error = flagged.resolve(cubes).expect_err("no length");
     assert_eq!(
         format!("{error}"),
         "error: `--light` has no length: expected a direction: not all numbers 0"
     );
+    // Not by `overlay`, in which `fit` takes the place of `half_height`.
     let mut flagged = file;
-    flagged.camera.fit = Some(Located::flag(0.5, "--fit"));
+    let camera = flagged.table.table_mut("camera");
+    camera.set("fit", Data::Number(0.5), flag("--fit"));
     let error = flagged.resolve(cubes).expect_err("both");
     assert!(
         format!("{error}")

@@ -1,4 +1,4 @@
-//! How the tests say which error they expect, and where.
+//! Checks of errors: their text and their place.
 
 use super::cubes;
 use crate::scene::file::SceneFile;

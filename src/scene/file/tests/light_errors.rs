@@ -1,9 +1,10 @@
-//! What is refused of lights, of the viewer and of highlights, and how it is said.
+//! Errors about lights, the viewer and highlights.
 
 use super::expect::{check, error};
 use super::{cubes, with_object};
-use crate::scene::file::value::Located;
-use crate::scene::file::{LightSection, SceneFile};
+use crate::scene::file::SceneFile;
+use crate::scene::file::diagnostics::Origin;
+use crate::scene::file::value::{Data, Table};
 use std::format;
 use std::vec;
 
@@ -129,10 +130,9 @@ fn a_light_is_somewhere() {
         expected,
         None,
     );
-    let by_program = SceneFile {
-        light: Some(vec![LightSection::default()]),
-        ..SceneFile::default()
-    };
+    let mut by_program = SceneFile::default();
+    let lights = Data::Tables(vec![Table::default()]);
+    by_program.table.set("light", lights, Origin::Program);
     let error = by_program
         .resolve(cubes)
         .expect_err("a light without a place");
@@ -233,36 +233,35 @@ fn words_that_do_not_exist() {
 
 #[test]
 fn lights_from_flags() {
-    let refused = |light: LightSection| {
+    let refused = |keys: &[(&'static str, Data, &str)]| {
+        let mut light = Table::default();
+        for (key, data, flag) in keys {
+            light.set(key, data.clone(), Origin::Flag((*flag).into()));
+        }
         let mut file = SceneFile::parse(&with_object(""), "scene.toml").expect("valid");
-        file.light = Some(vec![light]);
+        let lights = Data::Tables(vec![light]);
+        file.table.set("light", lights, Origin::Program);
         let error = file.resolve(cubes).expect_err("refused");
         assert_eq!(error.line_and_column(), None);
         format!("{error}")
     };
-    let at = |place: [f64; 3]| LightSection::at(Located::flag(place, "--light-at"));
+    let at = |place: [f64; 3]| ("position", Data::Triple(place), "--light-at");
     assert!(
-        refused(at([1.0, 1.0, 1.0]))
+        refused(&[at([1.0, 1.0, 1.0])])
             .starts_with("error: `--light-at` is at a vertex, (1, 1, 1): expected a place off")
     );
     assert_eq!(
-        refused(at([f64::NAN, 0.0, 0.0])),
+        refused(&[at([f64::NAN, 0.0, 0.0])]),
         "error: `--light-at` has x = NaN: expected numbers between -1e15 and 1e15"
     );
-    let attenuation = Some(Located::flag(-1.0, "--attenuation"));
+    let attenuation = ("attenuation", Data::Number(-1.0), "--attenuation");
     assert_eq!(
-        refused(LightSection {
-            attenuation: attenuation.clone(),
-            ..at([5.0; 3])
-        }),
+        refused(&[at([5.0; 3]), attenuation.clone()]),
         "error: `--attenuation` is -1: expected 0 or more"
     );
-    let toward = LightSection::toward(Located::flag([1.0; 3], "--light"));
+    let toward = ("direction", Data::Triple([1.0; 3]), "--light");
     assert!(
-        refused(LightSection {
-            attenuation,
-            ..toward
-        })
-        .starts_with("error: `--attenuation` is given for a light with")
+        refused(&[toward, attenuation])
+            .starts_with("error: `--attenuation` is given for a light with")
     );
 }

@@ -3,11 +3,12 @@ use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, MeshBuilder, PolygonMesh};
 use crate::picture::Encoding;
 use crate::scene::file::SceneFile;
+use crate::scene::file::diagnostics::Origin;
 use crate::scene::file::resolve::Resolved;
-use crate::scene::file::value::Located;
+use crate::scene::file::value::Data;
 use crate::scene::{
     Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Interpolation, Light,
-    Object, PainterKey, Place, Projection,
+    Object, PainterKey, Place, Projection, Scene,
 };
 use glam::{DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
@@ -46,14 +47,14 @@ fn defaults() {
     };
     assert!(near(
         direction,
-        DVec3::from_array(SceneFile::DEFAULT_LIGHT).normalize()
+        DVec3::from_array(Scene::DEFAULT_LIGHT).normalize()
     ));
     assert_eq!(scene.lights[0].colour, [1.0; 3]);
     assert_eq!(scene.objects[0].material, Some(Material::default()));
     assert_eq!(scene.objects[0].normals, NormalSource::Averaged);
     assert!(near(
         scene.camera.view(),
-        DVec3::from_array(SceneFile::DEFAULT_DIRECTION).normalize()
+        DVec3::from_array(Scene::DEFAULT_DIRECTION).normalize()
     ));
     assert_eq!(
         (scene.camera.target, scene.camera.up),
@@ -475,7 +476,8 @@ fn each_mesh_is_loaded_once_from_its_folder() {
         &resolved.scene.objects[2].mesh
     ));
     // A mesh named by a flag lies where the user is, not where the scene is.
-    file.object[2].mesh = Located::flag("a.obj".into(), "MESH");
+    let flag = Origin::Flag("MESH".into());
+    file.objects_mut()[2].set("mesh", Data::Text("a.obj".into()), flag);
     asked.clear();
     let mut load = |spec: &str, folder: &std::path::Path| {
         asked.push((spec.to_string(), PathBuf::from(folder)));
@@ -497,10 +499,11 @@ fn each_mesh_is_loaded_once_from_its_folder() {
 fn overlaid(below: &str, over: &str) -> crate::scene::Camera {
     let mut file =
         SceneFile::parse(&with_object(&format!("[camera]\n{below}")), "scene.toml").expect("valid");
-    file.overlay(SceneFile::parse(&format!("[camera]\n{over}"), "flags").expect("valid"));
+    let over = SceneFile::parse(&format!("[camera]\n{over}"), "flags").expect("valid");
+    file.overlay(over.table.clone());
     assert_eq!(file.path(), Some(std::path::Path::new("scene.toml")));
     file.resolve(cubes)
-        .unwrap_or_else(|error| panic!("{below} under {over}: {error}"))
+        .unwrap_or_else(|error| panic!("{below} under {}: {error}", over.to_toml()))
         .scene
         .camera
 }
@@ -513,7 +516,7 @@ fn flags_over_a_file() {
     )
     .expect("valid");
     let over = "ambient = 0.25\nvisibility = 'draw-order'\n[material]\nkd = 0.5\n[[light]]\ndirection = [1, 0, 0]";
-    file.overlay(SceneFile::parse(over, "b").expect("valid"));
+    file.overlay(SceneFile::parse(over, "b").expect("valid").table);
     let merged = "ambient = 0.25\ncull = 'none'\nvisibility = 'draw-order'\n[material]\nka = 1\nkd = 0.5\n[[light]]\ndirection = [1, 0, 0]";
     assert_eq!(
         file,
@@ -540,9 +543,9 @@ fn flags_over_a_file() {
     ]
     .map(|text| SceneFile::parse(&text, "all").expect("valid"));
     let mut merged = below.clone();
-    merged.overlay(SceneFile::default());
+    merged.overlay(SceneFile::default().table);
     assert_eq!(merged, below);
-    merged.overlay(over.clone());
+    merged.overlay(over.table.clone());
     assert_eq!(merged, over);
 }
 

@@ -1,14 +1,10 @@
-use crate::picture::Encoding;
-use crate::scene::file::value::{Choice, Located, OneOrThree};
-use crate::scene::file::{
-    CameraSection, FalloffChoice, ImageSection, LightSection, MaterialSection, NormalChoice,
-    ObjectSection, RotationSection, Rotations, SceneFile, ViewerChoice, VisibilityChoice,
-};
-use crate::scene::{
-    Clipping, Culling, DepthSource, Interpolation, PainterKey, SpecularGate, SpecularModel,
-};
+use crate::scene::file::SceneFile;
+use crate::scene::file::diagnostics::Origin;
+use crate::scene::file::schema::{Key, Kind, SCENE, TURN};
+use crate::scene::file::value::{Data, Table};
 use std::format;
 use std::string::String;
+use std::vec::Vec;
 
 /// A fixed sequence of numbers that look random: splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
 struct Random(u64);
@@ -36,19 +32,6 @@ impl Random {
         [self.number(), self.number(), self.number()]
     }
 
-    fn one_or_three(&mut self) -> OneOrThree {
-        if self.next().is_multiple_of(2) {
-            OneOrThree::splat(self.number())
-        } else {
-            OneOrThree(self.triple())
-        }
-    }
-
-    /// Given in half of all cases.
-    fn maybe<T>(&mut self, make: impl FnOnce(&mut Self) -> T) -> Option<Located<T>> {
-        (self.next().is_multiple_of(2)).then(|| make(self).into())
-    }
-
     fn choice<T: Copy>(&mut self, of: &[T]) -> T {
         of[self.next() as usize % of.len()]
     }
@@ -61,93 +44,53 @@ impl Random {
         (0..self.next() % 6).map(|_| self.choice(&pieces)).collect()
     }
 
-    fn material(&mut self) -> MaterialSection {
-        MaterialSection {
-            ka: self.maybe(Self::one_or_three),
-            kd: self.maybe(Self::one_or_three),
-            ks: self.maybe(Self::one_or_three),
-            shininess: self.maybe(Self::number),
+    /// A value of a kind.
+    fn data(&mut self, kind: Kind) -> Data {
+        match kind {
+            Kind::Text => Data::Text(self.text()),
+            Kind::Switch => Data::Switch(self.choice(&[true, false])),
+            Kind::Whole => Data::Whole(self.next() as i64),
+            Kind::Number => Data::Number(self.number()),
+            Kind::OneOrThree if self.next().is_multiple_of(2) => Data::Triple([self.number(); 3]),
+            Kind::Triple | Kind::OneOrThree => Data::Triple(self.triple()),
+            Kind::Matrix => Data::Matrix([0; 3].map(|_| [0; 4].map(|_| self.number()))),
+            Kind::Word(words) => Data::Text(self.choice(words).into()),
+            Kind::Table(keys) => Data::Table(self.table(keys)),
+            Kind::Tables(keys) => self.tables(keys),
+            Kind::Turns => self.tables(TURN),
         }
     }
 
-    fn light(&mut self) -> LightSection {
-        LightSection {
-            table: Located::default(),
-            direction: self.maybe(Self::triple),
-            position: self.maybe(Self::triple),
-            colour: self.maybe(Self::one_or_three),
-            intensity: self.maybe(Self::number),
-            attenuation: self.maybe(Self::number),
-            falloff: self.maybe(|r| r.choice(FalloffChoice::MEANINGS)),
-        }
+    fn tables(&mut self, keys: &[Key]) -> Data {
+        let count = self.next() % 4;
+        Data::Tables((0..count).map(|_| self.table(keys)).collect::<Vec<_>>())
     }
 
-    fn object(&mut self) -> ObjectSection {
-        let turns = self.next() % 4;
-        let rotation = |r: &mut Self| RotationSection {
-            axis: r.triple().into(),
-            angle: r.number().into(),
-        };
-        ObjectSection {
-            mesh: self.text().into(),
-            normals: self.maybe(|r| r.choice(&[NormalChoice::Given, NormalChoice::Averaged])),
-            crease: self.maybe(Self::number),
-            scale: self.maybe(Self::one_or_three),
-            rotate: (turns > 0).then(|| Rotations((1..turns).map(|_| rotation(self)).collect())),
-            translate: self.maybe(Self::triple),
-            matrix: self.maybe(|r| [0; 3].map(|_| [0; 4].map(|_| r.number()))),
-            material: self.maybe(Self::material).map(|given| given.value),
+    /// A table with each of its keys in half of all cases.
+    fn table(&mut self, keys: &[Key]) -> Table {
+        let mut table = Table::default();
+        for key in keys {
+            if key.needed || self.next().is_multiple_of(2) {
+                table.set(key.name, self.data(key.kind), Origin::Program);
+            }
         }
+        table
     }
 
     fn scene(&mut self) -> SceneFile {
-        let (lights, objects) = (self.next() % 4, self.next() % 3);
+        let mut table = self.table(SCENE);
+        // An empty table says as much as none, but for the material of an object.
+        table
+            .entries
+            .retain(|_, value| !matches!(&value.data, Data::Table(t) if t.entries.is_empty()));
         SceneFile {
-            title: self.maybe(Self::text),
-            description: self.maybe(Self::text),
-            ambient: self.maybe(Self::one_or_three),
-            viewer: self.maybe(|r| r.choice(ViewerChoice::MEANINGS)),
-            specular: self.maybe(|r| r.choice(SpecularModel::MEANINGS)),
-            shininess_for: self.maybe(|r| r.choice(SpecularModel::MEANINGS)),
-            specular_gate: self.maybe(|r| r.choice(SpecularGate::MEANINGS)),
-            interpolation: self
-                .maybe(|r| r.choice(&[Interpolation::Screen, Interpolation::Perspective])),
-            cull: self.maybe(|r| r.choice(&[Culling::Back, Culling::Front, Culling::None])),
-            visibility: self.maybe(|r| r.choice(VisibilityChoice::MEANINGS)),
-            clipping: self.maybe(|r| r.choice(Clipping::MEANINGS)),
-            two_sided: self.maybe(|r| r.choice(&[true, false])),
-            depth_bits: self.maybe(|r| r.next() as i64),
-            depth: self.maybe(|r| r.choice(DepthSource::MEANINGS)),
-            painter_key: self.maybe(|r| r.choice(PainterKey::MEANINGS)),
-            image: ImageSection {
-                width: self.maybe(|r| r.next() as i64),
-                height: self.maybe(|r| r.next() as i64),
-                background: self.maybe(Self::one_or_three),
-                encoding: self.maybe(|r| r.choice(&[Encoding::Linear, Encoding::Srgb])),
-                samples: self.maybe(|r| r.next() as i64),
-            },
-            camera: CameraSection {
-                eye: self.maybe(Self::triple),
-                target: self.maybe(Self::triple),
-                up: self.maybe(Self::triple),
-                half_height: self.maybe(Self::number),
-                fovy: self.maybe(Self::number),
-                near: self.maybe(Self::number),
-                far: self.maybe(Self::number),
-                fit: self.maybe(Self::number),
-                direction: self.maybe(Self::triple),
-                azimuth: self.maybe(Self::number),
-                elevation: self.maybe(Self::number),
-            },
-            material: self.material(),
-            light: (lights > 0).then(|| (1..lights).map(|_| self.light()).collect()),
-            object: (0..objects).map(|_| self.object()).collect(),
-            ..SceneFile::default()
+            table,
+            source: None,
         }
     }
 }
 
-/// What is written reads back as the same scene, values bit for bit, however odd they are.
+/// A scene that is written reads back as the same scene, values bit for bit, however odd they are.
 #[test]
 fn written_scenes_read_back_equal() {
     let mut random = Random(21);

@@ -45,7 +45,7 @@ fn shipped_scenes_are_valid() {
         let size = (resolved.scene.width, resolved.scene.height);
         assert!(size == (640, 480) || size == (320, 240), "{name}: {size:?}");
         assert!(
-            file.title.is_some() && file.description.is_some(),
+            file.title().is_some() && file.description().is_some(),
             "{name} has no title or description"
         );
         assert_eq!(
@@ -73,8 +73,10 @@ fn shipped_scenes_are_listed() {
         scenes.keys().map(String::as_str).collect::<Vec<_>>()
     );
     for (name, file) in &scenes {
-        let alike =
-            |other: &SceneFile| (&other.camera, &other.object) == (&file.camera, &file.object);
+        let alike = |other: &SceneFile| {
+            ["camera", "object"].map(|key| other.table.get(key))
+                == ["camera", "object"].map(|key| file.table.get(key))
+        };
         assert_eq!(
             scenes.values().filter(|other| alike(other)).count(),
             1,
