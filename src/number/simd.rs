@@ -158,25 +158,10 @@ mod x86 {
 
 macro_rules! block {
     ($block:ident, $width:literal) => {
-        impl<S: Simd> MulAdd<Self> for $block<S> {
+        impl<S: Simd> MulAdd for $block<S> {
             #[inline(always)]
             fn mul_add(self, factor: Self, summand: Self) -> Self {
                 SimdFloat::mul_add(self, factor, summand)
-            }
-            #[inline(always)]
-            fn mul_sub(self, factor: Self, subtrahend: Self) -> Self {
-                SimdFloat::mul_sub(self, factor, subtrahend)
-            }
-        }
-
-        impl<S: Simd> MulAdd<f32> for $block<S> {
-            #[inline(always)]
-            fn mul_add(self, factor: f32, summand: Self) -> Self {
-                SimdFloat::mul_add(self, Self::splat(self.simd, factor), summand)
-            }
-            #[inline(always)]
-            fn mul_sub(self, factor: f32, subtrahend: Self) -> Self {
-                SimdFloat::mul_sub(self, Self::splat(self.simd, factor), subtrahend)
             }
         }
 
@@ -201,7 +186,7 @@ macro_rules! block {
             fn rsqrt(self) -> Self {
                 let y = self.estimate();
                 let three_halves = Self::splat(self.simd, 1.5);
-                y * MulAdd::<Self>::mul_add(-(self * 0.5 * y), y, three_halves)
+                y * SimdFloat::mul_add(-(self * 0.5 * y), y, three_halves)
             }
             #[inline(always)]
             fn powf(self, exponent: f32) -> Self {

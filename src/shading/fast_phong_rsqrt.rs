@@ -2,10 +2,7 @@
 
 use super::duff_phong::DuffPhong;
 use super::increments::Quadratic;
-use super::{
-    Info, Linear, Lit, LitAt, Local, Model, PerLight, Perspective, Pixel, Roundings, Shader, Span,
-    Stepped,
-};
+use super::{Info, Linear, Lit, Local, PerLight, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
 
@@ -15,7 +12,7 @@ use crate::reference::Model as Truth;
 ///
 /// The diffuse term is `J r`, the specular term `(2 (J r) (K r) − L·V)^n`. Without such an estimate the root is a root and a
 /// division, and the method [`DuffPhong`] where light and eye are at infinity.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct FastPhongRsqrt<const L: usize>;
 
 impl<const L: usize> Shader for FastPhongRsqrt<L> {
@@ -26,27 +23,17 @@ impl<const L: usize> Shader for FastPhongRsqrt<L> {
                   I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "L21 4.2, 4.3, with the root that processors have had since 1999 (SSE rsqrtps)",
         model: Truth::PhongConstant,
-        roundings: Roundings {
-            start: 10.4,
-            step: 2.0,
-            of: Stepped::Products,
-        },
+        roundings: Roundings::new(10.4, 2.0, Stepped::Products),
         derivation: "as duff-phong; the estimate of the root and its step are off by 6.4 roundings, where a root and a quotient \
                      are off by 2",
         fails: "where normals cancel inside a span, D is a small difference of large sums",
-        parameters: &[],
-        perspective: Perspective::Free,
         local: Local::PerPolygon,
-        lit_at: LitAt::Pixel,
         barycentric: false,
+        ..Info::OF_PIXELS
     };
     type Varying<F: Num> = (PerLight<F, L>, F, Vec3<F>); // J of each light, K, N
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D
 
-    #[inline(always)]
-    fn new(_: &[u32], _: &Model) -> Self {
-        FastPhongRsqrt
-    }
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
         DuffPhong::<L>.vertex(lit, n)

@@ -3,7 +3,7 @@
 use super::count::{OperationCounts, count};
 use super::span_bench::SpanBench;
 use super::{
-    DuffPhong, DuffPhongNear, Extras, FastPhong, FastPhongRsqrt, Flat, FlatAverage, Gouraud,
+    DuffPhong, DuffPhongNear, Extras, FLAT_AVERAGE, FastPhong, FastPhongRsqrt, Flat, Gouraud,
     GouraudSeparate, Info, Kernels, Local, NaivePhong, Perspective, PhongRsqrt, Shader, SlerpPhong,
     SlerpPhongVector, Variant,
 };
@@ -12,7 +12,10 @@ use core::fmt;
 /// All shading methods. A method is one file beside this one, and one line here.
 pub static METHODS: &[Entry] = &[
     Entry::of::<Flat>(),
-    Entry::of::<FlatAverage>(),
+    Entry {
+        info: &FLAT_AVERAGE,
+        ..Entry::of::<Flat>()
+    },
     Entry::of::<Gouraud>(),
     Entry::of::<GouraudSeparate>(),
     Entry::of::<NaivePhong>(),
