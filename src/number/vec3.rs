@@ -1,7 +1,7 @@
 //! Vectors of three numbers.
 
 use super::Num;
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::ops::{Add, Mul, Sub};
 
 /// Three numbers: a normal, a direction, a position or a colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,22 +41,6 @@ impl<F: Mul<G, Output = F> + Copy, G: Copy> Mul<G> for Vec3<F> {
     #[inline(always)]
     fn mul(self, s: G) -> Self {
         vec3([self.x * s, self.y * s, self.z * s])
-    }
-}
-
-impl<F: Div<Output = F> + Copy> Div<F> for Vec3<F> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, s: F) -> Self {
-        vec3([self.x / s, self.y / s, self.z / s])
-    }
-}
-
-impl<F: Neg<Output = F> + Copy> Neg for Vec3<F> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        vec3([-self.x, -self.y, -self.z])
     }
 }
 

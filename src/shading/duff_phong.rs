@@ -1,32 +1,37 @@
 //! Phong shading by forward differences: N·N is a quadratic along a span, and no vector is needed there (Duff 1979).
 
+use super::fast_phong_rsqrt::FAST_PHONG_RSQRT;
 use super::increments::Quadratic;
+use super::planes::scaled;
 use super::{Info, Linear, Lit, PerLight, Pixel, Roundings, Seen, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
 
-/// Phong shading by forward differences, for up to `L` directional lights: `J = L·N` and `K = V·N` by one addition each,
-/// `D = N·N` by two, then one root and one division. The picture is naive Phong's to rounding.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct DuffPhong<const L: usize>;
+const DUFF_PHONG: Info = Info {
+    name: "duff-phong",
+    title: "scalar products by forward differences: no vector on a span",
+    formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = 1 / sqrt(D)\n\
+              I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
+    source: "Duff 1979; with positions: L.L, V.V, L.N, N.V and L.V likewise",
+    model: Truth::Phong,
+    roundings: Roundings::new(6.0, 2.0, Stepped::Products),
+    derivation: "J, K and the first difference of D are each rounded by half of 2^-24 at each step, the latter then added up: D \
+                 is off by 3 a step and its root by half of that, 1.5, beside the 0.5 of J or K; with positions L.N is a \
+                 product too, off by 3, and divided by two roots: three times as much, and the lengths of the vectors vary \
+                 by the square of the bound's spread",
+    fails: "where normals cancel inside a span, D is a small difference of large sums",
+    barycentric: false,
+    ..Info::OF_PIXELS
+};
 
-impl<const L: usize> Shader for DuffPhong<L> {
-    const INFO: Info = Info {
-        name: "duff-phong",
-        title: "scalar products by forward differences: no vector on a span",
-        formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = 1 / sqrt(D)\n\
-                  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
-        source: "Duff 1979; with positions: L.L, V.V, L.N, N.V and L.V likewise",
-        model: Truth::Phong,
-        roundings: Roundings::new(6.0, 2.0, Stepped::Products),
-        derivation: "J, K and the first difference of D are each rounded by half of 2^-24 at each step, the latter then added up: D \
-                     is off by 3 a step and its root by half of that, 1.5, beside the 0.5 of J or K; with positions L.N is a \
-                     product too, off by 3, and divided by two roots: three times as much, and the lengths of the vectors vary \
-                     by the square of the bound's spread",
-        fails: "where normals cancel inside a span, D is a small difference of large sums",
-        barycentric: false,
-        ..Info::OF_PIXELS
-    };
+/// Phong shading by forward differences, for up to `L` directional lights: `J = L·N` and `K = V·N` by one addition each,
+/// `D = N·N` by two, then one root and one division. The picture is naive Phong's to rounding. With `RSQRT` the root
+/// is the processor's estimate of 1/√D: see [`FAST_PHONG_RSQRT`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DuffPhong<const L: usize, const RSQRT: bool = false>;
+
+impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
+    const INFO: Info = if RSQRT { FAST_PHONG_RSQRT } else { DUFF_PHONG };
     type Varying<F: Num> = (PerLight<F, L>, F, Vec3<F>); // J of each light, K, N
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D
 
@@ -45,31 +50,20 @@ impl<const L: usize> Shader for DuffPhong<L> {
         (cosines, Quadratic::square(n, dn)) // 4.3
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, ((j, k), d): Pixel<Self, F>) -> Vec3<F> {
-        shade(lit, j, k, d.like(1.0) / d.sqrt())
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, (products, d): Pixel<Self, F>) -> Vec3<F> {
+        let r = if RSQRT {
+            d.rsqrt()
+        } else {
+            d.like(1.0) / d.sqrt()
+        };
+        lit.shade_products(scaled(products, r))
     }
 }
 
-/// Returns the colour of a pixel from J, K and r = 1/√D.
-#[inline(always)]
-pub(super) fn shade<F: Num, const L: usize>(
-    lit: &Lit<'_, F>,
-    j: PerLight<F, L>,
-    k: F,
-    r: F,
-) -> Vec3<F> {
-    let v_n = k * r;
-    let mut colour = lit.ambient();
-    for light in lit.lights() {
-        let l_n = j[light.index] * r;
-        colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n)); // 4.5
-    }
-    colour
-}
-
-/// The same with up to `L` lights, some of them or the eye at positions. The vectors L and V grow linearly along a span like N,
-/// and their six products `N·N`, `L·L`, `V·V`, `L·N`, `N·V`, `L·V` are quadratics: twelve additions a pixel for one light, six for
-/// each further one, and two for 1/w², where naive Phong follows vectors and multiplies them out at each pixel:
+/// Phong shading by forward differences with up to `L` lights, some of them or the eye at positions. The vectors L and V grow
+/// linearly along a span like N, and their six products `N·N`, `L·L`, `V·V`, `L·N`, `N·V`, `L·V` are quadratics: twelve additions
+/// a pixel for one light, six for each further one, and two for 1/w², where naive Phong follows vectors and multiplies them out
+/// at each pixel:
 ///
 /// ```text
 /// diffuse = L·N / √(N·N L·L)        R·V = (2 (L·N)(N·V) − (N·N)(L·V)) / (N·N √(L·L V·V))
@@ -83,7 +77,7 @@ type Shared<Q> = ((Q, Q), (Q, Q));
 type Each<Q> = ((Q, Q), Q);
 
 impl<const L: usize> Shader for DuffPhongNear<L> {
-    const INFO: Info = DuffPhong::<L>::INFO;
+    const INFO: Info = DUFF_PHONG;
     type Varying<F: Num> = (Vec3<F>, Vec3<F>, F); // N, position, 1/w
     // N·N, V·V, N·V, 1/w²; L·L, L·N and L·V of each light
     type Walk<F: Num> = (Shared<Quadratic<F>>, Each<PerLight<Quadratic<F>, L>>);
@@ -100,7 +94,7 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
         let (nn, vv) = (Quadratic::square(n, dn), Quadratic::square(v, dv));
         let nv = Quadratic::product(n, dn, v, dv);
         let ww = Quadratic::new(w * w, half + half, dw * dw);
-        let none = PerLight::new(lit.count(), nn);
+        let none = PerLight::new(lit.stored().len(), nn);
         let (mut ll, mut ln, mut lv) = (none, none, none);
         for (i, light) in lit.stored().iter().enumerate() {
             let (l, dl) = (light.toward(p, w), light.toward(dp, dw));
@@ -120,7 +114,7 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
         let (over_n, over_v) = (one / nn.sqrt(), one / vv.sqrt());
         let v_n = nv * over_n * over_v;
         let mut colour = lit.ambient();
-        for index in 0..lit.count() {
+        for index in 0..lit.stored().len() {
             let over_l = one / ll[index].sqrt();
             let l_n = ln[index] * (over_n * over_l); // L·N / √(N·N L·L)
             let l_v = lv[index] * (over_v * over_l);

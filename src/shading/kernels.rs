@@ -146,21 +146,17 @@ impl Kernels {
     /// Compiles a method.
     pub const fn of<M: Shader>() -> Kernels {
         #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-        let simd = [
-            Some(SimdKernels::of::<M, fearless_simd::Avx2, fearless_simd::Avx2>()),
-            Some(SimdKernels::of::<
-                M,
-                fearless_simd::Avx2,
-                fearless_simd::Avx512,
-            >()),
-            None,
-        ];
+        let simd = {
+            use fearless_simd::{Avx2, Avx512};
+            let avx2 = SimdKernels::of::<M, Avx2, Avx2>();
+            let avx512 = SimdKernels::of::<M, Avx2, Avx512>();
+            [Some(avx2), Some(avx512), None]
+        };
         #[cfg(all(feature = "simd", target_arch = "aarch64"))]
-        let simd = [
-            None,
-            None,
-            Some(SimdKernels::of::<M, fearless_simd::Neon, fearless_simd::Neon>()),
-        ];
+        let simd = {
+            use fearless_simd::Neon;
+            [None, None, Some(SimdKernels::of::<M, Neon, Neon>())]
+        };
         #[cfg(not(all(feature = "simd", any(target_arch = "x86_64", target_arch = "aarch64"))))]
         let simd = [None; 3];
         Kernels {
@@ -185,8 +181,14 @@ impl Kernels {
 pub(super) fn clamped<M: Shader, F: Num>(value: F, scale: f32) -> F {
     match (M::INFO.lit_at, M::INFO.roundings.of) {
         (LitAt::Pixel, _) | (_, Stepped::Sums) => value,
-        _ => -(-value.max(0.0)).max(-scale),
+        _ => at_most(value, scale),
     }
+}
+
+/// Returns a number clamped to 0..=`most`; NaN becomes 0.
+#[inline(always)]
+fn at_most<F: Num>(value: F, most: f32) -> F {
+    -(-value.max(0.0)).max(-most)
 }
 
 fn vertices<M: Shader>(job: &Vertices<'_>, out: &mut [f32]) {
@@ -538,7 +540,8 @@ fn shade_blocks<M: Shader, S: Token>(
             RowColours::Bytes(to, background) => {
                 if general {
                     // What an integer does not hold is converted to the least one: clamped first.
-                    colour = [at_most(colour[0]), at_most(colour[1]), at_most(colour[2])];
+                    let [r, g, b] = colour;
+                    colour = [at_most(r, 255.0), at_most(g, 255.0), at_most(b, 255.0)];
                 }
                 S::Block::pack(colour, depth, *background, &mut to[here]);
             }
@@ -549,13 +552,6 @@ fn shade_blocks<M: Shader, S: Token>(
             }
         }
     }
-}
-
-/// Returns a level clamped to 0..=255; NaN becomes 0.
-#[cfg(feature = "simd")]
-#[inline(always)]
-fn at_most<F: Num>(level: F) -> F {
-    -(-level.max(0.0)).max(-255.0)
 }
 
 /// Counts the set-up of a linearly interpolated number: its value at `t0` between `a` and `b`, and its growth in a step of `dt`.

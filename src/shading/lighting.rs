@@ -280,12 +280,6 @@ impl<'a, F: Num> Lit<'a, F> {
         }
     }
 
-    /// Returns how many lights there are.
-    #[inline(always)]
-    pub fn count(&self) -> usize {
-        self.all.len()
-    }
-
     /// Returns the lights as they are stored.
     #[inline(always)]
     pub fn stored(&self) -> &'a [Light] {
@@ -371,6 +365,17 @@ impl<'a, F: Num> Lit<'a, F> {
     pub fn plus(&self, colour: Vec3<F>, light: &Seen<'a, F>, diffuse: F, specular: F) -> Vec3<F> {
         let colour = colour.plus(light.times_strength(diffuse), light.light.diffuse);
         colour.plus(light.times_strength(specular), light.light.specular)
+    }
+
+    /// Returns the colour of a surface from the products J and K of its unit normal.
+    #[inline(always)]
+    pub fn shade_products<const L: usize>(&self, (j, k): (PerLight<F, L>, F)) -> Vec3<F> {
+        let mut colour = self.ambient();
+        for light in self.lights() {
+            let l_n = j[light.index];
+            colour = self.add(colour, &light, l_n, self.highlight(&light, l_n, k)); // 4.5
+        }
+        colour
     }
 
     /// Returns the colour of a surface with the unit normal `n`.
@@ -492,30 +497,29 @@ impl<'a, F: Num> Iterator for Lights<'a, F> {
         if index >= lit.all.len() {
             return None;
         }
-        let light = &lit.all[index];
         self.next += 1;
+        let light = &lit.all[index];
         let like = lit.point.x;
-        let mut seen = Seen {
-            index,
-            to: light.to.like(like),
-            l_v: like.like(light.l_v),
-            half: like.like(light.half),
-            strength: None,
-            light,
-        };
-        if lit.general && (light.is_near || lit.model.eye_is_near) {
-            if light.is_near {
-                let to = seen.to - lit.point;
-                let square = to.dot(to);
-                seen.to = to * (like.like(1.0) / square.sqrt());
-                seen.strength = light.strength(square, like.like(1.0));
-            }
-            seen.l_v = seen.to.dot(lit.view);
-            if lit.is_halfway() {
-                seen.half = over_sum(seen.l_v);
-            }
+        let mut to = light.to.like(like);
+        if !lit.general || !(light.is_near || lit.model.eye_is_near) {
+            return Some(Seen {
+                index,
+                to,
+                l_v: like.like(light.l_v),
+                half: like.like(light.half),
+                strength: None,
+                light,
+            });
         }
-        Some(seen)
+        let one = like.like(1.0);
+        let mut square = one;
+        if light.is_near {
+            to = to - lit.point;
+            square = to.dot(to);
+            to = to * (one / square.sqrt());
+        }
+        let seen = Seen::from_products(lit, index, to.dot(lit.view), square, one);
+        Some(Seen { to, ..seen })
     }
 }
 

@@ -46,7 +46,6 @@ pub use bound::{Roundings, Stepped};
 pub use count::OperationCounts;
 use duff_phong::{DuffPhong, DuffPhongNear};
 use fast_phong::FastPhong;
-use fast_phong_rsqrt::FastPhongRsqrt;
 use flat::Flat;
 use flat_average::FLAT_AVERAGE;
 use gouraud::Gouraud;

@@ -46,12 +46,7 @@ impl<const L: usize> Shader for SlerpPhong<L> {
         }
     }
     #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, (j, k): Pixel<Self, F>) -> Vec3<F> {
-        let mut colour = lit.ambient();
-        for light in lit.lights() {
-            let l_n = j[light.index];
-            colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, k)); // 4.5
-        }
-        colour
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, products: Pixel<Self, F>) -> Vec3<F> {
+        lit.shade_products(products)
     }
 }

@@ -28,16 +28,7 @@ impl SpanBench {
     /// Makes a span whose end normals enclose `degrees`, facing the viewer, with one light in front of it (`lights` ≤ 1) or four,
     /// and the default material.
     pub fn new(degrees: f32, lights: usize) -> Self {
-        let light = |i| {
-            let (sin, cos) = (libm::sin(i), libm::cos(i));
-            Light::directional(DVec3::new(0.5 * cos, 0.5 * sin, 1.0).normalize(), COLOUR)
-        };
-        let angles: &[f64] = if lights <= 1 {
-            &[0.0]
-        } else {
-            &[0.0, 1.0, 2.0, 3.0]
-        };
-        SpanBench::lit(degrees, angles, light, Place::Infinite(FACE), false)
+        SpanBench::lit(degrees, if lights <= 1 { 1 } else { 4 }, None, false)
     }
 
     /// Makes the same span with one light (`lights` ≤ 1) or two, and the eye, at positions a few of its lengths away; lights grow
@@ -48,37 +39,30 @@ impl SpanBench {
         falloff: Falloff,
         interpolation: Interpolation,
     ) -> Self {
-        let light = |i| {
-            let (sin, cos) = (libm::sin(i), libm::cos(i));
-            let position = DVec3::new(2.0 * cos, 2.0 * sin, 5.0);
-            Light {
-                falloff,
-                ..Light::positional(position, COLOUR)
-            }
-        };
         let perspective = interpolation == Interpolation::Perspective;
-        let angles: &[f64] = if perspective || lights <= 1 {
-            &[0.0]
-        } else {
-            &[0.0, 1.0]
-        };
-        let view = Place::Local([0.0, 0.0, 8.0]);
-        SpanBench::lit(degrees, angles, light, view, perspective)
+        let count = if perspective { 1 } else { lights.clamp(1, 2) };
+        SpanBench::lit(degrees, count, Some(falloff), perspective)
     }
 
-    fn lit(
-        degrees: f32,
-        angles: &[f64],
-        light: impl Fn(f64) -> Light,
-        view: Place<[f32; 3]>,
-        perspective: bool,
-    ) -> Self {
-        let (sin, cos) = libm::sincosf(degrees.to_radians() / 2.0);
-        let lights: Vec<Light> = angles.iter().map(|angle| light(*angle)).collect();
-        let lighting = Lighting {
-            view,
-            ..Lighting::new(&Material::default(), [1.0; 3], &lights, DVec3::Z)
+    /// Makes a span with so many lights, of a falloff if they and the eye are at positions.
+    fn lit(degrees: f32, lights: usize, near: Option<Falloff>, perspective: bool) -> Self {
+        let light = |i: usize| {
+            let (sin, cos) = (libm::sin(i as f64), libm::cos(i as f64));
+            let Some(falloff) = near else {
+                let direction = DVec3::new(0.5 * cos, 0.5 * sin, 1.0);
+                return Light::directional(direction.normalize(), COLOUR);
+            };
+            Light {
+                falloff,
+                ..Light::positional(DVec3::new(2.0 * cos, 2.0 * sin, 5.0), COLOUR)
+            }
         };
+        let lights: Vec<Light> = (0..lights).map(light).collect();
+        let mut lighting = Lighting::new(&Material::default(), [1.0; 3], &lights, DVec3::Z);
+        if near.is_some() {
+            lighting.view = Place::Local([0.0, 0.0, 8.0]);
+        }
+        let (sin, cos) = libm::sincosf(degrees.to_radians() / 2.0);
         SpanBench {
             uniforms: Uniforms::new(&lighting, 1.0),
             lighting,

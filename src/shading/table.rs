@@ -3,8 +3,8 @@
 use super::count::{OperationCounts, count};
 use super::span_bench::SpanBench;
 use super::{
-    DuffPhong, DuffPhongNear, Extras, FLAT_AVERAGE, FastPhong, FastPhongRsqrt, Flat, Gouraud,
-    GouraudSeparate, Info, Kernels, Local, NaivePhong, Perspective, PhongRsqrt, Shader, SlerpPhong,
+    DuffPhong, DuffPhongNear, Extras, FLAT_AVERAGE, FastPhong, Flat, Gouraud, GouraudSeparate,
+    Info, Kernels, Local, NaivePhong, Perspective, PhongRsqrt, Shader, SlerpPhong,
     SlerpPhongVector, Variant,
 };
 use core::fmt;
@@ -20,8 +20,12 @@ pub static METHODS: &[Entry] = &[
     Entry::of::<GouraudSeparate>(),
     Entry::of::<NaivePhong>(),
     Entry::by_lights::<FastPhong<1>, FastPhong<4>, FastPhong<8>, FastPhong<64>>(),
-    Entry::by_lights::<FastPhongRsqrt<1>, FastPhongRsqrt<4>, FastPhongRsqrt<8>, FastPhongRsqrt<64>>(
-    ),
+    Entry::by_lights::<
+        DuffPhong<1, true>,
+        DuffPhong<4, true>,
+        DuffPhong<8, true>,
+        DuffPhong<64, true>,
+    >(),
     Entry::of::<PhongRsqrt>(),
     Entry::by_lights::<DuffPhong<1>, DuffPhong<4>, DuffPhong<8>, DuffPhong<64>>()
         .near::<DuffPhongNear<4>, DuffPhongNear<64>>(),
