@@ -182,7 +182,6 @@ macro_rules! block {
             #[inline(always)]
             fn max(self, least: f32) -> Self {
                 // x86 gives the second operand where one is NaN: `least`, which is a number.
-                let least = Self::splat(self.simd, least);
                 match cfg!(target_arch = "x86_64") {
                     true => SimdBase::max(self, least),
                     false => SimdBase::max_precise(self, least),
@@ -190,13 +189,12 @@ macro_rules! block {
             }
             #[inline(always)]
             fn gate(self, condition: Self, least: f32) -> Self {
-                let least = Self::splat(self.simd, least);
                 let (bits, open): ($bits<S>, _) = (Bytes::bitcast(self), condition.simd_gt(least));
                 Bytes::bitcast(bits & open.to_vector())
             }
             #[inline(always)]
             fn any_over(self, least: f32) -> bool {
-                self.simd_gt(Self::splat(self.simd, least)).any_true()
+                self.simd_gt(least).any_true()
             }
         }
     };
@@ -245,7 +243,7 @@ impl<S: Simd> Width for f32x16<S> {
 }
 
 /// A block of pixels that is shaded at a time: one or two blocks of the G-buffer.
-pub trait Block<S: Simd>: Num {
+pub trait Block<S: Simd>: Num + SimdBase<S, Element = f32> {
     /// Blocks of the G-buffer that it holds.
     const CELLS: usize = Self::WIDTH / BLOCK;
 
@@ -256,7 +254,7 @@ pub trait Block<S: Simd>: Num {
     /// True if any of these depths is one of a drawn pixel: less than infinite.
     #[inline(always)]
     fn any_drawn(self) -> bool {
-        (-self).any_over(f32::NEG_INFINITY)
+        self.simd_lt(f32::INFINITY).any_true()
     }
     /// Stores colours in grey levels, 255 for 1, clamped and rounded, opaque where `depth` is finite and `background`
     /// elsewhere. NaN becomes 0; magnitudes are below 2³¹.

@@ -304,7 +304,7 @@ impl<'a, F: Num> Lit<'a, F> {
     /// Returns the products of `n` with the vectors toward each light and the eye.
     ///
     /// ```text
-    /// J = L·N,   K = V·N        (L21 4.2)
+    /// J = L·N,   K = V·N        (L21 4.3)
     /// ```
     #[inline(always)]
     pub fn products<const L: usize>(&self, n: Vec3<F>) -> (PerLight<F, L>, F) {
@@ -500,26 +500,27 @@ impl<'a, F: Num> Iterator for Lights<'a, F> {
         self.next += 1;
         let light = &lit.all[index];
         let like = lit.point.x;
-        let mut to = light.to.like(like);
-        if !lit.general || !(light.is_near || lit.model.eye_is_near) {
-            return Some(Seen {
-                index,
-                to,
-                l_v: like.like(light.l_v),
-                half: like.like(light.half),
-                strength: None,
-                light,
-            });
+        let mut seen = Seen {
+            index,
+            to: light.to.like(like),
+            l_v: like.like(light.l_v),
+            half: like.like(light.half),
+            strength: None,
+            light,
+        };
+        if lit.general && (light.is_near || lit.model.eye_is_near) {
+            if light.is_near {
+                let to = seen.to - lit.point;
+                let square = to.dot(to);
+                seen.to = to * (like.like(1.0) / square.sqrt());
+                seen.strength = light.strength(square, like.like(1.0));
+            }
+            seen.l_v = seen.to.dot(lit.view);
+            if lit.is_halfway() {
+                seen.half = over_sum(seen.l_v);
+            }
         }
-        let one = like.like(1.0);
-        let mut square = one;
-        if light.is_near {
-            to = to - lit.point;
-            square = to.dot(to);
-            to = to * (one / square.sqrt());
-        }
-        let seen = Seen::from_products(lit, index, to.dot(lit.view), square, one);
-        Some(Seen { to, ..seen })
+        Some(seen)
     }
 }
 

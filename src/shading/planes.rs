@@ -147,22 +147,28 @@ impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
     }
     #[inline(always)]
     fn put(self, next: &mut usize, to: &mut impl FnMut(usize, F)) {
-        for i in 0..self.len() {
+        let mut i = 0;
+        while i < self.len() {
             self[i].put(next, to);
+            i += 1;
         }
     }
     #[inline(always)]
     fn get(lights: usize, next: &mut usize, from: impl Fn(usize) -> F + Copy) -> Self {
         let mut all = Self::new(lights, F::get(lights, next, from));
-        for i in 1..all.len() {
+        let mut i = 1;
+        while i < all.len() {
             all[i] = F::get(lights, next, from);
+            i += 1;
         }
         all
     }
     #[inline(always)]
     fn zip(mut self, other: Self, of: impl Fn(F, F) -> F + Copy) -> Self {
-        for i in 0..self.len() {
+        let mut i = 0;
+        while i < self.len() {
             self[i] = of(self[i], other[i]);
+            i += 1;
         }
         self
     }
