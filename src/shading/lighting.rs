@@ -219,7 +219,8 @@ fn faint(shininess: f32, scale: f32, lights: &[Light]) -> f32 {
     libm::powf(power.max(LEAST_POWER), 1.0 / shininess)
 }
 
-/// Twice the least normal number: t and its power are rounded. Only 1/r² gets here, nearer than 10⁻¹⁵ to a light.
+/// Twice the least normal number: t and its power are rounded. Only lights over 2.5 that fall off by 1/r² get here; what is left
+/// out is then over 2⁻²⁴ at distances of 10⁻¹⁵ or so.
 const LEAST_POWER: f32 = 2.0 * f32::MIN_POSITIVE;
 
 /// By how much the highlight multiplies an error of a cosine between unit vectors, for `shininess` n; `half` is |L + V|.
@@ -310,9 +311,9 @@ impl<'a, F: Num> Lit<'a, F> {
     pub fn products<const L: usize>(&self, n: Vec3<F>) -> (PerLight<F, L>, F) {
         let mut j = PerLight::new(self.all.len(), n.x);
         for light in self.lights() {
-            j[light.index] = n.dot(light.to);
+            j[light.index] = n.dot(light.to); // J = L · N
         }
-        (j, n.dot(self.view))
+        (j, n.dot(self.view)) // K = V · N
     }
 
     /// Returns `I_a k_a`.

@@ -42,7 +42,7 @@ impl<const L: usize> Shader for SlerpPhong<L> {
         GreatCircle {
             from: lit.products(span.from), // 4.8, times L and V
             to: lit.products(span.to),
-            sines: span.sines,
+            sines: span.sines, // 4.9–4.12
         }
     }
     #[inline(always)]
