@@ -35,17 +35,15 @@ impl<const L: usize> Shader for FastPhong<L> {
         fails: "with a number of steps given: on spans of few pixels over a large angle, where the previous length is a bad \
                 first guess, and where normals cancel inside a span",
         parameters: &[Parameter {
+            name: "steps",
+            meaning: "steps of Newton's method a pixel",
+            default: Parameter::AUTO,
+            least: 1,
+            most: NewtonSteps::MOST,
             auto: Some(Auto {
                 meaning: "on each span the fewest that leave every term within 0.001 of itself, a true root where 3 do not",
                 length_error: |lighting| largest_error(lighting.specular, lighting.shininess),
             }),
-            ..Parameter::new(
-                "steps",
-                "steps of Newton's method a pixel",
-                Parameter::AUTO,
-                1,
-                NewtonSteps::MOST,
-            )
         }],
         local: Local::PerPolygon,
         barycentric: false,
