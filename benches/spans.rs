@@ -5,8 +5,9 @@
 //! step scalars instead of vectors pay in the former for the latter; where their lines cross is how long spans must be.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use fastphong::compare::timing::SpanRow;
 use fastphong::number::Level;
-use fastphong::shading::{METHODS, SpanBench, SpanRow};
+use fastphong::shading::{METHODS, SpanBench};
 use std::hint::black_box;
 use std::time::Duration;
 

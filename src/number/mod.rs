@@ -33,18 +33,14 @@ pub(crate) use vectorized::vectorized;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Multiplication followed by an addition.
-pub trait MulAdd<G>: Mul<G, Output = Self> + Copy {
+pub trait MulAdd {
     /// Returns `self · factor + summand`, rounded once where the backend has one instruction for it, else twice.
-    fn mul_add(self, factor: G, summand: Self) -> Self;
-    /// Returns `self · factor − subtrahend`, rounded likewise.
-    fn mul_sub(self, factor: G, subtrahend: Self) -> Self;
+    fn mul_add(self, factor: Self, summand: Self) -> Self;
 }
 
 /// A number of an arithmetic backend: one pixel's value, or those of a block of pixels.
 pub trait Num:
     Copy
-    + Send
-    + Sync
     + Neg<Output = Self>
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -53,8 +49,7 @@ pub trait Num:
     + Add<f32, Output = Self>
     + Sub<f32, Output = Self>
     + Mul<f32, Output = Self>
-    + MulAdd<Self>
-    + MulAdd<f32>
+    + MulAdd
 {
     /// Pixels that one number holds.
     const WIDTH: usize;

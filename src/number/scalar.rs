@@ -2,14 +2,10 @@
 
 use super::{MulAdd, Num, Real};
 
-impl MulAdd<f32> for f32 {
+impl MulAdd for f32 {
     #[inline(always)]
     fn mul_add(self, factor: f32, summand: f32) -> f32 {
         self * factor + summand
-    }
-    #[inline(always)]
-    fn mul_sub(self, factor: f32, subtrahend: f32) -> f32 {
-        self * factor - subtrahend
     }
 }
 

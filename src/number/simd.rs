@@ -2,7 +2,7 @@
 
 use super::{Level, MulAdd, Num};
 use fearless_simd::{
-    Bytes, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, f32x16, i32x8, i32x16,
+    Bytes, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, f32x16, i32x8, i32x16,
 };
 
 /// Pixels of a block of the G-buffer.
@@ -38,35 +38,22 @@ pub trait Token: Simd {
     fn get() -> Self;
 }
 
-#[cfg(target_arch = "x86_64")]
-impl Token for fearless_simd::Avx2 {
-    type Block = f32x16<Self>;
-    #[inline(always)]
-    fn get() -> Self {
-        let token = fearless_simd::Level::new().as_avx2();
-        token.expect("kernels are called on machines that have their level")
-    }
+macro_rules! token {
+    ($architecture:literal, $token:ident, $block:ident, $get:ident) => {
+        #[cfg(target_arch = $architecture)]
+        impl Token for fearless_simd::$token {
+            type Block = $block<Self>;
+            #[inline(always)]
+            fn get() -> Self {
+                let token = fearless_simd::Level::new().$get();
+                token.expect("kernels are called on machines that have their level")
+            }
+        }
+    };
 }
-
-#[cfg(target_arch = "x86_64")]
-impl Token for fearless_simd::Avx512 {
-    type Block = f32x16<Self>;
-    #[inline(always)]
-    fn get() -> Self {
-        let token = fearless_simd::Level::new().as_avx512();
-        token.expect("kernels are called on machines that have their level")
-    }
-}
-
-#[cfg(target_arch = "aarch64")]
-impl Token for fearless_simd::Neon {
-    type Block = f32x8<Self>;
-    #[inline(always)]
-    fn get() -> Self {
-        let token = fearless_simd::Level::new().as_neon();
-        token.expect("kernels are called on machines that have their level")
-    }
-}
+token!("x86_64", Avx2, f32x16, as_avx2);
+token!("x86_64", Avx512, f32x16, as_avx512);
+token!("aarch64", Neon, f32x8, as_neon);
 
 /// Aligns the stack frame that it is inlined into.
 ///
@@ -157,26 +144,11 @@ mod x86 {
 }
 
 macro_rules! block {
-    ($block:ident, $width:literal) => {
-        impl<S: Simd> MulAdd<Self> for $block<S> {
+    ($block:ident, $bits:ident, $width:literal) => {
+        impl<S: Simd> MulAdd for $block<S> {
             #[inline(always)]
             fn mul_add(self, factor: Self, summand: Self) -> Self {
                 SimdFloat::mul_add(self, factor, summand)
-            }
-            #[inline(always)]
-            fn mul_sub(self, factor: Self, subtrahend: Self) -> Self {
-                SimdFloat::mul_sub(self, factor, subtrahend)
-            }
-        }
-
-        impl<S: Simd> MulAdd<f32> for $block<S> {
-            #[inline(always)]
-            fn mul_add(self, factor: f32, summand: Self) -> Self {
-                SimdFloat::mul_add(self, Self::splat(self.simd, factor), summand)
-            }
-            #[inline(always)]
-            fn mul_sub(self, factor: f32, subtrahend: Self) -> Self {
-                SimdFloat::mul_sub(self, Self::splat(self.simd, factor), subtrahend)
             }
         }
 
@@ -201,7 +173,7 @@ macro_rules! block {
             fn rsqrt(self) -> Self {
                 let y = self.estimate();
                 let three_halves = Self::splat(self.simd, 1.5);
-                y * MulAdd::<Self>::mul_add(-(self * 0.5 * y), y, three_halves)
+                y * SimdFloat::mul_add(-(self * 0.5 * y), y, three_halves)
             }
             #[inline(always)]
             fn powf(self, exponent: f32) -> Self {
@@ -210,7 +182,6 @@ macro_rules! block {
             #[inline(always)]
             fn max(self, least: f32) -> Self {
                 // x86 gives the second operand where one is NaN: `least`, which is a number.
-                let least = Self::splat(self.simd, least);
                 match cfg!(target_arch = "x86_64") {
                     true => SimdBase::max(self, least),
                     false => SimdBase::max_precise(self, least),
@@ -218,32 +189,28 @@ macro_rules! block {
             }
             #[inline(always)]
             fn gate(self, condition: Self, least: f32) -> Self {
-                self.masked(condition.simd_gt(Self::splat(self.simd, least)))
+                let (bits, open): ($bits<S>, _) = (Bytes::bitcast(self), condition.simd_gt(least));
+                Bytes::bitcast(bits & open.to_vector())
             }
             #[inline(always)]
             fn any_over(self, least: f32) -> bool {
-                self.simd_gt(Self::splat(self.simd, least)).any_true()
+                self.simd_gt(least).any_true()
             }
         }
     };
 }
-block!(f32x8, 8);
-block!(f32x16, 16);
+block!(f32x8, i32x8, 8);
+block!(f32x16, i32x16, 16);
 
 /// What differs between blocks of 8 and of 16 pixels.
 trait Width {
-    type Mask;
     /// 1/√x, of the precision that the processor estimates it to, or of all.
     fn estimate(self) -> Self;
     /// `self` to the power `n`.
     fn power(self, n: f32) -> Self;
-    /// `self` where `open`, else 0.
-    fn masked(self, open: Self::Mask) -> Self;
 }
 
 impl<S: Simd> Width for f32x8<S> {
-    type Mask = fearless_simd::mask32x8<S>;
-
     #[inline(always)]
     fn estimate(self) -> Self {
         #[cfg(target_arch = "x86_64")]
@@ -256,16 +223,9 @@ impl<S: Simd> Width for f32x8<S> {
     fn power(self, n: f32) -> Self {
         super::powf::powf(self, n)
     }
-    #[inline(always)]
-    fn masked(self, open: Self::Mask) -> Self {
-        let bits: i32x8<S> = Bytes::bitcast(self);
-        Bytes::bitcast(bits & open.to_vector())
-    }
 }
 
 impl<S: Simd> Width for f32x16<S> {
-    type Mask = fearless_simd::mask32x16<S>;
-
     #[inline(always)]
     fn estimate(self) -> Self {
         #[cfg(target_arch = "x86_64")]
@@ -280,18 +240,10 @@ impl<S: Simd> Width for f32x16<S> {
         let (low, high) = self.simd.split_f32x16(self);
         self.simd.combine_f32x8(low.power(n), high.power(n))
     }
-    #[inline(always)]
-    fn masked(self, open: Self::Mask) -> Self {
-        if self.simd.level().as_avx512().is_some() {
-            return Select::select(open, self, Self::splat(self.simd, 0.0));
-        }
-        let bits: i32x16<S> = Bytes::bitcast(self);
-        Bytes::bitcast(bits & open.to_vector())
-    }
 }
 
 /// A block of pixels that is shaded at a time: one or two blocks of the G-buffer.
-pub trait Block<S: Simd>: Num {
+pub trait Block<S: Simd>: Num + SimdBase<S, Element = f32> {
     /// Blocks of the G-buffer that it holds.
     const CELLS: usize = Self::WIDTH / BLOCK;
 
@@ -300,7 +252,10 @@ pub trait Block<S: Simd>: Num {
     /// Stores the values over the first [`Num::WIDTH`] of `to`.
     fn store(self, to: &mut [f32]);
     /// True if any of these depths is one of a drawn pixel: less than infinite.
-    fn any_drawn(self) -> bool;
+    #[inline(always)]
+    fn any_drawn(self) -> bool {
+        self.simd_lt(f32::INFINITY).any_true()
+    }
     /// Stores colours in grey levels, 255 for 1, clamped and rounded, opaque where `depth` is finite and `background`
     /// elsewhere. NaN becomes 0; magnitudes are below 2³¹.
     fn pack(levels: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]);
@@ -314,11 +269,6 @@ impl<S: Simd> Block<S> for f32x8<S> {
     #[inline(always)]
     fn store(self, to: &mut [f32]) {
         self.store_slice(&mut to[..8]);
-    }
-    #[inline(always)]
-    fn any_drawn(self) -> bool {
-        self.simd_lt(f32x8::splat(self.simd, f32::INFINITY))
-            .any_true()
     }
     #[inline(always)]
     fn pack(levels: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]) {
@@ -356,11 +306,6 @@ impl<S: Simd> Block<S> for f32x16<S> {
     #[inline(always)]
     fn store(self, to: &mut [f32]) {
         self.store_slice(&mut to[..16]);
-    }
-    #[inline(always)]
-    fn any_drawn(self) -> bool {
-        self.simd_lt(f32x16::splat(self.simd, f32::INFINITY))
-            .any_true()
     }
     #[inline(always)]
     fn pack([r, g, b]: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]) {

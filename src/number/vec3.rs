@@ -1,7 +1,7 @@
 //! Vectors of three numbers.
 
-use super::{MulAdd, Num};
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use super::Num;
+use core::ops::{Add, Mul, Sub};
 
 /// Three numbers: a normal, a direction, a position or a colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,76 +15,51 @@ pub struct Vec3<F> {
 }
 
 /// Makes a vector of an array.
+#[inline(always)]
 pub const fn vec3<F: Copy>([x, y, z]: [F; 3]) -> Vec3<F> {
     Vec3 { x, y, z }
 }
 
-impl<F: Add<G, Output = F>, G> Add<Vec3<G>> for Vec3<F> {
+impl<F: Add<G, Output = F> + Copy, G> Add<Vec3<G>> for Vec3<F> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Vec3<G>) -> Self {
-        vec3_of(self.x + o.x, self.y + o.y, self.z + o.z)
+        vec3([self.x + o.x, self.y + o.y, self.z + o.z])
     }
 }
 
-impl<F: Sub<G, Output = F>, G> Sub<Vec3<G>> for Vec3<F> {
+impl<F: Sub<G, Output = F> + Copy, G> Sub<Vec3<G>> for Vec3<F> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Vec3<G>) -> Self {
-        vec3_of(self.x - o.x, self.y - o.y, self.z - o.z)
+        vec3([self.x - o.x, self.y - o.y, self.z - o.z])
     }
 }
 
-impl<F: Mul<G, Output = F>, G: Copy> Mul<G> for Vec3<F> {
+impl<F: Mul<G, Output = F> + Copy, G: Copy> Mul<G> for Vec3<F> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, s: G) -> Self {
-        vec3_of(self.x * s, self.y * s, self.z * s)
+        vec3([self.x * s, self.y * s, self.z * s])
     }
-}
-
-impl<F: Div<Output = F> + Copy> Div<F> for Vec3<F> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, s: F) -> Self {
-        vec3_of(self.x / s, self.y / s, self.z / s)
-    }
-}
-
-impl<F: Neg<Output = F>> Neg for Vec3<F> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        vec3_of(-self.x, -self.y, -self.z)
-    }
-}
-
-#[inline(always)]
-fn vec3_of<F>(x: F, y: F, z: F) -> Vec3<F> {
-    Vec3 { x, y, z }
 }
 
 impl<F: Num> Vec3<F> {
     /// Returns the dot product.
     #[inline(always)]
-    pub fn dot<G: Copy>(self, o: Vec3<G>) -> F
-    where
-        F: MulAdd<G>,
-    {
+    pub fn dot(self, o: Self) -> F {
         self.z.mul_add(o.z, self.y.mul_add(o.y, self.x * o.x))
     }
 
     /// Returns `self + s · v`.
     #[inline(always)]
-    pub fn plus<G: Copy>(self, s: F, v: Vec3<G>) -> Self
-    where
-        F: MulAdd<G>,
-    {
-        vec3_of(
+    pub fn plus(self, s: F, v: Vec3<f32>) -> Self {
+        let v = v.like(s);
+        vec3([
             s.mul_add(v.x, self.x),
             s.mul_add(v.y, self.y),
             s.mul_add(v.z, self.z),
-        )
+        ])
     }
 
     /// Returns the vector divided by its length.
@@ -105,6 +80,6 @@ impl Vec3<f32> {
     /// Returns the vector in numbers like `like`.
     #[inline(always)]
     pub fn like<F: Num>(self, like: F) -> Vec3<F> {
-        vec3_of(like.like(self.x), like.like(self.y), like.like(self.z))
+        vec3([like.like(self.x), like.like(self.y), like.like(self.z)])
     }
 }

@@ -1,10 +1,10 @@
 //! How far a method may be from its closed form: counted in roundings, not guessed.
 
 use super::lighting::highlight_gain;
-use super::spread::Spread;
+use super::spread::{Seen, Spread};
 use super::{Info, Perspective};
 use crate::frame::{Frame, Polygon};
-use crate::scene::{Interpolation, LightTerm, Lighting, SpecularModel};
+use crate::scene::{Interpolation, Lighting, SpecularModel};
 use alloc::vec::Vec;
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
@@ -20,6 +20,13 @@ pub struct Roundings {
     pub step: f64,
     /// What is stepped.
     pub of: Stepped,
+}
+
+impl Roundings {
+    /// Makes `start` roundings, and `step` more at every step.
+    pub const fn new(start: f64, step: f64, of: Stepped) -> Roundings {
+        Roundings { start, step, of }
+    }
 }
 
 /// What a method steps along edges and spans.
@@ -74,20 +81,22 @@ impl Info {
             .max()
             .unwrap_or(0) as f64;
         let spread = Spread::of(frame);
-        let gains = (0..)
-            .zip(frame.lightings())
-            .map(|(material, lighting)| Gain::of(&spread, material, lighting));
-        let gain = gains.fold(
+        let (mut gain, mut allowed) = (
             Gain {
                 cosine: 1.0,
                 sum: 1.0,
             },
-            Gain::max,
+            0.0,
         );
-        let allowed = (0..)
-            .zip(frame.lightings())
-            .map(|(material, lighting)| self.allowed(parameters, &spread, material, lighting))
-            .fold(0.0, f64::max);
+        for (lighting, seen) in frame.lightings().iter().zip(&spread.materials) {
+            let length_error = self.length_error(parameters, lighting);
+            for c in 0..3 {
+                let channel = Gain::of(c, lighting, seen);
+                gain.cosine = gain.cosine.max(channel.cosine);
+                gain.sum = gain.sum.max(channel.sum);
+                allowed = f64::max(allowed, lost(length_error, c, lighting, seen));
+            }
+        }
         let Roundings { start, step, of } = self.roundings;
         // What is rounded where the weight of perspective is largest counts for more where it is smallest.
         let weights = match self.perspective {
@@ -117,79 +126,54 @@ impl Info {
         rounded + faint + allowed
     }
 
-    /// The error of a colour that the method allows itself on a material: see [`Info::bound`].
-    fn allowed(
-        &self,
-        parameters: &[u32],
-        spread: &Spread,
-        material: u32,
-        lighting: &Lighting,
-    ) -> f64 {
-        let autos = self.parameters.iter().zip(parameters);
-        let length_error = autos
-            .filter(|(parameter, value)| parameter.is_auto(**value))
+    /// Returns the relative error of lengths that the method allows itself on a material.
+    fn length_error(&self, parameters: &[u32], lighting: &Lighting) -> f64 {
+        let all = self.parameters.iter().zip(parameters);
+        all.filter(|(parameter, value)| parameter.is_auto(**value))
             .filter_map(|(parameter, _)| parameter.auto)
             .map(|auto| f64::from((auto.length_error)(lighting)))
-            .fold(0.0, f64::max);
-        let specular_error = match lighting.specular {
-            SpecularModel::Phong => 0.0,
-            SpecularModel::Blinn => f64::from(lighting.shininess) * length_error,
-        };
-        // Of what the clamp leaves of a sum of these terms.
-        let lost = |error: f64, of: &dyn Fn(&LightTerm) -> f32| {
-            let lights = lighting.lights.iter().enumerate();
-            let sum = lights.map(|(i, light)| spread.strength(material, i) * f64::from(of(light)));
-            sum.sum::<f64>().min(1.0) * error / (1.0 - error)
-        };
-        (0..3)
-            .map(|c| {
-                lost(length_error, &|l| l.diffuse[c]) + lost(specular_error, &|l| l.specular[c])
-            })
             .fold(0.0, f64::max)
     }
 }
 
+/// Returns what a channel loses by an error of lengths: see [`Info::bound`].
+fn lost(length_error: f64, channel: usize, lighting: &Lighting, seen: &Seen) -> f64 {
+    let specular_error = match lighting.specular {
+        SpecularModel::Phong => 0.0,
+        SpecularModel::Blinn => f64::from(lighting.shininess) * length_error,
+    };
+    let (mut diffuse, mut specular) = (0.0, 0.0);
+    for (light, strength) in lighting.lights.iter().zip(&seen.strengths) {
+        diffuse += strength * f64::from(light.diffuse[channel]);
+        specular += strength * f64::from(light.specular[channel]);
+    }
+    // Of what the clamp leaves of a sum of these terms.
+    let lost = |error: f64, sum: f64| sum.min(1.0) * error / (1.0 - error);
+    lost(length_error, diffuse) + lost(specular_error, specular)
+}
+
 /// By how much the illumination model multiplies an error of a cosine, and the most that it adds up to.
-#[derive(Clone, Copy)]
 struct Gain {
     cosine: f64,
     sum: f64,
 }
 
 impl Gain {
-    fn of(spread: &Spread, material: u32, lighting: &Lighting) -> Gain {
-        let strength = |i: usize| spread.strength(material, i);
-        let half = spread.half(material);
-        let highlight = highlight_gain(lighting.specular, lighting.shininess, half);
+    fn of(channel: usize, lighting: &Lighting, seen: &Seen) -> Gain {
+        let highlight = highlight_gain(lighting.specular, lighting.shininess, seen.half);
         // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
         let falls = if lighting.is_attenuated() { 2.0 } else { 0.0 };
-        let channel = |c: usize| {
-            let lights = lighting.lights.iter().enumerate();
-            let terms = lights.map(|(i, l)| {
-                let (d, s) = (
-                    strength(i) * f64::from(l.diffuse[c]),
-                    strength(i) * f64::from(l.specular[c]),
-                );
-                let cosine = d + highlight * s + falls * (d + s);
-                Gain { cosine, sum: d + s }
-            });
-            let none = Gain {
-                cosine: 0.0,
-                sum: f64::from(lighting.ambient[c]),
-            };
-            terms.fold(none, |a, b| Gain {
-                cosine: a.cosine + b.cosine,
-                sum: a.sum + b.sum,
-            })
+        let mut gain = Gain {
+            cosine: 0.0,
+            sum: f64::from(lighting.ambient[channel]),
         };
-        channel(0).max(channel(1)).max(channel(2))
-    }
-
-    fn max(self, other: Gain) -> Gain {
-        Gain {
-            cosine: self.cosine.max(other.cosine),
-            sum: self.sum.max(other.sum),
+        for (light, strength) in lighting.lights.iter().zip(&seen.strengths) {
+            let diffuse = strength * f64::from(light.diffuse[channel]);
+            let specular = strength * f64::from(light.specular[channel]);
+            gain.cosine += diffuse + highlight * specular + falls * (diffuse + specular);
+            gain.sum += diffuse + specular;
         }
+        gain
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::increments::{Newton, NewtonSteps};
 use super::{
-    Auto, Info, Linear, Lit, LitAt, Local, Model, Parameter, PerLight, Perspective, Pixel,
-    Roundings, Shader, Span, Stepped,
+    Auto, Info, Linear, Lit, Local, Model, Parameter, PerLight, Pixel, Roundings, Shader, Span,
+    Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
@@ -16,7 +16,7 @@ use crate::scene::SpecularModel;
 /// m + 2 divisions, where naive Phong has one division and one root. By default each span takes the fewest steps that cannot be
 /// seen, one on all but the shortest, and true roots where normals nearly cancel ([`NewtonSteps`]); `steps=2` takes two
 /// everywhere, unguarded, as printed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct FastPhong<const L: usize> {
     steps: NewtonSteps,
 }
@@ -29,11 +29,7 @@ impl<const L: usize> Shader for FastPhong<L> {
                   previous pixel\nI = Ia ka + Ip kd J/d + Ip ks (2 J K / D - L.V)^n",
         source: "L21 4.2, 4.3, eq 4.3-4.6",
         model: Truth::PhongConstant,
-        roundings: Roundings {
-            start: 4.0,
-            step: 1.4,
-            of: Stepped::Cosines,
-        },
+        roundings: Roundings::new(4.0, 1.4, Stepped::Cosines),
         derivation: "each step rounds J and K by half of 2^-24, and the three components of N, so d = |N|, by 0.87 * 2^-24: \
                      J/d is off by 1.4, and 2 J K / D by 2 (0.5 + 0.5 + 2 * 0.87) = 5.5, which is 4 * 1.4",
         fails: "with a number of steps given: on spans of few pixels over a large angle, where the previous length is a bad \
@@ -49,10 +45,9 @@ impl<const L: usize> Shader for FastPhong<L> {
                 length_error: |lighting| largest_error(lighting.specular, lighting.shininess),
             }),
         }],
-        perspective: Perspective::Free,
         local: Local::PerPolygon,
-        lit_at: LitAt::Pixel,
         barycentric: false,
+        ..Info::OF_PIXELS
     };
     type Varying<F: Num> = (PerLight<F, L>, F, Vec3<F>); // J of each light, K, N
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Newton<F>); // J of each light, K; d, D
@@ -66,11 +61,8 @@ impl<const L: usize> Shader for FastPhong<L> {
     }
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        let mut j = PerLight::new(lit.count(), n.x);
-        for light in lit.lights() {
-            j[light.index] = n.dot(light.to); // J = L · N
-        }
-        (j, n.dot(lit.view), n) // K = V · N
+        let (j, k) = lit.products(n);
+        (j, k, n)
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {

@@ -1,12 +1,6 @@
 //! Fast Phong shading in the terms of today's hardware: the reciprocal root that processors have, D by second differences.
 
-use super::duff_phong::DuffPhong;
-use super::increments::Quadratic;
-use super::{
-    Info, Linear, Lit, LitAt, Local, Model, PerLight, Perspective, Pixel, Roundings, Shader, Span,
-    Stepped,
-};
-use crate::number::{Num, Vec3};
+use super::{Info, Local, Roundings, Stepped};
 use crate::reference::Model as Truth;
 
 /// Fast Phong shading for processors that have a reciprocal square root, for up to `L` lights: `J = L·N` and `K = V·N` by one
@@ -14,49 +8,19 @@ use crate::reference::Model as Truth;
 /// other pixel: neighbouring pixels are independent, and a block of them is shaded at a time.
 ///
 /// The diffuse term is `J r`, the specular term `(2 (J r) (K r) − L·V)^n`. Without such an estimate the root is a root and a
-/// division, and the method [`DuffPhong`] where light and eye are at infinity.
-#[derive(Clone, Copy, Debug)]
-pub struct FastPhongRsqrt<const L: usize>;
-
-impl<const L: usize> Shader for FastPhongRsqrt<L> {
-    const INFO: Info = Info {
-        name: "fast-phong-rsqrt",
-        title: "J = L.N, K = V.N by additions, N.N by second differences, the reciprocal root by the hardware",
-        formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = rsqrt(D)\n\
-                  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
-        source: "L21 4.2, 4.3, with the root that processors have had since 1999 (SSE rsqrtps)",
-        model: Truth::PhongConstant,
-        roundings: Roundings {
-            start: 10.4,
-            step: 2.0,
-            of: Stepped::Products,
-        },
-        derivation: "as duff-phong; the estimate of the root and its step are off by 6.4 roundings, where a root and a quotient \
-                     are off by 2",
-        fails: "where normals cancel inside a span, D is a small difference of large sums",
-        parameters: &[],
-        perspective: Perspective::Free,
-        local: Local::PerPolygon,
-        lit_at: LitAt::Pixel,
-        barycentric: false,
-    };
-    type Varying<F: Num> = (PerLight<F, L>, F, Vec3<F>); // J of each light, K, N
-    type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D
-
-    #[inline(always)]
-    fn new(_: &[u32], _: &Model) -> Self {
-        FastPhongRsqrt
-    }
-    #[inline(always)]
-    fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        DuffPhong::<L>.vertex(lit, n)
-    }
-    #[inline(always)]
-    fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {
-        DuffPhong::<L>.walk(lit, span) // 4.3
-    }
-    #[inline(always)]
-    fn shade<F: Num>(self, lit: &Lit<'_, F>, ((j, k), d): Pixel<Self, F>) -> Vec3<F> {
-        super::duff_phong::shade(lit, j, k, d.rsqrt())
-    }
-}
+/// division, and the method [`DuffPhong`](super::duff_phong::DuffPhong) where light and eye are at infinity.
+pub const FAST_PHONG_RSQRT: Info = Info {
+    name: "fast-phong-rsqrt",
+    title: "J = L.N, K = V.N by additions, N.N by second differences, the reciprocal root by the hardware",
+    formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = rsqrt(D)\n\
+              I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
+    source: "L21 4.2, 4.3, with the root that processors have had since 1999 (SSE rsqrtps)",
+    model: Truth::PhongConstant,
+    roundings: Roundings::new(10.4, 2.0, Stepped::Products),
+    derivation: "as duff-phong; the estimate of the root and its step are off by 6.4 roundings, where a root and a quotient \
+                 are off by 2",
+    fails: "where normals cancel inside a span, D is a small difference of large sums",
+    local: Local::PerPolygon,
+    barycentric: false,
+    ..Info::OF_PIXELS
+};

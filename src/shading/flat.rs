@@ -1,7 +1,7 @@
 //! Flat shading: one colour a polygon (L21 2).
 
 use super::{
-    Constant, Info, Lit, LitAt, Local, Model, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Constant, Info, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
@@ -9,7 +9,7 @@ use crate::reference::Model as Truth;
 /// Flat (uniform) shading: the polygon's own normal, lit once (L21 2.1).
 ///
 /// Light and eye at positions are seen from the mean of the polygon's corners.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Flat;
 
 impl Shader for Flat {
@@ -19,26 +19,17 @@ impl Shader for Flat {
         formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, N the polygon's normal by Newell's formula",
         source: "L21 2, eq 2.1 (Bouknight 1970)",
         model: Truth::Flat,
-        roundings: Roundings {
-            start: 4.0,
-            step: 0.0,
-            of: Stepped::Colours,
-        },
+        roundings: Roundings::new(4.0, 0.0, Stepped::Colours),
         derivation: "nothing is stepped; L.N and R.V take 8 roundings each of at most half of 2^-24",
         fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",
-        parameters: &[],
         perspective: Perspective::Unaffected,
         local: Local::PerPolygon,
         lit_at: LitAt::Polygon,
-        barycentric: true,
+        ..Info::OF_PIXELS
     };
     type Varying<F: Num> = Vec3<F>; // the colour
     type Walk<F: Num> = Constant<Vec3<F>>;
 
-    #[inline(always)]
-    fn new(_: &[u32], _: &Model) -> Self {
-        Flat
-    }
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
         lit.shade(n) // 2.1

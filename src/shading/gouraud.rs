@@ -1,7 +1,7 @@
 //! Gouraud shading: vertex colours, interpolated linearly (L21 3).
 
 use super::{
-    Info, Linear, Lit, LitAt, Local, Model, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
@@ -9,7 +9,7 @@ use crate::reference::Model as Truth;
 /// Gouraud shading: eq 2.1 at the vertices, then one addition a channel along edges and spans (L21 3.5–3.6).
 ///
 /// The vertex colours are clamped to 0..=1 before they are interpolated, so no pixel needs a clamp.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Gouraud;
 
 impl Shader for Gouraud {
@@ -19,27 +19,18 @@ impl Shader for Gouraud {
         formula: "dI = (I2 - I1) / (y2 - y1) along edges, (I2 - I1) / (x2 - x1) along spans; I_next = I + dI",
         source: "L21 3, eq 3.5, 3.6 (Gouraud 1971)",
         model: Truth::Gouraud,
-        roundings: Roundings {
-            start: 4.0,
-            step: 1.0,
-            of: Stepped::Colours,
-        },
+        roundings: Roundings::new(4.0, 1.0, Stepped::Colours),
         derivation: "a vertex is lit as in flat shading; each step of a colour of at most 1 rounds by half of 2^-24, and so does the \
                      weight under perspective",
         fails: "highlights inside a polygon are lost or smeared; the slope of the intensity still jumps at edges",
-        parameters: &[],
         perspective: Perspective::Divides,
         local: Local::PerVertex,
         lit_at: LitAt::Vertex,
-        barycentric: true,
+        ..Info::OF_PIXELS
     };
     type Varying<F: Num> = Vec3<F>; // the colour I
     type Walk<F: Num> = Linear<Vec3<F>>;
 
-    #[inline(always)]
-    fn new(_: &[u32], _: &Model) -> Self {
-        Gouraud
-    }
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
         lit.shade(n) // 2.1

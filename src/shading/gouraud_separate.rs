@@ -1,7 +1,7 @@
 //! Gouraud shading with diffuse and specular light interpolated apart (L21 3; OpenGL's separate specular colour).
 
 use super::{
-    Info, Linear, Lit, LitAt, Local, Model, Perspective, Pixel, Roundings, Shader, Span, Stepped,
+    Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
@@ -12,7 +12,7 @@ use crate::reference::Model as Truth;
 /// As interpolation is linear this is the unclamped sum of vertex colours, clamped last (trap T12): where lights add up to over
 /// 1 at a vertex, [`super::Gouraud`] shows a slope that starts at once, and this method a plateau first. Kept apart, the two
 /// colours can be treated apart: a texture would be multiplied by the first only.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct GouraudSeparate;
 
 impl Shader for GouraudSeparate {
@@ -22,26 +22,17 @@ impl Shader for GouraudSeparate {
         formula: "D_next = D + dD;  S_next = S + dS;  I = min(1, D + S), D = Ia ka + Ip kd (L.N), S = Ip ks (R.V)^n at vertices",
         source: "L21 3, eq 3.5, 3.6; OpenGL 1.2, 2.13.1 (separate specular colour)",
         model: Truth::GouraudSeparate,
-        roundings: Roundings {
-            start: 6.0,
-            step: 1.0,
-            of: Stepped::Sums,
-        },
+        roundings: Roundings::new(6.0, 1.0, Stepped::Sums),
         derivation: "as Gouraud, with two colours that are stepped, added, and at most the sum of all light between them",
         fails: "as Gouraud",
-        parameters: &[],
         perspective: Perspective::Divides,
         local: Local::PerVertex,
         lit_at: LitAt::Vertex,
-        barycentric: true,
+        ..Info::OF_PIXELS
     };
     type Varying<F: Num> = (Vec3<F>, Vec3<F>); // D, S
     type Walk<F: Num> = Linear<(Vec3<F>, Vec3<F>)>;
 
-    #[inline(always)]
-    fn new(_: &[u32], _: &Model) -> Self {
-        GouraudSeparate
-    }
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
         lit.shade_apart(n) // 2.1

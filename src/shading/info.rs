@@ -192,11 +192,7 @@ impl Info {
         formula: "",
         source: "",
         model: Model::Phong,
-        roundings: Roundings {
-            start: f64::INFINITY,
-            step: 0.0,
-            of: Stepped::Cosines,
-        },
+        roundings: Roundings::new(f64::INFINITY, 0.0, Stepped::Cosines),
         derivation: "no bound was derived",
         fails: "",
         parameters: &[],

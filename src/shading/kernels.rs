@@ -1,15 +1,15 @@
 //! Methods as tables of plain functions, with the loops over pixels in them: engines are compiled once and call these.
 
-use super::increments::{GreatCircle, Walk};
+use super::increments::{GreatCircle, Linear, Walk};
+#[cfg(feature = "simd")]
+use super::lighting::Light;
 use super::lighting::{Lit, Uniforms};
-use super::planes::{Planes, get_each, put_each};
+use super::planes::{Planes, get_each, put_each, scaled};
 use super::varying::Varying;
 use super::{LitAt, Pixel, Shader, Stepped};
 #[cfg(feature = "simd")]
-use crate::number::Vec3;
-#[cfg(feature = "simd")]
 use crate::number::simd::{BLOCK, Block, Token, vectorize};
-use crate::number::{Level, Num, vec3};
+use crate::number::{Level, Num, Vec3, vec3};
 #[cfg(feature = "simd")]
 use fearless_simd::{SimdBase, f32x8};
 
@@ -40,6 +40,19 @@ impl Extras {
     /// Returns how many numbers they have.
     pub fn count(self) -> usize {
         3 * usize::from(self.point) + usize::from(self.weight)
+    }
+
+    /// Returns position and weight from their numbers; those that there are not are `none`.
+    #[inline(always)]
+    fn of<F: Num>(self, none: F, number: impl Fn(usize) -> F) -> (Vec3<F>, F) {
+        let (mut point, mut weight) = (vec3([none; 3]), none);
+        if self.point {
+            point = vec3([number(0), number(1), number(2)]);
+        }
+        if self.weight {
+            weight = number(self.count() - 1);
+        }
+        (point, weight)
     }
 }
 
@@ -78,6 +91,18 @@ pub(crate) struct Pixels<'a> {
     pub runs: &'a [Run],
     /// What each run starts from.
     pub starts: &'a [f32],
+}
+
+impl<'a> Pixels<'a> {
+    /// Returns how many lights there are.
+    fn lights(&self) -> usize {
+        self.uniforms.first().map_or(0, |all| all.lights.len())
+    }
+
+    /// Returns neighbouring runs of the same uniforms together: they share what is made of them.
+    fn by_uniforms(&self) -> impl Iterator<Item = &'a [Run]> {
+        self.runs.chunk_by(|a, b| a.uniforms == b.uniforms)
+    }
 }
 
 type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
@@ -121,21 +146,17 @@ impl Kernels {
     /// Compiles a method.
     pub const fn of<M: Shader>() -> Kernels {
         #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-        let simd = [
-            Some(SimdKernels::of::<M, fearless_simd::Avx2, fearless_simd::Avx2>()),
-            Some(SimdKernels::of::<
-                M,
-                fearless_simd::Avx2,
-                fearless_simd::Avx512,
-            >()),
-            None,
-        ];
+        let simd = {
+            use fearless_simd::{Avx2, Avx512};
+            let avx2 = SimdKernels::of::<M, Avx2, Avx2>();
+            let avx512 = SimdKernels::of::<M, Avx2, Avx512>();
+            [Some(avx2), Some(avx512), None]
+        };
         #[cfg(all(feature = "simd", target_arch = "aarch64"))]
-        let simd = [
-            None,
-            None,
-            Some(SimdKernels::of::<M, fearless_simd::Neon, fearless_simd::Neon>()),
-        ];
+        let simd = {
+            use fearless_simd::Neon;
+            [None, None, Some(SimdKernels::of::<M, Neon, Neon>())]
+        };
         #[cfg(not(all(feature = "simd", any(target_arch = "x86_64", target_arch = "aarch64"))))]
         let simd = [None; 3];
         Kernels {
@@ -155,80 +176,51 @@ impl Kernels {
     }
 }
 
-/// Takes numbers from the front of `from`; 0 past its end.
-#[inline(always)]
-fn taken<P: Planes<f32>>(lights: usize, from: &[f32]) -> P {
-    let mut next = 0;
-    get_each(
-        lights,
-        #[inline(always)]
-        || {
-            next += 1;
-            from.get(next - 1).copied().unwrap_or(0.0)
-        },
-    )
-}
-
 /// Clamps what vertices (or polygons) are coloured to 0..=`scale`, for methods that say so.
 #[inline(always)]
 pub(super) fn clamped<M: Shader, F: Num>(value: F, scale: f32) -> F {
     match (M::INFO.lit_at, M::INFO.roundings.of) {
         (LitAt::Pixel, _) | (_, Stepped::Sums) => value,
-        _ => -(-value.max(0.0)).max(-scale),
+        _ => at_most(value, scale),
     }
+}
+
+/// Returns a number clamped to 0..=`most`; NaN becomes 0.
+#[inline(always)]
+fn at_most<F: Num>(value: F, most: f32) -> F {
+    -(-value.max(0.0)).max(-most)
 }
 
 fn vertices<M: Shader>(job: &Vertices<'_>, out: &mut [f32]) {
-    let Vertices {
-        uniforms,
-        normals,
-        points,
-        stride,
-        ..
-    } = *job;
-    let model = uniforms.model;
-    let method = M::new(job.parameters, &model);
-    let mut points = points.iter();
-    for (normal, out) in normals.iter().zip(out.chunks_mut(stride)) {
-        let point = points.next().map_or(vec3([0.0; 3]), |point| vec3(*point));
-        let lit = Lit::new(model, &uniforms.lights, point, true);
-        let mut to = out.iter_mut();
-        put_each(
-            method.vertex(&lit, vec3(*normal)),
-            #[inline(always)]
-            |value: f32| {
-                if let Some(to) = to.next() {
-                    *to = clamped::<M, f32>(value, model.scale);
-                }
-            },
-        );
+    let Uniforms { model, lights } = job.uniforms;
+    let method = M::new(job.parameters, model);
+    let mut points = job.points.iter();
+    for (normal, out) in job.normals.iter().zip(out.chunks_mut(job.stride)) {
+        let point = vec3(points.next().copied().unwrap_or_default());
+        let varying = method.vertex(&Lit::new(*model, lights, point, true), vec3(*normal));
+        put_each(varying, |i, value| {
+            out[i] = clamped::<M, f32>(value, model.scale);
+        });
     }
 }
 
-/// Starts a span from the numbers of a run.
+/// Returns how many numbers vertices carry for a method.
 #[inline(always)]
-fn start<M: Shader>(lights: usize, varyings: usize, numbers: &[f32]) -> Span<M, f32> {
+fn varyings<M: Shader>(lights: usize) -> usize {
+    <M::Varying<f32> as Planes<f32>>::count(lights)
+}
+
+/// Starts a span from the numbers of a run, of which the steps follow `step` numbers after the first.
+#[inline(always)]
+fn start<M: Shader>(lights: usize, step: usize, numbers: &[f32]) -> Span<M, f32> {
     if <M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE {
         let mut list = [0.0; 12];
-        put_into(circle(numbers), &mut list);
-        return taken(lights, &list);
+        put_each(circle(numbers), |i, value| list[i] = value);
+        return get_each(lights, |i| list[i % 12]);
     }
-    // At the first pixel, then the steps, which begin after what the house interpolates too.
-    let count = <M::Varying<f32> as Planes<f32>>::count(lights);
-    let (at, step) = (&numbers[..count], &numbers[varyings..varyings + count]);
-    let mut next = 0;
-    get_each(
-        lights,
-        #[inline(always)]
-        || {
-            next += 1;
-            if next <= count {
-                at[next - 1]
-            } else {
-                step[next - 1 - count]
-            }
-        },
-    )
+    let own = varyings::<M>(lights);
+    let (at, steps) = (&numbers[..own], &numbers[step..step + own]);
+    get_each(lights, |i| if i < own { at[i] } else { steps[i - own] })
 }
 
 fn circle(numbers: &[f32]) -> GreatCircle<f32> {
@@ -236,114 +228,62 @@ fn circle(numbers: &[f32]) -> GreatCircle<f32> {
     GreatCircle::new(three(8), [three(0), three(3)], numbers[6], numbers[7])
 }
 
-#[inline(always)]
-fn put_into<F: Num, P: Planes<F>>(value: P, list: &mut [F]) {
-    let mut to = list.iter_mut();
-    put_each(
-        value,
-        #[inline(always)]
-        |value| {
-            if let Some(to) = to.next() {
-                *to = value;
-            }
-        },
-    );
-}
-
 /// Shades runs one pixel at a time: the lecture's loop.
 fn pixels<M: Shader>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
-    let Pixels {
-        uniforms,
-        extras,
-        runs,
-        starts,
-        ..
-    } = *job;
-    let lights = uniforms.first().map_or(0, |uniforms| uniforms.lights.len());
-    let method_count = <M::Varying<f32> as Planes<f32>>::count(lights);
-    let varyings = method_count + extras.count();
-    let len = start_len(<M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE, varyings);
-    let nowhere = vec3([0.0; 3]);
-    let mut first = 0;
-    while first < runs.len() {
-        // Runs of the same material share what is made of it.
-        let number = runs[first].uniforms;
-        let same = runs[first..]
-            .iter()
-            .take_while(|run| run.uniforms == number)
-            .count();
-        let job_runs = runs[first..first + same].iter();
-        let job_starts = starts[first * len..].chunks_exact(len);
-        first += same;
-        let uniforms = &uniforms[number as usize];
-        let model = uniforms.model;
-        let method = M::new(job.parameters, &model);
-        if !model.is_general && extras == Extras::default() {
-            let lit = Lit::new(model, &uniforms.lights, nowhere, false);
-            for (run, numbers) in job_runs.zip(job_starts) {
-                let mut walk = method.walk(&lit, start::<M>(lights, varyings, numbers));
-                let (here, rest) = out.split_at_mut(run.pixels as usize);
-                out = rest;
-                for colour in here {
-                    *colour = method.shade(&lit, walk.next()).array();
-                }
-            }
-            continue;
-        }
-        for (run, numbers) in job_runs.zip(job_starts) {
-            let (here, rest) = out.split_at_mut(run.pixels as usize);
-            out = rest;
-            let span = start::<M>(lights, varyings, numbers);
-            let extra = |i: usize| {
-                let at = method_count + i;
-                [numbers[at], numbers[varyings + at]]
-            };
-            let mut point = [[0.0; 2]; 3];
-            if extras.point {
-                point = [extra(0), extra(1), extra(2)];
-            }
-            let mut weight = [1.0, 0.0];
-            if extras.weight {
-                weight = extra(extras.count() - 1);
-            }
-            let lit = Lit::new(model, &uniforms.lights, nowhere, true);
-            let mut walk = method.walk(&lit, span);
-            for colour in here {
-                let mut pixel = walk.next();
-                let mut at = vec3([point[0][0], point[1][0], point[2][0]]);
-                if extras.weight {
-                    let w = 1.0 / weight[0];
-                    pixel = scaled(lights, pixel, w);
-                    at = at * w;
-                }
-                let lit = Lit::new(model, &uniforms.lights, at, true);
-                *colour = method.shade(&lit, pixel).array();
-                for value in point.iter_mut().chain([&mut weight]) {
-                    value[0] += value[1];
-                }
-            }
+    let numbers = varyings::<M>(job.lights()) + job.extras.count();
+    let len = start_len(<M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE, numbers);
+    let mut starts = job.starts.chunks_exact(len);
+    for same in job.by_uniforms() {
+        let uniforms = &job.uniforms[same[0].uniforms as usize];
+        let pixels = same.iter().map(|run| run.pixels as usize).sum();
+        let (here, rest) = out.split_at_mut(pixels);
+        out = rest;
+        let runs = same.iter().zip(starts.by_ref());
+        if uniforms.model.is_general || job.extras != Extras::default() {
+            shade_runs::<M>(job, uniforms, true, runs, here);
+        } else {
+            shade_runs::<M>(job, uniforms, false, runs, here);
         }
     }
 }
 
-/// Returns a value times a factor, number by number.
+/// Shades runs of the same uniforms. Without `general`, a literal, there are no extras and no general light.
 #[inline(always)]
-fn scaled<F: Num, P: Planes<F>>(lights: usize, value: P, factor: F) -> P {
-    let mut list = [factor; MOST_DIVIDED];
-    put_into(value, &mut list);
-    let mut next = 0;
-    get_each(
-        lights,
-        #[inline(always)]
-        || {
-            next += 1;
-            list[(next - 1) % MOST_DIVIDED] * factor
-        },
-    )
+fn shade_runs<'a, M: Shader>(
+    job: &Pixels<'_>,
+    Uniforms { model, lights }: &Uniforms,
+    general: bool,
+    runs: impl Iterator<Item = (&'a Run, &'a [f32])>,
+    mut out: &mut [[f32; 3]],
+) {
+    let (model, extras) = (*model, job.extras);
+    let own = varyings::<M>(lights.len());
+    let step = own + extras.count();
+    let method = M::new(job.parameters, &model);
+    let directional = Lit::new(model, lights, vec3([0.0; 3]), general);
+    for (run, numbers) in runs {
+        let mut walk = method.walk(&directional, start::<M>(lights.len(), step, numbers));
+        let mut extra = Linear {
+            at: extras.of(0.0, |i| numbers[own + i]),
+            step: extras.of(0.0, |i| numbers[step + own + i]),
+        };
+        let (here, rest) = out.split_at_mut(run.pixels as usize);
+        out = rest;
+        for colour in here {
+            let (mut pixel, mut lit) = (walk.next(), directional);
+            if general {
+                let (mut point, weight) = Walk::<f32>::next(&mut extra);
+                if extras.weight {
+                    let w = 1.0 / weight;
+                    pixel = scaled(pixel, w);
+                    point = point * w;
+                }
+                lit = Lit::new(model, lights, point, true);
+            }
+            *colour = method.shade(&lit, pixel).array();
+        }
+    }
 }
-
-/// Numbers of a pixel that is divided by its weight: at most two colours, or a normal.
-const MOST_DIVIDED: usize = 8;
 
 /// What a row of the G-buffer is shaded with.
 #[derive(Clone, Copy, Debug)]
@@ -387,50 +327,37 @@ impl SimdKernels {
 /// Lights vertices eight at a time.
 #[cfg(feature = "simd")]
 fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
-    let Vertices {
-        uniforms,
-        normals,
-        points,
-        stride,
-        ..
-    } = *job;
     let simd = S::get();
-    let model = uniforms.model;
+    let (model, lights) = (job.uniforms.model, &job.uniforms.lights[..]);
     let method = M::new(job.parameters, &model);
     vectorize(
         simd,
         #[inline(always)]
         || {
-            let mut first = 0;
-            while first < normals.len() {
-                let count = BLOCK.min(normals.len() - first);
-                let n = transposed(simd, &normals[first..first + count]);
-                let point = match points.get(first..first + count) {
-                    Some(points) if !points.is_empty() => transposed(simd, points),
-                    _ => n,
+            let blocks = out.chunks_mut(BLOCK * job.stride);
+            let mut points = job.points.chunks(BLOCK);
+            for (normals, out) in job.normals.chunks(BLOCK).zip(blocks) {
+                let n = transposed(simd, normals);
+                let point = match points.next() {
+                    Some(points) => transposed(simd, points),
+                    None => n,
                 };
                 let varying = if model.is_fast {
-                    method.vertex(&Lit::new(model, &uniforms.lights, point, false), n)
+                    method.vertex(&Lit::new(model, lights, point, false), n)
                 } else {
-                    method.vertex(&Lit::new(model, &uniforms.lights, point, true), n)
+                    method.vertex(&Lit::new(model, lights, point, true), n)
                 };
-                let out = &mut out[first * stride..];
-                let mut i = 0;
                 put_each(
                     varying,
                     #[inline(always)]
-                    |value| {
+                    |i, value| {
                         let mut lanes = [0.0; BLOCK];
                         Block::store(clamped::<M, _>(value, model.scale), &mut lanes);
-                        let mut k = 0;
-                        while k < count {
-                            out[k * stride + i] = lanes[k];
-                            k += 1;
+                        for (k, lane) in lanes[..normals.len()].iter().enumerate() {
+                            out[k * job.stride + i] = *lane;
                         }
-                        i += 1;
                     },
                 );
-                first += BLOCK;
             }
         },
     );
@@ -440,101 +367,66 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
 #[cfg(feature = "simd")]
 #[inline(always)]
 fn transposed<S: Token>(simd: S, all: &[[f32; 3]]) -> Vec3<f32x8<S>> {
-    let mut lanes = [[0.0; BLOCK]; 3];
+    let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
     let mut k = 0;
     while k < BLOCK {
-        let [x, y, z] = all[k.min(all.len() - 1)];
-        (lanes[0][k], lanes[1][k], lanes[2][k]) = (x, y, z);
+        [x[k], y[k], z[k]] = all[k.min(all.len() - 1)];
         k += 1;
     }
     vec3([
-        f32x8::from_slice(simd, &lanes[0]),
-        f32x8::from_slice(simd, &lanes[1]),
-        f32x8::from_slice(simd, &lanes[2]),
+        f32x8::from_slice(simd, &x),
+        f32x8::from_slice(simd, &y),
+        f32x8::from_slice(simd, &z),
     ])
 }
 
 /// Walks along runs, a block at a time.
 #[cfg(feature = "simd")]
-fn walk<M: Shader, S: Token>(job: &Pixels<'_>, out: &mut [f32]) {
+fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
     let simd = S::get();
-    let Pixels {
-        uniforms,
-        runs,
-        starts,
-        ..
-    } = *job;
-    let lights = uniforms.first().map_or(0, |uniforms| uniforms.lights.len());
-    let varyings = <M::Varying<f32> as Planes<f32>>::count(lights);
+    let lights = job.lights();
+    let own = varyings::<M>(lights);
     let planes = <Pixel<M, f32> as Planes<f32>>::count(lights);
     let great_circle = <M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE;
     vectorize(
         simd,
         #[inline(always)]
-        || {
-            let mut rest = out;
+        move || {
             let zero = f32x8::splat(simd, 0.0);
             let counted = f32x8::from_slice(simd, &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-            let len = start_len(great_circle, varyings);
-            let mut first = 0;
-            while first < runs.len() {
-                // Runs of the same material share what is made of it.
-                let number = runs[first].uniforms;
-                let same = runs[first..]
-                    .iter()
-                    .take_while(|run| run.uniforms == number)
-                    .count();
-                let these = runs[first..first + same].iter();
-                let these = these.zip(starts[first * len..].chunks_exact(len));
-                first += same;
-                let uniforms = &uniforms[number as usize];
+            let mut starts = job.starts.chunks_exact(start_len(great_circle, own));
+            for same in job.by_uniforms() {
+                let uniforms = &job.uniforms[same[0].uniforms as usize];
                 let method = M::new(job.parameters, &uniforms.model);
                 let lit = Lit::new(uniforms.model, &uniforms.lights, vec3([zero; 3]), true);
-                for (run, numbers) in these {
+                for (run, numbers) in same.iter().zip(starts.by_ref()) {
                     let length = (run.pixels as usize).next_multiple_of(BLOCK);
-                    let (here, others) = core::mem::take(&mut rest).split_at_mut(planes * length);
-                    rest = others;
-                    let mut next = 0;
+                    let (here, rest) = core::mem::take(&mut out).split_at_mut(planes * length);
+                    out = rest;
                     let span = if great_circle {
-                        let mut list = [zero; 12];
-                        circle_in_blocks(simd, numbers, &mut list);
+                        let list = circle_in_blocks(simd, numbers);
                         get_each(
                             lights,
                             #[inline(always)]
-                            || {
-                                next += 1;
-                                list[(next - 1) % 12]
-                            },
+                            |i| list[i % 12],
                         )
                     } else {
-                        let (at, step) = (&numbers[..varyings], &numbers[varyings..2 * varyings]);
                         get_each(
                             lights,
                             #[inline(always)]
-                            || {
-                                next += 1;
-                                let i = next - 1;
-                                if i < varyings {
-                                    counted * step[i] + at[i]
-                                } else {
-                                    zero.like(step[i - varyings] * BLOCK as f32)
-                                }
+                            |i| match i < own {
+                                true => counted * numbers[own + i] + numbers[i],
+                                false => zero.like(numbers[i] * BLOCK as f32),
                             },
                         )
                     };
                     let mut walk = method.walk(&lit, span);
-                    let mut x = 0;
-                    while x < length {
-                        let mut at = x;
+                    for x in (0..length).step_by(BLOCK) {
                         put_each(
                             walk.next(),
                             #[inline(always)]
-                            |value| {
-                                Block::store(value, &mut here[at..]);
-                                at += length;
-                            },
+                            |i, value| Block::store(value, &mut here[i * length + x..]),
                         );
-                        x += BLOCK;
                     }
                 }
             }
@@ -546,167 +438,120 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, out: &mut [f32]) {
 /// pixel; then steps a block long.
 #[cfg(feature = "simd")]
 #[inline(always)]
-fn circle_in_blocks<S: Token>(simd: S, numbers: &[f32], list: &mut [f32x8<S>; 12]) {
+fn circle_in_blocks<S: Token>(simd: S, numbers: &[f32]) -> [f32x8<S>; 12] {
     let mut circle = circle(numbers);
-    let mut lanes = [[0.0; BLOCK]; 12];
+    let mut lanes = [0.0; 12 * BLOCK];
     for k in 0..BLOCK {
-        let mut list = [0.0; 12];
-        put_into(circle, &mut list);
-        for (lanes, value) in lanes.iter_mut().zip(list) {
-            lanes[k] = value;
-        }
+        put_each(circle, |i, value| lanes[i * BLOCK + k] = value);
         circle.sines.next();
     }
     // The step of a block: eight turns of the step of a pixel, as three doublings.
-    let [mut sin, mut cos] = circle.sines.step;
+    let (mut sin, mut cos) = circle.sines.step;
     for _ in 0..BLOCK.trailing_zeros() {
         (sin, cos) = (2.0 * sin * cos, cos * cos - sin * sin);
     }
-    (lanes[10], lanes[11]) = ([sin; BLOCK], [cos; BLOCK]);
-    for (to, lanes) in list.iter_mut().zip(&lanes) {
+    lanes[10 * BLOCK..][..BLOCK].fill(sin);
+    lanes[11 * BLOCK..].fill(cos);
+    let mut list = [f32x8::splat(simd, 0.0); 12];
+    for (to, lanes) in list.iter_mut().zip(lanes.chunks_exact(BLOCK)) {
         *to = f32x8::from_slice(simd, lanes);
     }
+    list
 }
 
 /// Shades a row of the G-buffer. Its cells are [depth, pixel, extras], each of [`BLOCK`] values; whole [`Token::Block`]s.
 #[cfg(feature = "simd")]
 fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowColours<'_>) {
-    let simd = S::get();
     let lights = &job.uniforms.lights[..];
     vectorize(
-        simd,
+        S::get(),
         #[inline(always)]
         || match out {
             RowColours::Bytes(to, background)
                 if job.uniforms.model.is_fast && job.extras == Extras::default() =>
             {
+                let out = &mut RowColours::Bytes(to, *background);
                 // One light as a slice of length 1: its loop is unrolled.
                 match lights {
-                    [one] => shade_bytes::<M, S>(simd, job, &[*one], cells, to, *background),
-                    all => shade_bytes::<M, S>(simd, job, all, cells, to, *background),
+                    [one] => shade_blocks::<M, S>(job, &[*one], false, cells, out),
+                    all => shade_blocks::<M, S>(job, all, false, cells, out),
                 }
             }
-            _ => shade_any::<M, S>(simd, job, cells, out),
+            _ => shade_blocks::<M, S>(job, lights, true, cells, out),
         },
     );
 }
 
-/// Loads the planes of a pixel that follow the depth.
+/// Shades a row, a block at a time. Without `general`, a literal, there are no extras, and the model is fast.
 #[cfg(feature = "simd")]
 #[inline(always)]
-fn load<S: Token, P: Planes<S::Block>>(simd: S, lights: usize, cells: [&[f32]; 2]) -> P {
-    let mut at = 0;
-    get_each(
-        lights,
-        #[inline(always)]
-        || {
-            at += BLOCK;
-            S::Block::load(simd, cells, at)
-        },
-    )
-}
-
-/// Returns what kernels read of the one or two cells of a block: `len` values of each.
-#[cfg(feature = "simd")]
-#[inline(always)]
-fn cells<S: Token>(cells: &[f32], stride: usize, len: usize) -> [&[f32]; 2] {
-    let second = (S::Block::CELLS - 1) * stride;
-    [&cells[..len], &cells[second..second + len]]
-}
-
-#[cfg(feature = "simd")]
-#[inline(always)]
-fn shade_bytes<M: Shader, S: Token>(
-    simd: S,
+fn shade_blocks<M: Shader, S: Token>(
     job: &ShadeRow<'_>,
-    lights: &[super::lighting::Light],
-    row: &[f32],
-    to: &mut [[u8; 4]],
-    background: [u8; 4],
-) {
-    let model = job.uniforms.model;
-    let method = M::new(job.parameters, &model);
-    let stride = BLOCK * job.numbers;
-    let len = BLOCK * (1 + <Pixel<M, f32> as Planes<f32>>::count(lights.len()));
-    let mut places = to.chunks_exact_mut(S::Block::WIDTH);
-    for pair in row.chunks_exact(S::Block::CELLS * stride) {
-        let Some(place) = places.next() else { return };
-        let cells = cells::<S>(pair, stride, len);
-        let depth = S::Block::load(simd, cells, 0);
-        if !depth.any_drawn() {
-            place.fill(background);
-            continue;
-        }
-        let pixel = load::<S, Pixel<M, S::Block>>(simd, lights.len(), cells);
-        let lit = Lit::new(model, lights, vec3([depth; 3]), false);
-        let levels = method.shade(&lit, pixel).array();
-        S::Block::pack(levels, depth, background, place);
-    }
-}
-
-/// Any light, any extras, bytes or linear colours.
-#[cfg(feature = "simd")]
-#[inline(always)]
-fn shade_any<M: Shader, S: Token>(
-    simd: S,
-    job: &ShadeRow<'_>,
+    lights: &[Light],
+    general: bool,
     row: &[f32],
     out: &mut RowColours<'_>,
 ) {
-    let (model, lights, extras) = (job.uniforms.model, &job.uniforms.lights[..], job.extras);
+    let (simd, model, extras) = (S::get(), job.uniforms.model, job.extras);
     let method = M::new(job.parameters, &model);
-    let planes = <Pixel<M, f32> as Planes<f32>>::count(lights.len());
     let stride = BLOCK * job.numbers;
-    let len = BLOCK * (1 + planes + extras.count());
+    let second = (S::Block::CELLS - 1) * stride;
+    let own = BLOCK * (1 + <Pixel<M, f32> as Planes<f32>>::count(lights.len()));
+    let len = if general {
+        own + BLOCK * extras.count()
+    } else {
+        own
+    };
     let mut first = 0;
     for pair in row.chunks_exact(S::Block::CELLS * stride) {
-        let end = first + S::Block::WIDTH;
-        let cells = cells::<S>(pair, stride, len);
+        let here = first..first + S::Block::WIDTH;
+        first = here.end;
+        let cells = [&pair[..len], &pair[second..second + len]];
         let depth = S::Block::load(simd, cells, 0);
-        let is_drawn = depth.any_drawn();
         let mut colour = [depth.like(0.0); 3];
-        if is_drawn {
-            let mut pixel = load::<S, Pixel<M, S::Block>>(simd, lights.len(), cells);
-            let extra = |i: usize| S::Block::load(simd, cells, BLOCK * (1 + planes + i));
+        if depth.any_drawn() {
+            let mut pixel: Pixel<M, S::Block> = get_each(
+                lights.len(),
+                #[inline(always)]
+                |i| S::Block::load(simd, cells, BLOCK * (1 + i)),
+            );
             let mut point = vec3([depth; 3]);
-            if extras.point {
-                point = vec3([extra(0), extra(1), extra(2)]);
+            if general {
+                let weight;
+                (point, weight) = extras.of(
+                    depth,
+                    #[inline(always)]
+                    |i| S::Block::load(simd, cells, own + BLOCK * i),
+                );
+                if extras.weight {
+                    let w = weight.like(1.0) / weight;
+                    pixel = scaled(pixel, w);
+                    point = point * w;
+                }
             }
-            if extras.weight {
-                let weight = extra(extras.count() - 1);
-                let w = weight.like(1.0) / weight;
-                pixel = scaled(lights.len(), pixel, w);
-                point = point * w;
-            }
-            let lit = Lit::new(model, lights, point, true);
-            colour = method.shade(&lit, pixel).array();
+            colour = method
+                .shade(&Lit::new(model, lights, point, general), pixel)
+                .array();
+        } else if let RowColours::Bytes(to, background) = out {
+            to[here].fill(*background);
+            continue;
         }
         match out {
             RowColours::Bytes(to, background) => {
-                let place = &mut to[first..end];
-                if is_drawn {
+                if general {
                     // What an integer does not hold is converted to the least one: clamped first.
-                    let bounded = [at_most(colour[0]), at_most(colour[1]), at_most(colour[2])];
-                    S::Block::pack(bounded, depth, *background, place);
-                } else {
-                    place.fill(*background);
+                    let [r, g, b] = colour;
+                    colour = [at_most(r, 255.0), at_most(g, 255.0), at_most(b, 255.0)];
                 }
+                S::Block::pack(colour, depth, *background, &mut to[here]);
             }
             RowColours::Linear([r, g, b]) => {
-                colour[0].store(&mut r[first..end]);
-                colour[1].store(&mut g[first..end]);
-                colour[2].store(&mut b[first..end]);
+                colour[0].store(&mut r[here.clone()]);
+                colour[1].store(&mut g[here.clone()]);
+                colour[2].store(&mut b[here]);
             }
         }
-        first = end;
     }
-}
-
-/// Returns a level clamped to 0..=255; NaN becomes 0.
-#[cfg(feature = "simd")]
-#[inline(always)]
-fn at_most<F: Num>(level: F) -> F {
-    -(-level.max(0.0)).max(-255.0)
 }
 
 /// Counts the set-up of a linearly interpolated number: its value at `t0` between `a` and `b`, and its growth in a step of `dt`.

@@ -19,12 +19,13 @@
 //!
 //! A normal that vanishes has no direction: its cosines are 0/0, the clamps turn them into 0, and ambient light remains.
 
+use super::planes::PerLight;
 use crate::number::{Num, Vec3, vec3};
 use crate::scene::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
 use alloc::vec::Vec;
 
 /// Squared distances below this count as this: a light in the surface itself has no direction and no finite `1/r²`.
-pub const LEAST_SQUARE: f32 = 1e-30;
+const LEAST_SQUARE: f32 = 1e-30;
 
 /// What rounding a colour of ½ or more changes: half a unit in the last place, 2⁻²⁴.
 const FAINT: f32 = 1.0 / (1 << 24) as f32;
@@ -106,14 +107,11 @@ impl Uniforms {
             gate: lighting.gate,
             shininess: lighting.shininess,
             exponent: Exponent::new(lighting.shininess),
-            faint: faint(lighting),
+            faint: faint(lighting.shininess, scale, &lights),
             is_general: true,
             is_fast: false,
         };
-        Uniforms {
-            model: model.classified(&lights),
-            lights,
-        }
+        Uniforms::classified(model, lights)
     }
 
     /// Returns the same light as directional lights: as `point` sees it. What the lecture assumes along a polygon (L21 1).
@@ -124,45 +122,44 @@ impl Uniforms {
             Light {
                 to: seen.to,
                 is_near: false,
-                falloff: Falloff::None,
                 diffuse: seen.light.diffuse * strength,
                 specular: seen.light.specular * strength,
                 l_v: seen.l_v,
                 half: seen.half,
+                ..*seen.light
             }
         });
-        let lights: Vec<Light> = lights.collect();
         let model = Model {
             eye: lit.view,
             eye_is_near: false,
             ..self.model
         };
-        Uniforms {
-            model: model.classified(&lights),
-            lights,
-        }
+        Uniforms::classified(model, lights.collect())
+    }
+
+    /// Makes uniforms whose model says what loops may rely on.
+    fn classified(model: Model, lights: Vec<Light>) -> Uniforms {
+        let is_general = model.eye_is_near
+            || lights.iter().any(|light| light.is_near)
+            || model.specular != SpecularModel::Phong
+            || model.gate != SpecularGate::Gated
+            || model.exponent == Exponent::Whole(0);
+        let most = lights.iter().fold(magnitude(model.ambient), |sum, light| {
+            sum + magnitude(light.diffuse) + magnitude(light.specular)
+        });
+        let is_few_squarings = matches!(model.exponent, Exponent::Squarings(_));
+        let model = Model {
+            is_general,
+            is_fast: !is_general && is_few_squarings && most < MOST_LEVELS,
+            ..model
+        };
+        Uniforms { model, lights }
     }
 }
 
-impl Model {
-    /// Returns the model with what loops may rely on.
-    fn classified(self, lights: &[Light]) -> Model {
-        let is_general = self.eye_is_near
-            || lights.iter().any(|light| light.is_near)
-            || self.specular != SpecularModel::Phong
-            || self.gate != SpecularGate::Gated
-            || self.exponent == Exponent::Whole(0);
-        let magnitude = |v: Vec3<f32>| v.x.abs().max(v.y.abs()).max(v.z.abs());
-        let most = lights.iter().fold(magnitude(self.ambient), |sum, light| {
-            sum + magnitude(light.diffuse) + magnitude(light.specular)
-        });
-        let is_few_squarings = matches!(self.exponent, Exponent::Squarings(_));
-        Model {
-            is_general,
-            is_fast: !is_general && is_few_squarings && most < MOST_LEVELS,
-            ..self
-        }
-    }
+/// Returns the largest magnitude of a channel.
+fn magnitude(v: Vec3<f32>) -> f32 {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
 /// Levels that are stored without a clamp are below this: an `i32` holds them.
@@ -175,18 +172,23 @@ impl Light {
         toward(self.to, self.is_near, point, weight)
     }
 
-    /// Returns how strong the light is at the squared distance `square`; `None` is full strength. `unit` is 1, or what squared
-    /// distances are multiplied by.
     #[inline(always)]
     fn strength<F: Num>(&self, square: F, unit: F) -> Option<F> {
-        let square = square.max(LEAST_SQUARE);
-        match self.falloff {
-            _ if !self.is_near => None,
-            Falloff::None => None,
-            Falloff::Attenuation(k) => Some(unit / (unit + square * k)), // 1 / (1 + k d²)
-            Falloff::InverseSquare => Some(unit / square),               // 1 / r²
-            Falloff::Inverse => Some((unit / square).sqrt()),            // 1 / r
-        }
+        strength(self.is_near, self.falloff, square, unit)
+    }
+}
+
+/// Returns how strong a light is at the squared distance `square`; `None` is full strength. `unit` is 1, or what squared
+/// distances are multiplied by.
+#[inline(always)]
+pub(super) fn strength<F: Num>(is_near: bool, falloff: Falloff, square: F, unit: F) -> Option<F> {
+    let square = square.max(LEAST_SQUARE);
+    match falloff {
+        _ if !is_near => None,
+        Falloff::None => None,
+        Falloff::Attenuation(k) => Some(unit / (unit + square * k)), // 1 / (1 + k d²)
+        Falloff::InverseSquare => Some(unit / square),               // 1 / r²
+        Falloff::Inverse => Some((unit / square).sqrt()),            // 1 / r
     }
 }
 
@@ -204,27 +206,22 @@ fn over_sum<F: Num>(l_v: F) -> F {
 }
 
 /// Returns the cosine up to which no light has a highlight over 2⁻²⁴, t = (2⁻²⁴ / k)^(1/n), with k the strongest highlight at
-/// its light's greatest strength. To the power 0 every cosine is 1.
-fn faint(lighting: &Lighting) -> f32 {
-    if lighting.shininess == 0.0 {
+/// its light's greatest strength. No power over t is subnormal. To the power 0 every cosine is 1.
+fn faint(shininess: f32, scale: f32, lights: &[Light]) -> f32 {
+    if shininess == 0.0 {
         return f32::NEG_INFINITY;
     }
-    let strongest = lighting.lights.iter().map(|light| {
-        let greatest = match light.falloff {
-            _ if !light.place.is_local() => 1.0,
-            Falloff::None | Falloff::Attenuation(_) => 1.0,
-            Falloff::InverseSquare => 1.0 / LEAST_SQUARE,
-            Falloff::Inverse => 1e15, // √(1 / LEAST_SQUARE)
-        };
-        light
-            .specular
-            .iter()
-            .fold(0.0, |most, c| f32::max(most, c.abs()))
-            * greatest
-    });
-    let strongest = strongest.fold(FAINT, f32::max);
-    libm::powf(FAINT / strongest, 1.0 / lighting.shininess)
+    let strongest = lights
+        .iter()
+        .map(|light| magnitude(light.specular) * light.strength(0.0, 1.0).unwrap_or(1.0));
+    let faint = FAINT * scale;
+    let power = faint / strongest.fold(faint, f32::max);
+    libm::powf(power.max(LEAST_POWER), 1.0 / shininess)
 }
+
+/// Twice the least normal number: t and its power are rounded. Only lights over 2.5 that fall off by 1/r² get here; what is left
+/// out is then over 2⁻²⁴ at distances of 10⁻¹⁵ or so.
+const LEAST_POWER: f32 = 2.0 * f32::MIN_POSITIVE;
 
 /// By how much the highlight multiplies an error of a cosine between unit vectors, for `shininess` n; `half` is |L + V|.
 ///
@@ -284,12 +281,6 @@ impl<'a, F: Num> Lit<'a, F> {
         }
     }
 
-    /// Returns how many lights there are.
-    #[inline(always)]
-    pub fn count(&self) -> usize {
-        self.all.len()
-    }
-
     /// Returns the lights as they are stored.
     #[inline(always)]
     pub fn stored(&self) -> &'a [Light] {
@@ -311,6 +302,20 @@ impl<'a, F: Num> Lit<'a, F> {
         }
     }
 
+    /// Returns the products of `n` with the vectors toward each light and the eye.
+    ///
+    /// ```text
+    /// J = L·N,   K = V·N        (L21 4.3)
+    /// ```
+    #[inline(always)]
+    pub fn products<const L: usize>(&self, n: Vec3<F>) -> (PerLight<F, L>, F) {
+        let mut j = PerLight::new(self.all.len(), n.x);
+        for light in self.lights() {
+            j[light.index] = n.dot(light.to); // J = L · N
+        }
+        (j, n.dot(self.view)) // K = V · N
+    }
+
     /// Returns `I_a k_a`.
     #[inline(always)]
     pub fn ambient(&self) -> Vec3<F> {
@@ -329,7 +334,7 @@ impl<'a, F: Num> Lit<'a, F> {
         if self.is_halfway() {
             (l_n + v_n) * light.half // N·H
         } else {
-            (v_n * 2.0).mul_sub(l_n, light.l_v) // 4.5
+            (v_n * 2.0).mul_add(l_n, -light.l_v) // 4.5
         }
     }
 
@@ -361,6 +366,17 @@ impl<'a, F: Num> Lit<'a, F> {
     pub fn plus(&self, colour: Vec3<F>, light: &Seen<'a, F>, diffuse: F, specular: F) -> Vec3<F> {
         let colour = colour.plus(light.times_strength(diffuse), light.light.diffuse);
         colour.plus(light.times_strength(specular), light.light.specular)
+    }
+
+    /// Returns the colour of a surface from the products J and K of its unit normal.
+    #[inline(always)]
+    pub fn shade_products<const L: usize>(&self, (j, k): (PerLight<F, L>, F)) -> Vec3<F> {
+        let mut colour = self.ambient();
+        for light in self.lights() {
+            let l_n = j[light.index];
+            colour = self.add(colour, &light, l_n, self.highlight(&light, l_n, k)); // 4.5
+        }
+        colour
     }
 
     /// Returns the colour of a surface with the unit normal `n`.
@@ -482,8 +498,8 @@ impl<'a, F: Num> Iterator for Lights<'a, F> {
         if index >= lit.all.len() {
             return None;
         }
-        let light = &lit.all[index];
         self.next += 1;
+        let light = &lit.all[index];
         let like = lit.point.x;
         let mut seen = Seen {
             index,

@@ -46,9 +46,8 @@ pub use bound::{Roundings, Stepped};
 pub use count::OperationCounts;
 use duff_phong::{DuffPhong, DuffPhongNear};
 use fast_phong::FastPhong;
-use fast_phong_rsqrt::FastPhongRsqrt;
 use flat::Flat;
-use flat_average::FlatAverage;
+use flat_average::FLAT_AVERAGE;
 use gouraud::Gouraud;
 use gouraud_separate::GouraudSeparate;
 pub use increments::{Constant, Linear, Walk};
@@ -63,9 +62,9 @@ use phong_rsqrt::PhongRsqrt;
 pub use planes::{PerLight, Planes};
 use slerp_phong::SlerpPhong;
 use slerp_phong_vector::SlerpPhongVector;
+#[cfg(feature = "cli")]
+pub(crate) use span_bench::FACE;
 pub use span_bench::SpanBench;
-#[cfg(feature = "simd")]
-pub use span_bench::SpanRow;
 pub use table::{Entry, METHODS};
 pub use variant::{MethodError, Variant};
 pub use varying::{UnitNormal, Varying};
@@ -74,8 +73,8 @@ use crate::number::{Num, Vec3};
 
 /// A shading method: what is computed once a vertex, along a span, and once a pixel.
 ///
-/// Its fields are its parameters. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
-pub trait Shader: Copy + 'static {
+/// Its fields are its parameters; one without any derives `Default` and leaves `new` out. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
+pub trait Shader: Copy + Default + 'static {
     /// What is said about the method.
     const INFO: Info;
     /// True if `vertex` returns the normal unchanged: engines then read the frame's normals and skip the vertex pass.
@@ -86,7 +85,10 @@ pub trait Shader: Copy + 'static {
     type Walk<F: Num>: Walk<F>;
 
     /// Makes the method for `parameters`, in the order of [`Info::parameters`], on a material.
-    fn new(parameters: &[u32], model: &Model) -> Self;
+    #[inline(always)]
+    fn new(_parameters: &[u32], _model: &Model) -> Self {
+        Self::default()
+    }
     /// Returns what a vertex with the unit normal `n` carries; once a polygon for methods that are lit there.
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F>;
     /// Starts the walk along a span.

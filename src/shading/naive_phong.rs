@@ -1,8 +1,6 @@
 //! Naive Phong shading: normals, interpolated and renormalised at every pixel (L21 4.1).
 
-use super::{
-    Info, Linear, Lit, LitAt, Local, Model, Perspective, Pixel, Roundings, Shader, Span, Stepped,
-};
+use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
 
@@ -13,7 +11,7 @@ use crate::reference::Model as Truth;
 /// or the eye is at a position, positions are interpolated beside the normals, and the vectors to each of them are normalised at
 /// each pixel too (CS171 3, Algorithm 7). Normals on edges are not renormalised: on triangles the picture would then depend on
 /// how they lie.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct NaivePhong;
 
 impl Shader for NaivePhong {
@@ -23,28 +21,16 @@ impl Shader for NaivePhong {
         formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  eq 2.1 at every pixel",
         source: "L21 4.1, eq 4.1, 4.2 (Phong 1975)",
         model: Truth::Phong,
-        roundings: Roundings {
-            start: 4.0,
-            step: 0.9,
-            of: Stepped::Cosines,
-        },
+        roundings: Roundings::new(4.0, 0.9, Stepped::Cosines),
         derivation: "each step rounds the three components of N by half of 2^-24, which is a vector of length 0.87 * 2^-24; what \
                      lies along N is lost when N is normalised",
         fails: "where normals cancel inside a span; the slope of the intensity still jumps at edges (Duff 1979)",
-        parameters: &[],
-        perspective: Perspective::Free,
-        local: Local::PerPixel,
-        lit_at: LitAt::Pixel,
-        barycentric: true,
+        ..Info::OF_PIXELS
     };
     const PASSES_NORMAL: bool = true;
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = Linear<Vec3<F>>;
 
-    #[inline(always)]
-    fn new(_: &[u32], _: &Model) -> Self {
-        NaivePhong
-    }
     #[inline(always)]
     fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
         n

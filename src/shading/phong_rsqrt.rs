@@ -1,8 +1,6 @@
 //! Phong shading from normals with scalars: what suits processors that shade a block of pixels at a time, row by row.
 
-use super::{
-    Info, Linear, Lit, LitAt, Local, Model, Perspective, Pixel, Roundings, Shader, Span, Stepped,
-};
+use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
 
@@ -11,7 +9,7 @@ use crate::reference::Model as Truth;
 ///
 /// It steps three numbers for any number of lights, where fast Phong steps one a light, one for K and two for D: where what is
 /// stepped is kept in memory until a row is shaded, that is less to keep, and products are cheaper than memory.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct PhongRsqrt;
 
 impl Shader for PhongRsqrt {
@@ -21,27 +19,15 @@ impl Shader for PhongRsqrt {
         formula: "N_next = N + dN;  J = L.N;  K = V.N;  r = rsqrt(N.N);  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "L21 4.1-4.3, eq 4.5, with the root that processors have had since 1999 (SSE rsqrtps)",
         model: Truth::Phong,
-        roundings: Roundings {
-            start: 10.0,
-            step: 0.9,
-            of: Stepped::Cosines,
-        },
+        roundings: Roundings::new(10.0, 0.9, Stepped::Cosines),
         derivation: "as naive-phong; J, K and D take 5 roundings each, and the estimate of the root is off by 2^-22, which is 4 more",
         fails: "as naive-phong",
-        parameters: &[],
-        perspective: Perspective::Free,
-        local: Local::PerPixel,
-        lit_at: LitAt::Pixel,
-        barycentric: true,
+        ..Info::OF_PIXELS
     };
     const PASSES_NORMAL: bool = true;
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = Linear<Vec3<F>>;
 
-    #[inline(always)]
-    fn new(_: &[u32], _: &Model) -> Self {
-        PhongRsqrt
-    }
     #[inline(always)]
     fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> Vec3<F> {
         n

@@ -6,24 +6,44 @@ use crate::number::{Num, Vec3};
 pub trait Planes<F: Num>: Copy {
     /// Returns how many numbers it has where there are `lights` lights.
     fn count(lights: usize) -> usize;
-    /// Gives its numbers in order.
-    fn put(self, to: &mut impl FnMut(F));
-    /// Takes as many numbers in the same order.
-    fn get(lights: usize, from: &mut impl FnMut() -> F) -> Self;
-    /// Returns the sum, number by number.
-    fn plus(self, step: Self) -> Self;
+    /// Gives its numbers in order, with indices from `next` on.
+    fn put(self, next: &mut usize, to: &mut impl FnMut(usize, F));
+    /// Takes as many numbers by their indices.
+    fn get(lights: usize, next: &mut usize, from: impl Fn(usize) -> F + Copy) -> Self;
+    /// Returns `of` the numbers of two values, number by number.
+    fn zip(self, other: Self, of: impl Fn(F, F) -> F + Copy) -> Self;
 }
 
-/// Gives the numbers of `value` in order, to a closure that is inlined: only an argument itself can say that.
+/// Gives each number of `value` with its index to a closure that is inlined: only an argument itself can say that.
 #[inline(always)]
-pub(crate) fn put_each<F: Num, P: Planes<F>>(value: P, mut to: impl FnMut(F)) {
-    value.put(&mut to);
+pub(crate) fn put_each<F: Num, P: Planes<F>>(value: P, mut to: impl FnMut(usize, F)) {
+    value.put(&mut 0, &mut to);
 }
 
-/// Takes the numbers of a value in order, likewise.
+/// Makes a value of the numbers that a closure gives for their indices.
 #[inline(always)]
-pub(crate) fn get_each<F: Num, P: Planes<F>>(lights: usize, mut from: impl FnMut() -> F) -> P {
-    P::get(lights, &mut from)
+pub(crate) fn get_each<F: Num, P: Planes<F>>(lights: usize, from: impl Fn(usize) -> F + Copy) -> P {
+    P::get(lights, &mut 0, from)
+}
+
+/// Returns the sum, number by number.
+#[inline(always)]
+pub(crate) fn sum<F: Num, P: Planes<F>>(a: P, b: P) -> P {
+    a.zip(
+        b,
+        #[inline(always)]
+        |a, b| a + b,
+    )
+}
+
+/// Returns a value times a factor, number by number.
+#[inline(always)]
+pub(crate) fn scaled<F: Num, P: Planes<F>>(value: P, factor: F) -> P {
+    value.zip(
+        value,
+        #[inline(always)]
+        |number, _| number * factor,
+    )
 }
 
 impl<F: Num> Planes<F> for F {
@@ -32,16 +52,18 @@ impl<F: Num> Planes<F> for F {
         1
     }
     #[inline(always)]
-    fn put(self, to: &mut impl FnMut(F)) {
-        to(self);
+    fn put(self, next: &mut usize, to: &mut impl FnMut(usize, F)) {
+        to(*next, self);
+        *next += 1;
     }
     #[inline(always)]
-    fn get(_: usize, from: &mut impl FnMut() -> F) -> Self {
-        from()
+    fn get(_: usize, next: &mut usize, from: impl Fn(usize) -> F + Copy) -> Self {
+        *next += 1;
+        from(*next - 1)
     }
     #[inline(always)]
-    fn plus(self, step: Self) -> Self {
-        self + step
+    fn zip(self, other: Self, of: impl Fn(F, F) -> F + Copy) -> Self {
+        of(self, other)
     }
 }
 
@@ -54,18 +76,18 @@ macro_rules! planes {
                 0 $(+ <$kind as Planes<F>>::count(lights))+
             }
             #[inline(always)]
-            fn put(self, to: &mut impl FnMut(F)) {
-                $(self.$field.put(to);)+
+            fn put(self, next: &mut usize, to: &mut impl FnMut(usize, F)) {
+                $(self.$field.put(next, to);)+
             }
             #[inline(always)]
-            fn get(lights: usize, from: &mut impl FnMut() -> F) -> Self {
+            fn get(lights: usize, next: &mut usize, from: impl Fn(usize) -> F + Copy) -> Self {
                 #[allow(clippy::redundant_closure_call)] // the fields in order
-                ($make)($(<$kind as Planes<F>>::get(lights, from)),+)
+                ($make)($(<$kind as Planes<F>>::get(lights, next, from)),+)
             }
             #[inline(always)]
-            fn plus(self, step: Self) -> Self {
+            fn zip(self, other: Self, of: impl Fn(F, F) -> F + Copy) -> Self {
                 #[allow(clippy::redundant_closure_call)]
-                ($make)($(Planes::<F>::plus(self.$field, step.$field)),+)
+                ($make)($(self.$field.zip(other.$field, of)),+)
             }
         }
     };
@@ -75,58 +97,31 @@ pub(super) use planes;
 planes!([] Vec3<F>, { x: F, y: F, z: F }, |x, y, z| Vec3 { x, y, z });
 planes!([A: Planes, B: Planes] (A, B), { 0: A, 1: B }, |a, b| (a, b));
 planes!([A: Planes, B: Planes, C: Planes] (A, B, C), { 0: A, 1: B, 2: C }, |a, b, c| (a, b, c));
-impl<F: Num, const N: usize> Planes<F> for [F; N] {
-    #[inline(always)]
-    fn count(_: usize) -> usize {
-        N
-    }
-    #[inline(always)]
-    fn put(self, to: &mut impl FnMut(F)) {
-        let mut i = 0;
-        while i < N {
-            to(self[i]);
-            i += 1;
-        }
-    }
-    #[inline(always)]
-    fn get(_: usize, from: &mut impl FnMut() -> F) -> Self {
-        let mut all = [from(); N];
-        let mut i = 1;
-        while i < N {
-            all[i] = from();
-            i += 1;
-        }
-        all
-    }
-    #[inline(always)]
-    fn plus(mut self, step: Self) -> Self {
-        let mut i = 0;
-        while i < N {
-            self[i] = self[i] + step[i];
-            i += 1;
-        }
-        self
-    }
-}
 
 /// For so many lights all numbers are stepped and stored, without a count: they stay in registers.
 const MOST_UNROLLED: usize = 8;
 
-/// One number a light, for up to `L` lights; those of lights that there are, or all where they are few.
+/// One value a light, for up to `L` lights; those of lights that there are, or all where they are few.
 #[derive(Clone, Copy, Debug)]
 pub struct PerLight<F, const L: usize> {
     values: [F; L],
-    count: usize,
+    pub(super) count: usize,
 }
 
-impl<F: Num, const L: usize> PerLight<F, L> {
-    /// Makes room for the numbers of `lights` lights, all of them `first`.
+impl<F: Copy, const L: usize> PerLight<F, L> {
+    /// Makes room for the values of `lights` lights, all of them `first`.
     #[inline(always)]
     pub fn new(lights: usize, first: F) -> Self {
         PerLight {
             values: [first; L],
-            count: if L <= MOST_UNROLLED { L } else { lights },
+            count: lights,
         }
+    }
+
+    /// Returns how many values are stepped and stored.
+    #[inline(always)]
+    pub(super) fn len(&self) -> usize {
+        if L <= MOST_UNROLLED { L } else { self.count }
     }
 }
 
@@ -148,31 +143,31 @@ impl<F, const L: usize> core::ops::IndexMut<usize> for PerLight<F, L> {
 impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
     #[inline(always)]
     fn count(lights: usize) -> usize {
-        if L <= MOST_UNROLLED { L } else { lights }
+        PerLight::<(), L>::new(lights, ()).len()
     }
     #[inline(always)]
-    fn put(self, to: &mut impl FnMut(F)) {
+    fn put(self, next: &mut usize, to: &mut impl FnMut(usize, F)) {
         let mut i = 0;
-        while i < if L <= MOST_UNROLLED { L } else { self.count } {
-            to(self.values[i]);
+        while i < self.len() {
+            self[i].put(next, to);
             i += 1;
         }
     }
     #[inline(always)]
-    fn get(lights: usize, from: &mut impl FnMut() -> F) -> Self {
-        let mut all = Self::new(lights, from());
+    fn get(lights: usize, next: &mut usize, from: impl Fn(usize) -> F + Copy) -> Self {
+        let mut all = Self::new(lights, F::get(lights, next, from));
         let mut i = 1;
-        while i < if L <= MOST_UNROLLED { L } else { lights } {
-            all.values[i] = from();
+        while i < all.len() {
+            all[i] = F::get(lights, next, from);
             i += 1;
         }
         all
     }
     #[inline(always)]
-    fn plus(mut self, step: Self) -> Self {
+    fn zip(mut self, other: Self, of: impl Fn(F, F) -> F + Copy) -> Self {
         let mut i = 0;
-        while i < if L <= MOST_UNROLLED { L } else { self.count } {
-            self.values[i] = self.values[i] + step.values[i];
+        while i < self.len() {
+            self[i] = of(self[i], other[i]);
             i += 1;
         }
         self

@@ -1,16 +1,13 @@
 //! Slerp Phong shading with vectors: unit normals by incremental sines and cosines (L21 4.4, steps i–iv).
 
 use super::increments::GreatCircle;
-use super::{
-    Info, Lit, LitAt, Local, Model, Perspective, Pixel, Roundings, Shader, Span, Stepped,
-    UnitNormal,
-};
+use super::{Info, Lit, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped, UnitNormal};
 use crate::number::{Num, Vec3};
 use crate::reference::Model as Truth;
 
 /// Slerp Phong shading, vector form: unit normals walk great circles along edges *and* along spans, then eq 2.1 at every pixel,
 /// without renormalising (L21 4.4, steps i–iv).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct SlerpPhongVector;
 
 impl Shader for SlerpPhongVector {
@@ -20,26 +17,17 @@ impl Shader for SlerpPhongVector {
         formula: "N(t) = sin((1-t)phi)/sin(phi) N1 + sin(t phi)/sin(phi) N2; sines by eq 4.9-4.12; eq 2.1",
         source: "L21 4.4, eq 4.7-4.12, steps i-iv",
         model: Truth::Slerp,
-        roundings: Roundings {
-            start: 4.0,
-            step: 2.0,
-            of: Stepped::Cosines,
-        },
+        roundings: Roundings::new(4.0, 2.0, Stepped::Cosines),
         derivation: "as slerp-phong: the same sines carry the normals",
         fails: "as slerp-phong, at a higher price a pixel",
-        parameters: &[],
         perspective: Perspective::ScreenOnly,
         local: Local::PerPolygon,
-        lit_at: LitAt::Pixel,
         barycentric: false,
+        ..Info::OF_PIXELS
     };
     type Varying<F: Num> = UnitNormal<F>;
     type Walk<F: Num> = GreatCircle<F>;
 
-    #[inline(always)]
-    fn new(_: &[u32], _: &Model) -> Self {
-        SlerpPhongVector
-    }
     #[inline(always)]
     fn vertex<F: Num>(self, _: &Lit<'_, F>, n: Vec3<F>) -> UnitNormal<F> {
         UnitNormal(n)

@@ -1,8 +1,8 @@
 //! How much the vectors toward lights and eye vary over the polygons of a frame: what bounds of rounding errors need.
 
+use super::lighting::strength;
 use crate::frame::{Frame, Polygon};
-use crate::scene::{Falloff, Lighting, Place};
-use alloc::vec;
+use crate::scene::{LightTerm, Lighting, Place};
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -18,93 +18,87 @@ pub(super) struct Spread {
     pub vectors: f64,
     /// The largest weight of perspective over the smallest in one polygon.
     pub weights: f64,
-    /// The greatest strength of each light on each material.
-    strengths: Vec<Vec<f64>>,
-    /// The least |L + V| of unit vectors on each material.
-    halves: Vec<f64>,
+    /// What each material sees of the lights.
+    pub materials: Vec<Seen>,
+}
+
+/// What the polygons of a material see of the lights.
+pub(super) struct Seen {
+    /// The greatest strength of each light.
+    pub strengths: Vec<f64>,
+    /// The least |L + V| of unit vectors, over 0.
+    pub half: f64,
+}
+
+impl Seen {
+    /// Makes what directional lights look like, and positional ones before any polygon is there to see them.
+    fn new(lighting: &Lighting) -> Seen {
+        let strength = |light: &LightTerm| if light.place.is_local() { 0.0 } else { 1.0 };
+        let mut half: f64 = 2.0;
+        if let Place::Infinite(view) = lighting.view {
+            for light in &lighting.lights {
+                if let Place::Infinite(direction) = light.place {
+                    half = half.min((wide(direction) + wide(view)).length());
+                }
+            }
+        }
+        Seen {
+            strengths: lighting.lights.iter().map(strength).collect(),
+            half,
+        }
+    }
 }
 
 impl Spread {
     pub fn of(frame: &Frame) -> Spread {
-        let lightings = frame.lightings();
         let mut spread = Spread {
             vectors: 1.0,
             weights: 1.0,
-            strengths: lightings.iter().map(of_infinite).collect(),
-            halves: vec![2.0; lightings.len()],
+            materials: frame.lightings().iter().map(Seen::new).collect(),
         };
         let is_local = frame.is_local();
         for polygon in frame.polygons() {
-            let weights = frame
-                .corners(polygon)
-                .iter()
-                .map(|&v| f64::from(frame.vertices()[v as usize].inv_w));
-            let (least, most) = weights.fold((f64::INFINITY, 0.0), |(low, high), w| {
-                (w.min(low), w.max(high))
-            });
+            let corners = frame.corners(polygon).iter();
+            let weights = corners.map(|&v| f64::from(frame.vertices()[v as usize].inv_w));
+            let (least, most) = range(weights);
             spread.weights = f64::max(spread.weights, most / least);
             if is_local {
-                spread.add(frame, polygon, &Ball::around(frame, polygon));
+                let lighting = &frame.lightings()[polygon.material as usize];
+                spread.add(polygon, lighting, &Ball::around(frame, polygon));
             }
         }
-        for (half, lighting) in spread.halves.iter_mut().zip(lightings) {
-            if let Place::Infinite(view) = lighting.view {
-                for light in &lighting.lights {
-                    if let Place::Infinite(direction) = light.place {
-                        *half = half.min((wide(direction) + wide(view)).length());
-                    }
-                }
-            }
+        for seen in &mut spread.materials {
             // Below this the bound is over 1 whatever the light: no bound at all.
-            *half = half.max(1e-9);
+            seen.half = seen.half.max(1e-9);
         }
         spread
     }
 
-    pub fn strength(&self, material: u32, light: usize) -> f64 {
-        self.strengths[material as usize][light]
-    }
-
-    pub fn half(&self, material: u32) -> f64 {
-        self.halves[material as usize]
-    }
-
-    fn add(&mut self, frame: &Frame, polygon: &Polygon, ball: &Ball) {
-        let material = polygon.material as usize;
-        let lighting = &frame.lightings()[material];
+    fn add(&mut self, polygon: &Polygon, lighting: &Lighting, ball: &Ball) {
+        let seen = &mut self.materials[polygon.material as usize];
         let view = ball.sees(lighting.view);
         self.vectors = self.vectors.max(view.spread);
-        for (i, light) in lighting.lights.iter().enumerate() {
+        for (light, greatest) in lighting.lights.iter().zip(&mut seen.strengths) {
             let sight = ball.sees(light.place);
             self.vectors = self.vectors.max(sight.spread);
-            let strength = match light.falloff {
-                _ if !light.place.is_local() => 1.0,
-                Falloff::None => 1.0,
-                Falloff::Attenuation(k) => {
-                    1.0 / (1.0 + f64::from(k) * sight.nearest * sight.nearest)
-                }
-                Falloff::InverseSquare => 1.0 / (sight.nearest * sight.nearest),
-                Falloff::Inverse => 1.0 / sight.nearest,
-            };
-            let greatest = &mut self.strengths[material][i];
-            *greatest = greatest.max(strength);
+            let square = (sight.nearest * sight.nearest) as f32;
+            let strength = strength(light.place.is_local(), light.falloff, square, 1.0);
+            *greatest = greatest.max(strength.map_or(1.0, f64::from));
             // |l + v| = 2 cos(θ/2) for unit vectors at the angle θ.
             let between = libm::acos(sight.direction.dot(view.direction).clamp(-1.0, 1.0))
                 + sight.angle
                 + view.angle;
             let half = 2.0 * libm::cos(between.min(core::f64::consts::PI) / 2.0);
-            self.halves[material] = self.halves[material].min(half);
+            seen.half = seen.half.min(half);
         }
     }
 }
 
-/// Lights at infinity have their full strength; of others it is not known yet.
-fn of_infinite(lighting: &Lighting) -> Vec<f64> {
-    lighting
-        .lights
-        .iter()
-        .map(|light| if light.place.is_local() { 0.0 } else { 1.0 })
-        .collect()
+/// Returns the least and the greatest number.
+fn range(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
+    numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+        (low.min(x), high.max(x))
+    })
 }
 
 fn wide(v: [f32; 3]) -> DVec3 {
@@ -169,10 +163,8 @@ impl Ball {
         let toward = position - self.middle;
         let far = toward.length();
         // Inside the ball no bound is known: the smallest distance that the methods tell from 0.
-        let heights = || self.corners.iter().map(|p| (position - p).dot(self.normal));
-        let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-            (l.min(x), h.max(x))
-        });
+        let corners = self.corners.iter();
+        let (low, high) = range(corners.map(|p| (position - p).dot(self.normal)));
         let nearest = (far - self.radius).max(low).max(-high).max(1e-15);
         let longest = (far + self.radius).max(position.length() + self.reach);
         // From inside the ball it is seen in any direction.

@@ -3,8 +3,8 @@
 use super::count::{OperationCounts, count};
 use super::span_bench::SpanBench;
 use super::{
-    DuffPhong, DuffPhongNear, Extras, FastPhong, FastPhongRsqrt, Flat, FlatAverage, Gouraud,
-    GouraudSeparate, Info, Kernels, Local, NaivePhong, Perspective, PhongRsqrt, Shader, SlerpPhong,
+    DuffPhong, DuffPhongNear, Extras, FLAT_AVERAGE, FastPhong, Flat, Gouraud, GouraudSeparate,
+    Info, Kernels, Local, NaivePhong, Perspective, PhongRsqrt, Shader, SlerpPhong,
     SlerpPhongVector, Variant,
 };
 use core::fmt;
@@ -12,13 +12,20 @@ use core::fmt;
 /// All shading methods. A method is one file beside this one, and one line here.
 pub static METHODS: &[Entry] = &[
     Entry::of::<Flat>(),
-    Entry::of::<FlatAverage>(),
+    Entry {
+        info: &FLAT_AVERAGE,
+        ..Entry::of::<Flat>()
+    },
     Entry::of::<Gouraud>(),
     Entry::of::<GouraudSeparate>(),
     Entry::of::<NaivePhong>(),
     Entry::by_lights::<FastPhong<1>, FastPhong<4>, FastPhong<8>, FastPhong<64>>(),
-    Entry::by_lights::<FastPhongRsqrt<1>, FastPhongRsqrt<4>, FastPhongRsqrt<8>, FastPhongRsqrt<64>>(
-    ),
+    Entry::by_lights::<
+        DuffPhong<1, true>,
+        DuffPhong<4, true>,
+        DuffPhong<8, true>,
+        DuffPhong<64, true>,
+    >(),
     Entry::of::<PhongRsqrt>(),
     Entry::by_lights::<DuffPhong<1>, DuffPhong<4>, DuffPhong<8>, DuffPhong<64>>()
         .near::<DuffPhongNear<4>, DuffPhongNear<64>>(),

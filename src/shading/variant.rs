@@ -3,7 +3,8 @@
 use super::{Entry, Info, METHODS, Parameter};
 use crate::frame::Frame;
 use crate::number::suggest::nearest;
-use alloc::string::{String, ToString};
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -30,27 +31,16 @@ impl Variant {
     pub fn parse(text: &str) -> Result<Variant, MethodError> {
         let mut parts = text.split(':');
         let name = parts.next().unwrap_or_default();
-        let entry = Entry::named(name).ok_or_else(|| MethodError::UnknownMethod {
-            name: name.to_string(),
-        })?;
+        let entry = Entry::named(name).ok_or_else(|| MethodError::method(name))?;
+        let parameters = entry.info.parameters;
         let mut variant = entry.variant();
         for part in parts {
             let (key, value) = part.split_once('=').unwrap_or((part, ""));
-            let place = entry
-                .info
-                .parameters
-                .iter()
-                .position(|p| p.name == key)
-                .ok_or_else(|| MethodError::UnknownParameter {
-                    method: entry.info,
-                    key: key.to_string(),
-                })?;
-            let parameter = &entry.info.parameters[place];
-            let number = parameter.parse(value);
-            variant.parameters[place] = number.ok_or_else(|| MethodError::Value {
-                parameter,
-                value: value.to_string(),
-            })?;
+            let place = parameters.iter().position(|p| p.name == key);
+            let place = place.ok_or_else(|| MethodError::parameter(entry.info, key))?;
+            let number = parameters[place].parse(value);
+            variant.parameters[place] =
+                number.ok_or_else(|| MethodError::value(&parameters[place], value))?;
         }
         Ok(variant)
     }
@@ -97,80 +87,49 @@ impl fmt::Display for Variant {
     }
 }
 
-/// Why a text names no variant.
+/// Why a text names no variant, as people read it.
 #[derive(Clone, Debug)]
-pub enum MethodError {
-    /// There is no such method.
-    UnknownMethod {
-        /// The name given.
-        name: String,
-    },
-    /// The method has no such parameter.
-    UnknownParameter {
-        /// What is said about the method.
-        method: &'static Info,
-        /// The name given.
-        key: String,
-    },
-    /// The value is not a whole number in its range.
-    Value {
-        /// The parameter.
-        parameter: &'static Parameter,
-        /// The value given.
-        value: String,
-    },
+pub struct MethodError(String);
+
+impl MethodError {
+    fn method(name: &str) -> MethodError {
+        let names = || METHODS.iter().map(|entry| entry.info.name);
+        let advice = match nearest(name, names()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => one_of(names()),
+        };
+        MethodError(format!("unknown method `{name}`: {advice}"))
+    }
+
+    fn parameter(method: &Info, key: &str) -> MethodError {
+        let name = method.name;
+        MethodError(match method.parameters {
+            [] => format!("method `{name}` has no parameters, so `{key}` means nothing"),
+            all => {
+                let expected = one_of(all.iter().map(|p| p.name));
+                format!("method `{name}` has no parameter `{key}`: {expected}")
+            }
+        })
+    }
+
+    fn value(parameter: &Parameter, value: &str) -> MethodError {
+        let (name, least, most) = (parameter.name, parameter.least, parameter.most);
+        let auto = parameter.auto.map_or("", |_| "`auto` or ");
+        MethodError(format!(
+            "`{name}={value}`: expected {auto}a whole number from {least} to {most}"
+        ))
+    }
+}
+
+fn one_of<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+    format!("expected one of {}", names.join(", "))
 }
 
 impl fmt::Display for MethodError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            MethodError::UnknownMethod { name } => {
-                write!(f, "unknown method `{name}`")?;
-                let names = || METHODS.iter().map(|entry| entry.info.name);
-                if let Some(near) = nearest(name, names()) {
-                    return write!(f, ": did you mean `{near}`?");
-                }
-                write!(f, ": expected one of ")?;
-                list(f, names())
-            }
-            MethodError::UnknownParameter { method, key } if method.parameters.is_empty() => {
-                write!(
-                    f,
-                    "method `{}` has no parameters, so `{key}` means nothing",
-                    method.name
-                )
-            }
-            MethodError::UnknownParameter { method, key } => {
-                write!(
-                    f,
-                    "method `{}` has no parameter `{key}`: expected one of ",
-                    method.name
-                )?;
-                list(f, method.parameters.iter().map(|p| p.name))
-            }
-            MethodError::Value { parameter, value } => {
-                let Parameter {
-                    name, least, most, ..
-                } = parameter;
-                let auto = if parameter.auto.is_some() {
-                    "`auto` or "
-                } else {
-                    ""
-                };
-                write!(
-                    f,
-                    "`{name}={value}`: expected {auto}a whole number from {least} to {most}"
-                )
-            }
-        }
+        f.write_str(&self.0)
     }
-}
-
-fn list<'a>(f: &mut fmt::Formatter<'_>, names: impl Iterator<Item = &'a str>) -> fmt::Result {
-    for (i, name) in names.enumerate() {
-        write!(f, "{}`{name}`", if i == 0 { "" } else { ", " })?;
-    }
-    Ok(())
 }
 
 impl core::error::Error for MethodError {}

@@ -2,13 +2,13 @@
 
 use super::{Canvas, StudyError, prepared_sphere, sphere, with_baseline};
 use crate::compare::comparison::{BASELINE, RatioData};
-use crate::compare::timing::{Candidate, Limits, Ratio, Timing, time_interleaved};
+use crate::compare::timing::{Candidate, Limits, Ratio, SpanRow, Timing, time_interleaved};
 use crate::frame::PreparedScene;
 use crate::number::Level;
 use crate::picture::Picture8;
 use crate::picture::encoding::quantise;
 use crate::raster::Renderer;
-use crate::shading::{SpanBench, SpanRow, Variant};
+use crate::shading::{SpanBench, Variant};
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::{String, ToString};

@@ -6,8 +6,10 @@
 
 mod machine;
 mod rounds;
+mod spans;
 mod statistics;
 
 pub use machine::Machine;
 pub use rounds::{Candidate, Limits, time_interleaved};
+pub use spans::SpanRow;
 pub use statistics::{CONFIDENCE, Ratio, Timing};

@@ -117,12 +117,6 @@ fn operations_of<S: Token, F: Block<S>>() {
     // Rounded once or twice.
     let add = |[a, b, c]: [f32; 3], found| same(found, f32::mul_add(a, b, c));
     compare!(S, F, |a, b, c| MulAdd::mul_add(a, b, c), add);
-    let sub = |[a, b, c]: [f32; 3], found| same(found, f32::mul_add(a, b, -c));
-    compare!(S, F, |a, b, c| MulAdd::mul_sub(a, b, c), sub);
-    let add = |[a, _, c]: [f32; 3], found| same(found, f32::mul_add(a, 0.3, c));
-    compare!(S, F, |a, b, c| MulAdd::<f32>::mul_add(a, 0.3, c), add);
-    let sub = |[a, _, c]: [f32; 3], found| same(found, f32::mul_add(a, 0.3, -c));
-    compare!(S, F, |a, b, c| MulAdd::<f32>::mul_sub(a, 0.3, c), sub);
 }
 
 fn operations<S: Token>() {

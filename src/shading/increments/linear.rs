@@ -2,7 +2,7 @@
 
 use super::Walk;
 use crate::number::Num;
-use crate::shading::planes::Planes;
+use crate::shading::planes::{Planes, sum};
 
 /// A varying that is interpolated linearly: its value here, and its growth in a step.
 ///
@@ -27,7 +27,7 @@ impl<F: Num, V: Planes<F>> Walk<F> for Linear<V> {
     #[inline(always)]
     fn next(&mut self) -> V {
         let here = self.at;
-        self.at = here.plus(self.step); // 3.6, 4.2
+        self.at = sum(here, self.step); // 3.6, 4.2
         here
     }
 }

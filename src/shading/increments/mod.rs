@@ -14,7 +14,7 @@ pub use quadratic::Quadratic;
 pub use sines::{GreatCircle, Sines};
 
 use crate::number::Num;
-use crate::shading::planes::Planes;
+use crate::shading::planes::{PerLight, Planes};
 
 /// Running state along a span: all memory of the previous pixel.
 pub trait Walk<F: Num>: Copy {
@@ -33,6 +33,21 @@ impl<F: Num, A: Walk<F>, B: Walk<F>> Walk<F> for (A, B) {
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
         (self.0.next(), self.1.next())
+    }
+}
+
+impl<F: Num, W: Walk<F, Pixel = F>, const L: usize> Walk<F> for PerLight<W, L> {
+    type Pixel = PerLight<F, L>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Self::Pixel {
+        let mut pixel = PerLight::new(self.count, self[0].next());
+        let mut i = 1;
+        while i < self.len() {
+            pixel[i] = self[i].next();
+            i += 1;
+        }
+        pixel
     }
 }
 

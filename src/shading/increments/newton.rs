@@ -4,7 +4,7 @@ use super::{Linear, Walk};
 use crate::number::{Num, Vec3};
 
 /// How many steps of Newton's method a pixel takes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct NewtonSteps {
     /// 0 (`auto`) takes as few as suffice.
     steps: u32,

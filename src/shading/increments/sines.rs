@@ -2,6 +2,7 @@
 
 use super::Walk;
 use crate::number::{Num, Real, Vec3};
+use crate::shading::planes::Planes;
 
 /// The weights of spherical linear interpolation, `sin((1−t)φ)` and `sin(tφ)`, stepped by the addition theorems: four additions
 /// and eight multiplications a step.
@@ -17,20 +18,22 @@ use crate::number::{Num, Real, Vec3};
 #[derive(Clone, Copy, Debug)]
 pub struct Sines<F> {
     /// sin tφ, cos tφ.
-    pub t: [F; 2],
+    pub t: (F, F),
     /// sin (1−t)φ, cos (1−t)φ.
-    pub rest: [F; 2],
+    pub rest: (F, F),
     /// sin Δtφ, cos Δtφ.
-    pub step: [F; 2],
+    pub step: (F, F),
 }
 
 impl<R: Real> Sines<R> {
     /// Starts at `t0` and goes on by `dt` a step, over the angle `phi` in radians.
     #[inline(always)]
     pub fn new(phi: R, t0: R, dt: R) -> Self {
-        let angles = [t0 * phi, phi - t0 * phi, dt * phi];
-        let [t, rest, step] = angles.map(|angle| angle.sin_cos().into());
-        Sines { t, rest, step }
+        Sines {
+            t: (t0 * phi).sin_cos(),
+            rest: (phi - t0 * phi).sin_cos(),
+            step: (dt * phi).sin_cos(),
+        }
     }
 }
 
@@ -38,7 +41,7 @@ impl<F: Num> Sines<F> {
     /// Returns (sin((1−t)φ), sin(tφ)) here.
     #[inline(always)]
     pub fn weights(&self) -> (F, F) {
-        (self.rest[0], self.t[0])
+        (self.rest.0, self.t.0)
     }
 }
 
@@ -49,27 +52,28 @@ impl<F: Num> Walk<F> for Sines<F> {
     #[inline(always)]
     fn next(&mut self) -> (F, F) {
         let here = self.weights();
-        let ([sin_t, cos_t], [sin_rest, cos_rest]) = (self.t, self.rest);
-        let [sin_step, cos_step] = self.step;
-        self.t[0] = sin_t * cos_step + cos_t * sin_step; // 4.9
-        self.rest[0] = sin_rest * cos_step - cos_rest * sin_step; // 4.10
-        self.t[1] = cos_t * cos_step - sin_t * sin_step; // 4.11
-        self.rest[1] = cos_rest * cos_step + sin_rest * sin_step; // 4.12
+        let ((sin_t, cos_t), (sin_rest, cos_rest)) = (self.t, self.rest);
+        let (sin_step, cos_step) = self.step;
+        self.t.0 = sin_t * cos_step + cos_t * sin_step; // 4.9
+        self.rest.0 = sin_rest * cos_step - cos_rest * sin_step; // 4.10
+        self.t.1 = cos_t * cos_step - sin_t * sin_step; // 4.11
+        self.rest.1 = cos_rest * cos_step + sin_rest * sin_step; // 4.12
         here
     }
 }
 
-/// The great circle from one unit normal to another, at uniform speed.
+/// The great circle from one unit normal to another, at uniform speed; or what is linear in its normals, as their products with
+/// constant vectors are.
 ///
 /// ```text
 /// N(t) = sin((1−t)φ) / sin φ · N_1 + sin(tφ) / sin φ · N_2,      cos φ = N_1 · N_2      (L21 4.7, 4.8)
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct GreatCircle<F> {
+pub struct GreatCircle<F, V = Vec3<F>> {
     /// N_1 / sin φ.
-    pub from: Vec3<F>,
+    pub from: V,
     /// N_2 / sin φ.
-    pub to: Vec3<F>,
+    pub to: V,
     /// The weights of both.
     pub sines: Sines<F>,
 }
@@ -110,24 +114,28 @@ impl<R: Real> GreatCircle<R> {
     }
 }
 
-impl<F: Num> GreatCircle<F> {
+impl<F: Num, V: Planes<F>> GreatCircle<F, V> {
     /// Returns the unit normal here.
     #[inline(always)]
-    pub fn normal(&self) -> Vec3<F> {
+    pub fn normal(&self) -> V {
         self.weighted(self.sines.weights())
     }
 
     #[inline(always)]
-    fn weighted(&self, (from, to): (F, F)) -> Vec3<F> {
-        self.from * from + self.to * to // 4.8
+    fn weighted(&self, (from, to): (F, F)) -> V {
+        self.from.zip(
+            self.to,
+            #[inline(always)]
+            |a, b| a * from + b * to, // 4.8
+        )
     }
 }
 
-impl<F: Num> Walk<F> for GreatCircle<F> {
-    type Pixel = Vec3<F>;
+impl<F: Num, V: Planes<F>> Walk<F> for GreatCircle<F, V> {
+    type Pixel = V;
 
     #[inline(always)]
-    fn next(&mut self) -> Vec3<F> {
+    fn next(&mut self) -> V {
         let weights = self.sines.next(); // 4.9–4.12
         self.weighted(weights)
     }

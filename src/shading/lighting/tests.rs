@@ -110,15 +110,9 @@ impl Neg for Normal {
     }
 }
 
-impl<G> crate::number::MulAdd<G> for Normal
-where
-    Normal: Mul<G, Output = Normal>,
-{
-    fn mul_add(self, factor: G, summand: Normal) -> Normal {
+impl crate::number::MulAdd for Normal {
+    fn mul_add(self, factor: Normal, summand: Normal) -> Normal {
         self * factor + summand
-    }
-    fn mul_sub(self, factor: G, subtrahend: Normal) -> Normal {
-        self * factor - subtrahend
     }
 }
 
@@ -206,6 +200,7 @@ fn no_power_is_subnormal() {
                 (1.0, Falloff::Attenuation(2.0)),
                 (1.0, Falloff::Inverse),
                 (1.0, Falloff::InverseSquare),
+                (20.0, Falloff::InverseSquare),
             ] {
                 let lighting = Lighting {
                     gate,

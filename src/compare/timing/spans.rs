@@ -1,0 +1,163 @@
+//! One span shaded by the kernels of a method alone, without an engine.
+
+use crate::number::Level;
+use crate::number::simd::BLOCK;
+use crate::shading::lighting::Uniforms;
+use crate::shading::{
+    Extras, FACE, Kernels, Pixels, RowColours, Run, ShadeRow, SpanBench, Variant, Vertices, ramp,
+    start_len,
+};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// The most numbers that a span of four lights starts from.
+const MOST: usize = 40;
+
+/// A span that is set up.
+struct Started {
+    kernels: &'static Kernels,
+    extras: Extras,
+    run: [Run; 1],
+    start: [f32; MOST],
+    len: usize,
+}
+
+impl Started {
+    /// Returns what kernels are called with.
+    fn job<'a>(&'a self, variant: &'a Variant, uniforms: &'a Uniforms) -> Pixels<'a> {
+        Pixels {
+            parameters: variant.parameters(),
+            uniforms: core::slice::from_ref(uniforms),
+            extras: self.extras,
+            runs: &self.run,
+            starts: &self.start[..self.len],
+        }
+    }
+}
+
+/// Lights both vertices of a span of `pixels` pixels, and sets it up.
+fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usize) -> Started {
+    let lights = uniforms.lights.len();
+    let kernels = variant.entry().kernels(lights, bench.is_near());
+    let extras = bench.extras(variant);
+    let [own, _] = (kernels.counts)(lights);
+    let varyings = own + extras.count();
+    let vertices = Vertices {
+        parameters: variant.parameters(),
+        uniforms,
+        normals: &bench.normals[..2],
+        points: &bench.points[..2],
+        stride: varyings,
+    };
+    let mut ends = [0.0; MOST];
+    (kernels.vertices)(&vertices, &mut ends[..2 * varyings]);
+    let (a, b) = ends.split_at_mut(varyings);
+    for (end, point) in [&mut *a, &mut *b].into_iter().zip(&bench.points) {
+        if extras.point {
+            end[own..own + 3].copy_from_slice(point);
+        }
+        if extras.weight {
+            end[varyings - 1] = 1.0;
+        }
+    }
+    let (mut start, dt) = ([0.0; MOST], 1.0 / pixels as f32);
+    if kernels.great_circle {
+        start[..3].copy_from_slice(&a[..3]);
+        start[3..6].copy_from_slice(&b[..3]);
+        (start[6], start[7]) = (0.5 * dt, dt);
+        start[8..11].copy_from_slice(&FACE);
+    } else {
+        for i in 0..varyings {
+            [start[i], start[varyings + i]] = ramp(a[i], b[i], 0.5 * dt, dt);
+        }
+    }
+    Started {
+        kernels,
+        extras,
+        run: [Run {
+            uniforms: 0,
+            x: 0,
+            pixels: pixels as u32,
+        }],
+        start,
+        len: start_len(kernels.great_circle, varyings),
+    }
+}
+
+/// A span that an instruction set shades again and again: the memory of a row of the G-buffer.
+#[derive(Clone, Debug)]
+pub struct SpanRow {
+    uniforms: Uniforms,
+    walked: Vec<f32>,
+    cells: Vec<f32>,
+    bytes: Vec<[u8; 4]>,
+}
+
+impl SpanRow {
+    /// Makes room for `pixels` pixels, a multiple of 16.
+    pub fn new(variant: &Variant, bench: &SpanBench, pixels: usize) -> SpanRow {
+        assert!(
+            pixels.is_multiple_of(2 * BLOCK),
+            "whole blocks of any instruction set"
+        );
+        let uniforms = bench.uniforms(variant.info().local, 255.0);
+        let lights = uniforms.lights.len();
+        let kernels = variant.entry().kernels(lights, bench.is_near());
+        let [_, planes] = (kernels.counts)(lights);
+        let planes = planes + bench.extras(variant).count();
+        SpanRow {
+            uniforms,
+            walked: vec![0.0; planes * pixels],
+            cells: vec![0.0; (1 + planes) * pixels],
+            bytes: vec![[0; 4]; pixels],
+        }
+    }
+
+    /// Returns the colours that were shaded last.
+    pub fn bytes(&self) -> &[[u8; 4]] {
+        &self.bytes
+    }
+}
+
+impl Variant {
+    /// Shades one span into `out`, one pixel at a time: its two vertices, its set-up, and as many pixels as `out` has.
+    pub fn shade_span(&self, bench: &SpanBench, out: &mut [[f32; 3]]) {
+        let started = start(self, bench, &bench.uniforms, out.len());
+        (started.kernels.pixels)(&started.job(self, &bench.uniforms), out);
+    }
+
+    /// Shades one span by the kernels of an instruction set, as the row engine calls them: the walk into a row of the G-buffer,
+    /// then the row to bytes. Scalar code shades nothing here.
+    pub fn shade_span_on(&self, level: Level, bench: &SpanBench, row: &mut SpanRow) {
+        let pixels = row.bytes.len();
+        let started = start(self, bench, &row.uniforms, pixels);
+        let Some(simd) = started.kernels.on(level) else {
+            return;
+        };
+        let planes = row.walked.len() / pixels;
+        if let Some(walk) = simd.walk {
+            walk(&started.job(self, &row.uniforms), &mut row.walked);
+        }
+        let cells = row.cells.chunks_exact_mut(BLOCK * (1 + planes));
+        for (first, cell) in (0..).step_by(BLOCK).zip(cells) {
+            for (plane, to) in cell.chunks_exact_mut(BLOCK).skip(1).enumerate() {
+                if simd.walk.is_some() {
+                    to.copy_from_slice(&row.walked[plane * pixels + first..][..BLOCK]);
+                    continue;
+                }
+                let (at, step) = (started.start[plane], started.start[planes + plane]);
+                for (k, to) in to.iter_mut().enumerate() {
+                    *to = at + (first + k) as f32 * step;
+                }
+            }
+        }
+        let job = ShadeRow {
+            parameters: self.parameters(),
+            uniforms: &row.uniforms,
+            extras: started.extras,
+            numbers: 1 + planes,
+        };
+        let mut colours = RowColours::Bytes(&mut row.bytes, [0; 4]);
+        (simd.shade)(&job, &row.cells, &mut colours);
+    }
+}
