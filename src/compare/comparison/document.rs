@@ -12,6 +12,7 @@ use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -235,17 +236,23 @@ impl Document {
     /// # Errors
     /// [`DocumentError`] if it is not JSON, or of another schema, or lacks a field.
     pub fn parse(text: &str) -> Result<Document, DocumentError> {
-        #[derive(Deserialize)]
-        struct Head {
-            schema: Option<String>,
-        }
-        let head: Head = serde_json::from_str(text).map_err(DocumentError::Json)?;
-        match head.schema {
-            Some(schema) if schema == SCHEMA => {
-                serde_json::from_str(text).map_err(DocumentError::Json)
-            }
-            found => Err(DocumentError::Schema { found }),
-        }
+        parse(text)
+    }
+}
+
+/// Reads a document of schema [`SCHEMA`] from JSON, with the fields that `T` knows.
+///
+/// # Errors
+/// As [`Document::parse`].
+pub fn parse<T: DeserializeOwned>(text: &str) -> Result<T, DocumentError> {
+    #[derive(Deserialize)]
+    struct Head {
+        schema: Option<String>,
+    }
+    let head: Head = serde_json::from_str(text).map_err(DocumentError::Json)?;
+    match head.schema {
+        Some(schema) if schema == SCHEMA => serde_json::from_str(text).map_err(DocumentError::Json),
+        found => Err(DocumentError::Schema { found }),
     }
 }
 

@@ -60,6 +60,16 @@ pub enum Work {
     Frame,
 }
 
+impl Work {
+    /// Returns the word for it: `kernel` or `frame`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Work::Kernel => "kernel",
+            Work::Frame => "frame",
+        }
+    }
+}
+
 /// One of the ways in which every method is timed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Corner {
