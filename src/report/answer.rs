@@ -53,10 +53,10 @@ fn of_all_scenes<'a>(name: &'a str, scenes: &'a [SceneData]) -> Option<Overall<'
     let rows: Vec<(&SceneData, &RowData)> = rows.collect::<Option<_>>()?;
     let (scene, worst) = rows
         .iter()
-        .max_by(|a, b| f64::total_cmp(&a.1.error.difference.max, &b.1.error.difference.max))?;
+        .max_by(|a, b| f64::total_cmp(&a.1.error.max, &b.1.error.max))?;
     let logarithm = |row: &RowData| {
         let ratio = row.speed.as_ref()?.ratio_to_naive?;
-        Some(libm::log(ratio.ratio.median))
+        Some(libm::log(ratio.median))
     };
     let sum = rows
         .iter()
@@ -64,7 +64,7 @@ fn of_all_scenes<'a>(name: &'a str, scenes: &'a [SceneData]) -> Option<Overall<'
         .sum::<Option<f64>>();
     Some(Overall {
         name,
-        worst: 255.0 * worst.error.difference.max,
+        worst: 255.0 * worst.error.max,
         at: scene.title(),
         speed: sum.map(|sum| libm::exp(sum / rows.len() as f64)),
     })
@@ -158,7 +158,7 @@ fn wide_frames(data: &Document) -> Option<(usize, String, f64)> {
     let corner = study.corners.iter().position(is_it)?;
     let same = study.methods.iter().filter(|m| m.is_same_picture());
     let (method, ratio) = same
-        .filter_map(|m| Some((m, m.corners.get(corner)?.ratio_to_naive?.ratio.median)))
+        .filter_map(|m| Some((m, m.corners.get(corner)?.ratio_to_naive?.median)))
         .max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some((corner, method.method.clone(), ratio))
 }
@@ -166,7 +166,7 @@ fn wide_frames(data: &Document) -> Option<(usize, String, f64)> {
 fn in_corner(data: &Document, corner: usize, method: &str) -> Option<f64> {
     let methods = &data.speedups.as_ref()?.methods;
     let found = methods.iter().find(|m| m.method == method)?;
-    Some(found.corners.get(corner)?.ratio_to_naive?.ratio.median)
+    Some(found.corners.get(corner)?.ratio_to_naive?.median)
 }
 
 fn times(ratio: Option<f64>) -> String {

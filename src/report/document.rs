@@ -1,10 +1,11 @@
 //! The report as data: one JSON document, described in `docs/bench-json.md`. The page, Markdown and CSV are views of it.
 
 use crate::compare::comparison::{
-    BASELINE, Comparison, ComparisonData, DifferenceData, RowData, SCHEMA, Triangulation,
-    WHAT_IS_COMPARED, WHAT_IS_TIMED,
+    BASELINE, Comparison, ComparisonData, RowData, SCHEMA, Triangulation, WHAT_IS_COMPARED,
+    WHAT_IS_TIMED,
 };
 use crate::compare::experiments::{Scaling, Speedups};
+use crate::compare::metrics::Difference;
 use crate::compare::timing::Machine;
 use crate::lectures::{Content, Figure};
 use crate::number::Counts;
@@ -77,7 +78,7 @@ pub struct TriangulationData {
     /// See [`Triangulation::not_simple`].
     pub not_simple: usize,
     /// See [`Triangulation::difference`].
-    pub difference: DifferenceData,
+    pub difference: Difference,
 }
 
 /// What is said about a method.
@@ -198,7 +199,7 @@ impl SceneData {
             triangulation: triangulation.map(|t| TriangulationData {
                 triangles: t.triangles,
                 not_simple: t.not_simple,
-                difference: t.difference.into(),
+                difference: t.difference,
             }),
         }
     }

@@ -3,8 +3,9 @@
 use super::answer::overall;
 use super::document::{Document, OperationsData, SceneData, label};
 use crate::compare::comparison::table::{levels, significant};
-use crate::compare::comparison::{RatioData, RowData, SpeedData};
+use crate::compare::comparison::{RowData, Speed};
 use crate::compare::table::Table;
+use crate::compare::timing::Ratio;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -63,8 +64,8 @@ pub(super) fn scene(scene: &SceneData) -> Table {
         ],
     );
     let row = |row: &RowData| {
-        let speed = |of: fn(&SpeedData) -> String| row.speed.as_ref().map_or(NONE.into(), of);
-        let error = &row.error.difference;
+        let speed = |of: fn(&Speed) -> String| row.speed.as_ref().map_or(NONE.into(), of);
+        let error = &row.error;
         let name = label(&row.variant);
         let name = match row.is_barycentric() {
             true => format!("{name}, barycentric"),
@@ -84,13 +85,12 @@ pub(super) fn scene(scene: &SceneData) -> Table {
 }
 
 /// Writes a ratio with its interval; `=` before it says that the interval holds 1.
-fn ratio(ratio: Option<RatioData>) -> String {
+fn ratio(ratio: Option<Ratio>) -> String {
     ratio.map_or_else(
         || NONE.into(),
         |r| {
-            let tie = if r.tie { "= " } else { "" };
-            let [low, median, high] =
-                [r.ratio.low, r.ratio.median, r.ratio.high].map(|v| format!("{v:.2}"));
+            let tie = if r.is_tie() { "= " } else { "" };
+            let [low, median, high] = [r.low, r.median, r.high].map(|v| format!("{v:.2}"));
             format!("{tie}{median} ({low}–{high})")
         },
     )

@@ -1,8 +1,6 @@
 use super::answer::{answer, html, overall};
 use super::*;
-use crate::compare::comparison::{
-    Input, Options, RatioData, RowData, SpeedData, compare, parse, triangulation,
-};
+use crate::compare::comparison::{Input, Options, RowData, Speed, compare, parse, triangulation};
 use crate::compare::experiments::{Corner, MethodSpeedups, Speedup, Speedups, Work};
 use crate::compare::timing::{Machine, Ratio, Timing};
 use crate::lectures::{Agreement, Finding, Plot, Scale, Series, Shown};
@@ -58,20 +56,20 @@ fn report(scenes: &[(&str, &str)]) -> Report {
     report
 }
 
-fn ratio(median: f64, spread: f64) -> RatioData {
-    RatioData::from(Ratio {
+fn ratio(median: f64, spread: f64) -> Ratio {
+    Ratio {
         median,
         low: median / spread,
         high: median * spread,
-    })
+    }
 }
 
 /// Gives each row a speed and an error in grey levels.
 fn given(row: &mut RowData, of: &[(&str, f64, f64)]) {
     let known = of.iter().find(|(name, ..)| *name == row.variant);
     let (_, speed, levels) = *known.unwrap_or(&("", 0.5, 40.0));
-    row.error.difference.max = levels / 255.0;
-    row.speed = Some(SpeedData {
+    row.error.max = levels / 255.0;
+    row.speed = Some(Speed {
         timing: Timing::of(vec![4e6 / speed; 5], 1).unwrap(),
         ns_per_covered_pixel: Some(1.0),
         ratio_to_naive: Some(ratio(speed, 1.1)),

@@ -33,7 +33,7 @@
 //! let comparison = compare(&Input { name: "sphere".into(), frame: &frame }, &variants, &options, &mut |_, _| {});
 //! let [naive, gouraud, fast] = &comparison.rows[..] else { unreachable!("naive Phong is always among them") };
 //! assert!(naive.error.rms < fast.error.rms && fast.error.rms < gouraud.error.rms);
-//! println!("{}", table(&comparison, TableKind::Compare));
+//! println!("{}", table(&comparison, TableKind::Short));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -46,8 +46,7 @@ mod tests;
 mod triangulation;
 
 pub use document::{
-    ComparisonData, DifferenceData, Document, DocumentError, RatioData, RendererData, RowData,
-    SCHEMA, SpeedData, StatsData, parse, to_json,
+    ComparisonData, Document, DocumentError, RendererData, RowData, SCHEMA, StatsData, parse,
 };
 pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
