@@ -43,6 +43,36 @@ impl Content {
         });
     }
 
+    /// Adds what confirms the lecture if `holds`, else contradicts it; `says` is the sentence of each case.
+    pub fn claim(
+        &mut self,
+        key: impl Into<String>,
+        label: impl Into<String>,
+        value: (f64, &'static str),
+        holds: bool,
+        [so, not]: [impl Into<String>; 2],
+    ) {
+        let says = if holds { so } else { not };
+        self.found(Finding::new(
+            key,
+            label,
+            value,
+            Agreement::if_holds(holds),
+            says,
+        ));
+    }
+
+    /// Adds what the lecture says nothing of.
+    pub fn adds(
+        &mut self,
+        key: impl Into<String>,
+        label: impl Into<String>,
+        value: (f64, &'static str),
+        says: impl Into<String>,
+    ) {
+        self.found(Finding::new(key, label, value, Agreement::Adds, says));
+    }
+
     /// Adds what was measured.
     pub fn found(&mut self, finding: Finding) {
         self.findings.push(finding);

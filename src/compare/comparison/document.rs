@@ -11,7 +11,6 @@ use crate::shading::Parameter;
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::fmt;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -216,37 +215,24 @@ pub fn parse<T: DeserializeOwned>(text: &str) -> Result<T, DocumentError> {
     let head: Head = serde_json::from_str(text).map_err(DocumentError::Json)?;
     match head.schema {
         Some(schema) if schema == SCHEMA => serde_json::from_str(text).map_err(DocumentError::Json),
-        found => Err(DocumentError::Schema { found }),
+        Some(other) => Err(DocumentError::Schema(other)),
+        None => Err(DocumentError::NoSchema),
     }
 }
 
 /// Why a text is no document.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum DocumentError {
     /// It is not JSON, or not as described; with line and column.
+    #[error("{0}: expected a document of schema `{SCHEMA}`")]
     Json(serde_json::Error),
-    /// It is of another schema, or names none.
-    Schema {
-        /// The one it names.
-        found: Option<String>,
-    },
+    /// It names another schema.
+    #[error("schema `{0}`: expected `{SCHEMA}`")]
+    Schema(String),
+    /// It names no schema.
+    #[error("no `schema`: expected `{SCHEMA}`")]
+    NoSchema,
 }
-
-impl fmt::Display for DocumentError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            DocumentError::Json(error) => {
-                write!(f, "{error}: expected a document of schema `{SCHEMA}`")
-            }
-            DocumentError::Schema { found: Some(found) } => {
-                write!(f, "schema `{found}`: expected `{SCHEMA}`")
-            }
-            DocumentError::Schema { found: None } => write!(f, "no `schema`: expected `{SCHEMA}`"),
-        }
-    }
-}
-
-impl core::error::Error for DocumentError {}
 
 impl From<&Comparison> for ComparisonData {
     fn from(c: &Comparison) -> Self {
