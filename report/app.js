@@ -70,7 +70,7 @@ function flat(r) {
  return {
   variant: r.variant, bary: r.engine === BARY, max: e.max * 255, rms: e.rms * 255, p99: e.p99 * 255, own: r.own.max * 255, explained: r.within_bound,
   over1: e.over_one_level, psnr: e.psnr, ssim: e.ssim, worst: e.worst, other: r.other_polygon, ms: s && s.timing.median_ns / 1e6, p25: s && s.timing.p25_ns / 1e6,
-  p75: s && s.timing.p75_ns / 1e6, rounds: s && s.timing.samples_ns.length, ns: s && s.ns_per_covered_pixel, ratio: s && ratio(s.ratio_to_naive), barycentric: s && ratio(s.ratio_to_barycentric),
+  p75: s && s.timing.p75_ns / 1e6, rounds: s && s.timing.rounds, ns: s && s.ns_per_covered_pixel, ratio: s && ratio(s.ratio_to_naive), barycentric: s && ratio(s.ratio_to_barycentric),
  };
 }
 const S = Object.fromEntries(SCENES.map(s => [s.id, s])), IDS = (D.methods || []).map(m => m.name), M = Object.fromEntries((D.methods || []).map(m => [m.name, m]));

@@ -53,31 +53,36 @@ fn script_text(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
-/// Writes the document, with those that it is laid beside, in six digits: nobody sees more, `--json` has all.
+/// Writes the document, with those that it is laid beside, in six digits and without samples: nobody sees more, and
+/// `--json` has all.
 fn json(report: &Report) -> String {
     let value = |data: &Document| serde_json::to_value(data).expect("numbers, texts and lists");
     let mut data = value(&report.data);
     if !report.beside.is_empty() {
         data["beside"] = report.beside.iter().map(value).collect();
     }
-    shorten(&mut data, 6);
+    shorten(&mut data);
     data.to_string()
 }
 
-/// Rounds all fractions to so many significant digits; samples of times to four.
-fn shorten(value: &mut Value, digits: usize) {
+/// Rounds all fractions to six significant digits, and leaves of samples their number, `rounds`.
+fn shorten(value: &mut Value) {
     match value {
         Value::Number(number) if number.is_f64() => {
-            let short = number.as_f64().map(|v| format!("{v:.*e}", digits - 1));
+            let short = number.as_f64().map(|v| format!("{v:.5e}"));
             let short = short
                 .and_then(|text| text.parse().ok())
                 .and_then(Number::from_f64);
             *number = short.unwrap_or_else(|| number.clone());
         }
-        Value::Array(list) => list.iter_mut().for_each(|item| shorten(item, digits)),
-        Value::Object(fields) => fields.iter_mut().for_each(|(name, field)| {
-            shorten(field, if name == "samples_ns" { 4 } else { digits });
-        }),
+        Value::Array(list) => list.iter_mut().for_each(shorten),
+        Value::Object(fields) => {
+            if let Some(Value::Array(samples)) = fields.get_mut("samples_ns") {
+                let rounds = core::mem::take(samples).len();
+                fields.insert("rounds".into(), rounds.into());
+            }
+            fields.values_mut().for_each(shorten);
+        }
         _ => {}
     }
 }
