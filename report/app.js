@@ -569,7 +569,7 @@ function breakPair() {
  $("#take-break").hidden = !w || w.q.max < 1 || !hasPictures(w.scene);
  if ($("#take-break").hidden) return;
  $("#break-title").textContent = `Where ${nm(m)} breaks`;
- $("#break-sub").textContent = `${w.scene.title}: off by ${num(w.q.max)} grey levels. ${M[m].local[0].toUpperCase()}${M[m].local.slice(1)}.`;
+ $("#break-sub").textContent = `${w.scene.title}: off by ${num(w.q.max)} grey levels.`;
  $("#break-link").href = `#scenes/${w.scene.id}?left=${m}&right=reference&mode=side`;
  el.innerHTML = ["reference", m].map(i => `<figure><canvas data-m="${esc(i)}" role="img" aria-label="${esc(nm(i))}"></canvas><figcaption>${esc(nm(i))}</figcaption></figure>`).join("");
  $$("canvas", el).forEach(c => crop(c, w.scene, c.dataset.m, w.q.worst?.[0] ?? 0, w.q.worst?.[1] ?? 0, w.scene.w * .6, w.scene.h * .6));
