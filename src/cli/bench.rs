@@ -6,7 +6,7 @@ use super::measured::{How, TimingFlags, command_line, named_or_shipped};
 use super::scene_flags::SceneFlags;
 use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
-use fastphong::compare::comparison::{TableKind, table, to_json};
+use fastphong::compare::comparison::{Document, TableKind, table};
 use fastphong::compare::timing::Machine;
 use fastphong::picture::image_file::write_file;
 use fastphong::raster::Renderer;
@@ -76,7 +76,7 @@ impl Bench {
             );
             (
                 text,
-                format!("{:#}\n", to_json(&comparisons, &machine, &command_line())),
+                Document::new(&comparisons, &machine, &command_line()).to_text(),
             )
         };
         match &self.json {

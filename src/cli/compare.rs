@@ -3,9 +3,9 @@
 use super::engines::LectureFlags;
 use super::measured::{How, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
-use super::talk::{Talk, json_to_stdout, to_stdout};
+use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
-use fastphong::compare::comparison::{TableKind, table, to_json};
+use fastphong::compare::comparison::{Document, TableKind, table};
 use fastphong::compare::timing::Machine;
 
 /// Compare methods on one scene: error against the reference, time, ratios
@@ -17,8 +17,11 @@ pub struct Compare {
     timing: TimingFlags,
     #[command(flatten)]
     drawn: LectureFlags,
-    /// Print all as JSON
+    /// Print PSNR, SSIM, brightness and other errors as well
     #[arg(long)]
+    all_columns: bool,
+    /// Print all as JSON
+    #[arg(long, conflicts_with = "all_columns")]
     json: bool,
     #[command(flatten)]
     scene: SceneFlags,
@@ -35,10 +38,15 @@ impl Compare {
             .timing
             .compare(&[&self.input], &self.scene, how, *talk)?;
         if self.json {
-            json_to_stdout(&to_json(&comparisons, &Machine::this(), &command_line()))?;
+            let document = Document::new(&comparisons, &Machine::this(), &command_line());
+            to_stdout(document.to_text().as_bytes())?;
         } else {
+            let kind = match self.all_columns {
+                true => TableKind::Compare,
+                false => TableKind::Short,
+            };
             for comparison in &comparisons {
-                to_stdout(table(comparison, TableKind::Compare).as_bytes())?;
+                to_stdout(table(comparison, kind).as_bytes())?;
             }
         }
         Ok(Outcome::Done)

@@ -84,7 +84,7 @@ impl Diff {
             "actual": self.actual.display().to_string(),
             "width": width,
             "height": height,
-            "equal": difference.is_none(),
+            "equal": difference.equal,
             "worst": difference.worst,
             "metrics": metrics,
             "fail_above": self.fail_above,
@@ -108,7 +108,7 @@ fn table(difference: &Difference) -> String {
     let mut text = columns(&rows.collect::<Vec<_>>(), false, &[1]);
     if let Some([x, y]) = difference.worst {
         text += &format!("the largest difference is at column {x}, row {y}\n");
-    } else if difference.is_none() {
+    } else if difference.equal {
         text += "the pictures are equal\n";
     }
     text

@@ -4,10 +4,14 @@ use super::measured::command_line;
 use super::progress::Progress;
 use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
+use fastphong::compare::timing::Machine;
+use fastphong::lectures::Content;
 use fastphong::lectures::{FIGURES, Figure};
 use fastphong::picture::image_file::write_file;
-use fastphong::report::{LectureFigure, figures_page};
+use fastphong::report::{Document, Report};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Draw figures of the lectures anew, with what was measured beside them, as one page
 #[derive(clap::Args, Debug)]
@@ -58,10 +62,12 @@ impl DrawFigures {
         let progress = Progress::watched(*talk);
         let drawn = drawn(&figures, &|part, what| progress.at(part, what))?;
         drop(progress);
-        write_file(&page, figures_page(&drawn, &command_line()).as_bytes())?;
+        let mut report = Report::new(Document::new(Machine::this(), command_line()));
+        add(&mut report, drawn)?;
+        write_file(&page, report.html().as_bytes())?;
         let mut written = format!("{}\n", page.display());
         if let Some(folder) = &self.pictures {
-            for (name, png) in drawn.iter().flat_map(LectureFigure::files) {
+            for (name, png) in report.figure_files() {
                 let path = folder.join(name);
                 write_file(&path, png)?;
                 written += &format!("{}\n", path.display());
@@ -72,23 +78,41 @@ impl DrawFigures {
     }
 }
 
-/// Makes `figures`; `told` hears which part is done and what comes next.
+/// A figure that was made.
+pub type Made = (&'static Figure, Content);
+
+/// Makes `figures` on all threads of the current pool; `told` hears which part is done and what was made.
 pub fn drawn(
     figures: &[&'static Figure],
-    told: &dyn Fn(f32, &str),
-) -> Result<Vec<LectureFigure>, Failure> {
-    let mut drawn = Vec::with_capacity(figures.len());
-    for (number, figure) in figures.iter().enumerate() {
+    told: &(dyn Fn(f32, &str) + Sync),
+) -> Result<Vec<Made>, Failure> {
+    let done = AtomicUsize::new(0);
+    let make = |figure: &&'static Figure| {
+        let content = figure
+            .make()
+            .map_err(|error| refused(figure, &error.to_string()))?;
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         told(
-            number as f32 / figures.len() as f32,
+            done as f32 / figures.len() as f32,
             &format!("figure {}", figure.name),
         );
-        let refused = |reason: String| Failure::from(format!("figure {}: {reason}", figure.name));
-        let content = figure.make().map_err(|error| refused(error.to_string()))?;
-        drawn
-            .push(LectureFigure::new(figure, content).map_err(|error| refused(error.to_string()))?);
+        Ok((*figure, content))
+    };
+    figures.par_iter().map(make).collect()
+}
+
+/// Adds figures to a report.
+pub fn add(report: &mut Report, figures: Vec<Made>) -> Result<(), Failure> {
+    for (figure, content) in figures {
+        report
+            .add_figure(figure, content)
+            .map_err(|error| refused(figure, &error.to_string()))?;
     }
-    Ok(drawn)
+    Ok(())
+}
+
+fn refused(figure: &Figure, reason: &str) -> Failure {
+    format!("figure {}: {reason}", figure.name).into()
 }
 
 /// The folder of a page, made if need be.

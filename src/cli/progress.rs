@@ -42,7 +42,9 @@ impl Progress {
     /// Makes a bar that is drawn only when it is moved: it disturbs no measurement between two moves.
     pub fn silent_between_moves(talk: Talk) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template("{spinner} [{bar:30}] {elapsed} {msg}") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{spinner} [{bar:30}] {elapsed}, {eta} left: {msg}")
+        {
             bar.set_style(style.progress_chars("=> "));
         }
         let allowed = talk != Talk::Quiet && std::io::stderr().is_terminal();

@@ -290,6 +290,11 @@ impl SceneFlags {
         Ok(file)
     }
 
+    /// True if a flag gives the size of the picture.
+    pub fn has_size(&self) -> bool {
+        self.resolution.is_some()
+    }
+
     /// Says what is odd about a scene.
     pub fn warn(&self, resolved: &Resolved, talk: Talk) {
         for warning in &resolved.warnings {

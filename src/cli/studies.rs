@@ -8,7 +8,6 @@ use fastphong::compare::experiments::{
 };
 use fastphong::compare::timing::Limits;
 use fastphong::number::suggest::nearest;
-use fastphong::report::Studies;
 
 /// The studies to make.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -66,11 +65,11 @@ impl Chosen {
         self,
         timing: &TimingFlags,
         told: &(dyn Fn(f32, &str) + Sync),
-    ) -> Result<Studies, Failure> {
+    ) -> Result<(Option<Speedups>, Option<Scaling>), Failure> {
         let all = self.scenes();
         let one = ThreadFlags { threads: Some(1) };
-        let made = one.install(|| -> Result<Studies, StudyError> {
-            let (methods, mut studies) = (&timing.methods.0, Studies::default());
+        let made = one.install(|| -> Result<_, StudyError> {
+            let (methods, mut studies) = (&timing.methods.0, (None, None));
             if self.speedups {
                 let usual = SpeedupOptions::default();
                 let limits = Limits {
@@ -80,7 +79,7 @@ impl Chosen {
                 let told = &mut |part: f32, what: &str| {
                     told(3.0 * part / all, &format!("speedups: {what}"))
                 };
-                studies.speedups = Some(Speedups::measure(
+                studies.0 = Some(Speedups::measure(
                     methods,
                     &SpeedupOptions { limits, ..usual },
                     told,
@@ -95,7 +94,7 @@ impl Chosen {
                 let told = &mut |part: f32, what: &str| {
                     told(1.0 - 6.0 / all * (1.0 - part), &format!("scaling: {what}"))
                 };
-                studies.scaling = Some(Scaling::measure(
+                studies.1 = Some(Scaling::measure(
                     methods,
                     &ScalingOptions { limits, ..usual },
                     told,

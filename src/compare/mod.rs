@@ -6,4 +6,6 @@ pub mod comparison;
 pub mod experiments;
 pub mod metrics;
 #[cfg(feature = "cli")]
+pub mod table;
+#[cfg(feature = "cli")]
 pub mod timing;

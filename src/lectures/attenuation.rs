@@ -121,17 +121,16 @@ fn floors(content: &mut Content) -> Result<(), FigureError> {
     );
     let of = |i: usize| shares[i];
     let looks_bad = of(OF_LECTURE).0 > 0.01;
-    content.found(Finding::new(
+    content.claim(
         "clipped",
         "share of the floor that 1/r² clips to white",
         (100.0 * of(OF_LECTURE).0, "%"),
-        Agreement::if_holds(looks_bad),
-        if looks_bad {
-            "\"Tends to look bad\": near the light there is more of it than a picture can hold."
-        } else {
-            "Nothing worth mention is clipped."
-        },
-    ));
+        looks_bad,
+        [
+            "\"Tends to look bad\": near the light there is more of it than a picture can hold.",
+            "Nothing worth mention is clipped.",
+        ],
+    );
     content.found(Finding::new(
         "clipped-notes",
         "share of the floor that 1/(1 + d²) clips to white",
@@ -152,16 +151,6 @@ fn dimmed(content: &mut Content) -> Result<(), FigureError> {
     let dark = share(&picture, |texel| texel[0] < 1.0 / 255.0);
     let plain = share(&floor(Falloff::None, 1.0)?, |texel| texel[0] < 1.0 / 255.0);
     let is_dark = dark > 0.2 && dark > plain;
-    content.found(Finding::new(
-        "dark",
-        "share of the floor under one level, 1/r² with a light too dim to clip anything",
-        (100.0 * dark, "%"),
-        Agreement::if_holds(is_dark),
-        if is_dark {
-            "Dimmed until nothing is clipped, 1/r² leaves much of the floor black: local shading has no light from elsewhere."
-        } else {
-            "Dimmed, 1/r² leaves the floor visible."
-        },
-    ));
+    content.claim("dark", "share of the floor under one level, 1/r² with a light too dim to clip anything", (100.0 * dark, "%"), is_dark, ["Dimmed until nothing is clipped, 1/r² leaves much of the floor black: local shading has no light from elsewhere.", "Dimmed, 1/r² leaves the floor visible."]);
     Ok(())
 }

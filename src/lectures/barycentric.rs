@@ -130,41 +130,20 @@ fn counted(content: &mut Content) {
     }
     let share = |part: usize, all: usize| 100.0 * part as f64 / all.max(1) as f64;
     let lost = share(lost, inside);
-    content.found(Finding::new(
-        "printed-gamma",
-        "pixels of the triangle that the printed γ loses",
-        (lost, "%"),
-        Agreement::if_holds(lost == 0.0),
-        if lost > 0.0 {
-            "f_ab(p) / f_ac(p) is no weight but −γ/β, below 0 inside: divide by f_ab(c). What is left is the edge ab."
-        } else {
-            "The printed γ fills the triangle as the corrected one does."
-        },
-    ));
+    content.claim("printed-gamma", "pixels of the triangle that the printed γ loses", (lost, "%"), lost == 0.0, ["The printed γ fills the triangle as the corrected one does.", "f_ab(p) / f_ac(p) is no weight but −γ/β, below 0 inside: divide by f_ab(c). What is left is the edge ab."]);
     let elsewhere = share(elsewhere, inside);
-    content.found(Finding::new(
+    content.claim(
         "printed-gamma-outside",
         "pixels outside that it fills, in parts of the triangle",
         (elsewhere, "%"),
-        Agreement::if_holds(elsewhere == 0.0),
-        if elsewhere > 0.0 {
-            "It fills another triangle, beyond the edge ab, where γ is below 0."
-        } else {
-            "It fills nothing outside."
-        },
-    ));
+        elsewhere == 0.0,
+        [
+            "It fills nothing outside.",
+            "It fills another triangle, beyond the edge ab, where γ is below 0.",
+        ],
+    );
     let gained = share(gained, outside);
-    content.found(Finding::new(
-        "unsigned-areas",
-        "pixels outside that areas without signs call inside",
-        (gained, "%"),
-        Agreement::if_holds(gained == 0.0),
-        if gained > 0.0 {
-            "Quotients of areas without signs lie in 0..1 wherever the point is: the signs tell inside from outside."
-        } else {
-            "Areas need no signs."
-        },
-    ));
+    content.claim("unsigned-areas", "pixels outside that areas without signs call inside", (gained, "%"), gained == 0.0, ["Areas need no signs.", "Quotients of areas without signs lie in 0..1 wherever the point is: the signs tell inside from outside."]);
 }
 
 /// What the lectures say of the weights.

@@ -2,7 +2,7 @@
 
 use super::lit::{drawn, grey, levels, scene, shown};
 use super::stage::{stored, written};
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
+use super::{Content, Figure, FigureError, Plot, Scale, Series, Shown};
 use crate::compare::metrics::difference_map;
 use crate::mesh::builtin::builtin;
 use crate::reference::{self, Model};
@@ -108,30 +108,28 @@ fn errors(content: &mut Content) -> Result<(), FigureError> {
     let worst = curves[0][0].1;
     let fine = curves[0][RINGS.len() - 1].1;
     let visible = worst > 1.0;
-    content.found(Finding::new(
+    content.claim(
         "coarse",
         "RMS error of constant vectors, coarsest sphere and nearest light",
         (worst, "grey levels"),
-        Agreement::if_holds(!visible),
-        if visible {
-            "Every polygon shows: the assumption is for lights at infinity."
-        } else {
-            "The assumption costs nothing here."
-        },
-    ));
+        !visible,
+        [
+            "The assumption costs nothing here.",
+            "Every polygon shows: the assumption is for lights at infinity.",
+        ],
+    );
     let finer = f64::from(RINGS[RINGS.len() - 1]) / f64::from(RINGS[0]);
     let steps = libm::log(worst / fine) / libm::log(finer);
-    content.found(Finding::new(
+    content.adds(
         "order",
         "by which power of the polygons' size the error falls, nearest light",
         (steps, ""),
-        Agreement::Adds,
         if steps > 0.5 {
             "Finer polygons make up for it."
         } else {
             "Finer polygons do not make up for it."
         },
-    ));
+    );
     Ok(())
 }
 
@@ -144,17 +142,16 @@ fn products(content: &mut Content, near: &Scene) -> Result<(), FigureError> {
     let frame = near.frame()?;
     let difference = levels(&naive.render_linear(&frame), &duff.render_linear(&frame));
     let holds = difference < 0.5;
-    content.found(Finding::new(
+    content.adds(
         "duff-naive",
         "six quadratics against vectors at each pixel, largest difference",
         (difference, "grey levels"),
-        Agreement::Adds,
         if holds {
             "One picture: the products are exact, to rounding."
         } else {
             "Not the same picture."
         },
-    ));
+    );
     let bench = |lights| SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
     let rows = [("naive-phong", &naive), ("duff-phong", &duff)].map(|(name, variant)| {
         let cells = [1, 2].into_iter().flat_map(|lights| {
@@ -181,15 +178,9 @@ fn products(content: &mut Content, near: &Scene) -> Result<(), FigureError> {
     content.table(&head, rows.into());
     let additions = |lights| duff.operations_on(&bench(lights)).walk.additions;
     let (one, two) = (additions(1), additions(2));
-    content.found(Finding::new(
-        "additions",
-        "additions a pixel that step the six products of one light, and 1/w²",
-        (f64::from(one), ""),
-        Agreement::Adds,
-        format!(
+    content.adds("additions", "additions a pixel that step the six products of one light, and 1/w²", (f64::from(one), ""), format!(
             "Two each; {} more for a further light, whose L·L, L·N and L·V are new. A falloff needs 1/w².",
             two - one
-        ),
-    ));
+        ));
     Ok(())
 }

@@ -3,9 +3,10 @@
 use crate::picture::Picture8;
 use alloc::string::String;
 use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
 
 /// A figure that was made.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Content {
     /// What is shown, from top to bottom.
     pub blocks: Vec<Block>,
@@ -42,6 +43,36 @@ impl Content {
         });
     }
 
+    /// Adds what confirms the lecture if `holds`, else contradicts it; `says` is the sentence of each case.
+    pub fn claim(
+        &mut self,
+        key: impl Into<String>,
+        label: impl Into<String>,
+        value: (f64, &'static str),
+        holds: bool,
+        [so, not]: [impl Into<String>; 2],
+    ) {
+        let says = if holds { so } else { not };
+        self.found(Finding::new(
+            key,
+            label,
+            value,
+            Agreement::if_holds(holds),
+            says,
+        ));
+    }
+
+    /// Adds what the lecture says nothing of.
+    pub fn adds(
+        &mut self,
+        key: impl Into<String>,
+        label: impl Into<String>,
+        value: (f64, &'static str),
+        says: impl Into<String>,
+    ) {
+        self.found(Finding::new(key, label, value, Agreement::Adds, says));
+    }
+
     /// Adds what was measured.
     pub fn found(&mut self, finding: Finding) {
         self.findings.push(finding);
@@ -49,7 +80,8 @@ impl Content {
 }
 
 /// A part of a figure.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Block {
     /// A paragraph of plain text.
     Text(String),
@@ -72,14 +104,19 @@ pub enum Block {
 }
 
 /// A picture with what stands below it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shown {
     /// What stands below it.
     pub caption: String,
     /// What it shows, for who cannot see it.
     pub alt: String,
-    /// The picture itself, small: its pixels are shown as squares.
+    /// The picture itself, small: its pixels are shown as squares. It is stored beside the data.
+    #[serde(skip, default = "no_picture")]
     pub picture: Picture8,
+}
+
+fn no_picture() -> Picture8 {
+    Picture8::new(0, 0, [0; 4])
 }
 
 impl Shown {
@@ -94,7 +131,8 @@ impl Shown {
 }
 
 /// How values are laid out along an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Scale {
     /// Equal differences are equally long.
     Linear,
@@ -103,7 +141,7 @@ pub enum Scale {
 }
 
 /// Curves over one another.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plot {
     /// What is shown, in a line.
     pub title: String,
@@ -120,12 +158,35 @@ pub struct Plot {
 }
 
 /// One curve.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Series {
     /// What it is called.
     pub label: String,
     /// Its points, in the order in which they are joined; what is not finite is left out.
+    #[serde(with = "five_digits")]
     pub points: Vec<(f64, f64)>,
+}
+
+/// Points with five significant digits, which no chart can show; `null` for what is not finite.
+mod five_digits {
+    use alloc::format;
+    use alloc::vec::Vec;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(points: &[(f64, f64)], to: S) -> Result<S::Ok, S::Error> {
+        let short = |value: f64| format!("{value:.4e}").parse::<f64>().unwrap_or(value);
+        let points = points.iter().map(|(x, y)| (short(*x), short(*y)));
+        points.collect::<Vec<_>>().serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(f64, f64)>, D::Error> {
+        let points: Vec<(Option<f64>, Option<f64>)> = Vec::deserialize(from)?;
+        let or_none = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        Ok(points
+            .into_iter()
+            .map(|(x, y)| (or_none(x), or_none(y)))
+            .collect())
+    }
 }
 
 impl Series {
@@ -139,7 +200,8 @@ impl Series {
 }
 
 /// What a measured value says about the lecture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Agreement {
     /// As the lecture says.
     Confirms,
@@ -170,7 +232,7 @@ impl Agreement {
 }
 
 /// One measured value, and what follows from it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// What programs call it: the same from run to run, unique in its figure.
     pub key: String,
@@ -179,7 +241,7 @@ pub struct Finding {
     /// The value, finite.
     pub value: f64,
     /// Its unit; empty for a pure number.
-    pub unit: &'static str,
+    pub unit: String,
     /// What it says about the lecture.
     pub agreement: Agreement,
     /// That in a sentence, which was chosen by the value.
@@ -199,7 +261,7 @@ impl Finding {
             key: key.into(),
             label: label.into(),
             value,
-            unit,
+            unit: unit.into(),
             agreement,
             verdict: verdict.into(),
         }

@@ -113,46 +113,28 @@ fn highlights(content: &mut Content, pictures: [&Picture<[f64; 4]>; 3]) {
         lost.max(green(pictures[1], i) - green(pictures[2], i))
     });
     let (label, all) = ("brightest pixel of the highlight, its green", "levels");
-    content.found(Finding::new(
+    content.adds(
         "peak-phong",
         format!("{label}, Algorithm 7 with unit normals"),
         (phong, all),
-        Agreement::Adds,
         "What the others are measured against.",
-    ));
+    );
     let is_blurred = gouraud < phong - 1.0;
-    content.found(Finding::new(
-        "peak-gouraud",
-        format!("{label}, Algorithm 4"),
-        (gouraud, all),
-        Agreement::if_holds(is_blurred),
-        if is_blurred {
-            "Between vertices the highlight is cut off: \"a bit pixelated\", where Phong's is smooth."
-        } else {
-            "The highlight is as bright as Phong's."
-        },
-    ));
-    content.found(Finding::new(
-        "peak-printed",
-        format!("{label}, Algorithm 7 as printed"),
-        (raw, all),
-        Agreement::Adds,
-        format!(
+    content.claim("peak-gouraud", format!("{label}, Algorithm 4"), (gouraud, all), is_blurred, ["Between vertices the highlight is cut off: \"a bit pixelated\", where Phong's is smooth.", "The highlight is as bright as Phong's."]);
+    content.adds("peak-printed", format!("{label}, Algorithm 7 as printed"), (raw, all), format!(
             "Shorter normals have smaller cosines, and the power makes little of them: {} levels less where it is most.",
             written(lost)
-        ),
-    ));
-    content.found(Finding::new(
+        ));
+    content.claim(
         "lost",
         "most that a pixel loses by normals that are not made unit vectors",
         (lost, all),
-        Agreement::if_holds(lost < 1.0),
-        if lost < 1.0 {
-            "Interpolated normals can be used as they are."
-        } else {
-            "The lighting model asks for unit normals: make them so at each pixel."
-        },
-    ));
+        lost < 1.0,
+        [
+            "Interpolated normals can be used as they are.",
+            "The lighting model asks for unit normals: make them so at each pixel.",
+        ],
+    );
 }
 
 /// A floor under the eye, from in front of it to `behind`.
@@ -256,17 +238,16 @@ fn cube(content: &mut Content) -> Result<(), FigureError> {
     let same = only(&near, &near_clipped) + only(&near_clipped, &near);
     // Clipping makes corners, which are snapped to 1/256 pixel: a pixel of the rim may fall to either side.
     let holds = same <= SIDE as usize;
-    content.found(Finding::new(
+    content.claim(
         "cube-in-front",
         "pixels in which the cube's test and clipping differ, all corners in front of the eye",
         (same as f64, "pixels"),
-        Agreement::if_holds(holds),
-        if holds {
-            "\"Parts within the cube\" are rendered, as the notes say."
-        } else {
-            "The test is not clipping."
-        },
-    ));
+        holds,
+        [
+            "\"Parts within the cube\" are rendered, as the notes say.",
+            "The test is not clipping.",
+        ],
+    );
     let (missing, extra) = (
         only(&behind_clipped, &behind),
         only(&behind, &behind_clipped),

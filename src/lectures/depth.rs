@@ -64,17 +64,16 @@ fn fighting(content: &mut Content, scene: &Scene) -> Result<(), FigureError> {
     let finest = &pictures[2].1;
     for (bits, picture) in &pictures[..2] {
         let wrong = differing(picture, finest);
-        content.found(Finding::new(
+        content.adds(
             format!("fighting-{bits}"),
             format!("pixels that {bits} bits show differently than 32"),
             (wrong as f64, "pixels"),
-            Agreement::Adds,
             if wrong > 0 {
                 format!("{bits} bits are too few here.")
             } else {
                 format!("{bits} bits are enough here.")
             },
-        ));
+        );
     }
     Ok(())
 }
@@ -103,17 +102,7 @@ fn ways(content: &mut Content, scene: &Scene) -> Result<(), FigureError> {
     // by f/(f − n), which is close to 1.
     let bound = 4.0 * (steps + 4.0) / f64::from(1 << 25);
     let same = difference <= bound;
-    content.found(Finding::new(
-        "ways",
-        "largest difference of depth by both ways",
-        (difference, ""),
-        Agreement::if_holds(same),
-        if same {
-            "Interpolated between corners or computed at each sample: the same to rounding, as 1/z is linear on the screen."
-        } else {
-            "The two ways differ by more than rounding."
-        },
-    ));
+    content.claim("ways", "largest difference of depth by both ways", (difference, ""), same, ["Interpolated between corners or computed at each sample: the same to rounding, as 1/z is linear on the screen.", "The two ways differ by more than rounding."]);
     Ok(())
 }
 
@@ -154,18 +143,17 @@ fn curve(content: &mut Content, scene: &Scene) {
     });
     let near = scene.camera.near;
     let half = 0.5 + 0.5 * lecture_depth(2.0 * near, near, far);
-    content.found(Finding::new(
+    content.adds(
         "half",
         "part of the depth range used up at twice the near distance",
         (half, ""),
-        Agreement::Adds,
         format!(
             "Of distances up to {}, those below {} take {:.0} % of the levels.",
             written(far),
             written(2.0 * near),
             100.0 * half
         ),
-    ));
+    );
     let monotone = (1..1000).all(|i| {
         let at = |i: u32| near + (far - near) * f64::from(i) / 1000.0;
         lecture_depth(at(i), near, far) < lecture_depth(at(i + 1), near, far)

@@ -5,7 +5,7 @@
 
 use super::profile::{jump, profile};
 use super::stage::{Corner, Facet, Grey, frame, stored, written};
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
+use super::{Content, Figure, FigureError, Plot, Scale, Series, Shown};
 use crate::frame::Frame;
 use crate::picture::LinearPicture;
 use crate::shading::Variant;
@@ -125,50 +125,41 @@ fn jumps(content: &mut Content) -> Result<(), FigureError> {
     let (gouraud, naive, slerp, expected) = (gouraud?, naive?, slerp?, closed_form(ANGLES));
     let unit = "grey levels a pixel";
     let is_surprise = naive.abs() > gouraud.abs();
-    content.found(Finding::new(
+    content.claim(
         "naive-phong",
         "naive Phong: jump of the slope at the joint",
         (naive, unit),
-        Agreement::if_holds(!is_surprise),
-        if is_surprise {
+        !is_surprise,
+        [
+            String::from("Less than that of Gouraud shading."),
             format!(
                 "{} times that of Gouraud shading: here Phong shading is the worse one.",
                 written(naive.abs() / gouraud.abs())
-            )
-        } else {
-            String::from("Less than that of Gouraud shading.")
-        },
-    ));
-    content.found(Finding::new(
-        "gouraud",
-        "Gouraud: jump of the slope at the joint",
-        (gouraud, unit),
-        Agreement::Adds,
-        "The left facet reaches beyond the terminator, and its chord is about as steep as that of the right one.",
-    ));
-    content.found(Finding::new(
+            ),
+        ],
+    );
+    content.adds("gouraud", "Gouraud: jump of the slope at the joint", (gouraud, unit), "The left facet reaches beyond the terminator, and its chord is about as steep as that of the right one.");
+    content.adds(
         "slerp-phong",
         "slerp Phong: jump of the slope at the joint",
         (slerp, unit),
-        Agreement::Adds,
         if slerp.abs() < 0.01 * naive.abs() {
             "None: uniform speed follows the circle."
         } else {
             "There is one."
         },
-    ));
+    );
     let is_near = (naive - expected).abs() < 0.02 * expected.abs();
-    content.found(Finding::new(
+    content.adds(
         "closed-form",
         "naive Phong: the same by 255 sin θ (sin φ₂ / l₂ − sin φ₁ / l₁)",
         (expected, unit),
-        Agreement::Adds,
         if is_near {
             "The engine draws what the formula says."
         } else {
             "The engine draws something else."
         },
-    ));
+    );
     Ok(())
 }
 

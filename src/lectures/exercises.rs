@@ -1,7 +1,7 @@
 //! The exercises of Lecture 21: a table of sines read between its lines, and e^t by one multiplication a pixel.
 
 use super::stage::{Corner, Facet, Grey, frame, stored, written};
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
+use super::{Content, Figure, FigureError, Plot, Scale, Series, Shown};
 use crate::number::{Counter, Num};
 use crate::picture::LinearPicture;
 use crate::raster::depth;
@@ -55,24 +55,22 @@ fn sine(content: &mut Content) -> Result<(), FigureError> {
         written(0.5e-5)
     ));
     let is_within = (found - truth).abs() < 1.5e-5;
-    content.found(Finding::new(
+    content.claim(
         "sine",
         "sin 24.3° by linear interpolation",
         (found, ""),
-        Agreement::if_holds(is_within),
-        if is_within {
-            "The estimate is as good as the table that it is read from."
-        } else {
-            "The estimate is worse than the table that it is read from."
-        },
-    ));
-    content.found(Finding::new(
+        is_within,
+        [
+            "The estimate is as good as the table that it is read from.",
+            "The estimate is worse than the table that it is read from.",
+        ],
+    );
+    content.adds(
         "sine-error",
         "its distance from the sine",
         (truth - found, ""),
-        Agreement::Adds,
         "A chord lies below the sine, and the table is rounded.",
-    ));
+    );
     Ok(())
 }
 
@@ -114,17 +112,16 @@ fn exponential(content: &mut Content) {
     let counts = counter.take();
     let others = counts.additions + counts.divisions + counts.powers + counts.trigonometric;
     let is_one = counts.multiplications == 1 && others == 0;
-    content.found(Finding::new(
+    content.claim(
         "multiplications",
         "operations a pixel of e to the t",
         (f64::from(counts.multiplications + others), ""),
-        Agreement::if_holds(is_one),
-        if is_one {
-            "One multiplication and nothing else, counted."
-        } else {
-            "More than one multiplication, counted."
-        },
-    ));
+        is_one,
+        [
+            "One multiplication and nothing else, counted.",
+            "More than one multiplication, counted.",
+        ],
+    );
 
     const PIXELS: usize = 1024;
     let mut largest: f64 = 0.0;
@@ -159,17 +156,16 @@ fn exponential(content: &mut Content) {
         ),
     });
     let holds = largest <= bound;
-    content.found(Finding::new(
+    content.claim(
         "drift",
         "largest relative error over 1024 pixels",
         (largest, ""),
-        Agreement::if_holds(holds),
-        if holds {
-            "Within two roundings a pixel: far below a grey level."
-        } else {
-            "More than two roundings a pixel explain."
-        },
-    ));
+        holds,
+        [
+            "Within two roundings a pixel: far below a grey level.",
+            "More than two roundings a pixel explain.",
+        ],
+    );
 }
 
 /// What is seen of a surface at depth 0 is left by fog in this part at depth 1: e^-`DENSITY`.
@@ -241,17 +237,16 @@ fn fog(content: &mut Content) -> Result<(), FigureError> {
         .into(),
     );
     let holds = levels < 0.5;
-    content.found(Finding::new(
+    content.claim(
         "fog",
         "largest difference of the fog by steps from that by exponentials",
         (levels, "grey levels"),
-        Agreement::if_holds(holds),
-        if holds {
-            "The pictures cannot be told apart."
-        } else {
-            "The pictures can be told apart."
-        },
-    ));
+        holds,
+        [
+            "The pictures cannot be told apart.",
+            "The pictures can be told apart.",
+        ],
+    );
     Ok(())
 }
 

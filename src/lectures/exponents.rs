@@ -2,7 +2,7 @@
 
 use super::lit::{drawn, grey, scene, shown};
 use super::stage::written;
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series};
+use super::{Content, Figure, FigureError, Plot, Scale, Series};
 use crate::mesh::builtin::builtin;
 use crate::picture::LinearPicture;
 use crate::scene::SpecularModel;
@@ -61,17 +61,16 @@ fn powers(content: &mut Content) {
     let narrows = EXPONENTS
         .windows(2)
         .all(|p| half_width(f64::from(p[1])) < half_width(f64::from(p[0])));
-    content.found(Finding::new(
+    content.claim(
         "narrows",
         "half width at p = 1 over that at p = 512",
         (half_width(1.0) / half_width(512.0), ""),
-        Agreement::if_holds(narrows),
-        if narrows {
-            "Increasing p narrows the lobe."
-        } else {
-            "Increasing p does not always narrow the lobe."
-        },
-    ));
+        narrows,
+        [
+            "Increasing p narrows the lobe.",
+            "Increasing p does not always narrow the lobe.",
+        ],
+    );
 }
 
 /// A sphere with light and eye in one direction.
@@ -123,17 +122,7 @@ fn grid(content: &mut Content) -> Result<(), FigureError> {
     content.pictures(EXPONENTS.len(), pictures);
     let (matte, shiny) = (bright[0], bright[3]);
     let is_shiny_at_one = matte < shiny;
-    content.found(Finding::new(
-        "shiny",
-        format!("share of the sphere in the highlight, p = {} over p = {}", EXPONENTS[0], EXPONENTS[3]),
-        (matte / shiny.max(1e-4), ""),
-        Agreement::if_holds(is_shiny_at_one),
-        if is_shiny_at_one {
-            "A p close to 1 makes the smaller highlight, as the notes' text says."
-        } else {
-            "The text of CS171 says that a very shiny surface has a p close to 1; its own Figure 7, and these spheres, say that it has a large one."
-        },
-    ));
+    content.claim("shiny", format!("share of the sphere in the highlight, p = {} over p = {}", EXPONENTS[0], EXPONENTS[3]), (matte / shiny.max(1e-4), ""), is_shiny_at_one, ["A p close to 1 makes the smaller highlight, as the notes' text says.", "The text of CS171 says that a very shiny surface has a p close to 1; its own Figure 7, and these spheres, say that it has a large one."]);
     Ok(())
 }
 
@@ -212,40 +201,32 @@ fn half_vector(content: &mut Content) -> Result<(), FigureError> {
     let [phong, same, converted] = [widths[0], widths[1], widths[2]];
     // Half of the angle, so that the width doubles where cos^p is a Gauss curve.
     let wider = same / phong > 1.5;
-    content.found(Finding::new(
+    content.claim(
         "same-exponent",
         "half width of N·H over that of R·V, same exponent",
         (same / phong, ""),
-        Agreement::if_holds(!wider),
-        if wider {
-            "CS171 says that the angle at H \"can also be used\": not with the same exponent."
-        } else {
-            "The same exponent gives the same highlight."
-        },
-    ));
+        !wider,
+        [
+            "The same exponent gives the same highlight.",
+            "CS171 says that the angle at H \"can also be used\": not with the same exponent.",
+        ],
+    );
     let alike = (converted / phong - 1.0).abs() < 0.05;
-    content.found(Finding::new(
+    content.adds(
         "converted",
         "half width of N·H with four times the exponent, over that of R·V",
         (converted / phong, ""),
-        Agreement::Adds,
         if alike {
             "Four times the exponent makes up for it."
         } else {
             "Four times the exponent does not make up for it."
         },
-    ));
-    content.found(Finding::new(
-        "half-width",
-        "half width of R·V for p = 20 on the sphere",
-        (phong, "degrees"),
-        Agreement::Adds,
-        // The normal turns half as fast as R.
+    );
+    content.adds("half-width", "half width of R·V for p = 20 on the sphere", (phong, "degrees"), // The normal turns half as fast as R.
         String::from(if (phong - half_width(20.0) / 2.0).abs() < 0.1 {
             "Half of the angle at which the cosine power has come down to a half: the normal turns half as fast as R."
         } else {
             "Not what the cosine power says."
-        }),
-    ));
+        }));
     Ok(())
 }

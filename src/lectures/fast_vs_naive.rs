@@ -121,36 +121,24 @@ fn meshes(content: &mut Content) -> Result<&'static str, FigureError> {
         ],
         rows,
     );
-    content.found(Finding::new(
-        "default",
-        "fast Phong with the fewest steps that suffice: largest difference from naive Phong over all meshes",
-        (worst, "grey levels"),
-        Agreement::if_holds(worst <= 1.0),
-        if worst <= 1.0 {
-            "No pixel differs by more than a grey level."
-        } else {
-            "There are pixels that differ."
-        },
-    ));
+    content.claim("default", "fast Phong with the fewest steps that suffice: largest difference from naive Phong over all meshes", (worst, "grey levels"), worst <= 1.0, ["No pixel differs by more than a grey level.", "There are pixels that differ."]);
     let enough = |levels: f64| match levels <= 1.0 {
         true => "One step is enough there.",
         false => "One step is not enough there.",
     };
-    content.found(Finding::new(
+    content.adds(
         "one-step-sphere",
         "fast Phong with 1 step: largest difference on the coarse sphere",
         (coarse, "grey levels"),
-        Agreement::Adds,
         enough(coarse),
-    ));
+    );
     let (levels, mesh) = worst_by_one;
-    content.found(Finding::new(
+    content.adds(
         "one-step",
         format!("fast Phong with 1 step: largest difference over all meshes, on {mesh}"),
         (levels, "grey levels"),
-        Agreement::Adds,
         enough(levels),
-    ));
+    );
     Ok(mesh)
 }
 
@@ -201,41 +189,32 @@ fn operations(content: &mut Content) -> Result<(), FigureError> {
         Agreement::if_holds(naive_roots == 1.0),
         "To normalise the interpolated normal.",
     ));
-    content.found(Finding::new(
+    content.claim(
         "roots-fast",
         "fast Phong: square roots a pixel",
         (fast_roots, ""),
-        Agreement::if_holds(fast_roots == 0.0),
-        if fast_roots == 0.0 {
-            "None: Newton\u{2019}s steps take their place."
-        } else {
-            "There are still roots."
-        },
-    ));
+        fast_roots == 0.0,
+        [
+            "None: Newton\u{2019}s steps take their place.",
+            "There are still roots.",
+        ],
+    );
     let additions = naive.walk.additions;
-    content.found(Finding::new(
+    content.claim(
         "walk-naive",
         "naive Phong: additions to step the normal (4.2)",
         (f64::from(additions), ""),
-        Agreement::if_holds(additions == 3),
-        if additions == 3 {
-            "Three additions a pixel."
-        } else {
-            "Not three additions a pixel."
-        },
-    ));
+        additions == 3,
+        ["Three additions a pixel.", "Not three additions a pixel."],
+    );
     let gouraud = Variant::parse("gouraud")?.operations(1).walk.additions;
-    content.found(Finding::new(
+    content.claim(
         "walk-gouraud",
         "Gouraud: additions a pixel, for three channels (3.6)",
         (f64::from(gouraud), ""),
-        Agreement::if_holds(gouraud == 3),
-        if gouraud == 3 {
-            "One addition a channel."
-        } else {
-            "Not one addition a channel."
-        },
-    ));
+        gouraud == 3,
+        ["One addition a channel.", "Not one addition a channel."],
+    );
     let slerp = Variant::parse("slerp-phong")?.operations(1).walk;
     let (additions, multiplications) = (slerp.additions, slerp.multiplications);
     content.found(Finding::new(

@@ -144,7 +144,7 @@ fn numbers(content: &mut Content, errors: &[Difference]) {
         }
     }
     let (fine_faces, coarse_pixels) = (of(0)[RINGS.len() - 1].rms, of(2)[1].rms);
-    content.found(Finding::new(
+    content.adds(
         "trade",
         format!(
             "faces of {} polygons by pixels of {}: ratio of RMS errors",
@@ -152,11 +152,10 @@ fn numbers(content: &mut Content, errors: &[Difference]) {
             polygons[1]
         ),
         (fine_faces / coarse_pixels, ""),
-        Agreement::Adds,
         if fine_faces > coarse_pixels {
             "Even many faces, one colour each, are worse than few with interpolated normals."
         } else {
             "Many faces make up for a low shading frequency."
         },
-    ));
+    );
 }

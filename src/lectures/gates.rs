@@ -1,7 +1,7 @@
 //! Highlights from behind, and where colours are clamped (CS171 2; L5; L21 3).
 
 use super::lit::{drawn, grey, levels, scene, shown};
-use super::{Agreement, Content, Figure, FigureError, Finding};
+use super::{Content, Figure, FigureError};
 use crate::compare::metrics::compare;
 use crate::mesh::builtin::builtin;
 use crate::picture::LinearPicture;
@@ -105,44 +105,41 @@ fn gates(content: &mut Content) -> Result<(), FigureError> {
     };
     let (from_behind, none) = (behind(&all[1]), behind(&all[0]).max(behind(&all[2])));
     let shines = from_behind > 1.0;
-    content.found(Finding::new(
+    content.claim(
         "behind",
         "share of the surface turned away from the light that shines, as printed",
         (from_behind, "%"),
-        Agreement::if_holds(!shines),
-        if shines {
-            "Light from behind shines through."
-        } else {
-            "No light from behind is seen."
-        },
-    ));
-    content.found(Finding::new(
+        !shines,
+        [
+            "No light from behind is seen.",
+            "Light from behind shines through.",
+        ],
+    );
+    content.adds(
         "behind-gated",
         "the same with a gate or a weight",
         (none, "%"),
-        Agreement::Adds,
         if none == 0.0 {
             "None."
         } else {
             "Some is left."
         },
-    ));
+    );
     let (line, no_line) = (
         largest_step(&all[0], &all[2]),
         largest_step(&all[2], &all[0]),
     );
     let is_line = line > 2.0 * no_line;
-    content.found(Finding::new(
+    content.adds(
         "line",
         "largest step between neighbouring pixels that the gate makes and the weight does not",
         (line, "grey levels"),
-        Agreement::Adds,
         if is_line {
             "The gate ends highlights in a hard line; the weight does not."
         } else {
             "The gate makes no line that the weight does not."
         },
-    ));
+    );
     Ok(())
 }
 
@@ -175,30 +172,28 @@ fn clamping(content: &mut Content) -> Result<(), FigureError> {
     .into();
     content.pictures(3, pictures);
     let difference = levels(&clamped, &separate);
-    content.found(Finding::new(
+    content.adds(
         "clamped",
         "clamped at vertices against clamped at pixels, largest difference",
         (difference, "grey levels"),
-        Agreement::Adds,
         if difference > 1.0 {
             "Clamping and interpolating cannot be exchanged."
         } else {
             "It makes no difference here."
         },
-    ));
+    );
     let rms =
         |picture: &LinearPicture| compare(&truth, picture).map(|difference| 255.0 * difference.rms);
     let (first, last) = (rms(&clamped)?, rms(&separate)?);
-    content.found(Finding::new(
+    content.adds(
         "nearer",
         "RMS error of clamping at vertices over that of clamping at pixels",
         (first / last, ""),
-        Agreement::Adds,
         if first > last {
             "Colours that are clamped last are nearer to shading at every pixel."
         } else {
             "Colours that are clamped first are nearer to shading at every pixel."
         },
-    ));
+    );
     Ok(())
 }

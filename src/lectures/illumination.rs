@@ -2,7 +2,7 @@
 
 use super::lit::{drawn, grey, levels, scene, shown};
 use super::stage::written;
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series};
+use super::{Content, Figure, FigureError, Plot, Scale, Series};
 use crate::frame::Frame;
 use crate::mesh::Material;
 use crate::mesh::builtin::builtin;
@@ -80,17 +80,16 @@ fn parts(content: &mut Content) -> Result<(), FigureError> {
     content.pictures(4, shown);
     let difference = levels(&sum, &all[3]);
     let holds = difference < 0.01;
-    content.found(Finding::new(
+    content.claim(
         "sum",
         "three pictures added up against one with all terms, largest difference",
         (difference, "grey levels"),
-        Agreement::if_holds(holds),
-        if holds {
-            "The terms add, to rounding."
-        } else {
-            "The terms do not add up to the whole."
-        },
-    ));
+        holds,
+        [
+            "The terms add, to rounding.",
+            "The terms do not add up to the whole.",
+        ],
+    );
     Ok(())
 }
 
@@ -122,17 +121,16 @@ fn series(content: &mut Content) -> Result<(), FigureError> {
         .map(|b| f64::from((b / brightest[0] - 1.0).abs()))
         .fold(0.0, f64::max);
     let holds = spread < 1e-6;
-    content.found(Finding::new(
+    content.claim(
         "kd",
         "brightest pixel over k_d: largest relative change along the series",
         (spread, ""),
-        Agreement::if_holds(holds),
-        if holds {
-            "Diffuse light is proportional to k_d."
-        } else {
-            "Diffuse light is not proportional to k_d."
-        },
-    ));
+        holds,
+        [
+            "Diffuse light is proportional to k_d.",
+            "Diffuse light is not proportional to k_d.",
+        ],
+    );
     Ok(())
 }
 
@@ -218,35 +216,33 @@ fn cube(content: &mut Content) -> Result<(), FigureError> {
     };
     let ratio = of(60.0) / of(0.0);
     let holds = (ratio - 0.5).abs() < 1e-6;
-    content.found(Finding::new(
+    content.claim(
         "cube",
         "light on the top face at 60°, over that at 0°",
         (ratio, ""),
-        Agreement::if_holds(holds),
-        if holds {
-            "Half the light, as the lecture says."
-        } else {
-            "Not half the light."
-        },
-    ));
+        holds,
+        [
+            "Half the light, as the lecture says.",
+            "Not half the light.",
+        ],
+    );
     let worst = measured
         .iter()
         .map(|(d, light)| (light - libm::cos(d.to_radians())).abs())
         .fold(0.0, f64::max);
     let holds = worst < 1e-6;
-    content.found(Finding::new(
+    content.claim(
         "cosine",
         format!(
             "largest distance from the cosine at {} angles",
             measured.len()
         ),
         (worst, ""),
-        Agreement::if_holds(holds),
-        if holds {
-            format!("The cosine law, to rounding ({}).", written(worst))
-        } else {
-            "Not the cosine law.".into()
-        },
-    ));
+        holds,
+        [
+            format!("The cosine law, to rounding ({}).", written(worst)),
+            "Not the cosine law.".into(),
+        ],
+    );
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::lit::{drawn, grey, levels, scene, shown};
 use super::stage::written;
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series};
+use super::{Content, Figure, FigureError, Plot, Scale, Series};
 use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
@@ -70,30 +70,28 @@ fn ellipse(content: &mut Content) {
     let largest = |of: fn((f64, f64)) -> f64| degrees().map(|d| of(around(d))).fold(0.0, f64::max);
     let (wrong, right) = (largest(|errors| errors.0), largest(|errors| errors.1));
     let is_wrong = wrong > 1.0;
-    content.found(Finding::new(
+    content.claim(
         "matrix",
         "largest error of normals by the matrix of the points",
         (wrong, "degrees"),
-        Agreement::if_holds(is_wrong),
-        if is_wrong {
-            "They are no normals, as the notes say."
-        } else {
-            "They are normals."
-        },
-    ));
+        is_wrong,
+        [
+            "They are no normals, as the notes say.",
+            "They are normals.",
+        ],
+    );
     // Both vectors are computed from the same sine and cosine, in a few roundings of 2⁻⁵³ each.
     let is_right = right < 1e-6;
-    content.found(Finding::new(
+    content.claim(
         "inverse-transpose",
         "largest error of normals by the inverse transpose",
         (right, "degrees"),
-        Agreement::if_holds(is_right),
-        if is_right {
-            "They are at right angles to the surface, to rounding."
-        } else {
-            "They are not normals either."
-        },
-    ));
+        is_right,
+        [
+            "They are at right angles to the surface, to rounding.",
+            "They are not normals either.",
+        ],
+    );
 }
 
 fn stretch(v: DVec3) -> DVec3 {
@@ -150,31 +148,20 @@ fn ellipsoid(content: &mut Content) -> Result<(), FigureError> {
     );
     let (near, far) = (levels(&right, &polygons), levels(&right, &wrong));
     let holds = near < far / 4.0;
-    content.found(Finding::new(
-        "engine",
-        "engine's normals against those averaged from its polygons, largest difference",
-        (near, "grey levels"),
-        Agreement::if_holds(holds),
-        if holds {
-            format!(
+    content.claim("engine", "engine's normals against those averaged from its polygons, largest difference", (near, "grey levels"), holds, [format!(
                 "The polygons confirm the inverse transpose; by the matrix the difference is {} levels.",
                 written(far)
-            )
-        } else {
-            "The polygons do not confirm the inverse transpose.".into()
-        },
-    ));
+            ), "The polygons do not confirm the inverse transpose.".into()]);
     let visible = far > 8.0;
-    content.found(Finding::new(
+    content.claim(
         "picture",
         "by the matrix against by the inverse transpose, largest difference",
         (far, "grey levels"),
-        Agreement::if_holds(visible),
-        if visible {
-            "The light is on the wrong part of the surface."
-        } else {
-            "The light hardly moves."
-        },
-    ));
+        visible,
+        [
+            "The light is on the wrong part of the surface.",
+            "The light hardly moves.",
+        ],
+    );
     Ok(())
 }

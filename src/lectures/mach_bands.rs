@@ -162,13 +162,12 @@ fn numbers(content: &mut Content, profiles: &[(&str, Vec<f64>)]) {
     };
     // What the measurement itself makes of a curve that does not bend.
     let control = largest(smooth);
-    content.found(Finding::new(
+    content.adds(
         "slope-cylinder",
         "the cylinder itself: largest jump of the slope",
         (control.slope, "grey levels a pixel"),
-        Agreement::Adds,
         "What the measurement gives where nothing bends.",
-    ));
+    );
     let mut rows = Vec::new();
     for (name, profile) in methods {
         let found = largest(profile);

@@ -46,7 +46,6 @@ mod supersampling;
 
 pub use content::{Agreement, Block, Content, Finding, Plot, Scale, Series, Shown};
 pub use error::FigureError;
-pub(crate) use stage::written;
 
 use crate::number::suggest::nearest;
 use alloc::format;

@@ -169,28 +169,23 @@ fn make() -> Result<Content, FigureError> {
         ],
         rows,
     );
-    content.found(Finding::new(
+    content.claim(
         "newell",
         "Newell's formula: largest error over all polygons",
         (largest, "degrees"),
-        Agreement::if_holds(largest < 1e-4),
-        if largest < 1e-4 {
-            "Rounding of the corners, and no more."
-        } else {
-            "More than rounding of the corners."
-        },
-    ));
-    content.found(Finding::new(
+        largest < 1e-4,
+        [
+            "Rounding of the corners, and no more.",
+            "More than rounding of the corners.",
+        ],
+    );
+    content.claim(
         "area",
         "|N| against 2 Area: largest relative difference",
         (area, ""),
-        Agreement::if_holds(area < 1e-6),
-        if area < 1e-6 {
-            "|N| = 2 Area, rounding aside."
-        } else {
-            "|N| is not 2 Area."
-        },
-    ));
+        area < 1e-6,
+        ["|N| = 2 Area, rounding aside.", "|N| is not 2 Area."],
+    );
     Ok(content)
 }
 

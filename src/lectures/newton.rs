@@ -1,7 +1,7 @@
 //! Newton's method along a span: how exact so many steps a pixel are, and where they are not (L21 4.2).
 
 use super::stage::{Corner, Facet, Grey, frame, stored, written};
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
+use super::{Content, Figure, FigureError, Plot, Scale, Series, Shown};
 use crate::number::vec3;
 use crate::shading::increments::{Newton, NewtonSteps};
 use crate::shading::{Variant, Walk};
@@ -121,36 +121,34 @@ fn numbers(content: &mut Content) {
         .map(|steps| errors(150.0, steps)[0].abs())
         .into_iter()
         .fold(0.0, f64::max);
-    content.found(Finding::new(
+    content.adds(
         "first-pixel",
         "first pixel of a span: relative error of d",
         (first, ""),
-        Agreement::Adds,
         if first < 2e-7 {
             "A true root, rounded."
         } else {
             "Not a true root."
         },
-    ));
+    );
     // Half a grey level of 255 is what rounding the picture hides.
     let invisible = 0.5 / 255.0;
     for steps in STEPS {
         let error = largest(&errors(60.0, steps));
         let is_good = error < invisible;
-        content.found(Finding::new(
+        content.claim(
             format!("error-{steps}"),
             format!(
                 "span of 60°, {}: largest relative error of d",
                 plural(steps)
             ),
             (error, ""),
-            Agreement::if_holds(is_good),
-            if is_good {
-                "Less than rounding to grey levels hides: a few iterations are enough."
-            } else {
-                "More than rounding to grey levels hides."
-            },
-        ));
+            is_good,
+            [
+                "Less than rounding to grey levels hides: a few iterations are enough.",
+                "More than rounding to grey levels hides.",
+            ],
+        );
     }
     // One step from the previous pixel's d, off by e, leaves e² / (2 (1 + e)); here from the walk of one step.
     let walked = errors(60.0, 1);
@@ -164,17 +162,16 @@ fn numbers(content: &mut Content) {
         (pair[1] - e * e / (2.0 * (1.0 + e))).abs()
     });
     let off = predicted.fold(0.0, f64::max);
-    content.found(Finding::new(
+    content.adds(
         "theory",
         "the same with 1 step, against e² / (2 (1 + e)): largest difference",
         (off, ""),
-        Agreement::Adds,
         if off < 1e-6 {
             "The error is what theory says, rounding aside."
         } else {
             "Theory does not explain the error."
         },
-    ));
+    );
     let steps: Vec<f64> = (1..=35).map(|i| 5.0 * f64::from(i)).collect();
     let limit = |count: u32| {
         steps
@@ -185,19 +182,18 @@ fn numbers(content: &mut Content) {
     };
     for count in STEPS {
         let degrees = limit(count).unwrap_or(0.0);
-        content.found(Finding::new(
+        content.adds(
             format!("limit-{count}"),
             format!(
                 "{}: largest angle over {PIXELS} pixels without a visible error",
                 plural(count)
             ),
             (degrees, "degrees"),
-            Agreement::Adds,
             format!(
                 "That is {}° a pixel; in steps of 5°, half a grey level counts as visible.",
                 written(degrees / PIXELS as f64)
             ),
-        ));
+        );
     }
 }
 
@@ -253,31 +249,29 @@ fn opposed(content: &mut Content) -> Result<(), FigureError> {
     content.pictures(2, shown);
     for (steps, worst) in STEPS.into_iter().zip(worst) {
         let breaks = worst > 1.0;
-        content.found(Finding::new(
+        content.claim(
             format!("opposed-{steps}"),
             format!(
                 "normals {DEGREES}° apart, {}: largest difference from naive Phong",
                 plural(steps)
             ),
             (worst, "grey levels"),
-            Agreement::if_holds(!breaks),
-            if breaks {
-                "Few iterations are not enough where normals nearly cancel."
-            } else {
-                "Still not visible."
-            },
-        ));
+            !breaks,
+            [
+                "Still not visible.",
+                "Few iterations are not enough where normals nearly cancel.",
+            ],
+        );
     }
-    content.found(Finding::new(
+    content.adds(
         "not-finite",
         "pixels there that are infinite or not a number",
         (not_finite as f64, "pixels"),
-        Agreement::Adds,
         if not_finite == 0 {
             "Wrong, but always a number."
         } else {
             "Some pixels are not numbers."
         },
-    ));
+    );
     Ok(())
 }

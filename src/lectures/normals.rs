@@ -2,7 +2,7 @@
 
 use super::lit::{drawn, grey, scene, shown};
 use super::stage::written;
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series};
+use super::{Content, Figure, FigureError, Plot, Scale, Series};
 use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::number::vec3;
@@ -116,39 +116,22 @@ fn sources(content: &mut Content) -> Result<(), FigureError> {
     let falls = means
         .iter()
         .all(|of| of.windows(2).all(|pair| pair[1] < pair[0]));
-    content.found(Finding::new(
-        "averaged",
-        "mean angle of averaged normals, teapot of fewest polygons",
-        (means[2][0], "degrees"),
-        Agreement::if_holds(means[2][0] > 1.0),
-        if means[2][0] > 1.0 {
-            "Averages are not the normals of the surface, which are best taken where they are known."
-        } else {
-            "Averages are the normals of the surface."
-        },
-    ));
-    content.found(Finding::new(
+    content.claim("averaged", "mean angle of averaged normals, teapot of fewest polygons", (means[2][0], "degrees"), means[2][0] > 1.0, ["Averages are not the normals of the surface, which are best taken where they are known.", "Averages are the normals of the surface."]);
+    content.adds(
         "regular",
         "mean angle of averaged normals, torus of fewest polygons",
         (means[1][0], "degrees"),
-        Agreement::Adds,
         if means[1][0] < 1.0 {
             "Polygons that lie evenly around a vertex make good averages, however large they are."
         } else {
             "Even polygons that lie evenly around a vertex make bad averages."
         },
-    ));
-    content.found(Finding::new(
-        "finer",
-        "mean angle of the coarsest teapot over that of the finest, which has cells of a quarter of the size",
-        (means[2][0] / means[2][2], ""),
-        Agreement::Adds,
-        if falls {
+    );
+    content.adds("finer", "mean angle of the coarsest teapot over that of the finest, which has cells of a quarter of the size", (means[2][0] / means[2][2], ""), if falls {
             "Of each surface the finer mesh has the better averages."
         } else {
             "Not every finer mesh has better averages."
-        },
-    ));
+        });
     Ok(())
 }
 
@@ -192,17 +175,16 @@ fn lengths(content: &mut Content) -> Result<(), FigureError> {
     });
     // 32 steps of D by three half units of 2⁻²⁴ each, and a root of at least a half: see `Quadratic`.
     let holds = worst < 1e-5;
-    content.found(Finding::new(
+    content.adds(
         "half-way",
         "length half-way between two normals, largest distance from cos(φ/2)",
         (worst, ""),
-        Agreement::Adds,
         if holds {
             "cos(φ/2), to rounding: between normals 120° apart half of the length is left."
         } else {
             "Not cos(φ/2)."
         },
-    ));
+    );
     darkened(content)
 }
 
@@ -237,16 +219,15 @@ fn darkened(content: &mut Content) -> Result<(), FigureError> {
         .map(|(a, b)| f64::from(1.0 - a[0] / b[0]))
         .fold(0.0, f64::max);
     let visible = largest > 0.01;
-    content.found(Finding::new(
+    content.claim(
         "darkened",
         "largest part of the light that is lost without normalising",
         (100.0 * largest, "%"),
-        Agreement::if_holds(visible),
-        if visible {
-            "The length of vectors is a problem: the middle of each polygon is dark."
-        } else {
-            "The length of vectors is no problem here."
-        },
-    ));
+        visible,
+        [
+            "The length of vectors is a problem: the middle of each polygon is dark.",
+            "The length of vectors is no problem here.",
+        ],
+    );
     Ok(())
 }

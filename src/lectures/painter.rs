@@ -1,7 +1,7 @@
 //! What is hidden: by the painter's algorithm, and by a depth buffer (L5).
 
 use super::stage::{differing, shipped, stored};
-use super::{Agreement, Content, Figure, FigureError, Finding, Shown};
+use super::{Content, Figure, FigureError, Shown};
 use crate::picture::LinearPicture;
 use crate::raster::painter::conflicts;
 use crate::scene::{DepthBuffer, HiddenSurfaces, PainterKey, Scene};
@@ -87,71 +87,66 @@ fn by_both(content: &mut Content, scene: &Scene, what: &str) -> Result<usize, Fi
 fn ring(content: &mut Content) -> Result<(), FigureError> {
     let scene = shipped("cyclic-triangles", SIZE)?;
     let wrong = by_both(content, &scene, "three triangles in a ring")?;
-    content.found(Finding::new(
+    content.claim(
         "ring-wrong",
         "pixels of the ring that the painter draws wrongly",
         (wrong as f64, "pixels"),
-        Agreement::if_holds(wrong > 0),
-        if wrong > 0 {
-            "The painter cannot draw the ring."
-        } else {
-            "The painter draws the ring right."
-        },
-    ));
+        wrong > 0,
+        [
+            "The painter cannot draw the ring.",
+            "The painter draws the ring right.",
+        ],
+    );
     let by_depth = drawn(&scene, HiddenSurfaces::ZBuffer(DepthBuffer::default()))?;
     let mut least = usize::MAX;
     for order in ORDERS {
         let by_order = drawn(&reordered(&scene, order), HiddenSurfaces::DrawOrder)?;
         least = least.min(differing(&by_depth, &by_order));
     }
-    content.found(Finding::new(
+    content.claim(
         "ring-best-order",
         "wrong pixels in the best of all six orders",
         (least as f64, "pixels"),
-        Agreement::if_holds(least > 0),
-        if least > 0 {
-            "No order is right, all were tried."
-        } else {
-            "There is an order that is right."
-        },
-    ));
+        least > 0,
+        [
+            "No order is right, all were tried.",
+            "There is an order that is right.",
+        ],
+    );
     let cycles = conflicts(&scene.frame()?).cycles;
     let members: usize = cycles.iter().map(Vec::len).sum();
-    content.found(Finding::new(
+    content.adds(
         "ring-cycle",
         "polygons that are found to hide each other in a ring",
         (members as f64, "polygons"),
-        Agreement::Adds,
         format!(
             "The program finds {} such ring before it draws, and says so.",
             cycles.len()
         ),
-    ));
+    );
     Ok(())
 }
 
 fn cutting(content: &mut Content) -> Result<(), FigureError> {
     let scene = shipped("interpenetration", SIZE)?;
     let wrong = by_both(content, &scene, "polygons that cut each other")?;
-    content.found(Finding::new(
+    content.claim(
         "cutting-wrong",
         "pixels of polygons that cut each other which the painter draws wrongly",
         (wrong as f64, "pixels"),
-        Agreement::if_holds(wrong > 0),
-        if wrong > 0 {
-            "Only the depth buffer shows where they meet."
-        } else {
-            "The painter shows where they meet."
-        },
-    ));
+        wrong > 0,
+        [
+            "Only the depth buffer shows where they meet.",
+            "The painter shows where they meet.",
+        ],
+    );
     let pairs = conflicts(&scene.frame()?).interpenetrating;
-    content.found(Finding::new(
+    content.adds(
         "cutting-pairs",
         "pairs of polygons that cut each other on the picture",
         (pairs as f64, "pairs"),
-        Agreement::Adds,
         "Each hides a part of the other, so that either order is wrong.",
-    ));
+    );
     Ok(())
 }
 
@@ -165,16 +160,15 @@ fn order(content: &mut Content) -> Result<(), FigureError> {
             most = most.max(differing(&first, &drawn(&reordered(&scene, order), depth)?));
         }
     }
-    content.found(Finding::new(
+    content.claim(
         "order",
         "most pixels by which the depth buffer's pictures differ in any of six orders",
         (most as f64, "pixels"),
-        Agreement::if_holds(most == 0),
-        if most == 0 {
-            "The order of drawing does not matter to a depth buffer."
-        } else {
-            "The order of drawing matters."
-        },
-    ));
+        most == 0,
+        [
+            "The order of drawing does not matter to a depth buffer.",
+            "The order of drawing matters.",
+        ],
+    );
     Ok(())
 }

@@ -222,28 +222,21 @@ fn weight(content: &mut Content) -> Result<(), FigureError> {
         ),
     });
     let is_printed = wrong < 1e-3;
-    content.found(Finding::new(
+    content.claim(
         "printed-weight",
         "largest difference of the printed weight from the engine's",
         (wrong, ""),
-        Agreement::if_holds(is_printed),
-        if is_printed {
-            "The weight is as printed."
-        } else {
-            "(1 − α) z_A / (z_B + (1 − α)(z_A − z_B)) weighs the other end."
-        },
-    ));
-    content.found(Finding::new(
-        "weight",
-        "largest difference of the corrected weight from the engine's",
-        (right, ""),
-        Agreement::Adds,
-        if right < 1e-4 {
+        is_printed,
+        [
+            "The weight is as printed.",
+            "(1 − α) z_A / (z_B + (1 − α)(z_A − z_B)) weighs the other end.",
+        ],
+    );
+    content.adds("weight", "largest difference of the corrected weight from the engine's", (right, ""), if right < 1e-4 {
             "The engine, which divides interpolated values by interpolated weights, has this weight.".into()
         } else {
             format!("The engine's weight is off by {}.", written(right))
-        },
-    ));
+        });
     Ok(())
 }
 
@@ -260,18 +253,8 @@ fn depth(content: &mut Content) {
     };
     let middle = frustum.ndc_depth(-(near + far) / 2.0);
     let is_preserved = middle.abs() < 0.01;
-    content.found(Finding::new(
-        "depth",
-        "NDC depth, −1 to 1, of the point half-way between near and far plane",
-        (middle, ""),
-        Agreement::if_holds(is_preserved),
-        if is_preserved {
-            "Depth keeps its value, up to scale.".into()
-        } else {
-            format!(
+    content.claim("depth", "NDC depth, −1 to 1, of the point half-way between near and far plane", (middle, ""), is_preserved, ["Depth keeps its value, up to scale.".into(), format!(
                 "Depth keeps its order and not its value: half of the range goes to the first {} % of the way from near to far.",
                 written(100.0 * (2.0 * far * near / (far + near) - near) / (far - near))
-            )
-        },
-    ));
+            )]);
 }

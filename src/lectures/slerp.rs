@@ -130,27 +130,25 @@ fn speed(content: &mut Content) -> Result<(), FigureError> {
     };
     let (slerp, lerp) = (ratio(&great), ratio(&linear));
     let is_uniform = slerp < 1.001;
-    content.found(Finding::new(
+    content.claim(
         "speed-slerp",
         "great circle: fastest turn by slowest turn",
         (slerp, ""),
-        Agreement::if_holds(is_uniform),
-        if is_uniform {
-            "Uniform speed, as the lecture says."
-        } else {
-            "Not a uniform speed."
-        },
-    ));
-    content.found(Finding::new(
+        is_uniform,
+        [
+            "Uniform speed, as the lecture says.",
+            "Not a uniform speed.",
+        ],
+    );
+    content.adds(
         "speed-linear",
         "linear, then normalised: fastest turn by slowest turn",
         (lerp, ""),
-        Agreement::Adds,
         format!(
             "1 / cos² of half the angle would be {} over a whole span.",
             written(1.0 / libm::pow(libm::cos(DEGREES.to_radians() / 2.0), 2.0))
         ),
-    ));
+    );
     Ok(())
 }
 
@@ -269,11 +267,10 @@ fn drift(content: &mut Content) {
     for ((key, name, meaning), errors) in names.iter().zip(&all) {
         let most = errors.iter().copied().fold(0.0, f64::max);
         let is_visible = most > 0.5 / 255.0;
-        content.found(Finding::new(
+        content.adds(
             format!("drift-{key}"),
             format!("{name}: largest error over {LONG} pixels"),
             (most, ""),
-            Agreement::Adds,
             format!(
                 "{meaning}: {}.",
                 if is_visible {
@@ -283,7 +280,7 @@ fn drift(content: &mut Content) {
                 }
             )
             .to_string(),
-        ));
+        );
     }
 }
 
@@ -348,28 +345,26 @@ fn ends_of_range(content: &mut Content) -> Result<(), FigureError> {
         ],
         rows,
     );
-    content.found(Finding::new(
+    content.claim(
         "printed-angle",
         "φ by the inverse cosine in f32, from 0.02° to 90°: largest relative error",
         (printed_worst, ""),
-        Agreement::if_holds(printed_worst < 1e-3),
-        if printed_worst < 1e-3 {
-            "Good enough."
-        } else {
-            "The formula as printed loses the angle where surfaces are flat."
-        },
-    ));
-    content.found(Finding::new(
+        printed_worst < 1e-3,
+        [
+            "Good enough.",
+            "The formula as printed loses the angle where surfaces are flat.",
+        ],
+    );
+    content.adds(
         "ends",
         "slerp Phong from 0° to 180°: largest difference from the reference",
         (worst, "grey levels"),
-        Agreement::Adds,
         if worst < 0.5 {
             "Never visible, at neither end."
         } else {
             "There are angles at which it is visible."
         },
-    ));
+    );
     Ok(())
 }
 

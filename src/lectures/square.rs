@@ -226,17 +226,16 @@ fn numbers(content: &mut Content) -> Result<(), FigureError> {
         let numbers = [square_45, square_90, cut_45, cut_90, diagonal].map(written);
         rows.push([vec![method.to_string()], numbers.to_vec()].concat());
         let turns = square_90 > 1.0;
-        content.found(Finding::new(
+        content.claim(
             format!("square-{method}"),
             format!("{method}, square turned by 90°: largest difference"),
             (square_90, "grey levels"),
-            Agreement::if_holds(turns),
-            if turns {
-                "The shading depends on the orientation."
-            } else {
-                "The shading does not depend on it."
-            },
-        ));
+            turns,
+            [
+                "The shading depends on the orientation.",
+                "The shading does not depend on it.",
+            ],
+        );
         // Half a grey level is the least that can be seen in a stored picture.
         let agrees = cut_90 < 0.5;
         content.found(Finding::new(
@@ -246,17 +245,16 @@ fn numbers(content: &mut Content) -> Result<(), FigureError> {
             Agreement::if_holds(agrees),
             triangles_verdict(agrees),
         ));
-        content.found(Finding::new(
+        content.claim(
             format!("diagonals-{method}"),
             format!("{method}, one diagonal or the other: largest difference"),
             (diagonal, "grey levels"),
-            Agreement::if_holds(diagonal > 1.0),
-            if diagonal > 1.0 {
-                "Different subdivisions give different pixels."
-            } else {
-                "Both cuts look the same."
-            },
-        ));
+            diagonal > 1.0,
+            [
+                "Different subdivisions give different pixels.",
+                "Both cuts look the same.",
+            ],
+        );
     }
     content.table(
         &[
@@ -290,29 +288,27 @@ fn triangles_verdict(agrees: bool) -> &'static str {
 fn directions(content: &mut Content) -> Result<(), FigureError> {
     let square = change(90.0, Cut::Whole, DARK_BELOW, &normals, angle)?;
     let triangles = change(90.0, Cut::ThroughDark, apart(), &normals, angle)?;
-    content.found(Finding::new(
+    content.claim(
         "normals-square",
         "interpolated normals, square turned by 90°: largest angle",
         (square, "degrees"),
-        Agreement::if_holds(square > 1.0),
-        if square > 1.0 {
-            "Normals depend on the orientation as intensities do."
-        } else {
-            "Normals agree."
-        },
-    ));
+        square > 1.0,
+        [
+            "Normals depend on the orientation as intensities do.",
+            "Normals agree.",
+        ],
+    );
     let agrees = triangles < 0.1;
-    content.found(Finding::new(
+    content.claim(
         "normals-triangles",
         "interpolated normals, triangles turned by 90°: largest angle",
         (triangles, "degrees"),
-        Agreement::if_holds(agrees),
-        if agrees {
-            "On triangles normals are barycentric as well."
-        } else {
-            "Normals of triangles disagree."
-        },
-    ));
+        agrees,
+        [
+            "On triangles normals are barycentric as well.",
+            "Normals of triangles disagree.",
+        ],
+    );
     Ok(())
 }
 

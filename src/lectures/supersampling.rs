@@ -1,7 +1,7 @@
 //! Supersampling with a depth buffer: occlusion at each sample, and the edge that its filter gives (L5).
 
 use super::stage::{Corner, Facet, Grey, shipped, written};
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
+use super::{Content, Figure, FigureError, Plot, Scale, Series, Shown};
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use crate::mesh::Material;
 use crate::picture::{Encoding, LinearPicture};
@@ -58,17 +58,16 @@ fn make() -> Result<Content, FigureError> {
         caption: "Against the exact area of the triangle in each pixel that its edges cross."
             .into(),
     });
-    content.found(Finding::new(
+    content.claim(
         "share",
         "error with one sample over error with 8 × 8",
         (gain, ""),
-        Agreement::if_holds(falls),
-        if falls {
-            "More samples, better edges: the depth test works for each sample."
-        } else {
-            "More samples do not help."
-        },
-    ));
+        falls,
+        [
+            "More samples, better edges: the depth test works for each sample.",
+            "More samples do not help.",
+        ],
+    );
     filtering(&mut content)?;
     inside(&mut content)?;
     Ok(content)
@@ -191,17 +190,11 @@ fn filtering(content: &mut Content) -> Result<(), FigureError> {
     let level = f64::from(stored.get(1, 0)[0]);
     let exact = f64::from(crate::picture::encoding::srgb_encode(0.5)) * 255.0;
     let is_linear = (level - exact).abs() <= 0.5;
-    content.found(Finding::new(
-        "linear",
-        "stored level of a pixel that is half white and half black, sRGB",
-        (level, "of 255"),
-        Agreement::Adds,
-        if is_linear {
+    content.adds("linear", "stored level of a pixel that is half white and half black, sRGB", (level, "of 255"), if is_linear {
             format!("The mean is taken before encoding: half of the light is level {exact:.0}, not the mean of levels.")
         } else {
             format!("The mean is not that of light, which is level {exact:.0}.")
-        },
-    ));
+        });
     Ok(())
 }
 

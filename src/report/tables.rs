@@ -1,267 +1,228 @@
-//! Numbers of rows, as cells.
+//! The tables that stand in Markdown, in CSV, and on the page for readers without JavaScript.
 
-use super::html::escape;
-use super::section::{Section, row_name};
-use super::sentences::grouped;
-use super::summary::{PROJECT, Tally};
-use crate::compare::comparison::table::{
-    decibels, levels, milliseconds, signed_levels, significant,
-};
-use crate::compare::comparison::{BASELINE, DifferenceData, RatioData, RowData, SpeedData};
-use crate::shading::Entry;
+use super::answer::overall;
+use super::document::{Document, OperationsData, SceneData, label};
+use crate::compare::comparison::table::{levels, significant};
+use crate::compare::comparison::{RowData, Speed};
+use crate::compare::table::Table;
+use crate::compare::timing::Ratio;
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 
-/// What stands where there is nothing to say.
-pub(super) const NONE: &str = "–";
+/// A cell without a value.
+const NONE: &str = "–";
 
-/// A column of the table of one scene.
-struct Column {
-    head: &'static str,
-    unit: &'static str,
-    /// What it means, for who points at its head.
-    meaning: &'static str,
-    cell: fn(&RowData) -> String,
-}
-
-const fn column(
-    head: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
-    cell: fn(&RowData) -> String,
-) -> Column {
-    Column {
-        head,
-        unit,
-        meaning,
-        cell,
+/// Returns all tables of a document: all scenes, each scene, four corners, growth, operations, findings.
+pub(super) fn all(data: &Document) -> Vec<Table> {
+    let mut tables = Vec::new();
+    if data.comparisons.len() > 1 {
+        tables.push(summary(data));
     }
-}
-
-const COLUMNS: &[Column] = &[
-    column(
-        "max",
-        "levels",
-        "largest error of a channel in any pixel, against the f64 Phong reference",
-        |r| levels(r.error.difference.max),
-    ),
-    column(
-        "RMS",
-        "levels",
-        "root of the mean squared error over the covered pixels",
-        |r| levels(r.error.difference.rms),
-    ),
-    column(
-        "PSNR",
-        "dB",
-        "peak signal-to-noise ratio over the whole frame",
-        |r| psnr(&r.error),
-    ),
-    column(
-        "SSIM",
-        "",
-        "mean structural similarity of luminance over the whole frame",
-        |r| {
-            r.error
-                .difference
-                .ssim
-                .map_or_else(|| NONE.to_string(), |s| format!("{s:.5}"))
-        },
-    ),
-    column(
-        "brightness",
-        "levels",
-        "mean luminance minus that of the reference",
-        |r| signed_levels(r.error.difference.signed_mean),
-    ),
-    column(
-        "own max",
-        "levels",
-        "largest error against the method's own closed form; ! if rounding does not explain it",
-        |r| {
-            format!(
-                "{}{}",
-                if r.within_bound { "" } else { "!" },
-                levels(r.own.difference.max)
-            )
-        },
-    ),
-    column(
-        "off by > 1",
-        "pixels",
-        "pixels with an error of more than one grey level",
-        |r| grouped(r.error.difference.over_one_level),
-    ),
-    column(
-        "other polygon",
-        "pixels",
-        "pixels that show another polygon than the reference; not in the errors",
-        |r| grouped(r.other_polygon),
-    ),
-    column(
-        "time",
-        "ms",
-        "median ± half the interquartile range",
-        |r| speed(r, time),
-    ),
-    column(
-        "per pixel",
-        "ns",
-        "median time divided by the covered pixels",
-        |r| {
-            speed(r, |s| {
-                s.ns_per_covered_pixel
-                    .map_or_else(|| NONE.to_string(), significant)
-            })
-        },
-    ),
-    column(
-        "speed to naive Phong",
-        "ratio, 95 %",
-        "over 1: faster; =: a tie, the interval holds 1",
-        |r| {
-            if !r.is_barycentric() && r.variant == BASELINE {
-                "1".to_string()
-            } else {
-                speed(r, |s| ratio(s.ratio_to_naive))
-            }
-        },
-    ),
-    column(
-        "speed to barycentric",
-        "ratio, 95 %",
-        "over 1: faster than the barycentric renderer with the same method, or naive Phong where it lacks it",
-        |r| speed(r, |s| ratio(s.ratio_to_barycentric)),
-    ),
-];
-
-/// The table of one scene: a row a method.
-pub(super) fn scene(section: &Section) -> String {
-    let mut html = String::from("<thead><tr><th scope=\"col\">method</th>");
-    for Column {
-        head,
-        unit,
-        meaning,
-        ..
-    } in COLUMNS
-    {
-        html += &format!(
-            "<th scope=\"col\" title=\"{}\">{}<small>{}</small></th>",
-            escape(meaning),
-            escape(head),
-            escape(unit)
-        );
+    tables.extend(data.comparisons.iter().map(scene));
+    tables.extend(corners(data));
+    tables.extend(growth(data));
+    if !data.methods.is_empty() {
+        tables.push(operations(data));
     }
-    html += "</tr></thead><tbody>";
-    for row in section.all_rows() {
-        html += &format!(
-            "<tr><th scope=\"row\"{}>{}</th>",
-            described(row),
-            escape(&row_name(row))
-        );
-        for column in COLUMNS {
-            html += &format!("<td>{}</td>", escape(&(column.cell)(row)));
-        }
-        html += "</tr>";
+    if !data.figures.is_empty() {
+        tables.push(findings(data));
     }
-    html + "</tbody>"
+    tables
 }
 
-fn described(row: &RowData) -> String {
-    Entry::named(&row.method).map_or_else(String::new, |entry| {
-        format!(" title=\"{}\"", escape(entry.info.title))
-    })
+/// Sums up every method over all scenes.
+pub(super) fn summary(data: &Document) -> Table {
+    let caption = format!(
+        "All methods in {} scenes: largest error anywhere, geometric mean of speeds",
+        data.comparisons.len()
+    );
+    let mut table = Table::new(
+        caption,
+        &["method", "max error, levels", "in", "speed, × naive Phong"],
+    );
+    table
+        .rows
+        .extend(overall(&data.comparisons).iter().map(|o| {
+            let speed = o.speed.map_or_else(|| NONE.into(), |s| format!("{s:.2}"));
+            Vec::from([label(o.name), significant(o.worst), o.at.to_string(), speed])
+        }));
+    table
 }
 
-/// The answer to the Programming Project: times of its four methods in every scene, and ratios to naive Phong.
-pub(super) fn project(sections: &[Section], link: impl Fn(usize) -> String) -> String {
-    let mut html =
-        String::from("<thead><tr><th scope=\"col\">scene</th><th scope=\"col\">polygons</th>");
-    html += "<th scope=\"col\">covered<small>pixels</small></th>";
-    for (_, name) in PROJECT {
-        html += &format!("<th scope=\"col\">{name}<small>ms; ratio</small></th>");
-    }
-    html += "</tr></thead><tbody>";
-    for (i, section) in sections.iter().enumerate() {
-        html += &format!(
-            "<tr><th scope=\"row\"><a href=\"#{}\">{}</a></th>",
-            link(i),
-            escape(&section.caption.title)
-        );
-        html += &format!(
-            "<td>{}</td><td>{}</td>",
-            grouped(section.data.polygons),
-            grouped(section.data.covered_pixels)
-        );
-        for (method, _) in PROJECT {
-            html += &match section.row(method).and_then(|row| row.speed.as_ref()) {
-                None => format!("<td>{NONE}</td>"),
-                Some(s) if method == BASELINE => format!("<td>{}</td>", time(s)),
-                Some(s) => format!(
-                    "<td>{}<small class=\"{}\">{}</small></td>",
-                    time(s),
-                    verdict(s.ratio_to_naive),
-                    ratio(s.ratio_to_naive)
-                ),
-            };
-        }
-        html += "</tr>";
-    }
-    html += "</tbody>";
-    if sections.len() > 1 {
-        html += "<tfoot><tr><th scope=\"row\">geometric mean</th><td></td><td></td>";
-        for (method, _) in PROJECT {
-            let mean = Tally::of(method, sections)
-                .map_or_else(|| NONE.to_string(), |tally| format!("{:.2}", tally.mean));
-            html += &format!("<td>{}</td>", if method == BASELINE { "1" } else { &mean });
-        }
-        html += "</tr></tfoot>";
-    }
-    html
-}
-
-/// The class of a ratio: `faster`, `slower` or `tie`.
-pub(super) fn verdict(ratio: Option<RatioData>) -> &'static str {
-    match ratio {
-        Some(r) if !r.tie && r.ratio.median > 1.0 => "faster",
-        Some(r) if !r.tie => "slower",
-        _ => "tie",
-    }
-}
-
-fn speed(row: &RowData, cell: impl Fn(&SpeedData) -> String) -> String {
-    row.speed.as_ref().map_or_else(|| NONE.to_string(), cell)
-}
-
-/// `12.3 ± 0.4`, in ms.
-pub(super) fn time(speed: &SpeedData) -> String {
-    let timing = &speed.timing;
-    let digits = crate::compare::comparison::table::decimals(timing.median_ns / 1e6);
-    format!(
-        "{} ± {:.digits$}",
-        milliseconds(timing.median_ns),
-        (timing.p75_ns - timing.p25_ns) / 2e6
-    )
-}
-
-/// `1.32 (1.30–1.35)`, with `=` in front of a tie.
-pub(super) fn ratio(ratio: Option<RatioData>) -> String {
-    let Some(RatioData { ratio, tie }) = ratio else {
-        return NONE.to_string();
+/// Lists errors and speeds of all methods in one scene.
+pub(super) fn scene(scene: &SceneData) -> Table {
+    let mut table = Table::new(
+        scene.title(),
+        &[
+            "method",
+            "max, levels",
+            "RMS, levels",
+            "other polygon, pixels",
+            "time, ms",
+            "speed, × naive Phong",
+        ],
+    );
+    let row = |row: &RowData| {
+        let speed = |of: fn(&Speed) -> String| row.speed.as_ref().map_or(NONE.into(), of);
+        let error = &row.error;
+        let name = label(&row.variant);
+        let name = match row.is_barycentric() {
+            true => format!("{name}, barycentric"),
+            false => name,
+        };
+        Vec::from([
+            name,
+            levels(error.max),
+            levels(error.rms),
+            row.other_polygon.to_string(),
+            speed(|s| significant(s.timing.median_ns / 1e6)),
+            speed(|s| ratio(s.ratio_to_naive)),
+        ])
     };
-    // Every round the same as the baseline: it is the baseline.
-    if ratio.low == 1.0 && ratio.high == 1.0 {
-        return "1".to_string();
-    }
-    format!(
-        "{}{:.2} ({:.2}–{:.2})",
-        if tie { "=" } else { "" },
-        ratio.median,
-        ratio.low,
-        ratio.high
+    table.rows.extend(scene.all_rows().map(row));
+    table
+}
+
+/// Writes a ratio with its interval; `=` before it says that the interval holds 1.
+fn ratio(ratio: Option<Ratio>) -> String {
+    ratio.map_or_else(
+        || NONE.into(),
+        |r| {
+            let tie = if r.is_tie() { "= " } else { "" };
+            let [low, median, high] = [r.low, r.median, r.high].map(|v| format!("{v:.2}"));
+            format!("{tie}{median} ({low}–{high})")
+        },
     )
 }
 
-fn psnr(error: &DifferenceData) -> String {
-    decibels(&error.difference)
+/// Lists the speeds of all methods in kernels and frames, scalar and SIMD.
+fn corners(data: &Document) -> Option<Table> {
+    let study = data.speedups.as_ref()?;
+    let caption = format!(
+        "Speed as a multiple of naive Phong’s: spans of {} pixels, and {} on {} × {} pixels",
+        study.span, study.mesh, study.size[0], study.size[1]
+    );
+    let mut table = Table::new(caption, &["method", "off by, levels"]);
+    table.head.extend(study.corners.iter().map(|c| {
+        let lights = if c.lights == 1 {
+            "1 light".into()
+        } else {
+            format!("{} lights", c.lights)
+        };
+        format!("{}, {}, {lights}", c.work.word(), c.level)
+    }));
+    table.rows.extend(study.methods.iter().map(|m| {
+        let mut row = Vec::from([label(&m.method), m.levels_off.to_string()]);
+        row.extend(m.corners.iter().map(|c| ratio(c.ratio_to_naive)));
+        row
+    }));
+    Some(table)
+}
+
+/// Lists what a vertex, a triangle, a span and a pixel cost.
+fn growth(data: &Document) -> Option<Table> {
+    let study = data.scaling.as_ref()?;
+    let mut table = Table::new(
+        format!(
+            "What one of each costs in frames of {}, in nanoseconds",
+            study.mesh
+        ),
+        &[
+            "method",
+            "engine",
+            "vertex",
+            "triangle",
+            "span",
+            "pixel of a span",
+            "pixel of the picture",
+        ],
+    );
+    table.rows.extend(study.curves.iter().map(|curve| {
+        let mut row = Vec::from([
+            label(&curve.method),
+            format!("{}, {}", curve.engine, curve.level),
+        ]);
+        match &curve.costs {
+            None => row.resize(7, NONE.into()),
+            Some(c) => row.extend(
+                [
+                    c.vertex_ns,
+                    c.triangle_ns,
+                    c.span_ns,
+                    c.pixel_ns,
+                    c.background_ns,
+                ]
+                .map(significant),
+            ),
+        }
+        row
+    }));
+    Some(table)
+}
+
+/// Lists the operations of each method, for one light and for four.
+fn operations(data: &Document) -> Table {
+    let mut table = Table::new(
+        "Operations: + additions, × multiplications, < comparisons, ÷ divisions, √ roots, ∿ sines, ^ powers; \
+         counted by running each method on numbers that count, for shininess 32",
+        &[
+            "method, lights",
+            "vertex",
+            "polygon",
+            "edge",
+            "edge, scanline",
+            "span",
+            "pixel: walk",
+            "pixel: shade",
+        ],
+    );
+    for method in &data.methods {
+        table.rows.extend(method.operations.iter().map(|of| {
+            let OperationsData {
+                lights,
+                vertex,
+                polygon,
+                edge,
+                edge_step,
+                span,
+                walk,
+                shade,
+            } = of;
+            let mut row = Vec::from([format!("{}, {lights}", method.label)]);
+            row.extend([vertex, polygon, edge, edge_step, span, walk, shade].map(counts));
+            row
+        }));
+    }
+    table
+}
+
+/// Writes counts as `14 + 9 ×`.
+fn counts(counts: &[u32; 7]) -> String {
+    let signs = counts.iter().zip(['+', '×', '<', '÷', '√', '∿', '^']);
+    // A space that does not break keeps a number with its sign.
+    let some = signs.filter(|(n, _)| **n > 0);
+    let cells: Vec<String> = some.map(|(n, sign)| format!("{n}\u{A0}{sign}")).collect();
+    if cells.is_empty() {
+        NONE.into()
+    } else {
+        cells.join(" ")
+    }
+}
+
+/// Lists everything that the figures of the lectures found.
+pub(super) fn findings(data: &Document) -> Table {
+    let mut table = Table::new(
+        "What the lectures say, measured",
+        &["measured", "figure", "value", "the lecture", "in words"],
+    );
+    for figure in &data.figures {
+        table.rows.extend(figure.content.findings.iter().map(|f| {
+            let value = format!("{} {}", significant(f.value), f.unit);
+            let word = f.agreement.word().to_string();
+            let (title, value) = (figure.title.clone(), value.trim().to_string());
+            Vec::from([f.label.clone(), title, value, word, f.verdict.clone()])
+        }));
+    }
+    table
 }

@@ -100,7 +100,7 @@ fn errors_are_those_of_the_engine_that_was_asked_for() {
         comparison
             .rows
             .iter()
-            .map(|row| row.error.difference.rms)
+            .map(|row| row.error.rms)
             .collect::<Vec<f64>>()
     };
     let lecture = errors("--engine span --simd scalar");

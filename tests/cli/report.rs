@@ -5,6 +5,18 @@ use super::Folder;
 /// Errors and pictures as ever, of few pixels, and no more rounds than need be.
 const QUICK: &str = "--size 48x36 --time-budget 0";
 
+/// Reads a page.
+fn page(folder: &Folder, path: &str) -> String {
+    String::from_utf8(folder.read(path)).unwrap()
+}
+
+/// Returns the document in a page.
+fn data(html: &str) -> serde_json::Value {
+    let start = "id=\"fastphong-data\">";
+    let text = &html[html.find(start).unwrap() + start.len()..];
+    serde_json::from_str(&text[..text.find("</script>").unwrap()]).unwrap()
+}
+
 #[test]
 fn the_page_is_written_and_its_path_printed() {
     let folder = Folder::new();
@@ -12,26 +24,27 @@ fn the_page_is_written_and_its_path_printed() {
         "report coarse-sphere builtin:prism {QUICK} --methods fast-phong:steps=1,flat"
     ));
     ended.done().prints("report/index.html\n");
-    let html = String::from_utf8(folder.read("report/index.html")).unwrap();
-    assert!(html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"));
-    for text in [
-        "Coarse sphere",
-        "builtin:prism",
-        ">naive-phong</th>",
-        ">fast-phong:steps=1</th>",
-        ">flat</th>",
-    ] {
-        assert!(html.contains(text), "{text}");
-    }
-    assert!(
-        !html.contains(">slerp-phong</th><td>"),
-        "it was not asked for"
+    let html = page(&folder, "report/index.html");
+    assert!(html.starts_with("<!doctype html>") && html.ends_with("</html>\n"));
+    let data = data(&html);
+    let titles: Vec<_> = data["comparisons"].as_array().unwrap().iter().collect();
+    assert_eq!(titles[0]["title"], "Coarse sphere");
+    assert_eq!(titles[1]["name"], "builtin:prism");
+    let rows = titles[0]["rows"].as_array().unwrap();
+    let drawn: Vec<_> = rows
+        .iter()
+        .filter_map(|row| row["variant"].as_str())
+        .collect();
+    assert_eq!(
+        drawn,
+        ["naive-phong", "fast-phong:steps=1", "flat"],
+        "as asked for"
     );
     let command = format!(
         "fastphong report coarse-sphere builtin:prism {QUICK} --methods fast-phong:steps=1,flat"
     );
     assert!(
-        html.contains(&format!("<code>{command}</code>")),
+        html.contains(&format!("Made by {command}")),
         "the page says how it was made"
     );
     assert_eq!(folder.names(), ["report"], "nothing is written elsewhere");
@@ -45,16 +58,18 @@ fn figures_of_the_lectures_stand_in_the_page_on_demand() {
             "report figure5 {QUICK} --methods flat --figures exercises,exercises"
         ))
         .done();
-    let html = String::from_utf8(folder.read("report/index.html")).unwrap();
-    assert_eq!(html.matches("<article id=\"figure-exercises\"").count(), 1);
-    assert!(html.contains("<a href=\"#lecture\">") && html.contains("\"key\":\"sine\""));
+    let made = data(&page(&folder, "report/index.html"));
+    let figures = made["figures"].as_array().unwrap();
+    assert_eq!(figures.len(), 1);
+    assert_eq!(figures[0]["name"], "exercises");
+    assert_eq!(figures[0]["findings"][0]["key"], "sine");
     folder
         .run(&format!("report figure5 {QUICK} --methods flat"))
         .done();
-    assert!(
-        !String::from_utf8(folder.read("report/index.html"))
-            .unwrap()
-            .contains("id=\"lecture\""),
+    let without = data(&page(&folder, "report/index.html"));
+    assert_eq!(
+        without["figures"],
+        serde_json::json!([]),
         "with INPUT: none"
     );
 }
@@ -68,30 +83,19 @@ fn studies_stand_in_the_page_on_demand() {
             "report figure5 {QUICK} --methods fast-phong --studies speedups --markdown -o p.html"
         ))
         .done();
-    let html = String::from_utf8(folder.read("p.html")).unwrap();
-    assert!(html.contains("<section id=\"speedups\">") && html.contains("\"scaling\":null"));
-    let first = html
-        .split("<p class=\"opening\">")
-        .nth(1)
-        .and_then(|rest| rest.split("</p>").next())
-        .unwrap();
-    assert!(
-        first.starts_with("Naive Phong ") && first.contains("whole frames"),
-        "{first}"
-    );
-    let text = String::from_utf8(folder.read("README.md")).unwrap();
-    assert!(
-        text.starts_with("# Shading methods compared\n\nNaive Phong "),
-        "{text}"
-    );
+    let html = page(&folder, "p.html");
+    let made = data(&html);
+    assert!(made["speedups"]["corners"].is_array() && made["scaling"].is_null());
+    let answer = "<p class=\"answer\">For naive Phong’s picture";
+    let debug = "<p class=\"answer\">Built without optimisation";
+    assert!(html.contains(answer) || html.contains(debug));
+    let text = page(&folder, "README.md");
+    assert!(text.contains("frame, scalar, 1 light"), "{text}");
     folder
         .run(&format!("report figure5 {QUICK} --methods flat"))
         .done();
-    let without = String::from_utf8(folder.read("report/index.html")).unwrap();
-    assert!(
-        without.contains("\"speedups\":null") && !without.contains("id=\"scaling\""),
-        "with INPUT: none"
-    );
+    let without = data(&page(&folder, "report/index.html"));
+    assert!(without["speedups"].is_null() && without["scaling"].is_null());
     folder
         .run("report figure5 --studies scalling")
         .refused(&["did you mean `scaling`?"]);
@@ -147,4 +151,58 @@ fn what_cannot_be_written_is_said_and_what_was_there_is_kept() {
         ["file", "folder", "page.html"],
         "no draft is left"
     );
+}
+
+#[test]
+fn scenes_are_drawn_at_the_size_that_is_shown() {
+    let folder = Folder::new();
+    folder
+        .run("report figure5 --time-budget 0 --methods flat")
+        .done();
+    let made = data(&page(&folder, "report/index.html"));
+    let scene = &made["comparisons"][0];
+    let (width, height) = (
+        scene["width"].as_u64().unwrap(),
+        scene["height"].as_u64().unwrap(),
+    );
+    assert!(width <= 480 && height <= 360, "{width}x{height}");
+}
+
+#[test]
+fn documents_are_laid_side_by_side_without_drawing() {
+    let folder = Folder::new();
+    folder
+        .run(&format!(
+            "report figure5 {QUICK} --methods flat --json a.json --csv a.csv -o a.html"
+        ))
+        .done()
+        .prints("a.html\na.json\na.csv\n");
+    assert!(page(&folder, "a.csv").contains("method,\"max, levels\""));
+    // What benchmarks write is laid beside it as well.
+    let bench = folder.run(&format!("compare figure5 {QUICK} --methods flat --json"));
+    folder.write("b.json", bench.done().json().to_string());
+    folder.run("report --from a.json b.json -o c.html").done();
+    let made = data(&page(&folder, "c.html"));
+    assert_eq!(made["beside"].as_array().unwrap().len(), 1);
+    assert_eq!(made["beside"][0]["machine"], made["machine"]);
+    assert!(!page(&folder, "c.html").contains("id=\"pictures-0\""));
+    folder
+        .write("bad.json", "{}")
+        .run("report --from bad.json -o c.html")
+        .refused(&["bad.json: no `schema`"]);
+    folder
+        .run("report figure5 --from a.json")
+        .refused(&["cannot be used with"]);
+}
+
+#[test]
+fn a_mesh_called_script_is_shown_and_not_run() {
+    let folder = Folder::new();
+    let name = "<script>alert(1)<!--.obj";
+    folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let mut command = folder.command("report --size 48x36 --time-budget 0");
+    assert!(command.arg(name).output().unwrap().status.success());
+    let html = page(&folder, "report/index.html");
+    assert!(!html.contains("<script>alert"));
+    assert_eq!(data(&html)["comparisons"][0]["name"], name);
 }

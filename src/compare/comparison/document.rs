@@ -2,7 +2,7 @@
 
 use super::{Comparison, Row, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::metrics::Difference;
-use crate::compare::timing::{Machine, Ratio, Timing};
+use crate::compare::timing::Machine;
 use crate::frame::FrameStats;
 use crate::picture::Encoding;
 use crate::raster::Renderer;
@@ -11,7 +11,7 @@ use crate::shading::Parameter;
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::fmt;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -145,9 +145,9 @@ pub struct RowData {
     /// The closed form that `own` is the difference from: `flat`, `gouraud`, `phong` or `slerp`.
     pub model: String,
     /// See [`Row::error`].
-    pub error: DifferenceData,
+    pub error: Difference,
     /// See [`Row::own`].
-    pub own: DifferenceData,
+    pub own: Difference,
     /// See [`Row::bound`].
     pub bound: f64,
     /// True if `own.max` is within it.
@@ -155,7 +155,7 @@ pub struct RowData {
     /// See [`Row::other_polygon`].
     pub other_polygon: usize,
     /// `None` if no times were taken.
-    pub speed: Option<SpeedData>,
+    pub speed: Option<Speed>,
 }
 
 fn lecture_level() -> String {
@@ -171,42 +171,6 @@ impl RowData {
     pub fn is_barycentric(&self) -> bool {
         self.engine == super::Engine::Barycentric.name()
     }
-}
-
-/// A [`Difference`], and whether there is none.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct DifferenceData {
-    /// True if the pictures agree in every pixel compared.
-    pub equal: bool,
-    /// In how far they do not.
-    #[serde(flatten)]
-    pub difference: Difference,
-}
-
-/// A [`Speed`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs)] // as in `Speed`
-pub struct SpeedData {
-    pub timing: Timing,
-    pub ns_per_covered_pixel: Option<f64>,
-    pub ratio_to_naive: Option<RatioData>,
-    pub ratio_to_barycentric: Option<RatioData>,
-}
-
-/// A [`Ratio`], and whether it is a tie.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RatioData {
-    /// The ratio.
-    #[serde(flatten)]
-    pub ratio: Ratio,
-    /// See [`Ratio::is_tie`].
-    pub tie: bool,
-}
-
-/// The document of `comparisons` as a JSON value.
-pub fn to_json(comparisons: &[Comparison], machine: &Machine, command_line: &[String]) -> Value {
-    serde_json::to_value(Document::new(comparisons, machine, command_line))
-        .expect("numbers, texts and lists of them")
 }
 
 impl Document {
@@ -230,52 +194,45 @@ impl Document {
         text
     }
 
-    /// The document of a text that [`Document::to_text`] or [`to_json`] made.
+    /// The document of a text that [`Document::to_text`] made.
     ///
     /// # Errors
     /// [`DocumentError`] if it is not JSON, or of another schema, or lacks a field.
     pub fn parse(text: &str) -> Result<Document, DocumentError> {
-        #[derive(Deserialize)]
-        struct Head {
-            schema: Option<String>,
-        }
-        let head: Head = serde_json::from_str(text).map_err(DocumentError::Json)?;
-        match head.schema {
-            Some(schema) if schema == SCHEMA => {
-                serde_json::from_str(text).map_err(DocumentError::Json)
-            }
-            found => Err(DocumentError::Schema { found }),
-        }
+        parse(text)
+    }
+}
+
+/// Reads a document of schema [`SCHEMA`] from JSON, with the fields that `T` knows.
+///
+/// # Errors
+/// As [`Document::parse`].
+pub fn parse<T: DeserializeOwned>(text: &str) -> Result<T, DocumentError> {
+    #[derive(Deserialize)]
+    struct Head {
+        schema: Option<String>,
+    }
+    let head: Head = serde_json::from_str(text).map_err(DocumentError::Json)?;
+    match head.schema {
+        Some(schema) if schema == SCHEMA => serde_json::from_str(text).map_err(DocumentError::Json),
+        Some(other) => Err(DocumentError::Schema(other)),
+        None => Err(DocumentError::NoSchema),
     }
 }
 
 /// Why a text is no document.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum DocumentError {
     /// It is not JSON, or not as described; with line and column.
+    #[error("{0}: expected a document of schema `{SCHEMA}`")]
     Json(serde_json::Error),
-    /// It is of another schema, or names none.
-    Schema {
-        /// The one it names.
-        found: Option<String>,
-    },
+    /// It names another schema.
+    #[error("schema `{0}`: expected `{SCHEMA}`")]
+    Schema(String),
+    /// It names no schema.
+    #[error("no `schema`: expected `{SCHEMA}`")]
+    NoSchema,
 }
-
-impl fmt::Display for DocumentError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            DocumentError::Json(error) => {
-                write!(f, "{error}: expected a document of schema `{SCHEMA}`")
-            }
-            DocumentError::Schema { found: Some(found) } => {
-                write!(f, "schema `{found}`: expected `{SCHEMA}`")
-            }
-            DocumentError::Schema { found: None } => write!(f, "no `schema`: expected `{SCHEMA}`"),
-        }
-    }
-}
-
-impl core::error::Error for DocumentError {}
 
 impl From<&Comparison> for ComparisonData {
     fn from(c: &Comparison) -> Self {
@@ -344,41 +301,12 @@ impl From<&Row> for RowData {
             level: row.level.name().to_string(),
             threads: row.threads,
             model: info.model.name().into(),
-            error: row.error.into(),
-            own: row.own.into(),
+            error: row.error,
+            own: row.own,
             bound: row.bound,
             within_bound: row.is_within_bound(),
             other_polygon: row.other_polygon,
-            speed: row.speed.as_ref().map(SpeedData::from),
-        }
-    }
-}
-
-impl From<Difference> for DifferenceData {
-    fn from(difference: Difference) -> Self {
-        DifferenceData {
-            equal: difference.is_none(),
-            difference,
-        }
-    }
-}
-
-impl From<&Speed> for SpeedData {
-    fn from(speed: &Speed) -> Self {
-        SpeedData {
-            timing: speed.timing.clone(),
-            ns_per_covered_pixel: speed.ns_per_covered_pixel,
-            ratio_to_naive: speed.ratio_to_naive.map(RatioData::from),
-            ratio_to_barycentric: speed.ratio_to_barycentric.map(RatioData::from),
-        }
-    }
-}
-
-impl From<Ratio> for RatioData {
-    fn from(ratio: Ratio) -> Self {
-        RatioData {
-            ratio,
-            tie: ratio.is_tie(),
+            speed: row.speed.clone(),
         }
     }
 }

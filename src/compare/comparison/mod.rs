@@ -33,7 +33,7 @@
 //! let comparison = compare(&Input { name: "sphere".into(), frame: &frame }, &variants, &options, &mut |_, _| {});
 //! let [naive, gouraud, fast] = &comparison.rows[..] else { unreachable!("naive Phong is always among them") };
 //! assert!(naive.error.rms < fast.error.rms && fast.error.rms < gouraud.error.rms);
-//! println!("{}", table(&comparison, TableKind::Compare));
+//! println!("{}", table(&comparison, TableKind::Short));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -46,8 +46,7 @@ mod tests;
 mod triangulation;
 
 pub use document::{
-    ComparisonData, DifferenceData, Document, DocumentError, RatioData, RendererData, RowData,
-    SCHEMA, SpeedData, StatsData, to_json,
+    ComparisonData, Document, DocumentError, RendererData, RowData, SCHEMA, StatsData, parse,
 };
 pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
@@ -55,6 +54,7 @@ pub use triangulation::{Triangulation, triangulation};
 
 use super::metrics::Difference;
 use super::timing::Limits;
+use crate::frame::triangulate::triangulated;
 use crate::frame::{Frame, FrameStats};
 use crate::number::Level;
 use crate::picture::{Encoding, LinearPicture, Picture8};
@@ -210,10 +210,7 @@ impl Row {
 const PICTURES_PART: f32 = 0.3;
 
 /// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, tells how far they are
-/// apart, and times them.
-///
-/// Naive Phong, which speed is stated against, comes first if `variants` does not have it. The barycentric renderer draws
-/// the triangulated frame, with the same method where it has it and naive Phong otherwise; triangulating is not timed.
+/// apart, and times them: [`draw`], then [`Comparison::time`].
 ///
 /// `progress` is told which part is done, 0..=1, and what is being done; never while a time is taken.
 pub fn compare(
@@ -222,48 +219,56 @@ pub fn compare(
     options: &Options,
     progress: &mut dyn FnMut(f32, &str),
 ) -> Comparison {
+    let part = match options.timing {
+        Some(_) => PICTURES_PART,
+        None => 1.0,
+    };
+    let mut comparison = draw(input, variants, options.renderer, &mut |done, what| {
+        progress(part * done, what)
+    });
+    if let Some(limits) = options.timing {
+        comparison.time(input.frame, limits, |done| {
+            progress(part + (1.0 - part) * done, "timing")
+        });
+    }
+    progress(1.0, "done");
+    comparison
+}
+
+/// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, and tells how far they are
+/// apart, without times.
+///
+/// Naive Phong, which speed is stated against, comes first if `variants` does not have it. The barycentric renderer draws
+/// the triangulated frame, with the same method where it has it and naive Phong otherwise.
+pub fn draw(
+    input: &Input<'_>,
+    variants: &[Variant],
+    renderer: Renderer,
+    progress: &mut dyn FnMut(f32, &str),
+) -> Comparison {
     let frame = input.frame;
     let variants = with_baseline(variants);
     let counterparts = counterparts(&variants);
-    let pictures_part = if options.timing.is_some() {
-        PICTURES_PART
-    } else {
-        1.0
-    };
     let steps = (variants.len() + counterparts.len() + 1) as f32;
     let mut step = 0.0;
     let mut next = |what: &str| {
-        progress(pictures_part * step / steps, what);
+        progress(step / steps, what);
         step += 1.0;
     };
     next("reference");
     let references = References::new(frame);
     let mut scanline = |variant: &Variant| {
         next(&variant.to_string());
-        references.scanline_row(frame, variant, options.renderer)
+        references.scanline_row(frame, variant, renderer)
     };
-    let mut rows: Vec<Row> = variants.iter().map(&mut scanline).collect();
+    let rows: Vec<Row> = variants.iter().map(&mut scanline).collect();
     let mut barycentric = |variant: &Variant| {
         next(&alloc::format!("{variant}, barycentric"));
         references.barycentric_row(variant)
     };
-    let mut barycentric: Vec<Row> = counterparts.iter().filter_map(&mut barycentric).collect();
+    let barycentric: Vec<Row> = counterparts.iter().filter_map(&mut barycentric).collect();
     let mut fragments = 0;
     coverage(frame, |_, _, pixels| fragments += pixels.len());
-    let covered_pixels = references.covered_pixels();
-    if let Some(limits) = options.timing {
-        let progress = |part| progress(pictures_part + (1.0 - pictures_part) * part, "timing");
-        speed::take(
-            frame,
-            &references.triangulated.frame,
-            &mut rows,
-            &mut barycentric,
-            covered_pixels,
-            (options.renderer, limits),
-            progress,
-        );
-    }
-    progress(1.0, "done");
     Comparison {
         name: input.name.clone(),
         width: frame.width(),
@@ -274,14 +279,41 @@ pub fn compare(
         polygons: frame.polygons().len(),
         triangles: frame.polygons().iter().map(|p| p.count as usize - 2).sum(),
         not_simple: references.triangulated.not_simple,
-        covered_pixels,
+        covered_pixels: references.covered_pixels(),
         fragments,
         stats: frame.stats(),
-        renderer: options.renderer,
-        threads: options.renderer.threads(),
+        renderer,
+        threads: renderer.threads(),
         reference: references.phong,
         rows,
         barycentric,
+    }
+}
+
+impl Comparison {
+    /// Times all rows together, on the frame that they were drawn from; triangulating is not timed. `progress` is told which
+    /// part is done, never while a time is taken.
+    pub fn time(&mut self, frame: &Frame, limits: Limits, progress: impl FnMut(f32)) {
+        let triangles = triangulated(frame);
+        self.threads = self.renderer.threads();
+        speed::take(
+            frame,
+            &triangles.frame,
+            &mut self.rows,
+            &mut self.barycentric,
+            self.covered_pixels,
+            (self.renderer, limits),
+            progress,
+        );
+    }
+
+    /// Drops all pictures, which take most of its memory: what is left can still be timed.
+    pub fn drop_pictures(&mut self) {
+        self.reference = LinearPicture::new(0, 0, [0.0; 4]);
+        for row in self.rows.iter_mut().chain(&mut self.barycentric) {
+            row.picture = Picture8::new(0, 0, [0; 4]);
+            row.linear = LinearPicture::new(0, 0, [0.0; 4]);
+        }
     }
 }
 

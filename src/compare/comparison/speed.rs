@@ -8,6 +8,7 @@ use crate::raster::{Edges, Renderer};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::hint::black_box;
+use serde::{Deserialize, Serialize};
 
 /// What a [`Timing`] of a row holds, in one line.
 pub const WHAT_IS_TIMED: &str = "from projected frame to stored picture: vertex lighting, rasterization, shading and \
@@ -15,7 +16,7 @@ pub const WHAT_IS_TIMED: &str = "from projected frame to stored picture: vertex 
                                  projection or triangulation";
 
 /// The speed of a variant. A ratio over 1 means faster than what it is compared with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Speed {
     /// Times of whole pictures: see [`WHAT_IS_TIMED`].
     pub timing: Timing,

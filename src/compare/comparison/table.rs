@@ -1,85 +1,55 @@
-//! Comparisons as text: a row a method, in aligned columns.
+//! Comparisons as text: a row a method, in aligned columns. A view of the data by [`Table`].
 
-use super::{BASELINE, Comparison, Engine, RendererData, Row, Speed};
+use super::{Comparison, Engine, RendererData, Row, Speed};
 use crate::compare::metrics::Difference;
+use crate::compare::table::Table;
 use crate::compare::timing::Ratio;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-/// Which columns a table has. Both show error and speed.
+/// Which columns a table has. All show error and speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableKind {
+    /// Six columns that fit 100 characters: the essence of error and speed.
+    Short,
     /// All of the error, and the essence of the speed.
     Compare,
     /// All of the speed, and the essence of the error.
     Bench,
 }
 
-/// A column: its head in two lines, and what a row has there.
-struct Column {
-    head: [&'static str; 2],
-    cell: fn(&Row) -> String,
-}
+/// A column: its head, and the cell of a row.
+type Column = (&'static str, fn(&Row) -> String);
 
-const METHOD: Column = Column {
-    head: ["", "method"],
-    cell: method,
-};
-const MAX: Column = Column {
-    head: ["max", "levels"],
-    cell: |row| levels(row.error.max),
-};
-const RMS: Column = Column {
-    head: ["RMS", "levels"],
-    cell: |row| levels(row.error.rms),
-};
-const OTHER: Column = Column {
-    head: ["other", "polygon"],
-    cell: |row| row.other_polygon.to_string(),
-};
-const TIME: Column = Column {
-    head: ["time", "ms"],
-    cell: |row| speed(row, time),
-};
-const PER_PIXEL: Column = Column {
-    head: ["per pixel", "ns"],
-    cell: |row| speed(row, |s| optional(s.ns_per_covered_pixel, significant)),
-};
-const NAIVE: Column = Column {
-    head: ["speed to", BASELINE],
-    cell: |row| speed(row, |s| optional(s.ratio_to_naive, |r| ratio(&r))),
-};
-const BARYCENTRIC: Column = Column {
-    head: ["speed to", "barycentric"],
-    cell: |row| speed(row, |s| optional(s.ratio_to_barycentric, |r| ratio(&r))),
-};
+const METHOD: Column = ("method", method);
+const MAX: Column = ("max", |row| levels(row.error.max));
+const RMS: Column = ("RMS", |row| levels(row.error.rms));
+const TIME: Column = ("time, ms", |row| speed(row, time));
+const PER_PIXEL: Column = ("ns a pixel", |row| {
+    speed(row, |s| optional(s.ns_per_covered_pixel, significant))
+});
+const NAIVE: Column = ("× naive-phong", |row| {
+    speed(row, |s| optional(s.ratio_to_naive, |r| ratio(&r)))
+});
+const BARYCENTRIC: Column = ("× barycentric", |row| {
+    speed(row, |s| optional(s.ratio_to_barycentric, |r| ratio(&r)))
+});
+
+const SHORT: &[Column] = &[METHOD, MAX, RMS, TIME, NAIVE, BARYCENTRIC];
 
 const COMPARE: &[Column] = &[
     METHOD,
     MAX,
     RMS,
-    Column {
-        head: ["PSNR", "dB"],
-        cell: |row| decibels(&row.error),
-    },
-    Column {
-        head: ["", "SSIM"],
-        cell: |row| optional(row.error.ssim, |s| format!("{s:.5}")),
-    },
-    Column {
-        head: ["brightness", "levels"],
-        cell: |row| signed_levels(row.error.signed_mean),
-    },
-    Column {
-        head: ["own max", "levels"],
-        cell: own,
-    },
-    Column {
-        head: ["over 1 level", "pixels"],
-        cell: |row| row.error.over_one_level.to_string(),
-    },
-    OTHER,
+    ("PSNR, dB", |row| decibels(&row.error)),
+    ("SSIM", |row| {
+        optional(row.error.ssim, |s| format!("{s:.5}"))
+    }),
+    ("brightness", |row| signed_levels(row.error.signed_mean)),
+    ("own max", own),
+    ("over 1 level", |row| row.error.over_one_level.to_string()),
+    ("other polygon", |row| row.other_polygon.to_string()),
     TIME,
     PER_PIXEL,
     NAIVE,
@@ -89,51 +59,37 @@ const COMPARE: &[Column] = &[
 const BENCH: &[Column] = &[
     METHOD,
     TIME,
-    Column {
-        head: ["least", "ms"],
-        cell: |row| speed(row, |s| milliseconds(s.timing.min_ns)),
-    },
-    Column {
-        head: ["", "rounds"],
-        cell: |row| speed(row, |s| s.timing.samples_ns.len().to_string()),
-    },
+    ("least, ms", |row| {
+        speed(row, |s| milliseconds(s.timing.min_ns))
+    }),
+    ("rounds", |row| {
+        speed(row, |s| s.timing.samples_ns.len().to_string())
+    }),
     PER_PIXEL,
     NAIVE,
-    Column {
-        head: ["95 %", "interval"],
-        cell: |row| speed(row, |s| optional(s.ratio_to_naive, interval)),
-    },
+    ("95 %", |row| {
+        speed(row, |s| optional(s.ratio_to_naive, interval))
+    }),
     BARYCENTRIC,
-    Column {
-        head: ["95 %", "interval"],
-        cell: |row| speed(row, |s| optional(s.ratio_to_barycentric, interval)),
-    },
+    ("95 %", |row| {
+        speed(row, |s| optional(s.ratio_to_barycentric, interval))
+    }),
     MAX,
     RMS,
 ];
 
-/// The comparison as text for people: some lines on the frame, then a row a method.
+/// Writes a comparison as text: some lines on the frame, then a row a method.
 pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     let columns = match kind {
+        TableKind::Short => SHORT,
         TableKind::Compare => COMPARE,
         TableKind::Bench => BENCH,
     };
-    let mut lines: Vec<Vec<String>> = Vec::new();
-    for i in 0..2 {
-        lines.push(
-            columns
-                .iter()
-                .map(|column| column.head[i].to_string())
-                .collect(),
-        );
-    }
-    lines.extend(
-        comparison
-            .all_rows()
-            .map(|row| columns.iter().map(|column| (column.cell)(row)).collect()),
-    );
-    let mut text = head(comparison);
-    text.push_str(&align(&lines));
+    let heads: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
+    let mut table = Table::new(&*comparison.name, &heads);
+    let cells = |row| columns.iter().map(|(_, cell)| cell(row)).collect();
+    table.rows.extend(comparison.all_rows().map(cells));
+    let mut text = head(comparison) + &table.text();
     if comparison.all_rows().any(|row| !row.is_within_bound()) {
         text.push_str("! farther from its own closed form than rounding explains\n");
     }
@@ -174,7 +130,7 @@ fn head(c: &Comparison) -> String {
             "{crossing} crossing themselves: not drawn by the barycentric renderer\n"
         ));
     }
-    text.push_str("errors against the f64 Phong reference, in grey levels (1/255) of linear light, before rounding\n");
+    text.push_str("errors against the f64 Phong reference, in grey levels (1/255) of linear light before rounding\n");
     if c.all_rows().any(|row| row.speed.is_some()) {
         text.push_str(
             "time: from projected frame to stored picture, median ± half the interquartile range\n",
@@ -207,29 +163,6 @@ fn drawn_by(c: &Comparison) -> Vec<(String, String)> {
         .into_iter()
         .map(|(line, rows)| (line, names(rows)))
         .collect()
-}
-
-/// The first column to the left, all others to the right, two spaces apart.
-fn align(lines: &[Vec<String>]) -> String {
-    let length = |cell: &String| cell.chars().count();
-    let columns = lines.first().map_or(0, Vec::len);
-    let widths: Vec<usize> = (0..columns)
-        .map(|i| lines.iter().map(|line| length(&line[i])).max().unwrap_or(0))
-        .collect();
-    let mut text = String::new();
-    for line in lines {
-        let mut out = String::new();
-        for (i, (cell, width)) in line.iter().zip(&widths).enumerate() {
-            if i == 0 {
-                out.push_str(&format!("{cell:<width$}"));
-            } else {
-                out.push_str(&format!("  {cell:>width$}"));
-            }
-        }
-        text.push_str(out.trim_end());
-        text.push('\n');
-    }
-    text
 }
 
 /// What stands where there is nothing to say.
@@ -331,7 +264,6 @@ fn interval(ratio: Ratio) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use alloc::vec;
 
     #[test]
     fn numbers_have_three_digits() {
@@ -384,12 +316,5 @@ mod tests {
             high: 1.0,
         };
         assert_eq!([ratio(&itself), interval(itself)], ["1", "-"]);
-    }
-
-    #[test]
-    fn columns_are_aligned_by_letters_and_not_by_bytes() {
-        let lines = [vec!["a", "1 ± 2"], vec!["long", "12345678"]]
-            .map(|l| l.into_iter().map(String::from).collect());
-        assert_eq!(align(&lines), "a        1 ± 2\nlong  12345678\n");
     }
 }

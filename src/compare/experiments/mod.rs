@@ -38,36 +38,14 @@ pub const WHAT_A_FRAME_IS: &str = "from the prepared scene to the stored picture
                                    before: projection, culling, vertex lighting, rasterization, shading and storing; on \
                                    one thread; not vertex normals";
 
-/// Why a study could not be made: what it is measured on refused.
-#[derive(Clone, Debug)]
+/// Why a study could not be made: the mesh or the picture it is measured on refused.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error(transparent)]
 pub enum StudyError {
     /// There is no mesh of so many polygons.
-    Mesh(BuiltinError),
+    Mesh(#[from] BuiltinError),
     /// There is no picture of that size.
-    Frame(FrameError),
-}
-
-impl fmt::Display for StudyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            StudyError::Mesh(error) => error.fmt(f),
-            StudyError::Frame(error) => error.fmt(f),
-        }
-    }
-}
-
-impl core::error::Error for StudyError {}
-
-impl From<BuiltinError> for StudyError {
-    fn from(error: BuiltinError) -> Self {
-        StudyError::Mesh(error)
-    }
-}
-
-impl From<FrameError> for StudyError {
-    fn from(error: FrameError) -> Self {
-        StudyError::Frame(error)
-    }
+    Frame(#[from] FrameError),
 }
 
 /// The sphere of about so many triangles, as one names it on the command line without `builtin:`.

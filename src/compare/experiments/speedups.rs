@@ -1,7 +1,7 @@
 //! How many times as fast as naive Phong each method is: scalar and wide, shading alone and in a whole frame.
 
 use super::{Canvas, StudyError, prepared_sphere, sphere, with_baseline};
-use crate::compare::comparison::{BASELINE, RatioData};
+use crate::compare::comparison::BASELINE;
 use crate::compare::timing::{Candidate, Limits, Ratio, SpanRow, Timing, time_interleaved};
 use crate::frame::PreparedScene;
 use crate::number::Level;
@@ -60,6 +60,16 @@ pub enum Work {
     Frame,
 }
 
+impl Work {
+    /// Returns the word for it: `kernel` or `frame`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Work::Kernel => "kernel",
+            Work::Frame => "frame",
+        }
+    }
+}
+
 /// One of the ways in which every method is timed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Corner {
@@ -80,7 +90,7 @@ pub struct Speedup {
     /// Times of one span or frame.
     pub timing: Timing,
     /// Against naive Phong in the same corner; `None` if a clock too coarse gave no time over 0.
-    pub ratio_to_naive: Option<RatioData>,
+    pub ratio_to_naive: Option<Ratio>,
 }
 
 /// How fast a method is in all corners.
@@ -155,7 +165,7 @@ impl Speedups {
             let ratio = Ratio::paired(&of(naive).samples_ns, &of(method).samples_ns);
             Speedup {
                 timing: of(method).clone(),
-                ratio_to_naive: ratio.map(RatioData::from),
+                ratio_to_naive: ratio,
             }
         };
         let methods =

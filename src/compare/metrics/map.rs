@@ -33,67 +33,14 @@ pub fn difference_map<A: Texel, B: Texel>(
     actual: &Picture<B>,
     scale: f32,
 ) -> Result<Picture8, SizeMismatch> {
-    difference_map_of_blocks(reference, actual, scale, 1)
-}
-
-/// The same map in squares of `side` × `side` pixels, each of the colour of its largest difference: a file of a part of the
-/// size that hides no difference. A pixel that only one picture covers is the largest.
-///
-/// # Errors
-/// If the sizes differ.
-pub fn difference_map_of_blocks<A: Texel, B: Texel>(
-    reference: &Picture<A>,
-    actual: &Picture<B>,
-    scale: f32,
-    side: usize,
-) -> Result<Picture8, SizeMismatch> {
-    SizeMismatch::check(reference, actual)?;
-    let (width, height, side) = (reference.width(), reference.height(), side.max(1));
-    let error = |x: usize, y: usize| {
-        let (r, a) = (reference.get(x, y).levels(), actual.get(x, y).levels());
+    paint(reference, actual, |r, a| {
         let channels = channel_errors(r, a);
+        let error = channels.errors.into_iter().fold(0.0, f64::max);
         match channels.not_finite {
-            _ if r.alpha() != a.alpha() => Error::Coverage,
-            true => Error::Channels(f64::INFINITY),
-            false => Error::Channels(channels.errors.into_iter().fold(0.0, f64::max)),
+            true => BEYOND,
+            false => absolute_colour(error, f64::from(scale)),
         }
-    };
-    let mut map = Picture8::new(width, height, EQUAL);
-    for (top, left) in (0..height)
-        .step_by(side)
-        .flat_map(|y| (0..width).step_by(side).map(move |x| (y, x)))
-    {
-        let (rows, columns) = (top..height.min(top + side), left..width.min(left + side));
-        let errors = rows
-            .clone()
-            .flat_map(|y| columns.clone().map(move |x| error(x, y)));
-        let colour = match errors.fold(Error::Channels(0.0), Error::larger) {
-            Error::Coverage => COVERAGE,
-            Error::Channels(error) => absolute_colour(error, f64::from(scale)),
-        };
-        for y in rows {
-            map.row_mut(y)[columns.clone()].fill(colour);
-        }
-    }
-    Ok(map)
-}
-
-/// What is wrong with a pixel.
-#[derive(Clone, Copy)]
-enum Error {
-    /// Only one picture covers it.
-    Coverage,
-    /// The largest error of its channels; infinite where one is not finite.
-    Channels(f64),
-}
-
-impl Error {
-    fn larger(self, other: Error) -> Error {
-        match (self, other) {
-            (Error::Channels(a), Error::Channels(b)) => Error::Channels(a.max(b)),
-            _ => Error::Coverage,
-        }
-    }
+    })
 }
 
 /// The difference of luminance of two pictures, with its sign: orange where `actual` is too bright, blue where it is too dark.
@@ -117,17 +64,6 @@ pub fn signed_difference_map<A: Texel, B: Texel>(
     })
 }
 
-/// The scale of [`difference_map`] as a picture: 0 at the left end, the full scale at the right.
-pub fn colour_bar(width: usize, height: usize) -> Picture8 {
-    bar(width, height, |at| absolute_colour(at, 1.0))
-}
-
-/// The scale of [`signed_difference_map`] as a picture: minus the full scale at the left end, zero in the middle, the
-/// full scale at the right.
-pub fn signed_colour_bar(width: usize, height: usize) -> Picture8 {
-    bar(width, height, |at| signed_colour(2.0 * at - 1.0, 1.0))
-}
-
 fn paint<A: Texel, B: Texel>(
     reference: &Picture<A>,
     actual: &Picture<B>,
@@ -148,18 +84,6 @@ fn paint<A: Texel, B: Texel>(
         };
     }
     Ok(map)
-}
-
-/// Columns of `colour` at 0..=1, ends included.
-fn bar(width: usize, height: usize, colour: impl Fn(f64) -> [u8; 4]) -> Picture8 {
-    let mut bar = Picture8::new(width, height, EQUAL);
-    let last = width.saturating_sub(1).max(1) as f64;
-    for y in 0..height {
-        for (x, out) in bar.row_mut(y).iter_mut().enumerate() {
-            *out = colour(x as f64 / last);
-        }
-    }
-    bar
 }
 
 fn absolute_colour(error: f64, scale: f64) -> [u8; 4] {
@@ -294,25 +218,6 @@ mod tests {
     }
 
     #[test]
-    fn blocks_show_their_largest_difference() {
-        let mut actual = Picture8::new(3, 3, [0, 0, 0, 255]);
-        let reference = actual.clone();
-        actual.row_mut(1)[0] = [0, 4, 0, 255];
-        actual.row_mut(0)[1] = [2, 0, 0, 255];
-        actual.row_mut(2)[2] = [9, 0, 0, 0];
-        let single = difference_map(&reference, &actual, 8.0).unwrap();
-        let blocks = difference_map_of_blocks(&reference, &actual, 8.0, 2).unwrap();
-        // The block at the top left shows 4, the larger of 2 and 4; the one cut off at the corner its coverage.
-        for (x, y) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            assert_eq!(blocks.get(x, y), single.get(0, 1));
-        }
-        assert_eq!(
-            (blocks.get(2, 0), blocks.get(1, 2), blocks.get(2, 2)),
-            (EQUAL, EQUAL, COVERAGE)
-        );
-    }
-
-    #[test]
     fn coverage_and_nonsense_are_shown() {
         let covered = Picture::new(1, 1, [0.5f32, 0.5, 0.5, 1.0]);
         let uncovered = Picture::new(1, 1, [0.5f32, 0.5, 0.5, 0.0]);
@@ -332,21 +237,6 @@ mod tests {
             );
         }
         assert!(difference_map(&covered, &Picture::new(2, 1, [0.0f32; 4]), 1.0).is_err());
-    }
-
-    #[test]
-    fn bars_run_over_the_whole_scale() {
-        let row = |bar: Picture8| [bar.get(0, 1), bar.get(50, 1), bar.get(100, 1)];
-        assert_eq!(
-            row(colour_bar(101, 2)),
-            [EQUAL, [0x21, 0x91, 0x8c, 255], [0xfd, 0xe7, 0x25, 255]]
-        );
-        assert_eq!(
-            row(signed_colour_bar(101, 2)),
-            [[136, 200, 255, 255], EQUAL, [255, 196, 120, 255]]
-        );
-        assert_eq!(colour_bar(1, 1).get(0, 0), EQUAL);
-        assert_eq!(colour_bar(0, 3).texels(), &[] as &[[u8; 4]]);
     }
 
     #[test]

@@ -38,10 +38,7 @@ mod ssim;
 
 use crate::picture::{Levels, Texel};
 pub use list::{Better, METRICS, MetricInfo};
-pub use map::{
-    BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, colour_bar, difference_map, difference_map_of_blocks,
-    signed_colour_bar, signed_difference_map,
-};
+pub use map::{BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, difference_map, signed_difference_map};
 
 /// Share of the compared pixels whose error does not exceed [`Difference::p99`].
 const PERCENTILE: f64 = 0.99;
@@ -53,6 +50,8 @@ const PERCENTILE: f64 = 0.99;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "io", derive(serde::Serialize, serde::Deserialize))]
 pub struct Difference {
+    /// True if the pictures agree in the colour and coverage of every pixel, excluded ones aside.
+    pub equal: bool,
     /// Pixels of the frame, without those excluded.
     pub frame: usize,
     /// Pixels left out on the caller's wish.
@@ -94,11 +93,6 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// True if the pictures agree in the colour and coverage of every pixel, excluded ones aside.
-    pub fn is_none(&self) -> bool {
-        self.differing == 0 && self.coverage_mismatches == 0
-    }
-
     /// The share of the compared pixels that `count` pixels are, in 0..=1; 0 if none was compared.
     pub fn share(&self, count: usize) -> f64 {
         if self.compared == 0 {
@@ -278,6 +272,7 @@ impl Tally {
         };
         let frame_rms = libm::sqrt(mean(self.squares, 3 * self.frame)) / 255.0;
         Difference {
+            equal: self.differing == 0 && self.coverage_mismatches == 0,
             frame: self.frame,
             excluded: self.excluded,
             compared,

@@ -1,7 +1,8 @@
 //! From samples to numbers that can be trusted: medians, quartiles, and intervals of ratios.
 
 use alloc::vec::Vec;
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeStruct;
+use serde::{Deserialize, Serialize, Serializer};
 
 /// How sure the interval of a [`Ratio`] is to hold the true ratio.
 pub const CONFIDENCE: f64 = 0.95;
@@ -72,7 +73,7 @@ fn quantile(sorted: &[f64], p: f64) -> f64 {
 /// How many times as fast as a baseline something is, with the interval that holds the truth with [`CONFIDENCE`].
 ///
 /// Over 1: faster than the baseline. Under 1: slower.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct Ratio {
     /// The median over the rounds of the baseline's time divided by the candidate's.
     pub median: f64,
@@ -80,6 +81,18 @@ pub struct Ratio {
     pub low: f64,
     /// Upper end of the interval.
     pub high: f64,
+}
+
+/// With `tie` beside its fields: [`Ratio::is_tie`].
+impl Serialize for Ratio {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_struct("Ratio", 4)?;
+        fields.serialize_field("median", &self.median)?;
+        fields.serialize_field("low", &self.low)?;
+        fields.serialize_field("high", &self.high)?;
+        fields.serialize_field("tie", &self.is_tie())?;
+        fields.end()
+    }
 }
 
 impl Ratio {

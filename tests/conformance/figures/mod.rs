@@ -6,8 +6,9 @@ mod projection;
 mod shading;
 mod surfaces;
 
+use fastphong::compare::timing::Machine;
 use fastphong::lectures::{Agreement, Block, Content, FIGURES, Figure};
-use fastphong::report::{LectureFigure, figures_page};
+use fastphong::report::{Document, Report};
 use std::collections::BTreeSet;
 
 /// A figure, made, with what every figure must have.
@@ -63,13 +64,13 @@ fn made(name: &str) -> Content {
             }
         }
     }
-    let drawn = LectureFigure::new(figure, content.clone()).expect("its pictures can be written");
-    let page = figures_page(&[drawn], &["fastphong".into()]);
-    assert!(
-        page.len() < 200_000,
-        "{name} takes {} bytes of a page",
-        page.len()
-    );
+    let mut report = Report::new(Document::new(Machine::this(), vec!["fastphong".into()]));
+    let bare = report.html().len();
+    report
+        .add_figure(figure, content.clone())
+        .expect("its pictures can be written");
+    let bytes = report.html().len() - bare;
+    assert!(bytes < 200_000, "{name} takes {bytes} bytes of a page");
     content
 }
 

@@ -1,0 +1,332 @@
+//! Pictures without loss, as the page unpacks them.
+//!
+//! A picture is stored as what it adds, modulo 256, to the picture most like it; methods that draw the same cost a few bytes.
+//! Planes are green, red − green and blue − green, rows filtered as in PNG, all deflated: a browser inflates by itself.
+//! Against lossless WebP by the `image` crate: see `docs/performance.md`.
+
+use crate::compare::comparison::Comparison;
+use crate::picture::encoding::store;
+use crate::picture::image_file::{EncodeError, FilePicture, Format};
+use crate::picture::{LinearPicture, Picture8};
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::io::Write;
+
+/// Steps of an error map from one power of two to the next.
+pub const STEPS_AN_OCTAVE: f64 = 8.0;
+
+/// Largest error, in grey levels, that a map shows as none.
+pub const LEAST_ERROR: f64 = 1.0 / 64.0;
+
+/// The pictures of one scene, as the page reads them.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Pictures {
+    /// [`STEPS_AN_OCTAVE`] of the error maps.
+    steps: f64,
+    /// The packed reference.
+    reference: String,
+    /// A picture a variant.
+    rows: BTreeMap<String, Stored>,
+}
+
+/// A picture and its error map, each as a difference from another one.
+#[derive(Clone, Debug, Default, Serialize)]
+struct Stored {
+    /// The variant whose picture it adds to; the reference if `None`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on: Option<String>,
+    /// What it adds; nothing if `None`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    add: Option<String>,
+    /// The variant whose error map it adds to; a map of zeros if `None`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    map_on: Option<String>,
+    /// What its error map adds; nothing if `None`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    map: Option<String>,
+}
+
+impl Pictures {
+    /// Packs the reference, and each scanline picture with its error map.
+    pub fn new(comparison: &Comparison) -> Pictures {
+        let reference = planes(&store(&comparison.reference, comparison.encoding));
+        let width = comparison.width;
+        let names: Vec<String> = comparison.rows.iter().map(|row| row.name()).collect();
+        let (drawn, maps): (Vec<_>, Vec<_>) = comparison
+            .rows
+            .par_iter()
+            .map(|row| {
+                let map = error_codes(&comparison.reference, &row.linear);
+                (planes(&row.picture), Vec::from([map]))
+            })
+            .unzip();
+        let nothing = Vec::from([alloc::vec![0; reference[0].len()]]);
+        let pack_on = |base: &[Vec<u8>], all: &[Vec<Vec<u8>>], at: usize| {
+            let near = nearest(&all[at], base, &all[..at]);
+            let under = near.map_or(base, |i| &all[i]);
+            let added = (under != &all[at][..]).then(|| pack(&added(under, &all[at]), width));
+            (near.map(|i| names[i].clone()), added)
+        };
+        let stored = |at: usize| {
+            let (on, add) = pack_on(&reference, &drawn, at);
+            let (map_on, map) = pack_on(&nothing, &maps, at);
+            let stored = Stored {
+                on,
+                add,
+                map_on,
+                map,
+            };
+            (names[at].clone(), stored)
+        };
+        Pictures {
+            steps: STEPS_AN_OCTAVE,
+            reference: pack(&reference, width),
+            rows: (0..names.len()).into_par_iter().map(stored).collect(),
+        }
+    }
+
+    /// Writes them as the page reads them.
+    pub fn json(&self) -> String {
+        serde_json::to_string(self).expect("texts and lists of them")
+    }
+}
+
+/// Returns the number of the picture most like `picture`, or `None` for `base`.
+fn nearest(picture: &[Vec<u8>], base: &[Vec<u8>], others: &[Vec<Vec<u8>>]) -> Option<usize> {
+    let differing = |other: &[Vec<u8>]| {
+        let pairs = picture.iter().zip(other);
+        pairs
+            .map(|(a, b)| a.iter().zip(b).filter(|(a, b)| a != b).count())
+            .sum::<usize>()
+    };
+    let mut best = (differing(base), None);
+    for (number, other) in others.iter().enumerate() {
+        let count = differing(other);
+        if count < best.0 {
+            best = (count, Some(number));
+        }
+    }
+    best.1
+}
+
+/// Returns what `picture` adds to `base`, modulo 256.
+fn added(base: &[Vec<u8>], picture: &[Vec<u8>]) -> Vec<Vec<u8>> {
+    let plane = |(a, b): (&Vec<u8>, &Vec<u8>)| {
+        let pairs = a.iter().zip(b);
+        pairs.map(|(a, b)| b.wrapping_sub(*a)).collect()
+    };
+    base.iter().zip(picture).map(plane).collect()
+}
+
+/// Splits a picture into green, red − green and blue − green; coverage is not kept.
+fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
+    let plane = |of: fn(&[u8; 4]) -> u8| picture.texels().iter().map(of).collect();
+    Vec::from([
+        plane(|[_, g, _, _]| *g),
+        plane(|[r, g, _, _]| r.wrapping_sub(*g)),
+        plane(|[_, g, b, _]| b.wrapping_sub(*g)),
+    ])
+}
+
+/// Returns the error of each pixel on the scale of the maps: 0 up to [`LEAST_ERROR`], then [`STEPS_AN_OCTAVE`].
+fn error_codes(reference: &LinearPicture, actual: &LinearPicture) -> Vec<u8> {
+    let code = |(r, a): (&[f32; 4], &[f32; 4])| {
+        let errors = (0..3).map(|c| 255.0 * f64::from((a[c] - r[c]).abs()));
+        // What is not finite counts as white against black.
+        let error = errors
+            .map(|e| if e.is_finite() { e } else { 255.0 })
+            .fold(0.0, f64::max);
+        if error <= LEAST_ERROR {
+            return 0;
+        }
+        let steps = libm::round(STEPS_AN_OCTAVE * libm::log2(error / LEAST_ERROR));
+        (1.0 + steps).min(255.0) as u8
+    };
+    let pairs = reference.texels().iter().zip(actual.texels());
+    pairs.map(code).collect()
+}
+
+/// Filters the rows of planes as PNG does, deflates them, and writes that in base 64.
+fn pack(planes: &[Vec<u8>], width: usize) -> String {
+    let mut deflate = ZlibEncoder::new(Vec::new(), Compression::new(9));
+    for plane in planes {
+        let mut above = alloc::vec![0; width];
+        for row in plane.chunks(width.max(1)) {
+            let filtered = filtered(row, &above);
+            deflate
+                .write_all(&filtered)
+                .expect("memory takes all that is written");
+            above.copy_from_slice(row);
+        }
+    }
+    let bytes = deflate.finish().expect("memory takes all that is written");
+    STANDARD.encode(bytes)
+}
+
+/// Returns the row by the PNG filter (none, left, up, average, Paeth) of the least sum, behind the number of that.
+fn filtered(row: &[u8], above: &[u8]) -> Vec<u8> {
+    let by = |filter: u8| {
+        let mut out = Vec::with_capacity(row.len() + 1);
+        out.push(filter);
+        for (x, value) in row.iter().enumerate() {
+            let before = x.checked_sub(1);
+            let (left, up) = (before.map_or(0, |i| row[i]), above[x]);
+            let corner = before.map_or(0, |i| above[i]);
+            out.push(value.wrapping_sub(match filter {
+                0 => 0,
+                1 => left,
+                2 => up,
+                3 => ((u16::from(left) + u16::from(up)) / 2) as u8,
+                _ => paeth(left, up, corner),
+            }));
+        }
+        out
+    };
+    let size = |row: &Vec<u8>| -> u32 {
+        let sizes = row[1..].iter().map(|v| (*v).min(v.wrapping_neg()));
+        sizes.map(u32::from).sum()
+    };
+    let all = (0..5).map(by);
+    all.min_by_key(size).expect("five filters")
+}
+
+/// Returns the neighbour nearest to left + up − corner (PNG specification 9.4).
+fn paeth(left: u8, up: u8, corner: u8) -> u8 {
+    let [a, b, c] = [left, up, corner].map(i16::from);
+    let guess = a + b - c;
+    let [da, db, dc] = [a, b, c].map(|v| (guess - v).abs());
+    match () {
+        () if da <= db && da <= dc => left,
+        () if db <= dc => up,
+        () => corner,
+    }
+}
+
+/// Encodes a picture as an opaque PNG file.
+///
+/// # Errors
+/// If the picture has no pixels, or more than the format can count.
+pub(super) fn png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
+    FilePicture::stored(picture.map(|[r, g, b, _]| [r, g, b, 255])).encode(Format::Png)
+}
+
+/// Returns the bytes of a PNG file as the address of an `<img>`.
+pub(super) fn data_uri(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", STANDARD.encode(png))
+}
+
+/// Halves the sides of a picture: every pixel is the mean of a square of four.
+pub(super) fn halved(picture: &Picture8) -> Picture8 {
+    let (width, height) = (picture.width().div_ceil(2), picture.height().div_ceil(2));
+    let mut small = Picture8::new(width, height, [0; 4]);
+    for y in 0..height {
+        for (x, out) in small.row_mut(y).iter_mut().enumerate() {
+            let rows = 2 * y..picture.height().min(2 * y + 2);
+            let columns = 2 * x..picture.width().min(2 * x + 2);
+            let count = (rows.len() * columns.len()) as u32;
+            let square = rows.flat_map(|row| &picture.row(row)[columns.clone()]);
+            let sum = square.fold([0u32; 4], |sum, [r, g, b, _]| {
+                let [sr, sg, sb, _] = sum;
+                let [r, g, b] = [*r, *g, *b].map(u32::from);
+                [sr + r, sg + g, sb + b, 255 * count]
+            });
+            *out = sum.map(|sum| ((sum + count / 2) / count) as u8);
+        }
+    }
+    small
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flate2::read::ZlibDecoder;
+    use std::io::Read;
+
+    /// Undoes [`pack`], as the page does.
+    fn unpacked(text: &str, width: usize, planes: usize) -> Vec<Vec<u8>> {
+        let packed = STANDARD.decode(text).unwrap();
+        let mut bytes = Vec::new();
+        ZlibDecoder::new(&packed[..])
+            .read_to_end(&mut bytes)
+            .unwrap();
+        let rows: Vec<&[u8]> = bytes.chunks(width + 1).collect();
+        let plane = |rows: &[&[u8]]| {
+            let (mut out, mut above) = (Vec::new(), alloc::vec![0; width]);
+            for row in rows {
+                let mut done: Vec<u8> = Vec::new();
+                for x in 0..width {
+                    let left = if x > 0 { done[x - 1] } else { 0 };
+                    let corner = if x > 0 { above[x - 1] } else { 0 };
+                    let mean = ((u16::from(left) + u16::from(above[x])) / 2) as u8;
+                    let paeth = paeth(left, above[x], corner);
+                    let guess = [0, left, above[x], mean, paeth][usize::from(row[0])];
+                    done.push(row[x + 1].wrapping_add(guess));
+                }
+                out.extend(&done);
+                above = done;
+            }
+            out
+        };
+        rows.chunks(rows.len() / planes).map(plane).collect()
+    }
+
+    #[test]
+    fn planes_come_back() {
+        // Knuth's multiplier scatters one plane; the others are a ramp and a constant.
+        let scattered: Vec<u8> = (0..1200u32)
+            .map(|i| (i.wrapping_mul(2_654_435_769) >> 24) as u8)
+            .collect();
+        let ramp: Vec<u8> = (0..1200u32).map(|i| (i % 40 + i / 40) as u8).collect();
+        let all = Vec::from([scattered, ramp, alloc::vec![9; 1200]]);
+        assert_eq!(unpacked(&pack(&all, 40), 40, 3), all);
+        assert!(pack(&all[1..], 40).len() < 400);
+    }
+
+    #[test]
+    fn what_is_added_to_the_nearest_is_the_picture() {
+        let base = Vec::from([Vec::from([1, 2, 250])]);
+        let picture = Vec::from([Vec::from([1, 3, 4])]);
+        assert_eq!(added(&base, &picture), [[0, 1, 10]]);
+        let others = [Vec::from([Vec::from([1, 3, 9])]), picture.clone()];
+        assert_eq!(nearest(&picture, &base, &others), Some(1));
+        assert_eq!(nearest(&base, &base, &others), None);
+    }
+
+    #[test]
+    fn error_codes_are_steps_of_an_octave() {
+        let reference = LinearPicture::new(5, 1, [0.0, 0.0, 0.0, 1.0]);
+        let mut actual = reference.clone();
+        let errors = [0.0, 0.99 * LEAST_ERROR as f32, 1.0, 2.0, 255.0];
+        for (pixel, error) in actual.row_mut(0).iter_mut().zip(errors) {
+            pixel[1] = error / 255.0;
+        }
+        // Six octaves from 1/64 to 1 level, one more to 2, eight less 0.006 to 255.
+        assert_eq!(error_codes(&reference, &actual), [0, 0, 49, 57, 113]);
+        actual.row_mut(0)[0][2] = f32::NAN;
+        assert_eq!(error_codes(&reference, &actual)[0], 113);
+    }
+
+    #[test]
+    fn halving_takes_means() {
+        let texels = [[0, 10, 100, 255], [2, 10, 101, 255], [8, 11, 12, 9]];
+        let picture = Picture8::from_texels(3, 1, texels.into()).unwrap();
+        let small = [[1, 10, 101, 255], [8, 11, 12, 255]];
+        assert_eq!(
+            halved(&picture),
+            Picture8::from_texels(2, 1, small.into()).unwrap()
+        );
+    }
+
+    #[test]
+    fn addresses_hold_the_file() {
+        assert_eq!(data_uri(&[0xFB, 0xFF, 0x00]), "data:image/png;base64,+/8A");
+    }
+}
