@@ -16,7 +16,8 @@ use fastphong::picture::image_file::write_file;
 use fastphong::report::{Document, Report as Page, SceneData, ScenePictures, utc_date};
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
-use fastphong::scene::file::resolve::Resolved;
+use fastphong::scene::file::diagnostics::Origin;
+use fastphong::scene::file::value::{Data, Table};
 use fastphong::scene::input;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -178,18 +179,30 @@ impl Report {
         if self.full || self.scene.has_size() {
             return file;
         }
-        let side = |given: &Option<Located<i64>>, usual: u32| {
-            given.as_ref().map_or(i64::from(usual), |side| side.value)
+        let image = file.table().table("image");
+        let side = |key: &str, usual: u32| {
+            let given = image.and_then(|image| image.get(key));
+            match given.map(|value| &value.data) {
+                Some(Data::Whole(side)) => *side,
+                _ => i64::from(usual),
+            }
         };
         let (width, height) = Scene::DEFAULT_SIZE;
-        let image = &mut file.image;
-        let size = [side(&image.width, width), side(&image.height, height)];
+        let size = [side("width", width), side("height", height)];
         let part = (0..2).map(|i| SHOWN[i] as f64 / size[i].max(1) as f64);
         let part = part.fold(1.0, f64::min);
         if part < 1.0 {
-            let [width, height] = size.map(|side| ((side as f64 * part).round() as i64).max(1));
-            image.width = Some(Located::flag(width, "--resolution"));
-            image.height = Some(Located::flag(height, "--resolution"));
+            let mut over = Table::default();
+            let image = over.table_mut("image");
+            for (key, side) in ["width", "height"].into_iter().zip(size) {
+                let side = ((side as f64 * part).round() as i64).max(1);
+                image.set(
+                    key,
+                    Data::Whole(side),
+                    Origin::Flag("--resolution".to_owned()),
+                );
+            }
+            file.overlay(over);
         }
         file
     }

@@ -292,7 +292,8 @@ impl SceneFlags {
 
     /// True if a flag gives the size of the picture.
     pub fn has_size(&self) -> bool {
-        self.resolution.is_some()
+        let image = self.over.table("image");
+        image.is_some_and(|image| image.get("width").is_some())
     }
 
     /// Says what is odd about a scene.

@@ -48,7 +48,6 @@ pub use pictures::{LEAST_ERROR, STEPS_AN_OCTAVE};
 use crate::compare::comparison::Comparison;
 use crate::lectures::{Block, Content, Figure};
 use crate::picture::encoding::store;
-use crate::picture::image_file::EncodeError;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use pictures::{Pictures, halved, png};
@@ -84,8 +83,8 @@ impl ScenePictures {
     /// Packs the pictures of a comparison, which may be dropped then.
     ///
     /// # Errors
-    /// [`EncodeError`] if the pictures have no pixels, or more than PNG can count.
-    pub fn new(comparison: &Comparison) -> Result<ScenePictures, EncodeError> {
+    /// If the pictures have no pixels, or more than PNG can count.
+    pub fn new(comparison: &Comparison) -> std::io::Result<ScenePictures> {
         let reference = store(&comparison.reference, comparison.encoding);
         let mut small = Vec::from([("reference".to_string(), png(&halved(&reference))?)]);
         for row in &comparison.rows {
@@ -122,7 +121,7 @@ impl Report {
     ///
     /// # Errors
     /// If a picture has no pixels, or more than its file format can count.
-    pub fn add_figure(&mut self, figure: &Figure, content: Content) -> Result<(), EncodeError> {
+    pub fn add_figure(&mut self, figure: &Figure, content: Content) -> std::io::Result<()> {
         let shown = content.blocks.iter().flat_map(|block| match block {
             Block::Pictures { shown, .. } => &shown[..],
             _ => &[],

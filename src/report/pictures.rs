@@ -6,7 +6,7 @@
 
 use crate::compare::comparison::Comparison;
 use crate::picture::encoding::store;
-use crate::picture::image_file::{EncodeError, FilePicture, Format};
+use crate::picture::image_file::{FilePicture, Format};
 use crate::picture::{LinearPicture, Picture8};
 use alloc::collections::BTreeMap;
 use alloc::format;
@@ -214,7 +214,7 @@ fn paeth(left: u8, up: u8, corner: u8) -> u8 {
 ///
 /// # Errors
 /// If the picture has no pixels, or more than the format can count.
-pub(super) fn png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
+pub(super) fn png(picture: &Picture8) -> std::io::Result<Vec<u8>> {
     FilePicture::stored(picture.map(|[r, g, b, _]| [r, g, b, 255])).encode(Format::Png)
 }
 
