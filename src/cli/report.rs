@@ -19,7 +19,6 @@ use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, Table};
 use fastphong::scene::input;
-use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Instant, SystemTime};
@@ -138,14 +137,18 @@ impl Report {
         }
         .install(|| {
             let done = AtomicUsize::new(0);
-            let scene = |(name, file): (&&str, &SceneFile)| {
-                let drawn = self.draw(name, file, &progress, talk);
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                progress.at(0.4 * done as f32 / all, &format!("{name}: drawn"));
-                drawn
-            };
-            let scenes: Result<Vec<Drawn>, Failure> =
-                names.par_iter().zip(&files).map(scene).collect();
+            let mut scenes: Vec<_> = files.iter().map(|_| None).collect();
+            rayon::scope(|scope| {
+                for ((name, file), drawn) in names.iter().zip(&files).zip(&mut scenes) {
+                    let (done, progress) = (&done, &progress);
+                    scope.spawn(move |_| {
+                        *drawn = Some(self.draw(name, file, progress, talk));
+                        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                        progress.at(0.4 * done as f32 / all, &format!("{name}: drawn"));
+                    });
+                }
+            });
+            let scenes: Result<Vec<Drawn>, Failure> = scenes.into_iter().flatten().collect();
             let told = |part: f32, what: &str| {
                 let figures = 0.2 * figures.len() as f32;
                 progress.at((drawing - figures * (1.0 - part)) / all, what);

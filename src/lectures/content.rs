@@ -1,12 +1,13 @@
 //! What a figure is made of: data, with nothing said of how it looks.
 
 use crate::picture::Picture8;
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use serde::{Deserialize, Serialize};
+use serde::{Serialize, Serializer};
 
 /// A figure that was made.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Content {
     /// What is shown, from top to bottom.
     pub blocks: Vec<Block>,
@@ -80,7 +81,7 @@ impl Content {
 }
 
 /// A part of a figure.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Block {
     /// A paragraph of plain text.
@@ -104,19 +105,15 @@ pub enum Block {
 }
 
 /// A picture with what stands below it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shown {
     /// What stands below it.
     pub caption: String,
     /// What it shows, for who cannot see it.
     pub alt: String,
     /// The picture itself, small: its pixels are shown as squares. It is stored beside the data.
-    #[serde(skip, default = "no_picture")]
+    #[serde(skip)]
     pub picture: Picture8,
-}
-
-fn no_picture() -> Picture8 {
-    Picture8::new(0, 0, [0; 4])
 }
 
 impl Shown {
@@ -131,7 +128,7 @@ impl Shown {
 }
 
 /// How values are laid out along an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scale {
     /// Equal differences are equally long.
@@ -141,7 +138,7 @@ pub enum Scale {
 }
 
 /// Curves over one another.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plot {
     /// What is shown, in a line.
     pub title: String,
@@ -158,35 +155,20 @@ pub struct Plot {
 }
 
 /// One curve.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Series {
     /// What it is called.
     pub label: String,
     /// Its points, in the order in which they are joined; what is not finite is left out.
-    #[serde(with = "five_digits")]
+    #[serde(serialize_with = "five_digits")]
     pub points: Vec<(f64, f64)>,
 }
 
-/// Points with five significant digits, which no chart can show; `null` for what is not finite.
-mod five_digits {
-    use alloc::format;
-    use alloc::vec::Vec;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(points: &[(f64, f64)], to: S) -> Result<S::Ok, S::Error> {
-        let short = |value: f64| format!("{value:.4e}").parse::<f64>().unwrap_or(value);
-        let points = points.iter().map(|(x, y)| (short(*x), short(*y)));
-        points.collect::<Vec<_>>().serialize(to)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(f64, f64)>, D::Error> {
-        let points: Vec<(Option<f64>, Option<f64>)> = Vec::deserialize(from)?;
-        let or_none = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        Ok(points
-            .into_iter()
-            .map(|(x, y)| (or_none(x), or_none(y)))
-            .collect())
-    }
+/// Writes points with five significant digits, which no chart can show; `null` for what is not finite.
+fn five_digits<S: Serializer>(points: &[(f64, f64)], to: S) -> Result<S::Ok, S::Error> {
+    let short = |value: f64| format!("{value:.4e}").parse::<f64>().unwrap_or(value);
+    let points = points.iter().map(|(x, y)| (short(*x), short(*y)));
+    points.collect::<Vec<_>>().serialize(to)
 }
 
 impl Series {
@@ -200,7 +182,7 @@ impl Series {
 }
 
 /// What a measured value says about the lecture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Agreement {
     /// As the lecture says.
@@ -232,7 +214,7 @@ impl Agreement {
 }
 
 /// One measured value, and what follows from it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// What programs call it: the same from run to run, unique in its figure.
     pub key: String,

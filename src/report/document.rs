@@ -42,8 +42,8 @@ pub struct Document {
     pub methods: Vec<MethodData>,
     /// The scenes, in the order of the page.
     pub comparisons: Vec<SceneData>,
-    /// The figures of the lectures.
-    #[serde(default)]
+    /// The figures of the lectures; not read back, as what they show is pictures.
+    #[serde(skip_deserializing)]
     pub figures: Vec<FigureData>,
     /// What fast Phong gained, and what is left of it.
     #[serde(default)]
@@ -121,7 +121,7 @@ pub struct OperationsData {
 }
 
 /// A figure of the lectures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FigureData {
     /// The name on the command line.
     pub name: String,

@@ -5,6 +5,7 @@
 //! Against lossless WebP by the `image` crate: see `docs/performance.md`.
 
 use crate::compare::comparison::Comparison;
+use crate::number::parallel::collect;
 use crate::picture::encoding::store;
 use crate::picture::image_file::{FilePicture, Format};
 use crate::picture::{LinearPicture, Picture8};
@@ -16,7 +17,6 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
-use rayon::prelude::*;
 use serde::Serialize;
 use std::io::Write;
 
@@ -60,14 +60,11 @@ impl Pictures {
         let reference = planes(&store(&comparison.reference, comparison.encoding));
         let width = comparison.width;
         let names: Vec<String> = comparison.rows.iter().map(|row| row.name()).collect();
-        let (drawn, maps): (Vec<_>, Vec<_>) = comparison
-            .rows
-            .par_iter()
-            .map(|row| {
-                let map = error_codes(&comparison.reference, &row.linear);
-                (planes(&row.picture), Vec::from([map]))
-            })
-            .unzip();
+        let rows = &comparison.rows;
+        let drawn = collect(rows.len(), 1, |i| planes(&rows[i].picture));
+        let maps = collect(rows.len(), 1, |i| {
+            Vec::from([error_codes(&comparison.reference, &rows[i].linear)])
+        });
         let nothing = Vec::from([alloc::vec![0; reference[0].len()]]);
         let pack_on = |base: &[Vec<u8>], all: &[Vec<Vec<u8>>], at: usize| {
             let near = nearest(&all[at], base, &all[..at]);
@@ -89,7 +86,7 @@ impl Pictures {
         Pictures {
             steps: STEPS_AN_OCTAVE,
             reference: pack(&reference, width),
-            rows: (0..names.len()).into_par_iter().map(stored).collect(),
+            rows: collect(names.len(), 1, stored).into_iter().collect(),
         }
     }
 
