@@ -188,9 +188,13 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
             return;
         };
         let mask = m.depth_mask(outside, depth, m.load(values).max(self.least));
-        m.store(m.select(mask, m.load(values), depth), values);
-        for (place, i) in values.chunks_exact_mut(BLOCK).zip(0..).skip(1) {
-            m.store(m.select(mask, m.load(place), number(i)), place);
+        // A `while`: with `chunks_exact_mut` it depends on the rest of the crate whether the loop is unrolled.
+        let mut i = 0;
+        while i < self.count.get() {
+            let place = &mut values[i * BLOCK..(i + 1) * BLOCK];
+            let new = if i == 0 { depth } else { number(i) };
+            m.store(m.select(mask, m.load(place), new), place);
+            i += 1;
         }
     }
 
