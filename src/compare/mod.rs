@@ -1,4 +1,4 @@
-//! How far pictures are from each other, and what they cost.
+//! Differences between pictures, and their cost.
 
 #[cfg(feature = "cli")]
 pub mod comparison;

@@ -2,7 +2,7 @@
 
 use crate::picture::Rgb;
 
-/// How a surface reflects light: the coefficients of L21 2.1, each per channel.
+/// The reflection of light by a surface: the coefficients of L21 2.1, each per channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Ambient reflection `k_a`.

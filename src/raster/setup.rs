@@ -279,7 +279,7 @@ impl<'a> SetUp<'a> {
         values
     }
 
-    /// Lights vertices of one material, far from all lights, whose normals need not be gathered.
+    /// Lights vertices of one material by directional lights: their normals need not be gathered.
     fn lit_in_place(&self, level: Level, normals: &[[f32; 3]]) -> Vec<f32> {
         let stride = self.varyings.count;
         let mut values = vec![0.0; normals.len() * stride];

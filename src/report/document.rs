@@ -20,9 +20,9 @@ use serde::{Deserialize, Serialize};
 pub struct Document {
     /// [`SCHEMA`].
     pub schema: String,
-    /// What was typed, program first.
+    /// The command line as typed, program first.
     pub command_line: Vec<String>,
-    /// What the times are of.
+    /// The machine that was timed.
     pub machine: Machine,
     /// [`WHAT_IS_TIMED`].
     pub timed: String,
@@ -45,10 +45,10 @@ pub struct Document {
     /// The figures of the lectures; not read back, as what they show is pictures.
     #[serde(skip_deserializing)]
     pub figures: Vec<FigureData>,
-    /// What fast Phong gained, and what is left of it.
+    /// Speeds of all methods over naive Phong's: kernels and frames, scalar and SIMD.
     #[serde(default)]
     pub speedups: Option<Speedups>,
-    /// How cost grows with triangles and pixels.
+    /// Times over the number of triangles and of pixels, and fitted costs.
     #[serde(default)]
     pub scaling: Option<Scaling>,
 }
@@ -59,13 +59,13 @@ pub struct SceneData {
     /// A few words; the name if empty.
     #[serde(default)]
     pub title: String,
-    /// What the scene tests; may be empty.
+    /// The purpose of the scene; may be empty.
     #[serde(default)]
     pub description: String,
     /// Errors and times.
     #[serde(flatten)]
     pub comparison: ComparisonData,
-    /// What cutting its polygons into triangles does; `None` if they are triangles.
+    /// The effect of cutting its polygons into triangles; `None` if they are triangles.
     #[serde(default)]
     pub triangulation: Option<TriangulationData>,
 }
@@ -81,7 +81,7 @@ pub struct TriangulationData {
     pub difference: Difference,
 }
 
-/// What is said about a method.
+/// The description of a method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MethodData {
     /// The variant, as a user names it.
@@ -94,13 +94,13 @@ pub struct MethodData {
     pub title: String,
     /// The formulas, as `fastphong explain` prints them.
     pub formula: String,
-    /// Where it stands.
+    /// The lecture or paper that it comes from.
     pub source: String,
-    /// Where it fails.
+    /// The cases in which it fails.
     pub fails: String,
-    /// What it does in perspective.
+    /// The treatment of perspective.
     pub perspective: String,
-    /// What it does where a light or the eye is at a position.
+    /// The treatment of lights and eyes at positions.
     pub local: String,
     /// The operations counted, for one light and for four.
     pub operations: Vec<OperationsData>,
@@ -127,9 +127,9 @@ pub struct FigureData {
     pub name: String,
     /// The heading.
     pub title: String,
-    /// Where the lecture shows or says it.
+    /// The place in the lecture that shows or says it.
     pub lecture: String,
-    /// What it shows, and what was found.
+    /// Text, pictures and curves, and the findings.
     #[serde(flatten)]
     pub content: Content,
 }

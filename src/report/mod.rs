@@ -73,7 +73,7 @@ pub struct Report {
 pub struct ScenePictures {
     /// The scene's name.
     name: String,
-    /// What the page unpacks, as JSON.
+    /// The packed pictures that the page unpacks, as JSON.
     packed: String,
     /// PNG files at half the size: the reference, and those of [`PROJECT`].
     small: Vec<(String, Vec<u8>)>,

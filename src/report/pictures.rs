@@ -43,13 +43,13 @@ struct Stored {
     /// The variant whose picture it adds to; the reference if `None`.
     #[serde(skip_serializing_if = "Option::is_none")]
     on: Option<String>,
-    /// What it adds; nothing if `None`.
+    /// The packed difference from its base; `None` if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     add: Option<String>,
     /// The variant whose error map it adds to; a map of zeros if `None`.
     #[serde(skip_serializing_if = "Option::is_none")]
     map_on: Option<String>,
-    /// What its error map adds; nothing if `None`.
+    /// The packed difference of its error map from its base; `None` if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     map: Option<String>,
 }

@@ -73,7 +73,7 @@ use crate::number::{Num, Vec3};
 
 /// A shading method: what is computed once a vertex, along a span, and once a pixel.
 ///
-/// Its fields are its parameters; one without any derives `Default` and leaves `new` out. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
+/// Fields are parameters; a method without any derives `Default` and leaves `new` out. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
 pub trait Shader: Copy + Default + 'static {
     /// What is said about the method.
     const INFO: Info;

@@ -86,7 +86,7 @@ macro_rules! planes {
             }
             #[inline(always)]
             fn zip(self, other: Self, of: impl Fn(F, F) -> F + Copy) -> Self {
-                #[allow(clippy::redundant_closure_call)]
+                #[allow(clippy::redundant_closure_call)] // likewise
                 ($make)($(self.$field.zip(other.$field, of)),+)
             }
         }

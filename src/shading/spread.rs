@@ -18,11 +18,11 @@ pub(super) struct Spread {
     pub vectors: f64,
     /// The largest weight of perspective over the smallest in one polygon.
     pub weights: f64,
-    /// What each material sees of the lights.
+    /// The lights as each material sees them.
     pub materials: Vec<Seen>,
 }
 
-/// What the polygons of a material see of the lights.
+/// The lights as the polygons of a material see them.
 pub(super) struct Seen {
     /// The greatest strength of each light.
     pub strengths: Vec<f64>,

@@ -267,7 +267,7 @@ fn target(
         .find(|module| modules.contains(module))
 }
 
-/// What each file imports, tests left out.
+/// Imports by file, tests left out.
 fn imports() -> BTreeMap<Module, BTreeSet<Module>> {
     let module_of = |file: &str| -> Module {
         let path = file.trim_start_matches("src/").trim_end_matches(".rs");

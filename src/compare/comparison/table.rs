@@ -8,7 +8,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-/// Which columns a table has. All show error and speed.
+/// The columns of a table. All show error and speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableKind {
     /// Six columns that fit 100 characters: the essence of error and speed.

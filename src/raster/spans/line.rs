@@ -1,4 +1,4 @@
-//! Which span is seen at each pixel of a scanline: a depth buffer of one line, and the depth test of the span engine.
+//! The span seen at each pixel of a scanline: a depth buffer of one line, and the depth test of the span engine.
 
 use super::active::Span;
 use crate::raster::depth::SampleDepth;

@@ -71,7 +71,7 @@ impl Table {
     /// Reads a scene from TOML text.
     ///
     /// # Errors
-    /// Where the text is not TOML, a key or word is unknown, or a value is of the wrong kind.
+    /// If the text is not TOML, a key or word is unknown, or a value is of the wrong kind.
     pub fn parse(text: &str, place: Place) -> Result<Table, SceneError> {
         let table = DeTable::parse(text).map_err(|error| SceneError::from_toml(&error))?;
         let span = table.span();
