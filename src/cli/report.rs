@@ -104,12 +104,16 @@ struct Drawn {
 impl Report {
     /// Compares, times, and writes the page.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        // What flags contradict is said before a folder is made.
+        // What flags contradict, or files do not hold, is said before a folder is made.
         self.drawn.renderer()?;
+        let read = match &self.from[..] {
+            [] => None,
+            files => Some(read(files)?),
+        };
         let folder = page_folder(&self.output)?;
-        let page = match &self.from[..] {
-            [] => self.make(*talk)?,
-            files => read(files)?,
+        let page = match read {
+            Some(page) => page,
+            None => self.make(*talk)?,
         };
         to_stdout(self.write(&page, &folder)?.as_bytes())?;
         Ok(Outcome::Done)

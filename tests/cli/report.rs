@@ -188,8 +188,9 @@ fn documents_are_laid_side_by_side_without_drawing() {
     assert!(!page(&folder, "c.html").contains("id=\"pictures-0\""));
     folder
         .write("bad.json", "{}")
-        .run("report --from bad.json -o c.html")
+        .run("report --from bad.json -o new/c.html")
         .refused(&["bad.json: no `schema`"]);
+    assert!(!folder.path("new").exists(), "no folder is left");
     folder
         .run("report figure5 --from a.json")
         .refused(&["cannot be used with"]);
