@@ -11,7 +11,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::time::Duration;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The methods that are drawn: what the lecture starts from, what draws its picture fastest, and the floor.
 const METHODS: [&str; 3] = ["gouraud", BASELINE, "phong-rsqrt"];
@@ -73,7 +73,7 @@ pub enum Axis {
 }
 
 /// What was drawn, how often each cost arises in it, and how long it takes to project it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Point {
     /// About how many triangles were asked for.
     pub asked: usize,
@@ -103,7 +103,7 @@ impl Point {
 }
 
 /// What one of each costs, in nanoseconds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Costs {
     /// A vertex of the mesh: projected, with the triangles around it culled or kept.
     pub vertex_ns: f64,
@@ -134,7 +134,7 @@ impl Costs {
 }
 
 /// A method, by one renderer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Curve {
     /// The method.
     pub method: String,
@@ -149,7 +149,7 @@ pub struct Curve {
 }
 
 /// How long frames take.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scaling {
     /// The meshes, with `N` for the number of triangles.
     pub mesh: String,

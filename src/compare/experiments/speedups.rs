@@ -16,7 +16,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::hint::black_box;
 use core::time::Duration;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The angle between the normals at the ends of the span, in degrees: that of a coarse mesh.
 const DEGREES: f32 = 20.0;
@@ -51,7 +51,7 @@ impl Default for SpeedupOptions {
 }
 
 /// What is timed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Work {
     /// A long span shaded by the method alone: vertices and set-up, then every pixel.
@@ -71,7 +71,7 @@ impl Work {
 }
 
 /// One of the ways in which every method is timed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Corner {
     /// What is timed.
     pub work: Work,
@@ -85,7 +85,7 @@ pub struct Corner {
 }
 
 /// How fast a method is in one corner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Speedup {
     /// Times of one span or frame.
     pub timing: Timing,
@@ -94,7 +94,7 @@ pub struct Speedup {
 }
 
 /// How fast a method is in all corners.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MethodSpeedups {
     /// The variant, as a user names it.
     pub method: String,
@@ -112,7 +112,7 @@ impl MethodSpeedups {
 }
 
 /// What fast Phong gained when it was invented, and what is left of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Speedups {
     /// The mesh of the frames.
     pub mesh: String,

@@ -48,7 +48,7 @@ const PERCENTILE: f64 = 0.99;
 /// A pixel's error is the largest absolute difference of its three channels, in 0..=1 for values in 0..=1. A channel
 /// that is not finite in one of the pictures counts as an error of 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "io", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "io", derive(serde::Serialize))]
 pub struct Difference {
     /// True if the pictures agree in the colour and coverage of every pixel, excluded ones aside.
     pub equal: bool,
