@@ -1,12 +1,13 @@
 //! `render --reference`: a picture against the one that was accepted before.
 
-use super::drawing::Drawing;
+use super::drawing::RenderJob;
 use super::output::Output;
-use super::{Failure, Outcome};
+use super::{CliError, Outcome};
 use fastphong::compare::metrics::{Difference, SizeMismatch, compare, difference_map};
 use fastphong::picture::image_file::{
     FilePicture, Format, comparable, read_picture, write_picture,
 };
+use fastphong::report::shell_word;
 use std::path::{Path, PathBuf};
 
 /// Grey levels at the light end of difference pictures.
@@ -39,10 +40,10 @@ impl ReferenceCheck<'_> {
     ///
     /// # Errors
     /// When the reference is there and cannot be read, or a picture cannot be written.
-    pub fn run(&self, drawing: &Drawing) -> Result<Verdict, Failure> {
+    pub fn run(&self, job: &RenderJob) -> Result<Verdict, CliError> {
         let (reference, shown) = (self.reference, self.reference.display());
         let format = Format::of_path(reference)?;
-        let actual = drawing.picture(format == Format::Pfm);
+        let actual = job.picture(format == Format::Pfm);
         let unreadable = |error| format!("{shown}: cannot be read: {error}");
         if !reference.try_exists().map_err(unreadable)? {
             let candidate = self.keep(&actual, format)?;
@@ -87,14 +88,14 @@ impl ReferenceCheck<'_> {
     fn how_to_accept(&self, candidate: &Path) -> String {
         format!(
             "to accept it: cp {} {}\n",
-            quoted(candidate),
-            quoted(self.reference)
+            shell_word(&candidate.display().to_string()),
+            shell_word(&self.reference.display().to_string())
         )
     }
 
     /// Returns the file that holds the picture in the format of the reference: the one already written, or one beside the
     /// reference.
-    fn keep(&self, actual: &FilePicture, format: Format) -> Result<PathBuf, Failure> {
+    fn keep(&self, actual: &FilePicture, format: Format) -> Result<PathBuf, CliError> {
         if let Some(Output {
             path: Some(path),
             format: written,
@@ -136,15 +137,4 @@ fn sibling(beside: &Path, reference: &Path, word: &str, format: Format) -> PathB
     let mut name = reference.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{word}.{}", format.ending()));
     beside.with_file_name(name)
-}
-
-/// Writes a path as a shell reads it back.
-fn quoted(path: &Path) -> String {
-    let text = path.display().to_string();
-    let plain = |c: char| c.is_alphanumeric() || "-_./+=:@%,".contains(c);
-    if !text.is_empty() && text.chars().all(plain) {
-        text
-    } else {
-        format!("'{}'", text.replace('\'', r"'\''"))
-    }
 }

@@ -1,8 +1,8 @@
 //! Flags that change the scene: each stands for keys of a scene file. Their values stand over those of the scene file,
 //! and are checked with them.
 
-use super::Failure;
-use super::talk::Talk;
+use super::CliError;
+use super::log::Log;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::SceneFile;
@@ -271,7 +271,7 @@ impl SceneFlags {
     ///
     /// # Errors
     /// When there is no such input.
-    pub fn load(&self, input: &str) -> Result<SceneFile, Failure> {
+    pub fn load(&self, input: &str) -> Result<SceneFile, CliError> {
         let mut file = input::load(input)?;
         file.overlay(self.over.clone());
         for object in file.objects_mut() {
@@ -297,15 +297,15 @@ impl SceneFlags {
     }
 
     /// Says what is odd about a scene.
-    pub fn warn(&self, resolved: &Resolved, talk: Talk) {
+    pub fn warn(&self, resolved: &Resolved, log: Log) {
         for warning in &resolved.warnings {
-            talk.warning(warning);
+            log.warning(warning);
         }
         let mut objects = resolved.scene.objects.iter();
         if self.over.get("material").is_some()
             && objects.any(|object| !object.mesh.materials().is_empty())
         {
-            talk.note("the material given by flags replaces those of the mesh file");
+            log.note("the material given by flags replaces those of the mesh file");
         }
     }
 }

@@ -41,6 +41,7 @@ pub use document::{
     Rate, SCHEMA, label, parse,
 };
 pub use markdown::Markdown;
+pub use page::shell_word;
 pub use pictures::{LEAST_ERROR, STEPS_AN_OCTAVE};
 
 use crate::compare::comparison::Comparison;

@@ -49,7 +49,7 @@ pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
 
 use super::metrics::Difference;
-use super::timing::Limits;
+use super::timing::TimeLimits;
 use crate::frame::triangulate::triangulated;
 use crate::frame::{Frame, FrameStats};
 use crate::picture::{Encoding, LinearPicture, Picture8};
@@ -84,7 +84,7 @@ pub struct Input<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// The length of the timing; `None` takes no times, so that every run has the same result to the last bit.
-    pub timing: Option<Limits>,
+    pub timing: Option<TimeLimits>,
     /// The renderer of the variants. The barycentric renderer has one way only.
     pub renderer: Renderer,
 }
@@ -93,7 +93,7 @@ impl Default for Options {
     /// Returns options with times, in the lecture's own form.
     fn default() -> Self {
         Options {
-            timing: Some(Limits::default()),
+            timing: Some(TimeLimits::default()),
             renderer: Renderer::LECTURE,
         }
     }
@@ -351,7 +351,7 @@ impl Comparison {
 
     /// Times all rows together, on the frame that they were drawn from; triangulating is not timed. `progress` hears which
     /// part is done, never while a time is taken.
-    pub fn time(&mut self, frame: &Frame, limits: Limits, progress: impl FnMut(f32)) {
+    pub fn time(&mut self, frame: &Frame, limits: TimeLimits, progress: impl FnMut(f32)) {
         self.renderer = DrawnBy::new(self.requested);
         speed::time(self, frame, &triangulated(frame).frame, limits, progress);
     }

@@ -1,7 +1,7 @@
 //! Times of all rows of a comparison.
 
 use super::{Comparison, Row, counterpart, is_baseline};
-use crate::compare::timing::{Candidate, Limits, Ratio, Timing, time_interleaved};
+use crate::compare::timing::{Candidate, Ratio, TimeLimits, Timing, time_interleaved};
 use crate::frame::Frame;
 use crate::picture::Picture;
 use crate::raster::Edges;
@@ -33,7 +33,7 @@ pub(super) fn time(
     comparison: &mut Comparison,
     frame: &Frame,
     triangles: &Frame,
-    limits: Limits,
+    limits: TimeLimits,
     progress: impl FnMut(f32),
 ) {
     let renderer = comparison.requested;

@@ -10,6 +10,6 @@ mod spans;
 mod statistics;
 
 pub use machine::Machine;
-pub use rounds::{Candidate, Limits, time_interleaved};
+pub use rounds::{Candidate, TimeLimits, time_interleaved};
 pub use spans::SpanRow;
 pub use statistics::{CONFIDENCE, Ratio, Timing};
