@@ -18,34 +18,40 @@ pub fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
     let mut choices: Vec<AutoChoice> = Vec::new();
     for entry in METHODS {
         let plan = entry.variant().plan(frame, Renderer::fastest());
-        let (engine, level) = (plan.renderer.engine().name(), plan.renderer.level().name());
-        let key = (engine, level, plan.reason);
-        let mut same = choices
+        let choice = AutoChoice {
+            engine: plan.renderer.engine().name(),
+            level: plan.renderer.level().name(),
+            reason: plan.reason,
+            methods: vec![entry.info.name],
+        };
+        match choices
             .iter_mut()
-            .filter(|c| (c.engine, c.level, c.reason) == key);
-        match same.next() {
-            Some(choice) => choice.methods.push(entry.info.name),
-            None => choices.push(AutoChoice {
-                engine,
-                level,
-                reason: plan.reason,
-                methods: vec![entry.info.name],
-            }),
+            .find(|other| other.head() == choice.head())
+        {
+            Some(other) => other.methods.extend(choice.methods),
+            None => choices.push(choice),
         }
     }
     choices
 }
 
+impl AutoChoice {
+    fn head(&self) -> (&str, &str, Option<&str>) {
+        (self.engine, self.level, self.reason)
+    }
+}
+
 impl std::fmt::Display for AutoChoice {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let reason = self
+            .reason
+            .map_or(String::new(), |reason| format!(" ({reason})"));
         write!(
             f,
-            "{}, {}: {}",
+            "{}, {}: {}{reason}",
             self.engine,
             self.level,
             self.methods.join(", ")
-        )?;
-        self.reason
-            .map_or(Ok(()), |reason| write!(f, " ({reason})"))
+        )
     }
 }

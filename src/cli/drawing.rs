@@ -4,6 +4,7 @@ use super::engines::{ENGINES, EngineFlag, Simd, cs171_shading};
 use super::log::Log;
 use super::text::{counted, grouped};
 use super::{CliError, aov::Aov};
+use fastphong::compare::comparison::DrawnBy;
 use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
@@ -68,7 +69,7 @@ impl fmt::Display for Method {
 
 /// The quantity that a picture shows.
 #[derive(Clone, Debug)]
-pub enum Shown {
+pub enum PictureContent {
     /// Colours; the engine and the instruction set asked for, and the renderer that they name.
     Shaded(Method, EngineFlag, Simd, Renderer),
     /// Another quantity; the side of a square of the checkerboard, in world units.
@@ -78,7 +79,7 @@ pub enum Shown {
 /// A frame to draw, and the quantity that its picture shows.
 pub struct RenderJob {
     frame: Frame,
-    shown: Shown,
+    content: PictureContent,
 }
 
 impl RenderJob {
@@ -86,9 +87,9 @@ impl RenderJob {
     ///
     /// # Errors
     /// When the engine does not have the method or the instruction set.
-    pub fn new(frame: Frame, shown: Shown, log: Log) -> Result<RenderJob, CliError> {
-        let Shown::Shaded(method, engine, simd, _) = &shown else {
-            return Ok(RenderJob { frame, shown });
+    pub fn new(frame: Frame, content: PictureContent, log: Log) -> Result<RenderJob, CliError> {
+        let PictureContent::Shaded(method, engine, simd, _) = &content else {
+            return Ok(RenderJob { frame, content });
         };
         let (name, title) = match (engine, method) {
             (EngineFlag::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
@@ -99,9 +100,9 @@ impl RenderJob {
             }
             (EngineFlag::Scanlines(None), Method::Reference(_)) => {
                 refuse_simd("the reference", *simd)?;
-                return Ok(RenderJob { frame, shown });
+                return Ok(RenderJob { frame, content });
             }
-            _ => return Ok(RenderJob { frame, shown }),
+            _ => return Ok(RenderJob { frame, content }),
         };
         let engine = ENGINES.iter().filter(|engine| engine.name == name);
         let has: Vec<&str> = engine.flat_map(|engine| engine.methods()).collect();
@@ -112,51 +113,44 @@ impl RenderJob {
         }
         refuse_simd(title, *simd)?;
         let frame = in_triangles(frame, title, log);
-        Ok(RenderJob { frame, shown })
+        Ok(RenderJob { frame, content })
     }
 
     /// Logs which loops draw the picture: as a note where they are not those that were asked for.
     pub fn log(&self, threads: Option<usize>, log: Log) {
-        let (mut level, mut used, mut reason) = ("scalar", 1, None);
-        let engine = match &self.shown {
-            Shown::Aov(..) => "the span engine".to_owned(),
-            Shown::Shaded(_, EngineFlag::Barycentric(_), ..) => "the barycentric engine".to_owned(),
-            Shown::Shaded(_, EngineFlag::Cs171 { .. }, ..) => {
-                level = "f64";
-                "the cs171 engine".to_owned()
+        let (mut used, mut reason, mut is_other) = (1, None, false);
+        let drawn_by = match &self.content {
+            PictureContent::Aov(..) => "the span engine, scalar, 1 thread".to_owned(),
+            PictureContent::Shaded(_, EngineFlag::Barycentric(_), ..) => {
+                "the barycentric engine, scalar, 1 thread".to_owned()
             }
-            Shown::Shaded(Method::Reference(_), ..) => {
-                level = "f64";
-                "the reference".to_owned()
+            PictureContent::Shaded(_, EngineFlag::Cs171 { .. }, ..) => {
+                "the cs171 engine, f64, 1 thread".to_owned()
             }
-            Shown::Shaded(
+            PictureContent::Shaded(Method::Reference(_), ..) => {
+                "the reference, f64, 1 thread".to_owned()
+            }
+            PictureContent::Shaded(
                 Method::Variant(variant),
                 EngineFlag::Scanlines(asked),
                 simd,
                 renderer,
             ) => {
                 let plan = variant.plan(&self.frame, *renderer);
-                let drawn_by = plan.renderer;
-                let is_other = asked.is_some_and(|asked| asked != drawn_by.engine())
-                    || matches!(simd, Simd::Level(asked) if *asked != drawn_by.level());
-                (level, used) = (drawn_by.level().name(), drawn_by.threads());
-                reason = plan.reason.map(|reason| (reason, is_other));
-                format!("the {} engine", drawn_by.engine())
+                is_other = asked.is_some_and(|asked| asked != plan.renderer.engine())
+                    || matches!(simd, Simd::Level(asked) if *asked != plan.renderer.level());
+                (used, reason) = (plan.renderer.threads(), plan.reason);
+                DrawnBy::new(plan.renderer).to_string()
             }
         };
-        let text = format!(
-            "drawn by {engine}, {level}, {}",
-            counted(used, "thread", "threads")
-        );
-        match reason {
-            Some((reason, true)) => log.note(&format!("{text}: {reason}")),
-            Some((reason, false)) => log.detail(&format!("{text}: {reason}")),
-            None => log.detail(&text),
+        let reason = reason.map_or(String::new(), |reason| format!(": {reason}"));
+        match is_other && !reason.is_empty() {
+            true => log.note(&format!("drawn by {drawn_by}{reason}")),
+            false => log.detail(&format!("drawn by {drawn_by}{reason}")),
         }
         if let (Some(threads @ 2..), 1) = (threads, used) {
-            log.note(&format!(
-                "--threads {threads} leaves the pixels on one thread: {text}"
-            ));
+            let text = format!("--threads {threads} leaves the pixels on one thread");
+            log.note(&format!("{text}: drawn by {drawn_by}"));
         }
     }
 
@@ -166,10 +160,13 @@ impl RenderJob {
     /// # Errors
     /// Those of `take`.
     pub fn rows<E>(&self, mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>) -> Result<(), E> {
-        match &self.shown {
-            Shown::Shaded(Method::Variant(variant), EngineFlag::Scanlines(_), _, renderer) => {
-                variant.render_rows(&self.frame, *renderer, take)
-            }
+        match &self.content {
+            PictureContent::Shaded(
+                Method::Variant(variant),
+                EngineFlag::Scanlines(_),
+                _,
+                renderer,
+            ) => variant.render_rows(&self.frame, *renderer, take),
             _ => take(self.picture(false).to_stored().texels()),
         }
     }
@@ -182,16 +179,18 @@ impl RenderJob {
     /// Draws the picture: floats if `linear`, else as stored in 8 bits.
     pub fn picture(&self, linear: bool) -> FilePicture {
         let frame = &self.frame;
-        let (variant, engine, renderer) = match &self.shown {
-            Shown::Aov(aov, square) if linear => {
+        let (variant, engine, renderer) = match &self.content {
+            PictureContent::Aov(aov, square) if linear => {
                 return FilePicture::linear(aov.linear(frame, *square));
             }
-            Shown::Aov(aov, square) => return FilePicture::stored(aov.stored(frame, *square)),
-            Shown::Shaded(Method::Reference(model), ..) => {
+            PictureContent::Aov(aov, square) => {
+                return FilePicture::stored(aov.stored(frame, *square));
+            }
+            PictureContent::Shaded(Method::Reference(model), ..) => {
                 let picture = reference::render(frame, *model).picture;
                 return from_f64(&picture, frame.encoding(), linear);
             }
-            Shown::Shaded(Method::Variant(variant), engine, _, renderer) => {
+            PictureContent::Shaded(Method::Variant(variant), engine, _, renderer) => {
                 (variant, engine, *renderer)
             }
         };

@@ -230,7 +230,7 @@ impl SimdList {
         let is_asked = |renderer: &Renderer| asked.is_none_or(|e| e == renderer.engine());
         let mut renderers: Vec<Renderer> = Renderer::available().filter(is_asked).collect();
         let named = match &self.0[..] {
-            // Where the machine has none of them, the error is that of `auto`.
+            // A machine without any of them gives the error of `auto`.
             [] if renderers.is_empty() => &[Simd::Auto],
             [] => return Ok(renderers),
             named => named,

@@ -8,9 +8,9 @@ use super::text::{grouped, wrapped};
 use super::{CliError, Outcome};
 use fastphong::compare::table::aligned;
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::scene::{Object, Projection, input};
-use serde::Serialize;
-use serde_json::json;
+use fastphong::scene::file::SceneFile;
+use fastphong::scene::{Object, Projection, Scene, input};
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -26,35 +26,8 @@ pub struct InfoArgs {
     scene: SceneFlags,
 }
 
-/// The facts about a scene.
-#[derive(Serialize)]
-struct SceneFacts<'a> {
-    schema: &'static str,
-    input: &'a str,
-    title: Option<&'a str>,
-    description: Option<&'a str>,
-    width: u32,
-    height: u32,
-    camera: CameraFacts,
-    lights: usize,
-    auto: Vec<AutoChoice>,
-    objects: Vec<ObjectFacts<'a>>,
-}
-
-/// The camera of a scene: it has either a half height or a field of view.
-#[derive(Serialize)]
-struct CameraFacts {
-    eye: [f64; 3],
-    target: [f64; 3],
-    up: [f64; 3],
-    half_height: Option<f64>,
-    fovy: Option<f64>,
-    near: f64,
-    far: f64,
-}
-
 /// An object: its mesh, the facts about that, and the source of its normals.
-#[derive(Serialize)]
+#[derive(serde::Serialize)]
 struct ObjectFacts<'a> {
     mesh: &'a str,
     #[serde(flatten)]
@@ -68,7 +41,7 @@ impl InfoArgs {
         let file = self.scene.load(&self.input)?;
         let resolved = input::resolve(&file)?;
         self.scene.warn(&resolved, log);
-        let (scene, camera) = (&resolved.scene, &resolved.scene.camera);
+        let scene = &resolved.scene;
         // A mesh that several objects share is looked at once.
         let mut known = BTreeMap::new();
         let mut object = |(object, mesh): (&Object, _)| {
@@ -81,40 +54,92 @@ impl InfoArgs {
                 normals,
             }
         };
+        let objects = scene.objects.iter().zip(file.meshes());
+        let objects: Vec<ObjectFacts> = objects.map(&mut object).collect();
+        let choices = auto_choices(&scene.frame()?);
+        match self.json {
+            true => json_to_stdout(&self.scene_json(&file, scene, &objects, &choices)),
+            false => to_stdout(self.scene_text(&file, scene, &objects, &choices).as_bytes()),
+        }?;
+        Ok(Outcome::Done)
+    }
+
+    /// Describes the scene as data.
+    fn scene_json(
+        &self,
+        file: &SceneFile,
+        scene: &Scene,
+        objects: &[ObjectFacts],
+        choices: &[AutoChoice],
+    ) -> Value {
+        let camera = &scene.camera;
         let (half_height, fovy) = match camera.projection {
             Projection::Orthographic { half_height } => (Some(half_height), None),
             Projection::Perspective { fovy } => (None, Some(fovy)),
         };
-        let facts = SceneFacts {
-            schema: "fastphong.info/1",
-            input: &self.input,
-            title: file.title(),
-            description: file.description(),
-            width: scene.width,
-            height: scene.height,
-            camera: CameraFacts {
-                eye: camera.eye.to_array(),
-                target: camera.target.to_array(),
-                up: camera.up.to_array(),
-                half_height,
-                fovy,
-                near: camera.near,
-                far: camera.far,
+        json!({
+            "schema": "fastphong.info/1",
+            "input": self.input,
+            "title": file.title(),
+            "description": file.description(),
+            "width": scene.width,
+            "height": scene.height,
+            "camera": {
+                "eye": camera.eye.to_array(), "target": camera.target.to_array(), "up": camera.up.to_array(),
+                "half_height": half_height, "fovy": fovy, "near": camera.near, "far": camera.far,
             },
-            lights: scene.lights.len(),
-            auto: auto_choices(&scene.frame()?),
-            objects: scene
-                .objects
-                .iter()
-                .zip(file.meshes())
-                .map(&mut object)
-                .collect(),
+            "lights": scene.lights.len(),
+            "auto": choices,
+            "objects": objects,
+        })
+    }
+
+    /// Describes the scene in text.
+    fn scene_text(
+        &self,
+        file: &SceneFile,
+        scene: &Scene,
+        objects: &[ObjectFacts],
+        choices: &[AutoChoice],
+    ) -> String {
+        let title = file
+            .title()
+            .map_or(String::new(), |title| format!(": {title}"));
+        let description = wrapped(file.description().unwrap_or_default(), 2);
+        let camera = &scene.camera;
+        let projection = match camera.projection {
+            Projection::Orthographic { half_height } => {
+                format!("orthographic, half height {half_height:.6}")
+            }
+            Projection::Perspective { fovy } => format!("perspective, {fovy} degrees"),
         };
-        match self.json {
-            true => json_to_stdout(&json!(facts)),
-            false => to_stdout(facts.text().as_bytes()),
-        }?;
-        Ok(Outcome::Done)
+        let [eye, target] = [camera.eye, camera.target].map(|p| point(p.to_array()));
+        let polygons = grouped(objects.iter().map(|o| o.facts.polygons).sum());
+        let mut rows = vec![
+            row("picture", format!("{} x {}", scene.width, scene.height)),
+            row("camera", format!("at {eye}, toward {target}; {projection}")),
+            row("lights", scene.lights.len().to_string()),
+            row(
+                "objects",
+                format!("{}, {polygons} polygons in all", objects.len()),
+            ),
+        ];
+        let names = ["auto"].into_iter().chain(std::iter::repeat(""));
+        rows.extend(
+            choices
+                .iter()
+                .zip(names)
+                .map(|(choice, name)| row(name, choice.to_string())),
+        );
+        let mut text = format!(
+            "{}{title}\n{description}{}",
+            self.input,
+            aligned(&rows, &[0, 1])
+        );
+        for object in objects {
+            text += &format!("\n{}\n{}", object.mesh, object.text());
+        }
+        text
     }
 }
 
@@ -125,43 +150,6 @@ fn row(name: &str, value: impl Into<String>) -> [String; 2] {
 fn point(p: [f64; 3]) -> String {
     let [x, y, z] = p;
     format!("({x:.4}, {y:.4}, {z:.4})")
-}
-
-impl SceneFacts<'_> {
-    /// Describes the scene in text.
-    fn text(&self) -> String {
-        let title = self
-            .title
-            .map_or(String::new(), |title| format!(": {title}"));
-        let mut text = format!("{}{title}\n", self.input);
-        text += &wrapped(self.description.unwrap_or_default(), 2);
-        let camera = &self.camera;
-        let projection = match (camera.half_height, camera.fovy) {
-            (Some(half_height), _) => format!("orthographic, half height {half_height:.6}"),
-            (_, fovy) => format!("perspective, {} degrees", fovy.unwrap_or_default()),
-        };
-        let (eye, target) = (point(camera.eye), point(camera.target));
-        let polygons = grouped(self.objects.iter().map(|o| o.facts.polygons).sum());
-        let count = self.objects.len();
-        let mut rows = vec![
-            row("picture", format!("{} x {}", self.width, self.height)),
-            row("camera", format!("at {eye}, toward {target}; {projection}")),
-            row("lights", self.lights.to_string()),
-            row("objects", format!("{count}, {polygons} polygons in all")),
-        ];
-        for (choice, name) in self
-            .auto
-            .iter()
-            .zip(["auto"].into_iter().chain(std::iter::repeat("")))
-        {
-            rows.push(row(name, choice.to_string()));
-        }
-        text += &aligned(&rows, &[0, 1]);
-        for object in &self.objects {
-            text += &format!("\n{}\n{}", object.mesh, object.text());
-        }
-        text
-    }
 }
 
 impl ObjectFacts<'_> {

@@ -1,7 +1,7 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::Aov;
-use super::drawing::{self, Method, RenderJob, Shown};
+use super::drawing::{self, Method, PictureContent, RenderJob};
 use super::engines::{self, EngineFlag, ScanlineEngine, Simd, ThreadFlags, renderer};
 use super::log::{Log, to_stderr, to_stdout};
 use super::output::{self, Output};
@@ -174,7 +174,7 @@ impl RenderArgs {
     ) -> Result<(), CliError> {
         let started = Instant::now();
         if output.format == Format::Ppm {
-            // Its rows can be written while others are not yet drawn.
+            // Rows of PPM can be written while others are not yet drawn.
             output.write_ppm(job.size(), |take| job.rows(take))?;
             let spent = milliseconds(started);
             progress.aside(|| log.detail(&format!("shaded and written in {spent:.1} ms")));
@@ -191,9 +191,9 @@ impl RenderArgs {
         Ok(())
     }
 
-    fn shown(&self) -> Result<Shown, CliError> {
+    fn shown(&self) -> Result<PictureContent, CliError> {
         if let Some(aov) = self.aov {
-            return Ok(Shown::Aov(aov, self.square));
+            return Ok(PictureContent::Aov(aov, self.square));
         }
         let renderer = match self.engine {
             EngineFlag::Scanlines(engine) => {
@@ -203,7 +203,12 @@ impl RenderArgs {
             EngineFlag::Barycentric(_) | EngineFlag::Cs171 { .. } => Renderer::LECTURE,
         };
         let method = self.method.clone();
-        Ok(Shown::Shaded(method, self.engine, self.simd, renderer))
+        Ok(PictureContent::Shaded(
+            method,
+            self.engine,
+            self.simd,
+            renderer,
+        ))
     }
 
     /// Returns the method or the other quantity that the picture shows.

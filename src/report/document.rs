@@ -72,18 +72,8 @@ pub struct MethodData {
     pub perspective: &'static str,
     /// The treatment of lights and eyes at positions.
     pub local: &'static str,
-    /// The operations counted, for one light and for four.
-    pub operations: Vec<Operations>,
-}
-
-/// Operations of a method for a number of lights: at each of [`RATES`], the counts of [`OPERATIONS`].
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Operations {
-    /// Lights.
-    pub lights: usize,
-    /// The counts by the name of their rate.
-    #[serde(flatten)]
-    pub rates: BTreeMap<&'static str, [u32; 7]>,
+    /// For one light and for four: `lights`, and at each of [`RATES`] the counts of [`OPERATIONS`].
+    pub operations: Vec<BTreeMap<&'static str, Value>>,
 }
 
 /// A rate at which a method computes: its name in data, its heading, and a function that takes its counts.
@@ -117,7 +107,7 @@ pub const OPERATIONS: [Operation; 7] = [
 /// A figure of the lectures.
 #[derive(Clone, Debug, Serialize)]
 pub struct FigureData {
-    /// Its name, its title, and its place in the lecture.
+    /// The name, the title, and the place in the lecture.
     #[serde(flatten)]
     pub figure: &'static Figure,
     /// Text, pictures and curves, and the findings.
@@ -184,12 +174,12 @@ impl MethodData {
         let info = variant.info();
         let operations = |lights: usize| {
             let counts = variant.operations(lights);
-            let rates =
-                RATES.map(|(name, _, rate)| (name, OPERATIONS.map(|(.., of)| of(&rate(&counts)))));
-            Operations {
-                lights,
-                rates: rates.into(),
-            }
+            let list = |rate: &Counts| json!(OPERATIONS.map(|(.., of)| of(rate)));
+            let rates = RATES.map(|(name, _, rate)| (name, list(&rate(&counts))));
+            rates
+                .into_iter()
+                .chain([("lights", json!(lights))])
+                .collect()
         };
         MethodData {
             name: variant.to_string(),

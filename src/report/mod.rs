@@ -37,8 +37,8 @@ mod tests;
 
 pub use date::utc_date;
 pub use document::{
-    Document, DocumentError, FigureData, MethodData, OPERATIONS, Operation, Operations, RATES,
-    Rate, SCHEMA, label, parse,
+    Document, DocumentError, FigureData, MethodData, OPERATIONS, Operation, RATES, Rate, SCHEMA,
+    label, parse,
 };
 pub use markdown::Markdown;
 pub use page::shell_word;

@@ -137,7 +137,7 @@ fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
 fn error_codes(reference: &LinearPicture, actual: &LinearPicture) -> Vec<u8> {
     let code = |(r, a): (&[f32; 4], &[f32; 4])| {
         let errors = (0..3).map(|c| 255.0 * f64::from((a[c] - r[c]).abs()));
-        // What is not finite counts as white against black.
+        // A channel that is not finite counts as white against black.
         let error = errors
             .map(|e| if e.is_finite() { e } else { 255.0 })
             .fold(0.0, f64::max);

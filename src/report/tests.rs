@@ -2,7 +2,7 @@ use super::answer::{answer, html, overall};
 use super::document::{list, title};
 use super::*;
 use crate::compare::comparison::{
-    Input, Options, Row, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED, compare,
+    Input, MethodRow, Options, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED, compare,
 };
 use crate::compare::experiments::{MethodSpeedups, SpeedCorner, Speedup, Speedups, Work};
 use crate::compare::timing::{Ratio, Timing};
@@ -55,7 +55,7 @@ fn ratio(median: f64, spread: f64) -> Ratio {
 }
 
 /// Gives each row a speed and an error in grey levels.
-fn given(row: &mut Row, of: &[(&str, f64, f64)]) {
+fn given(row: &mut MethodRow, of: &[(&str, f64, f64)]) {
     let known = of.iter().find(|(name, ..)| *name == row.name());
     let (_, speed, levels) = *known.unwrap_or(&("", 0.5, 40.0));
     row.error.max = levels / 255.0;
@@ -340,7 +340,7 @@ fn documents_come_back_as_they_went() {
 fn parameters_are_numbers_or_auto() {
     let steps = |text: &str| {
         let variant = Variant::parse(text).unwrap();
-        let row = Row {
+        let row = MethodRow {
             variant,
             ..scene("triangle", "t").rows.remove(0)
         };

@@ -68,7 +68,7 @@ use serde_json::Value;
 /// The method that speeds are stated against: the one that the lecture makes fast.
 pub const BASELINE: &str = "naive-phong";
 
-/// The definition of [`Row::error`], in one line.
+/// The definition of [`MethodRow::error`], in one line.
 pub const WHAT_IS_COMPARED: &str = "linear channels before rounding to 8 bits against the f64 reference, where both show the same polygon";
 
 /// A frame to compare methods on.
@@ -135,9 +135,9 @@ pub struct Comparison {
     #[serde(skip)]
     requested: Renderer,
     /// The variants drawn by scanlines, in the order given; before them naive Phong if it was not given.
-    pub rows: Vec<Row>,
+    pub rows: Vec<MethodRow>,
     /// The methods of the barycentric renderer that the rows are measured against.
-    pub barycentric: Vec<Row>,
+    pub barycentric: Vec<MethodRow>,
     /// The effect of cutting the polygons into triangles; `None` if they are triangles.
     pub triangulation: Option<Triangulation>,
     /// The picture of the `f64` Phong reference.
@@ -199,7 +199,7 @@ impl fmt::Display for DrawnBy {
 
 /// One variant by one renderer: its error, its speed, its pictures.
 #[derive(Clone, Debug, Serialize)]
-pub struct Row {
+pub struct MethodRow {
     /// The variant: `variant`, `method`, `parameters` and `model` in JSON.
     #[serde(flatten, serialize_with = "variant_members")]
     pub variant: Variant,
@@ -228,7 +228,7 @@ pub struct Row {
     pub linear: LinearPicture,
 }
 
-impl Row {
+impl MethodRow {
     /// Returns the variant as a user names it.
     pub fn name(&self) -> String {
         self.variant.to_string()
@@ -345,7 +345,7 @@ pub fn draw(
 
 impl Comparison {
     /// Returns all rows: those drawn by scanlines, then the barycentric renderer's.
-    pub fn all_rows(&self) -> impl Iterator<Item = &Row> {
+    pub fn all_rows(&self) -> impl Iterator<Item = &MethodRow> {
         self.rows.iter().chain(&self.barycentric)
     }
 

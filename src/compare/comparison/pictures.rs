@@ -1,6 +1,6 @@
 //! Pictures against references.
 
-use super::{DrawnBy, Row, Triangulation};
+use super::{DrawnBy, MethodRow, Triangulation};
 use crate::compare::metrics::{Difference, compare_where};
 use crate::frame::Frame;
 use crate::frame::triangulate::Triangulated;
@@ -65,7 +65,7 @@ impl<'a> References<'a> {
     }
 
     /// Draws a variant by `renderer` and compares it.
-    pub fn scanline_row(&self, variant: &Variant, renderer: Renderer) -> Row {
+    pub fn scanline_row(&self, variant: &Variant, renderer: Renderer) -> MethodRow {
         let drawn_by = DrawnBy::new(variant.plan(self.frame, renderer).renderer);
         let linear = variant.render_linear_with(self.frame, renderer);
         let mut picture = Picture::new(0, 0, [0; 4]);
@@ -78,7 +78,7 @@ impl<'a> References<'a> {
     }
 
     /// Draws a variant by the barycentric renderer and compares it; `None` if that does not have the method.
-    pub fn barycentric_row(&self, variant: &Variant) -> Option<Row> {
+    pub fn barycentric_row(&self, variant: &Variant) -> Option<MethodRow> {
         let linear = variant.render_barycentric_linear(&self.cut.frame, Edges::TopLeft)?;
         let picture = variant.render_barycentric(&self.cut.frame, Edges::TopLeft)?;
         let forms = self.on_triangles.as_ref().unwrap_or(&self.closed_forms);
@@ -113,10 +113,10 @@ impl<'a> References<'a> {
         (picture, linear): (Picture8, LinearPicture),
         shown: &Picture<u32>,
         own: Option<Difference>,
-    ) -> Row {
+    ) -> MethodRow {
         let error = self.closed_forms.difference(Model::Phong, &linear, shown);
         let (own, bound) = (own.unwrap_or(error), variant.bound(self.frame));
-        Row {
+        MethodRow {
             variant: variant.clone(),
             drawn_by,
             error,

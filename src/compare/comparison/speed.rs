@@ -1,6 +1,6 @@
 //! Times of all rows of a comparison.
 
-use super::{Comparison, Row, counterpart, is_baseline};
+use super::{Comparison, MethodRow, counterpart, is_baseline};
 use crate::compare::timing::{Candidate, Ratio, TimeLimits, Timing, time_interleaved};
 use crate::frame::Frame;
 use crate::picture::Picture;
@@ -38,14 +38,14 @@ pub(super) fn time(
 ) {
     let renderer = comparison.requested;
     let mut candidates: Vec<Candidate<'_>> = Vec::new();
-    for Row { variant, .. } in &comparison.rows {
+    for MethodRow { variant, .. } in &comparison.rows {
         candidates.push(Box::new(move || {
             let mut picture = Picture::new(0, 0, [0; 4]);
             variant.render_with(black_box(frame), renderer, &mut picture);
             black_box(picture);
         }));
     }
-    for Row { variant, .. } in &comparison.barycentric {
+    for MethodRow { variant, .. } in &comparison.barycentric {
         candidates.push(Box::new(move || {
             black_box(variant.render_barycentric(black_box(triangles), Edges::TopLeft));
         }));
@@ -56,16 +56,16 @@ pub(super) fn time(
     let (rows, barycentric) = (&comparison.rows, &comparison.barycentric);
     let naive = rows.iter().position(|row| is_baseline(&row.variant));
     let naive = naive.map(|i| &of_rows[i]);
-    let other = |row: &Row| {
+    let other = |row: &MethodRow| {
         let name = counterpart(&row.variant);
-        let is_it = |other: &Row| other.variant.info().name == name;
+        let is_it = |other: &MethodRow| other.variant.info().name == name;
         barycentric
             .iter()
             .position(is_it)
             .map(|i| &of_barycentric[i])
     };
     let pixels = comparison.covered_pixels;
-    let speed = |(row, timing): (&Row, &Timing)| {
+    let speed = |(row, timing): (&MethodRow, &Timing)| {
         let ratio = |to: &Timing| Ratio::paired(&to.samples_ns, &timing.samples_ns);
         Speed {
             timing: timing.clone(),

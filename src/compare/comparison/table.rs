@@ -1,6 +1,6 @@
 //! Comparisons as text for terminals: a row a method, in aligned columns.
 
-use super::{Comparison, DrawnBy, Row, Speed};
+use super::{Comparison, DrawnBy, MethodRow, Speed};
 use crate::compare::metrics::Difference;
 use crate::compare::table::Table;
 use crate::compare::timing::Ratio;
@@ -20,7 +20,7 @@ pub enum TableKind {
 }
 
 /// A column: its head, and the cell of a row; `None` where there is nothing to say.
-type Column = (&'static str, fn(&Row) -> Option<String>);
+type Column = (&'static str, fn(&MethodRow) -> Option<String>);
 
 const METHOD: Column = ("method", |row| {
     let is_scanlines = row.drawn_by != DrawnBy::BARYCENTRIC;

@@ -74,7 +74,7 @@ fn quick() -> Options {
     }
 }
 
-fn named<'a>(rows: &'a [Row], name: &str) -> &'a Row {
+fn named<'a>(rows: &'a [MethodRow], name: &str) -> &'a MethodRow {
     rows.iter().find(|row| row.name() == name).unwrap()
 }
 
@@ -82,7 +82,7 @@ fn named<'a>(rows: &'a [Row], name: &str) -> &'a Row {
 fn every_method_has_its_row_and_the_barycentric_renderer_its_own() {
     let frame = frame_of("sphere?rings=6&segments=12");
     let comparison = errors_only(&frame, &all());
-    let names = |rows: &[Row]| rows.iter().map(Row::name).collect::<Vec<_>>();
+    let names = |rows: &[MethodRow]| rows.iter().map(MethodRow::name).collect::<Vec<_>>();
     assert_eq!(
         names(&comparison.rows),
         METHODS
@@ -126,7 +126,7 @@ fn naive_phong_is_added_only_where_it_is_missing() {
         errors_only(&frame, &variants)
             .rows
             .iter()
-            .map(Row::name)
+            .map(MethodRow::name)
             .collect::<Vec<_>>()
     };
     assert_eq!(
@@ -291,7 +291,7 @@ fn speeds_belong_to_their_rows() {
     }
     let one =
         |ratio: Option<Ratio>| ratio.map(|r| (r.low, r.median, r.high)) == Some((1.0, 1.0, 1.0));
-    let of = |row: &Row| row.speed.clone().unwrap();
+    let of = |row: &MethodRow| row.speed.clone().unwrap();
     assert!(one(of(named(&comparison.rows, BASELINE)).ratio_to_naive));
     for row in &comparison.barycentric {
         assert!(one(of(row).ratio_to_barycentric), "{}", row.name());

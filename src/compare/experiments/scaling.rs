@@ -39,7 +39,7 @@ pub struct ScalingOptions {
 }
 
 impl Default for ScalingOptions {
-    /// A thousand to four million triangles, 160 × 120 to 3840 × 2160 pixels, a quarter of a second a point, but five rounds
+    /// Returns a thousand to four million triangles, 160 × 120 to 3840 × 2160 pixels, a quarter of a second a point, but five rounds
     /// in any case.
     fn default() -> Self {
         ScalingOptions {
@@ -160,7 +160,7 @@ struct Way {
 }
 
 /// A picture size, and true if the sphere is seen from afar.
-type View = ([u32; 2], bool);
+type SphereView = ([u32; 2], bool);
 
 impl Scaling {
     /// Draws and times, on the current pool of threads: Gouraud, naive Phong and fast Phong by the hardware's root, as far as
@@ -219,7 +219,7 @@ impl Scaling {
         &mut self,
         scene: &mut PreparedScene,
         asked: usize,
-        (size, away): View,
+        (size, away): SphereView,
         ways: &[Way],
         limits: TimeLimits,
     ) -> Result<(), ExperimentError> {
@@ -275,7 +275,7 @@ impl Way {
 
 impl ScalingOptions {
     /// Returns the views in which a mesh is drawn.
-    fn views(&self, triangles: usize) -> Vec<View> {
+    fn views(&self, triangles: usize) -> Vec<SphereView> {
         let mut views = Vec::from([(self.at, false)]);
         if triangles == self.of {
             let others = self.sizes.iter().filter(|size| **size != self.at);

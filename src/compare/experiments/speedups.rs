@@ -35,7 +35,7 @@ pub struct SpeedupOptions {
 }
 
 impl Default for SpeedupOptions {
-    /// A sphere of 5,000 triangles on 1920 × 1080 pixels, spans of 1,024, six seconds.
+    /// Returns a sphere of 5,000 triangles on 1920 × 1080 pixels, spans of 1,024, six seconds.
     fn default() -> Self {
         SpeedupOptions {
             triangles: 5_000,

@@ -1,7 +1,7 @@
-//! A picture against a picture: how far a method is from the reference, in numbers and as a map.
+//! A picture against a picture: the error of a method in numbers and as a map.
 //!
-//! Values are compared as they are stored: linear pictures in linear light, encoded ones in their encoding. Two pictures
-//! tell something about each other only if both are stored the same way.
+//! Values are compared as stored: linear pictures in linear light, encoded ones in their encoding. Compare only pictures
+//! that are stored the same way.
 //!
 //! Errors are kept in 0..=1, as colours are; [`METRICS`] states them in grey levels (1/255), as people do.
 //!
@@ -43,7 +43,7 @@ pub use map::{BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, difference_map, signed_dif
 /// Share of the compared pixels whose error does not exceed [`Difference::p99`].
 const PERCENTILE: f64 = 0.99;
 
-/// How far one picture is from another.
+/// The difference between two pictures, in numbers.
 ///
 /// A pixel's error is the largest absolute difference of its three channels, in 0..=1 for values in 0..=1. A channel
 /// that is not finite in one of the pictures counts as an error of 1.
@@ -78,7 +78,7 @@ pub struct Difference {
     pub mae: f64,
     /// Root of the mean squared error over the channels of the compared pixels.
     pub rms: f64,
-    /// The same over the whole frame.
+    /// Root of the mean squared error over the whole frame.
     pub frame_rms: f64,
     /// Mean of the luminance of the actual picture minus the reference's, over the compared pixels: positive if it is too bright.
     pub signed_mean: f64,
@@ -92,7 +92,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// The share of the compared pixels that `count` pixels are, in 0..=1; 0 if none was compared.
+    /// Returns the share of the compared pixels that `count` pixels are, in 0..=1; 0 if none was compared.
     pub fn share(&self, count: usize) -> f64 {
         if self.compared == 0 {
             0.0
@@ -140,7 +140,7 @@ impl fmt::Display for SizeMismatch {
 
 impl core::error::Error for SizeMismatch {}
 
-/// The difference of `actual` from `reference`, over all pixels.
+/// Returns the difference of `actual` from `reference`, over all pixels.
 ///
 /// ```
 /// use fastphong::compare::metrics::{METRICS, compare};
@@ -165,10 +165,10 @@ pub fn compare<A: Texel, B: Texel>(
     compare_where(reference, actual, |_, _| true)
 }
 
-/// The difference of `actual` from `reference`, over the pixels for whose column and row `included` holds.
+/// Returns the difference of `actual` from `reference`, over the pixels for whose column and row `included` holds.
 ///
-/// For pixels that are known to differ for a reason other than the one asked about, such as those where two renderers
-/// show different polygons: they are counted in [`Difference::excluded`] and enter nothing else.
+/// Exclude pixels that differ for a known reason, such as those where two renderers show different polygons: they are
+/// counted in [`Difference::excluded`] and enter nothing else.
 ///
 /// # Errors
 /// If the sizes differ.
@@ -263,7 +263,7 @@ struct ChannelErrors {
     not_finite: bool,
 }
 
-/// The errors of one pixel; what is not finite is off by the full range, so that no mean is lost and none hides it.
+/// Returns the errors of one pixel; a channel that is not finite is off by the full range, so that no mean is lost or hides it.
 fn channel_errors(reference: Levels, actual: Levels) -> ChannelErrors {
     let (r, a) = (reference.rgb(), actual.rgb());
     let mut of = ChannelErrors {
@@ -278,7 +278,7 @@ fn channel_errors(reference: Levels, actual: Levels) -> ChannelErrors {
     of
 }
 
-/// The smallest error that [`PERCENTILE`] of all do not exceed (nearest rank); 0 of none. Reorders the errors.
+/// Returns the smallest error that [`PERCENTILE`] of all do not exceed (nearest rank); 0 of none. Reorders the errors.
 fn percentile(errors: &mut [f64]) -> f64 {
     let rank = libm::ceil(PERCENTILE * errors.len() as f64) as usize;
     match rank.checked_sub(1) {

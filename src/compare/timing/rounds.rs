@@ -5,10 +5,10 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use std::time::{Duration, Instant};
 
-/// Something to be timed. What it makes must pass through [`core::hint::black_box`], or it may not be made at all.
+/// A function to be timed. Pass its results through [`core::hint::black_box`], or the compiler may leave them out.
 pub type Candidate<'a> = Box<dyn FnMut() + 'a>;
 
-/// How long to go on.
+/// The limits of a timing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TimeLimits {
     /// No round begins after so much time, warm-up not counted.
@@ -25,7 +25,7 @@ impl TimeLimits {
 }
 
 impl Default for TimeLimits {
-    /// Up to 101 rounds within 5 seconds, after two rounds of warm-up.
+    /// Returns up to 101 rounds within 5 seconds, after two rounds of warm-up.
     fn default() -> Self {
         TimeLimits {
             time_budget: Duration::from_secs(5),
@@ -35,7 +35,7 @@ impl Default for TimeLimits {
     }
 }
 
-/// What a sample lasts at least, in ns: thousands of times the resolution of any clock and the cost of reading it.
+/// The least length of a sample, in ns: thousands of times the resolution of any clock and the cost of reading it.
 const LEAST_SAMPLE_NS: u64 = 200_000;
 
 /// The most calls a sample: a call that short is lost in the loop around it.
@@ -45,10 +45,10 @@ const MOST_CALLS: u64 = 10_000;
 /// in the order of the candidates.
 ///
 /// Every round samples each candidate once. The second round of a pair runs in the reverse order of the first
-/// (A B C, C B A), so that what drifts during a pair cancels, and each pair begins with another candidate, so that none
+/// (A B C, C B A), so that a drift during a pair cancels, and each pair begins with another candidate, so that none
 /// has a neighbour or a place of its own. A candidate too short for the clock is called several times a sample.
 ///
-/// `progress` is told, between rounds only, the part of the limits that is used up, 0..=1; there is time to draw.
+/// `progress` hears, between rounds only, the part of the limits that is used up, 0..=1; there is time to draw.
 pub fn time_interleaved(
     candidates: &mut [Candidate<'_>],
     limits: TimeLimits,
@@ -64,7 +64,7 @@ pub fn time_interleaved(
     )
 }
 
-/// As [`time_interleaved`], by any clock that counts nanoseconds.
+/// Runs [`time_interleaved`] by any clock that counts nanoseconds.
 fn run(
     candidates: &mut [Candidate<'_>],
     limits: TimeLimits,
@@ -90,7 +90,7 @@ fn run(
     let mut samples: Vec<Vec<f64>> = candidates.iter().map(|_| Vec::new()).collect();
     let most = limits.rounds.max(TimeLimits::LEAST_ROUNDS);
     let budget = limits.time_budget.as_nanos() as f64;
-    // Time in samples only: what `progress` takes is not ours.
+    // Time in samples only: that of `progress` does not count.
     let mut spent = 0.0;
     for round in 0..most {
         let part = (spent / budget).max(round as f64 / most as f64);
@@ -117,7 +117,7 @@ fn run(
         .collect()
 }
 
-/// The order of the candidates in a round: turned by one more place each pair of rounds, and reversed in the second.
+/// Returns the order of the candidates in a round: turned by one more place each pair of rounds, and reversed in the second.
 fn order(candidates: usize, round: usize) -> impl Iterator<Item = usize> {
     let turn = round / 2;
     (0..candidates).map(move |i| {

@@ -59,7 +59,7 @@ impl Timing {
     }
 }
 
-/// The quantile `p` of 0..=1 of ascending values, linear between them (type 7 of Hyndman & Fan 1996: that of R and
+/// Returns the quantile `p` of 0..=1 of ascending values, linear between them (type 7 of Hyndman & Fan 1996: that of R and
 /// NumPy).
 fn quantile(sorted: &[f64], p: f64) -> f64 {
     let place = p * (sorted.len() - 1) as f64;
@@ -150,7 +150,7 @@ impl SplitMix {
         z ^ (z >> 31)
     }
 
-    /// 0..n.
+    /// Returns a number in 0..n.
     fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.next()) * n as u128) >> 64) as usize
     }
