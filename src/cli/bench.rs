@@ -37,7 +37,7 @@ pub struct BenchArgs {
     simd: Option<SimdList>,
     #[command(flatten)]
     threads: ThreadFlags,
-    /// Write all times to this file as well, as described in docs/bench-json.md; `-` prints them in place of the tables
+    /// Also write all times to this file, as described in docs/bench-json.md; `-` prints them in place of the tables
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     #[command(flatten)]

@@ -17,7 +17,7 @@ pub struct CompareArgs {
     timing: TimingFlags,
     #[command(flatten)]
     drawn: LectureFlags,
-    /// Print PSNR, SSIM, brightness and other errors as well
+    /// Also print PSNR, SSIM, brightness and other errors
     #[arg(long)]
     all_columns: bool,
     /// Print everything as JSON

@@ -1,6 +1,7 @@
 //! Flags for engines, instruction sets and threads.
 
 use super::CliError;
+use super::values::number;
 use fastphong::number::suggest::nearest;
 use fastphong::number::{Level, LevelError};
 use fastphong::raster::{self, Edges, Renderer};
@@ -287,9 +288,8 @@ const STACK: usize = 8 << 20;
 
 /// Reads a number of threads.
 pub fn threads(text: &str) -> Result<usize, String> {
-    let threads = text.parse().ok();
-    let threads = threads.filter(|threads| (1..=MOST_THREADS).contains(threads));
-    threads.ok_or_else(|| format!("expected a number of threads from 1 to {MOST_THREADS}"))
+    let expected = format!("a number of threads from 1 to {MOST_THREADS}");
+    number(text, expected, |n| (1..=MOST_THREADS).contains(n))
 }
 
 impl ThreadFlags {

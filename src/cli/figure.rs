@@ -24,7 +24,7 @@ pub struct FigureArgs {
     /// several]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write the pictures as PNG files into this folder as well
+    /// Also write the pictures as PNG files into this folder
     #[arg(long, value_name = "FOLDER")]
     pictures: Option<PathBuf>,
 }

@@ -3,6 +3,7 @@
 
 use super::CliError;
 use super::measured::{Measurement, command_line};
+use super::values::number;
 use fastphong::compare::timing::{Machine, Timing};
 use fastphong::frame::{FrameError, PreparedScene};
 use fastphong::picture::Picture8;
@@ -36,9 +37,8 @@ pub struct FrameCount {
 }
 
 fn count(text: &str, least: usize) -> Result<usize, String> {
-    let count = text.parse().ok();
-    let count = count.filter(|count| (least..=MOST_FRAMES).contains(count));
-    count.ok_or_else(|| format!("expected a number of frames from {least} to {MOST_FRAMES}"))
+    let expected = format!("a number of frames from {least} to {MOST_FRAMES}");
+    number(text, expected, |n| (least..=MOST_FRAMES).contains(n))
 }
 
 fn frames(text: &str) -> Result<usize, String> {

@@ -5,7 +5,8 @@ use super::engines::ThreadFlags;
 use super::log::Log;
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
-use fastphong::compare::comparison::{Comparison, Input, Options, compare};
+use super::values::number;
+use fastphong::compare::comparison::{Comparison, Input, compare};
 use fastphong::compare::timing::{Machine, TimeLimits};
 use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
@@ -36,9 +37,9 @@ pub fn methods(text: &str) -> Result<Methods, String> {
 
 /// Reads a length of time in seconds.
 pub fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok();
-    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    duration.ok_or_else(|| "expected seconds: a number, 0 or more".to_owned())
+    let is_duration = |seconds: &f64| Duration::try_from_secs_f64(*seconds).is_ok();
+    let seconds = number(text, "seconds: a number, 0 or more", is_duration);
+    seconds.map(Duration::from_secs_f64)
 }
 
 /// Scenes to measure, by one renderer after the other.
@@ -101,18 +102,14 @@ impl TimingFlags {
             };
             for renderer in of.renderers {
                 let turn = comparisons.len() as f32;
-                let options = Options {
-                    timing: Some(TimeLimits {
-                        time_budget: self.time_budget,
-                        ..TimeLimits::default()
-                    }),
-                    renderer: *renderer,
+                let limits = Some(TimeLimits {
+                    time_budget: self.time_budget,
+                    ..TimeLimits::default()
+                });
+                let progress = &mut |part: f32, next: &str| {
+                    progress.at((turn + part) / turns, &format!("{name}: {next}"));
                 };
-                let compare = || {
-                    compare(&input, &self.methods.0, &options, &mut |part, next| {
-                        progress.at((turn + part) / turns, &format!("{name}: {next}"));
-                    })
-                };
+                let compare = || compare(&input, &self.methods.0, *renderer, limits, progress);
                 comparisons.push(of.threads.install_for(*renderer, compare)?);
             }
             Ok(())

@@ -202,13 +202,8 @@ impl RenderArgs {
             }
             EngineFlag::Barycentric(_) | EngineFlag::Cs171 { .. } => Renderer::LECTURE,
         };
-        let method = self.method.clone();
-        Ok(PictureContent::Shaded(
-            method,
-            self.engine,
-            self.simd,
-            renderer,
-        ))
+        let (method, engine) = (self.method.clone(), self.engine);
+        Ok(PictureContent::Shaded(method, engine, self.simd, renderer))
     }
 
     /// Returns the method or the other quantity that the picture shows.
@@ -245,14 +240,10 @@ fn warn_of_polygons_left_out(stats: FrameStats, log: Log) {
         log.warning(&format!("{flat} of {all} {words}"));
     }
     if stats.unprojected > 0 {
-        let left_out = counted(
-            stats.unprojected,
-            "polygon has a corner at the plane of the eye and is left out",
-            "polygons have a corner at the plane of the eye and are left out",
-        );
-        log.warning(&format!(
-            "{left_out}: --clipping planes draws the visible part"
-        ));
+        let one = "polygon has a corner at the plane of the eye and is left out";
+        let more = "polygons have a corner at the plane of the eye and are left out";
+        let left_out = counted(stats.unprojected, one, more);
+        log.warning(&(left_out + ": --clipping planes draws the visible part"));
     }
 }
 
@@ -264,9 +255,7 @@ fn painter_text(conflicts: &Conflicts) -> Option<String> {
         wrong => counted(wrong, "pair is drawn", "pairs are drawn") + " in the wrong order",
     };
     if conflicts.cycles.is_empty() {
-        return Some(format!(
-            "{wrong} by the painter's key, though a right order exists"
-        ));
+        return Some(wrong + " by the painter's key, though a right order exists");
     }
     let in_cycles = conflicts.cycles.iter().map(Vec::len).sum();
     let in_cycles = counted(in_cycles, "polygon", "polygons");
@@ -275,40 +264,35 @@ fn painter_text(conflicts: &Conflicts) -> Option<String> {
         0 => String::new(),
         n => format!(", {} each other", counted(n, "pair cuts", "pairs cut")),
     };
-    Some(format!(
-        "{in_cycles} in {cycles}: no order draws them right; {wrong}{cutting}"
-    ))
+    let problem = format!("{in_cycles} in {cycles}: no order draws them right");
+    Some(format!("{problem}; {wrong}{cutting}"))
 }
+
+/// The counts of polygons that `--stats` prints, and their meanings.
+const STATS: [[&str; 2]; 7] = [
+    ["polygons", "of the scene"],
+    ["culled", "left out: seen from the culled side"],
+    ["zero-area", "left out: no area, in space or on the picture"],
+    ["outside", "left out: outside the view"],
+    [
+        "clipped",
+        "cut by the near plane, the far plane or the guard band",
+    ],
+    [
+        "unprojected",
+        "left out: a corner has no place on the picture (--clipping ndc-cube)",
+    ],
+    ["drawn", "left, pieces of cut ones counted each"],
+];
 
 /// Returns the numbers of polygons as a table.
 fn stats_text(frame: &Frame) -> String {
-    let stats = frame.stats();
-    let unprojected = "left out: a corner has no place on the picture (--clipping ndc-cube)";
-    let rows = [
-        ("polygons", stats.polygons, "of the scene"),
-        (
-            "culled",
-            stats.culled,
-            "left out: seen from the culled side",
-        ),
-        (
-            "zero-area",
-            stats.zero_area,
-            "left out: no area, in space or on the picture",
-        ),
-        ("outside", stats.outside, "left out: outside the view"),
-        (
-            "clipped",
-            stats.clipped,
-            "cut by the near plane, the far plane or the guard band",
-        ),
-        ("unprojected", stats.unprojected, unprojected),
-        (
-            "drawn",
-            frame.polygons().len(),
-            "left, pieces of cut ones counted each",
-        ),
-    ];
-    let rows = rows.map(|(name, count, meaning)| [name.into(), grouped(count), meaning.into()]);
+    let (s, drawn) = (frame.stats(), frame.polygons().len());
+    let first = [s.polygons, s.culled, s.zero_area, s.outside];
+    let counts = first.into_iter().chain([s.clipped, s.unprojected, drawn]);
+    let row = |([name, meaning], count): (&[&str; 2], usize)| {
+        [(*name).to_owned(), grouped(count), (*meaning).to_owned()]
+    };
+    let rows: Vec<_> = STATS.iter().zip(counts).map(row).collect();
     aligned(&rows, &[0, 2])
 }

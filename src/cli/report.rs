@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Instant, SystemTime};
 
-/// Compare methods on scenes, and show pictures, errors and times on one page
+/// Compare methods on scenes: pictures, errors and times on one page
 #[derive(clap::Args, Debug)]
 pub struct ReportArgs {
     /// Scene files, mesh files, builtin:NAME?key=value, or names of shipped scenes [default: all shipped scenes]
@@ -44,20 +44,20 @@ pub struct ReportArgs {
     /// pixels), `all` or `none` [default: all with the shipped scenes, none with INPUT]
     #[arg(long, value_name = "NAMES", value_parser = experiments)]
     studies: Option<Experiments>,
-    /// Draw every scene at its own size instead of 480x360 at most, and time every one for --time-budget instead of the
-    /// first three, the others for a tenth of it
+    /// Draw every scene at its own size, not at most 480x360, and time each for the whole of --time-budget, not only the
+    /// first three
     #[arg(long)]
     full: bool,
     /// Lay files of `--json` from several machines or commits side by side, without drawing
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["inputs", "figures", "studies", "full"])]
     from: Vec<PathBuf>,
-    /// Write README.md and its pictures beside the page as well
+    /// Also write README.md and its pictures beside the page
     #[arg(long)]
     markdown: bool,
-    /// Write all numbers as JSON as well
+    /// Also write all numbers as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write all tables as CSV as well
+    /// Also write all tables as CSV
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     #[command(flatten)]

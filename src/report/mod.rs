@@ -5,8 +5,9 @@
 //! `document.rs`, then `tables.rs`.
 //!
 //! ```
-//! use fastphong::compare::comparison::{Input, Options, compare};
+//! use fastphong::compare::comparison::{Input, compare};
 //! use fastphong::mesh::builtin::builtin;
+//! use fastphong::raster::Renderer;
 //! use fastphong::report::{Document, Report, ScenePictures};
 //! use fastphong::scene::Scene;
 //! use fastphong::shading::METHODS;
@@ -16,8 +17,7 @@
 //! let frame = scene.frame()?;
 //! let variants: Vec<_> = METHODS.iter().map(|entry| entry.variant()).collect();
 //! let input = Input { name: "sphere".into(), frame: &frame };
-//! let options = Options { timing: None, ..Options::default() };
-//! let comparison = compare(&input, &variants, &options, &mut |_, _| {});
+//! let comparison = compare(&input, &variants, Renderer::LECTURE, None, &mut |_, _| {});
 //!
 //! let pictures = vec![ScenePictures::new(&comparison)?];
 //! let document = Document::new(vec!["fastphong".into(), "report".into()], vec![comparison]);

@@ -2,13 +2,14 @@ use super::answer::{answer, html, overall};
 use super::document::{list, title};
 use super::*;
 use crate::compare::comparison::{
-    Input, MethodRow, Options, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED, compare,
+    Input, MethodRow, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED, compare,
 };
 use crate::compare::experiments::{MethodSpeedups, SpeedCorner, Speedup, Speedups, Work};
 use crate::compare::timing::{Ratio, Timing};
 use crate::lectures::{Agreement, FIGURES, Finding, Plot, Scale, Series, Shown};
 use crate::mesh::builtin::builtin;
 use crate::picture::Picture8;
+use crate::raster::Renderer;
 use crate::scene::Scene;
 use crate::shading::{METHODS, Variant};
 use alloc::borrow::ToOwned;
@@ -25,11 +26,7 @@ fn scene(mesh: &str, name: &str) -> Comparison {
         name: name.into(),
         frame: &frame,
     };
-    let options = Options {
-        timing: None,
-        ..Options::default()
-    };
-    let mut comparison = compare(&input, &variants, &options, &mut |_, _| {});
+    let mut comparison = compare(&input, &variants, Renderer::LECTURE, None, &mut |_, _| {});
     comparison.title = name.to_owned();
     comparison.description = format!("What {name} tests.");
     comparison

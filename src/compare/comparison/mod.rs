@@ -5,9 +5,10 @@
 //! `docs/bench-json.md`; `table.rs` writes it for terminals, [`crate::report`] as a page.
 //!
 //! ```
-//! use fastphong::compare::comparison::{Input, Options, TableKind, compare, table};
+//! use fastphong::compare::comparison::{Input, TableKind, compare, table};
 //! use fastphong::mesh::builtin::builtin;
 //! use fastphong::mesh::vertex_normals::NormalSource;
+//! use fastphong::raster::Renderer;
 //! use fastphong::scene::{Camera, Fit, Light, Object, Scene};
 //! use fastphong::shading::Variant;
 //! use glam::{DAffine3, DVec3};
@@ -31,8 +32,9 @@
 //! let frame = scene.frame()?;
 //!
 //! let variants = [Variant::parse("gouraud")?, Variant::parse("fast-phong:steps=1")?];
-//! let options = Options { timing: None, ..Options::default() }; // errors only
-//! let comparison = compare(&Input { name: "sphere".into(), frame: &frame }, &variants, &options, &mut |_, _| {});
+//! let input = Input { name: "sphere".into(), frame: &frame };
+//! // Errors only, without times.
+//! let comparison = compare(&input, &variants, Renderer::LECTURE, None, &mut |_, _| {});
 //! let [naive, gouraud, fast] = &comparison.rows[..] else { unreachable!("naive Phong is always among them") };
 //! assert!(naive.error.rms < fast.error.rms && fast.error.rms < gouraud.error.rms);
 //! println!("{}", table(&comparison, TableKind::Short));
@@ -78,25 +80,6 @@ pub struct Input<'a> {
     pub name: String,
     /// The frame.
     pub frame: &'a Frame,
-}
-
-/// The settings of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// The length of the timing; `None` takes no times, so that every run has the same result to the last bit.
-    pub timing: Option<TimeLimits>,
-    /// The renderer of the variants. The barycentric renderer has one way only.
-    pub renderer: Renderer,
-}
-
-impl Default for Options {
-    /// Returns options with times, in the lecture's own form.
-    fn default() -> Self {
-        Options {
-            timing: Some(TimeLimits::default()),
-            renderer: Renderer::LECTURE,
-        }
-    }
 }
 
 /// All methods that were compared on one frame.
@@ -260,20 +243,22 @@ pub fn parameter_json(parameter: &Parameter, value: u32) -> Value {
 const PICTURES_PART: f32 = 0.3;
 
 /// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, measures how far apart they
-/// are, and times them: [`draw`], then [`Comparison::time`].
+/// are, and times them: [`draw`], then [`Comparison::time`]. Without `limits` no times are taken, so that every run has the
+/// same result to the last bit.
 ///
 /// `progress` hears which part is done, 0..=1, and what comes next; never while a time is taken.
 pub fn compare(
     input: &Input<'_>,
     variants: &[Variant],
-    options: &Options,
+    renderer: Renderer,
+    limits: Option<TimeLimits>,
     progress: &mut dyn FnMut(f32, &str),
 ) -> Comparison {
-    let part = options.timing.map_or(1.0, |_| PICTURES_PART);
-    let mut comparison = draw(input, variants, options.renderer, &mut |done, next| {
+    let part = limits.map_or(1.0, |_| PICTURES_PART);
+    let mut comparison = draw(input, variants, renderer, &mut |done, next| {
         progress(part * done, next)
     });
-    if let Some(limits) = options.timing {
+    if let Some(limits) = limits {
         comparison.time(input.frame, limits, |done| {
             progress(part + (1.0 - part) * done, "timing")
         });

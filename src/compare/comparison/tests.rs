@@ -53,25 +53,19 @@ fn errors_only(frame: &Frame, variants: &[Variant]) -> Comparison {
             frame,
         },
         variants,
-        &Options {
-            timing: None,
-            ..Options::default()
-        },
+        Renderer::LECTURE,
+        None,
         &mut |_, _| {},
     )
 }
 
 /// Five rounds, so that a comparison with times is quick.
-fn quick() -> Options {
-    let limits = TimeLimits {
+fn quick() -> Option<TimeLimits> {
+    Some(TimeLimits {
         time_budget: Duration::ZERO,
         rounds: 5,
         warm_up_rounds: 1,
-    };
-    Options {
-        timing: Some(limits),
-        ..Options::default()
-    }
+    })
 }
 
 fn named<'a>(rows: &'a [MethodRow], name: &str) -> &'a MethodRow {
@@ -253,7 +247,8 @@ fn nothing_drawn_is_no_difference() {
             frame: &frame,
         },
         &all(),
-        &quick(),
+        Renderer::LECTURE,
+        quick(),
         &mut |_, _| {},
     );
     assert_eq!((comparison.covered_pixels, comparison.fragments), (0, 0));
@@ -276,9 +271,13 @@ fn speeds_belong_to_their_rows() {
         name: "sphere".into(),
         frame: &frame,
     };
-    let comparison = compare(&input, &all(), &quick(), &mut |part, what| {
-        told.push((part, String::from(what)))
-    });
+    let comparison = compare(
+        &input,
+        &all(),
+        Renderer::LECTURE,
+        quick(),
+        &mut |part, what| told.push((part, String::from(what))),
+    );
     for row in comparison.all_rows() {
         let speed = row.speed.as_ref().unwrap();
         assert_eq!(speed.timing.samples_ns.len(), 5);
@@ -331,7 +330,7 @@ fn tables_have_a_row_a_method() {
         name: "sphere".into(),
         frame: &frame,
     };
-    let mut comparison = compare(&input, &all(), &quick(), &mut |_, _| {});
+    let mut comparison = compare(&input, &all(), Renderer::LECTURE, quick(), &mut |_, _| {});
     for kind in [TableKind::Short, TableKind::Compare, TableKind::Bench] {
         let text = table(&comparison, kind);
         let (head, body) = text.split_once("\n\n").unwrap();
