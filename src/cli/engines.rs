@@ -89,11 +89,11 @@ impl EngineInfo {
 
 /// Lists the names of the engines that have a method.
 pub fn engines_with(info: &Info) -> String {
-    let engines = ENGINES.iter().filter(|engine| engine.has(info));
-    engines
-        .map(|engine| engine.name)
-        .collect::<Vec<_>>()
-        .join(", ")
+    let names = ENGINES
+        .iter()
+        .filter(|engine| engine.has(info))
+        .map(|engine| engine.name);
+    names.collect::<Vec<_>>().join(", ")
 }
 
 /// Returns CS171's name of a method, if it has it.
@@ -122,17 +122,15 @@ pub fn engine(text: &str) -> Result<EngineFlag, String> {
         "cs171:normals=as-printed" => return Ok(EngineFlag::Cs171 { normalise: false }),
         _ => {}
     }
-    Err(match text.split_once(':') {
-        Some(("barycentric", _)) => "expected edges=top-left or edges=closed".to_owned(),
-        Some(("cs171", _)) => "expected normals=unit or normals=as-printed".to_owned(),
-        Some((name, _)) if NAMES.contains(&name) => {
+    let expected = "expected `auto`, `span`, `row`, `barycentric` or `cs171`";
+    Err(match (text.split_once(':'), nearest(text, NAMES)) {
+        (Some(("barycentric", _)), _) => "expected edges=top-left or edges=closed".to_owned(),
+        (Some(("cs171", _)), _) => "expected normals=unit or normals=as-printed".to_owned(),
+        (Some((name, _)), _) if NAMES.contains(&name) => {
             format!("the engine `{name}` has no parameters")
         }
-        _ => match nearest(text, NAMES) {
-            Some(near) => format!("unknown engine: did you mean `{near}`?"),
-            None => "unknown engine: expected `auto`, `span`, `row`, `barycentric` or `cs171`"
-                .to_owned(),
-        },
+        (_, Some(near)) => format!("unknown engine: did you mean `{near}`?"),
+        (_, None) => format!("unknown engine: {expected}"),
     })
 }
 
@@ -171,32 +169,30 @@ pub fn renderer(
     default: Renderer,
 ) -> Result<Renderer, String> {
     use raster::Engine::{Row, Span};
-    let Some(ScanlineEngine(engine)) = engine else {
-        return Ok(match simd {
-            None => default,
-            Some(Simd::Auto) => Renderer::fastest(),
-            Some(Simd::Level(level)) => Renderer::on(level),
-        });
+    let level = match simd {
+        None if engine.is_none() => return Ok(default),
+        Some(Simd::Level(level)) => Some(level),
+        _ => None,
     };
-    let problem = match (engine, simd.unwrap_or(Simd::Auto)) {
-        (None, Simd::Auto) => return Ok(Renderer::fastest()),
-        (None, Simd::Level(level)) => return Ok(Renderer::on(level)),
-        (Some(Span), Simd::Auto | Simd::Level(Level::Scalar)) => return Ok(Renderer::Span),
-        (Some(Span), Simd::Level(level)) => format!(
+    let problem = match (engine.and_then(|engine| engine.0), level) {
+        (None, None) => return Ok(Renderer::fastest()),
+        (None, Some(level)) => return Ok(Renderer::on(level)),
+        (Some(Span), None | Some(Level::Scalar)) => return Ok(Renderer::Span),
+        (Some(Span), Some(level)) => &*format!(
             "the span engine goes one pixel at a time: use `--engine row --simd {level}`, or `--engine span --simd scalar`"
         ),
-        (Some(Row), Simd::Level(Level::Scalar)) => {
-            "the row engine runs on SIMD: use `--engine span --simd scalar` for one pixel at a time, or `--simd auto`".to_owned()
+        (Some(Row), Some(Level::Scalar)) => {
+            "the row engine runs on SIMD: use `--engine span --simd scalar` for one pixel at a time, or `--simd auto`"
         }
-        (Some(Row), Simd::Level(level)) => return Ok(Renderer::Row(level)),
-        (Some(Row), Simd::Auto) => match Renderer::fastest() {
+        (Some(Row), Some(level)) => return Ok(Renderer::Row(level)),
+        (Some(Row), None) => match Renderer::fastest() {
+            row @ Renderer::Row(_) => return Ok(row),
             Renderer::Span => {
-                "the row engine runs on SIMD, which this machine does not have: use `--engine span`".to_owned()
+                "the row engine runs on SIMD, which this machine does not have: use `--engine span`"
             }
-            row => return Ok(row),
         },
     };
-    Err(problem)
+    Err(problem.to_owned())
 }
 
 /// Reads `auto`, or an instruction set of this machine.

@@ -46,7 +46,7 @@ impl Output {
         self.write_by(|out| picture.write_to(self.format, out))
     }
 
-    /// Writes a PPM file whose texels `rows` gives from the top; a file whole or not at all.
+    /// Writes a PPM file whose pixels `rows` gives from the top; a file whole or not at all.
     ///
     /// # Errors
     /// When it cannot be written.

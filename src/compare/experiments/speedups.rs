@@ -104,16 +104,16 @@ pub struct Speedups {
     pub size: [u32; 2],
     /// Pixels of a span.
     pub span: usize,
-    /// Kernels scalar and wide, frames scalar and wide, with one light; then kernels with four. Where the machine has no wide
-    /// arithmetic, there are no kernels in it.
+    /// Kernels scalar and SIMD, frames scalar and SIMD, with one light; then kernels with four. A machine without SIMD has no
+    /// such kernels.
     pub corners: Vec<SpeedCorner>,
     /// The methods; naive Phong is among them.
     pub methods: Vec<MethodSpeedups>,
 }
 
 impl Speedups {
-    /// Draws and times `variants`, and naive Phong, in one interleaved run on the current pool of threads. `progress` is told
-    /// which part is done, 0..=1, and what is being done; never while a time is taken.
+    /// Draws and times `variants`, and naive Phong, in one interleaved run on the current pool of threads. `progress` hears
+    /// which part is done, 0..=1, and what comes next; never while a time is taken.
     ///
     /// # Errors
     /// [`ExperimentError`] if there is no such mesh or picture.
@@ -191,7 +191,7 @@ fn corners() -> Vec<SpeedCorner> {
         (Work::Kernel, true, 4),
         (Work::Kernel, false, 4),
     ];
-    // The widest kernel of a machine without wide arithmetic is the scalar one, which is there already.
+    // The best kernel of a machine without SIMD is the scalar one, which is there already.
     let differ = all
         .into_iter()
         .filter(|(work, scalar, _)| *scalar || *work == Work::Frame || best != Level::Scalar);

@@ -16,9 +16,9 @@ pub const BEYOND_DARKER: [u8; 4] = [0, 255, 0, 255];
 /// Colour of pixels that only one of the pictures covers, whatever their difference.
 pub const COVERAGE: [u8; 4] = [255, 255, 255, 255];
 
-/// Ends of the signed map's ramp for what is too bright: orange, from dark to light.
+/// Ends of the signed map's ramp for pixels that are too bright: orange, from dark to light.
 const BRIGHTER: [[f64; 3]; 2] = [[80.0, 32.0, 8.0], [255.0, 196.0, 120.0]];
-/// Ends of its ramp for what is too dark: blue, which is told from orange by colour-blind eyes as well.
+/// Ends of its ramp for pixels that are too dark: blue, which colour-blind eyes tell from orange, too.
 const DARKER: [[f64; 3]; 2] = [[16.0, 40.0, 92.0], [136.0, 200.0, 255.0]];
 
 /// Draws the absolute difference of two pictures, the largest of a pixel's channels, in the colours of viridis.

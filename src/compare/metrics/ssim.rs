@@ -12,7 +12,7 @@ const C1: f64 = 0.01 * 0.01;
 /// (K2 L)², K2 = 0.03.
 const C2: f64 = 0.03 * 0.03;
 
-/// Sums kept per window: means of x, y, x² + y² and x y. Variances enter only as a sum, so x² and y² need not be told apart.
+/// Sums kept per window: means of x, y, x² + y² and x y. Variances enter only as a sum, so x² and y² are summed up together.
 const MOMENTS: usize = 4;
 
 /// Returns the weights of one row of the window; they sum to 1.

@@ -259,7 +259,7 @@ mod tests {
     #[test]
     fn with_few_rounds_the_interval_reaches_from_end_to_end() {
         // Of five rounds at least three are the lowest one in 5.8 % of all resamples, which is over 2.5 %: the 2.5 %
-        // quantile of their medians is the lowest ratio itself, and likewise above.
+        // quantile of their medians is the lowest ratio itself, and the upper one the highest.
         let candidate = [100.0, 200.0, 50.0, 80.0, 125.0];
         let ratio = Ratio::paired(&[100.0; 5], &candidate).unwrap();
         assert_eq!((ratio.low, ratio.median, ratio.high), (0.5, 1.0, 2.0));
