@@ -1,6 +1,6 @@
-//! Every way of making Phong shading fast, after *Lecture 21: Shading* (L21).
+//! Phong shading on a scanline rasterizer: eleven methods to run, time, look at and check against an f64 reference.
 //!
-//! The lecture shades polygons on a scan-line rasterizer: flat, with vertex colours (Gouraud), with interpolated normals
+//! *Lecture 21: Shading* (L21) shades polygons on a scan-line rasterizer: flat, with vertex colours (Gouraud), with interpolated normals
 //! (Phong), and then Phong's picture for the price of a few additions. Each of these is a *method* here, one file and one
 //! line of [`shading::METHODS`]; all of them draw the same [`frame::Frame`], so that their pictures differ by shading and by
 //! nothing else, and each is measured against a closed form in `f64` that shares no arithmetic with it.

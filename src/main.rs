@@ -18,8 +18,8 @@ fn main() -> ExitCode {
     match cli.run() {
         Ok(cli::Outcome::Done) => ExitCode::SUCCESS,
         Ok(cli::Outcome::Differs) => ExitCode::from(1),
-        Err(failure) => {
-            cli::talk::to_stderr(&failure.render(cli::talk::colour()));
+        Err(error) => {
+            cli::log::to_stderr(&error.render(cli::log::colour()));
             ExitCode::from(2)
         }
     }

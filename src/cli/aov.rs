@@ -1,4 +1,4 @@
-//! Pictures of what is known of each pixel besides its colour.
+//! Pictures of quantities other than colour: depth, normals, polygon numbers, vertex colours, a checkerboard.
 
 use fastphong::frame::Frame;
 use fastphong::picture::encoding::{quantise, store};
@@ -12,11 +12,11 @@ pub enum Aov {
     Depth,
     /// World-space normal N as the colour (N + 1)/2
     Normal,
-    /// Number of the polygon that is seen, each in a colour of its own; in .pfm its number in the scene, -1 where none is
+    /// Visible polygon, each in a colour of its own; in .pfm its number in the scene, -1 where there is none
     Polygon,
-    /// Colours of vertices, interpolated; white where the mesh has none
+    /// Vertex colours, interpolated; white where the mesh has none
     Colours,
-    /// A checkerboard on the world's x and z, of `--square` world units
+    /// Checkerboard on the world's x and z, with squares of `--square` world units
     Checkerboard,
 }
 
@@ -72,7 +72,7 @@ impl Aov {
     }
 }
 
-/// Returns a colour that looks nothing like those of the numbers around, and is the same in every view.
+/// Returns the colour of a polygon: unlike those of the numbers around it, and the same in every view.
 fn colour_of_number(number: u32) -> [u8; 4] {
     // The finaliser of MurmurHash3 (Austin Appleby, public domain): every bit of the number moves every bit.
     let mut h = number.wrapping_add(1);

@@ -1,20 +1,21 @@
 //! `fastphong bench`: times only, method by method, in interleaved rounds; or of whole frames, one method after the other.
 
-use super::engines::{self, Levels, ScanlineEngine, ThreadFlags, renderer_of};
-use super::frame_times::{FrameCount, FrameTiming};
-use super::measured::{How, TimingFlags, command_line, named_or_shipped};
+use super::engines::{self, ScanlineEngine, SimdList, ThreadFlags, renderer};
+use super::frame_times::{FrameCount, frame_times};
+use super::log::{Log, to_stdout};
+use super::measured::{Measurement, TimingFlags, command_line, named_or_shipped};
 use super::scene_flags::SceneFlags;
-use super::talk::{Talk, to_stdout};
-use super::{Failure, Outcome};
-use fastphong::compare::comparison::{Document, TableKind, table};
+use super::{CliError, Outcome};
+use fastphong::compare::comparison::{TableKind, table};
 use fastphong::compare::timing::Machine;
 use fastphong::picture::image_file::write_file;
 use fastphong::raster::Renderer;
+use fastphong::report::Document;
 use std::path::PathBuf;
 
 /// Time methods on scenes: interleaved rounds, medians with their spread, ratios; or whole frames
 #[derive(clap::Args, Debug)]
-pub struct Bench {
+pub struct BenchArgs {
     /// Scene files, mesh files, builtin:NAME?key=value, or names of shipped scenes [default: all shipped scenes]
     #[arg(value_name = "INPUT")]
     inputs: Vec<String>,
@@ -26,84 +27,67 @@ pub struct Bench {
     frame_times: bool,
     #[command(flatten)]
     count: FrameCount,
-    /// What finds the pixels: `span`, the lecture's way, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
+    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
     /// where it can draw the frame [default: span; auto with --frame-times]
     #[arg(long, value_parser = engines::scanline_engine)]
     engine: Option<ScanlineEngine>,
-    /// Instruction sets of the pixel loops between commas, or `all` of this machine; `scalar` is the span engine, any other
+    /// Instruction sets of the pixel loops between commas, or `all` of this machine; `scalar` selects the span engine, any other
     /// the row engine, and each is timed for itself [default: scalar; auto with --frame-times]
-    #[arg(long, value_name = "LEVELS", value_parser = engines::levels)]
-    simd: Option<Levels>,
+    #[arg(long, value_name = "LEVELS", value_parser = engines::simd_list)]
+    simd: Option<SimdList>,
     #[command(flatten)]
     threads: ThreadFlags,
-    /// Write all times to this file as well, as described in docs/bench-json.md; `-` writes them instead of the tables
+    /// Also write all times to this file, as described in docs/bench-json.md; `-` prints them in place of the tables
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     #[command(flatten)]
     scene: SceneFlags,
 }
 
-impl Bench {
+impl BenchArgs {
     /// Times, and prints the tables.
-    pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        let talk = *talk;
-        let inputs = named_or_shipped(&self.inputs);
-        let (machine, renderers) = (Machine::this(), self.renderers()?);
-        let how = How {
-            renderers: &renderers,
-            threads: &self.threads,
+    pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        let measurement = Measurement {
+            inputs: &named_or_shipped(&self.inputs),
+            scene: &self.scene,
+            renderers: &self.renderers()?,
+            threads: self.threads,
+            log,
         };
         let (text, json) = if self.frame_times {
-            let (scene, methods, count) = (&self.scene, &self.timing.methods.0, self.count);
-            let times = FrameTiming {
-                inputs: &inputs,
-                scene,
-                methods,
-                how,
-                count,
-            }
-            .take(talk)?;
-            (times.text(), times.json(&machine, &command_line()))
+            let times = frame_times(&measurement, &self.timing.methods.0, self.count)?;
+            (times.text(), times.json())
         } else {
-            let comparisons = self.timing.compare(&inputs, &self.scene, how, talk)?;
-            let tables = comparisons
-                .iter()
-                .map(|comparison| table(comparison, TableKind::Bench));
-            let text = format!(
-                "{}\n\n{}",
-                machine.line(),
-                tables.collect::<Vec<_>>().join("\n")
-            );
-            (
-                text,
-                Document::new(&comparisons, &machine, &command_line()).to_text(),
-            )
+            let comparisons = self.timing.compare(&measurement)?;
+            let tables = comparisons.iter().map(|c| table(c, TableKind::Bench));
+            let tables = tables.collect::<Vec<_>>().join("\n");
+            let text = format!("{}\n\n{tables}", Machine::this().line());
+            (text, Document::new(command_line(), comparisons).to_text())
         };
         match &self.json {
-            Some(path) if path.as_os_str() == "-" => {
-                return to_stdout(json.as_bytes()).map(|()| Outcome::Done);
+            Some(path) if path.as_os_str() == "-" => to_stdout(json.as_bytes())?,
+            Some(path) => {
+                write_file(path, json.as_bytes())?;
+                to_stdout(text.as_bytes())?;
             }
-            Some(path) => write_file(path, json.as_bytes())?,
-            None => {}
+            None => to_stdout(text.as_bytes())?,
         }
-        to_stdout(text.as_bytes())?;
         Ok(Outcome::Done)
     }
 
-    /// How to draw: by each instruction set that was asked for. The lecture's own form is what methods are compared in;
-    /// whole frames are drawn the fastest way.
+    /// Returns a renderer for each instruction set that was asked for. Without one, methods are compared by the lecture's
+    /// span engine; whole frames are drawn the fastest way.
     ///
     /// # Errors
     /// When engine and instruction sets contradict each other.
-    fn renderers(&self) -> Result<Vec<Renderer>, Failure> {
-        let usual = if self.frame_times {
-            Renderer::fastest()
-        } else {
-            Renderer::LECTURE
+    fn renderers(&self) -> Result<Vec<Renderer>, CliError> {
+        let default = match self.frame_times {
+            true => Renderer::fastest(),
+            false => Renderer::LECTURE,
         };
         Ok(match &self.simd {
-            None => vec![renderer_of(self.engine, None, usual)?],
-            Some(levels) => levels.renderers(self.engine.and_then(|ScanlineEngine(e)| e))?,
+            None => vec![renderer(self.engine, None, default)?],
+            Some(levels) => levels.renderers(self.engine)?,
         })
     }
 }

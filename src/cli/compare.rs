@@ -1,54 +1,51 @@
 //! `fastphong compare`: error and speed of every method on one scene, as a table.
 
 use super::engines::LectureFlags;
-use super::measured::{How, TimingFlags, command_line};
+use super::log::{Log, to_stdout};
+use super::measured::{Measurement, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
-use super::talk::{Talk, to_stdout};
-use super::{Failure, Outcome};
-use fastphong::compare::comparison::{Document, TableKind, table};
-use fastphong::compare::timing::Machine;
+use super::{CliError, Outcome};
+use fastphong::compare::comparison::{TableKind, table};
+use fastphong::report::Document;
 
 /// Compare methods on one scene: error against the reference, time, ratios
 #[derive(clap::Args, Debug)]
-pub struct Compare {
-    /// A scene file, a mesh file, builtin:NAME?key=value, or the name of a shipped scene
+pub struct CompareArgs {
+    /// Scene file, mesh file, builtin:NAME?key=value, or name of a shipped scene
     input: String,
     #[command(flatten)]
     timing: TimingFlags,
     #[command(flatten)]
     drawn: LectureFlags,
-    /// Print PSNR, SSIM, brightness and other errors as well
+    /// Also print PSNR, SSIM, brightness and other errors
     #[arg(long)]
     all_columns: bool,
-    /// Print all as JSON
+    /// Print everything as JSON
     #[arg(long, conflicts_with = "all_columns")]
     json: bool,
     #[command(flatten)]
     scene: SceneFlags,
 }
 
-impl Compare {
+impl CompareArgs {
     /// Compares, times, and prints the table.
-    pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        let how = How {
+    pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        let comparisons = self.timing.compare(&Measurement {
+            inputs: &[&self.input],
+            scene: &self.scene,
             renderers: &[self.drawn.renderer()?],
-            threads: &self.drawn.threads,
+            threads: self.drawn.threads,
+            log,
+        })?;
+        let kind = match self.all_columns {
+            true => TableKind::Compare,
+            false => TableKind::Short,
         };
-        let comparisons = self
-            .timing
-            .compare(&[&self.input], &self.scene, how, *talk)?;
-        if self.json {
-            let document = Document::new(&comparisons, &Machine::this(), &command_line());
-            to_stdout(document.to_text().as_bytes())?;
-        } else {
-            let kind = match self.all_columns {
-                true => TableKind::Compare,
-                false => TableKind::Short,
-            };
-            for comparison in &comparisons {
-                to_stdout(table(comparison, kind).as_bytes())?;
-            }
-        }
+        let text = match self.json {
+            true => Document::new(command_line(), comparisons).to_text(),
+            false => comparisons.iter().map(|c| table(c, kind)).collect(),
+        };
+        to_stdout(text.as_bytes())?;
         Ok(Outcome::Done)
     }
 }

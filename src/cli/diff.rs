@@ -1,23 +1,23 @@
 //! `fastphong diff`: two picture files, in numbers and as a map.
 
+use super::log::{Log, to_stderr, to_stdout};
 use super::output::Output;
 use super::reference_check::{SCALE, largest_difference};
-use super::table::columns;
-use super::talk::{Talk, to_stderr, to_stdout};
-use super::{Failure, Outcome, values};
+use super::{CliError, Outcome, values};
 use fastphong::compare::metrics::{
-    Difference, METRICS, MetricInfo, compare, difference_map, signed_difference_map,
+    Difference, METRICS, compare, difference_map, signed_difference_map,
 };
+use fastphong::compare::table::aligned;
 use fastphong::picture::image_file::{FilePicture, comparable, read_picture};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
 /// Compare two picture files
 #[derive(clap::Args, Debug)]
-pub struct Diff {
-    /// The picture that is right: PNG, PPM or PFM
+pub struct DiffArgs {
+    /// Reference picture: PNG, PPM or PFM
     reference: PathBuf,
-    /// The picture that is compared with it
+    /// Picture to compare with it
     actual: PathBuf,
     /// Exit with code 1 when a channel differs by more grey levels, of 255; a pixel that only one of the pictures
     /// covers differs by 255
@@ -26,7 +26,7 @@ pub struct Diff {
     /// Write a map of the difference; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Grey levels at the light end of the map; what is beyond is magenta
+    /// Grey levels at the light end of the map; larger differences are magenta
     #[arg(long, value_name = "LEVELS", default_value_t = SCALE, value_parser = values::scale, allow_hyphen_values = true, requires = "output")]
     scale: f32,
     /// Map brighter and darker in different colours: orange and blue
@@ -37,9 +37,9 @@ pub struct Diff {
     json: bool,
 }
 
-impl Diff {
+impl DiffArgs {
     /// Compares, prints, and writes the map.
-    pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
+    pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let output = self.output.as_deref().map(|path| Output::new(path, None));
         let output = output.transpose()?;
         let (reference, actual) = (read_picture(&self.reference)?, read_picture(&self.actual)?);
@@ -64,7 +64,7 @@ impl Diff {
         let Some(most) = self.fail_above.filter(|most| found > *most) else {
             return Ok(Outcome::Done);
         };
-        talk.note(&format!(
+        log.note(&format!(
             "the pictures differ by {found:.4} grey levels, more than {most}"
         ));
         Ok(Outcome::Differs)
@@ -73,11 +73,12 @@ impl Diff {
     /// Returns the numbers as data.
     fn json(&self, difference: &Difference, [width, height]: [usize; 2]) -> Value {
         // JSON has neither infinity nor NaN: they become null.
-        let value = |metric: &MetricInfo| json!((metric.value)(difference));
-        let metrics = METRICS
+        let values = METRICS
             .iter()
-            .map(|metric| (metric.name.to_owned(), value(metric)));
-        let metrics: Map<String, Value> = metrics.collect();
+            .map(|m| (m.name, json!((m.value)(difference))));
+        let metrics: Map<_, _> = values
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect();
         json!({
             "schema": "fastphong.diff/1",
             "reference": self.reference.display().to_string(),
@@ -105,7 +106,7 @@ fn table(difference: &Difference) -> String {
         let value = value((metric.value)(difference));
         [metric.name, &value, metric.unit, metric.meaning].map(str::to_owned)
     });
-    let mut text = columns(&rows.collect::<Vec<_>>(), false, &[1]);
+    let mut text = aligned(&rows.collect::<Vec<_>>(), &[0, 2, 3]);
     if let Some([x, y]) = difference.worst {
         text += &format!("the largest difference is at column {x}, row {y}\n");
     } else if difference.equal {

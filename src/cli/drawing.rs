@@ -1,8 +1,10 @@
-//! From a frame to a picture, by a method and an engine.
+//! Render jobs: from a frame to a picture, by a method and an engine.
 
-use super::engines::{ENGINES, Engine, Simd, cs171_shading};
-use super::talk::{Talk, counted, grouped};
-use super::{Failure, aov::Aov};
+use super::engines::{ENGINES, EngineFlag, Simd, cs171_shading};
+use super::log::Log;
+use super::text::{counted, grouped};
+use super::{CliError, aov::Aov};
+use fastphong::compare::comparison::DrawnBy;
 use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
@@ -14,6 +16,7 @@ use fastphong::raster::{Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
 use fastphong::shading::{METHODS, Variant};
+use std::fmt;
 
 /// The name under which the reference picture can be asked for like a method.
 const REFERENCE: &str = "reference";
@@ -31,11 +34,9 @@ pub enum Method {
 pub fn method(text: &str) -> Result<Method, String> {
     let (name, rest) = text.split_once(':').unwrap_or((text, ""));
     if name == REFERENCE {
-        if rest.is_empty() {
-            return Ok(Method::Reference(Model::Phong));
-        }
         let named = Model::ALL.map(|model| (format!("model={}", model.name()), model));
         return match named.iter().find(|(name, _)| name == rest) {
+            _ if rest.is_empty() => Ok(Method::Reference(Model::Phong)),
             Some((_, model)) => Ok(Method::Reference(*model)),
             None => {
                 let names = named.map(|(name, _)| name).join(", ");
@@ -43,18 +44,21 @@ pub fn method(text: &str) -> Result<Method, String> {
             }
         };
     }
-    let is_method = METHODS.iter().any(|entry| entry.info.name == name);
     let means_method = nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some();
-    if !is_method && !means_method && nearest(name, [REFERENCE]).is_some() {
-        let problem = format!("unknown method `{name}`");
-        return Err(format!("{problem}: did you mean `{REFERENCE}`?"));
-    }
-    let variant = Variant::parse(text).map_err(|error| error.to_string());
-    variant.map(Method::Variant)
+    let error = match Variant::parse(text) {
+        Ok(variant) => return Ok(Method::Variant(variant)),
+        Err(_) if !means_method && nearest(name, [REFERENCE]).is_some() => {
+            return Err(format!(
+                "unknown method `{name}`: did you mean `{REFERENCE}`?"
+            ));
+        }
+        Err(error) => error,
+    };
+    Err(error.to_string())
 }
 
-impl std::fmt::Display for Method {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Method::Variant(variant) => variant.fmt(f),
             Method::Reference(Model::Phong) => f.write_str(REFERENCE),
@@ -63,42 +67,42 @@ impl std::fmt::Display for Method {
     }
 }
 
-/// The part of a frame that is put into a picture.
+/// The quantity that a picture shows.
 #[derive(Clone, Debug)]
-pub enum Content {
-    /// Colours; the engine and the instruction set asked for, and what these mean by scanlines.
-    Shaded(Method, Engine, Simd, Renderer),
-    /// Something else that is known of each pixel; the side of a square of the checkerboard, in world units.
+pub enum PictureContent {
+    /// Colours; the engine and the instruction set asked for, and the renderer that they name.
+    Shaded(Method, EngineFlag, Simd, Renderer),
+    /// Another quantity; the side of a square of the checkerboard, in world units.
     Aov(Aov, f64),
 }
 
-/// A frame, and what of it is put into a picture.
-pub struct Drawing {
+/// A frame to draw, and the quantity that its picture shows.
+pub struct RenderJob {
     frame: Frame,
-    content: Content,
+    content: PictureContent,
 }
 
-impl Drawing {
+impl RenderJob {
     /// Prepares `frame` for the engine: the barycentric renderer and CS171's algorithms take triangles.
     ///
     /// # Errors
     /// When the engine does not have the method or the instruction set.
-    pub fn new(frame: Frame, content: Content, talk: Talk) -> Result<Drawing, Failure> {
-        let Content::Shaded(method, engine, simd, _) = &content else {
-            return Ok(Drawing { frame, content });
+    pub fn new(frame: Frame, content: PictureContent, log: Log) -> Result<RenderJob, CliError> {
+        let PictureContent::Shaded(method, engine, simd, _) = &content else {
+            return Ok(RenderJob { frame, content });
         };
         let (name, title) = match (engine, method) {
-            (Engine::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
-            (Engine::Cs171 { .. }, _) => ("cs171", "CS171"),
-            (Engine::Scanlines(Some(engine)), Method::Reference(_)) => {
-                let problem = format!("the {engine} engine does not have `{method}`");
-                return Err(format!("{problem}, which is none: leave out --engine").into());
+            (EngineFlag::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
+            (EngineFlag::Cs171 { .. }, _) => ("cs171", "CS171"),
+            (EngineFlag::Scanlines(Some(engine)), Method::Reference(_)) => {
+                let problem = format!("`{method}` is not drawn by the {engine} engine");
+                return Err(format!("{problem}: leave out --engine").into());
             }
-            (Engine::Scanlines(None), Method::Reference(_)) => {
-                pixel_by_pixel("the reference", *simd)?;
-                return Ok(Drawing { frame, content });
+            (EngineFlag::Scanlines(None), Method::Reference(_)) => {
+                refuse_simd("the reference", *simd)?;
+                return Ok(RenderJob { frame, content });
             }
-            _ => return Ok(Drawing { frame, content }),
+            _ => return Ok(RenderJob { frame, content }),
         };
         let engine = ENGINES.iter().filter(|engine| engine.name == name);
         let has: Vec<&str> = engine.flat_map(|engine| engine.methods()).collect();
@@ -107,59 +111,62 @@ impl Drawing {
             let problem = format!("{title} does not have `{method}`");
             return Err(format!("{problem}: expected one of {}", has.join(", ")).into());
         }
-        pixel_by_pixel(title, *simd)?;
-        Ok(Drawing {
-            frame: in_triangles(frame, title, talk),
-            content,
-        })
+        refuse_simd(title, *simd)?;
+        let frame = in_triangles(frame, title, log);
+        Ok(RenderJob { frame, content })
     }
 
-    /// Says what draws the picture: in full to the curious, and to all where it is not what they asked for.
-    pub fn tell(&self, threads: Option<usize>, talk: Talk) {
-        let line = |engine: &str, level: &str, threads: usize| {
-            let threads = counted(threads, "thread", "threads");
-            format!("drawn by {engine}, {level}, {threads}")
-        };
-        let one = |engine: &str, level: &str| (line(engine, level, 1), 1, None);
-        let (text, used, reason) = match &self.content {
-            Content::Aov(..) => one("the span engine", "scalar"),
-            Content::Shaded(Method::Reference(_), ..) => one("the reference", "f64"),
-            Content::Shaded(_, Engine::Barycentric(_), ..) => {
-                one("the barycentric engine", "scalar")
+    /// Logs which loops draw the picture: as a note where they are not those that were asked for.
+    pub fn log(&self, threads: Option<usize>, log: Log) {
+        let (mut used, mut reason, mut is_other) = (1, None, false);
+        let drawn_by = match &self.content {
+            PictureContent::Aov(..) => "the span engine, scalar, 1 thread".to_owned(),
+            PictureContent::Shaded(_, EngineFlag::Barycentric(_), ..) => {
+                "the barycentric engine, scalar, 1 thread".to_owned()
             }
-            Content::Shaded(_, Engine::Cs171 { .. }, ..) => one("the cs171 engine", "f64"),
-            Content::Shaded(Method::Variant(variant), Engine::Scanlines(asked), simd, renderer) => {
+            PictureContent::Shaded(_, EngineFlag::Cs171 { .. }, ..) => {
+                "the cs171 engine, f64, 1 thread".to_owned()
+            }
+            PictureContent::Shaded(Method::Reference(_), ..) => {
+                "the reference, f64, 1 thread".to_owned()
+            }
+            PictureContent::Shaded(
+                Method::Variant(variant),
+                EngineFlag::Scanlines(asked),
+                simd,
+                renderer,
+            ) => {
                 let plan = variant.plan(&self.frame, *renderer);
-                let (engine, level) = (plan.renderer.engine(), plan.renderer.level());
-                let used = plan.renderer.threads();
-                let text = line(&format!("the {engine} engine"), level.name(), used);
-                let is_other = asked.is_some_and(|asked| asked != engine)
-                    || matches!(simd, Simd::Level(asked) if *asked != level);
-                let reason = plan.reason.map(|reason| (reason, is_other));
-                (text, used, reason)
+                is_other = asked.is_some_and(|asked| asked != plan.renderer.engine())
+                    || matches!(simd, Simd::Level(asked) if *asked != plan.renderer.level());
+                (used, reason) = (plan.renderer.threads(), plan.reason);
+                DrawnBy::new(plan.renderer).to_string()
             }
         };
-        match reason {
-            Some((reason, true)) => talk.note(&format!("{text}: {reason}")),
-            Some((reason, false)) => talk.detail(&format!("{text}: {reason}")),
-            None => talk.detail(&text),
+        let reason = reason.map_or(String::new(), |reason| format!(": {reason}"));
+        match is_other && !reason.is_empty() {
+            true => log.note(&format!("drawn by {drawn_by}{reason}")),
+            false => log.detail(&format!("drawn by {drawn_by}{reason}")),
         }
         if let (Some(threads @ 2..), 1) = (threads, used) {
-            let what = format!("--threads {threads} leaves the pixels on one thread");
-            talk.note(&format!("{what}: {text}"));
+            let text = format!("--threads {threads} leaves the pixels on one thread");
+            log.note(&format!("{text}: drawn by {drawn_by}"));
         }
     }
 
-    /// Gives the texels of the picture, as it is stored in 8 bits, to `take`: row by row from the top, and where that can be
-    /// while it is drawn.
+    /// Passes the pixels of the picture, as stored in 8 bits, to `take`: row by row from the top, and where possible while it
+    /// is drawn.
     ///
     /// # Errors
     /// Those of `take`.
     pub fn rows<E>(&self, mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>) -> Result<(), E> {
         match &self.content {
-            Content::Shaded(Method::Variant(variant), Engine::Scanlines(_), _, renderer) => {
-                variant.render_rows(&self.frame, *renderer, take)
-            }
+            PictureContent::Shaded(
+                Method::Variant(variant),
+                EngineFlag::Scanlines(_),
+                _,
+                renderer,
+            ) => variant.render_rows(&self.frame, *renderer, take),
             _ => take(self.picture(false).to_stored().texels()),
         }
     }
@@ -169,51 +176,55 @@ impl Drawing {
         [self.frame.picture_width(), self.frame.picture_height()]
     }
 
-    /// Draws the picture: floats if `linear`, else as it is stored in 8 bits.
+    /// Draws the picture: floats if `linear`, else as stored in 8 bits.
     pub fn picture(&self, linear: bool) -> FilePicture {
         let frame = &self.frame;
-        match (&self.content, linear) {
-            (Content::Aov(aov, square), true) => FilePicture::linear(aov.linear(frame, *square)),
-            (Content::Aov(aov, square), false) => FilePicture::stored(aov.stored(frame, *square)),
-            (Content::Shaded(Method::Reference(model), ..), linear) => {
-                let picture = reference::render(frame, *model).picture;
-                wide(&picture, frame.encoding(), linear)
+        let (variant, engine, renderer) = match &self.content {
+            PictureContent::Aov(aov, square) if linear => {
+                return FilePicture::linear(aov.linear(frame, *square));
             }
-            (Content::Shaded(Method::Variant(variant), engine, _, renderer), linear) => {
-                match engine {
-                    Engine::Scanlines(_) => by_scanlines(frame, variant, *renderer, linear),
-                    Engine::Barycentric(edges) => barycentric(frame, variant, *edges, linear),
-                    Engine::Cs171 { normalise } => {
-                        // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
-                        let shading = cs171_shading(variant.info()).unwrap_or(Shading::Phong);
-                        let reading = Reading {
-                            normalise: *normalise,
-                            cull: false,
-                            ..Reading::default()
-                        };
-                        let picture = cs171::render(frame, shading, reading);
-                        let picture = picture.filtered(frame.samples());
-                        wide(&picture, frame.encoding(), linear)
-                    }
-                }
+            PictureContent::Aov(aov, square) => {
+                return FilePicture::stored(aov.stored(frame, *square));
+            }
+            PictureContent::Shaded(Method::Reference(model), ..) => {
+                let picture = reference::render(frame, *model).picture;
+                return from_f64(&picture, frame.encoding(), linear);
+            }
+            PictureContent::Shaded(Method::Variant(variant), engine, _, renderer) => {
+                (variant, engine, *renderer)
+            }
+        };
+        match engine {
+            EngineFlag::Scanlines(_) => by_scanlines(frame, variant, renderer, linear),
+            EngineFlag::Barycentric(edges) => barycentric(frame, variant, *edges, linear),
+            EngineFlag::Cs171 { normalise } => {
+                // `RenderJob::new` checked that CS171 has the method. The frame has decided which sides are left out.
+                let shading = cs171_shading(variant.info()).unwrap_or(Shading::Phong);
+                let reading = Reading {
+                    normalise: *normalise,
+                    cull: false,
+                    ..Reading::default()
+                };
+                let picture = cs171::render(frame, shading, reading);
+                from_f64(&picture.filtered(frame.samples()), frame.encoding(), linear)
             }
         }
     }
 }
 
-/// Refuses an instruction set for what shades one pixel at a time.
-fn pixel_by_pixel(what: &str, simd: Simd) -> Result<(), Failure> {
+/// Refuses an instruction set for an engine that shades one pixel at a time.
+fn refuse_simd(engine: &str, simd: Simd) -> Result<(), CliError> {
     match simd {
         Simd::Auto | Simd::Level(Level::Scalar) => Ok(()),
         Simd::Level(level) => {
-            let problem = format!("{what} goes pixel by pixel and has no `{level}`");
+            let problem = format!("{engine} goes pixel by pixel and has no `{level}`");
             Err(format!("{problem}: expected --simd auto or scalar").into())
         }
     }
 }
 
 /// Returns `frame` with its polygons cut into triangles, if it has others.
-fn in_triangles(frame: Frame, engine: &str, talk: Talk) -> Frame {
+fn in_triangles(frame: Frame, engine: &str, log: Log) -> Frame {
     let polygons = frame.polygons().iter();
     let with_more_corners = polygons.filter(|polygon| polygon.count > 3).count();
     if with_more_corners == 0 {
@@ -221,10 +232,10 @@ fn in_triangles(frame: Frame, engine: &str, talk: Talk) -> Frame {
     }
     let cut = triangulated(&frame);
     let [of, into] = [with_more_corners, cut.frame.polygons().len()].map(grouped);
-    let what = format!("{of} polygons of more than three corners are cut into triangles");
-    talk.note(&format!("{what} for {engine}: {into} in all"));
+    let done = format!("{of} polygons of more than three corners are cut into triangles");
+    log.note(&format!("{done} for {engine}: {into} in all"));
     if cut.not_simple > 0 {
-        talk.warning(&counted(
+        log.warning(&counted(
             cut.not_simple,
             "polygon crosses or overlaps itself and is left out",
             "polygons cross or overlap themselves and are left out",
@@ -233,13 +244,13 @@ fn in_triangles(frame: Frame, engine: &str, talk: Talk) -> Frame {
     cut.frame
 }
 
-/// Returns a picture in `f64` as a file has it.
-fn wide(picture: &Picture<[f64; 4]>, encoding: Encoding, linear: bool) -> FilePicture {
-    let single = || picture.map(|texel| texel.map(|c| c as f32));
+/// Converts a picture in `f64` to one that can be written to a file.
+fn from_f64(picture: &Picture<[f64; 4]>, encoding: Encoding, linear: bool) -> FilePicture {
+    let single = || picture.map(|pixel| pixel.map(|c| c as f32));
     match (linear, encoding) {
         (true, _) => FilePicture::linear(single()),
         (false, Encoding::Linear) => {
-            FilePicture::stored(picture.map(|texel| texel.map(|c| (255.0 * c).round() as u8)))
+            FilePicture::stored(picture.map(|pixel| pixel.map(|c| (255.0 * c).round() as u8)))
         }
         (false, Encoding::Srgb) => FilePicture::stored(store(&single(), Encoding::Srgb)),
     }
@@ -249,21 +260,25 @@ fn by_scanlines(frame: &Frame, variant: &Variant, renderer: Renderer, linear: bo
     if linear {
         return FilePicture::linear(variant.render_linear_with(frame, renderer));
     }
-    // Every texel is drawn or becomes background. Zeros are memory that nothing has touched yet: the threads that draw are
-    // the first, each in rows of its own.
+    // Every pixel is drawn or becomes background. Zeroed memory is untouched until the threads that draw write to it, each
+    // in rows of its own.
     let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
     variant.render_with(frame, renderer, &mut picture);
     FilePicture::stored(picture)
 }
 
 fn barycentric(frame: &Frame, variant: &Variant, edges: Edges, linear: bool) -> FilePicture {
-    let picture = if linear {
-        let picture = variant.render_barycentric_linear(frame, edges);
-        picture.map(FilePicture::linear)
-    } else {
-        let picture = variant.render_barycentric(frame, edges);
-        picture.map(FilePicture::stored)
+    let stored = || {
+        variant
+            .render_barycentric(frame, edges)
+            .map(FilePicture::stored)
     };
-    // `Drawing::new` asked whether the barycentric renderer has the method; were it not so, the lecture's engine does.
+    let picture = match linear {
+        true => variant
+            .render_barycentric_linear(frame, edges)
+            .map(FilePicture::linear),
+        false => stored(),
+    };
+    // `RenderJob::new` checked that the barycentric renderer has the method; without it the span engine would draw.
     picture.unwrap_or_else(|| by_scanlines(frame, variant, Renderer::LECTURE, linear))
 }

@@ -1,6 +1,7 @@
-//! The engines, instruction sets and threads that a user can ask for.
+//! Flags for engines, instruction sets and threads.
 
-use super::Failure;
+use super::CliError;
+use super::values::number;
 use fastphong::number::suggest::nearest;
 use fastphong::number::{Level, LevelError};
 use fastphong::raster::{self, Edges, Renderer};
@@ -8,9 +9,9 @@ use fastphong::reference::cs171::Shading;
 use fastphong::shading::{Info, METHODS};
 use serde_json::{Value, json};
 
-/// An engine, with its parameters.
+/// An engine that a user can ask for, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Engine {
+pub enum EngineFlag {
     /// Scanlines, by spans or by rows; `None` is the one that suits method and frame.
     Scanlines(Option<raster::Engine>),
     /// Bounding boxes and edge functions.
@@ -23,6 +24,7 @@ pub enum Engine {
 }
 
 /// A description of an engine.
+#[derive(serde::Serialize)]
 pub struct EngineInfo {
     /// The name on the command line.
     pub name: &'static str,
@@ -45,13 +47,12 @@ pub const ENGINES: [EngineInfo; 4] = [
     EngineInfo {
         name: "row",
         title: "SIMD: a deferred renderer, varyings kept in a G-buffer, each row shaded once",
-        draws: "every method under any lights; interpolated depth, clipped by planes. What it cannot draw the span engine \
-                draws",
+        draws: "every method under any lights; interpolated depth, clipped by planes. The span engine draws the rest",
         runs: "every SIMD instruction set, several threads",
     },
     EngineInfo {
         name: "barycentric",
-        title: "a bounding box a triangle, three edge functions a pixel: what the lecture's way is measured against",
+        title: "a bounding box a triangle, three edge functions a pixel: the lecture's way is measured against it",
         draws: "triangles, into which polygons are cut; :edges=top-left or :edges=closed",
         runs: "scalar, one thread",
     },
@@ -80,18 +81,19 @@ impl EngineInfo {
 
     /// Returns the description as data.
     pub fn json(&self) -> Value {
-        json!({
-            "name": self.name, "title": self.title, "draws": self.draws, "runs": self.runs,
-            "methods": self.methods().collect::<Vec<_>>(),
-        })
+        let mut json = json!(self);
+        json["methods"] = self.methods().collect();
+        json
     }
 }
 
 /// Lists the names of the engines that have a method.
 pub fn engines_with(info: &Info) -> String {
-    let engines = ENGINES.iter().filter(|engine| engine.has(info));
-    let names: Vec<&str> = engines.map(|engine| engine.name).collect();
-    names.join(", ")
+    let names = ENGINES
+        .iter()
+        .filter(|engine| engine.has(info))
+        .map(|engine| engine.name);
+    names.collect::<Vec<_>>().join(", ")
 }
 
 /// Returns CS171's name of a method, if it has it.
@@ -106,51 +108,47 @@ pub fn cs171_shading(info: &Info) -> Option<Shading> {
 
 /// Reads `auto`, `span` (or `scanline`), `row`, `barycentric`, `barycentric:edges=top-left|closed`, `cs171` or
 /// `cs171:normals=unit|as-printed`.
-pub fn engine(text: &str) -> Result<Engine, String> {
+pub fn engine(text: &str) -> Result<EngineFlag, String> {
     const NAMES: [&str; 6] = ["auto", "span", "scanline", "row", "barycentric", "cs171"];
-    let expected = match text.split_once(':') {
-        Some(("barycentric", _)) => "expected edges=top-left or edges=closed".to_owned(),
-        Some(("cs171", _)) => "expected normals=unit or normals=as-printed".to_owned(),
-        Some((name, _)) if NAMES.contains(&name) => {
+    match text {
+        "auto" => return Ok(EngineFlag::Scanlines(None)),
+        "span" | "scanline" => return Ok(EngineFlag::Scanlines(Some(raster::Engine::Span))),
+        "row" => return Ok(EngineFlag::Scanlines(Some(raster::Engine::Row))),
+        "barycentric" | "barycentric:edges=top-left" => {
+            return Ok(EngineFlag::Barycentric(Edges::TopLeft));
+        }
+        "barycentric:edges=closed" => return Ok(EngineFlag::Barycentric(Edges::Closed)),
+        "cs171" | "cs171:normals=unit" => return Ok(EngineFlag::Cs171 { normalise: true }),
+        "cs171:normals=as-printed" => return Ok(EngineFlag::Cs171 { normalise: false }),
+        _ => {}
+    }
+    let expected = "expected `auto`, `span`, `row`, `barycentric` or `cs171`";
+    Err(match (text.split_once(':'), nearest(text, NAMES)) {
+        (Some(("barycentric", _)), _) => "expected edges=top-left or edges=closed".to_owned(),
+        (Some(("cs171", _)), _) => "expected normals=unit or normals=as-printed".to_owned(),
+        (Some((name, _)), _) if NAMES.contains(&name) => {
             format!("the engine `{name}` has no parameters")
         }
-        _ => match nearest(text, NAMES) {
-            Some(near) => format!("unknown engine: did you mean `{near}`?"),
-            None => {
-                "unknown engine: expected `auto`, `span`, `row`, `barycentric` or `cs171`".into()
-            }
-        },
-    };
-    match text {
-        "auto" => Ok(Engine::Scanlines(None)),
-        "span" | "scanline" => Ok(Engine::Scanlines(Some(raster::Engine::Span))),
-        "row" => Ok(Engine::Scanlines(Some(raster::Engine::Row))),
-        "barycentric" | "barycentric:edges=top-left" => Ok(Engine::Barycentric(Edges::TopLeft)),
-        "barycentric:edges=closed" => Ok(Engine::Barycentric(Edges::Closed)),
-        "cs171" | "cs171:normals=unit" => Ok(Engine::Cs171 { normalise: true }),
-        "cs171:normals=as-printed" => Ok(Engine::Cs171 { normalise: false }),
-        _ => Err(expected),
-    }
+        (_, Some(near)) => format!("unknown engine: did you mean `{near}`?"),
+        (_, None) => format!("unknown engine: {expected}"),
+    })
 }
 
-/// The engines that draw by scanlines: what can be compared with the barycentric renderer.
+/// A scanline engine, which can be compared with the barycentric renderer; `None` is `auto`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScanlineEngine(pub Option<raster::Engine>);
 
 /// Reads `auto`, `span` (or `scanline`) or `row`.
 pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
-    match engine(text) {
-        Ok(Engine::Scanlines(engine)) => Ok(ScanlineEngine(engine)),
-        Ok(Engine::Barycentric(_)) => {
-            Err("it is always compared with: expected `auto`, `span` or `row`".to_owned())
-        }
-        Ok(Engine::Cs171 { .. }) | Err(_) => {
-            Err("unknown engine: expected `auto`, `span` or `row`".to_owned())
-        }
-    }
+    let problem = match engine(text) {
+        Ok(EngineFlag::Scanlines(engine)) => return Ok(ScanlineEngine(engine)),
+        Ok(EngineFlag::Barycentric(_)) => "every comparison has it already",
+        Ok(EngineFlag::Cs171 { .. }) | Err(_) => "unknown engine",
+    };
+    Err(format!("{problem}: expected `auto`, `span` or `row`"))
 }
 
-/// The instruction set that is asked for.
+/// An instruction set that a user can ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Simd {
     /// The best that this machine has.
@@ -159,83 +157,82 @@ pub enum Simd {
     Level(Level),
 }
 
-/// Returns what an engine and an instruction set mean together; `usual` where neither is named.
+/// Returns the renderer that an engine and an instruction set name together; `default` if neither is named.
 ///
 /// One axis: the span engine is scalar, the row engine SIMD.
 ///
 /// # Errors
 /// When they contradict each other, with what to ask for instead.
 pub fn renderer(
-    engine: Option<raster::Engine>,
+    engine: Option<ScanlineEngine>,
     simd: Option<Simd>,
-    usual: Renderer,
+    default: Renderer,
 ) -> Result<Renderer, String> {
     use raster::Engine::{Row, Span};
-    match (engine, simd) {
-        (None, None) => Ok(usual),
-        (None, Some(Simd::Auto)) => Ok(Renderer::fastest()),
-        (None, Some(Simd::Level(level))) => Ok(Renderer::on(level)),
-        (Some(Span), None | Some(Simd::Auto | Simd::Level(Level::Scalar))) => Ok(Renderer::Span),
-        (Some(Span), Some(Simd::Level(level))) => Err(format!(
+    let level = match simd {
+        None if engine.is_none() => return Ok(default),
+        Some(Simd::Level(level)) => Some(level),
+        _ => None,
+    };
+    let problem = match (engine.and_then(|engine| engine.0), level) {
+        (None, None) => return Ok(Renderer::fastest()),
+        (None, Some(level)) => return Ok(Renderer::on(level)),
+        (Some(Span), None | Some(Level::Scalar)) => return Ok(Renderer::Span),
+        (Some(Span), Some(level)) => &*format!(
             "the span engine goes one pixel at a time: use `--engine row --simd {level}`, or `--engine span --simd scalar`"
-        )),
-        (Some(Row), Some(Simd::Level(Level::Scalar))) => Err(
-            "the row engine runs on SIMD: use `--engine span --simd scalar` for one pixel at a time, or `--simd auto`"
-                .to_owned(),
         ),
-        (Some(Row), Some(Simd::Level(level))) => Ok(Renderer::Row(level)),
-        (Some(Row), None | Some(Simd::Auto)) => match Renderer::fastest() {
-            Renderer::Span => Err(
-                "the row engine runs on SIMD, which this machine does not have: use `--engine span`".to_owned(),
-            ),
-            row => Ok(row),
+        (Some(Row), Some(Level::Scalar)) => {
+            "the row engine runs on SIMD: use `--engine span --simd scalar` for one pixel at a time, or `--simd auto`"
+        }
+        (Some(Row), Some(level)) => return Ok(Renderer::Row(level)),
+        (Some(Row), None) => match Renderer::fastest() {
+            row @ Renderer::Row(_) => return Ok(row),
+            Renderer::Span => {
+                "the row engine runs on SIMD, which this machine does not have: use `--engine span`"
+            }
         },
-    }
+    };
+    Err(problem.to_owned())
 }
 
 /// Reads `auto`, or an instruction set of this machine.
 pub fn simd(text: &str) -> Result<Simd, String> {
-    match text {
-        "auto" => Ok(Simd::Auto),
-        name => {
-            let level = name.parse().map_err(|error: LevelError| error.to_string());
-            level.map(Simd::Level)
-        }
+    if text == "auto" {
+        return Ok(Simd::Auto);
     }
+    let level = text.parse().map_err(|error: LevelError| error.to_string());
+    level.map(Simd::Level)
 }
 
-/// Instruction sets.
+/// Instruction sets; empty for all that the engine runs on.
 #[derive(Clone, Debug)]
-pub enum Levels {
-    /// All that the engine runs on.
-    All,
-    /// These.
-    These(Vec<Simd>),
-}
+pub struct SimdList(Vec<Simd>);
 
 /// Reads instruction sets of this machine between commas, or `all` that it has.
-pub fn levels(text: &str) -> Result<Levels, String> {
+pub fn simd_list(text: &str) -> Result<SimdList, String> {
     if text == "all" {
-        return Ok(Levels::All);
+        return Ok(SimdList(Vec::new()));
     }
-    let levels: Result<Vec<Simd>, String> = text.split(',').map(|name| simd(name.trim())).collect();
-    levels.map(Levels::These)
+    let levels: Result<_, _> = text.split(',').map(|name| simd(name.trim())).collect();
+    levels.map(SimdList)
 }
 
-impl Levels {
-    /// Returns what an engine and each of these mean together, each once.
+impl SimdList {
+    /// Returns the [`renderer`] of each instruction set with an engine, each once.
     ///
     /// # Errors
     /// As [`renderer`].
-    pub fn renderers(&self, engine: Option<raster::Engine>) -> Result<Vec<Renderer>, String> {
-        let is_asked = |renderer: &Renderer| engine.is_none_or(|e| e == renderer.engine());
-        let all = Renderer::available().filter(is_asked).collect();
-        // Where the machine has none of them, the error is that of `auto`.
-        let (mut renderers, named): (Vec<_>, &[Simd]) = match self {
-            Levels::These(levels) => (Vec::new(), levels),
-            Levels::All if Vec::is_empty(&all) => (all, &[Simd::Auto]),
-            Levels::All => (all, &[]),
+    pub fn renderers(&self, engine: Option<ScanlineEngine>) -> Result<Vec<Renderer>, String> {
+        let asked = engine.and_then(|engine| engine.0);
+        let is_asked = |renderer: &Renderer| asked.is_none_or(|e| e == renderer.engine());
+        let mut renderers: Vec<Renderer> = Renderer::available().filter(is_asked).collect();
+        let named = match &self.0[..] {
+            // A machine without any of them gives the error of `auto`.
+            [] if renderers.is_empty() => &[Simd::Auto],
+            [] => return Ok(renderers),
+            named => named,
         };
+        renderers.clear();
         for simd in named {
             let renderer = renderer(engine, Some(*simd), Renderer::LECTURE)?;
             if !renderers.contains(&renderer) {
@@ -246,26 +243,14 @@ impl Levels {
     }
 }
 
-/// Returns the [`renderer`] of flags of which either may be missing: `--engine auto` alone is the fastest.
-pub fn renderer_of(
-    engine: Option<ScanlineEngine>,
-    simd: Option<Simd>,
-    usual: Renderer,
-) -> Result<Renderer, String> {
-    match (engine, simd) {
-        (Some(ScanlineEngine(None)), None) => renderer(None, Some(Simd::Auto), usual),
-        (engine, simd) => renderer(engine.and_then(|engine| engine.0), simd, usual),
-    }
-}
-
 /// Flags for drawing methods that are compared with the lecture.
 #[derive(clap::Args, Clone, Debug)]
 pub struct LectureFlags {
-    /// Engine that finds the pixels: `span`, the lecture's way, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
+    /// Engine that finds the pixels: `span`, as in the lecture, one pixel at a time on one thread; `row`, SIMD; or `auto`, `row`
     /// where it can draw the frame [default: span]
     #[arg(long, value_parser = scanline_engine)]
     engine: Option<ScanlineEngine>,
-    /// Instruction set of the pixel loops: `scalar` is the span engine, any other of `fastphong list simd` and `auto` are the
+    /// Instruction set of the pixel loops: `scalar` selects the span engine, any other of `fastphong list simd` and `auto` the
     /// row engine [default: scalar]
     #[arg(long, value_name = "LEVEL", value_parser = simd)]
     simd: Option<Simd>,
@@ -278,23 +263,15 @@ impl LectureFlags {
     ///
     /// # Errors
     /// As [`renderer`].
-    pub fn renderer(&self) -> Result<Renderer, Failure> {
-        Ok(renderer_of(self.engine, self.simd, Renderer::LECTURE)?)
-    }
-
-    /// Does `work` on as many threads as asked for.
-    ///
-    /// # Errors
-    /// As [`renderer`], and when the system does not give that many threads.
-    pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-        self.threads.install_for(self.renderer()?, work)
+    pub fn renderer(&self) -> Result<Renderer, CliError> {
+        Ok(renderer(self.engine, self.simd, Renderer::LECTURE)?)
     }
 }
 
 /// The number of threads.
-#[derive(clap::Args, Clone, Debug)]
+#[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ThreadFlags {
-    /// Threads, 1 to 1024 [default: as many as there are processors]; comparisons in the lecture's own form take one
+    /// Threads, 1 to 1024 [default: one a processor]; comparisons by the lecture's span engine take one
     #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
     pub threads: Option<usize>,
 }
@@ -302,22 +279,21 @@ pub struct ThreadFlags {
 /// The most threads that can be asked for: more than any machine has processors, and no memory to speak of.
 const MOST_THREADS: usize = 1024;
 
-/// Bytes of each thread's stack: what the first thread of a program has on most systems.
+/// Bytes of each thread's stack: as many as the first thread of a program has on most systems.
 const STACK: usize = 8 << 20;
 
 /// Reads a number of threads.
 pub fn threads(text: &str) -> Result<usize, String> {
-    let threads = text.parse().ok();
-    let threads = threads.filter(|threads| (1..=MOST_THREADS).contains(threads));
-    threads.ok_or_else(|| format!("expected a number of threads from 1 to {MOST_THREADS}"))
+    let expected = format!("a number of threads from 1 to {MOST_THREADS}");
+    number(text, expected, |n| (1..=MOST_THREADS).contains(n))
 }
 
 impl ThreadFlags {
-    /// Does `work` on a pool of as many threads as asked for.
+    /// Runs `work` on a pool of as many threads as asked for.
     ///
     /// # Errors
     /// When the system does not give that many.
-    pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    pub fn install<T: Send>(self, work: impl FnOnce() -> T + Send) -> Result<T, CliError> {
         // 0 stands for as many as there are processors.
         let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
         let pool = builder.stack_size(STACK).build().map_err(|error| {
@@ -328,18 +304,19 @@ impl ThreadFlags {
         Ok(pool.install(work))
     }
 
-    /// Does `work` as [`ThreadFlags::install`] does, for the pictures of `renderer`: the lecture's own form is on one thread from end to end, so
-    /// that a comparison with it is not one of how well vertices are shared out.
+    /// Runs `work` as [`ThreadFlags::install`] does, for the pictures of `renderer`: the lecture's own form is on one thread
+    /// from end to end, so that a comparison with it does not measure how well vertices are shared out.
     ///
     /// # Errors
     /// As [`ThreadFlags::install`].
     pub fn install_for<T: Send>(
-        &self,
+        self,
         renderer: Renderer,
         work: impl FnOnce() -> T + Send,
-    ) -> Result<T, Failure> {
-        let is_lecture = renderer == Renderer::LECTURE;
-        let threads = if is_lecture { Some(1) } else { self.threads };
-        ThreadFlags { threads }.install(work)
+    ) -> Result<T, CliError> {
+        match renderer {
+            Renderer::LECTURE => ThreadFlags { threads: Some(1) }.install(work),
+            _ => self.install(work),
+        }
     }
 }

@@ -1,22 +1,28 @@
-//! `fastphong explain`: all that is said about one method, and what it costs.
+//! `fastphong explain`: one method: formula, cost, tolerance, weaknesses.
 
 use super::engines::engines_with;
-use super::list::{exactness, method_json, value_json};
-use super::table::{columns, wrapped};
-use super::talk::{json_to_stdout, to_stdout};
-use super::{Failure, Outcome};
+use super::list::{exactness, method_json};
+use super::log::{json_to_stdout, to_stdout};
+use super::text::wrapped;
+use super::{CliError, Outcome};
+use fastphong::compare::comparison::parameter_json;
+use fastphong::compare::table::aligned;
 use fastphong::number::Counts;
+use fastphong::report::{OPERATIONS, RATES};
 use fastphong::scene::{Falloff, Interpolation, input};
 use fastphong::shading::{OperationCounts, SpanBench, Variant};
 use serde_json::{Map, Value, json};
 
 /// Explain a shading method: formula, source, cost, tolerance, where it fails
 #[derive(clap::Args, Debug)]
-pub struct Explain {
-    /// The method, with parameters as in `fast-phong:steps=1`
+pub struct ExplainArgs {
+    /// Method, with parameters as in `fast-phong:steps=1`
     #[arg(value_parser = Variant::parse)]
     method: Variant,
-    /// Print all as JSON
+    /// Show the operations for several lights, and for lights and eye at positions, too
+    #[arg(long)]
+    all: bool,
+    /// Print everything as JSON
     #[arg(long)]
     json: bool,
 }
@@ -24,48 +30,21 @@ pub struct Explain {
 /// The numbers of lights that operations are counted for.
 const LIGHTS: [usize; 2] = [1, 4];
 
-/// The numbers of lights at positions that operations are counted for, the eye being at one, too.
+/// The numbers of lights at positions that operations are counted for, with the eye at a position, too.
 const LIGHTS_AT_POSITIONS: [usize; 2] = [1, 2];
 
-/// A rate at which something is computed, and a function that takes it from the counts.
-type Rate = (&'static str, fn(&OperationCounts) -> Counts);
-
-const RATES: [Rate; 7] = [
-    ("vertex", |c| c.vertex),
-    ("polygon", |c| c.polygon),
-    ("edge", |c| c.edge),
-    ("edge step", |c| c.edge_step),
-    ("span", |c| c.span),
-    ("pixel: walk", |c| c.walk),
-    ("pixel: shade", |c| c.shade),
-];
-
-/// A kind of operation, and a function that takes it from the counts.
-type Kind = (&'static str, fn(&Counts) -> u32);
-
-const KINDS: [Kind; 7] = [
-    ("add", |c| c.additions),
-    ("mul", |c| c.multiplications),
-    ("div", |c| c.divisions),
-    ("root", |c| c.roots),
-    ("compare", |c| c.comparisons),
-    ("trig", |c| c.trigonometric),
-    ("power", |c| c.powers),
-];
-
-impl Explain {
+impl ExplainArgs {
     /// Prints the explanation.
-    pub fn run(&self) -> Result<Outcome, Failure> {
-        if self.json {
-            json_to_stdout(&self.json()?)?
-        } else {
-            to_stdout(self.text()?.as_bytes())?
+    pub fn run(&self) -> Result<Outcome, CliError> {
+        match self.json {
+            true => json_to_stdout(&self.json()?)?,
+            false => to_stdout(self.text()?.as_bytes())?,
         }
         Ok(Outcome::Done)
     }
 
     /// Explains the method in text.
-    fn text(&self) -> Result<String, Failure> {
+    fn text(&self) -> Result<String, CliError> {
         let info = self.method.info();
         let mut text = format!("{}: {}\n", self.method, info.title);
         let mut section = |title: &str, body: &str| text += &format!("\n{title}\n{body}");
@@ -73,16 +52,15 @@ impl Explain {
         let formula = info.formula.lines().map(|line| format!("  {line}\n"));
         section("formula", &formula.collect::<String>());
         section("source", &wrapped(info.source, 2));
-        for lights in LIGHTS {
-            let s = if lights == 1 { "" } else { "s" };
-            let title = format!("operations with {lights} light{s}, as counted");
-            section(&title, &costs(&self.method.operations(lights)));
+        let s = |lights| if lights == 1 { "" } else { "s" };
+        for lights in &LIGHTS[..if self.all { 2 } else { 1 }] {
+            let title = format!("operations with {lights} light{}, as counted", s(*lights));
+            section(&title, &costs(&self.method.operations(*lights)));
         }
-        for lights in LIGHTS_AT_POSITIONS {
-            let s = if lights == 1 { "" } else { "s" };
-            let title =
-                format!("operations with {lights} light{s} and eye at positions, as counted");
-            section(&title, &costs(&self.near(lights)));
+        for lights in LIGHTS_AT_POSITIONS.into_iter().filter(|_| self.all) {
+            let lights_and_eye = format!("{lights} light{} and eye at positions", s(lights));
+            let title = format!("operations with {lights_and_eye}, as counted");
+            section(&title, &costs(&self.at_positions(lights)));
         }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
@@ -91,17 +69,14 @@ impl Explain {
         section("engines", &format!("  {}\n", engines_with(info)));
         let mut parameters = String::new();
         for (p, value) in info.parameters.iter().zip(self.method.parameters()) {
-            let (value, usual) = (p.text(*value), p.text(p.default));
-            let mut text = format!(
-                "{}={value}: {}; {}, default {usual}",
-                p.name,
-                p.meaning,
-                p.range()
-            );
-            if let Some(auto) = p.auto {
-                text += &format!("\nauto: {}", auto.meaning);
-            }
+            let (value, default) = (p.text(*value), p.text(p.default));
+            let (name, meaning, range) = (p.name, p.meaning, p.range());
+            let auto = p.auto.map_or("", |auto| auto.meaning);
+            let text = format!("{name}={value}: {meaning}; {range}, default {default}");
             parameters += &wrapped(&text, 2);
+            if !auto.is_empty() {
+                parameters += &wrapped(&format!("auto: {auto}"), 2);
+            }
         }
         if parameters.is_empty() {
             parameters += "  none\n";
@@ -110,44 +85,40 @@ impl Explain {
         Ok(text)
     }
 
-    /// Counts the operations with `lights` lights and the eye at positions, no falloff, attributes linear on the screen.
-    fn near(&self, lights: usize) -> OperationCounts {
-        // The angle of the span's normals is not counted: any will do.
+    /// Counts the operations with `lights` lights and the eye at positions, no falloff, varyings linear on the screen.
+    fn at_positions(&self, lights: usize) -> OperationCounts {
+        // The angle of the span's normals does not change the counts.
         let span = SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
         self.method.operations_on(&span)
     }
 
-    fn tolerance(&self) -> Result<String, Failure> {
+    fn tolerance(&self) -> Result<String, CliError> {
         let info = self.method.info();
+        let (exactness, derivation) = (exactness(info), info.derivation);
         let levels = 255.0 * example_bound(&self.method)?;
         let example =
             format!("at most {levels:.3} grey levels on the scene `{EXAMPLE}` at 640x480");
-        Ok(format!(
-            "{}\n{}\nfor example, {example}",
-            exactness(info),
-            info.derivation
-        ))
+        Ok(format!("{exactness}\n{derivation}\nfor example, {example}"))
     }
 
     /// Returns the explanation as data.
-    fn json(&self) -> Result<Value, Failure> {
+    fn json(&self) -> Result<Value, CliError> {
         let info = self.method.info();
         let mut json = method_json(info);
-        let by_lights = |lights: &[usize], of: &dyn Fn(usize) -> OperationCounts| -> Value {
-            let costs = lights.iter().map(|&n| (n.to_string(), costs_json(&of(n))));
-            costs.collect::<Map<String, Value>>().into()
+        let by_lights = |lights: [usize; 2], of: &dyn Fn(usize) -> OperationCounts| -> Value {
+            let costs = lights.map(|n| (n.to_string(), costs_json(&of(n))));
+            costs.into_iter().collect::<Map<_, _>>().into()
         };
         json["variant"] = self.method.to_string().into();
         let values = info.parameters.iter().zip(self.method.parameters());
-        json["values"] = values.map(|(p, value)| value_json(p, *value)).collect();
+        json["values"] = values.map(|(p, value)| parameter_json(p, *value)).collect();
         json["formula"] = info.formula.into();
-        json["model"] = info.model.name().into();
         json["derivation"] = info.derivation.into();
         json["fails"] = info.fails.into();
         json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(&self.method)? });
-        json["operations_by_lights"] = by_lights(&LIGHTS, &|lights| self.method.operations(lights));
+        json["operations_by_lights"] = by_lights(LIGHTS, &|lights| self.method.operations(lights));
         json["operations_by_lights_at_positions"] =
-            by_lights(&LIGHTS_AT_POSITIONS, &|lights| self.near(lights));
+            by_lights(LIGHTS_AT_POSITIONS, &|lights| self.at_positions(lights));
         Ok(json)
     }
 }
@@ -155,42 +126,40 @@ impl Explain {
 /// The scene on which a bound is given as an example.
 const EXAMPLE: &str = "teapot";
 
-fn example_bound(method: &Variant) -> Result<f64, Failure> {
+fn example_bound(method: &Variant) -> Result<f64, CliError> {
     let frame = input::resolve(&input::load(EXAMPLE)?)?.scene.frame()?;
     Ok(method.bound(&frame))
 }
 
 /// Returns counted operations as a table.
 fn costs(counts: &OperationCounts) -> String {
-    let cells = |first: String, kind: &dyn Fn(&Kind) -> String| {
-        let [a, b, c, d, e, f, g] = KINDS.each_ref().map(kind);
-        [first, a, b, c, d, e, f, g]
-    };
-    let mut rows = vec![cells("  once a".to_owned(), &|(name, _)| {
-        (*name).to_owned()
-    })];
-    rows.extend(RATES.map(|(rate, of)| {
+    let names = OPERATIONS.iter().map(|(name, ..)| (*name).to_owned());
+    let head = std::iter::once("  once a".to_owned()).chain(names);
+    let mut lines: Vec<Vec<String>> = vec![head.collect()];
+    for (_, rate, of) in RATES {
         let counts = of(counts);
-        // A zero says less than nothing: the operations that are done stand out.
-        cells(format!("  {rate}"), &|(_, kind)| match kind(&counts) {
+        // Dots in place of zeros: the operations that are done stand out.
+        let cells = OPERATIONS.iter().map(|(.., of)| match of(&counts) {
             0 => ".".to_owned(),
             n => n.to_string(),
-        })
-    }));
-    columns(&rows, false, &[1, 2, 3, 4, 5, 6, 7])
+        });
+        lines.push(std::iter::once(format!("  {rate}")).chain(cells).collect());
+    }
+    aligned(&lines, &[0])
 }
 
 /// Returns counted operations as data.
 fn costs_json(counts: &OperationCounts) -> Value {
-    let kinds = |counts: Counts| -> Map<String, Value> {
-        let kinds = KINDS
-            .iter()
-            .map(|(name, kind)| (name.to_string(), json!(kind(&counts))));
-        kinds.collect()
+    let operations = |counts: Counts| -> Value {
+        let counts = OPERATIONS.iter().map(|(name, _, of)| (*name, of(&counts)));
+        counts
+            .map(|(name, n)| (name.to_owned(), json!(n)))
+            .collect::<Map<_, _>>()
+            .into()
     };
-    let rates = RATES.iter().map(|(name, of)| {
-        let name = name.replace(": ", "_").replace(' ', "_");
-        (name, kinds(of(counts)).into())
+    let rates = RATES.iter().map(|(_, rate, of)| {
+        let name = rate.replace(": ", "_").replace(' ', "_");
+        (name, operations(of(counts)))
     });
-    rates.collect::<Map<String, Value>>().into()
+    rates.collect::<Map<_, _>>().into()
 }

@@ -1,69 +1,55 @@
 //! `fastphong figure`: figures of the lectures, made anew, as one page.
 
+use super::log::{Log, to_stdout};
 use super::measured::command_line;
 use super::progress::Progress;
-use super::talk::{Talk, to_stdout};
-use super::{Failure, Outcome};
-use fastphong::compare::timing::Machine;
-use fastphong::lectures::Content;
+use super::{CliError, Outcome};
 use fastphong::lectures::{FIGURES, Figure};
 use fastphong::picture::image_file::write_file;
-use fastphong::report::{Document, Report};
+use fastphong::report::{Document, FigureData, Report};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Draw figures of the lectures anew, with what was measured beside them, as one page
+/// Draw figures of the lectures anew, with measured values beside them, as one page
 #[derive(clap::Args, Debug)]
-pub struct DrawFigures {
+pub struct FigureArgs {
     /// Figures, as `fastphong list figures` names them
-    #[arg(value_name = "NAME", required_unless_present = "all", value_parser = named)]
+    #[arg(value_name = "NAME", required_unless_present = "all", value_parser = Figure::find)]
     names: Vec<&'static Figure>,
     /// All figures
     #[arg(long, conflicts_with = "names")]
     all: bool,
-    /// Where the page goes; its folder is made if there is none [default: report/figures/NAME.html, or index.html there
-    /// for several]
+    /// Page to write; its folder is made if there is none [default: report/figures/NAME.html, or index.html there for
+    /// several]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write the pictures as PNG files into this folder as well
+    /// Also write the pictures as PNG files into this folder
     #[arg(long, value_name = "FOLDER")]
     pictures: Option<PathBuf>,
 }
 
-fn named(name: &str) -> Result<&'static Figure, String> {
-    Figure::find(name)
-}
-
-impl DrawFigures {
+impl FigureArgs {
     /// Draws, measures, and writes the page.
-    pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        let mut figures = if self.all {
-            FIGURES.to_vec()
-        } else {
-            Vec::new()
+    pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        let figures = match self.all {
+            true => FIGURES.to_vec(),
+            false => distinct(self.names.iter().copied()),
         };
-        for figure in &self.names {
-            if figures.iter().all(|other| other.name != figure.name) {
-                figures.push(figure);
-            }
-        }
         let page = match (&self.output, &figures[..]) {
             (Some(file), _) => file.clone(),
-            (None, [one]) => Path::new("report/figures")
-                .join(one.name)
-                .with_extension("html"),
-            (None, _) => Path::new("report/figures/index.html").to_owned(),
+            (None, [one]) => format!("report/figures/{}.html", one.name).into(),
+            (None, _) => "report/figures/index.html".into(),
         };
         page_folder(&page)?;
         if let Some(folder) = &self.pictures {
             make_folder(folder)?;
         }
-        let progress = Progress::watched(*talk);
-        let drawn = drawn(&figures, &|part, what| progress.at(part, what))?;
+        let progress = Progress::watched(log);
+        let mut document = Document::new(command_line(), Vec::new());
+        document.figures = draw_figures(&figures, &|part, name| progress.at(part, name))?;
         drop(progress);
-        let mut report = Report::new(Document::new(Machine::this(), command_line()));
-        add(&mut report, drawn)?;
+        let report = Report::new(&document, Vec::new())?;
         write_file(&page, report.html().as_bytes())?;
         let mut written = format!("{}\n", page.display());
         if let Some(folder) = &self.pictures {
@@ -78,52 +64,46 @@ impl DrawFigures {
     }
 }
 
-/// A figure that was made.
-pub type Made = (&'static Figure, Content);
+/// Returns each of `figures` once.
+pub fn distinct(figures: impl Iterator<Item = &'static Figure>) -> Vec<&'static Figure> {
+    let mut distinct: Vec<&'static Figure> = Vec::new();
+    for figure in figures {
+        if distinct.iter().all(|other| other.name != figure.name) {
+            distinct.push(figure);
+        }
+    }
+    distinct
+}
 
-/// Makes `figures` on all threads of the current pool; `told` hears which part is done and what was made.
-pub fn drawn(
+/// Draws `figures` on all threads of the current pool; `progress` hears which part is done and which was drawn.
+///
+/// # Errors
+/// When a figure cannot be drawn.
+pub fn draw_figures(
     figures: &[&'static Figure],
-    told: &(dyn Fn(f32, &str) + Sync),
-) -> Result<Vec<Made>, Failure> {
+    progress: &(dyn Fn(f32, &str) + Sync),
+) -> Result<Vec<FigureData>, CliError> {
     let done = AtomicUsize::new(0);
-    let make = |figure: &&'static Figure| {
-        let content = figure
-            .make()
-            .map_err(|error| refused(figure, &error.to_string()))?;
+    let draw = |figure: &&'static Figure| {
+        let content = figure.make();
+        let content = content.map_err(|error| format!("figure {}: {error}", figure.name))?;
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        told(
+        progress(
             done as f32 / figures.len() as f32,
             &format!("figure {}", figure.name),
         );
-        Ok((*figure, content))
+        Ok(FigureData { figure, content })
     };
-    figures.par_iter().map(make).collect()
+    figures.par_iter().map(draw).collect()
 }
 
-/// Adds figures to a report.
-pub fn add(report: &mut Report, figures: Vec<Made>) -> Result<(), Failure> {
-    for (figure, content) in figures {
-        report
-            .add_figure(figure, content)
-            .map_err(|error| refused(figure, &error.to_string()))?;
-    }
-    Ok(())
-}
-
-fn refused(figure: &Figure, reason: &str) -> Failure {
-    format!("figure {}: {reason}", figure.name).into()
-}
-
-/// The folder of a page, made if need be.
-pub fn page_folder(page: &Path) -> Result<PathBuf, Failure> {
+/// Returns the folder of a page, made if need be.
+pub fn page_folder(page: &Path) -> Result<PathBuf, CliError> {
     let folder = page.parent().unwrap_or(Path::new("")).to_owned();
-    let refused =
-        |reason: &str| Failure::from(format!("{}: cannot be written: {reason}", page.display()));
+    let refused = |reason: &str| format!("{}: cannot be written: {reason}", page.display());
     if page.file_name().is_none() || page.is_dir() {
-        return Err(refused(
-            "it is a folder: expected a file, such as report/index.html",
-        ));
+        let reason = "it is a folder: expected a file, such as report/index.html";
+        return Err(refused(reason).into());
     }
     if !folder.as_os_str().is_empty() {
         std::fs::create_dir_all(&folder).map_err(|error| refused(&error.to_string()))?;
@@ -131,9 +111,8 @@ pub fn page_folder(page: &Path) -> Result<PathBuf, Failure> {
     Ok(folder)
 }
 
-/// A folder, made if need be.
-fn make_folder(folder: &Path) -> Result<(), Failure> {
-    let refused = |error: std::io::Error| format!("{}: cannot be made: {error}", folder.display());
-    std::fs::create_dir_all(folder).map_err(refused)?;
-    Ok(())
+/// Makes a folder, if there is none.
+pub fn make_folder(folder: &Path) -> Result<(), CliError> {
+    let refused = |error| format!("{}: cannot be made: {error}", folder.display());
+    Ok(std::fs::create_dir_all(folder).map_err(refused)?)
 }

@@ -1,20 +1,22 @@
-//! `fastphong list`: what there is, each from its own table.
+//! `fastphong list`: everything that has a name, each from its own table.
 
 use super::engines::{ENGINES, EngineInfo, engines_with};
-use super::table::{columns, wrapped};
-use super::talk::to_stdout;
-use super::{Failure, Outcome};
-use fastphong::compare::metrics::{METRICS, MetricInfo};
-use fastphong::lectures::{FIGURES, Figure};
+use super::log::{json_to_stdout, to_stdout};
+use super::text::wrapped;
+use super::{CliError, Outcome};
+use fastphong::compare::comparison::parameter_json;
+use fastphong::compare::metrics::METRICS;
+use fastphong::compare::table::aligned;
+use fastphong::lectures::FIGURES;
 use fastphong::mesh::builtin::{BUILTINS, Builtin, Kind, Parameter};
 use fastphong::number::Level;
-use fastphong::scene::input::{SCENES, ShippedScene};
+use fastphong::scene::input::SCENES;
 use fastphong::shading::{Info, METHODS, Roundings, Stepped};
 use serde_json::{Value, json};
 
 /// List methods, meshes, scenes, metrics, figures of the lectures, engines or instruction sets
 #[derive(clap::Args, Debug)]
-pub struct List {
+pub struct ListArgs {
     /// Things to list
     #[arg(value_enum)]
     subject: Subject,
@@ -41,76 +43,100 @@ enum Subject {
     Simd,
 }
 
-impl List {
+impl ListArgs {
     /// Prints the list.
-    pub fn run(&self) -> Result<Outcome, Failure> {
-        let text = match (self.subject, self.json) {
-            (Subject::Methods, false) => methods(),
-            (Subject::Meshes, false) => meshes(),
-            (Subject::Scenes, false) => scenes()?,
-            (Subject::Metrics, false) => metrics(),
-            (Subject::Figures, false) => figures(),
-            (Subject::Engines, false) => engines(),
-            (Subject::Simd, false) => simd(),
-            (subject, true) => format!("{:#}\n", json(subject)?),
-        };
-        to_stdout(text.as_bytes())?;
+    pub fn run(&self) -> Result<Outcome, CliError> {
+        match self.json {
+            true => json_to_stdout(&json(self.subject)?)?,
+            false => to_stdout(text(self.subject)?.as_bytes())?,
+        }
         Ok(Outcome::Done)
     }
 }
 
+/// Returns the list as text.
+fn text(subject: Subject) -> Result<String, CliError> {
+    Ok(match subject {
+        Subject::Methods => METHODS
+            .iter()
+            .map(|entry| method_text(entry.info))
+            .collect(),
+        Subject::Meshes => BUILTINS.iter().map(mesh_text).collect(),
+        Subject::Scenes => {
+            let scenes = scenes()?;
+            let entry = |s: &SceneEntry| entry(s.name, &[&s.title, &s.description]);
+            scenes.iter().map(entry).collect()
+        }
+        Subject::Metrics => {
+            let rows = METRICS.iter().map(|metric| {
+                let better = word(metric.better);
+                [metric.name, metric.unit, &better, metric.meaning].map(str::to_owned)
+            });
+            let head = ["metric", "unit", "better", "meaning"].map(str::to_owned);
+            aligned(
+                &std::iter::once(head).chain(rows).collect::<Vec<_>>(),
+                &[0, 1, 2, 3],
+            )
+        }
+        Subject::Figures => FIGURES
+            .iter()
+            .map(|f| entry(f.name, &[f.title, f.lecture]))
+            .collect(),
+        Subject::Engines => ENGINES.iter().map(engine_text).collect(),
+        Subject::Simd => {
+            let rows = Level::ALL.map(|level| {
+                let here = match level.is_available() {
+                    _ if level == Level::best() => "here, taken by auto",
+                    true => "here",
+                    false => "not on this machine",
+                };
+                [level.name(), here, level.title()].map(str::to_owned)
+            });
+            aligned(&rows, &[0, 1, 2])
+        }
+    })
+}
+
 /// Returns the list as data.
-fn json(subject: Subject) -> Result<Value, Failure> {
+fn json(subject: Subject) -> Result<Value, CliError> {
     Ok(match subject {
         Subject::Methods => METHODS
             .iter()
             .map(|entry| method_json(entry.info))
             .collect(),
         Subject::Meshes => BUILTINS.iter().map(mesh_json).collect(),
-        Subject::Scenes => {
-            let entry = |[name, title, description]: [String; 3]| json!({ "name": name, "title": title, "description": description });
-            described()?.into_iter().map(entry).collect()
-        }
-        Subject::Metrics => {
-            let entry = |metric: &MetricInfo| json!({ "name": metric.name, "unit": metric.unit, "better": word(metric.better), "meaning": metric.meaning });
-            METRICS.iter().map(entry).collect()
-        }
-        Subject::Figures => {
-            let entry = |figure: &&Figure| json!({ "name": figure.name, "title": figure.title, "lecture": figure.lecture });
-            FIGURES.iter().map(entry).collect()
-        }
+        Subject::Scenes => json!(scenes()?),
+        Subject::Metrics => json!(METRICS),
+        Subject::Figures => json!(FIGURES),
         Subject::Engines => ENGINES.iter().map(EngineInfo::json).collect(),
         Subject::Simd => Level::ALL.into_iter().map(level_json).collect(),
     })
 }
 
-/// Returns the name of a variant in lower case.
-fn word(variant: impl std::fmt::Debug) -> String {
-    format!("{variant:?}").to_lowercase()
+/// Writes a name, and paragraphs about it.
+fn entry(name: &str, paragraphs: &[&str]) -> String {
+    format!("{name}\n{}", wrapped(&paragraphs.join("\n"), 4))
 }
 
-/// Lists the methods.
-fn methods() -> String {
-    let mut text = String::new();
-    for entry in METHODS {
-        let info = entry.info;
-        let (perspective, positions) = (info.perspective.sentence(), info.local.sentence());
-        text += &format!("{}\n    {}\n", info.name, info.title);
-        text += &format!("    perspective: {perspective}\n    positions: {positions}\n");
-        text += &format!(
-            "    {}\n    engines: {}\n",
-            exactness(info),
-            engines_with(info)
-        );
-        for p in info.parameters {
-            let (name, range, usual) = (p.name, p.range(), p.text(p.default));
-            text += &format!("    {name}={range}, default {usual}: {}\n", p.meaning);
-            if let Some(auto) = p.auto {
-                text += &wrapped(&format!("{name}=auto: {}", auto.meaning), 4);
-            }
-        }
+/// Returns the name of an enum's value in lower case.
+fn word(value: impl std::fmt::Debug) -> String {
+    format!("{value:?}").to_lowercase()
+}
+
+fn method_text(info: &Info) -> String {
+    let mut about = vec![
+        info.title.to_owned(),
+        format!("perspective: {}", info.perspective.sentence()),
+        format!("positions: {}", info.local.sentence()),
+        exactness(info),
+        format!("engines: {}", engines_with(info)),
+    ];
+    for p in info.parameters {
+        let (name, range, default) = (p.name, p.range(), p.text(p.default));
+        about.push(format!("{name}={range}, default {default}: {}", p.meaning));
+        about.extend(p.auto.map(|auto| format!("{name}=auto: {}", auto.meaning)));
     }
-    text
+    entry(info.name, &[&about.join("\n")])
 }
 
 /// Says how near a method is to its closed form, in a sentence.
@@ -137,12 +163,11 @@ fn stepped(of: Stepped) -> &'static str {
 pub fn method_json(info: &Info) -> Value {
     let parameter = |p: &fastphong::shading::Parameter| {
         json!({
-            "name": p.name, "meaning": p.meaning, "default": value_json(p, p.default),
+            "name": p.name, "meaning": p.meaning, "default": parameter_json(p, p.default),
             "least": p.least, "most": p.most, "auto": p.auto.map(|auto| auto.meaning),
         })
     };
     let Roundings { start, step, of } = info.roundings;
-    let parameters: Vec<Value> = info.parameters.iter().map(parameter).collect();
     json!({
         "name": info.name,
         "title": info.title,
@@ -152,20 +177,12 @@ pub fn method_json(info: &Info) -> Value {
         "perspective": info.perspective.sentence(),
         "local": info.local.sentence(),
         "barycentric": info.barycentric,
-        "parameters": parameters,
+        "parameters": info.parameters.iter().map(parameter).collect::<Vec<_>>(),
     })
 }
 
-/// Returns the value of a parameter of a method: a number, or `"auto"`.
-pub fn value_json(parameter: &fastphong::shading::Parameter, value: u32) -> Value {
-    match parameter.is_auto(value) {
-        true => "auto".into(),
-        false => value.into(),
-    }
-}
-
-/// Returns the default as it is written; `polygons` has none, as it stands for others.
-fn default_text(parameter: &Parameter) -> Option<Value> {
+/// Returns the default of a mesh's parameter; `polygons` has none, as it stands for others.
+fn default_json(parameter: &Parameter) -> Option<Value> {
     match parameter.kind {
         _ if parameter.default < parameter.min => None,
         Kind::Bool => Some(json!(parameter.default != 0.0)),
@@ -174,28 +191,23 @@ fn default_text(parameter: &Parameter) -> Option<Value> {
     }
 }
 
-/// Lists the built-in meshes.
-fn meshes() -> String {
-    let mut text = String::new();
-    for shape in BUILTINS {
-        text += &format!("builtin:{}\n    {}\n", shape.name, shape.doc);
-        let rows = shape.all_parameters().map(|p| {
-            let default = default_text(p).map_or(String::new(), |value| format!("default {value}"));
-            let range = match p.kind {
-                Kind::Bool => "true, false".to_owned(),
-                _ => format!("{} to {}", p.min, p.max),
-            };
-            [format!("    {}", p.name), range, default, p.doc.to_owned()]
-        });
-        text += &columns(&rows.collect::<Vec<_>>(), false, &[]);
-    }
-    text
+fn mesh_text(shape: &Builtin) -> String {
+    let rows = shape.all_parameters().map(|p| {
+        let default = default_json(p).map_or(String::new(), |value| format!("default {value}"));
+        let range = match p.kind {
+            Kind::Bool => "true, false".to_owned(),
+            _ => format!("{} to {}", p.min, p.max),
+        };
+        [format!("    {}", p.name), range, default, p.doc.to_owned()]
+    });
+    let rows = aligned(&rows.collect::<Vec<_>>(), &[0, 1, 2, 3]);
+    entry(&format!("builtin:{}", shape.name), &[shape.doc]) + &rows
 }
 
 fn mesh_json(shape: &Builtin) -> Value {
     let parameter = |p: &Parameter| {
         json!({
-            "name": p.name, "kind": word(p.kind), "default": default_text(p),
+            "name": p.name, "kind": word(p.kind), "default": default_json(p),
             "min": p.min, "max": p.max, "meaning": p.doc,
         })
     };
@@ -203,77 +215,35 @@ fn mesh_json(shape: &Builtin) -> Value {
     json!({ "name": shape.name, "meaning": shape.doc, "parameters": parameters })
 }
 
-/// Returns each shipped scene with its title and description.
-fn described() -> Result<Vec<[String; 3]>, Failure> {
-    let describe = |scene: &ShippedScene| {
+/// A shipped scene.
+#[derive(serde::Serialize)]
+struct SceneEntry {
+    name: &'static str,
+    title: String,
+    description: String,
+}
+
+/// Reads the titles and descriptions of the shipped scenes.
+fn scenes() -> Result<Vec<SceneEntry>, CliError> {
+    let mut scenes = Vec::new();
+    for scene in SCENES {
         let file = scene.load()?;
         let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
-        Ok([
-            scene.name.to_owned(),
-            text(file.title()),
-            text(file.description()),
-        ])
-    };
-    SCENES.iter().map(describe).collect()
-}
-
-fn scenes() -> Result<String, Failure> {
-    let mut text = String::new();
-    for [name, title, description] in described()? {
-        text += &format!("{name}\n    {title}\n{}", wrapped(&description, 4));
+        let (title, description) = (text(file.title()), text(file.description()));
+        scenes.push(SceneEntry {
+            name: scene.name,
+            title,
+            description,
+        });
     }
-    Ok(text)
+    Ok(scenes)
 }
 
-fn metrics() -> String {
-    let mut rows = vec![["metric", "unit", "better", "meaning"].map(str::to_owned)];
-    rows.extend(METRICS.iter().map(|metric| {
-        let better = word(metric.better);
-        [metric.name, metric.unit, &better, metric.meaning].map(str::to_owned)
-    }));
-    columns(&rows, true, &[])
-}
-
-/// Lists the figures of the lectures.
-fn figures() -> String {
-    let entry = |figure: &&Figure| {
-        let Figure {
-            name,
-            title,
-            lecture,
-            ..
-        } = figure;
-        format!("{name}\n    {title}\n    {lecture}\n")
-    };
-    FIGURES.iter().map(entry).collect()
-}
-
-/// Lists the engines.
-fn engines() -> String {
-    let entry = |engine: &EngineInfo| {
-        let EngineInfo {
-            name,
-            title,
-            draws,
-            runs,
-        } = engine;
-        let methods = engine.methods().collect::<Vec<_>>().join(", ");
-        let about = format!("{title}\ndraws: {draws}\non: {runs}\nmethods: {methods}");
-        format!("{name}\n{}", wrapped(&about, 4))
-    };
-    ENGINES.iter().map(entry).collect()
-}
-
-fn simd() -> String {
-    let rows = Level::ALL.map(|level| {
-        let here = match level.is_available() {
-            _ if level == Level::best() => "here, taken by auto",
-            true => "here",
-            false => "not on this machine",
-        };
-        [level.name(), here, level.title()].map(str::to_owned)
-    });
-    columns(&rows, false, &[])
+fn engine_text(engine: &EngineInfo) -> String {
+    let (draws, runs) = (engine.draws, engine.runs);
+    let methods = engine.methods().collect::<Vec<_>>().join(", ");
+    let facts = format!("draws: {draws}\non: {runs}\nmethods: {methods}");
+    entry(engine.name, &[engine.title, &facts])
 }
 
 fn level_json(level: Level) -> Value {

@@ -15,6 +15,8 @@ const REFLEX: f64 = 1e-3;
 /// The facts about a mesh.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct MeshFacts {
+    /// Polygons of the mesh.
+    pub polygons: usize,
     /// The number of polygons of each number of sides.
     pub polygons_by_sides: BTreeMap<usize, usize>,
     /// Polygons without area.
@@ -31,6 +33,8 @@ pub struct MeshFacts {
     pub bounds: Option<[[f64; 3]; 2]>,
     /// Edges, coinciding ones once.
     pub edges: usize,
+    /// True if every edge has two polygons that go along it in opposite directions.
+    pub closed: bool,
     /// Edges of one polygon only: none on a closed mesh.
     pub open_edges: usize,
     /// Edges of three polygons or more.
@@ -53,6 +57,7 @@ impl MeshFacts {
         let (vertex, _) = weld(mesh.positions());
         let bounds = mesh.bounds().map(|(low, high)| [low, high]);
         let mut facts = MeshFacts {
+            polygons: mesh.polygon_count(),
             positions: mesh.positions().len(),
             bounds: bounds.map(|ends| ends.map(|p| p.as_dvec3().to_array())),
             materials: mesh.materials().len(),
@@ -80,17 +85,14 @@ impl MeshFacts {
             facts.not_planar += usize::from(!is_planar(&points, normal));
         }
         facts.count_edges(mesh, &vertex);
+        let odd = facts.open_edges + facts.non_manifold_edges + facts.reversed_edges;
+        facts.closed = facts.edges > 0 && odd == 0;
         facts
-    }
-
-    /// True if every edge has two polygons that are wound alike.
-    pub fn is_closed(&self) -> bool {
-        self.edges > 0 && self.open_edges + self.non_manifold_edges + self.reversed_edges == 0
     }
 
     /// Counts the edges by the polygons at them.
     fn count_edges(&mut self, mesh: &PolygonMesh, vertex: &[u32]) {
-        // An edge with its ends in ascending order, and whether it is passed in that direction.
+        // An edge: its ends in ascending order, and true if it is passed in that direction.
         let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(mesh.corners().len());
         for corners in mesh.polygons() {
             for (i, &from) in corners.iter().enumerate() {

@@ -1,21 +1,23 @@
-//! The command line. A sub-command is one file beside this one: a variant of [`Command`], and a line of
-//! [`Command::run`].
+//! The command line: one file a sub-command, each a variant of [`Command`] with its flags and a `run`.
 //!
-//! Results go to standard output, talk to standard error.
+//! Results go to standard output, messages to standard error (`log.rs`). Flags that several commands share are in
+//! `scene_flags.rs`, `engines.rs` and `measured.rs`. Start reading in `compare.rs`.
 
 mod aov;
+mod auto;
 mod bench;
-mod chosen;
 mod compare;
 mod diff;
 mod drawing;
 mod engines;
+mod error;
+mod experiments;
 mod explain;
-mod failure;
 mod figure;
 mod frame_times;
 mod info;
 mod list;
+pub mod log;
 mod measured;
 mod mesh_facts;
 mod output;
@@ -24,24 +26,22 @@ mod reference_check;
 mod render;
 mod report;
 mod scene_flags;
-mod studies;
-mod table;
-pub mod talk;
+mod text;
 mod values;
 
-pub use failure::{Failure, Outcome};
-use talk::Talk;
+pub use error::{CliError, Outcome};
+use log::Log;
 
-/// Every way of making Phong shading fast: run it, time it, look at it, trust it.
+/// Phong shading on a scanline rasterizer: eleven methods to run, time, look at and check against an f64 reference.
 #[derive(clap::Parser, Debug)]
 #[command(name = "fastphong", version, arg_required_else_help = true, after_help = EXIT_CODES)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
-    /// Say more on standard error: steps, times, what became of the polygons
+    /// Log more to standard error: steps, times, polygons left out
     #[arg(short, long, global = true, conflicts_with = "quiet")]
     verbose: bool,
-    /// Say nothing on standard error but errors
+    /// Log only errors to standard error
     #[arg(short, long, global = true)]
     quiet: bool,
 }
@@ -51,40 +51,34 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 a comparison failed, 2 wrong usa
 
 #[derive(clap::Subcommand, Debug)]
 enum Command {
-    Render(render::Render),
-    Report(report::Report),
-    Figure(figure::DrawFigures),
-    Diff(diff::Diff),
-    List(list::List),
-    Explain(explain::Explain),
-    Info(info::Info),
-    Compare(compare::Compare),
-    Bench(bench::Bench),
+    Render(render::RenderArgs),
+    Report(report::ReportArgs),
+    Figure(figure::FigureArgs),
+    Diff(diff::DiffArgs),
+    List(list::ListArgs),
+    Explain(explain::ExplainArgs),
+    Info(info::InfoArgs),
+    Compare(compare::CompareArgs),
+    Bench(bench::BenchArgs),
 }
 
 impl Cli {
-    /// Does what was asked for.
+    /// Runs the sub-command.
     ///
     /// # Errors
-    /// [`Failure`] for wrong usage or input.
-    pub fn run(&self) -> Result<Outcome, Failure> {
-        self.command.run(&Talk::new(self.quiet, self.verbose))
-    }
-}
-
-impl Command {
-    /// Runs the sub-command.
-    fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        match self {
-            Command::Render(command) => command.run(talk),
-            Command::Report(command) => command.run(talk),
-            Command::Figure(command) => command.run(talk),
-            Command::Diff(command) => command.run(talk),
+    /// [`CliError`] for wrong usage or input.
+    pub fn run(&self) -> Result<Outcome, CliError> {
+        let log = Log::new(self.quiet, self.verbose);
+        match &self.command {
+            Command::Render(command) => command.run(log),
+            Command::Report(command) => command.run(log),
+            Command::Figure(command) => command.run(log),
+            Command::Diff(command) => command.run(log),
             Command::List(command) => command.run(),
             Command::Explain(command) => command.run(),
-            Command::Info(command) => command.run(talk),
-            Command::Compare(command) => command.run(talk),
-            Command::Bench(command) => command.run(talk),
+            Command::Info(command) => command.run(log),
+            Command::Compare(command) => command.run(log),
+            Command::Bench(command) => command.run(log),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The destination of a picture: a file, or standard output.
 
-use super::Failure;
-use super::talk::to_stdout_by;
+use super::CliError;
+use super::log::to_stdout_by;
 use fastphong::picture::image_file::{FilePicture, Format, PpmWriter, write_file_by};
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ impl Output {
     ///
     /// # Errors
     /// When neither names a format, or standard output is a terminal.
-    pub fn new(path: &Path, format: Option<Format>) -> Result<Output, Failure> {
+    pub fn new(path: &Path, format: Option<Format>) -> Result<Output, CliError> {
         if path.as_os_str() != "-" {
             let format = format.map_or_else(|| Format::of_path(path), Ok)?;
             return Ok(Output {
@@ -42,11 +42,11 @@ impl Output {
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn write(&self, picture: &FilePicture) -> Result<(), Failure> {
+    pub fn write(&self, picture: &FilePicture) -> Result<(), CliError> {
         self.write_by(|out| picture.write_to(self.format, out))
     }
 
-    /// Writes a PPM file whose texels `rows` gives from the top; a file whole or not at all.
+    /// Writes a PPM file whose pixels `rows` gives from the top; a file whole or not at all.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -54,7 +54,7 @@ impl Output {
         &self,
         [width, height]: [usize; 2],
         rows: impl FnOnce(&mut dyn FnMut(&[[u8; 4]]) -> io::Result<()>) -> io::Result<()>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CliError> {
         self.write_by(|out| {
             let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
             rows(&mut |texels| file.texels(texels))?;
@@ -65,7 +65,7 @@ impl Output {
     fn write_by(
         &self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CliError> {
         match &self.path {
             Some(path) => Ok(write_file_by(path, write)?),
             None => to_stdout_by(write),

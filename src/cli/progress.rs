@@ -1,6 +1,6 @@
 //! A progress bar, on a terminal and for work that takes longer than a second.
 
-use super::talk::Talk;
+use super::log::Log;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -23,8 +23,8 @@ pub struct Progress {
 
 impl Progress {
     /// Makes a bar that is shown when work takes long, also if it is not moved until then.
-    pub fn watched(talk: Talk) -> Progress {
-        let mut progress = Progress::silent_between_moves(talk);
+    pub fn watched(log: Log) -> Progress {
+        let mut progress = Progress::silent_between_moves(log);
         if progress.allowed {
             let (sender, receiver) = channel();
             let bar = progress.bar.clone();
@@ -40,14 +40,14 @@ impl Progress {
     }
 
     /// Makes a bar that is drawn only when it is moved: it disturbs no measurement between two moves.
-    pub fn silent_between_moves(talk: Talk) -> Progress {
+    pub fn silent_between_moves(log: Log) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
         if let Ok(style) =
             ProgressStyle::with_template("{spinner} [{bar:30}] {elapsed}, {eta} left: {msg}")
         {
             bar.set_style(style.progress_chars("=> "));
         }
-        let allowed = talk != Talk::Quiet && std::io::stderr().is_terminal();
+        let allowed = log != Log::Quiet && std::io::stderr().is_terminal();
         Progress {
             bar,
             started: Instant::now(),
@@ -69,7 +69,7 @@ impl Progress {
         self.bar.set_message(stage.to_owned());
     }
 
-    /// Does something that may say a word, with the bar out of its way.
+    /// Runs `work`, which may print, with the bar out of its way.
     pub fn aside<T>(&self, work: impl FnOnce() -> T) -> T {
         self.bar.suspend(work)
     }

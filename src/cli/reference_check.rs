@@ -1,12 +1,13 @@
 //! `render --reference`: a picture against the one that was accepted before.
 
-use super::drawing::Drawing;
+use super::drawing::RenderJob;
 use super::output::Output;
-use super::{Failure, Outcome};
-use fastphong::compare::metrics::{Difference, SizeMismatch, compare, difference_map};
+use super::{CliError, Outcome};
+use fastphong::compare::metrics::{Difference, compare, difference_map};
 use fastphong::picture::image_file::{
     FilePicture, Format, comparable, read_picture, write_picture,
 };
+use fastphong::report::shell_word;
 use std::path::{Path, PathBuf};
 
 /// Grey levels at the light end of difference pictures.
@@ -31,37 +32,32 @@ pub struct ReferenceCheck<'a> {
     pub written: Option<&'a Output>,
 }
 
-/// The outcome, and the lines to print.
-pub type Verdict = (Outcome, String);
-
 impl ReferenceCheck<'_> {
-    /// Compares the picture with its reference; on a difference both are left beside each other, with a map.
+    /// Compares the picture with its reference; returns the outcome and the lines to print. On a difference both pictures
+    /// are left beside each other, with a map.
     ///
     /// # Errors
     /// When the reference is there and cannot be read, or a picture cannot be written.
-    pub fn run(&self, drawing: &Drawing) -> Result<Verdict, Failure> {
+    pub fn run(&self, job: &RenderJob) -> Result<(Outcome, String), CliError> {
         let (reference, shown) = (self.reference, self.reference.display());
         let format = Format::of_path(reference)?;
-        let actual = drawing.picture(format == Format::Pfm);
+        let actual = job.picture(format == Format::Pfm);
         let unreadable = |error| format!("{shown}: cannot be read: {error}");
         if !reference.try_exists().map_err(unreadable)? {
             let candidate = self.keep(&actual, format)?;
-            let text = format!(
-                "no reference {shown} yet: the picture is in {}\n{}",
-                candidate.display(),
-                self.how_to_accept(&candidate)
-            );
+            let (path, accept) = (candidate.display(), self.how_to_accept(&candidate));
+            let text = format!("no reference {shown} yet: the picture is in {path}\n{accept}");
             return Ok((Outcome::Differs, text));
         }
         let accepted = read_picture(reference)?;
         let [r, a] = comparable(&accepted, &actual);
         let difference = compare(&r, &a);
-        if let Ok(difference) = &difference
-            && largest_difference(difference) <= self.threshold
-        {
-            let (within, found) = (self.threshold, largest_difference(difference));
-            let text =
-                format!("{shown}: equal within {within} grey levels: largest difference {found}\n");
+        let largest = difference
+            .as_ref()
+            .map_or(f64::INFINITY, largest_difference);
+        if largest <= self.threshold {
+            let within = format!("equal within {} grey levels", self.threshold);
+            let text = format!("{shown}: {within}: largest difference {largest}\n");
             return Ok((Outcome::Done, text));
         }
         let candidate = self.keep(&actual, format)?;
@@ -72,10 +68,8 @@ impl ReferenceCheck<'_> {
                 write_picture(&map_path, &FilePicture::stored(map))?;
                 self.difference_text(&difference, &candidate, &map_path)
             }
-            Err(SizeMismatch {
-                reference: [rw, rh],
-                actual: [aw, ah],
-            }) => {
+            Err(sizes) => {
+                let ([rw, rh], [aw, ah]) = (sizes.reference, sizes.actual);
                 let sizes = format!("the reference has {rw}x{rh} pixels, the picture {aw}x{ah}");
                 let candidate = candidate.display();
                 format!("{shown}: the sizes differ: {sizes}\nactual: {candidate}\n")
@@ -85,30 +79,24 @@ impl ReferenceCheck<'_> {
     }
 
     fn how_to_accept(&self, candidate: &Path) -> String {
-        format!(
-            "to accept it: cp {} {}\n",
-            quoted(candidate),
-            quoted(self.reference)
-        )
+        let paths = [candidate, self.reference];
+        let [from, to] = paths.map(|path| shell_word(&path.display().to_string()));
+        format!("to accept it: cp {from} {to}\n")
     }
 
     /// Returns the file that holds the picture in the format of the reference: the one already written, or one beside the
     /// reference.
-    fn keep(&self, actual: &FilePicture, format: Format) -> Result<PathBuf, Failure> {
-        if let Some(Output {
-            path: Some(path),
-            format: written,
-        }) = self.written
-            && *written == format
-        {
-            return Ok(path.clone());
+    fn keep(&self, actual: &FilePicture, format: Format) -> Result<PathBuf, CliError> {
+        let written = self.written.filter(|output| output.format == format);
+        if let Some(path) = written.and_then(|output| output.path.clone()) {
+            return Ok(path);
         }
         let path = sibling(self.reference, self.reference, "actual", format);
         write_picture(&path, actual)?;
         Ok(path)
     }
 
-    /// Says how the pictures differ, and how to accept the new one.
+    /// Describes the difference, and how to accept the new picture.
     fn difference_text(&self, difference: &Difference, candidate: &Path, map: &Path) -> String {
         let (found, most) = (largest_difference(difference), self.threshold);
         let shown = self.reference.display();
@@ -121,11 +109,8 @@ impl ReferenceCheck<'_> {
             let count = difference.differing;
             text += &format!("; {count} pixels differ, most at column {x}, row {y}");
         }
-        let (accept, candidate, map) = (
-            self.how_to_accept(candidate),
-            candidate.display(),
-            map.display(),
-        );
+        let accept = self.how_to_accept(candidate);
+        let (candidate, map) = (candidate.display(), map.display());
         let scale = format!("{SCALE} levels from black to yellow");
         text + &format!("\nactual: {candidate}\ndifference, {scale}: {map}\n{accept}")
     }
@@ -136,15 +121,4 @@ fn sibling(beside: &Path, reference: &Path, word: &str, format: Format) -> PathB
     let mut name = reference.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{word}.{}", format.ending()));
     beside.with_file_name(name)
-}
-
-/// Writes a path as a shell reads it back.
-fn quoted(path: &Path) -> String {
-    let text = path.display().to_string();
-    let plain = |c: char| c.is_alphanumeric() || "-_./+=:@%,".contains(c);
-    if !text.is_empty() && text.chars().all(plain) {
-        text
-    } else {
-        format!("'{}'", text.replace('\'', r"'\''"))
-    }
 }

@@ -1,15 +1,16 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::Aov;
-use super::drawing::{self, Content, Drawing, Method};
-use super::engines::{self, Engine, Simd, ThreadFlags, renderer};
+use super::drawing::{self, Method, PictureContent, RenderJob};
+use super::engines::{self, EngineFlag, ScanlineEngine, Simd, ThreadFlags, renderer};
+use super::log::{Log, to_stderr, to_stdout};
 use super::output::{self, Output};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
-use super::table::columns;
-use super::talk::{Talk, counted, grouped, to_stderr, to_stdout};
-use super::{Failure, Outcome, values};
+use super::text::{counted, grouped};
+use super::{CliError, Outcome, values};
+use fastphong::compare::table::aligned;
 use fastphong::frame::{Frame, FrameStats};
 use fastphong::picture::image_file::Format;
 use fastphong::raster::Renderer;
@@ -20,32 +21,31 @@ use std::time::Instant;
 
 /// Draw a scene or a mesh
 #[derive(clap::Args, Debug)]
-pub struct Render {
-    /// A scene file, a mesh file, builtin:NAME?key=value, or the name of a shipped scene
+pub struct RenderArgs {
+    /// Scene file, mesh file, builtin:NAME?key=value, or name of a shipped scene
     input: String,
-    /// Destination of the picture: .png, .ppm or .pfm (linear floats); `-` is standard output
+    /// Picture file: .png, .ppm or .pfm (linear floats); `-` is standard output
     #[arg(short, long, value_name = "FILE", required_unless_present_any = ["print_scene", "reference", "stats"])]
     output: Option<PathBuf>,
-    /// Format of the picture, whatever the file is called [default: by its ending, png on standard output]
+    /// Format of the picture, regardless of the file's ending [default: by the ending, png on standard output]
     #[arg(long, value_name = "png|ppm|pfm", value_parser = output::format, requires = "output")]
     format: Option<Format>,
     /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `reference` is the
     /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
     #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
     method: Method,
-    /// Engine that finds the pixels: `span`, the lecture's way, one pixel at a time (also called `scanline`); `row`, SIMD; `auto`,
-    /// `row` where it can draw the frame; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See `fastphong
-    /// list engines`
+    /// Engine that finds the pixels: `span` (or `scanline`), as in the lecture, one pixel at a time; `row`, SIMD; `auto`, `row`
+    /// where it can draw the frame; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with
+    /// `:normals=unit|as-printed`. See `fastphong list engines`
     #[arg(long, default_value = "auto", value_parser = engines::engine)]
-    engine: Engine,
-    /// Instruction set of the pixel loops: `auto`, the best of this machine, or one of `fastphong list simd`: `scalar` is the
-    /// span engine, any other the row engine. `--simd scalar` is the lecture's own form: one thread, the same bytes on every
-    /// platform
+    engine: EngineFlag,
+    /// Instruction set of the pixel loops: `auto`, the best of this machine, or one of `fastphong list simd`. `scalar` selects
+    /// the span engine (one thread, the same bytes on every platform), any other the row engine
     #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = engines::simd)]
     simd: Simd,
     #[command(flatten)]
     threads: ThreadFlags,
-    /// Show something else than colours
+    /// Show another quantity than colours
     #[arg(long, value_enum, conflicts_with_all = ["method", "engine", "simd"])]
     aov: Option<Aov>,
     /// Side of a square of `--aov checkerboard`, in world units
@@ -54,10 +54,10 @@ pub struct Render {
     /// Print the scene, flags included, as a scene file
     #[arg(long)]
     print_scene: bool,
-    /// Print what became of the polygons
+    /// Print how many polygons are culled, clipped and drawn
     #[arg(long)]
     stats: bool,
-    /// Compare the picture with this one: exit code 1 on a difference, with the actual picture and a map of the
+    /// Compare the picture with this one; on a difference exit with code 1 and leave the picture and a map of the
     /// difference beside it
     #[arg(long, value_name = "FILE", visible_alias = "ref")]
     reference: Option<PathBuf>,
@@ -69,41 +69,40 @@ pub struct Render {
     scene: SceneFlags,
 }
 
-impl Render {
+impl RenderArgs {
     /// Draws, compares and prints, as asked for.
-    pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
-        let talk = *talk;
-        self.threads.install(|| self.draw(talk))?
+    pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        self.threads.install(|| self.draw(log))?
     }
 
     /// Loads, draws, writes and compares.
-    fn draw(&self, talk: Talk) -> Result<Outcome, Failure> {
+    fn draw(&self, log: Log) -> Result<Outcome, CliError> {
         let output = self.checked_output()?;
-        // A picture on standard output leaves no room there for words.
-        let say: fn(&str) -> Result<(), Failure> = match &output {
+        // Text goes to standard error where the picture goes to standard output.
+        let print: fn(&str) -> Result<(), CliError> = match &output {
             Some(Output { path: None, .. }) => |text| {
                 to_stderr(text);
                 Ok(())
             },
             _ => |text| to_stdout(text.as_bytes()),
         };
-        let content = self.content()?;
+        let shown = self.shown()?;
         let mut file = self.scene.load(&self.input)?;
-        let progress = Progress::watched(talk);
+        let progress = Progress::watched(log);
         progress.at(0.0, "loading");
         let started = Instant::now();
         let mut resolved = input::resolve(&file)?;
         if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
-            // Depths, normals and polygon numbers have no mean that means anything.
-            progress.aside(|| talk.note("--aov shows single samples: one a pixel, in its middle"));
+            // The mean of depths, normals or polygon numbers has no meaning.
+            progress.aside(|| log.note("--aov shows single samples: one a pixel, in its middle"));
         }
         progress.aside(|| {
-            self.scene.warn(&resolved, talk);
-            talk.detail(&format!("loaded in {:.1} ms", milliseconds(started)));
+            self.scene.warn(&resolved, log);
+            log.detail(&format!("loaded in {:.1} ms", milliseconds(started)));
         });
         if self.print_scene {
             input::make_paths_relative_to_current_folder(&mut file);
-            progress.aside(|| say(&file.to_toml()))?;
+            progress.aside(|| print(&file.to_toml()))?;
         }
         if output.is_none() && self.reference.is_none() && !self.stats {
             return Ok(Outcome::Done);
@@ -112,27 +111,27 @@ impl Render {
         let started = Instant::now();
         let frame = resolved.scene.frame()?;
         progress.aside(|| {
-            talk.detail(&format!("projected in {:.1} ms", milliseconds(started)));
-            warn_of_polygons_left_out(frame.stats(), talk);
+            log.detail(&format!("projected in {:.1} ms", milliseconds(started)));
+            warn_of_polygons_left_out(frame.stats(), log);
             if self.stats {
-                return say(&stats_text(&frame));
+                return print(&stats_text(&frame));
             }
-            talk.detail(stats_text(&frame).trim_end());
+            log.detail(stats_text(&frame).trim_end());
             Ok(())
         })?;
-        if talk != Talk::Quiet && matches!(frame.hidden_surfaces(), HiddenSurfaces::Painter(_)) {
-            progress.at(0.4, "looking for what the painter draws wrongly");
-            let found = conflicts(&frame);
-            progress.aside(|| tell_of_conflicts(&found, talk));
+        if log != Log::Quiet && matches!(frame.hidden_surfaces(), HiddenSurfaces::Painter(_)) {
+            progress.at(0.4, "checking the painter's order");
+            let conflicts = conflicts(&frame);
+            progress.aside(|| match painter_text(&conflicts) {
+                Some(text) => log.warning(&text),
+                None => log.detail("the painter draws every pair of polygons in the right order"),
+            });
         }
         progress.at(0.5, "shading");
-        let drawing = progress.aside(|| {
-            let drawing = Drawing::new(frame, content, talk)?;
-            drawing.tell(self.threads.threads, talk);
-            Ok::<_, Failure>(drawing)
-        })?;
+        let job = progress.aside(|| RenderJob::new(frame, shown, log))?;
+        progress.aside(|| job.log(self.threads.threads, log));
         if let Some(output) = &output {
-            self.write(&drawing, output, &progress, talk)?;
+            self.write(&job, output, &progress, log)?;
         }
         let Some(reference) = &self.reference else {
             return Ok(Outcome::Done);
@@ -142,13 +141,13 @@ impl Render {
             threshold: self.reference_threshold,
             written: output.as_ref(),
         };
-        let (outcome, text) = check.run(&drawing)?;
-        progress.aside(|| say(&text))?;
+        let (outcome, text) = check.run(&job)?;
+        progress.aside(|| print(&text))?;
         Ok(outcome)
     }
 
-    /// Returns the destination of the picture, if that is not the place of its reference.
-    fn checked_output(&self) -> Result<Option<Output>, Failure> {
+    /// Returns the destination of the picture, which must not be its reference.
+    fn checked_output(&self) -> Result<Option<Output>, CliError> {
         let output = self.output.as_deref();
         let output = output.map(|path| Output::new(path, self.format));
         let output = output.transpose()?;
@@ -165,46 +164,50 @@ impl Render {
         }
     }
 
-    /// Writes the picture, and says so.
+    /// Writes the picture, and logs it.
     fn write(
         &self,
-        drawing: &Drawing,
+        job: &RenderJob,
         output: &Output,
         progress: &Progress,
-        talk: Talk,
-    ) -> Result<(), Failure> {
+        log: Log,
+    ) -> Result<(), CliError> {
         let started = Instant::now();
         if output.format == Format::Ppm {
-            // Its rows can be written while others are not yet drawn.
-            output.write_ppm(drawing.size(), |take| drawing.rows(take))?;
+            // Rows of PPM can be written while others are not yet drawn.
+            output.write_ppm(job.size(), |take| job.rows(take))?;
             let spent = milliseconds(started);
-            progress.aside(|| talk.detail(&format!("shaded and written in {spent:.1} ms")));
+            progress.aside(|| log.detail(&format!("shaded and written in {spent:.1} ms")));
         } else {
-            let picture = drawing.picture(output.format == Format::Pfm);
-            progress.aside(|| talk.detail(&format!("shaded in {:.1} ms", milliseconds(started))));
+            let picture = job.picture(output.format == Format::Pfm);
+            progress.aside(|| log.detail(&format!("shaded in {:.1} ms", milliseconds(started))));
             progress.at(0.75, "writing");
             output.write(&picture)?;
         }
         if let Some(path) = &output.path {
-            let ([width, height], path, what) = (drawing.size(), path.display(), self.what());
-            progress.aside(|| talk.note(&format!("{path}: {width}x{height}, {what}")));
+            let ([width, height], path, shown) = (job.size(), path.display(), self.shown_name());
+            progress.aside(|| log.note(&format!("{path}: {width}x{height}, {shown}")));
         }
         Ok(())
     }
 
-    fn content(&self) -> Result<Content, Failure> {
+    fn shown(&self) -> Result<PictureContent, CliError> {
         if let Some(aov) = self.aov {
-            return Ok(Content::Aov(aov, self.square));
+            return Ok(PictureContent::Aov(aov, self.square));
         }
         let renderer = match self.engine {
-            Engine::Scanlines(engine) => renderer(engine, Some(self.simd), Renderer::fastest())?,
-            Engine::Barycentric(_) | Engine::Cs171 { .. } => Renderer::LECTURE,
+            EngineFlag::Scanlines(engine) => {
+                let engine = Some(ScanlineEngine(engine));
+                renderer(engine, Some(self.simd), Renderer::fastest())?
+            }
+            EngineFlag::Barycentric(_) | EngineFlag::Cs171 { .. } => Renderer::LECTURE,
         };
-        let method = self.method.clone();
-        Ok(Content::Shaded(method, self.engine, self.simd, renderer))
+        let (method, engine) = (self.method.clone(), self.engine);
+        Ok(PictureContent::Shaded(method, engine, self.simd, renderer))
     }
 
-    fn what(&self) -> String {
+    /// Returns the method or the other quantity that the picture shows.
+    fn shown_name(&self) -> String {
         use clap::ValueEnum;
         match self.aov.and_then(|aov| aov.to_possible_value()) {
             Some(aov) => aov.get_name().to_owned(),
@@ -226,49 +229,33 @@ fn milliseconds(started: Instant) -> f64 {
 }
 
 /// Warns of polygons that cannot be drawn.
-fn warn_of_polygons_left_out(stats: FrameStats, talk: Talk) {
-    let (flat, all) = (stats.zero_area, grouped(stats.polygons));
-    if flat > 0 {
-        let have = if flat == 1 {
-            "polygons has"
-        } else {
-            "polygons have"
-        };
-        let are = if flat == 1 { "is" } else { "are" };
-        let flat = grouped(flat);
-        talk.warning(&format!(
-            "{flat} of {all} {have} no area and {are} left out"
-        ));
+fn warn_of_polygons_left_out(stats: FrameStats, log: Log) {
+    let flat = match stats.zero_area {
+        0 => None,
+        1 => Some("polygons has no area and is left out"),
+        _ => Some("polygons have no area and are left out"),
+    };
+    if let Some(words) = flat {
+        let [flat, all] = [stats.zero_area, stats.polygons].map(grouped);
+        log.warning(&format!("{flat} of {all} {words}"));
     }
     if stats.unprojected > 0 {
-        let left_out = counted(
-            stats.unprojected,
-            "polygon has a corner at the plane of the eye and is left out",
-            "polygons have a corner at the plane of the eye and are left out",
-        );
-        talk.warning(&format!("{left_out}: --clipping planes draws what is seen"));
+        let one = "polygon has a corner at the plane of the eye and is left out";
+        let more = "polygons have a corner at the plane of the eye and are left out";
+        let left_out = counted(stats.unprojected, one, more);
+        log.warning(&(left_out + ": --clipping planes draws the visible part"));
     }
 }
 
-fn tell_of_conflicts(found: &Conflicts, talk: Talk) {
-    match painter_text(found) {
-        Some(text) => talk.warning(&text),
-        None => talk.detail("the painter draws every pair of polygons in the right order"),
-    }
-}
-
-/// Says what the painter's algorithm draws wrongly, if anything.
+/// Describes the pairs that the painter's algorithm draws in the wrong order, if any.
 fn painter_text(conflicts: &Conflicts) -> Option<String> {
-    if conflicts.wrong.is_empty() {
-        // A cycle has a pair in the wrong order, whatever the order.
-        return None;
-    }
-    let wrong = counted(conflicts.wrong.len(), "pair is drawn", "pairs are drawn");
+    // A cycle has a pair in the wrong order, in any order.
+    let wrong = match conflicts.wrong.len() {
+        0 => return None,
+        wrong => counted(wrong, "pair is drawn", "pairs are drawn") + " in the wrong order",
+    };
     if conflicts.cycles.is_empty() {
-        let hope = "though an order exists that is right";
-        return Some(format!(
-            "{wrong} in the wrong order by the painter's key, {hope}"
-        ));
+        return Some(wrong + " by the painter's key, though a right order exists");
     }
     let in_cycles = conflicts.cycles.iter().map(Vec::len).sum();
     let in_cycles = counted(in_cycles, "polygon", "polygons");
@@ -277,38 +264,35 @@ fn painter_text(conflicts: &Conflicts) -> Option<String> {
         0 => String::new(),
         n => format!(", {} each other", counted(n, "pair cuts", "pairs cut")),
     };
-    let wrong = format!("{wrong} in the wrong order{cutting}");
-    Some(format!(
-        "{in_cycles} in {cycles}: no order draws them right; {wrong}"
-    ))
+    let problem = format!("{in_cycles} in {cycles}: no order draws them right");
+    Some(format!("{problem}; {wrong}{cutting}"))
 }
+
+/// The counts of polygons that `--stats` prints, and their meanings.
+const STATS: [[&str; 2]; 7] = [
+    ["polygons", "of the scene"],
+    ["culled", "left out: seen from the culled side"],
+    ["zero-area", "left out: no area, in space or on the picture"],
+    ["outside", "left out: outside the view"],
+    [
+        "clipped",
+        "cut by the near plane, the far plane or the guard band",
+    ],
+    [
+        "unprojected",
+        "left out: a corner has no place on the picture (--clipping ndc-cube)",
+    ],
+    ["drawn", "left, pieces of cut ones counted each"],
+];
 
 /// Returns the numbers of polygons as a table.
 fn stats_text(frame: &Frame) -> String {
-    let stats = frame.stats();
-    let row = |name: &str, count, what: &str| [name.to_owned(), grouped(count), what.to_owned()];
-    let no_place = "left out: a corner has no place on the picture (--clipping ndc-cube)";
-    let cut = "cut by the near plane, the far plane or the guard band";
-    let rows = [
-        row("polygons", stats.polygons, "of the scene"),
-        row(
-            "culled",
-            stats.culled,
-            "left out: seen from the culled side",
-        ),
-        row(
-            "zero-area",
-            stats.zero_area,
-            "left out: no area, in space or on the picture",
-        ),
-        row("outside", stats.outside, "left out: outside the view"),
-        row("clipped", stats.clipped, cut),
-        row("unprojected", stats.unprojected, no_place),
-        row(
-            "drawn",
-            frame.polygons().len(),
-            "left, pieces of cut ones counted each",
-        ),
-    ];
-    columns(&rows, false, &[1])
+    let (s, drawn) = (frame.stats(), frame.polygons().len());
+    let first = [s.polygons, s.culled, s.zero_area, s.outside];
+    let counts = first.into_iter().chain([s.clipped, s.unprojected, drawn]);
+    let row = |([name, meaning], count): (&[&str; 2], usize)| {
+        [(*name).to_owned(), grouped(count), (*meaning).to_owned()]
+    };
+    let rows: Vec<_> = STATS.iter().zip(counts).map(row).collect();
+    aligned(&rows, &[0, 2])
 }

@@ -1,8 +1,8 @@
-//! Flags that change the scene: each stands for keys of a scene file. Their values stand over those of the scene file,
-//! and are checked with them.
+//! Flags that change the scene: each gives values to keys of a scene file. They replace those of the file, and are checked
+//! together with the rest.
 
-use super::Failure;
-use super::talk::Talk;
+use super::CliError;
+use super::log::Log;
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::SceneFile;
@@ -38,69 +38,69 @@ static FLAGS: &[Flag] = flags! {
     "eye" "X,Y,Z" ["camera.eye"]
     /// Look at this point [default, with --eye: the origin]
     "target" "X,Y,Z" ["camera.target"]
-    /// The direction that is upward in the picture [default: y]
+    /// Direction that is up in the picture [default: y]
     "up" "X,Y,Z" ["camera.up"]
-    /// Perspective, with this vertical field of view
+    /// Perspective projection with this vertical field of view
     "fovy" "DEGREES" ["camera.fovy"]
-    /// Orthographic: half of the height that is seen
+    /// Orthographic projection; half of the visible height, in world units
     "half-height" "LENGTH" ["camera.half_height"]
     /// Distance of the near plane
     "near" "DISTANCE" ["camera.near"]
     /// Distance of the far plane
     "far" "DISTANCE" ["camera.far"]
-    /// Fit the camera: the objects fill this part of the frame
+    /// Fit the camera: objects fill this part of the picture
     "fit" "PART" ["camera.fit"]
     /// A light from this direction, instead of those of the scene; can be given several times
     "light" "X,Y,Z[,I|,R,G,B]" ["light.direction"]
-    /// A light at this position, likewise
+    /// A light at this position, instead of those of the scene; can be given several times
     "light-at" "X,Y,Z[,I|,R,G,B]" ["light.position"]
     /// Attenuation 1 / (1 + k d²) of the lights given by --light-at
     "attenuation" "K" ["light.attenuation"]
-    /// Falloff of those lights instead: 1 / r² or 1 / r
-    "falloff" "HOW" ["light.falloff"]
+    /// Falloff of the lights given by --light-at, in place of attenuation: 1 / r² or 1 / r
+    "falloff" "LAW" ["light.falloff"]
     /// No lights: ambient light only
     "no-lights" "" ["light"]
     /// Ambient intensity
     "ambient" "I|R,G,B" ["ambient"]
-    /// Ambient reflection of all objects; materials that come with a mesh file are replaced
+    /// Ambient reflection of all objects, in place of the materials of a mesh file
     "ka" "K|R,G,B" ["material.ka"]
-    /// Diffuse reflection of all objects, likewise
+    /// Diffuse reflection of all objects, in place of the materials of a mesh file
     "kd" "K|R,G,B" ["material.kd"]
-    /// Specular reflection of all objects, likewise
+    /// Specular reflection of all objects, in place of the materials of a mesh file
     "ks" "K|R,G,B" ["material.ks"]
-    /// Exponent of the highlight of all objects, likewise
+    /// Exponent of the highlights of all objects, in place of the materials of a mesh file
     "shininess" "N" ["material.shininess"]
     /// Colour where nothing is drawn
     "background" "C|R,G,B" ["image.background"]
-    /// Variation of attributes: linearly on the screen, as in the lecture, or linearly in space
-    "interpolation" "HOW" ["interpolation"]
-    /// Place of the eye for the highlights: at infinity, as in the lecture, or where the camera is
+    /// Interpolation of varyings: linear on the screen, as in the lecture, or in space (perspective-correct)
+    "interpolation" "SPACE" ["interpolation"]
+    /// Position of the eye for highlights: at infinity, as in the lecture, or at the camera
     "viewer" "WHERE" ["viewer"]
-    /// The cosine of the highlights: phong (R.V) or blinn (N.H)
+    /// Cosine of the highlights: phong (R.V) or blinn (N.H)
     "specular" "MODEL" ["specular"]
-    /// The cosine that exponents are meant for; they are converted if it is not that of --specular
+    /// Cosine that exponents are meant for; they are converted if --specular differs
     "shininess-for" "MODEL" ["shininess_for"]
-    /// Treatment of highlights where the light is behind the surface
-    "specular-gate" "HOW" ["specular_gate"]
-    /// Storage of values in 8 bits
-    "encoding" "HOW" ["image.encoding"]
-    /// Polygons to leave out, by the side that is seen
+    /// Highlights where the light is behind the surface
+    "specular-gate" "GATE" ["specular_gate"]
+    /// Encoding of stored pictures in 8 bits
+    "encoding" "NAME" ["image.encoding"]
+    /// Polygons to cull, by the side that is seen
     "cull" "SIDE" ["cull"]
-    /// Way of hiding polygons: by a nearer sample, or by those drawn later, sorted from back to front or not
-    "visibility" "HOW" ["visibility"]
+    /// Hidden surfaces: a depth buffer, the painter's algorithm (sorted from back to front), or the order of drawing
+    "visibility" "METHOD" ["visibility"]
     /// Bits of the depth buffer: 16, 24 or 32
     "depth-bits" "BITS" ["depth_bits"]
-    /// Source of depth: interpolated between corners, or computed from the distance at each sample
-    "depth" "HOW" ["depth"]
-    /// Key of the painter's sorting: the mean depth of the corners or that of the farthest one
+    /// Depth: interpolated between corners, or computed from the distance at each sample
+    "depth" "SOURCE" ["depth"]
+    /// Sorting key of the painter's algorithm: the mean depth of the corners, or that of the farthest one
     "painter-key" "KEY" ["painter_key"]
-    /// Limits of the view: clipping by planes, or CS171's test of each pixel
-    "clipping" "HOW" ["clipping"]
+    /// Clipping: by planes, or by CS171's test of each pixel
+    "clipping" "METHOD" ["clipping"]
     /// Light polygons seen from behind with negated normals (with `--cull none`)
     "two-sided" "" ["two_sided"]
-    /// Supersampling: so many samples a pixel along each side, 1, 2, 4 or 8, hidden and shaded each on its own
+    /// Supersampling: samples along each side of a pixel, 1, 2, 4 or 8, each with its own depth and colour
     "samples" "N" ["image.samples"]
-    /// Source of vertex normals: `averaged`, `given`, or averaged up to an angle, `crease=30`
+    /// Vertex normals: `averaged`, `given` with the mesh, or averaged up to an angle, `crease=30`
     "normals" "SOURCE" ["object.normals"]
 };
 
@@ -247,15 +247,12 @@ impl clap::FromArgMatches for SceneFlags {
             }
         }
         if let Some(material) = flags.over.get("material") {
-            flags
-                .every_object
-                .entries
-                .insert("material", material.clone());
+            let entries = &mut flags.every_object.entries;
+            entries.insert("material", material.clone());
         }
         if !lights.is_empty() {
-            flags
-                .over
-                .set("light", Data::Tables(lights), Origin::Program);
+            let lights = Data::Tables(lights);
+            flags.over.set("light", lights, Origin::Program);
         }
         Ok(flags)
     }
@@ -271,19 +268,16 @@ impl SceneFlags {
     ///
     /// # Errors
     /// When there is no such input.
-    pub fn load(&self, input: &str) -> Result<SceneFile, Failure> {
+    pub fn load(&self, input: &str) -> Result<SceneFile, CliError> {
         let mut file = input::load(input)?;
         file.overlay(self.over.clone());
         for object in file.objects_mut() {
-            if self
-                .every_object
-                .get("normals")
-                .or(self.every_object.get("crease"))
-                .is_some()
+            let normals = ["normals", "crease"];
+            if normals
+                .iter()
+                .any(|key| self.every_object.get(key).is_some())
             {
-                object
-                    .entries
-                    .retain(|key, _| !["normals", "crease"].contains(key));
+                object.entries.retain(|key, _| !normals.contains(key));
             }
             object.overlay(self.every_object.clone());
         }
@@ -297,15 +291,15 @@ impl SceneFlags {
     }
 
     /// Says what is odd about a scene.
-    pub fn warn(&self, resolved: &Resolved, talk: Talk) {
+    pub fn warn(&self, resolved: &Resolved, log: Log) {
         for warning in &resolved.warnings {
-            talk.warning(warning);
+            log.warning(warning);
         }
         let mut objects = resolved.scene.objects.iter();
         if self.over.get("material").is_some()
             && objects.any(|object| !object.mesh.materials().is_empty())
         {
-            talk.note("the material given by flags replaces those of the mesh file");
+            log.note("the material given by flags replaces those of the mesh file");
         }
     }
 }

@@ -11,7 +11,7 @@ pub struct Table {
     pub caption: String,
     /// The names of the columns, with their units.
     pub head: Vec<String>,
-    /// As many cells a row as the head has.
+    /// The rows, each with as many cells as the head.
     pub rows: Vec<Vec<String>>,
 }
 
@@ -27,22 +27,13 @@ impl Table {
 
     /// Writes it in columns: the first aligned on the left, all others on the right.
     pub fn text(&self) -> String {
-        let lines = || core::iter::once(&self.head).chain(&self.rows);
-        let width = |column: usize| lines().map(|line| line[column].chars().count()).max();
-        let widths: Vec<usize> = (0..self.head.len()).filter_map(width).collect();
-        let mut text = String::new();
-        for line in lines() {
-            let mut row = String::new();
-            for (i, (cell, &width)) in line.iter().zip(&widths).enumerate() {
-                row += &match i {
-                    0 => format!("{cell:width$}"),
-                    _ => format!("  {cell:>width$}"),
-                };
-            }
-            text += row.trim_end();
-            text.push('\n');
-        }
-        text
+        let lines: Vec<&[String]> = self.lines().map(|line| &line[..]).collect();
+        aligned(&lines, &[0])
+    }
+
+    /// Returns the head and the rows.
+    fn lines(&self) -> impl Iterator<Item = &Vec<String>> {
+        core::iter::once(&self.head).chain(&self.rows)
     }
 
     /// Writes it in Markdown, where every cell means itself.
@@ -87,9 +78,32 @@ impl Table {
             false => cell.clone(),
         };
         let line = |cells: &Vec<String>| cells.iter().map(cell).collect::<Vec<_>>().join(",");
-        let lines = core::iter::once(&self.head).chain(&self.rows);
-        lines.map(|cells| line(cells) + "\r\n").collect()
+        self.lines().map(|cells| line(cells) + "\r\n").collect()
     }
+}
+
+/// Sets lines of cells in columns: those named in `left` aligned on the left, all others on the right.
+pub fn aligned(lines: &[impl AsRef<[String]>], left: &[usize]) -> String {
+    let mut widths: Vec<usize> = Vec::new();
+    for line in lines {
+        let letters = line.as_ref().iter().map(|cell| cell.chars().count());
+        widths.resize(widths.len().max(line.as_ref().len()), 0);
+        widths
+            .iter_mut()
+            .zip(letters)
+            .for_each(|(w, n)| *w = n.max(*w));
+    }
+    let mut text = String::new();
+    for line in lines {
+        let cells = line.as_ref().iter().zip(&widths).enumerate();
+        let cells = cells.map(|(column, (cell, width))| match left.contains(&column) {
+            true => format!("{cell:width$}"),
+            false => format!("{cell:>width$}"),
+        });
+        text += cells.collect::<Vec<_>>().join("  ").trim_end();
+        text.push('\n');
+    }
+    text
 }
 
 /// Escapes text for HTML, between tags and between the quotes of attributes.

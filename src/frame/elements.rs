@@ -85,6 +85,7 @@ impl Polygon {
 
 /// What became of the scene's polygons on their way into the frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "io", derive(serde::Serialize))]
 pub struct FrameStats {
     /// Polygons of the scene.
     pub polygons: usize,

@@ -79,7 +79,7 @@ pub static FIGURES: &[&Figure] = &[
 ];
 
 /// One thing that a lecture shows or says, to be made anew.
-#[derive(Debug)]
+#[derive(Debug, serde::Serialize)]
 pub struct Figure {
     /// What users call it: lower case, words joined by `-`.
     pub name: &'static str,
@@ -88,6 +88,7 @@ pub struct Figure {
     /// Where the lecture shows or says it: `L21` is *Lecture 21: Shading*, `L5` *Lecture 5: Shading*, `CS171` the notes to
     /// Caltech's second assignment.
     pub lecture: &'static str,
+    #[serde(skip)]
     make: fn() -> Result<Content, FigureError>,
 }
 

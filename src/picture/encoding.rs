@@ -4,6 +4,11 @@ use super::{LinearPicture, Picture8};
 
 /// A way to store linear values in eight bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "io",
+    derive(serde::Serialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum Encoding {
     /// round(255 c): no transfer function.
     #[default]

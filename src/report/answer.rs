@@ -1,13 +1,13 @@
 //! The answer: which method to use here, and what it gains, in one sentence made from data.
 
-use super::document::{Document, SceneData, label};
+use super::document::{label, list, number, text, title};
+use crate::compare::comparison::BASELINE;
 use crate::compare::comparison::table::significant;
-use crate::compare::comparison::{BASELINE, RowData};
-use crate::compare::experiments::{Corner, Work};
 use crate::compare::table::{html_text, markdown_text};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use serde_json::Value;
 
 /// The lecture's own fast method, which every answer mentions.
 const FAST: &str = "fast-phong";
@@ -40,133 +40,119 @@ pub(super) struct Overall<'a> {
 }
 
 /// Sums up every variant that was drawn by scanlines in all scenes.
-pub(super) fn overall(scenes: &[SceneData]) -> Vec<Overall<'_>> {
-    let first = scenes.first().map_or(&[][..], |s| &s.comparison.rows);
-    first
+pub(super) fn overall(data: &Value) -> Vec<Overall<'_>> {
+    let scenes = list(data, "/comparisons");
+    let rows = scenes.first().map_or(&[][..], |scene| list(scene, "/rows"));
+    let sums = rows
         .iter()
-        .filter_map(|row| of_all_scenes(&row.variant, scenes))
-        .collect()
+        .map(|row| in_all_scenes(text(row, "/variant"), scenes));
+    sums.flatten().collect()
 }
 
-fn of_all_scenes<'a>(name: &'a str, scenes: &'a [SceneData]) -> Option<Overall<'a>> {
-    let rows = scenes.iter().map(|scene| Some((scene, scene.row(name)?)));
-    let rows: Vec<(&SceneData, &RowData)> = rows.collect::<Option<_>>()?;
-    let (scene, worst) = rows
-        .iter()
-        .max_by(|a, b| f64::total_cmp(&a.1.error.max, &b.1.error.max))?;
-    let logarithm = |row: &RowData| {
-        let ratio = row.speed.as_ref()?.ratio_to_naive?;
-        Some(libm::log(ratio.median))
-    };
-    let sum = rows
-        .iter()
-        .map(|(_, row)| logarithm(row))
-        .sum::<Option<f64>>();
+fn in_all_scenes<'a>(name: &'a str, scenes: &'a [Value]) -> Option<Overall<'a>> {
+    let (mut worst, mut at, mut logarithms) = (0.0, "", Some(0.0));
+    for scene in scenes {
+        let mut rows = list(scene, "/rows").iter();
+        let row = rows.find(|row| text(row, "/variant") == name)?;
+        let error = 255.0 * number(row, "/error/max")?;
+        if error >= worst {
+            (worst, at) = (error, title(scene));
+        }
+        let speed = number(row, "/speed/ratio_to_naive/median");
+        logarithms = logarithms.zip(speed).map(|(sum, s)| sum + libm::log(s));
+    }
     Some(Overall {
         name,
-        worst: 255.0 * worst.error.max,
-        at: scene.title(),
-        speed: sum.map(|sum| libm::exp(sum / rows.len() as f64)),
+        worst,
+        at,
+        speed: logarithms.map(|sum: f64| libm::exp(sum / scenes.len() as f64)),
     })
 }
 
 /// Says which method to use, and what it gains.
-pub(super) fn answer(data: &Document) -> Vec<Part> {
-    let text = |text: &str| Part::Text(text.to_string());
-    let all = overall(&data.comparisons);
-    if data.comparisons.is_empty() {
-        return Vec::from([text(&figures(data))]);
+pub(super) fn answer(data: &Value) -> Vec<Part> {
+    let plain = |text: &str| Part::Text(text.to_string());
+    let (all, scenes) = (overall(data), list(data, "/comparisons"));
+    if scenes.is_empty() {
+        return Vec::from([plain(&figures(data))]);
     }
     let Some(best) = fastest(&all) else {
-        return Vec::from([text(&untimed(&all))]);
+        return Vec::from([plain(&untimed(&all))]);
     };
-    let release = data.machine.profile == "release";
-    let scene_count = data.comparisons.len();
-    let level = data.comparisons[0].comparison.renderer.level.clone();
     let mut parts = Vec::new();
-    if !release {
-        parts.push(text("Built without optimisation, its times say nothing: "));
+    if text(data, "/machine/profile") != "release" {
+        parts.push(plain("Built without optimisation, its times say nothing: "));
     }
-    parts.push(text(
-        "For naive Phong’s picture at the least time on this machine, use ",
-    ));
     let worst = match best.worst {
         w if w < 0.01 => "nowhere off by 0.01 grey levels".to_string(),
         w if w < 1.0 => format!("never off by more than {w:.2} grey levels"),
         w => format!("off by up to {} grey levels", significant(w)),
     };
+    let scenes = match scenes.len() {
+        1 => "this scene".to_string(),
+        scenes => format!("{scenes} scenes"),
+    };
+    let level = text(data, "/comparisons/0/renderer/level");
     parts.extend([
+        plain("For naive Phong’s picture at the least time on this machine, use "),
         Part::Method(best.name.into()),
-        text(&format!(" {} (", on(&level))),
+        plain(&format!(" {} (", on(level))),
         Part::Strong(times(best.speed)),
-        text(&format!(
-            " naive Phong in {}, {worst})",
-            if scene_count == 1 {
-                "this scene".to_string()
-            } else {
-                format!("{scene_count} scenes")
-            }
-        )),
+        plain(&format!(" naive Phong in {scenes}, {worst})")),
     ]);
-    let wide = wide_frames(data);
-    if let Some((corner, name, ratio)) = &wide {
-        let level = &data
-            .speedups
-            .as_ref()
-            .map_or("", |s| &s.corners[*corner].level);
+    let wide = wide_frames(&data["speedups"]);
+    if let Some((corner, name, ratio)) = wide {
+        let level = text(&data["speedups"]["corners"][corner], "/level");
         parts.extend([
-            text(" and "),
-            Part::Method(name.clone()),
-            text(&format!(" {} (", on(level))),
-            Part::Strong(times(Some(*ratio))),
-            text(")"),
+            plain(" and "),
+            Part::Method(name.to_string()),
+            plain(&format!(" {} (", on(level))),
+            Part::Strong(times(Some(ratio))),
+            plain(")"),
         ]);
     }
-    let fast = all.iter().find(|o| o.name == FAST && best.name != FAST);
-    if let Some(Overall {
-        speed: Some(speed), ..
-    }) = fast
-    {
+    let mut fast = all.iter().filter(|o| o.name == FAST && best.name != FAST);
+    if let Some(speed) = fast.next().and_then(|fast| fast.speed) {
         parts.extend([
-            text("; the lecture’s "),
+            plain("; the lecture’s "),
             Part::Method(FAST.into()),
-            text(" reaches "),
-            Part::Strong(times(Some(*speed))),
+            plain(" reaches "),
+            Part::Strong(times(Some(speed))),
         ]);
-        if let Some(ratio) = wide.and_then(|(corner, ..)| in_corner(data, corner, FAST)) {
-            parts.extend([text(" and "), Part::Strong(times(Some(ratio)))]);
+        let mut methods = list(data, "/speedups/methods").iter();
+        let method = methods.find(|method| text(method, "/method") == FAST);
+        if let Some(ratio) = wide.and_then(|(corner, ..)| in_corner(method?, corner)) {
+            parts.extend([plain(" and "), Part::Strong(times(Some(ratio)))]);
         }
     }
-    parts.push(text("."));
+    parts.push(plain("."));
     parts
 }
 
 /// Returns the fastest method whose pictures pass for the reference; with none, the one of least error.
 fn fastest<'a>(all: &'a [Overall<'a>]) -> Option<&'a Overall<'a>> {
-    let timed = || all.iter().filter_map(|o| Some((o.speed?, o)));
-    let same = timed().filter(|(_, o)| o.worst <= SAME);
-    let near = timed().min_by(|a, b| a.1.worst.total_cmp(&b.1.worst));
-    same.max_by(|a, b| a.0.total_cmp(&b.0))
-        .or(near)
-        .map(|(_, o)| o)
+    let timed = || all.iter().filter(|o| o.speed.is_some());
+    let same = timed().filter(|o| o.worst <= SAME);
+    let near = timed().min_by(|a, b| a.worst.total_cmp(&b.worst));
+    let fastest =
+        same.max_by(|a, b| f64::total_cmp(&a.speed.unwrap_or(0.0), &b.speed.unwrap_or(0.0)));
+    fastest.or(near)
 }
 
 /// Returns the corner of whole frames by SIMD, the fastest method there that draws naive Phong's picture, and its speed.
-fn wide_frames(data: &Document) -> Option<(usize, String, f64)> {
-    let study = data.speedups.as_ref()?;
-    let is_it = |c: &Corner| c.work == Work::Frame && !c.scalar && c.level != "scalar";
-    let corner = study.corners.iter().position(is_it)?;
-    let same = study.methods.iter().filter(|m| m.is_same_picture());
-    let (method, ratio) = same
-        .filter_map(|m| Some((m, m.corners.get(corner)?.ratio_to_naive?.median)))
-        .max_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some((corner, method.method.clone(), ratio))
+fn wide_frames(speedups: &Value) -> Option<(usize, &str, f64)> {
+    let is_it =
+        |c: &Value| c["work"] == "frame" && c["scalar"] == false && text(c, "/level") != "scalar";
+    let corner = list(speedups, "/corners").iter().position(is_it)?;
+    let methods = list(speedups, "/methods").iter();
+    let same = methods.filter(|m| number(m, "/levels_off").is_some_and(|off| off <= 1.0));
+    let timed = same.filter_map(|m| Some((corner, text(m, "/method"), in_corner(m, corner)?)));
+    timed.max_by(|a, b| a.2.total_cmp(&b.2))
 }
 
-fn in_corner(data: &Document, corner: usize, method: &str) -> Option<f64> {
-    let methods = &data.speedups.as_ref()?.methods;
-    let found = methods.iter().find(|m| m.method == method)?;
-    Some(found.corners.get(corner)?.ratio_to_naive?.median)
+/// Returns the speed of a method in a corner.
+fn in_corner(method: &Value, corner: usize) -> Option<f64> {
+    number(&method["corners"][corner], "/ratio_to_naive/median")
 }
 
 fn times(ratio: Option<f64>) -> String {
@@ -181,34 +167,34 @@ fn on(level: &str) -> String {
     }
 }
 
-/// Says what is known without times.
+/// Returns the answer without times.
 fn untimed(all: &[Overall<'_>]) -> String {
     let others = all.iter().filter(|o| o.name != BASELINE);
-    let worst = others.max_by(|a, b| a.worst.total_cmp(&b.worst));
-    worst.map_or_else(
-        || "No times were taken.".to_string(),
-        |worst| {
-            format!(
-                "No times were taken. The largest error is that of {}: {} grey levels in {}.",
-                label(worst.name),
-                significant(worst.worst),
-                worst.at
-            )
-        },
+    let Some(worst) = others.max_by(|a, b| a.worst.total_cmp(&b.worst)) else {
+        return "No times were taken.".to_string();
+    };
+    format!(
+        "No times were taken. The largest error is that of {}: {} grey levels in {}.",
+        label(worst.name),
+        significant(worst.worst),
+        worst.at
     )
 }
 
-/// Says what the figures found, in a report without scenes.
-fn figures(data: &Document) -> String {
-    let found = || data.figures.iter().flat_map(|f| &f.content.findings);
-    let count = |word: &str| found().filter(|f| f.agreement.word() == word).count();
+/// Returns the answer of a report without scenes: the findings of its figures.
+fn figures(data: &Value) -> String {
+    let found = || {
+        list(data, "/figures")
+            .iter()
+            .flat_map(|f| list(f, "/findings"))
+    };
+    let count = |word: &str| found().filter(|f| f["agreement"] == word).count();
+    let [confirms, contradicts, adds] = ["confirms", "contradicts", "adds"].map(count);
     match found().count() {
         0 => "Nothing was compared.".into(),
         all => format!(
-            "Of {all} statements measured, {} are as printed, {} wrong or true only under conditions, {} new.",
-            count("confirms"),
-            count("contradicts"),
-            count("adds")
+            "Of {all} statements measured, {confirms} are as printed, {contradicts} wrong or true only under conditions, \
+             {adds} new."
         ),
     }
 }

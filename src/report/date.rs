@@ -3,7 +3,7 @@
 use alloc::format;
 use alloc::string::String;
 
-/// The day `seconds` after 1970-01-01 00:00 UTC, as in `2000-02-29`: the proleptic Gregorian calendar, UTC.
+/// Returns the day `seconds` after 1970-01-01 00:00 UTC, as in `2000-02-29`: the proleptic Gregorian calendar, UTC.
 ///
 /// By eras of 400 years, which have 146,097 days, and years that begin in March, so that the leap day comes last (Hinnant
 /// 2014, *chrono-Compatible Low-Level Date Algorithms*, `civil_from_days`).

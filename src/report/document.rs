@@ -1,182 +1,151 @@
-//! The report as data: one JSON document, described in `docs/bench-json.md`. The page, Markdown and CSV are views of it.
+//! The document: all numbers and texts of a run, as JSON of schema [`SCHEMA`].
+//!
+//! [`Document`] is the data as it was measured, written by serde; `docs/bench-json.md` describes it. Views read the JSON and
+//! not the structs, so that a document of another machine or commit ([`parse`]) is shown like one that was just made.
 
-use crate::compare::comparison::{
-    BASELINE, Comparison, ComparisonData, RowData, SCHEMA, Triangulation, WHAT_IS_COMPARED,
-    WHAT_IS_TIMED,
-};
+use crate::compare::comparison::{BASELINE, Comparison, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::experiments::{Scaling, Speedups};
-use crate::compare::metrics::Difference;
 use crate::compare::timing::Machine;
 use crate::lectures::{Content, Figure};
 use crate::number::Counts;
 use crate::shading::{METHODS, OperationCounts, Variant};
+use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use serde_json::{Value, json};
 
-/// All that a report says: a document of schema [`SCHEMA`] with more fields, which readers of benchmarks pass over.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The schema of the documents written here. The number grows when a field changes its meaning or goes; new fields alone
+/// do not change it, so readers must pass over what they do not know.
+pub const SCHEMA: &str = "fastphong.bench/1";
+
+/// The results of a run, and the machine that made them.
+#[derive(Clone, Debug, Serialize)]
 pub struct Document {
     /// [`SCHEMA`].
-    pub schema: String,
+    pub schema: &'static str,
     /// The command line as typed, program first.
     pub command_line: Vec<String>,
     /// The machine that was timed.
     pub machine: Machine,
     /// [`WHAT_IS_TIMED`].
-    pub timed: String,
+    pub timed: &'static str,
     /// [`WHAT_IS_COMPARED`].
-    pub compared: String,
+    pub compared: &'static str,
     /// The day, as [`super::utc_date`] writes it.
-    #[serde(default)]
     pub date: Option<String>,
     /// Seconds from the start to the end of measuring and drawing.
-    #[serde(default)]
     pub seconds: Option<f64>,
     /// The method that speeds are stated against.
-    #[serde(default)]
-    pub baseline: String,
-    /// All methods that were compared.
-    #[serde(default)]
+    pub baseline: &'static str,
+    /// All methods that were compared or timed, in the order of the method table.
     pub methods: Vec<MethodData>,
     /// The scenes, in the order of the page.
-    pub comparisons: Vec<SceneData>,
-    /// The figures of the lectures; not read back, as what they show is pictures.
-    #[serde(skip_deserializing)]
+    pub comparisons: Vec<Comparison>,
+    /// The figures of the lectures.
     pub figures: Vec<FigureData>,
     /// Speeds of all methods over naive Phong's: kernels and frames, scalar and SIMD.
-    #[serde(default)]
     pub speedups: Option<Speedups>,
     /// Times over the number of triangles and of pixels, and fitted costs.
-    #[serde(default)]
     pub scaling: Option<Scaling>,
 }
 
-/// One scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SceneData {
-    /// A few words; the name if empty.
-    #[serde(default)]
-    pub title: String,
-    /// The purpose of the scene; may be empty.
-    #[serde(default)]
-    pub description: String,
-    /// Errors and times.
-    #[serde(flatten)]
-    pub comparison: ComparisonData,
-    /// The effect of cutting its polygons into triangles; `None` if they are triangles.
-    #[serde(default)]
-    pub triangulation: Option<TriangulationData>,
-}
-
-/// A [`Triangulation`] without its picture.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TriangulationData {
-    /// See [`Triangulation::triangles`].
-    pub triangles: usize,
-    /// See [`Triangulation::not_simple`].
-    pub not_simple: usize,
-    /// See [`Triangulation::difference`].
-    pub difference: Difference,
-}
-
 /// The description of a method.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MethodData {
     /// The variant, as a user names it.
     pub name: String,
     /// The name in a sentence.
     pub label: String,
     /// Methods of one family share a hue: the first word of their names.
-    pub family: String,
+    pub family: &'static str,
     /// The idea in one line.
-    pub title: String,
+    pub title: &'static str,
     /// The formulas, as `fastphong explain` prints them.
-    pub formula: String,
+    pub formula: &'static str,
     /// The lecture or paper that it comes from.
-    pub source: String,
+    pub source: &'static str,
     /// The cases in which it fails.
-    pub fails: String,
+    pub fails: &'static str,
     /// The treatment of perspective.
-    pub perspective: String,
+    pub perspective: &'static str,
     /// The treatment of lights and eyes at positions.
-    pub local: String,
-    /// The operations counted, for one light and for four.
-    pub operations: Vec<OperationsData>,
+    pub local: &'static str,
+    /// For one light and for four: `lights`, and at each of [`RATES`] the counts of [`OPERATIONS`].
+    pub operations: Vec<BTreeMap<&'static str, Value>>,
 }
 
-/// Operations of a method at each rate: additions, multiplications, comparisons, divisions, roots, sines, powers.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[allow(missing_docs)] // as in `OperationCounts`
-pub struct OperationsData {
-    pub lights: usize,
-    pub vertex: [u32; 7],
-    pub polygon: [u32; 7],
-    pub edge: [u32; 7],
-    pub edge_step: [u32; 7],
-    pub span: [u32; 7],
-    pub walk: [u32; 7],
-    pub shade: [u32; 7],
-}
+/// A rate at which a method computes: its name in data, its heading, and a function that takes its counts.
+pub type Rate = (&'static str, &'static str, fn(&OperationCounts) -> Counts);
+
+/// All rates.
+pub const RATES: [Rate; 7] = [
+    ("vertex", "vertex", |c| c.vertex),
+    ("polygon", "polygon", |c| c.polygon),
+    ("edge", "edge", |c| c.edge),
+    ("edge_step", "edge step", |c| c.edge_step),
+    ("span", "span", |c| c.span),
+    ("walk", "pixel: walk", |c| c.walk),
+    ("shade", "pixel: shade", |c| c.shade),
+];
+
+/// A kind of operation: its name, its sign, and a function that takes its count.
+pub type Operation = (&'static str, char, fn(&Counts) -> u32);
+
+/// All kinds of operations.
+pub const OPERATIONS: [Operation; 7] = [
+    ("add", '+', |c| c.additions),
+    ("mul", '×', |c| c.multiplications),
+    ("compare", '<', |c| c.comparisons),
+    ("div", '÷', |c| c.divisions),
+    ("root", '√', |c| c.roots),
+    ("trig", '∿', |c| c.trigonometric),
+    ("power", '^', |c| c.powers),
+];
 
 /// A figure of the lectures.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct FigureData {
-    /// The name on the command line.
-    pub name: String,
-    /// The heading.
-    pub title: String,
-    /// The place in the lecture that shows or says it.
-    pub lecture: String,
+    /// The name, the title, and the place in the lecture.
+    #[serde(flatten)]
+    pub figure: &'static Figure,
     /// Text, pictures and curves, and the findings.
     #[serde(flatten)]
     pub content: Content,
 }
 
 impl Document {
-    /// Makes a document without scenes.
-    pub fn new(machine: Machine, command_line: Vec<String>) -> Document {
-        Document {
-            schema: SCHEMA.to_string(),
+    /// Makes a document of comparisons that were made on this machine.
+    pub fn new(command_line: Vec<String>, comparisons: Vec<Comparison>) -> Document {
+        let mut document = Document {
+            schema: SCHEMA,
             command_line,
-            machine,
-            timed: WHAT_IS_TIMED.to_string(),
-            compared: WHAT_IS_COMPARED.to_string(),
+            machine: Machine::this(),
+            timed: WHAT_IS_TIMED,
+            compared: WHAT_IS_COMPARED,
             date: None,
             seconds: None,
-            baseline: BASELINE.to_string(),
+            baseline: BASELINE,
             methods: Vec::new(),
-            comparisons: Vec::new(),
+            comparisons,
             figures: Vec::new(),
             speedups: None,
             scaling: None,
-        }
-    }
-
-    /// Describes every variant that was compared or timed, each once, in the order of the method table.
-    pub fn describe_methods(&mut self) {
-        let rows = self.comparisons.iter().flat_map(SceneData::all_rows);
-        let mut names: Vec<&str> = rows.map(|row| &*row.variant).collect();
-        let studied = self.speedups.iter().flat_map(|study| &study.methods);
-        names.extend(studied.map(|method| &*method.method));
-        let is_first = |i: &usize| !names[..*i].contains(&names[*i]);
-        let described = (0..names.len()).filter(is_first).filter_map(|i| {
-            let variant = Variant::parse(names[i]).ok()?;
-            Some(MethodData::of(&variant))
-        });
-        let mut methods: Vec<MethodData> = described.collect();
-        let place = |method: &MethodData| {
-            let is_it = |entry: &&crate::shading::Entry| {
-                method.name.split(':').next() == Some(entry.info.name)
-            };
-            METHODS.iter().position(|entry| is_it(&entry))
         };
-        methods.sort_by_key(place);
-        self.methods = methods;
+        document.describe_methods();
+        document
     }
 
-    /// Writes it as indented JSON.
+    /// Describes every variant that was compared or timed.
+    pub fn describe_methods(&mut self) {
+        let rows = self.comparisons.iter().flat_map(Comparison::all_rows);
+        let timed = self.speedups.iter().flat_map(|s| &s.methods);
+        let names = rows.map(|row| row.name());
+        self.methods = described(names.chain(timed.map(|m| m.method.clone())));
+    }
+
+    /// Writes it as indented JSON, with fields in the order in which they are described.
     pub fn to_text(&self) -> String {
         let mut text = serde_json::to_string_pretty(self).expect("numbers, texts and lists");
         text.push('\n');
@@ -184,100 +153,45 @@ impl Document {
     }
 }
 
-impl SceneData {
-    /// Makes the data of a comparison.
-    pub fn new(
-        title: String,
-        description: String,
-        comparison: &Comparison,
-        triangulation: Option<&Triangulation>,
-    ) -> SceneData {
-        SceneData {
-            title,
-            description,
-            comparison: ComparisonData::from(comparison),
-            triangulation: triangulation.map(|t| TriangulationData {
-                triangles: t.triangles,
-                not_simple: t.not_simple,
-                difference: t.difference,
-            }),
+/// Describes variants, each once, in the order of the method table; unknown ones are left out.
+fn described(names: impl Iterator<Item = String>) -> Vec<MethodData> {
+    let mut variants: Vec<Variant> = Vec::new();
+    for variant in names.filter_map(|name| Variant::parse(&name).ok()) {
+        if variants
+            .iter()
+            .all(|other| other.to_string() != variant.to_string())
+        {
+            variants.push(variant);
         }
     }
-
-    /// Returns all rows: those drawn by scanlines, then those of the barycentric renderer.
-    pub fn all_rows(&self) -> impl Iterator<Item = &RowData> {
-        let c = &self.comparison;
-        c.rows.iter().chain(&c.barycentric)
-    }
-
-    /// Returns the row of a variant drawn by scanlines.
-    pub fn row(&self, variant: &str) -> Option<&RowData> {
-        let rows = &self.comparison.rows;
-        rows.iter().find(|row| row.variant == variant)
-    }
-
-    /// Returns the title, or the name if there is none.
-    pub fn title(&self) -> &str {
-        match &*self.title {
-            "" => &self.comparison.name,
-            title => title,
-        }
-    }
+    variants.sort_by_key(|v| METHODS.iter().position(|e| e.info.name == v.info().name));
+    variants.iter().map(MethodData::of).collect()
 }
 
 impl MethodData {
     /// Describes a variant.
     pub fn of(variant: &Variant) -> MethodData {
         let info = variant.info();
+        let operations = |lights: usize| {
+            let counts = variant.operations(lights);
+            let list = |rate: &Counts| json!(OPERATIONS.map(|(.., of)| of(rate)));
+            let rates = RATES.map(|(name, _, rate)| (name, list(&rate(&counts))));
+            rates
+                .into_iter()
+                .chain([("lights", json!(lights))])
+                .collect()
+        };
         MethodData {
             name: variant.to_string(),
             label: label(&variant.to_string()),
-            family: info.name.split('-').next().unwrap_or_default().to_string(),
-            title: info.title.to_string(),
-            formula: info.formula.to_string(),
-            source: info.source.to_string(),
-            fails: info.fails.to_string(),
-            perspective: info.perspective.sentence().to_string(),
-            local: info.local.sentence().to_string(),
-            operations: Vec::from([1, 4].map(|n| OperationsData::of(n, &variant.operations(n)))),
-        }
-    }
-}
-
-impl OperationsData {
-    fn of(lights: usize, counts: &OperationCounts) -> OperationsData {
-        let list = |c: &Counts| {
-            [
-                c.additions,
-                c.multiplications,
-                c.comparisons,
-                c.divisions,
-                c.roots,
-                c.trigonometric,
-                c.powers,
-            ]
-        };
-        OperationsData {
-            lights,
-            vertex: list(&counts.vertex),
-            polygon: list(&counts.polygon),
-            edge: list(&counts.edge),
-            edge_step: list(&counts.edge_step),
-            span: list(&counts.span),
-            walk: list(&counts.walk),
-            shade: list(&counts.shade),
-        }
-    }
-}
-
-impl FigureData {
-    /// Describes a figure that was made.
-    pub fn new(figure: &Figure, content: Content) -> FigureData {
-        FigureData {
-            name: figure.name.to_string(),
-            title: figure.title.to_string(),
-            lecture: figure.lecture.to_string(),
-            content,
+            family: info.name.split('-').next().unwrap_or_default(),
+            title: info.title,
+            formula: info.formula,
+            source: info.source,
+            fails: info.fails,
+            perspective: info.perspective.sentence(),
+            local: info.local.sentence(),
+            operations: [1, 4].map(operations).into(),
         }
     }
 }
@@ -285,18 +199,126 @@ impl FigureData {
 /// Returns a variant's name as it stands in a sentence: `fast Phong rsqrt`, `slerp Phong (steps=2)`.
 pub fn label(variant: &str) -> String {
     let (name, parameters) = variant.split_once(':').unwrap_or((variant, ""));
-    let capital = |word: &str| match word {
+    let word = |word: &str| match word {
         "phong" | "gouraud" | "duff" | "blinn" | "bishop" | "weimer" => {
             format!("{}{}", word[..1].to_uppercase(), &word[1..])
         }
         word => word.to_string(),
     };
-    let words: Vec<String> = name.split('-').map(capital).collect();
-    let words = words.join(" ");
-    if parameters.is_empty() {
-        words
-    } else {
-        format!("{words} ({parameters})")
+    let words = name.split('-').map(word).collect::<Vec<_>>().join(" ");
+    match parameters {
+        "" => words,
+        parameters => format!("{words} ({parameters})"),
+    }
+}
+
+/// The reason why a text is no document.
+#[derive(Debug, thiserror::Error)]
+pub enum DocumentError {
+    /// It is not JSON; with line and column.
+    #[error("{0}: expected a document of schema `{SCHEMA}`")]
+    Json(#[from] serde_json::Error),
+    /// A field is missing, or of another kind than described.
+    #[error("{0}: expected a document of schema `{SCHEMA}`")]
+    Field(String),
+    /// It names another schema.
+    #[error("schema `{0}`: expected `{SCHEMA}`")]
+    Schema(String),
+    /// It names no schema.
+    #[error("no `schema`: expected `{SCHEMA}`")]
+    NoSchema,
+}
+
+/// The fields that views read, with an example of each kind of value. Those with `?` may be missing or null.
+const FIELDS: &str = include_str!("fields.json");
+
+/// Reads a document, of an older version too.
+///
+/// # Errors
+/// [`DocumentError`] if it is not JSON, or of another schema, or lacks a field.
+pub fn parse(text: &str) -> Result<Value, DocumentError> {
+    let mut document: Value = serde_json::from_str(text)?;
+    match document["schema"].as_str() {
+        Some(SCHEMA) => {}
+        Some(other) => return Err(DocumentError::Schema(other.to_string())),
+        None => return Err(DocumentError::NoSchema),
+    }
+    let fields: Value = serde_json::from_str(FIELDS)?;
+    check(&document, &fields, "the document").map_err(DocumentError::Field)?;
+    complete(&mut document);
+    Ok(document)
+}
+
+/// Compares a value with an example of its kind; says where they differ.
+fn check(value: &Value, example: &Value, place: &str) -> Result<(), String> {
+    match (value, example) {
+        (Value::Object(fields), Value::Object(examples)) => {
+            for (key, example) in examples {
+                let name = key.trim_end_matches('?');
+                match fields.get(name) {
+                    None | Some(Value::Null) if name != key => {}
+                    None => return Err(format!("{place}: missing field `{name}`")),
+                    Some(value) => check(value, example, &format!("{place}, {name}"))?,
+                }
+            }
+            Ok(())
+        }
+        (Value::Array(values), Value::Array(examples)) => {
+            let check = |(i, value)| check(value, &examples[0], &format!("{place} {i}"));
+            values.iter().enumerate().try_for_each(check)
+        }
+        (_, Value::Null) => Ok(()),
+        _ if core::mem::discriminant(value) == core::mem::discriminant(example) => Ok(()),
+        _ => Err(format!("{place}: expected a value like {example}")),
+    }
+}
+
+/// Adds the fields that older documents lack: all was drawn in the lecture's own form before there were other engines.
+fn complete(document: &mut Value) {
+    let lecture = json!({ "engine": "span", "level": "scalar", "threads": 1 });
+    let mut names = Vec::new();
+    for comparison in document["comparisons"].as_array_mut().into_iter().flatten() {
+        if comparison["renderer"].is_null() {
+            comparison["renderer"] = lecture.clone();
+        }
+        for rows in ["rows", "barycentric"] {
+            for row in comparison[rows].as_array_mut().into_iter().flatten() {
+                names.push(self::text(row, "/variant").to_string());
+                for field in ["level", "threads"] {
+                    if row[field].is_null() {
+                        row[field] = lecture[field].clone();
+                    }
+                }
+            }
+        }
+    }
+    if list(document, "/methods").is_empty() {
+        document["methods"] = json!(described(names.into_iter()));
+    }
+}
+
+/// Returns the text at a JSON pointer; empty if there is none.
+pub(super) fn text<'a>(value: &'a Value, pointer: &str) -> &'a str {
+    let found = value.pointer(pointer).and_then(Value::as_str);
+    found.unwrap_or_default()
+}
+
+/// Returns the number at a JSON pointer.
+pub(super) fn number(value: &Value, pointer: &str) -> Option<f64> {
+    value.pointer(pointer)?.as_f64()
+}
+
+/// Returns the list at a JSON pointer; empty if there is none.
+pub(super) fn list<'a>(value: &'a Value, pointer: &str) -> &'a [Value] {
+    let found = value.pointer(pointer).and_then(Value::as_array);
+    found.map_or(&[], |list| list)
+}
+
+/// Returns the title of a scene, or its name if there is none.
+pub(super) fn title(scene: &Value) -> &str {
+    match text(scene, "/title") {
+        "" => text(scene, "/name"),
+        title => title,
     }
 }
 

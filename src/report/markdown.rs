@@ -1,13 +1,14 @@
 //! The report in short, for the front page of a repository.
 
-use super::document::{Document, SceneData};
-use super::page::command;
+use super::document::{list, text, title};
+use super::page::{command, machine};
 use super::{Report, ScenePictures, answer, tables};
 use crate::compare::comparison::{WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::table::markdown_text;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+use serde_json::Value;
 
 /// A text in Markdown, and the pictures that it shows.
 #[derive(Clone, Debug)]
@@ -22,19 +23,13 @@ pub struct Markdown {
 pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     let data = &report.data;
     let mut images = Vec::new();
-    let answer = answer::markdown(&answer::answer(data));
-    let mut text = format!(
-        "# Shading methods compared\n\n{answer}\n\n{}\n\n",
-        made(data)
-    );
+    let (answer, made) = (answer::markdown(&answer::answer(data)), made(data));
+    let mut text = format!("# Shading methods compared\n\n{answer}\n\n{made}\n\n");
+    let scenes = list(data, "/comparisons");
     for table in tables::all(data) {
-        let scene = data
-            .comparisons
-            .iter()
-            .position(|s| s.title() == table.caption);
         text += &format!("## {}\n\n", markdown_text(&table.caption));
-        if let Some(number) = scene {
-            text += &about(&data.comparisons[number]);
+        if let Some(number) = scenes.iter().position(|s| title(s) == table.caption) {
+            text += &about(&scenes[number]);
             if let Some(pictures) = report.pictures.get(number) {
                 text += &row_of_pictures(number, pictures, folder, &mut images);
             }
@@ -44,28 +39,29 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     Markdown { text, images }
 }
 
-/// Says how and on what the report was made.
-fn made(data: &Document) -> String {
+/// Says how and on which machine the report was made.
+fn made(data: &Value) -> String {
     let is_unfit = |c: char| c == '`' || c.is_control();
-    let command = command(&data.command_line).replace(is_unfit, "\u{FFFD}");
-    let date = data
-        .date
-        .as_ref()
-        .map_or_else(String::new, |d| format!(" on {d}"));
-    let machine = markdown_text(&data.machine.line());
+    let command = command(data).replace(is_unfit, "\u{FFFD}");
+    let date = match text(data, "/date") {
+        "" => String::new(),
+        date => format!(" on {date}"),
+    };
+    let machine = markdown_text(&machine(data));
     format!(
         "Made by `{command}`{date}, on {machine}. A time is {WHAT_IS_TIMED}. An error is of {WHAT_IS_COMPARED}; a level \
          is 1/255. Speeds stand with their 95 % interval; = is a tie."
     )
 }
 
-fn about(scene: &SceneData) -> String {
-    let c = &scene.comparison;
+/// Describes a scene in a few words and numbers.
+fn about(scene: &Value) -> String {
+    let fields = ["width", "height", "polygons", "lights", "covered_pixels"];
+    let [width, height, polygons, lights, covered] = fields.map(|field| &scene[field]);
     let facts = format!(
-        "{} × {} pixels, {} polygons, {} lights, {} pixels covered.\n\n",
-        c.width, c.height, c.polygons, c.lights, c.covered_pixels
+        "{width} × {height} pixels, {polygons} polygons, {lights} lights, {covered} pixels covered.\n\n"
     );
-    match &*scene.description {
+    match text(scene, "/description") {
         "" => facts,
         description => format!("{}\n\n{facts}", markdown_text(description)),
     }

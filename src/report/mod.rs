@@ -1,13 +1,14 @@
 //! The report: every method on every scene, in pictures and numbers, as one page that needs nothing else.
 //!
-//! A [`Report`] is one [`Document`] and pictures. The page, Markdown, CSV and JSON are views of it: Rust writes data, the page
-//! (`report/template.html`, `app.css`, `app.js`) draws it. Sentences choose their words by what was measured.
+//! A [`Report`] is one [`Document`], as JSON, and pictures. The page, Markdown and CSV are views of it: Rust writes data, the
+//! page (`report/template.html`, `app.css`, `app.js`) draws it. Sentences choose their words by the values. Start reading in
+//! `document.rs`, then `tables.rs`.
 //!
 //! ```
-//! use fastphong::compare::comparison::{Input, Options, compare, triangulation};
-//! use fastphong::compare::timing::Machine;
+//! use fastphong::compare::comparison::{Input, compare};
 //! use fastphong::mesh::builtin::builtin;
-//! use fastphong::report::{Document, Report, SceneData, ScenePictures};
+//! use fastphong::raster::Renderer;
+//! use fastphong::report::{Document, Report, ScenePictures};
 //! use fastphong::scene::Scene;
 //! use fastphong::shading::METHODS;
 //!
@@ -16,15 +17,11 @@
 //! let frame = scene.frame()?;
 //! let variants: Vec<_> = METHODS.iter().map(|entry| entry.variant()).collect();
 //! let input = Input { name: "sphere".into(), frame: &frame };
-//! let comparison = compare(&input, &variants, &Options { timing: None, ..Options::default() }, &mut |_, _| {});
-//! let triangles = triangulation(&frame, &comparison.reference);
+//! let comparison = compare(&input, &variants, Renderer::LECTURE, None, &mut |_, _| {});
 //!
-//! let command_line = vec!["fastphong".into(), "report".into()];
-//! let mut report = Report::new(Document::new(Machine::this(), command_line));
-//! let data = SceneData::new("Sphere".into(), "Eight rings.".into(), &comparison, triangles.as_ref());
-//! report.add_scene(data, ScenePictures::new(&comparison)?);
-//! report.data.describe_methods();
-//! assert!(report.html().starts_with("<!doctype html>"));
+//! let pictures = vec![ScenePictures::new(&comparison)?];
+//! let document = Document::new(vec!["fastphong".into(), "report".into()], vec![comparison]);
+//! assert!(Report::new(&document, pictures)?.html().starts_with("<!doctype html>"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -40,17 +37,20 @@ mod tests;
 
 pub use date::utc_date;
 pub use document::{
-    Document, FigureData, MethodData, OperationsData, SceneData, TriangulationData, label,
+    Document, DocumentError, FigureData, MethodData, OPERATIONS, Operation, RATES, Rate, SCHEMA,
+    label, parse,
 };
 pub use markdown::Markdown;
+pub use page::shell_word;
 pub use pictures::{LEAST_ERROR, STEPS_AN_OCTAVE};
 
 use crate::compare::comparison::Comparison;
-use crate::lectures::{Block, Content, Figure};
+use crate::lectures::{Block, Content};
 use crate::picture::encoding::store;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use pictures::{Pictures, halved, png};
+use serde_json::{Value, json};
 
 /// Methods whose small pictures stand in Markdown: those that the lecture's Programming Project compares.
 const PROJECT: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "slerp-phong"];
@@ -58,10 +58,12 @@ const PROJECT: [&str; 4] = ["gouraud", "naive-phong", "fast-phong", "slerp-phong
 /// A document, and the pictures that belong to it.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// All numbers and texts.
-    pub data: Document,
+    /// The document as it was written.
+    pub text: String,
+    /// The document as views read it.
+    data: Value,
     /// Documents of other machines or commits, to be laid beside it.
-    pub beside: Vec<Document>,
+    beside: Vec<Value>,
     /// Pictures of the scenes, in the order of the document; none where it was read from a file.
     pictures: Vec<ScenePictures>,
     /// PNG files of the figures' pictures, a list a figure.
@@ -101,43 +103,57 @@ impl ScenePictures {
 }
 
 impl Report {
-    /// Makes a report of `data` without pictures.
-    pub fn new(data: Document) -> Report {
-        Report {
+    /// Makes the report of a document and the pictures of its scenes.
+    ///
+    /// # Errors
+    /// If a picture of a figure has no pixels, or more than its file format can count.
+    pub fn new(document: &Document, pictures: Vec<ScenePictures>) -> std::io::Result<Report> {
+        let files = |content: &Content| {
+            let shown = content.blocks.iter().flat_map(|block| match block {
+                Block::Pictures { shown, .. } => &shown[..],
+                _ => &[],
+            });
+            shown.map(|shown| png(&shown.picture)).collect()
+        };
+        let figures = document.figures.iter().map(|f| files(&f.content));
+        let text = document.to_text();
+        Ok(Report {
+            data: parse(&text).map_err(std::io::Error::other)?,
+            text,
+            beside: Vec::new(),
+            pictures,
+            figures: figures.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// Reads a document that was written before; its pictures, and figures, which are pictures, are not in it.
+    ///
+    /// # Errors
+    /// As [`parse`].
+    pub fn read(text: String) -> Result<Report, DocumentError> {
+        let mut data = parse(&text)?;
+        data["figures"] = json!([]);
+        Ok(Report {
+            text,
             data,
             beside: Vec::new(),
             pictures: Vec::new(),
             figures: Vec::new(),
-        }
+        })
     }
 
-    /// Adds a scene with its pictures.
-    pub fn add_scene(&mut self, data: SceneData, pictures: ScenePictures) {
-        self.pictures.push(pictures);
-        self.data.comparisons.push(data);
-    }
-
-    /// Adds a figure of the lectures.
-    ///
-    /// # Errors
-    /// If a picture has no pixels, or more than its file format can count.
-    pub fn add_figure(&mut self, figure: &Figure, content: Content) -> std::io::Result<()> {
-        let shown = content.blocks.iter().flat_map(|block| match block {
-            Block::Pictures { shown, .. } => &shown[..],
-            _ => &[],
-        });
-        let files = shown.map(|shown| png(&shown.picture));
-        self.figures.push(files.collect::<Result<_, _>>()?);
-        self.data.figures.push(FigureData::new(figure, content));
-        Ok(())
+    /// Lays the numbers of another report beside these.
+    pub fn lay_beside(&mut self, other: Report) {
+        self.beside.push(other.data);
     }
 
     /// Returns the pictures of the figures as PNG files with their names, `NAME-1.png` and so on.
     pub fn figure_files(&self) -> impl Iterator<Item = (String, &[u8])> {
-        let figures = self.data.figures.iter().zip(&self.figures);
-        figures.flat_map(|(figure, files)| {
-            let named = files.iter().enumerate();
-            named.map(|(i, png)| (alloc::format!("{}-{}.png", figure.name, i + 1), &png[..]))
+        let figures = document::list(&self.data, "/figures").iter();
+        figures.zip(&self.figures).flat_map(|(figure, files)| {
+            let name = document::text(figure, "/name");
+            let named = (1..).zip(files);
+            named.map(move |(i, png)| (alloc::format!("{name}-{i}.png"), &png[..]))
         })
     }
 

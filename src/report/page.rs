@@ -1,6 +1,6 @@
 //! The page: a template with the data, the pictures, and what is readable without JavaScript.
 
-use super::document::Document;
+use super::document::{list, number, text};
 use super::pictures::data_uri;
 use super::{Report, answer, tables};
 use crate::compare::table::{Table, html_text};
@@ -16,9 +16,9 @@ const SCRIPT: &str = include_str!("../../report/app.js");
 /// Fills the template.
 pub(super) fn page(report: &Report) -> String {
     let data = &report.data;
-    let title = match (&data.figures[..], data.comparisons.is_empty()) {
-        ([one], true) => &one.title,
-        (_, true) => "The lectures, made again",
+    let title = match (list(data, "/figures"), list(data, "/comparisons")) {
+        ([one], []) => text(one, "/title"),
+        (_, []) => "The lectures, made again",
         _ => "Phong shading, measured",
     };
     let parts = [
@@ -56,10 +56,9 @@ fn script_text(json: &str) -> String {
 /// Writes the document, with those that it is laid beside, in six digits and without samples: nobody sees more, and
 /// `--json` has all.
 fn json(report: &Report) -> String {
-    let value = |data: &Document| serde_json::to_value(data).expect("numbers, texts and lists");
-    let mut data = value(&report.data);
+    let mut data = report.data.clone();
     if !report.beside.is_empty() {
-        data["beside"] = report.beside.iter().map(value).collect();
+        data["beside"] = report.beside.clone().into();
     }
     shorten(&mut data);
     data.to_string()
@@ -94,17 +93,16 @@ fn pictures(report: &Report) -> String {
         format!("<script type=\"application/json\" id=\"{id}\">{json}</script>\n")
     };
     let scenes = report.pictures.iter().enumerate();
-    let mut text: String = scenes
-        .map(|(number, scene)| element(format!("pictures-{number}"), &scene.packed))
-        .collect();
-    let files = report.figures.iter().map(|figure| {
-        let uris = figure.iter().map(|png| data_uri(png));
-        uris.collect::<Vec<_>>()
-    });
-    let files: Vec<Vec<String>> = files.collect();
-    let json = serde_json::to_string(&files).expect("texts and lists of them");
-    text += &element("figure-pictures".into(), &json);
-    text
+    let scenes = scenes.map(|(i, scene)| element(format!("pictures-{i}"), &scene.packed));
+    let text: String = scenes.collect();
+    let uris = |figure: &Vec<Vec<u8>>| figure.iter().map(|png| data_uri(png)).collect();
+    let files: Value = report
+        .figures
+        .iter()
+        .map(uris)
+        .collect::<Vec<Value>>()
+        .into();
+    text + &element("figure-pictures".into(), &files.to_string())
 }
 
 /// Returns pictures and tables for readers without JavaScript.
@@ -135,26 +133,43 @@ fn readable(report: &Report) -> String {
     html
 }
 
-/// Says on what and when the page was made, in one line.
-fn made(data: &Document) -> String {
-    let mut text = format!("Made by {}", command(&data.command_line));
-    if let Some(date) = &data.date {
-        text += &format!(" on {date}");
-    }
-    if let Some(seconds) = data.seconds {
-        text += &format!(" in {seconds:.0} s");
-    }
-    text + &format!("; {}", data.machine.line())
+/// Says how, when and on which machine the page was made, in one line.
+fn made(data: &Value) -> String {
+    let date = match text(data, "/date") {
+        "" => String::new(),
+        date => format!(" on {date}"),
+    };
+    let seconds = number(data, "/seconds").map_or(String::new(), |s| format!(" in {s:.0} s"));
+    format!(
+        "Made by {}{date}{seconds}; {}",
+        command(data),
+        machine(data)
+    )
 }
 
-/// Returns a command line as it can be typed into a shell of the Bourne family.
-pub(super) fn command(words: &[String]) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@%".contains(c);
-    let quoted = |word: &String| match word {
-        word if !word.is_empty() && word.chars().all(is_plain) => word.clone(),
+/// Describes the machine of a document in one line, as [`Machine::line`](crate::compare::timing::Machine::line) does.
+pub(super) fn machine(data: &Value) -> String {
+    let m = |field: &str| text(&data["machine"], field);
+    let (system, compiler) = ([m("/os"), m("/arch")].join(" "), m("/rustc"));
+    let (profile, opt_level, version) = (m("/profile"), m("/opt_level"), m("/version"));
+    let built = format!("{compiler}, {profile}, opt-level {opt_level}");
+    format!("{}, {system}; {built}; fastphong {version}", m("/cpu"))
+}
+
+/// Returns the command line of a document as it can be typed into a shell of the Bourne family.
+pub(super) fn command(data: &Value) -> String {
+    let words = list(data, "/command_line").iter();
+    let words = words.map(|word| shell_word(text(word, "")));
+    words.collect::<Vec<_>>().join(" ")
+}
+
+/// Quotes a word for a shell where need be.
+pub fn shell_word(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%".contains(c);
+    match word {
+        word if !word.is_empty() && word.chars().all(is_plain) => word.to_string(),
         word => format!("'{}'", word.replace('\'', "'\\''")),
-    };
-    words.iter().map(quoted).collect::<Vec<_>>().join(" ")
+    }
 }
 
 #[cfg(test)]
@@ -178,7 +193,8 @@ mod tests {
 
     #[test]
     fn commands_can_be_typed_again() {
-        let words = ["fastphong", "report", "a b", "it's", ""].map(String::from);
-        assert_eq!(command(&words), "fastphong report 'a b' 'it'\\''s' ''");
+        let words = ["fastphong", "report", "a b", "it's", ""];
+        let data = serde_json::json!({ "command_line": words });
+        assert_eq!(command(&data), "fastphong report 'a b' 'it'\\''s' ''");
     }
 }

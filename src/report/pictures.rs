@@ -34,12 +34,12 @@ pub(super) struct Pictures {
     /// The packed reference.
     reference: String,
     /// A picture a variant.
-    rows: BTreeMap<String, Stored>,
+    rows: BTreeMap<String, PackedPicture>,
 }
 
 /// A picture and its error map, each as a difference from another one.
 #[derive(Clone, Debug, Default, Serialize)]
-struct Stored {
+struct PackedPicture {
     /// The variant whose picture it adds to; the reference if `None`.
     #[serde(skip_serializing_if = "Option::is_none")]
     on: Option<String>,
@@ -72,21 +72,21 @@ impl Pictures {
             let added = (under != &all[at][..]).then(|| pack(&added(under, &all[at]), width));
             (near.map(|i| names[i].clone()), added)
         };
-        let stored = |at: usize| {
+        let packed = |at: usize| {
             let (on, add) = pack_on(&reference, &drawn, at);
             let (map_on, map) = pack_on(&nothing, &maps, at);
-            let stored = Stored {
+            let packed = PackedPicture {
                 on,
                 add,
                 map_on,
                 map,
             };
-            (names[at].clone(), stored)
+            (names[at].clone(), packed)
         };
         Pictures {
             steps: STEPS_AN_OCTAVE,
             reference: pack(&reference, width),
-            rows: collect(names.len(), 1, stored).into_iter().collect(),
+            rows: collect(names.len(), 1, packed).into_iter().collect(),
         }
     }
 
@@ -137,7 +137,7 @@ fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
 fn error_codes(reference: &LinearPicture, actual: &LinearPicture) -> Vec<u8> {
     let code = |(r, a): (&[f32; 4], &[f32; 4])| {
         let errors = (0..3).map(|c| 255.0 * f64::from((a[c] - r[c]).abs()));
-        // What is not finite counts as white against black.
+        // A channel that is not finite counts as white against black.
         let error = errors
             .map(|e| if e.is_finite() { e } else { 255.0 })
             .fold(0.0, f64::max);

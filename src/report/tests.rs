@@ -1,19 +1,23 @@
 use super::answer::{answer, html, overall};
+use super::document::{list, title};
 use super::*;
-use crate::compare::comparison::{Input, Options, RowData, Speed, compare, parse, triangulation};
-use crate::compare::experiments::{Corner, MethodSpeedups, Speedup, Speedups, Work};
-use crate::compare::timing::{Machine, Ratio, Timing};
-use crate::lectures::{Agreement, Finding, Plot, Scale, Series, Shown};
+use crate::compare::comparison::{
+    Input, MethodRow, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED, compare,
+};
+use crate::compare::experiments::{MethodSpeedups, SpeedCorner, Speedup, Speedups, Work};
+use crate::compare::timing::{Ratio, Timing};
+use crate::lectures::{Agreement, FIGURES, Finding, Plot, Scale, Series, Shown};
 use crate::mesh::builtin::builtin;
 use crate::picture::Picture8;
+use crate::raster::Renderer;
 use crate::scene::Scene;
-use crate::shading::METHODS;
+use crate::shading::{METHODS, Variant};
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::vec;
 
 /// Draws a small mesh by all methods, without times.
-fn scene(mesh: &str, name: &str) -> (SceneData, ScenePictures) {
+fn scene(mesh: &str, name: &str) -> Comparison {
     let mut scene = Scene::of_mesh(builtin(mesh).unwrap());
     (scene.width, scene.height) = (40, 30);
     let frame = scene.frame().unwrap();
@@ -22,51 +26,34 @@ fn scene(mesh: &str, name: &str) -> (SceneData, ScenePictures) {
         name: name.into(),
         frame: &frame,
     };
-    let options = Options {
-        timing: None,
-        ..Options::default()
-    };
-    let comparison = compare(&input, &variants, &options, &mut |_, _| {});
-    let triangles = triangulation(&frame, &comparison.reference);
-    let about = format!("What {name} tests.");
-    (
-        SceneData::new(name.to_owned(), about, &comparison, triangles.as_ref()),
-        ScenePictures::new(&comparison).unwrap(),
-    )
+    let mut comparison = compare(&input, &variants, Renderer::LECTURE, None, &mut |_, _| {});
+    comparison.title = name.to_owned();
+    comparison.description = format!("What {name} tests.");
+    comparison
 }
 
 const SPHERE: &str = "sphere?rings=4&segments=8";
 
-fn empty() -> Report {
-    let machine = Machine {
-        profile: "release".into(),
-        ..Machine::this()
-    };
+fn document(scenes: &[(&str, &str)]) -> Document {
     let command = ["fastphong", "report", "a b"].map(String::from).to_vec();
-    Report::new(Document::new(machine, command))
+    let scenes = scenes.iter().map(|(mesh, name)| scene(mesh, name));
+    let mut document = Document::new(command, scenes.collect());
+    document.machine.profile = "release".into();
+    document
 }
 
-fn report(scenes: &[(&str, &str)]) -> Report {
-    let mut report = empty();
-    for (mesh, name) in scenes {
-        let (data, pictures) = scene(mesh, name);
-        report.add_scene(data, pictures);
-    }
-    report.data.describe_methods();
-    report
+fn report(document: &Document) -> Report {
+    let pictures = document.comparisons.iter().map(ScenePictures::new);
+    Report::new(document, pictures.collect::<Result<_, _>>().unwrap()).unwrap()
 }
 
 fn ratio(median: f64, spread: f64) -> Ratio {
-    Ratio {
-        median,
-        low: median / spread,
-        high: median * spread,
-    }
+    Ratio::new(median / spread, median, median * spread)
 }
 
 /// Gives each row a speed and an error in grey levels.
-fn given(row: &mut RowData, of: &[(&str, f64, f64)]) {
-    let known = of.iter().find(|(name, ..)| *name == row.variant);
+fn given(row: &mut MethodRow, of: &[(&str, f64, f64)]) {
+    let known = of.iter().find(|(name, ..)| *name == row.name());
     let (_, speed, levels) = *known.unwrap_or(&("", 0.5, 40.0));
     row.error.max = levels / 255.0;
     row.speed = Some(Speed {
@@ -79,18 +66,18 @@ fn given(row: &mut RowData, of: &[(&str, f64, f64)]) {
 
 /// Says the answer of one scene with made-up numbers.
 fn said(of: &[(&str, f64, f64)], study: Option<Speedups>) -> String {
-    let mut report = report(&[(SPHERE, "sphere")]);
-    let rows = &mut report.data.comparisons[0].comparison.rows;
+    let mut document = document(&[(SPHERE, "sphere")]);
+    let rows = &mut document.comparisons[0].rows;
     rows.iter_mut().for_each(|row| given(row, of));
-    report.data.speedups = study;
-    answer::markdown(&answer(&report.data))
+    document.speedups = study;
+    answer::markdown(&answer(&report(&document).data))
 }
 
 fn study(of: &[(&str, u8, f64)]) -> Speedups {
-    let corner = Corner {
+    let corner = SpeedCorner {
         work: Work::Frame,
         scalar: false,
-        level: "avx2".into(),
+        level: "avx2",
         lights: 1,
     };
     let method = |(name, levels_off, speed): &(&str, u8, f64)| MethodSpeedups {
@@ -119,13 +106,13 @@ fn element<'a>(html: &'a str, id: &str) -> &'a str {
 
 #[test]
 fn the_page_holds_its_data_and_its_pictures() {
-    let report = report(&[(SPHERE, "sphere"), ("triangle", "three")]);
+    let report = report(&document(&[(SPHERE, "sphere"), ("triangle", "three")]));
     let page = report.html();
     assert!(page.starts_with("<!doctype html>") && page.ends_with("</html>\n"));
-    let data: Document = parse(element(&page, "fastphong-data")).unwrap();
-    assert_eq!(data.methods, report.data.methods);
-    assert_eq!(data.methods.len(), METHODS.len());
-    assert_eq!(data.comparisons.len(), 2);
+    let data = parse(element(&page, "fastphong-data")).unwrap();
+    assert_eq!(data["methods"], report.data["methods"]);
+    assert_eq!(list(&data, "/methods").len(), METHODS.len());
+    assert_eq!(list(&data, "/comparisons").len(), 2);
     for number in 0..2 {
         let pictures: serde_json::Value =
             serde_json::from_str(element(&page, &format!("pictures-{number}"))).unwrap();
@@ -140,30 +127,23 @@ fn the_page_holds_its_data_and_its_pictures() {
 }
 
 #[test]
-fn a_document_comes_back_from_its_text() {
-    let mut report = report(&[(SPHERE, "sphere")]);
-    report.data.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
-    let back: Document = parse(&report.data.to_text()).unwrap();
-    assert_eq!(back, report.data);
-}
-
-#[test]
 fn hostile_names_are_text() {
     let name = "</script><script>alert(1)</script>{{data}}";
-    let mut report = report(&[(SPHERE, name)]);
-    report.data.command_line.push(name.into());
-    report.data.machine.cpu = "<img src=x onerror=alert(1)>".into();
+    let mut document = document(&[(SPHERE, name)]);
+    document.command_line.push(name.into());
+    document.machine.cpu = "<img src=x onerror=alert(1)>".into();
+    let report = report(&document);
     let page = report.html();
     assert!(!page.contains("<script>alert") && !page.contains("<img src=x"));
-    let data: Document = parse(element(&page, "fastphong-data")).unwrap();
-    assert_eq!(data.comparisons[0].title(), name);
+    let data = parse(element(&page, "fastphong-data")).unwrap();
+    assert_eq!(title(&data["comparisons"][0]), name);
     let markdown = report.markdown("images").text;
     assert!(markdown.contains("## &lt;/script>&lt;script>alert"));
 }
 
 #[test]
 fn nothing_is_loaded() {
-    let page = report(&[("triangle", "three")]).html();
+    let page = report(&document(&[("triangle", "three")])).html();
     assert!(page.contains("default-src 'none'"));
     for loads in ["src=\"http", "href=\"http", "url(http", "@import", "fetch("] {
         assert!(!page.contains(loads), "the page holds {loads}");
@@ -172,9 +152,9 @@ fn nothing_is_loaded() {
 
 #[test]
 fn the_page_is_readable_without_javascript() {
-    let mut report = report(&[(SPHERE, "sphere"), ("triangle", "three")]);
-    report.add_figure(METHOD_FIGURE, figure()).unwrap();
-    let page = report.html();
+    let mut document = document(&[(SPHERE, "sphere"), ("triangle", "three")]);
+    document.figures.push(figure());
+    let page = report(&document).html();
     let inside = page.split("<noscript>").nth(1).unwrap();
     let inside = inside.split("</noscript>").next().unwrap();
     assert!(inside.contains("<img src=\"data:image/png;base64,"));
@@ -188,9 +168,7 @@ fn the_page_is_readable_without_javascript() {
     assert!(!inside.contains("<script"));
 }
 
-static METHOD_FIGURE: &crate::lectures::Figure = crate::lectures::FIGURES[0];
-
-fn figure() -> Content {
+fn figure() -> FigureData {
     let mut content = Content::default();
     content.text("A <text>.");
     let picture = Picture8::new(4, 3, [9, 9, 9, 255]);
@@ -210,17 +188,21 @@ fn figure() -> Content {
         Agreement::Confirms,
         "Exactly <right>.",
     ));
-    content
+    FigureData {
+        figure: FIGURES[0],
+        content,
+    }
 }
 
 #[test]
 fn figures_are_data_and_pictures() {
-    let mut report = empty();
-    report.add_figure(METHOD_FIGURE, figure()).unwrap();
+    let mut document = document(&[]);
+    document.figures.push(figure());
+    let report = report(&document);
     let page = report.html();
-    let data: serde_json::Value = serde_json::from_str(element(&page, "fastphong-data")).unwrap();
+    let data: Value = serde_json::from_str(element(&page, "fastphong-data")).unwrap();
     let stored = &data["figures"][0];
-    let expected = serde_json::to_value(figure()).unwrap();
+    let expected = serde_json::to_value(figure().content).unwrap();
     assert!(
         expected["findings"]
             .as_array()
@@ -231,7 +213,7 @@ fn figures_are_data_and_pictures() {
     assert_eq!(points[0], serde_json::json!([0.0, 0.33333]), "five digits");
     let pictures = element(&page, "figure-pictures");
     assert!(pictures.contains("data:image/png;base64,"));
-    let name = format!("{}-1.png", METHOD_FIGURE.name);
+    let name = format!("{}-1.png", FIGURES[0].name);
     assert_eq!(report.figure_files().next().unwrap().0, name);
     assert!(html(&answer(&report.data)).contains("1 are as printed"));
 }
@@ -268,13 +250,14 @@ fn the_answer_names_the_fastest_of_those_that_draw_the_picture() {
 
 #[test]
 fn the_answer_says_what_is_not_known() {
-    let mut report = report(&[(SPHERE, "sphere")]);
-    let text = answer::markdown(&answer(&report.data));
+    let mut document = document(&[(SPHERE, "sphere")]);
+    let text = answer::markdown(&answer(&report(&document).data));
     assert!(
         text.starts_with("No times were taken. The largest error"),
         "{text}"
     );
-    report.data.comparisons.clear();
+    document.comparisons.clear();
+    let report = report(&document);
     let text = answer::markdown(&answer(&report.data));
     assert_eq!(text, "Nothing was compared.");
     assert!(report.html().contains("Nothing was compared."));
@@ -282,14 +265,15 @@ fn the_answer_says_what_is_not_known() {
 
 #[test]
 fn a_method_over_all_scenes_is_its_worst_error_and_mean_speed() {
-    let mut report = report(&[(SPHERE, "sphere"), ("prism", "prism")]);
+    let mut document = document(&[(SPHERE, "sphere"), ("prism", "prism")]);
     let speeds = [(2.0, 0.5), (8.0, 0.25)];
-    for (scene, (speed, levels)) in report.data.comparisons.iter_mut().zip(speeds) {
-        let rows = &mut scene.comparison.rows;
+    for (scene, (speed, levels)) in document.comparisons.iter_mut().zip(speeds) {
+        let rows = &mut scene.rows;
         rows.iter_mut()
             .for_each(|row| given(row, &[("duff-phong", speed, levels)]));
     }
-    let all = overall(&report.data.comparisons);
+    let report = report(&document);
+    let all = overall(&report.data);
     let duff = all.iter().find(|o| o.name == "duff-phong").unwrap();
     assert_eq!((duff.worst, duff.at), (0.5, "sphere"));
     assert!((duff.speed.unwrap() - 4.0).abs() < 1e-12, "√(2 · 8)");
@@ -297,8 +281,9 @@ fn a_method_over_all_scenes_is_its_worst_error_and_mean_speed() {
 
 #[test]
 fn markdown_and_csv_hold_every_table() {
-    let mut report = report(&[(SPHERE, "a|b")]);
-    report.data.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
+    let mut document = document(&[(SPHERE, "a|b")]);
+    document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
+    let report = report(&document);
     let markdown = report.markdown("images");
     for text in [
         "# Shading methods compared\n",
@@ -314,4 +299,147 @@ fn markdown_and_csv_hold_every_table() {
     assert_eq!(markdown.images.len(), 1 + PROJECT.len());
     assert!(markdown.images[0].1.starts_with(b"\x89PNG"));
     assert!(report.csv().contains("\"a|b\"\r\nmethod,\"max, levels\""));
+}
+
+fn timed(comparison: &mut Comparison) {
+    for row in &mut comparison.rows {
+        given(row, &[]);
+        row.speed.as_mut().unwrap().ratio_to_barycentric = Some(ratio(2.0, 1.1));
+    }
+}
+
+#[test]
+fn documents_come_back_as_they_went() {
+    let mut document = document(&[("prism", "a \"prism\"\n")]);
+    timed(&mut document.comparisons[0]);
+    document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
+    let text = document.to_text();
+    assert!(text.starts_with("{\n  \"schema\": \"fastphong.bench/1\",\n"));
+    let read = Report::read(text.clone()).unwrap();
+    assert_eq!((&read.text, &read.data), (&text, &report(&document).data));
+    let rows = list(&read.data, "/comparisons/0/rows");
+    let named = |name: &str| rows.iter().find(|row| row["variant"] == name).unwrap();
+    let row = named("fast-phong");
+    assert_eq!(
+        (&row["parameters"]["steps"], &row["model"], &row["engine"]),
+        (&json!("auto"), &json!("phong-constant"), &json!("span"))
+    );
+    assert_eq!(
+        (&row["method"], &row["threads"]),
+        (&json!("fast-phong"), &json!(1))
+    );
+    assert!(row["speed"]["ratio_to_naive"]["tie"].is_boolean());
+    assert!(row["error"]["psnr"].is_f64() && row["error"]["equal"] == false);
+    assert_eq!(list(row, "/speed/timing/samples_ns").len(), 5);
+}
+
+#[test]
+fn parameters_are_numbers_or_auto() {
+    let steps = |text: &str| {
+        let variant = Variant::parse(text).unwrap();
+        let row = MethodRow {
+            variant,
+            ..scene("triangle", "t").rows.remove(0)
+        };
+        let json = serde_json::to_value(row).unwrap();
+        (json["variant"].clone(), json["parameters"]["steps"].clone())
+    };
+    assert_eq!(
+        steps("fast-phong:steps=3"),
+        ("fast-phong:steps=3".into(), 3.into())
+    );
+    assert_eq!(
+        steps("fast-phong:steps=auto"),
+        ("fast-phong".into(), "auto".into())
+    );
+}
+
+/// Data from before there were other engines say nothing of them, of methods, or of machines beside.
+#[test]
+fn older_documents_are_of_the_lectures_own_form() {
+    let document = document(&[("prism", "prism")]);
+    let mut older: Value = serde_json::from_str(&document.to_text()).unwrap();
+    older.as_object_mut().unwrap().remove("methods");
+    let comparison = older["comparisons"][0].as_object_mut().unwrap();
+    assert!(comparison.remove("renderer").is_some());
+    for rows in ["rows", "barycentric"] {
+        for row in comparison[rows].as_array_mut().unwrap() {
+            let row = row.as_object_mut().unwrap();
+            assert!(row.remove("level").is_some() && row.remove("threads").is_some());
+        }
+    }
+    assert_eq!(parse(&older.to_string()).unwrap(), report(&document).data);
+}
+
+#[test]
+fn the_description_names_every_field() {
+    let description = include_str!("../../docs/bench-json.md");
+    let mut document = document(&[(SPHERE, "sphere")]);
+    timed(&mut document.comparisons[0]);
+    document.figures.push(figure());
+    document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
+    let document: Value = serde_json::from_str(&document.to_text()).unwrap();
+    let mut left = vec![&document];
+    let mut fields = 0;
+    while let Some(value) = left.pop() {
+        for (field, value) in value.as_object().into_iter().flatten() {
+            let is_named = ["`", "`timing.", "[].", "`findings[].", "`triangulation."]
+                .iter()
+                .any(|before| description.contains(&format!("{before}{field}`")));
+            // Blocks of figures are described in a sentence, parameters are named by their methods.
+            assert!(is_named || field == "timing", "`{field}` is not described");
+            fields += 1;
+            if !["blocks", "parameters"].contains(&&**field) {
+                left.push(value);
+            }
+        }
+        left.extend(value.as_array().into_iter().flatten());
+    }
+    assert!(fields > 80, "all levels were visited: {fields}");
+    for text in [WHAT_IS_TIMED, WHAT_IS_COMPARED] {
+        let last = text.rsplit([',', ';']).next().unwrap();
+        assert!(description.contains(last.trim()), "{text}");
+    }
+}
+
+/// The fields that views need are among those that are written, of their kind.
+#[test]
+fn every_field_that_is_read_is_needed_unless_marked() {
+    let mut document = document(&[(SPHERE, "sphere")]);
+    timed(&mut document.comparisons[0]);
+    let whole: Value = serde_json::from_str(&document.to_text()).unwrap();
+    let message = |data: &Value| parse(&data.to_string()).unwrap_err().to_string();
+    for (pointer, field) in [
+        ("", "machine"),
+        ("/machine", "cpu"),
+        ("/comparisons/0", "rows"),
+        ("/comparisons/0/rows/0/error", "max"),
+        ("/comparisons/0/rows/0/speed/timing", "median_ns"),
+    ] {
+        let mut lacks = whole.clone();
+        let parent = lacks.pointer_mut(pointer).unwrap();
+        parent.as_object_mut().unwrap().remove(field).unwrap();
+        let missing = format!("missing field `{field}`: expected a document of schema");
+        assert!(message(&lacks).contains(&missing), "{}", message(&lacks));
+        let mut other = whole.clone();
+        other.pointer_mut(pointer).unwrap()[field] = json!(true);
+        assert!(message(&other).contains(&format!("{field}: expected a value like")));
+    }
+    let mut without = whole.clone();
+    without["comparisons"][0]["rows"][0]["speed"] = Value::Null;
+    assert!(parse(&without.to_string()).is_ok(), "no times were taken");
+}
+
+#[test]
+fn texts_that_are_no_documents_are_refused() {
+    let message = |text: &str| parse(text).unwrap_err().to_string();
+    assert_eq!(message("{}"), "no `schema`: expected `fastphong.bench/1`");
+    assert_eq!(message("[]"), "no `schema`: expected `fastphong.bench/1`");
+    assert_eq!(
+        message(r#"{"schema": "fastphong.bench/2"}"#),
+        "schema `fastphong.bench/2`: expected `fastphong.bench/1`"
+    );
+    assert!(message(r#"{"schema": "fastphong.bench/1"}"#).contains("missing field"));
+    assert!(message("{\n]").contains("line 2 column 1"));
+    assert!(message("").contains("fastphong.bench/1"));
 }

@@ -1,9 +1,23 @@
 //! `fastphong compare` and `fastphong bench`: which engines are timed, and the data.
 
 use super::{Folder, SPHERE};
-use fastphong::compare::comparison::Document;
 use fastphong::number::Level;
 use fastphong::shading::METHODS;
+use serde_json::Value;
+
+/// Returns engine, level and threads of a renderer or of a row.
+fn drawn_by(value: &Value) -> (&str, &str, u64) {
+    let text = |key: &str| value[key].as_str().unwrap();
+    (
+        text("engine"),
+        text("level"),
+        value["threads"].as_u64().unwrap(),
+    )
+}
+
+fn rows(comparison: &Value) -> &Vec<Value> {
+    comparison["rows"].as_array().unwrap()
+}
 
 /// No more rounds than need be.
 const QUICK: &str = "--time-budget 0 --methods fast-phong,duff-phong";
@@ -20,7 +34,7 @@ fn comparisons_say_what_drew_each_row() {
         let ended = folder
             .run(&format!("compare {NEAR} {QUICK} {flags} --json"))
             .done();
-        Document::parse(&ended.out).unwrap().comparisons.remove(0)
+        ended.json()["comparisons"][0].clone()
     };
     let is_simd = Level::best() != Level::Scalar;
     if !is_simd {
@@ -57,28 +71,14 @@ fn comparisons_say_what_drew_each_row() {
         ),
     ] {
         let comparison = compared(flags);
-        let renderer = &comparison.renderer;
-        assert_eq!(
-            (&*renderer.engine, &*renderer.level, renderer.threads),
-            asked,
-            "{flags}"
-        );
-        let drawn: Vec<_> = comparison
-            .rows
-            .iter()
-            .map(|row| (&*row.engine, &*row.level, row.threads))
-            .collect();
+        assert_eq!(drawn_by(&comparison["renderer"]), asked, "{flags}");
+        let drawn: Vec<_> = self::rows(&comparison).iter().map(drawn_by).collect();
         assert_eq!(drawn, rows, "{flags}");
-        let other: Vec<_> = comparison
-            .barycentric
-            .iter()
-            .map(|row| (&*row.engine, &*row.level, row.threads))
-            .collect();
+        let other = comparison["barycentric"].as_array().unwrap().iter();
+        let other: Vec<_> = other.map(drawn_by).collect();
         assert_eq!(other, [("barycentric", "scalar", 1)], "{flags}");
-        assert!(
-            comparison.rows.iter().all(|row| row.speed.is_some()),
-            "{flags}"
-        );
+        let timed = |row: &Value| row["speed"].is_object();
+        assert!(self::rows(&comparison).iter().all(timed), "{flags}");
     }
     let text = folder.run(&format!("compare {NEAR} {QUICK}")).done();
     text.prints("\ndrawn by the span engine, scalar, 1 thread\n");
@@ -96,11 +96,11 @@ fn errors_are_those_of_the_engine_that_was_asked_for() {
                 "compare teapot --size 160x120 --time-budget 0 {flags} --json"
             ))
             .done();
-        let comparison = Document::parse(&ended.out).unwrap().comparisons.remove(0);
-        comparison
-            .rows
+        let json = ended.json();
+        let rms = |row: &Value| row["error"]["rms"].as_f64().unwrap();
+        rows(&json["comparisons"][0])
             .iter()
-            .map(|row| row.error.rms)
+            .map(rms)
             .collect::<Vec<f64>>()
     };
     let lecture = errors("--engine span --simd scalar");
@@ -119,32 +119,21 @@ fn every_instruction_set_is_timed_for_itself() {
             "bench {SPHERE} {QUICK} --simd all --json times.json"
         ))
         .done();
-    let document = Document::parse(&String::from_utf8(folder.read("times.json")).unwrap()).unwrap();
-    let levels: Vec<&str> = document
-        .comparisons
+    let document: Value = serde_json::from_slice(&folder.read("times.json")).unwrap();
+    let comparisons = document["comparisons"].as_array().unwrap();
+    let levels: Vec<&str> = comparisons
         .iter()
-        .map(|comparison| &*comparison.renderer.level)
+        .map(|c| drawn_by(&c["renderer"]).1)
         .collect();
     assert_eq!(
         levels,
         Level::available().map(Level::name).collect::<Vec<_>>()
     );
-    for comparison in &document.comparisons {
-        assert!(
-            comparison
-                .rows
-                .iter()
-                .all(|row| row.level == comparison.renderer.level),
-            "{:?}",
-            comparison.renderer
-        );
-        assert!(
-            ended
-                .out
-                .contains(&format!("drawn by {}\n", comparison.renderer.line())),
-            "{}",
-            ended.out
-        );
+    for comparison in comparisons {
+        let (engine, level, threads) = drawn_by(&comparison["renderer"]);
+        assert!(rows(comparison).iter().all(|row| row["level"] == level));
+        let line = format!("drawn by the {engine} engine, {level}, {threads} thread");
+        assert!(ended.out.contains(&line), "{}", ended.out);
     }
     let twice = folder
         .run(&format!(

@@ -157,7 +157,9 @@ fn every_method_is_explained() {
     let folder = Folder::new();
     for entry in METHODS {
         let name = entry.info.name;
-        let ended = folder.run(&format!("explain {name}")).done();
+        let short = folder.run(&format!("explain {name}")).done();
+        assert!(short.out.contains("with 1 light,") && !short.out.contains("with 4 lights"));
+        let ended = folder.run(&format!("explain {name} --all")).done();
         let ended = ended
             .prints(entry.info.title)
             .prints("pixel: shade")
@@ -233,7 +235,7 @@ fn every_method_is_explained() {
         );
     }
     folder
-        .run("explain duff-phong")
+        .run("explain duff-phong --all")
         .done()
         .prints("operations with 2 lights and eye at positions, as counted");
     folder

@@ -241,6 +241,22 @@ fn every_method_is_described_with_what_it_costs() {
     }
 }
 
+/// The sentence that says what this is counts the methods of the table.
+#[test]
+fn the_number_of_methods_is_true_wherever_it_is_written() {
+    const WORDS: [&str; 6] = ["nine", "ten", "eleven", "twelve", "thirteen", "fourteen"];
+    let number = WORDS[METHODS.len() - 9];
+    for name in ["Cargo.toml", "README.md", "src/lib.rs", "src/cli/mod.rs"] {
+        let text = read(name);
+        for (place, _) in text.match_indices(" methods to run, time, look at") {
+            let word = text[..place].rsplit(' ').next();
+            assert_eq!(word, Some(number), "{name}");
+        }
+        let is_said = text.contains(" methods to run, time, look at");
+        assert!(is_said || name == "README.md", "{name} does not say it");
+    }
+}
+
 /// Whether a quoted text is meant as a path of the repository.
 fn is_path(text: &str) -> bool {
     let plain = !text.contains([' ', '*', '<', '$', '…', ':', '(', '{']) && !text.contains("NAME");

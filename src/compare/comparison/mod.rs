@@ -1,11 +1,14 @@
-//! Comparison: how far each method is from the reference, and how fast it gets there.
+//! Errors and times of methods on one frame.
 //!
-//! Speed and error are found together, on the same frame, and are always shown together: either alone says nothing.
+//! [`compare`] draws a frame with each variant, with the `f64` reference and with the barycentric renderer (`pictures.rs`),
+//! and times them in interleaved rounds (`speed.rs`). The [`Comparison`] is data: serialised as it stands it is the JSON of
+//! `docs/bench-json.md`; `table.rs` writes it for terminals, [`crate::report`] as a page.
 //!
 //! ```
-//! use fastphong::compare::comparison::{Input, Options, TableKind, compare, table};
+//! use fastphong::compare::comparison::{Input, TableKind, compare, table};
 //! use fastphong::mesh::builtin::builtin;
 //! use fastphong::mesh::vertex_normals::NormalSource;
+//! use fastphong::raster::Renderer;
 //! use fastphong::scene::{Camera, Fit, Light, Object, Scene};
 //! use fastphong::shading::Variant;
 //! use glam::{DAffine3, DVec3};
@@ -29,88 +32,72 @@
 //! let frame = scene.frame()?;
 //!
 //! let variants = [Variant::parse("gouraud")?, Variant::parse("fast-phong:steps=1")?];
-//! let options = Options { timing: None, ..Options::default() }; // errors only
-//! let comparison = compare(&Input { name: "sphere".into(), frame: &frame }, &variants, &options, &mut |_, _| {});
+//! let input = Input { name: "sphere".into(), frame: &frame };
+//! // Errors only, without times.
+//! let comparison = compare(&input, &variants, Renderer::LECTURE, None, &mut |_, _| {});
 //! let [naive, gouraud, fast] = &comparison.rows[..] else { unreachable!("naive Phong is always among them") };
 //! assert!(naive.error.rms < fast.error.rms && fast.error.rms < gouraud.error.rms);
 //! println!("{}", table(&comparison, TableKind::Short));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod document;
 mod pictures;
 mod speed;
 pub(crate) mod table;
 #[cfg(test)]
 mod tests;
-mod triangulation;
 
-pub use document::{
-    ComparisonData, Document, DocumentError, RendererData, RowData, SCHEMA, StatsData, parse,
-};
 pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
-pub use triangulation::{Triangulation, triangulation};
 
 use super::metrics::Difference;
-use super::timing::Limits;
+use super::timing::TimeLimits;
 use crate::frame::triangulate::triangulated;
 use crate::frame::{Frame, FrameStats};
-use crate::number::Level;
 use crate::picture::{Encoding, LinearPicture, Picture8};
-use crate::raster::{self, Renderer, coverage};
+use crate::raster::{Renderer, coverage};
 use crate::scene::Interpolation;
-use crate::shading::{METHODS, Variant};
+use crate::shading::{METHODS, Parameter, Variant};
+use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::fmt;
 use pictures::References;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+use serde_json::Value;
 
-/// The method that speed is stated against: what the lecture makes fast.
+/// The method that speeds are stated against: the one that the lecture makes fast.
 pub const BASELINE: &str = "naive-phong";
 
-/// What the errors of a [`Row`] are, in one line.
+/// The definition of [`MethodRow::error`], in one line.
 pub const WHAT_IS_COMPARED: &str = "linear channels before rounding to 8 bits against the f64 reference, where both show the same polygon";
 
-/// What is to be compared on.
+/// A frame to compare methods on.
 #[derive(Clone, Debug)]
 pub struct Input<'a> {
-    /// What people call it.
+    /// The name that tables and files give it.
     pub name: String,
     /// The frame.
     pub frame: &'a Frame,
 }
 
-/// How to compare.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// How long to take times; `None` takes none, so that the result is the same to the last bit at every run.
-    pub timing: Option<Limits>,
-    /// How the variants draw. The barycentric renderer has one way only.
-    pub renderer: Renderer,
-}
-
-impl Default for Options {
-    /// With times, in the lecture's own form.
-    fn default() -> Self {
-        Options {
-            timing: Some(Limits::default()),
-            renderer: Renderer::LECTURE,
-        }
-    }
-}
-
 /// All methods that were compared on one frame.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
-    /// What people call the frame.
+    /// The name of the frame.
     pub name: String,
+    /// A few words about the scene; may be empty.
+    pub title: String,
+    /// The purpose of the scene; may be empty.
+    pub description: String,
     /// Pixels a row.
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// How attributes vary over the screen.
+    /// The interpolation of varyings over the screen.
     pub interpolation: Interpolation,
-    /// How stored pictures are encoded; errors are of linear channels in any case.
+    /// The encoding of stored pictures; errors are of linear channels in any case.
     pub encoding: Encoding,
     /// Lights.
     pub lights: usize,
@@ -124,109 +111,154 @@ pub struct Comparison {
     pub covered_pixels: usize,
     /// Pixels of all polygons, hidden ones too.
     pub fragments: usize,
-    /// What became of the scene's polygons on their way into the frame.
+    /// Counts of the scene's polygons on their way into the frame.
     pub stats: FrameStats,
-    /// How the variants were to be drawn; a row says how it was.
-    pub renderer: Renderer,
-    /// Threads that there were.
-    pub threads: usize,
-    /// The picture of the `f64` Phong reference.
-    pub reference: LinearPicture,
+    /// The renderer that was asked for; each row names the one that drew it.
+    pub renderer: DrawnBy,
+    #[serde(skip)]
+    requested: Renderer,
     /// The variants drawn by scanlines, in the order given; before them naive Phong if it was not given.
-    pub rows: Vec<Row>,
+    pub rows: Vec<MethodRow>,
     /// The methods of the barycentric renderer that the rows are measured against.
-    pub barycentric: Vec<Row>,
+    pub barycentric: Vec<MethodRow>,
+    /// The effect of cutting the polygons into triangles; `None` if they are triangles.
+    pub triangulation: Option<Triangulation>,
+    /// The picture of the `f64` Phong reference.
+    #[serde(skip)]
+    pub reference: LinearPicture,
 }
 
-impl Comparison {
-    /// All rows: those drawn by scanlines, then the barycentric renderer's.
-    pub fn all_rows(&self) -> impl Iterator<Item = &Row> {
-        self.rows.iter().chain(&self.barycentric)
-    }
+/// The Phong reference of a frame cut into triangles, against that of its polygons.
+///
+/// Varyings interpolated along scanlines depend on the orientation of a polygon of four corners or more; on triangles they
+/// do not (L21 3, Figure 5). Cutting polygons into triangles therefore makes another picture.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Triangulation {
+    /// Triangles that the frame was cut into.
+    pub triangles: usize,
+    /// Polygons left out because they cross themselves on the picture.
+    pub not_simple: usize,
+    /// The difference, where both show the same polygon.
+    pub difference: Difference,
 }
 
-/// What drew a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Engine {
-    /// By scanlines: [`raster::Engine::Span`] is the lecture's.
-    Scanlines(raster::Engine),
-    /// The one they are measured against: [`Variant::render_barycentric`](crate::shading::Variant::render_barycentric).
-    Barycentric,
+/// The loops that drew a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct DrawnBy {
+    /// `span`, `row` or `barycentric`.
+    pub engine: &'static str,
+    /// The instruction set of the pixel loops.
+    pub level: &'static str,
+    /// The threads that shaded pixels: [`Renderer::threads`].
+    pub threads: usize,
 }
 
-impl Engine {
-    /// Its name in tables and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Engine::Scanlines(engine) => engine.name(),
-            Engine::Barycentric => "barycentric",
+impl DrawnBy {
+    /// [`Variant::render_barycentric`].
+    pub const BARYCENTRIC: DrawnBy = DrawnBy {
+        engine: "barycentric",
+        level: "scalar",
+        threads: 1,
+    };
+
+    /// Describes `renderer` on the current pool of threads.
+    pub fn new(renderer: Renderer) -> DrawnBy {
+        DrawnBy {
+            engine: renderer.engine().name(),
+            level: renderer.level().name(),
+            threads: renderer.threads(),
         }
     }
 }
 
-/// One variant in one engine: its error, its speed, its pictures.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// The variant.
+impl fmt::Display for DrawnBy {
+    /// Writes `the span engine, scalar, 1 thread`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let s = if self.threads == 1 { "" } else { "s" };
+        let (engine, level, threads) = (self.engine, self.level, self.threads);
+        write!(f, "the {engine} engine, {level}, {threads} thread{s}")
+    }
+}
+
+/// One variant by one renderer: its error, its speed, its pictures.
+#[derive(Clone, Debug, Serialize)]
+pub struct MethodRow {
+    /// The variant: `variant`, `method`, `parameters` and `model` in JSON.
+    #[serde(flatten, serialize_with = "variant_members")]
     pub variant: Variant,
-    /// What drew it.
-    pub engine: Engine,
-    /// The instruction set of its pixel loops.
-    pub level: Level,
-    /// How many threads walked and shaded its pixels: [`Renderer::threads`].
-    pub threads: usize,
-    /// Its difference from the Phong reference: see [`WHAT_IS_COMPARED`].
+    /// The loops that drew it.
+    #[serde(flatten)]
+    pub drawn_by: DrawnBy,
+    /// The difference from the Phong reference: see [`WHAT_IS_COMPARED`].
     pub error: Difference,
-    /// Its difference from its own closed form ([`crate::shading::Info::model`]): how well it does what it means to do. In
+    /// The difference from its own closed form ([`crate::shading::Info::model`]): how well it does what it means to do. In
     /// the barycentric renderer that is the closed form on triangles.
     pub own: Difference,
-    /// The most that rounding can make of `own` on this frame: [`crate::shading::Info::bound`].
+    /// The most that rounding can make of `own.max` on this frame: [`crate::shading::Info::bound`].
     pub bound: f64,
+    /// True if `own.max` is at most `bound`. Newton's method on short spans with large angles may exceed it.
+    pub within_bound: bool,
     /// Pixels at which it shows another polygon than the reference; they are left out of `error`, as their colours tell
     /// of depth and not of shading.
     pub other_polygon: usize,
-    /// Its speed, if times were taken.
+    /// The speed, if times were taken.
     pub speed: Option<Speed>,
-    /// What it stores.
+    /// The stored picture.
+    #[serde(skip)]
     pub picture: Picture8,
-    /// What it computes, before rounding.
+    /// The picture before rounding.
+    #[serde(skip)]
     pub linear: LinearPicture,
 }
 
-impl Row {
-    /// The variant as a user names it.
+impl MethodRow {
+    /// Returns the variant as a user names it.
     pub fn name(&self) -> String {
         self.variant.to_string()
     }
+}
 
-    /// True if its difference from its own closed form is what rounding makes, [`Row::bound`]. Newton's method on short
-    /// spans with large angles may be over it, and is then shown to be.
-    pub fn is_within_bound(&self) -> bool {
-        self.own.max <= self.bound
+/// Writes a variant as members of its row.
+fn variant_members<S: Serializer>(variant: &Variant, to: S) -> Result<S::Ok, S::Error> {
+    let info = variant.info();
+    let values = info.parameters.iter().zip(variant.parameters());
+    let parameters = values.map(|(p, value)| (p.name, parameter_json(p, *value)));
+    let mut members = to.serialize_map(Some(4))?;
+    members.serialize_entry("variant", &variant.to_string())?;
+    members.serialize_entry("method", info.name)?;
+    members.serialize_entry("parameters", &parameters.collect::<BTreeMap<_, _>>())?;
+    members.serialize_entry("model", info.model.name())?;
+    members.end()
+}
+
+/// Returns the value of a parameter of a method: a number, or `"auto"`.
+pub fn parameter_json(parameter: &Parameter, value: u32) -> Value {
+    match parameter.is_auto(value) {
+        true => "auto".into(),
+        false => value.into(),
     }
 }
 
 /// Part of the progress that the pictures take, when times are taken as well.
 const PICTURES_PART: f32 = 0.3;
 
-/// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, tells how far they are
-/// apart, and times them: [`draw`], then [`Comparison::time`].
+/// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, measures how far apart they
+/// are, and times them: [`draw`], then [`Comparison::time`]. Without `limits` no times are taken, so that every run has the
+/// same result to the last bit.
 ///
-/// `progress` is told which part is done, 0..=1, and what is being done; never while a time is taken.
+/// `progress` hears which part is done, 0..=1, and what comes next; never while a time is taken.
 pub fn compare(
     input: &Input<'_>,
     variants: &[Variant],
-    options: &Options,
+    renderer: Renderer,
+    limits: Option<TimeLimits>,
     progress: &mut dyn FnMut(f32, &str),
 ) -> Comparison {
-    let part = match options.timing {
-        Some(_) => PICTURES_PART,
-        None => 1.0,
-    };
-    let mut comparison = draw(input, variants, options.renderer, &mut |done, what| {
-        progress(part * done, what)
+    let part = limits.map_or(1.0, |_| PICTURES_PART);
+    let mut comparison = draw(input, variants, renderer, &mut |done, next| {
+        progress(part * done, next)
     });
-    if let Some(limits) = options.timing {
+    if let Some(limits) = limits {
         comparison.time(input.frame, limits, |done| {
             progress(part + (1.0 - part) * done, "timing")
         });
@@ -235,11 +267,11 @@ pub fn compare(
     comparison
 }
 
-/// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, and tells how far they are
-/// apart, without times.
+/// Draws `input` with each of `variants`, with the reference and with the barycentric renderer, and measures how far apart
+/// they are, without times.
 ///
 /// Naive Phong, which speed is stated against, comes first if `variants` does not have it. The barycentric renderer draws
-/// the triangulated frame, with the same method where it has it and naive Phong otherwise.
+/// the triangulated frame, with the method itself where it has it and naive Phong otherwise.
 pub fn draw(
     input: &Input<'_>,
     variants: &[Variant],
@@ -251,26 +283,31 @@ pub fn draw(
     let counterparts = counterparts(&variants);
     let steps = (variants.len() + counterparts.len() + 1) as f32;
     let mut step = 0.0;
-    let mut next = |what: &str| {
-        progress(step / steps, what);
+    let mut next = |name: &str| {
+        progress(step / steps, name);
         step += 1.0;
     };
     next("reference");
-    let references = References::new(frame);
-    let mut scanline = |variant: &Variant| {
+    let cut = triangulated(frame);
+    let references = References::new(frame, &cut);
+    let mut rows = Vec::new();
+    for variant in &variants {
         next(&variant.to_string());
-        references.scanline_row(frame, variant, renderer)
-    };
-    let rows: Vec<Row> = variants.iter().map(&mut scanline).collect();
-    let mut barycentric = |variant: &Variant| {
+        rows.push(references.scanline_row(variant, renderer));
+    }
+    let mut barycentric = Vec::new();
+    for variant in &counterparts {
         next(&alloc::format!("{variant}, barycentric"));
-        references.barycentric_row(variant)
-    };
-    let barycentric: Vec<Row> = counterparts.iter().filter_map(&mut barycentric).collect();
+        barycentric.extend(references.barycentric_row(variant));
+    }
     let mut fragments = 0;
     coverage(frame, |_, _, pixels| fragments += pixels.len());
+    let reference = references.phong().clone();
+    let is_covered = |pixel: &&[f32; 4]| pixel[3] > 0.0;
     Comparison {
         name: input.name.clone(),
+        title: String::new(),
+        description: String::new(),
         width: frame.width(),
         height: frame.height(),
         interpolation: frame.interpolation(),
@@ -278,36 +315,33 @@ pub fn draw(
         lights: frame.light_count(),
         polygons: frame.polygons().len(),
         triangles: frame.polygons().iter().map(|p| p.count as usize - 2).sum(),
-        not_simple: references.triangulated.not_simple,
-        covered_pixels: references.covered_pixels(),
+        not_simple: cut.not_simple,
+        covered_pixels: reference.texels().iter().filter(is_covered).count(),
         fragments,
         stats: frame.stats(),
-        renderer,
-        threads: renderer.threads(),
-        reference: references.phong,
+        renderer: DrawnBy::new(renderer),
+        requested: renderer,
         rows,
         barycentric,
+        triangulation: references.triangulation(),
+        reference,
     }
 }
 
 impl Comparison {
-    /// Times all rows together, on the frame that they were drawn from; triangulating is not timed. `progress` is told which
-    /// part is done, never while a time is taken.
-    pub fn time(&mut self, frame: &Frame, limits: Limits, progress: impl FnMut(f32)) {
-        let triangles = triangulated(frame);
-        self.threads = self.renderer.threads();
-        speed::take(
-            frame,
-            &triangles.frame,
-            &mut self.rows,
-            &mut self.barycentric,
-            self.covered_pixels,
-            (self.renderer, limits),
-            progress,
-        );
+    /// Returns all rows: those drawn by scanlines, then the barycentric renderer's.
+    pub fn all_rows(&self) -> impl Iterator<Item = &MethodRow> {
+        self.rows.iter().chain(&self.barycentric)
     }
 
-    /// Drops all pictures, which take most of its memory: what is left can still be timed.
+    /// Times all rows together, on the frame that they were drawn from; triangulating is not timed. `progress` hears which
+    /// part is done, never while a time is taken.
+    pub fn time(&mut self, frame: &Frame, limits: TimeLimits, progress: impl FnMut(f32)) {
+        self.renderer = DrawnBy::new(self.requested);
+        speed::time(self, frame, &triangulated(frame).frame, limits, progress);
+    }
+
+    /// Drops all pictures, which take most of its memory; the rest can still be timed.
     pub fn drop_pictures(&mut self) {
         self.reference = LinearPicture::new(0, 0, [0.0; 4]);
         for row in self.rows.iter_mut().chain(&mut self.barycentric) {
@@ -317,37 +351,31 @@ impl Comparison {
     }
 }
 
+/// Returns `variants`, after naive Phong if that is not among them.
 pub(crate) fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
-    let baseline = METHODS
-        .iter()
-        .find(|entry| entry.info.name == BASELINE)
-        .map(|entry| entry.variant());
-    let missing = baseline.filter(|_| !variants.iter().any(is_baseline));
-    missing
-        .into_iter()
-        .chain(variants.iter().cloned())
-        .collect()
+    let is_missing = !variants.iter().any(is_baseline);
+    let baseline = METHODS.iter().filter(|e| e.info.name == BASELINE);
+    let baseline = baseline.filter(|_| is_missing).map(|e| e.variant());
+    baseline.chain(variants.iter().cloned()).collect()
 }
 
-fn is_baseline(variant: &Variant) -> bool {
+/// True if `variant` is naive Phong, which speeds are stated against.
+pub(crate) fn is_baseline(variant: &Variant) -> bool {
     variant.info().name == BASELINE && variant.is_default()
 }
 
-/// The name of the method that the barycentric renderer is to draw for a comparison with `variant`.
+/// Returns the name of the method that the barycentric renderer draws for a comparison with `variant`.
 fn counterpart(variant: &Variant) -> &'static str {
-    if variant.info().barycentric {
-        variant.info().name
-    } else {
-        BASELINE
+    match variant.info().barycentric {
+        true => variant.info().name,
+        false => BASELINE,
     }
 }
 
-/// The methods of the barycentric renderer that `variants` are measured against, each once, in the order of the table.
+/// Returns the methods of the barycentric renderer that `variants` are measured against, each once, in the order of the
+/// table.
 fn counterparts(variants: &[Variant]) -> Vec<Variant> {
-    let wanted = |name| variants.iter().any(|variant| counterpart(variant) == name);
-    METHODS
-        .iter()
-        .filter(|entry| wanted(entry.info.name))
-        .map(|entry| entry.variant())
-        .collect()
+    let is_wanted = |name| variants.iter().any(|variant| counterpart(variant) == name);
+    let entries = METHODS.iter().filter(|entry| is_wanted(entry.info.name));
+    entries.map(|entry| entry.variant()).collect()
 }

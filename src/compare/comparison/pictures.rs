@@ -1,152 +1,150 @@
 //! Pictures against references.
 
-use super::{Engine, Row};
+use super::{DrawnBy, MethodRow, Triangulation};
 use crate::compare::metrics::{Difference, compare_where};
 use crate::frame::Frame;
-use crate::frame::triangulate::{Triangulated, triangulated};
-use crate::number::Level;
-use crate::picture::{LinearPicture, Picture};
+use crate::frame::triangulate::Triangulated;
+use crate::picture::{LinearPicture, Picture, Picture8};
 use crate::raster::{Edges, Renderer, barycentric_polygon_numbers, polygon_numbers};
 use crate::reference::{self, Model, Visibility};
 use crate::shading::Variant;
 use core::cell::OnceCell;
 
-/// What the pictures of one frame are compared with.
-pub(super) struct References {
-    /// The Phong reference.
-    pub phong: LinearPicture,
-    /// The frame as the barycentric renderer draws it.
-    pub triangulated: Triangulated,
-    closed_forms: ClosedForms,
-    /// Those on triangles, where they are not the same.
-    on_triangles: Option<ClosedForms>,
-    /// What the engines show that draw by scanlines.
+/// The references of one frame, and the polygons that renderers show.
+pub(super) struct References<'a> {
+    frame: &'a Frame,
+    cut: &'a Triangulated,
+    closed_forms: ClosedForms<'a>,
+    /// The closed forms on triangles; `None` if the polygons are triangles.
+    on_triangles: Option<ClosedForms<'a>>,
+    /// Numbers of the polygons that scanline engines show.
     scanline: Picture<u32>,
-    /// What the barycentric renderer shows, as triangles.
+    /// Numbers of the triangles that the barycentric renderer shows.
     barycentric: Picture<u32>,
 }
 
 /// The reference pictures of one frame; each is made when it is first asked for.
-struct ClosedForms {
+struct ClosedForms<'a> {
+    frame: &'a Frame,
     visibility: Visibility,
     pictures: [OnceCell<LinearPicture>; Model::ALL.len()],
 }
 
-impl ClosedForms {
-    fn new(frame: &Frame) -> Self {
+impl<'a> ClosedForms<'a> {
+    fn new(frame: &'a Frame) -> Self {
         ClosedForms {
+            frame,
             visibility: reference::visibility(frame),
             pictures: Default::default(),
         }
     }
 
-    /// The picture of `frame`, the one that this was made for.
-    fn picture(&self, frame: &Frame, model: Model) -> &LinearPicture {
-        self.pictures[model as usize]
-            .get_or_init(|| reference::shade(frame, &self.visibility, model).to_linear())
+    fn picture(&self, model: Model) -> &LinearPicture {
+        let make = || reference::shade(self.frame, &self.visibility, model).to_linear();
+        self.pictures[model as usize].get_or_init(make)
     }
 }
 
-impl References {
-    pub fn new(frame: &Frame) -> Self {
-        let closed_forms = ClosedForms::new(frame);
-        let triangulated = triangulated(frame);
+impl<'a> References<'a> {
+    /// Prepares the references of `frame`, which `cut` has in triangles.
+    pub fn new(frame: &'a Frame, cut: &'a Triangulated) -> Self {
         let is_cut = frame.polygons().iter().any(|polygon| polygon.count > 3);
         References {
-            phong: closed_forms.picture(frame, Model::Phong).clone(),
-            on_triangles: is_cut.then(|| ClosedForms::new(&triangulated.frame)),
+            frame,
+            cut,
+            closed_forms: ClosedForms::new(frame),
+            on_triangles: is_cut.then(|| ClosedForms::new(&cut.frame)),
             scanline: polygon_numbers(frame),
-            barycentric: barycentric_polygon_numbers(&triangulated.frame, Edges::TopLeft),
-            closed_forms,
-            triangulated,
+            barycentric: barycentric_polygon_numbers(&cut.frame, Edges::TopLeft),
         }
     }
 
-    /// Pixels that any polygon covers, in part at least where a pixel has several samples.
-    pub fn covered_pixels(&self) -> usize {
-        self.phong
-            .texels()
-            .iter()
-            .filter(|texel| texel[3] > 0.0)
-            .count()
+    /// Returns the Phong reference.
+    pub fn phong(&self) -> &LinearPicture {
+        self.closed_forms.picture(Model::Phong)
     }
 
-    /// The row of a variant as `renderer` draws it, without times.
-    pub fn scanline_row(&self, frame: &Frame, variant: &Variant, renderer: Renderer) -> Row {
-        let drawn_by = variant.plan(frame, renderer).renderer;
-        let linear = variant.render_linear_with(frame, renderer);
-        let seen = &self.closed_forms.visibility.polygons;
-        let (error, other_polygon) = difference(&self.phong, &linear, seen, &self.scanline);
-        let own = match variant.info().model {
-            Model::Phong => error,
-            model => {
-                difference(
-                    self.closed_forms.picture(frame, model),
-                    &linear,
-                    seen,
-                    &self.scanline,
-                )
-                .0
-            }
-        };
+    /// Draws a variant by `renderer` and compares it.
+    pub fn scanline_row(&self, variant: &Variant, renderer: Renderer) -> MethodRow {
+        let drawn_by = DrawnBy::new(variant.plan(self.frame, renderer).renderer);
+        let linear = variant.render_linear_with(self.frame, renderer);
         let mut picture = Picture::new(0, 0, [0; 4]);
-        variant.render_with(frame, renderer, &mut picture);
-        Row {
+        variant.render_with(self.frame, renderer, &mut picture);
+        let own = match variant.info().model {
+            Model::Phong => None,
+            model => Some(self.closed_forms.difference(model, &linear, &self.scanline)),
+        };
+        self.row(variant, drawn_by, (picture, linear), &self.scanline, own)
+    }
+
+    /// Draws a variant by the barycentric renderer and compares it; `None` if that does not have the method.
+    pub fn barycentric_row(&self, variant: &Variant) -> Option<MethodRow> {
+        let linear = variant.render_barycentric_linear(&self.cut.frame, Edges::TopLeft)?;
+        let picture = variant.render_barycentric(&self.cut.frame, Edges::TopLeft)?;
+        let forms = self.on_triangles.as_ref().unwrap_or(&self.closed_forms);
+        let own = forms.difference(variant.info().model, &linear, &self.barycentric);
+        let (by, shown) = (DrawnBy::BARYCENTRIC, self.origins(&self.barycentric));
+        Some(self.row(variant, by, (picture, linear), &shown, Some(own)))
+    }
+
+    /// Compares the Phong reference of the triangles with that of the polygons; `None` if these are triangles already.
+    pub fn triangulation(&self) -> Option<Triangulation> {
+        let triangles = self.on_triangles.as_ref()?;
+        let shown = self.origins(&triangles.visibility.polygons);
+        let picture = triangles.picture(Model::Phong);
+        Some(Triangulation {
+            triangles: self.cut.frame.polygons().len(),
+            not_simple: self.cut.not_simple,
+            difference: self.closed_forms.difference(Model::Phong, picture, &shown),
+        })
+    }
+
+    /// Maps triangles to the polygons that they were cut from.
+    fn origins(&self, triangles: &Picture<u32>) -> Picture<u32> {
+        let origin = |triangle| self.cut.origins.get(triangle as usize);
+        triangles.map(|triangle| origin(triangle).copied().unwrap_or(Visibility::NONE))
+    }
+
+    /// Makes the row of pictures that show the polygons `shown`; without `own` the Phong reference is their closed form.
+    fn row(
+        &self,
+        variant: &Variant,
+        drawn_by: DrawnBy,
+        (picture, linear): (Picture8, LinearPicture),
+        shown: &Picture<u32>,
+        own: Option<Difference>,
+    ) -> MethodRow {
+        let error = self.closed_forms.difference(Model::Phong, &linear, shown);
+        let (own, bound) = (own.unwrap_or(error), variant.bound(self.frame));
+        MethodRow {
             variant: variant.clone(),
-            engine: Engine::Scanlines(drawn_by.engine()),
-            level: drawn_by.level(),
-            threads: drawn_by.threads(),
+            drawn_by,
             error,
             own,
-            bound: variant.bound(frame),
-            other_polygon,
+            bound,
+            within_bound: own.max <= bound,
+            other_polygon: error.excluded,
             speed: None,
             picture,
             linear,
         }
     }
+}
 
-    /// The row of a variant in the barycentric renderer, without times; `None` if it does not have the method.
-    pub fn barycentric_row(&self, variant: &Variant) -> Option<Row> {
-        let frame = &self.triangulated.frame;
-        let linear = variant.render_barycentric_linear(frame, Edges::TopLeft)?;
-        let origin = |triangle| {
-            self.triangulated
-                .origins
-                .get(triangle as usize)
-                .copied()
-                .unwrap_or(Visibility::NONE)
-        };
-        let shown = self.barycentric.map(origin);
-        let seen = &self.closed_forms.visibility.polygons;
-        let (error, other_polygon) = difference(&self.phong, &linear, seen, &shown);
-        let own_forms = self.on_triangles.as_ref().unwrap_or(&self.closed_forms);
-        let closed_form = own_forms.picture(frame, variant.info().model);
-        let (own, _) = difference(
-            closed_form,
-            &linear,
-            &own_forms.visibility.polygons,
-            &self.barycentric,
-        );
-        let picture = variant.render_barycentric(frame, Edges::TopLeft)?;
-        Some(Row {
-            variant: variant.clone(),
-            engine: Engine::Barycentric,
-            level: Level::Scalar,
-            threads: 1,
-            error,
-            own,
-            bound: variant.bound(frame),
-            other_polygon,
-            speed: None,
-            picture,
-            linear,
-        })
+impl ClosedForms<'_> {
+    /// Compares `actual` with a closed form where both show the same polygon.
+    fn difference(&self, model: Model, actual: &LinearPicture, shown: &Picture<u32>) -> Difference {
+        difference(
+            self.picture(model),
+            actual,
+            &self.visibility.polygons,
+            shown,
+        )
     }
 }
 
 /// True if all samples of a pixel of `picture` show the same polygon in both.
-pub(super) fn same_polygons(
+fn same_polygons(
     seen: &Picture<u32>,
     shown: &Picture<u32>,
     picture: &LinearPicture,
@@ -159,18 +157,15 @@ pub(super) fn same_polygons(
         .all(|row| seen.row(row)[columns.clone()] == shown.row(row)[columns.clone()])
 }
 
-/// The difference where both show the same polygon, and the number of pixels where they do not.
+/// Compares two pictures where `seen` and `shown` have the same polygon.
 fn difference(
     reference: &LinearPicture,
     actual: &LinearPicture,
     seen: &Picture<u32>,
     shown: &Picture<u32>,
-) -> (Difference, usize) {
-    let difference = compare_where(reference, actual, |x, y| {
-        same_polygons(seen, shown, reference, x, y)
-    });
-    let difference = difference.expect("pictures of one frame have one size");
-    (difference, difference.excluded)
+) -> Difference {
+    let is_same = |x, y| same_polygons(seen, shown, reference, x, y);
+    compare_where(reference, actual, is_same).expect("pictures of one frame have one size")
 }
 
 #[cfg(test)]
@@ -207,9 +202,9 @@ mod tests {
         actual.row_mut(0)[1] = [0.9, 0.9, 0.9, 1.0];
         let seen = Picture::from_texels(2, 1, [3, 4].into()).unwrap();
         let shown = Picture::from_texels(2, 1, [3, 5].into()).unwrap();
-        let (same, none) = difference(&reference, &actual, &seen, &seen);
-        assert!(same.max > 0.39 && none == 0);
-        let (masked, one) = difference(&reference, &actual, &seen, &shown);
-        assert!(masked.equal && masked.compared == 1 && one == 1);
+        let same = difference(&reference, &actual, &seen, &seen);
+        assert!(same.max > 0.39 && same.excluded == 0);
+        let masked = difference(&reference, &actual, &seen, &shown);
+        assert!(masked.equal && masked.compared == 1 && masked.excluded == 1);
     }
 }

@@ -1,92 +1,82 @@
-//! How fast each row is.
+//! Times of all rows of a comparison.
 
-use super::{Engine, Row, counterpart, is_baseline};
-use crate::compare::timing::{Candidate, Limits, Ratio, Timing, time_interleaved};
+use super::{Comparison, MethodRow, counterpart, is_baseline};
+use crate::compare::timing::{Candidate, Ratio, TimeLimits, Timing, time_interleaved};
 use crate::frame::Frame;
 use crate::picture::Picture;
-use crate::raster::{Edges, Renderer};
+use crate::raster::Edges;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::hint::black_box;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-/// What a [`Timing`] of a row holds, in one line.
+/// The work that a [`Timing`] of a row holds, in one line.
 pub const WHAT_IS_TIMED: &str = "from projected frame to stored picture: vertex lighting, rasterization, shading and \
                                  storing, with the memory they take; on as many threads as a row says; not loading, normals, \
                                  projection or triangulation";
 
-/// The speed of a variant. A ratio over 1 means faster than what it is compared with.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The speed of a variant. A ratio over 1 means faster than the other one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Speed {
     /// Times of whole pictures: see [`WHAT_IS_TIMED`].
     pub timing: Timing,
     /// The median time divided by the pixels that any polygon covers; `None` if there are none.
     pub ns_per_covered_pixel: Option<f64>,
-    /// Against naive Phong, drawn as all rows are.
+    /// The ratio to naive Phong, drawn as all rows are.
     pub ratio_to_naive: Option<Ratio>,
-    /// Against the barycentric renderer with the same method where it has it, naive Phong otherwise.
+    /// The ratio to the barycentric renderer with the same method where it has it, naive Phong otherwise.
     pub ratio_to_barycentric: Option<Ratio>,
 }
 
 /// Times all rows together and gives each its speed.
-pub(super) fn take(
+pub(super) fn time(
+    comparison: &mut Comparison,
     frame: &Frame,
     triangles: &Frame,
-    rows: &mut [Row],
-    barycentric: &mut [Row],
-    covered_pixels: usize,
-    (renderer, limits): (Renderer, Limits),
+    limits: TimeLimits,
     progress: impl FnMut(f32),
 ) {
+    let renderer = comparison.requested;
     let mut candidates: Vec<Candidate<'_>> = Vec::new();
-    for row in rows.iter().chain(barycentric.iter()) {
-        let variant = &row.variant;
-        candidates.push(match row.engine {
-            Engine::Scanlines(_) if variant.plan(frame, renderer).renderer == Renderer::Span => {
-                Box::new(move || {
-                    black_box(variant.render(black_box(frame)));
-                })
-            }
-            Engine::Scanlines(_) => Box::new(move || {
-                let mut picture = Picture::new(0, 0, [0; 4]);
-                variant.render_with(black_box(frame), renderer, &mut picture);
-                black_box(picture);
-            }),
-            Engine::Barycentric => Box::new(move || {
-                black_box(variant.render_barycentric(black_box(triangles), Edges::TopLeft));
-            }),
-        });
+    for MethodRow { variant, .. } in &comparison.rows {
+        candidates.push(Box::new(move || {
+            let mut picture = Picture::new(0, 0, [0; 4]);
+            variant.render_with(black_box(frame), renderer, &mut picture);
+            black_box(picture);
+        }));
+    }
+    for MethodRow { variant, .. } in &comparison.barycentric {
+        candidates.push(Box::new(move || {
+            black_box(variant.render_barycentric(black_box(triangles), Edges::TopLeft));
+        }));
     }
     let timings = time_interleaved(&mut candidates, limits, progress);
     drop(candidates);
-    let (of_rows, of_barycentric) = timings.split_at(rows.len());
-    let naive = rows
-        .iter()
-        .position(|row| is_baseline(&row.variant))
-        .map(|i| of_rows[i].clone());
-    let counterpart = |row: &Row| {
+    let (of_rows, of_barycentric) = timings.split_at(comparison.rows.len());
+    let (rows, barycentric) = (&comparison.rows, &comparison.barycentric);
+    let naive = rows.iter().position(|row| is_baseline(&row.variant));
+    let naive = naive.map(|i| &of_rows[i]);
+    let other = |row: &MethodRow| {
         let name = counterpart(&row.variant);
+        let is_it = |other: &MethodRow| other.variant.info().name == name;
         barycentric
             .iter()
-            .position(|other| other.variant.info().name == name)
+            .position(is_it)
             .map(|i| &of_barycentric[i])
     };
-    let speed = |row: &Row, timing: &Timing| {
-        let ratio = |baseline: &Timing| Ratio::paired(&baseline.samples_ns, &timing.samples_ns);
+    let pixels = comparison.covered_pixels;
+    let speed = |(row, timing): (&MethodRow, &Timing)| {
+        let ratio = |to: &Timing| Ratio::paired(&to.samples_ns, &timing.samples_ns);
         Speed {
             timing: timing.clone(),
-            ns_per_covered_pixel: (covered_pixels > 0)
-                .then(|| timing.median_ns / covered_pixels as f64),
-            ratio_to_naive: naive.as_ref().and_then(ratio),
-            ratio_to_barycentric: counterpart(row).and_then(ratio),
+            ns_per_covered_pixel: (pixels > 0).then(|| timing.median_ns / pixels as f64),
+            ratio_to_naive: naive.and_then(ratio),
+            ratio_to_barycentric: other(row).and_then(ratio),
         }
     };
-    let both = rows
-        .iter()
-        .zip(of_rows)
-        .chain(barycentric.iter().zip(of_barycentric));
-    let speeds: Vec<Speed> = both.map(|(row, timing)| speed(row, timing)).collect();
-    for (row, speed) in rows.iter_mut().chain(barycentric).zip(speeds) {
+    let speeds: Vec<Speed> = comparison.all_rows().zip(&timings).map(speed).collect();
+    let rows = comparison.rows.iter_mut();
+    for (row, speed) in rows.chain(&mut comparison.barycentric).zip(speeds) {
         row.speed = Some(speed);
     }
 }

@@ -1,6 +1,6 @@
-//! Comparisons as text: a row a method, in aligned columns. A view of the data by [`Table`].
+//! Comparisons as text for terminals: a row a method, in aligned columns.
 
-use super::{Comparison, Engine, RendererData, Row, Speed};
+use super::{Comparison, DrawnBy, MethodRow, Speed};
 use crate::compare::metrics::Difference;
 use crate::compare::table::Table;
 use crate::compare::timing::Ratio;
@@ -19,21 +19,25 @@ pub enum TableKind {
     Bench,
 }
 
-/// A column: its head, and the cell of a row.
-type Column = (&'static str, fn(&Row) -> String);
+/// A column: its head, and the cell of a row; `None` where there is nothing to say.
+type Column = (&'static str, fn(&MethodRow) -> Option<String>);
 
-const METHOD: Column = ("method", method);
-const MAX: Column = ("max", |row| levels(row.error.max));
-const RMS: Column = ("RMS", |row| levels(row.error.rms));
-const TIME: Column = ("time, ms", |row| speed(row, time));
+const METHOD: Column = ("method", |row| {
+    let is_scanlines = row.drawn_by != DrawnBy::BARYCENTRIC;
+    let by = if is_scanlines { "" } else { ", barycentric" };
+    Some(row.name() + by)
+});
+const MAX: Column = ("max", |row| Some(levels(row.error.max)));
+const RMS: Column = ("RMS", |row| Some(levels(row.error.rms)));
+const TIME: Column = ("time, ms", |row| row.speed.as_ref().map(time));
 const PER_PIXEL: Column = ("ns a pixel", |row| {
-    speed(row, |s| optional(s.ns_per_covered_pixel, significant))
+    Some(significant(row.speed.as_ref()?.ns_per_covered_pixel?))
 });
 const NAIVE: Column = ("× naive-phong", |row| {
-    speed(row, |s| optional(s.ratio_to_naive, |r| ratio(&r)))
+    Some(ratio(&row.speed.as_ref()?.ratio_to_naive?))
 });
 const BARYCENTRIC: Column = ("× barycentric", |row| {
-    speed(row, |s| optional(s.ratio_to_barycentric, |r| ratio(&r)))
+    Some(ratio(&row.speed.as_ref()?.ratio_to_barycentric?))
 });
 
 const SHORT: &[Column] = &[METHOD, MAX, RMS, TIME, NAIVE, BARYCENTRIC];
@@ -42,14 +46,19 @@ const COMPARE: &[Column] = &[
     METHOD,
     MAX,
     RMS,
-    ("PSNR, dB", |row| decibels(&row.error)),
-    ("SSIM", |row| {
-        optional(row.error.ssim, |s| format!("{s:.5}"))
+    ("PSNR, dB", |row| Some(decibels(&row.error))),
+    ("SSIM", |row| Some(format!("{:.5}", row.error.ssim?))),
+    ("brightness", |row| {
+        Some(signed_levels(row.error.signed_mean))
     }),
-    ("brightness", |row| signed_levels(row.error.signed_mean)),
-    ("own max", own),
-    ("over 1 level", |row| row.error.over_one_level.to_string()),
-    ("other polygon", |row| row.other_polygon.to_string()),
+    ("own max", |row| {
+        let mark = if row.within_bound { "" } else { "!" };
+        Some(format!("{mark}{}", levels(row.own.max)))
+    }),
+    ("over 1 level", |row| {
+        Some(row.error.over_one_level.to_string())
+    }),
+    ("other polygon", |row| Some(row.other_polygon.to_string())),
     TIME,
     PER_PIXEL,
     NAIVE,
@@ -60,19 +69,17 @@ const BENCH: &[Column] = &[
     METHOD,
     TIME,
     ("least, ms", |row| {
-        speed(row, |s| milliseconds(s.timing.min_ns))
+        Some(milliseconds(row.speed.as_ref()?.timing.min_ns))
     }),
     ("rounds", |row| {
-        speed(row, |s| s.timing.samples_ns.len().to_string())
+        Some(row.speed.as_ref()?.timing.samples_ns.len().to_string())
     }),
     PER_PIXEL,
     NAIVE,
-    ("95 %", |row| {
-        speed(row, |s| optional(s.ratio_to_naive, interval))
-    }),
+    ("95 %", |row| interval(row.speed.as_ref()?.ratio_to_naive?)),
     BARYCENTRIC,
     ("95 %", |row| {
-        speed(row, |s| optional(s.ratio_to_barycentric, interval))
+        interval(row.speed.as_ref()?.ratio_to_barycentric?)
     }),
     MAX,
     RMS,
@@ -87,178 +94,119 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
     };
     let heads: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
     let mut table = Table::new(&*comparison.name, &heads);
-    let cells = |row| columns.iter().map(|(_, cell)| cell(row)).collect();
+    let cell = |row, (_, cell): &Column| cell(row).unwrap_or_else(|| "-".to_string());
+    let cells = |row| columns.iter().map(|column| cell(row, column)).collect();
     table.rows.extend(comparison.all_rows().map(cells));
     let mut text = head(comparison) + &table.text();
-    if comparison.all_rows().any(|row| !row.is_within_bound()) {
-        text.push_str("! farther from its own closed form than rounding explains\n");
+    if comparison.all_rows().any(|row| !row.within_bound) {
+        text += "! farther from its own closed form than rounding explains\n";
     }
     text
 }
 
-/// What is compared, on what, and how to read it.
+/// Says which frame was drawn by what, and how to read the table.
 fn head(c: &Comparison) -> String {
     let count = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
-    let mut text = format!(
-        "{}: {}×{}, {}",
-        c.name,
-        c.width,
-        c.height,
-        count(c.polygons, "polygon")
-    );
+    let polygons = count(c.polygons, "polygon");
+    let mut text = format!("{}: {}×{}, {polygons}", c.name, c.width, c.height);
     if c.triangles != c.polygons {
-        text.push_str(&format!(" worth {}", count(c.triangles, "triangle")));
+        text += &format!(" worth {}", count(c.triangles, "triangle"));
     }
     let share = 100.0 * c.covered_pixels as f64 / (c.width * c.height) as f64;
-    text.push_str(&format!(
-        ", {} ({share:.1} %) covered",
-        count(c.covered_pixels, "pixel")
-    ));
+    let covered = count(c.covered_pixels, "pixel");
+    text += &format!(", {covered} ({share:.1} %) covered");
     if c.covered_pixels > 0 {
-        text.push_str(&format!(
-            " {:.2} times",
-            c.fragments as f64 / c.covered_pixels as f64
-        ));
+        let times = c.fragments as f64 / c.covered_pixels as f64;
+        text += &format!(" {times:.2} times");
     }
-    text.push_str(&format!(", {}\n", count(c.lights, "light")));
-    for (line, names) in drawn_by(c) {
-        text.push_str(&format!("drawn by {line}{names}\n"));
+    text += &format!(", {}\n", count(c.lights, "light"));
+    for line in drawn_by(c) {
+        text += &format!("drawn by {line}\n");
     }
     if c.not_simple > 0 {
         let crossing = count(c.not_simple, "polygon");
-        text.push_str(&format!(
-            "{crossing} crossing themselves: not drawn by the barycentric renderer\n"
-        ));
+        text += &format!("{crossing} crossing themselves: not drawn by the barycentric renderer\n");
     }
-    text.push_str("errors against the f64 Phong reference, in grey levels (1/255) of linear light before rounding\n");
+    text += "errors against the f64 Phong reference, in grey levels (1/255) of linear light before rounding\n";
     if c.all_rows().any(|row| row.speed.is_some()) {
-        text.push_str(
-            "time: from projected frame to stored picture, median ± half the interquartile range\n",
-        );
-        text.push_str("speed over 1: faster; =: a tie, the 95 % interval holds 1\n");
+        text +=
+            "time: from projected frame to stored picture, median ± half the interquartile range\n";
+        text += "speed over 1: faster; =: a tie, the 95 % interval holds 1\n";
     }
-    text.push('\n');
-    text
+    text + "\n"
 }
 
-/// Who drew what, and on what; all rows on one line if it was the same for all of them.
-fn drawn_by(c: &Comparison) -> Vec<(String, String)> {
-    let mut groups: Vec<(String, Vec<String>)> = Vec::new();
+/// Says which rows were drawn by what; all rows on one line if it was the same for all of them.
+fn drawn_by(c: &Comparison) -> Vec<String> {
+    let mut groups: Vec<(DrawnBy, Vec<String>)> = Vec::new();
     for row in &c.rows {
-        let line = RendererData::of_row(row).line();
-        match groups.iter_mut().find(|(other, _)| *other == line) {
+        match groups.iter_mut().find(|(by, _)| *by == row.drawn_by) {
             Some((_, names)) => names.push(row.name()),
-            None => groups.push((line, Vec::from([row.name()]))),
+            None => groups.push((row.drawn_by, Vec::from([row.name()]))),
         }
     }
-    let several = groups.len() > 1;
-    let names = |names: Vec<String>| {
-        if several {
-            format!(": {}", names.join(", "))
-        } else {
-            String::new()
+    match &groups[..] {
+        [(by, _)] => Vec::from([by.to_string()]),
+        groups => {
+            let line = |(by, names): &(DrawnBy, Vec<String>)| format!("{by}: {}", names.join(", "));
+            groups.iter().map(line).collect()
         }
-    };
-    groups
-        .into_iter()
-        .map(|(line, rows)| (line, names(rows)))
-        .collect()
-}
-
-/// What stands where there is nothing to say.
-const NONE: &str = "-";
-
-fn method(row: &Row) -> String {
-    match row.engine {
-        Engine::Scanlines(_) => row.name(),
-        Engine::Barycentric => format!("{}, barycentric", row.name()),
     }
 }
 
-fn optional<T>(value: Option<T>, text: impl Fn(T) -> String) -> String {
-    value.map_or_else(|| NONE.to_string(), text)
-}
-
-fn speed(row: &Row, text: impl Fn(&Speed) -> String) -> String {
-    optional(row.speed.as_ref(), text)
-}
-
+/// Writes an error in grey levels.
 pub(crate) fn levels(error: f64) -> String {
-    if error == 0.0 {
-        "0".to_string()
-    } else {
-        significant(255.0 * error)
+    match error {
+        0.0 => "0".to_string(),
+        _ => significant(255.0 * error),
     }
 }
 
-pub(crate) fn signed_levels(error: f64) -> String {
-    // What rounds to zero has no sign.
-    let text = format!("{:+.3}", 255.0 * error);
-    if text == "-0.000" {
-        "+0.000".to_string()
-    } else {
-        text
-    }
+/// Writes a difference in grey levels with its sign; what rounds to zero is `+0.000`.
+fn signed_levels(error: f64) -> String {
+    format!("{:+.3}", 255.0 * error).replace("-0.000", "+0.000")
 }
 
-fn own(row: &Row) -> String {
-    format!(
-        "{}{}",
-        if row.is_within_bound() { "" } else { "!" },
-        levels(row.own.max)
-    )
-}
-
-pub(crate) fn decibels(difference: &Difference) -> String {
-    if difference.psnr.is_finite() {
-        format!("{:.1}", difference.psnr)
-    } else {
-        "equal".to_string()
+fn decibels(difference: &Difference) -> String {
+    match difference.psnr.is_finite() {
+        true => format!("{:.1}", difference.psnr),
+        false => "equal".to_string(),
     }
 }
 
 fn time(speed: &Speed) -> String {
     let half_range = (speed.timing.p75_ns - speed.timing.p25_ns) / 2.0;
-    let digits = decimals(speed.timing.median_ns / 1e6);
-    format!(
-        "{} ± {:.digits$}",
-        milliseconds(speed.timing.median_ns),
-        half_range / 1e6
-    )
+    let median = speed.timing.median_ns;
+    let digits = decimals(median / 1e6);
+    format!("{} ± {:.digits$}", milliseconds(median), half_range / 1e6)
 }
 
-pub(crate) fn milliseconds(ns: f64) -> String {
+fn milliseconds(ns: f64) -> String {
     significant(ns / 1e6)
 }
 
-/// Three significant digits, but never in powers of ten, and at most six decimals.
+/// Writes three significant digits, but never in powers of ten, and at most six decimals.
 pub(crate) fn significant(value: f64) -> String {
     format!("{value:.*}", decimals(value))
 }
 
-pub(crate) fn decimals(value: f64) -> usize {
-    (0..6)
-        .find(|&digits| value >= 100.0 / libm::pow(10.0, digits as f64))
-        .unwrap_or(6)
+fn decimals(value: f64) -> usize {
+    let is_enough = |digits: &usize| value >= 100.0 / libm::pow(10.0, *digits as f64);
+    (0..6).find(is_enough).unwrap_or(6)
 }
 
+/// Writes a ratio; `=` before it says that its interval holds 1. The baseline itself is 1 in every round.
 fn ratio(ratio: &Ratio) -> String {
-    // Every round the same as the baseline: it is the baseline.
-    if ratio.low == 1.0 && ratio.high == 1.0 {
-        return "1".to_string();
+    let tie = if ratio.tie { "=" } else { "" };
+    match (ratio.low, ratio.high) {
+        (1.0, 1.0) => "1".to_string(),
+        _ => format!("{tie}{:.2}", ratio.median),
     }
-    format!(
-        "{}{:.2}",
-        if ratio.is_tie() { "=" } else { "" },
-        ratio.median
-    )
 }
 
-fn interval(ratio: Ratio) -> String {
-    if ratio.low == 1.0 && ratio.high == 1.0 {
-        return NONE.to_string();
-    }
-    format!("{:.2} to {:.2}", ratio.low, ratio.high)
+fn interval(ratio: Ratio) -> Option<String> {
+    let is_baseline = (ratio.low, ratio.high) == (1.0, 1.0);
+    (!is_baseline).then(|| format!("{:.2} to {:.2}", ratio.low, ratio.high))
 }
 
 #[cfg(test)]
@@ -294,27 +242,10 @@ mod tests {
 
     #[test]
     fn ties_are_marked() {
-        assert_eq!(
-            ratio(&Ratio {
-                median: 1.5,
-                low: 1.4,
-                high: 1.6
-            }),
-            "1.50"
-        );
-        assert_eq!(
-            ratio(&Ratio {
-                median: 1.01,
-                low: 0.99,
-                high: 1.03
-            }),
-            "=1.01"
-        );
-        let itself = Ratio {
-            median: 1.0,
-            low: 1.0,
-            high: 1.0,
-        };
-        assert_eq!([ratio(&itself), interval(itself)], ["1", "-"]);
+        let text = |low, median, high| ratio(&Ratio::new(low, median, high));
+        assert_eq!(text(1.4, 1.5, 1.6), "1.50");
+        assert_eq!(text(0.99, 1.01, 1.03), "=1.01");
+        assert_eq!(text(1.0, 1.0, 1.0), "1");
+        assert_eq!(interval(Ratio::new(1.0, 1.0, 1.0)), None);
     }
 }

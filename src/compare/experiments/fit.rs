@@ -1,18 +1,18 @@
 //! Costs that add up to times: least squares of relative errors, with no cost below zero.
 
-/// One observation: how often each cost arises, what they add up to, and how large an error of 1 is there.
+/// An observed total, and the counts of the costs that make it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observation<const N: usize> {
-    /// How often each cost arises.
+    /// The count of each cost.
     pub counts: [f64; N],
-    /// What is to be explained, in the unit of the costs.
+    /// The sum of all costs, in their unit.
     pub total: f64,
-    /// What errors are divided by, over 0: the total itself for relative ones.
+    /// The divisor of errors, over 0: the total itself for relative ones.
     pub scale: f64,
 }
 
 impl<const N: usize> Observation<N> {
-    /// What `costs` add up to here.
+    /// Returns the sum of `costs` here.
     fn explained(&self, costs: &[f64; N]) -> f64 {
         self.counts
             .iter()
@@ -22,11 +22,11 @@ impl<const N: usize> Observation<N> {
     }
 }
 
-/// What of a column must be left when all others have explained what they can of it, as a part of its length. With less,
-/// noise of a hundredth in the totals could be taken for the whole of a cost.
+/// The least part of a column that the other columns must not explain. With less, noise of a hundredth in the totals could
+/// be taken for the whole of a cost.
 const LEAST_OF_ITS_OWN: f64 = 0.01;
 
-/// The costs c of 0 or more that make
+/// Returns the costs c of 0 or more that make
 ///
 /// ```text
 /// Σᵢ ((totalᵢ − Σⱼ cⱼ countᵢⱼ) / scaleᵢ)²
@@ -35,8 +35,8 @@ const LEAST_OF_ITS_OWN: f64 = 0.01;
 /// least; `None` if the observations cannot tell them apart: fewer of them than costs, a cost that never arises, or one whose
 /// counts are nearly multiples of the others'; or if a number is not finite or a scale not over 0.
 ///
-/// Where the least sum has all costs over 0 it is that of ordinary least squares over those that are, so that trying every
-/// subset of the few costs finds it (Lawson & Hanson 1974, ch. 23, take more care where there are many).
+/// Tries ordinary least squares over every subset of the costs, the others 0: one of them is the least sum (Lawson & Hanson
+/// 1974, ch. 23, take more care where there are many).
 ///
 /// ```
 /// use fastphong::compare::experiments::{Observation, fit};
@@ -56,7 +56,7 @@ pub fn fit<const N: usize>(observations: &[Observation<N>]) -> Option<[f64; N]> 
     if observations.len() < N || !observations.iter().all(is_sound) {
         return None;
     }
-    // Who cannot be told apart together are refused, also where the best subset could be.
+    // Costs that cannot be told apart are refused, even if the best subset leaves some of them out.
     solve(observations, all)?;
     let mut best = ([0.0; N], cost_of(observations, &[0.0; N]));
     for subset in 1..=all {
@@ -79,14 +79,14 @@ fn cost_of<const N: usize>(observations: &[Observation<N>], costs: &[f64; N]) ->
     observations.iter().map(square).sum()
 }
 
-/// Ordinary least squares over the costs whose bits are in `subset`, the others 0: columns of unit length made orthogonal
+/// Solves ordinary least squares over the costs whose bits are in `subset`, the others 0: columns of unit length made orthogonal
 /// one after the other (modified Gram–Schmidt), then solved backward.
 fn solve<const N: usize>(observations: &[Observation<N>], subset: u32) -> Option<[f64; N]> {
     use alloc::vec::Vec;
     let chosen: Vec<usize> = (0..N).filter(|j| subset >> j & 1 == 1).collect();
     let mut right: Vec<f64> = observations.iter().map(|o| o.total / o.scale).collect();
     let (mut columns, mut lengths): (Vec<Vec<f64>>, Vec<f64>) = Default::default();
-    // Row k: what the orthogonal column k has of each later column, then of the right-hand side.
+    // Row k: the parts of each later column along the orthogonal column k, then that of the right-hand side.
     let mut triangle: Vec<Vec<f64>> = Vec::new();
     for &j in &chosen {
         let column: Vec<f64> = observations.iter().map(|o| o.counts[j] / o.scale).collect();
@@ -180,7 +180,7 @@ mod tests {
         }
     }
 
-    /// What the fit finds explains the noisy totals no worse than the true costs do, as it is the least: and those are off by
+    /// The fitted costs explain the noisy totals no worse than the true costs do, as it is the least: and those are off by
     /// the noise, 5 % of it at most 5/95 of what was measured, in each of eight.
     #[test]
     fn with_noise_no_total_is_missed_by_much_more_than_it() {

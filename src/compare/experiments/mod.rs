@@ -1,9 +1,9 @@
-//! Studies: what a whole report says beside its scenes, measured on meshes of its own.
+//! Experiments: measurements of a whole report beside its scenes, on spheres.
 //!
-//! - [`Speedups`]: how many times as fast as naive Phong each method is, in scalar and in wide arithmetic, where it shades
-//!   alone and in a whole frame: what fast Phong gained when it was invented, and what is left of it.
-//! - [`Scaling`]: how the time of a frame grows with triangles and with pixels, and what a vertex, a triangle, a span and a
-//!   pixel cost.
+//! - [`Speedups`]: speeds of all methods as multiples of naive Phong's, in scalar and SIMD arithmetic, shading alone and in
+//!   a whole frame: the gain of fast Phong when it was invented, and today.
+//! - [`Scaling`]: the growth of a frame's time with triangles and with pixels, and the costs of a vertex, a triangle, a
+//!   span and a pixel.
 //!
 //! Both time on the threads of rayon's current pool: one, where times are to be compared with others.
 
@@ -14,10 +14,10 @@ mod speedups;
 mod tests;
 
 pub use fit::{Observation, fit};
-pub use scaling::{Axis, Costs, Curve, Point, Scaling, ScalingOptions};
-pub use speedups::{Corner, MethodSpeedups, Speedup, SpeedupOptions, Speedups, Work};
+pub use scaling::{Costs, Curve, Point, Scaling, ScalingOptions};
+pub use speedups::{MethodSpeedups, SpeedCorner, Speedup, SpeedupOptions, Speedups, Work};
 
-use super::comparison::BASELINE;
+use super::comparison::with_baseline;
 use super::timing::Candidate;
 use crate::frame::{Frame, FrameError, PreparedScene};
 use crate::mesh::builtin::{BuiltinError, builtin};
@@ -33,31 +33,26 @@ use core::cell::RefCell;
 use core::fmt;
 use core::hint::black_box;
 
-/// What the time of a whole frame holds, in one line.
-pub const WHAT_A_FRAME_IS: &str = "from the prepared scene to the stored picture in RGBA8, in the memory of the frame \
-                                   before: projection, culling, vertex lighting, rasterization, shading and storing; on \
-                                   one thread; not vertex normals";
-
-/// Why a study could not be made: the mesh or the picture it is measured on refused.
+/// The reason why an experiment could not be made: its mesh or its picture.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error(transparent)]
-pub enum StudyError {
+pub enum ExperimentError {
     /// There is no mesh of so many polygons.
     Mesh(#[from] BuiltinError),
     /// There is no picture of that size.
     Frame(#[from] FrameError),
 }
 
-/// The sphere of about so many triangles, as one names it on the command line without `builtin:`.
+/// Returns the name of a sphere of about so many triangles, without `builtin:`.
 fn sphere(triangles: impl fmt::Display) -> String {
     format!("sphere?polygons={triangles}&triangles=true")
 }
 
-/// A scene ready for frames of `size`; mesh and scene are gone then.
+/// Prepares a sphere for frames of a size; mesh and scene are gone then.
 fn prepared_sphere(
     triangles: usize,
     [width, height]: [u32; 2],
-) -> Result<PreparedScene, StudyError> {
+) -> Result<PreparedScene, ExperimentError> {
     let mut scene = Scene::of_mesh(builtin(&sphere(triangles))?);
     (scene.width, scene.height) = (width, height);
     Ok(scene.prepare()?)
@@ -74,7 +69,7 @@ impl Canvas {
         ))))
     }
 
-    /// Projects the scene.
+    /// Returns a candidate that projects the scene.
     fn projects<'a>(&'a self, scene: &'a PreparedScene) -> Candidate<'a> {
         Box::new(move || {
             let (frame, _) = &mut *self.0.borrow_mut();
@@ -85,7 +80,7 @@ impl Canvas {
         })
     }
 
-    /// Projects the scene and draws it.
+    /// Returns a candidate that projects the scene and draws it.
     fn draws<'a>(
         &'a self,
         scene: &'a PreparedScene,
@@ -103,21 +98,13 @@ impl Canvas {
     }
 }
 
-/// `variants`, after naive Phong if that is not among them.
-fn with_baseline(variants: &[Variant]) -> Vec<Variant> {
-    crate::compare::comparison::with_baseline(variants)
-}
-
-/// Those of `names` that are among `variants`, and naive Phong in any case, with their default parameters.
+/// Returns those of `names` that are among `variants`, and naive Phong in any case, with their default parameters.
 fn chosen(names: &[&str], variants: &[Variant]) -> Vec<Variant> {
+    let variants = with_baseline(variants);
     let is_asked = |name: &str| {
-        name == BASELINE
-            || variants
-                .iter()
-                .any(|v| v.info().name == name && v.is_default())
+        let mut same = variants.iter().filter(|v| v.info().name == name);
+        names.contains(&name) && same.any(Variant::is_default)
     };
-    let entries = METHODS
-        .iter()
-        .filter(|entry| names.contains(&entry.info.name) && is_asked(entry.info.name));
+    let entries = METHODS.iter().filter(|entry| is_asked(entry.info.name));
     entries.map(|entry| entry.variant()).collect()
 }

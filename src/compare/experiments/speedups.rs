@@ -1,8 +1,8 @@
-//! How many times as fast as naive Phong each method is: scalar and wide, shading alone and in a whole frame.
+//! Speeds of all methods as multiples of naive Phong's: scalar and SIMD, shading alone and in a whole frame.
 
-use super::{Canvas, StudyError, prepared_sphere, sphere, with_baseline};
-use crate::compare::comparison::BASELINE;
-use crate::compare::timing::{Candidate, Limits, Ratio, SpanRow, Timing, time_interleaved};
+use super::{Canvas, ExperimentError, prepared_sphere, sphere};
+use crate::compare::comparison::{is_baseline, with_baseline};
+use crate::compare::timing::{Candidate, Ratio, SpanRow, TimeLimits, Timing, time_interleaved};
 use crate::frame::PreparedScene;
 use crate::number::Level;
 use crate::picture::Picture8;
@@ -16,12 +16,12 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::hint::black_box;
 use core::time::Duration;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The angle between the normals at the ends of the span, in degrees: that of a coarse mesh.
 const DEGREES: f32 = 20.0;
 
-/// What is drawn, and for how long.
+/// The mesh, picture and span to draw, and the time to spend.
 #[derive(Clone, Debug)]
 pub struct SpeedupOptions {
     /// Triangles of the sphere, about.
@@ -30,18 +30,18 @@ pub struct SpeedupOptions {
     pub size: [u32; 2],
     /// Pixels of a span; whole groups of eight.
     pub span: usize,
-    /// How long all is timed.
-    pub limits: Limits,
+    /// The time of all.
+    pub limits: TimeLimits,
 }
 
 impl Default for SpeedupOptions {
-    /// A sphere of 5,000 triangles on 1920 × 1080 pixels, spans of 1,024, six seconds.
+    /// Returns a sphere of 5,000 triangles on 1920 × 1080 pixels, spans of 1,024, six seconds.
     fn default() -> Self {
         SpeedupOptions {
             triangles: 5_000,
             size: [1920, 1080],
             span: 1_024,
-            limits: Limits {
+            limits: TimeLimits {
                 time_budget: Duration::from_secs(6),
                 rounds: 25,
                 warm_up_rounds: 2,
@@ -50,42 +50,33 @@ impl Default for SpeedupOptions {
     }
 }
 
-/// What is timed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// The work that is timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Work {
     /// A long span shaded by the method alone: vertices and set-up, then every pixel.
     Kernel,
-    /// A whole frame: see [`super::WHAT_A_FRAME_IS`].
+    /// A whole frame, from the prepared scene to the stored picture in RGBA8, in the memory of the frame before: projection,
+    /// culling, vertex lighting, rasterization, shading and storing; on one thread; not vertex normals.
     Frame,
 }
 
-impl Work {
-    /// Returns the word for it: `kernel` or `frame`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Work::Kernel => "kernel",
-            Work::Frame => "frame",
-        }
-    }
-}
-
 /// One of the ways in which every method is timed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Corner {
-    /// What is timed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SpeedCorner {
+    /// The work that is timed.
     pub work: Work,
-    /// True if it is that of the lecture: one pixel at a time, frames in [`Renderer::LECTURE`]; else all that this machine
-    /// has, frames by [`Renderer::fastest`].
+    /// True for the lecture's way: one pixel at a time, frames in [`Renderer::LECTURE`]; else the fastest of this machine,
+    /// frames by [`Renderer::fastest`].
     pub scalar: bool,
     /// The instruction set.
-    pub level: String,
+    pub level: &'static str,
     /// Lights.
     pub lights: usize,
 }
 
-/// How fast a method is in one corner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The speed of a method in one corner.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Speedup {
     /// Times of one span or frame.
     pub timing: Timing,
@@ -93,8 +84,8 @@ pub struct Speedup {
     pub ratio_to_naive: Option<Ratio>,
 }
 
-/// How fast a method is in all corners.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The speeds of a method in all corners.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MethodSpeedups {
     /// The variant, as a user names it.
     pub method: String,
@@ -104,15 +95,8 @@ pub struct MethodSpeedups {
     pub corners: Vec<Speedup>,
 }
 
-impl MethodSpeedups {
-    /// True if its picture is that of naive Phong, to one grey level.
-    pub fn is_same_picture(&self) -> bool {
-        self.levels_off <= 1
-    }
-}
-
-/// What fast Phong gained when it was invented, and what is left of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The gain of fast Phong when it was invented, and today.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Speedups {
     /// The mesh of the frames.
     pub mesh: String,
@@ -120,24 +104,24 @@ pub struct Speedups {
     pub size: [u32; 2],
     /// Pixels of a span.
     pub span: usize,
-    /// Kernels scalar and wide, frames scalar and wide, with one light; then kernels with four. Where the machine has no wide
-    /// arithmetic, there are no kernels in it.
-    pub corners: Vec<Corner>,
+    /// Kernels scalar and SIMD, frames scalar and SIMD, with one light; then kernels with four. A machine without SIMD has no
+    /// such kernels.
+    pub corners: Vec<SpeedCorner>,
     /// The methods; naive Phong is among them.
     pub methods: Vec<MethodSpeedups>,
 }
 
 impl Speedups {
-    /// Draws and times `variants`, and naive Phong, in one interleaved run on the current pool of threads. `progress` is told
-    /// which part is done, 0..=1, and what is being done; never while a time is taken.
+    /// Draws and times `variants`, and naive Phong, in one interleaved run on the current pool of threads. `progress` hears
+    /// which part is done, 0..=1, and what comes next; never while a time is taken.
     ///
     /// # Errors
-    /// [`StudyError`] if there is no such mesh or picture.
+    /// [`ExperimentError`] if there is no such mesh or picture.
     pub fn measure(
         variants: &[Variant],
         options: &SpeedupOptions,
         progress: &mut dyn FnMut(f32, &str),
-    ) -> Result<Speedups, StudyError> {
+    ) -> Result<Speedups, ExperimentError> {
         let variants = with_baseline(variants);
         progress(0.0, "pictures");
         let scene = prepared_sphere(options.triangles, options.size)?;
@@ -159,58 +143,45 @@ impl Speedups {
             progress(part, "timing")
         });
         drop(candidates);
-        let naive = variants.iter().position(is_naive).unwrap_or(0);
+        let naive = variants.iter().position(is_baseline).unwrap_or(0);
         let speedup = |method: usize, corner: usize| {
-            let of = |method: usize| &timings[corner * variants.len() + method];
-            let ratio = Ratio::paired(&of(naive).samples_ns, &of(method).samples_ns);
+            let timing = |method: usize| &timings[corner * variants.len() + method];
+            let (naive, timing) = (timing(naive), timing(method));
             Speedup {
-                timing: of(method).clone(),
-                ratio_to_naive: ratio,
+                timing: timing.clone(),
+                ratio_to_naive: Ratio::paired(&naive.samples_ns, &timing.samples_ns),
             }
         };
-        let methods =
-            variants
-                .iter()
-                .zip(levels_off)
-                .enumerate()
-                .map(|(i, (variant, levels_off))| MethodSpeedups {
-                    method: variant.to_string(),
-                    levels_off,
-                    corners: (0..corners.len())
-                        .map(|corner| speedup(i, corner))
-                        .collect(),
-                });
-        let methods = methods.collect();
-        let (mesh, size) = (
-            format!("builtin:{}", sphere(options.triangles)),
-            options.size,
-        );
+        let method = |(i, (variant, levels_off)): (usize, (&Variant, u8))| MethodSpeedups {
+            method: variant.to_string(),
+            levels_off,
+            corners: (0..corners.len())
+                .map(|corner| speedup(i, corner))
+                .collect(),
+        };
+        let methods = variants.iter().zip(levels_off).enumerate();
         Ok(Speedups {
-            mesh,
-            size,
+            mesh: format!("builtin:{}", sphere(options.triangles)),
+            size: options.size,
             span: options.span,
+            methods: methods.map(method).collect(),
             corners,
-            methods,
         })
     }
 }
 
-/// How frames are drawn in the corners of the lecture, and in those of today.
+/// Returns the renderer of frames in the corners of the lecture, or in those of today.
 fn renderer(scalar: bool) -> Renderer {
-    if scalar {
-        Renderer::LECTURE
-    } else {
-        Renderer::fastest()
-    }
+    Renderer::on(level(scalar))
 }
 
-/// The instruction set of the kernels.
+/// Returns the instruction set of the kernels.
 fn level(scalar: bool) -> Level {
     if scalar { Level::Scalar } else { Level::best() }
 }
 
-/// All corners that this machine has.
-fn corners() -> Vec<Corner> {
+/// Returns all corners that this machine has.
+fn corners() -> Vec<SpeedCorner> {
     let best = Level::best();
     let all = [
         (Work::Kernel, true, 1),
@@ -220,20 +191,20 @@ fn corners() -> Vec<Corner> {
         (Work::Kernel, true, 4),
         (Work::Kernel, false, 4),
     ];
-    // The widest kernel of a machine without wide arithmetic is the scalar one, which is there already.
+    // The best kernel of a machine without SIMD is the scalar one, which is there already.
     let differ = all
         .into_iter()
         .filter(|(work, scalar, _)| *scalar || *work == Work::Frame || best != Level::Scalar);
-    let corner = |(work, scalar, lights)| Corner {
+    let corner = |(work, scalar, lights)| SpeedCorner {
         work,
         scalar,
-        level: level(scalar).name().to_string(),
+        level: level(scalar).name(),
         lights,
     };
     differ.map(corner).collect()
 }
 
-/// A span shaded by the method alone.
+/// Returns a candidate that shades a span by the method alone.
 fn kernel(variant: &Variant, level: Level, lights: usize, length: usize) -> Candidate<'_> {
     let bench = SpanBench::new(DEGREES, lights);
     if level == Level::Scalar {
@@ -244,13 +215,13 @@ fn kernel(variant: &Variant, level: Level, lights: usize, length: usize) -> Cand
     Box::new(move || variant.shade_span_on(level, black_box(&bench), black_box(&mut row)))
 }
 
-/// How far what each variant draws is from what naive Phong does, in all corners.
+/// Returns the largest difference of each variant's pictures from naive Phong's, in all corners.
 fn levels_off(
     variants: &[Variant],
     scene: &PreparedScene,
-    corners: &[Corner],
+    corners: &[SpeedCorner],
     span: usize,
-) -> Result<Vec<u8>, StudyError> {
+) -> Result<Vec<u8>, ExperimentError> {
     let frame = scene.frame()?;
     let mut off = vec![0; variants.len()];
     for corner in corners {
@@ -262,23 +233,18 @@ fn levels_off(
                 picture
             }
         };
-        let Some(naive) = variants.iter().find(|variant| is_naive(variant)) else {
-            continue;
-        };
-        let naive = drawn(naive);
-        for (off, variant) in off.iter_mut().zip(variants) {
-            *off = farthest(&naive, &drawn(variant)).max(*off);
+        if let Some(naive) = variants.iter().find(|variant| is_baseline(variant)) {
+            let naive = drawn(naive);
+            for (off, variant) in off.iter_mut().zip(variants) {
+                *off = farthest(&naive, &drawn(variant)).max(*off);
+            }
         }
     }
     Ok(off)
 }
 
-fn is_naive(variant: &Variant) -> bool {
-    variant.info().name == BASELINE && variant.is_default()
-}
-
-/// A span as it would be stored.
-fn span_picture(variant: &Variant, corner: &Corner, length: usize) -> Picture8 {
+/// Draws a span as it would be stored.
+fn span_picture(variant: &Variant, corner: &SpeedCorner, length: usize) -> Picture8 {
     let bench = SpanBench::new(DEGREES, corner.lights);
     let mut picture = Picture8::new(length, 1, [0; 4]);
     if corner.scalar {
@@ -296,12 +262,12 @@ fn span_picture(variant: &Variant, corner: &Corner, length: usize) -> Picture8 {
     picture
 }
 
-/// The largest difference of a channel of two pictures of one size, in grey levels.
+/// Returns the largest difference of a channel of two pictures of one size, in grey levels.
 fn farthest(a: &Picture8, b: &Picture8) -> u8 {
-    let texels = a.texels().iter().zip(b.texels());
-    texels
-        .flat_map(|(a, b)| a.iter().zip(b))
-        .map(|(a, b)| a.abs_diff(*b))
-        .max()
-        .unwrap_or(0)
+    let channels = a
+        .texels()
+        .as_flattened()
+        .iter()
+        .zip(b.texels().as_flattened());
+    channels.map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
 }

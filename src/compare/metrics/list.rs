@@ -2,8 +2,13 @@
 
 use super::Difference;
 
-/// Which values of a metric are good.
+/// The good values of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "io",
+    derive(serde::Serialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum Better {
     /// The lower the better.
     Lower,
@@ -15,21 +20,23 @@ pub enum Better {
 
 /// One number of a [`Difference`], for people.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "io", derive(serde::Serialize))]
 pub struct MetricInfo {
-    /// What it is called on the command line and in tables.
+    /// The name on the command line and in tables.
     pub name: &'static str,
     /// The unit that `value` states it in; empty for a plain number.
     pub unit: &'static str,
-    /// What it says, in one line.
+    /// The meaning, in one line.
     pub meaning: &'static str,
-    /// Which values are good.
+    /// The good values.
     pub better: Better,
     /// The number in `unit`; `None` where the pictures do not have it.
+    #[cfg_attr(feature = "io", serde(skip))]
     pub value: fn(&Difference) -> Option<f64>,
 }
 
 impl MetricInfo {
-    /// The metric called `name`.
+    /// Returns the metric called `name`.
     pub fn named(name: &str) -> Option<&'static MetricInfo> {
         METRICS.iter().find(|metric| metric.name == name)
     }

@@ -1,8 +1,8 @@
 //! Difference as a picture.
 //!
 //! Both maps are drawn on a scale that the caller states, in grey levels, and never on one fitted to the picture: maps
-//! of different methods can only be compared on the same scale. What is equal is black and any difference, however
-//! small, is not; what is beyond the scale has a colour that the scale does not contain.
+//! of different methods can only be compared on the same scale. Equal pixels are black and any difference, however small,
+//! is not; larger differences than the scale have a colour that the scale does not contain.
 
 use super::{SizeMismatch, channel_errors};
 use crate::picture::{Levels, Picture, Picture8, Texel};
@@ -16,12 +16,12 @@ pub const BEYOND_DARKER: [u8; 4] = [0, 255, 0, 255];
 /// Colour of pixels that only one of the pictures covers, whatever their difference.
 pub const COVERAGE: [u8; 4] = [255, 255, 255, 255];
 
-/// Ends of the signed map's ramp for what is too bright: orange, from dark to light.
+/// Ends of the signed map's ramp for pixels that are too bright: orange, from dark to light.
 const BRIGHTER: [[f64; 3]; 2] = [[80.0, 32.0, 8.0], [255.0, 196.0, 120.0]];
-/// Ends of its ramp for what is too dark: blue, which is told from orange by colour-blind eyes as well.
+/// Ends of its ramp for pixels that are too dark: blue, which colour-blind eyes tell from orange, too.
 const DARKER: [[f64; 3]; 2] = [[16.0, 40.0, 92.0], [136.0, 200.0, 255.0]];
 
-/// The absolute difference of two pictures, the largest of a pixel's channels, in the colours of viridis.
+/// Draws the absolute difference of two pictures, the largest of a pixel's channels, in the colours of viridis.
 ///
 /// Purple is the smallest difference, yellow one of `scale` grey levels. Black: equal; [`BEYOND`]: more than `scale`, or
 /// not finite; [`COVERAGE`]: covered by one picture only. Every difference is beyond a scale that is zero, negative or NaN.
@@ -43,7 +43,7 @@ pub fn difference_map<A: Texel, B: Texel>(
     })
 }
 
-/// The difference of luminance of two pictures, with its sign: orange where `actual` is too bright, blue where it is too dark.
+/// Draws the difference of luminance of two pictures, with its sign: orange where `actual` is too bright, blue where it is too dark.
 ///
 /// The darkest orange or blue is the smallest difference, the lightest one of `scale` grey levels. Black: equal in
 /// luminance; [`BEYOND`], [`BEYOND_DARKER`]: too bright or too dark by more than `scale`; [`COVERAGE`]: covered by one

@@ -1,7 +1,7 @@
-//! A picture against a picture: how far a method is from the reference, in numbers and as a map.
+//! A picture against a picture: the error of a method in numbers and as a map.
 //!
-//! Values are compared as they are stored: linear pictures in linear light, encoded ones in their encoding. Two pictures
-//! tell something about each other only if both are stored the same way.
+//! Values are compared as stored: linear pictures in linear light, encoded ones in their encoding. Compare only pictures
+//! that are stored the same way.
 //!
 //! Errors are kept in 0..=1, as colours are; [`METRICS`] states them in grey levels (1/255), as people do.
 //!
@@ -43,12 +43,12 @@ pub use map::{BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, difference_map, signed_dif
 /// Share of the compared pixels whose error does not exceed [`Difference::p99`].
 const PERCENTILE: f64 = 0.99;
 
-/// How far one picture is from another.
+/// The difference between two pictures, in numbers.
 ///
 /// A pixel's error is the largest absolute difference of its three channels, in 0..=1 for values in 0..=1. A channel
 /// that is not finite in one of the pictures counts as an error of 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "io", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "io", derive(serde::Serialize))]
 pub struct Difference {
     /// True if the pictures agree in the colour and coverage of every pixel, excluded ones aside.
     pub equal: bool,
@@ -78,12 +78,11 @@ pub struct Difference {
     pub mae: f64,
     /// Root of the mean squared error over the channels of the compared pixels.
     pub rms: f64,
-    /// The same over the whole frame.
+    /// Root of the mean squared error over the whole frame.
     pub frame_rms: f64,
     /// Mean of the luminance of the actual picture minus the reference's, over the compared pixels: positive if it is too bright.
     pub signed_mean: f64,
-    /// Peak signal-to-noise ratio over the whole frame, −20 log₁₀ `frame_rms`, in dB; infinite if no colour differs (`null` when serialised).
-    #[cfg_attr(feature = "io", serde(with = "infinite_as_null"))]
+    /// Peak signal-to-noise ratio over the whole frame, −20 log₁₀ `frame_rms`, in dB; infinite if no colour differs (JSON has `null` for that).
     pub psnr: f64,
     /// Mean structural similarity of luminance over the whole frame (Wang et al. 2004: 11×11 Gaussian window, σ = 1.5,
     /// K1 = 0.01, K2 = 0.03, L = 1), 1 for equal pictures; `None` if the frame is smaller than the window.
@@ -93,30 +92,13 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// The share of the compared pixels that `count` pixels are, in 0..=1; 0 if none was compared.
+    /// Returns the share of the compared pixels that `count` pixels are, in 0..=1; 0 if none was compared.
     pub fn share(&self, count: usize) -> f64 {
         if self.compared == 0 {
             0.0
         } else {
             count as f64 / self.compared as f64
         }
-    }
-}
-
-/// JSON has no infinity: an infinite ratio is stored as null.
-#[cfg(feature = "io")]
-mod infinite_as_null {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(decibels: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-        decibels
-            .is_finite()
-            .then_some(*decibels)
-            .serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
     }
 }
 
@@ -158,7 +140,7 @@ impl fmt::Display for SizeMismatch {
 
 impl core::error::Error for SizeMismatch {}
 
-/// The difference of `actual` from `reference`, over all pixels.
+/// Returns the difference of `actual` from `reference`, over all pixels.
 ///
 /// ```
 /// use fastphong::compare::metrics::{METRICS, compare};
@@ -183,10 +165,10 @@ pub fn compare<A: Texel, B: Texel>(
     compare_where(reference, actual, |_, _| true)
 }
 
-/// The difference of `actual` from `reference`, over the pixels for whose column and row `included` holds.
+/// Returns the difference of `actual` from `reference`, over the pixels for whose column and row `included` holds.
 ///
-/// For pixels that are known to differ for a reason other than the one asked about, such as those where two renderers
-/// show different polygons: they are counted in [`Difference::excluded`] and enter nothing else.
+/// Exclude pixels that differ for a known reason, such as those where two renderers show different polygons: they are
+/// counted in [`Difference::excluded`] and enter nothing else.
 ///
 /// # Errors
 /// If the sizes differ.
@@ -197,63 +179,54 @@ pub fn compare_where<A: Texel, B: Texel>(
 ) -> Result<Difference, SizeMismatch> {
     SizeMismatch::check(reference, actual)?;
     let (width, height) = (reference.width(), reference.height());
-    let mut tally = Tally::default();
-    let mut luminance = [
-        Vec::with_capacity(width * height),
-        Vec::with_capacity(width * height),
-    ];
+    let mut sums = ErrorSums::default();
+    let mut luminance = [(); 2].map(|()| Vec::with_capacity(width * height));
     for y in 0..height {
         for (x, (r, a)) in reference.row(y).iter().zip(actual.row(y)).enumerate() {
             let (r, a) = (r.levels(), a.levels());
             let included = included(x, y);
             if included {
-                tally.add([x, y], r, a);
+                sums.add([x, y], r, a);
             } else {
-                tally.excluded += 1;
+                sums.counts.excluded += 1;
             }
             luminance[0].push(r.luminance() / 255.0);
             luminance[1].push(if included { a } else { r }.luminance() / 255.0);
         }
     }
     let [reference, actual] = &luminance;
-    Ok(tally.finish(ssim::mean_ssim(reference, actual, width)))
+    Ok(sums.finish(ssim::mean_ssim(reference, actual, width)))
 }
 
 /// Sums over pixels, in grey levels.
 #[derive(Default)]
-struct Tally {
-    frame: usize,
-    excluded: usize,
-    differing: usize,
-    over_half_level: usize,
-    over_one_level: usize,
-    coverage_mismatches: usize,
-    not_finite: usize,
-    max: f64,
-    worst: Option<[usize; 2]>,
+struct ErrorSums {
+    /// The counts, and the largest error.
+    counts: Difference,
     absolute: f64,
     squares: f64,
     signed: f64,
-    /// One per compared pixel.
+    /// The error of each compared pixel.
     errors: Vec<f64>,
 }
 
-impl Tally {
+impl ErrorSums {
     fn add(&mut self, at: [usize; 2], reference: Levels, actual: Levels) {
-        self.frame += 1;
+        let counts = &mut self.counts;
+        counts.frame += 1;
         let differs = reference.rgb() != actual.rgb();
-        self.coverage_mismatches += usize::from(reference.alpha() != actual.alpha());
+        counts.coverage_mismatches += usize::from(reference.alpha() != actual.alpha());
         if !differs && reference.alpha() == 0.0 && actual.alpha() == 0.0 {
             return;
         }
         let channels = channel_errors(reference, actual);
         let error = channels.errors.into_iter().fold(0.0, f64::max);
-        self.differing += usize::from(differs);
-        self.not_finite += usize::from(channels.not_finite);
-        self.over_half_level += usize::from(error > 0.5);
-        self.over_one_level += usize::from(error > 1.0);
-        if error > self.max {
-            (self.max, self.worst) = (error, Some(at));
+        counts.differing += usize::from(differs);
+        counts.not_finite += usize::from(channels.not_finite);
+        counts.over_half_level += usize::from(error > 0.5);
+        counts.over_one_level += usize::from(error > 1.0);
+        if error > counts.max {
+            (counts.max, counts.worst) = (error, Some(at));
         }
         self.absolute += channels.errors.iter().sum::<f64>();
         self.squares += channels.errors.iter().map(|e| e * e).sum::<f64>();
@@ -262,27 +235,16 @@ impl Tally {
     }
 
     fn finish(mut self, ssim: Option<f64>) -> Difference {
-        let compared = self.errors.len();
-        let mean = |sum: f64, pixels: usize| {
-            if pixels == 0 {
-                0.0
-            } else {
-                sum / pixels as f64
-            }
+        let (counts, compared) = (self.counts, self.errors.len());
+        let mean = |sum: f64, pixels: usize| match pixels {
+            0 => 0.0,
+            pixels => sum / pixels as f64,
         };
-        let frame_rms = libm::sqrt(mean(self.squares, 3 * self.frame)) / 255.0;
+        let frame_rms = libm::sqrt(mean(self.squares, 3 * counts.frame)) / 255.0;
         Difference {
-            equal: self.differing == 0 && self.coverage_mismatches == 0,
-            frame: self.frame,
-            excluded: self.excluded,
+            equal: counts.differing == 0 && counts.coverage_mismatches == 0,
             compared,
-            differing: self.differing,
-            over_half_level: self.over_half_level,
-            over_one_level: self.over_one_level,
-            coverage_mismatches: self.coverage_mismatches,
-            not_finite: self.not_finite,
-            max: self.max / 255.0,
-            worst: self.worst,
+            max: counts.max / 255.0,
             p99: percentile(&mut self.errors) / 255.0,
             mae: mean(self.absolute, 3 * compared) / 255.0,
             rms: libm::sqrt(mean(self.squares, 3 * compared)) / 255.0,
@@ -290,6 +252,7 @@ impl Tally {
             signed_mean: mean(self.signed, compared) / 255.0,
             psnr: -20.0 * libm::log10(frame_rms),
             ssim,
+            ..counts
         }
     }
 }
@@ -300,7 +263,7 @@ struct ChannelErrors {
     not_finite: bool,
 }
 
-/// The errors of one pixel; what is not finite is off by the full range, so that no mean is lost and none hides it.
+/// Returns the errors of one pixel; a channel that is not finite is off by the full range, so that no mean is lost or hides it.
 fn channel_errors(reference: Levels, actual: Levels) -> ChannelErrors {
     let (r, a) = (reference.rgb(), actual.rgb());
     let mut of = ChannelErrors {
@@ -315,7 +278,7 @@ fn channel_errors(reference: Levels, actual: Levels) -> ChannelErrors {
     of
 }
 
-/// The smallest error that [`PERCENTILE`] of all do not exceed (nearest rank); 0 of none. Reorders the errors.
+/// Returns the smallest error that [`PERCENTILE`] of all do not exceed (nearest rank); 0 of none. Reorders the errors.
 fn percentile(errors: &mut [f64]) -> f64 {
     let rank = libm::ceil(PERCENTILE * errors.len() as f64) as usize;
     match rank.checked_sub(1) {

@@ -12,10 +12,10 @@ const C1: f64 = 0.01 * 0.01;
 /// (K2 L)², K2 = 0.03.
 const C2: f64 = 0.03 * 0.03;
 
-/// Sums kept per window: means of x, y, x² + y² and x y. Variances enter only as a sum, so x² and y² need not be told apart.
+/// Sums kept per window: means of x, y, x² + y² and x y. Variances enter only as a sum, so x² and y² are summed up together.
 const MOMENTS: usize = 4;
 
-/// The weights of one row of the window; they sum to 1.
+/// Returns the weights of one row of the window; they sum to 1.
 fn weights() -> [f64; WINDOW] {
     let mut weights = [0.0; WINDOW];
     let centre = (WINDOW / 2) as f64;
@@ -27,7 +27,7 @@ fn weights() -> [f64; WINDOW] {
     weights.map(|weight| weight / sum)
 }
 
-/// Mean structural similarity of two rasters of values in 0..=1, each `width` values a row; `None` if the window does not fit.
+/// Returns the mean structural similarity of two rasters of values in 0..=1, each `width` values a row; `None` if the window does not fit.
 ///
 /// ```text
 /// SSIM = (2 μx μy + C1)(2 σxy + C2) / ((μx² + μy² + C1)(σx² + σy² + C2))
@@ -70,7 +70,7 @@ pub(super) fn mean_ssim(reference: &[f64], actual: &[f64], width: usize) -> Opti
     Some(sum / (places * (height - WINDOW + 1)) as f64)
 }
 
-/// The values whose window means are the moments, for one row.
+/// Fills in the values whose window means are the moments, for one row.
 fn multiply(x_row: &[f64], y_row: &[f64], [xs, ys, squares, crosses]: &mut [Vec<f64>; MOMENTS]) {
     xs.copy_from_slice(x_row);
     ys.copy_from_slice(y_row);
@@ -80,7 +80,7 @@ fn multiply(x_row: &[f64], y_row: &[f64], [xs, ys, squares, crosses]: &mut [Vec<
     }
 }
 
-/// The weighted sum of eleven slices, element by element.
+/// Sums up eleven slices with their weights, element by element.
 fn weigh<'a>(weights: &[f64; WINDOW], slice: impl Fn(usize) -> &'a [f64], out: &mut [f64]) {
     out.fill(0.0);
     for (k, weight) in weights.iter().enumerate() {
@@ -90,7 +90,7 @@ fn weigh<'a>(weights: &[f64; WINDOW], slice: impl Fn(usize) -> &'a [f64], out: &
     }
 }
 
-/// The sum of SSIM over one row of windows.
+/// Returns the sum of SSIM over one row of windows.
 fn row_sum(moments: &[f64], places: usize) -> f64 {
     let (means, seconds) = moments.split_at(2 * places);
     let (mean_x, mean_y) = means.split_at(places);

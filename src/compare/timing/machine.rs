@@ -1,11 +1,11 @@
-//! What a measurement ran on: times mean nothing without it.
+//! The machine and the build of a measurement: times mean nothing without them.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-/// What a measurement ran on, and how this program was built.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// The machine of a measurement, and the build of this program.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Machine {
     /// Name of the processor as the system gives it; `unknown` if it does not.
     pub cpu: String,
@@ -30,7 +30,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// This one.
+    /// Describes this machine.
     pub fn this() -> Machine {
         Machine {
             cpu: cpu_name().unwrap_or_else(|| "unknown".to_string()),
@@ -46,7 +46,7 @@ impl Machine {
         }
     }
 
-    /// One line for people.
+    /// Writes one line for people.
     pub fn line(&self) -> String {
         let Machine {
             cpu,
@@ -64,7 +64,7 @@ impl Machine {
     }
 }
 
-/// The vector extensions of x86-64 and AArch64 that this build may use.
+/// Lists the vector extensions of x86-64 and AArch64 that this build may use.
 fn target_features() -> Vec<&'static str> {
     let mut features = Vec::new();
     macro_rules! list {
@@ -96,7 +96,7 @@ fn cpu_name() -> Option<String> {
     std::env::var("PROCESSOR_IDENTIFIER").ok()
 }
 
-/// The processor's name in the text of `/proc/cpuinfo`: `model name` on x86, `Model` or `Hardware` on some ARM boards.
+/// Finds the processor's name in the text of `/proc/cpuinfo`: `model name` on x86, `Model` or `Hardware` on some ARM boards.
 #[cfg(any(target_os = "linux", target_os = "android"))]
 fn name_in_cpuinfo(text: &str) -> Option<String> {
     let value = |key: &str| {

@@ -1,6 +1,6 @@
-//! Timing: how long things take, and whether one is faster than another or only seems so.
+//! Timing: the time of a call, and the speed of one candidate as a multiple of another's, with its interval.
 //!
-//! What disturbs a machine (clock frequency, other programs) changes slowly against one sample. So candidates are not
+//! Disturbances of a machine (clock frequency, other programs) change slowly against one sample. So candidates are not
 //! timed one after the other but [interleaved](time_interleaved): every round samples each of them once, and two
 //! candidates are compared [round by round](Ratio::paired), where both met the same machine.
 
@@ -10,6 +10,6 @@ mod spans;
 mod statistics;
 
 pub use machine::Machine;
-pub use rounds::{Candidate, Limits, time_interleaved};
+pub use rounds::{Candidate, TimeLimits, time_interleaved};
 pub use spans::SpanRow;
 pub use statistics::{CONFIDENCE, Ratio, Timing};

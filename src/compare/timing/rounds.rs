@@ -5,12 +5,12 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use std::time::{Duration, Instant};
 
-/// Something to be timed. What it makes must pass through [`core::hint::black_box`], or it may not be made at all.
+/// A function to be timed. Pass its results through [`core::hint::black_box`], or the compiler may leave them out.
 pub type Candidate<'a> = Box<dyn FnMut() + 'a>;
 
-/// How long to go on.
+/// The limits of a timing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
+pub struct TimeLimits {
     /// No round begins after so much time, warm-up not counted.
     pub time_budget: Duration,
     /// The most rounds.
@@ -19,15 +19,15 @@ pub struct Limits {
     pub warm_up_rounds: usize,
 }
 
-impl Limits {
+impl TimeLimits {
     /// The least number of rounds, whatever the limits: fewer have no quartiles to speak of.
     pub const LEAST_ROUNDS: usize = 5;
 }
 
-impl Default for Limits {
-    /// Up to 101 rounds within 5 seconds, after two rounds of warm-up.
+impl Default for TimeLimits {
+    /// Returns up to 101 rounds within 5 seconds, after two rounds of warm-up.
     fn default() -> Self {
-        Limits {
+        TimeLimits {
             time_budget: Duration::from_secs(5),
             rounds: 101,
             warm_up_rounds: 2,
@@ -35,23 +35,23 @@ impl Default for Limits {
     }
 }
 
-/// What a sample lasts at least, in ns: thousands of times the resolution of any clock and the cost of reading it.
+/// The least length of a sample, in ns: thousands of times the resolution of any clock and the cost of reading it.
 const LEAST_SAMPLE_NS: u64 = 200_000;
 
 /// The most calls a sample: a call that short is lost in the loop around it.
 const MOST_CALLS: u64 = 10_000;
 
-/// Times all candidates in rounds, until either limit is reached and [`Limits::LEAST_ROUNDS`] are over. The timings are
+/// Times all candidates in rounds, until either limit is reached and [`TimeLimits::LEAST_ROUNDS`] are over. The timings are
 /// in the order of the candidates.
 ///
 /// Every round samples each candidate once. The second round of a pair runs in the reverse order of the first
-/// (A B C, C B A), so that what drifts during a pair cancels, and each pair begins with another candidate, so that none
+/// (A B C, C B A), so that a drift during a pair cancels, and each pair begins with another candidate, so that none
 /// has a neighbour or a place of its own. A candidate too short for the clock is called several times a sample.
 ///
-/// `progress` is told, between rounds only, the part of the limits that is used up, 0..=1; there is time to draw.
+/// `progress` hears, between rounds only, the part of the limits that is used up, 0..=1; there is time to draw.
 pub fn time_interleaved(
     candidates: &mut [Candidate<'_>],
-    limits: Limits,
+    limits: TimeLimits,
     progress: impl FnMut(f32),
 ) -> Vec<Timing> {
     let start = Instant::now();
@@ -64,10 +64,10 @@ pub fn time_interleaved(
     )
 }
 
-/// As [`time_interleaved`], by any clock that counts nanoseconds.
+/// Runs [`time_interleaved`] by any clock that counts nanoseconds.
 fn run(
     candidates: &mut [Candidate<'_>],
-    limits: Limits,
+    limits: TimeLimits,
     mut now: impl FnMut() -> u64,
     mut progress: impl FnMut(f32),
 ) -> Vec<Timing> {
@@ -88,9 +88,9 @@ fn run(
         }
     }
     let mut samples: Vec<Vec<f64>> = candidates.iter().map(|_| Vec::new()).collect();
-    let most = limits.rounds.max(Limits::LEAST_ROUNDS);
+    let most = limits.rounds.max(TimeLimits::LEAST_ROUNDS);
     let budget = limits.time_budget.as_nanos() as f64;
-    // Time in samples only: what `progress` takes is not ours.
+    // Time in samples only: that of `progress` does not count.
     let mut spent = 0.0;
     for round in 0..most {
         let part = (spent / budget).max(round as f64 / most as f64);
@@ -99,7 +99,7 @@ fn run(
         } else {
             1.0
         });
-        if round >= Limits::LEAST_ROUNDS && spent >= budget {
+        if round >= TimeLimits::LEAST_ROUNDS && spent >= budget {
             break;
         }
         for i in order(candidates.len(), round) {
@@ -117,7 +117,7 @@ fn run(
         .collect()
 }
 
-/// The order of the candidates in a round: turned by one more place each pair of rounds, and reversed in the second.
+/// Returns the order of the candidates in a round: turned by one more place each pair of rounds, and reversed in the second.
 fn order(candidates: usize, round: usize) -> impl Iterator<Item = usize> {
     let turn = round / 2;
     (0..candidates).map(move |i| {
@@ -138,7 +138,7 @@ mod tests {
     use alloc::vec;
     use core::cell::{Cell, RefCell};
 
-    const FOREVER: Limits = Limits {
+    const FOREVER: TimeLimits = TimeLimits {
         time_budget: Duration::MAX,
         rounds: 6,
         warm_up_rounds: 1,
@@ -170,7 +170,7 @@ mod tests {
             })
         }
 
-        fn run(&self, candidates: &mut [Candidate<'_>], limits: Limits) -> Vec<Timing> {
+        fn run(&self, candidates: &mut [Candidate<'_>], limits: TimeLimits) -> Vec<Timing> {
             run(
                 candidates,
                 limits,
@@ -236,7 +236,7 @@ mod tests {
     fn the_budget_ends_it_but_not_before_the_fifth_round() {
         let rounds = |budget_ms| {
             let stage = Stage::new();
-            let limits = Limits {
+            let limits = TimeLimits {
                 time_budget: Duration::from_millis(budget_ms),
                 rounds: 100,
                 warm_up_rounds: 3,
@@ -245,7 +245,7 @@ mod tests {
                 .samples_ns
                 .len()
         };
-        assert_eq!(rounds(0), Limits::LEAST_ROUNDS);
+        assert_eq!(rounds(0), TimeLimits::LEAST_ROUNDS);
         assert_eq!(rounds(8), 8, "warm-up takes nothing from it");
         assert_eq!(rounds(1000), 100);
     }
@@ -254,7 +254,7 @@ mod tests {
     fn progress_climbs_to_one() {
         let stage = Stage::new();
         let mut told = vec![];
-        let limits = Limits {
+        let limits = TimeLimits {
             time_budget: Duration::from_millis(6),
             rounds: 100,
             warm_up_rounds: 1,
@@ -268,7 +268,7 @@ mod tests {
         assert_eq!((told[0], told[3], told.last()), (0.0, 0.5, Some(&1.0)));
         assert!(told.is_sorted());
         let mut none = vec![];
-        let limits = Limits {
+        let limits = TimeLimits {
             time_budget: Duration::ZERO,
             rounds: 0,
             warm_up_rounds: 0,

@@ -23,7 +23,7 @@ struct Started {
 }
 
 impl Started {
-    /// Returns what kernels are called with.
+    /// Returns the arguments of the kernels.
     fn job<'a>(&'a self, variant: &'a Variant, uniforms: &'a Uniforms) -> Pixels<'a> {
         Pixels {
             parameters: variant.parameters(),

@@ -1,23 +1,22 @@
 //! From samples to numbers that can be trusted: medians, quartiles, and intervals of ratios.
 
 use alloc::vec::Vec;
-use serde::ser::SerializeStruct;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::Serialize;
 
-/// How sure the interval of a [`Ratio`] is to hold the true ratio.
+/// The probability that the interval of a [`Ratio`] holds the true ratio.
 pub const CONFIDENCE: f64 = 0.95;
 
 /// Resamples of a bootstrap: 2,000 put 50 beyond each end of a 95 % interval (Efron & Tibshirani 1993, 12.3, ask for
 /// 1,000 or more).
 const RESAMPLES: usize = 2000;
 
-/// Where the random numbers of every bootstrap start, so that equal samples have equal intervals.
+/// The seed of every bootstrap, so that equal samples have equal intervals.
 const SEED: u64 = 0x4C32_3153_6861_6465;
 
-/// How long something takes: samples, and what they come to. All times are in nanoseconds, of one call.
+/// The time of one call: samples and their statistics, in nanoseconds.
 ///
-/// Noise only ever adds time and does so seldom and much, hence medians and quartiles: they do not feel how much.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Noise only adds time, seldom and much. Medians and quartiles do not feel how much.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Timing {
     /// The median.
     pub median_ns: f64,
@@ -31,12 +30,12 @@ pub struct Timing {
     pub spread: f64,
     /// All samples in the order of their rounds; each is the mean of `calls_per_sample` calls.
     pub samples_ns: Vec<f64>,
-    /// How many calls a sample is the mean of: more than one where a single call is too short for the clock.
+    /// Calls that a sample is the mean of: more than one where a single call is too short for the clock.
     pub calls_per_sample: u32,
 }
 
 impl Timing {
-    /// What `samples_ns` come to; `None` if there are none, or one is not a finite number of 0 or more.
+    /// Returns the statistics of `samples_ns`; `None` if there are none, or one is not a finite number of 0 or more.
     pub fn of(samples_ns: Vec<f64>, calls_per_sample: u32) -> Option<Timing> {
         if samples_ns.is_empty() || !samples_ns.iter().all(|s| s.is_finite() && *s >= 0.0) {
             return None;
@@ -44,10 +43,9 @@ impl Timing {
         let mut sorted = samples_ns.clone();
         sorted.sort_by(f64::total_cmp);
         let [p25_ns, median_ns, p75_ns] = [0.25, 0.5, 0.75].map(|p| quantile(&sorted, p));
-        let spread = if median_ns > 0.0 {
-            (p75_ns - p25_ns) / median_ns
-        } else {
-            0.0
+        let spread = match median_ns {
+            0.0 => 0.0,
+            median => (p75_ns - p25_ns) / median,
         };
         Some(Timing {
             median_ns,
@@ -61,7 +59,7 @@ impl Timing {
     }
 }
 
-/// The quantile `p` of 0..=1 of ascending values, linear between them (type 7 of Hyndman & Fan 1996: that of R and
+/// Returns the quantile `p` of 0..=1 of ascending values, linear between them (type 7 of Hyndman & Fan 1996: that of R and
 /// NumPy).
 fn quantile(sorted: &[f64], p: f64) -> f64 {
     let place = p * (sorted.len() - 1) as f64;
@@ -70,10 +68,10 @@ fn quantile(sorted: &[f64], p: f64) -> f64 {
     sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
 }
 
-/// How many times as fast as a baseline something is, with the interval that holds the truth with [`CONFIDENCE`].
+/// A speed as a multiple of a baseline's, with the interval that holds the truth with [`CONFIDENCE`].
 ///
 /// Over 1: faster than the baseline. Under 1: slower.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Ratio {
     /// The median over the rounds of the baseline's time divided by the candidate's.
     pub median: f64,
@@ -81,22 +79,22 @@ pub struct Ratio {
     pub low: f64,
     /// Upper end of the interval.
     pub high: f64,
-}
-
-/// With `tie` beside its fields: [`Ratio::is_tie`].
-impl Serialize for Ratio {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = serializer.serialize_struct("Ratio", 4)?;
-        fields.serialize_field("median", &self.median)?;
-        fields.serialize_field("low", &self.low)?;
-        fields.serialize_field("high", &self.high)?;
-        fields.serialize_field("tie", &self.is_tie())?;
-        fields.end()
-    }
+    /// True if the interval holds 1: the samples do not tell which of the two is faster.
+    pub tie: bool,
 }
 
 impl Ratio {
-    /// How many times as fast as `baseline` the candidate is, where samples of one round stand at the same place.
+    /// Makes a ratio of its interval and median.
+    pub fn new(low: f64, median: f64, high: f64) -> Ratio {
+        Ratio {
+            median,
+            low,
+            high,
+            tie: low <= 1.0 && 1.0 <= high,
+        }
+    }
+
+    /// Divides the speed of the candidate by that of `baseline`; samples of one round stand at the same place.
     ///
     /// The interval is a percentile bootstrap of the median over whole rounds, with a fixed seed. Rounds without a
     /// partner and rounds in which either time is not positive are left out; `None` if no round is left.
@@ -132,16 +130,7 @@ impl Ratio {
         let tail = (1.0 - CONFIDENCE) / 2.0;
         let (low, high) = (quantile(&medians, tail), quantile(&medians, 1.0 - tail));
         let mut ratios = ratios;
-        Some(Ratio {
-            median: median(&mut ratios),
-            low,
-            high,
-        })
-    }
-
-    /// True if the interval holds 1: the samples do not tell which of the two is faster.
-    pub fn is_tie(&self) -> bool {
-        self.low <= 1.0 && 1.0 <= self.high
+        Some(Ratio::new(low, median(&mut ratios), high))
     }
 }
 
@@ -161,7 +150,7 @@ impl SplitMix {
         z ^ (z >> 31)
     }
 
-    /// 0..n.
+    /// Returns a number in 0..n.
     fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.next()) * n as u128) >> 64) as usize
     }
@@ -235,9 +224,9 @@ mod tests {
             faster.median > 2.9 && faster.low > 2.9 && faster.high < 3.1,
             "{faster:?}"
         );
-        assert!(!faster.is_tie());
+        assert!(!faster.tie);
         let slower = Ratio::paired(&candidate, &baseline).unwrap();
-        assert!(slower.high < 0.35 && !slower.is_tie(), "{slower:?}");
+        assert!(slower.high < 0.35 && !slower.tie, "{slower:?}");
     }
 
     #[test]
@@ -246,7 +235,7 @@ mod tests {
         let candidate = [90.0, 111.0, 95.0, 106.0, 93.0, 108.0, 97.0, 103.0];
         let ratio = Ratio::paired(&baseline, &candidate).unwrap();
         assert!(
-            ratio.low < 1.0 && ratio.high > 1.0 && ratio.is_tie(),
+            ratio.low < 1.0 && ratio.high > 1.0 && ratio.tie,
             "{ratio:?}"
         );
         assert!(ratio.low <= ratio.median && ratio.median <= ratio.high);
@@ -262,7 +251,7 @@ mod tests {
         let samples = [100.0, 170.0, 90.0, 400.0, 110.0];
         let ratio = Ratio::paired(&samples, &samples).unwrap();
         assert_eq!(
-            (ratio.low, ratio.median, ratio.high, ratio.is_tie()),
+            (ratio.low, ratio.median, ratio.high, ratio.tie),
             (1.0, 1.0, 1.0, true)
         );
     }
@@ -270,7 +259,7 @@ mod tests {
     #[test]
     fn with_few_rounds_the_interval_reaches_from_end_to_end() {
         // Of five rounds at least three are the lowest one in 5.8 % of all resamples, which is over 2.5 %: the 2.5 %
-        // quantile of their medians is the lowest ratio itself, and likewise above.
+        // quantile of their medians is the lowest ratio itself, and the upper one the highest.
         let candidate = [100.0, 200.0, 50.0, 80.0, 125.0];
         let ratio = Ratio::paired(&[100.0; 5], &candidate).unwrap();
         assert_eq!((ratio.low, ratio.median, ratio.high), (0.5, 1.0, 2.0));

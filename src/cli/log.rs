@@ -1,14 +1,14 @@
-//! Output: results on standard output, everything else on standard error.
+//! Output: results on standard output, messages on standard error.
 //!
 //! A reader that went away is no error. `println!` would panic then, so that nothing here uses it.
 
-use super::Failure;
+use super::CliError;
 use std::io::{self, IsTerminal, Write};
 
-/// The amount of talk on standard error.
+/// The messages that are written to standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Talk {
-    /// Nothing but errors.
+pub enum Log {
+    /// Errors only.
     Quiet,
     /// Warnings, notes and progress.
     Normal,
@@ -16,17 +16,17 @@ pub enum Talk {
     Verbose,
 }
 
-impl Talk {
+impl Log {
     /// Reads the global flags.
-    pub fn new(quiet: bool, verbose: bool) -> Talk {
+    pub fn new(quiet: bool, verbose: bool) -> Log {
         match (quiet, verbose) {
-            (true, _) => Talk::Quiet,
-            (_, true) => Talk::Verbose,
-            _ => Talk::Normal,
+            (true, _) => Log::Quiet,
+            (_, true) => Log::Verbose,
+            _ => Log::Normal,
         }
     }
 
-    /// Says what the user should know before trusting the result.
+    /// Writes a warning: something to know before trusting the result.
     pub fn warning(self, text: &str) {
         self.note(&match colour() {
             true => format!("\x1b[1;33mwarning\x1b[0m: {text}"),
@@ -34,16 +34,16 @@ impl Talk {
         });
     }
 
-    /// Says what was done.
+    /// Writes a note: something that was done.
     pub fn note(self, text: &str) {
-        if self != Talk::Quiet {
+        if self != Log::Quiet {
             to_stderr(&format!("{text}\n"));
         }
     }
 
-    /// Says what only the curious want to know.
+    /// Writes a detail, for `--verbose` only.
     pub fn detail(self, text: &str) {
-        if self == Talk::Verbose {
+        if self == Log::Verbose {
             to_stderr(&format!("{text}\n"));
         }
     }
@@ -63,7 +63,7 @@ pub fn to_stderr(text: &str) {
 ///
 /// # Errors
 /// When it cannot be written for another reason, such as a full disk.
-pub fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
+pub fn to_stdout(bytes: &[u8]) -> Result<(), CliError> {
     to_stdout_by(|out| out.write_all(bytes))
 }
 
@@ -71,7 +71,7 @@ pub fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
 ///
 /// # Errors
 /// As [`to_stdout`].
-pub fn to_stdout_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+pub fn to_stdout_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
     match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
@@ -85,23 +85,6 @@ pub fn to_stdout_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Res
 ///
 /// # Errors
 /// As [`to_stdout`].
-pub fn json_to_stdout(value: &serde_json::Value) -> Result<(), Failure> {
+pub fn json_to_stdout(value: &serde_json::Value) -> Result<(), CliError> {
     to_stdout(format!("{value:#}\n").as_bytes())
-}
-
-/// Writes `1234567` as `1,234,567`.
-pub fn grouped(number: usize) -> String {
-    match number {
-        0..1000 => number.to_string(),
-        _ => format!("{},{:03}", grouped(number / 1000), number % 1000),
-    }
-}
-
-/// Writes a number with its noun and verb: `one` after 1, `more` after others.
-pub fn counted(number: usize, one: &str, more: &str) -> String {
-    format!(
-        "{} {}",
-        grouped(number),
-        if number == 1 { one } else { more }
-    )
 }

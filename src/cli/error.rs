@@ -4,26 +4,26 @@ use fastphong::scene::file::diagnostics::SceneError;
 use fastphong::scene::input::InputError;
 use std::error::Error;
 
-/// The finding of a sub-command.
+/// The result of a sub-command that did its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// All that was asked for is done: exit code 0.
+    /// Success: exit code 0.
     Done,
     /// A comparison failed: exit code 1.
     Differs,
 }
 
-/// Why a sub-command could not do its work: exit code 2.
+/// An error that ends a sub-command: exit code 2.
 #[derive(Debug)]
-pub struct Failure(Box<dyn Error + Send + Sync>);
+pub struct CliError(Box<dyn Error + Send + Sync>);
 
-impl<E: Into<Box<dyn Error + Send + Sync>>> From<E> for Failure {
+impl<E: Into<Box<dyn Error + Send + Sync>>> From<E> for CliError {
     fn from(error: E) -> Self {
-        Failure(error.into())
+        CliError(error.into())
     }
 }
 
-impl Failure {
+impl CliError {
     /// Returns the error as text that starts with `error: ` and ends a line. Errors of inputs show themselves.
     pub fn render(&self, colour: bool) -> String {
         let (input, scene) = (
