@@ -5,8 +5,7 @@ use super::progress::Progress;
 use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
 use fastphong::compare::timing::Machine;
-use fastphong::lectures::Content;
-use fastphong::lectures::{FIGURES, Figure};
+use fastphong::lectures::{FIGURES, Figure, FigureContent};
 use fastphong::picture::image_file::write_file;
 use fastphong::report::{Document, Report};
 use rayon::prelude::*;
@@ -79,7 +78,7 @@ impl DrawFigures {
 }
 
 /// A figure that was made.
-pub type Made = (&'static Figure, Content);
+pub type Made = (&'static Figure, FigureContent);
 
 /// Makes `figures` on all threads of the current pool; `told` hears which part is done and what was made.
 pub fn drawn(

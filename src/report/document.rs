@@ -7,7 +7,7 @@ use crate::compare::comparison::{
 use crate::compare::experiments::{Scaling, Speedups};
 use crate::compare::metrics::Difference;
 use crate::compare::timing::Machine;
-use crate::lectures::{Content, Figure};
+use crate::lectures::{Figure, FigureContent};
 use crate::number::Counts;
 use crate::shading::{METHODS, OperationCounts, Variant};
 use alloc::format;
@@ -131,7 +131,7 @@ pub struct FigureData {
     pub lecture: String,
     /// Text, pictures and curves, and the findings.
     #[serde(flatten)]
-    pub content: Content,
+    pub content: FigureContent,
 }
 
 impl Document {
@@ -272,7 +272,7 @@ impl OperationsData {
 
 impl FigureData {
     /// Describes a figure that was made.
-    pub fn new(figure: &Figure, content: Content) -> FigureData {
+    pub fn new(figure: &Figure, content: FigureContent) -> FigureData {
         FigureData {
             name: figure.name.to_string(),
             title: figure.title.to_string(),

@@ -46,7 +46,7 @@ pub use markdown::Markdown;
 pub use pictures::{LEAST_ERROR, STEPS_AN_OCTAVE};
 
 use crate::compare::comparison::Comparison;
-use crate::lectures::{Block, Content, Figure};
+use crate::lectures::{Figure, FigureBlock, FigureContent};
 use crate::picture::encoding::store;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -121,9 +121,9 @@ impl Report {
     ///
     /// # Errors
     /// If a picture has no pixels, or more than its file format can count.
-    pub fn add_figure(&mut self, figure: &Figure, content: Content) -> std::io::Result<()> {
+    pub fn add_figure(&mut self, figure: &Figure, content: FigureContent) -> std::io::Result<()> {
         let shown = content.blocks.iter().flat_map(|block| match block {
-            Block::Pictures { shown, .. } => &shown[..],
+            FigureBlock::Pictures { shown, .. } => &shown[..],
             _ => &[],
         });
         let files = shown.map(|shown| png(&shown.picture));

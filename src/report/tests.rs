@@ -3,7 +3,7 @@ use super::*;
 use crate::compare::comparison::{Input, Options, RowData, Speed, compare, parse, triangulation};
 use crate::compare::experiments::{Corner, MethodSpeedups, Speedup, Speedups, Work};
 use crate::compare::timing::{Machine, Ratio, Timing};
-use crate::lectures::{Agreement, Finding, Plot, Scale, Series, Shown};
+use crate::lectures::{FigureContent, Plot, Scale, Series};
 use crate::mesh::builtin::builtin;
 use crate::picture::Picture8;
 use crate::scene::Scene;
@@ -190,26 +190,21 @@ fn the_page_is_readable_without_javascript() {
 
 static METHOD_FIGURE: &crate::lectures::Figure = crate::lectures::FIGURES[0];
 
-fn figure() -> Content {
-    let mut content = Content::default();
+fn figure() -> FigureContent {
+    let mut content = FigureContent::default();
     content.text("A <text>.");
     let picture = Picture8::new(4, 3, [9, 9, 9, 255]);
-    content.pictures(2, vec![Shown::new("caption", "alt", picture)]);
-    content.plot(Plot {
-        title: "plot".into(),
-        x: ("x".into(), Scale::Linear),
-        y: ("y".into(), Scale::Log),
-        series: vec![Series::new("s", [(0.0, 1.0 / 3.0), (1.0, f64::NAN)])],
-        marks: vec![0.5],
-        caption: "caption".into(),
-    });
-    content.found(Finding::new(
+    content.pictures(2, "subject", [("caption", picture)]);
+    let axes = [("x".into(), Scale::Linear), ("y".into(), Scale::Log)];
+    let series = [Series::new("s", [(0.0, 1.0 / 3.0), (1.0, f64::NAN)])];
+    content.plot(Plot::new("plot", axes, series, "caption").marked([0.5]));
+    content.confirms(
         "key",
         "label",
         (0.411504, "levels"),
-        Agreement::Confirms,
+        true,
         "Exactly <right>.",
-    ));
+    );
     content
 }
 
