@@ -1,23 +1,20 @@
 //! Falloffs over the distance, and floors that they light (CS171 2, Attenuation; L5, Light falloff).
 
-use super::content::{log, written};
-use super::fixture::{DULL, draw, scene, stored};
-use super::measure::share;
-use super::{Figure, FigureContent, FigureError, Plot, Series};
-use crate::mesh::builtin::builtin;
+use super::{
+    DULL, Figure, FigureContent, Plot, Result, Series, draw, log, scene, share, stored, written,
+};
 use crate::picture::LinearPicture;
 use crate::scene::{Falloff, Light};
-use alloc::format;
 use alloc::string::ToString;
-use alloc::vec;
 use alloc::vec::Vec;
+use alloc::{format, vec};
 use glam::{DAffine3, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "attenuation",
     title: "Lights that grow weaker",
     lecture: "CS171 2, Attenuation; L5, Light falloff",
-    make,
+    parts: &[curves, floors],
 };
 
 /// The falloffs with their names.
@@ -45,9 +42,9 @@ fn strength(falloff: Falloff, r: f64) -> f64 {
 }
 
 /// Draws a white floor under one light close to it, seen from straight above.
-fn floor(falloff: Falloff, intensity: f32) -> Result<LinearPicture, FigureError> {
-    let sheet = builtin("corrugated?waves=0&amplitude=0&segments=8&rows=8")?;
-    let mut scene = scene(sheet, DULL, DVec3::Z, 2.0, [96, 96]);
+fn floor(falloff: Falloff, intensity: f32) -> Result<LinearPicture> {
+    let sheet = "corrugated?waves=0&amplitude=0&segments=8&rows=8";
+    let mut scene = scene(sheet, DULL, DVec3::Z, 2.0, [96, 96])?;
     for object in &mut scene.objects {
         object.transform = DAffine3::from_scale(DVec3::new(2.5, 2.5, 1.0));
     }
@@ -64,8 +61,7 @@ fn below(levels: f32, picture: &LinearPicture) -> f64 {
     100.0 * share(picture, |texel| texel[0] < levels / 255.0)
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn curves(content: &mut FigureContent) -> Result {
     let distances = || (0..=60).map(|i| libm::pow(10.0, -1.5 + 2.5 * f64::from(i) / 60.0));
     content.plot(Plot::new(
         "The strength of a light over the distance",
@@ -75,6 +71,10 @@ fn make() -> Result<FigureContent, FigureError> {
             .map(|&(label, falloff)| Series::sampled(label, distances(), |r| strength(falloff, r))),
         "Far away all but 1/r fall alike; near the light only those with 1 + stay at 1 or below.",
     ));
+    Ok(())
+}
+
+fn floors(content: &mut FigureContent) -> Result {
     content.text(format!(
         "A white floor of 4 by 4, and a light of strength 1 at the height {HEIGHT}. The cosine \
          makes the rim dark under every falloff."
@@ -104,15 +104,13 @@ fn make() -> Result<FigureContent, FigureError> {
     content.confirms(
         "clipped",
         "share of the floor that 1/r² clips to white",
-        (clipped[OF_LECTURE], "%"),
-        clipped[OF_LECTURE] > 1.0,
+        (clipped[OF_LECTURE], "%", clipped[OF_LECTURE] > 1.0),
         "\"Tends to look bad\": near the light it is brighter than a picture can hold.",
     );
     content.confirms(
         "clipped-notes",
         "share of the floor that 1/(1 + d²) clips to white",
-        (clipped[OF_NOTES], "%"),
-        clipped[OF_NOTES] == 0.0,
+        (clipped[OF_NOTES], "%", clipped[OF_NOTES] == 0.0),
         "None: it is at most 1.",
     );
     // 1/r² with a light so dim that nothing is clipped.
@@ -120,12 +118,12 @@ fn make() -> Result<FigureContent, FigureError> {
         1.0,
         &floor(Falloff::InverseSquare, (HEIGHT * HEIGHT) as f32)?,
     );
+    let unattenuated = below(1.0, &floor(Falloff::None, 1.0)?);
     content.confirms(
         "dark",
         "share of the floor under one level, 1/r² with a light too dim to clip anything",
-        (dark, "%"),
-        dark > 20.0 && dark > below(1.0, &floor(Falloff::None, 1.0)?),
+        (dark, "%", dark > 20.0 && dark > unattenuated),
         "Much of the floor is black: local shading has no light from elsewhere.",
     );
-    Ok(content)
+    Ok(())
 }

@@ -1,8 +1,6 @@
 //! Barycentric coordinates: the triangle from red to blue, the weights as colours, and two misprints drawn.
 
-use super::fixture::stored;
-use super::measure::{largest, percent};
-use super::{Figure, FigureContent, FigureError};
+use super::{Figure, FigureContent, Result, largest, percent, stored};
 use crate::picture::{LinearPicture, Picture};
 use crate::reference::cs171::barycentric::{
     Weights, centre_of_mass, printed_gamma, signed_area, unsigned_weights, weights,
@@ -14,7 +12,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "barycentric",
     title: "Barycentric coordinates: right, as printed, and without signs",
     lecture: "CS171 1; L5, Barycentric Coordinates",
-    make,
+    parts: &[pictures, misprints, other_formulas],
 };
 
 /// Width and height of the pictures.
@@ -63,8 +61,7 @@ fn painted(weights: fn(DVec2) -> Weights) -> LinearPicture {
     picture
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn pictures(content: &mut FigureContent) -> Result {
     content.text(
         "A right triangle by CS171's Algorithm 2: red at both ends of the hypotenuse, blue at the \
          right angle. Beside it the weights themselves, α red, β green, γ blue, with the centre of \
@@ -91,13 +88,11 @@ fn make() -> Result<FigureContent, FigureError> {
         "A right triangle",
         panels.map(|(caption, picture)| (caption, stored(&picture))),
     );
-    misprints(&mut content);
-    weights_measured(&mut content);
-    Ok(content)
+    Ok(())
 }
 
 /// Counts the pixels that the two misprints lose or gain.
-fn misprints(content: &mut FigureContent) {
+fn misprints(content: &mut FigureContent) -> Result {
     let count = |is: &dyn Fn(DVec2) -> bool| pixels().filter(|p| is(*p)).count();
     let is_inside = |p| is_in(exact(p));
     let inside = count(&is_inside);
@@ -105,16 +100,14 @@ fn misprints(content: &mut FigureContent) {
     content.contradicts(
         "printed-gamma",
         "pixels of the triangle that the printed γ loses",
-        (lost, "%"),
-        lost != 0.0,
+        (lost, "%", lost != 0.0),
         "f_ab(p) / f_ac(p) is −γ/β and no weight: divide by f_ab(c). The edge ab is left.",
     );
     let elsewhere = percent(count(&|p| !is_inside(p) && is_in(as_printed(p))), inside);
     content.contradicts(
         "printed-gamma-outside",
         "pixels outside that it fills, in parts of the triangle",
-        (elsewhere, "%"),
-        elsewhere != 0.0,
+        (elsewhere, "%", elsewhere != 0.0),
         "It fills another triangle, beyond the edge ab, where γ is below 0.",
     );
     let gained = count(&|p| !is_inside(p) && is_in(without_signs(p)));
@@ -122,14 +115,14 @@ fn misprints(content: &mut FigureContent) {
     content.contradicts(
         "unsigned-areas",
         "pixels outside that areas without signs call inside",
-        (gained, "%"),
-        gained != 0.0,
+        (gained, "%", gained != 0.0),
         "Without signs the quotients lie in 0..1 everywhere: only signs tell inside from outside.",
     );
+    Ok(())
 }
 
 /// Compares the weights with the areas, the distances and the thirds that the lectures name.
-fn weights_measured(content: &mut FigureContent) {
+fn other_formulas(content: &mut FigureContent) -> Result {
     let [a, b, c] = TRIANGLE;
     let (mut area, mut distance) = (0.0f64, 0.0f64);
     raster_triangle(
@@ -164,6 +157,7 @@ fn weights_measured(content: &mut FigureContent) {
         // Quotients of numbers below 2¹³ that round a few times each, about sums that cancel at
         // most their last 13 bits.
         let label = alloc::format!("largest difference of {what}");
-        content.confirms(key, label, (value, ""), value < 1e-12, says);
+        content.confirms(key, label, (value, "", value < 1e-12), says);
     }
+    Ok(())
 }

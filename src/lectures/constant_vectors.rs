@@ -1,26 +1,24 @@
 //! L and V constant along each polygon, as the lecture assumes, against those of each pixel (L21 1; Duff 1979).
 
-use super::content::{log, written};
-use super::fixture::{draw_each, grey, scene, stored};
-use super::measure::levels;
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    Figure, FigureContent, Plot, Result, Series, draw_each, grey, levels, log, scene, stored,
+    written,
+};
 use crate::compare::metrics::{compare, difference_map};
-use crate::mesh::builtin::builtin;
 use crate::number::Counts;
 use crate::reference::{self, Model};
 use crate::scene::{Falloff, Interpolation, Light, Scene};
 use crate::shading::{OperationCounts, SpanBench, Variant};
-use alloc::format;
 use alloc::string::ToString;
-use alloc::vec;
 use alloc::vec::Vec;
+use alloc::{format, vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "constant-vectors",
     title: "L and V constant along a polygon, and the error of that",
     lecture: "L21 1, L21 4.3",
-    make,
+    parts: &[pictures, errors, products],
 };
 
 /// Bands from pole to pole of the spheres.
@@ -30,18 +28,17 @@ const DISTANCES: [f64; 4] = [0.25, 1.0, 4.0, 16.0];
 const TOWARD: DVec3 = DVec3::new(-0.4, 0.5, 0.77);
 
 /// Makes a sphere seen from near by, with a light so far from its surface.
-fn sphere(rings: u32, distance: f64) -> Result<Scene, FigureError> {
-    let mesh = builtin(&format!("sphere?rings={rings}&segments={}", 2 * rings))?;
+fn sphere(rings: u32, distance: f64) -> Result<Scene> {
+    let mesh = format!("sphere?rings={rings}&segments={}", 2 * rings);
     let material = grey(0.05, 0.5, 0.4, 24.0);
-    let mut scene = scene(mesh, material, DVec3::Z, 1.1, [96, 96]);
+    let mut scene = scene(&mesh, material, DVec3::Z, 1.1, [96, 96])?;
     let position = TOWARD.normalize() * (1.0 + distance);
     scene.lights = vec![Light::positional(position, [1.0; 3])];
     scene.local_viewer = true;
     Ok(scene)
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn pictures(content: &mut FigureContent) -> Result {
     content.text(
         "Fast Phong shading takes L·V from 4.6 as a constant of the polygon, and L and V with it. \
          With light and eye at infinity that is exact. With a light at a position it is as good as \
@@ -60,21 +57,18 @@ fn make() -> Result<FigureContent, FigureError> {
             ("their difference, to 64 levels", map),
         ],
     );
-    errors(&mut content)?;
     let difference = levels(&naive, &duff);
     content.adds(
         "duff-naive",
         "six quadratics against vectors at each pixel, largest difference",
-        (difference, "grey levels"),
-        difference < 0.5,
+        (difference, "grey levels", difference < 0.5),
         "One picture: the products are exact, to rounding.",
     );
-    products(&mut content)?;
-    Ok(content)
+    Ok(())
 }
 
 /// Measures fast Phong shading over resolutions and distances.
-fn errors(content: &mut FigureContent) -> Result<(), FigureError> {
+fn errors(content: &mut FigureContent) -> Result {
     let fast = Variant::parse("fast-phong")?;
     let polygons = RINGS.map(|rings| 2 * rings * rings);
     let (mut rows, mut curves) = (Vec::new(), Vec::new());
@@ -107,8 +101,7 @@ fn errors(content: &mut FigureContent) -> Result<(), FigureError> {
     content.contradicts(
         "coarse",
         "RMS error of constant vectors, coarsest sphere and nearest light",
-        (coarse.1, "grey levels"),
-        coarse.1 > 1.0,
+        (coarse.1, "grey levels", coarse.1 > 1.0),
         "Every polygon shows: the assumption is for lights at infinity.",
     );
     let finer = f64::from(RINGS[RINGS.len() - 1]) / f64::from(RINGS[0]);
@@ -116,16 +109,15 @@ fn errors(content: &mut FigureContent) -> Result<(), FigureError> {
     content.adds(
         "order",
         "power of the polygons' size by which the error falls, nearest light",
-        (order, ""),
-        order > 0.5,
+        (order, "", order > 0.5),
         "Finer polygons make up for it.",
     );
     Ok(())
 }
 
 /// Counts the operations of the six products, which replace vectors at each pixel by additions.
-fn products(content: &mut FigureContent) -> Result<(), FigureError> {
-    let counts = |method: &str, lights| -> Result<OperationCounts, FigureError> {
+fn products(content: &mut FigureContent) -> Result {
+    let counts = |method: &str, lights| -> Result<OperationCounts> {
         let bench = SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
         Ok(Variant::parse(method)?.operations_on(&bench))
     };
@@ -150,8 +142,7 @@ fn products(content: &mut FigureContent) -> Result<(), FigureError> {
     content.adds(
         "additions",
         "additions a pixel that step the six products of one light, and 1/w²",
-        (f64::from(one), ""),
-        true,
+        (f64::from(one), "", true),
         format!(
             "Two each; a further light takes {} more. A falloff needs 1/w².",
             two - one

@@ -51,49 +51,55 @@ impl FigureContent {
     }
 
     /// Adds a table. Its head separates cells by ` | `, as Markdown does.
-    pub fn table<R: Into<Vec<String>>>(&mut self, head: &str, rows: impl IntoIterator<Item = R>) {
+    pub fn table<R>(&mut self, head: &str, rows: impl IntoIterator<Item = R>)
+    where
+        R: IntoIterator<Item = String>,
+    {
         self.blocks.push(FigureBlock::Table {
             head: head.split(" | ").map(String::from).collect(),
-            rows: rows.into_iter().map(Into::into).collect(),
+            rows: rows.into_iter().map(Vec::from_iter).collect(),
         });
     }
 
-    /// Adds a value that confirms the lecture if `so`, and contradicts it otherwise.
+    /// Adds a value with its unit. It confirms the lecture if `so`, and contradicts it otherwise.
     pub fn confirms(
         &mut self,
         key: impl Into<String>,
         label: impl Into<String>,
-        value: (f64, &str),
-        so: bool,
+        (value, unit, so): (impl Into<f64>, &str, bool),
         says: impl Into<String>,
     ) {
         let agreement = Agreement::if_holds(so);
-        self.found(key, label, value, agreement, said(so, says));
+        self.found(key, label, (value.into(), unit), agreement, said(so, says));
     }
 
-    /// Adds a value that contradicts the lecture if `so`, and confirms it otherwise.
+    /// Adds a value with its unit. It contradicts the lecture if `so`, and confirms it otherwise.
     pub fn contradicts(
         &mut self,
         key: impl Into<String>,
         label: impl Into<String>,
-        value: (f64, &str),
-        so: bool,
+        (value, unit, so): (impl Into<f64>, &str, bool),
         says: impl Into<String>,
     ) {
         let agreement = Agreement::if_holds(!so);
-        self.found(key, label, value, agreement, said(so, says));
+        self.found(key, label, (value.into(), unit), agreement, said(so, says));
     }
 
-    /// Adds a value that the lecture does not mention, with a sentence that is true if `so`.
+    /// Adds a value with its unit that the lecture does not mention. The sentence is true if `so`.
     pub fn adds(
         &mut self,
         key: impl Into<String>,
         label: impl Into<String>,
-        value: (f64, &str),
-        so: bool,
+        (value, unit, so): (impl Into<f64>, &str, bool),
         says: impl Into<String>,
     ) {
-        self.found(key, label, value, Agreement::Adds, said(so, says));
+        self.found(
+            key,
+            label,
+            (value.into(), unit),
+            Agreement::Adds,
+            said(so, says),
+        );
     }
 
     /// Adds a value whose agreement and sentence the caller has chosen.

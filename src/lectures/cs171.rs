@@ -1,45 +1,36 @@
 //! CS171's red sphere under two coloured lights, by its three algorithms; the highlight that Algorithm 7 loses as it is
 //! printed; and the test against the NDC cube, which is not clipping.
 
-use super::content::written;
-use super::measure::largest;
-use super::{Figure, FigureContent, FigureError};
+use super::{Figure, FigureContent, Result, bare, fitted, largest, written};
 use crate::frame::Frame;
 use crate::frame::triangulate::triangulated;
-use crate::mesh::builtin::builtin;
-use crate::mesh::vertex_normals::NormalSource;
-use crate::mesh::{Material, MeshBuilder};
+use crate::mesh::Material;
 use crate::picture::{Picture, Picture8};
 use crate::reference::cs171::{Corner, Grid, Reading, Shading, full_shading, render, world_to_ndc};
-use crate::scene::{
-    Camera, Culling, Light, Lighting, Object, Projection, Scene, SpecularGate, SpecularModel,
-};
-use alloc::format;
-use alloc::sync::Arc;
-use alloc::vec;
-use glam::{DAffine3, DVec3};
+use crate::scene::{Camera, Light, Lighting, Projection, SpecularGate, SpecularModel};
+use alloc::{format, vec};
+use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "cs171",
     title: "CS171's algorithms as printed",
     lecture: "CS171 3, Figures 9 to 11; CS171 4 and 5",
-    make,
+    parts: &[highlights, cube],
 };
 
 /// Width and height of the pictures.
 const SIDE: u32 = 96;
 
 /// A picture in `f64`, as the notes' algorithms draw it.
-type Drawn = Picture<[f64; 4]>;
+type F64Picture = Picture<[f64; 4]>;
 
-fn eight_bits(picture: &Drawn) -> Picture8 {
+fn eight_bits(picture: &F64Picture) -> Picture8 {
     picture.map(|texel| texel.map(|c| libm::round(255.0 * c) as u8))
 }
 
 /// Makes a red sphere under a yellow and a blue light at positions, lit as CS171 does it.
-fn sphere() -> Result<Frame, FigureError> {
-    let mut scene = Scene::of_mesh(builtin("sphere?rings=8&segments=14")?);
-    (scene.width, scene.height) = (SIDE, SIDE);
+fn sphere() -> Result<Frame> {
+    let mut scene = fitted("sphere?rings=8&segments=14", [SIDE; 2])?;
     (scene.specular, scene.shininess_for) = (SpecularModel::Blinn, SpecularModel::Blinn);
     scene.gate = SpecularGate::Ungated;
     scene.local_viewer = true;
@@ -61,8 +52,8 @@ fn sphere() -> Result<Frame, FigureError> {
     Ok(triangulated(&scene.frame()?).frame)
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+/// Measures the highlights by their green light, of which the sphere's own colour has nearly none.
+fn highlights(content: &mut FigureContent) -> Result {
     content.text(
         "A red sphere, a yellow and a blue light at positions, all by Algorithm 8: once a triangle \
          (Figure 10), once a vertex (Figure 9), once a pixel (Figure 11). The last picture is \
@@ -90,14 +81,7 @@ fn make() -> Result<FigureContent, FigureError> {
             ("Algorithm 7 as printed", eight_bits(&raw)),
         ],
     );
-    highlights(&mut content, [&gouraud, &phong, &raw]);
-    cube(&mut content)?;
-    Ok(content)
-}
-
-/// Measures the highlights by their green light, of which the sphere's own colour has nearly none.
-fn highlights(content: &mut FigureContent, pictures: [&Drawn; 3]) {
-    let green = pictures.map(|p| p.texels().iter().map(|texel| 255.0 * texel[1]));
+    let green = [&gouraud, &phong, &raw].map(|p| p.texels().iter().map(|texel| 255.0 * texel[1]));
     let [gouraud, phong, raw] = green.clone().map(largest);
     let [_, with_unit, as_printed] = green;
     let lost = largest(with_unit.zip(as_printed).map(|(unit, raw)| unit - raw));
@@ -105,22 +89,19 @@ fn highlights(content: &mut FigureContent, pictures: [&Drawn; 3]) {
     content.adds(
         "peak-phong",
         label("Algorithm 7 with unit normals"),
-        (phong, "levels"),
-        true,
+        (phong, "levels", true),
         "The others are measured against this one.",
     );
     content.confirms(
         "peak-gouraud",
         label("Algorithm 4"),
-        (gouraud, "levels"),
-        gouraud < phong - 1.0,
+        (gouraud, "levels", gouraud < phong - 1.0),
         "The highlight is cut off between vertices: \"a bit pixelated\", where Phong's is smooth.",
     );
     content.adds(
         "peak-printed",
         label("Algorithm 7 as printed"),
-        (raw, "levels"),
-        true,
+        (raw, "levels", true),
         format!(
             "Shorter normals have smaller cosines, and smaller powers: up to {} levels less.",
             written(lost)
@@ -129,14 +110,14 @@ fn highlights(content: &mut FigureContent, pictures: [&Drawn; 3]) {
     content.contradicts(
         "lost",
         "largest loss of a pixel by normals that are not made unit vectors",
-        (lost, "levels"),
-        lost >= 1.0,
+        (lost, "levels", lost >= 1.0),
         "The lighting model asks for unit normals: make them so at each pixel.",
     );
+    Ok(())
 }
 
 /// Draws a floor under the eye, from in front of it to `behind`: with the cube alone, as printed, and clipped.
-fn floors(behind: f64) -> Result<[Drawn; 2], FigureError> {
+fn floors(behind: f64) -> Result<[F64Picture; 2]> {
     let camera = Camera {
         eye: DVec3::ZERO,
         target: -DVec3::Z,
@@ -169,33 +150,21 @@ fn floors(behind: f64) -> Result<[Drawn; 2], FigureError> {
         full_shading(Shading::Flat, &triangle, &light, reading, &mut grid);
     }
 
-    let mut builder = MeshBuilder::new(corners.map(DVec3::as_vec3).to_vec());
-    builder.polygon(&[0, 1, 2, 3]);
-    let scene = Scene {
-        width: SIDE,
-        height: SIDE,
-        culling: Culling::None,
-        objects: vec![Object {
-            mesh: Arc::new(builder.finish()?),
-            transform: DAffine3::IDENTITY,
-            material: Some(material),
-            normals: NormalSource::Averaged,
-        }],
-        ..Scene::new(camera)
-    };
+    let mut scene = bare(&corners, &[&[0, 1, 2, 3]], camera, [SIDE; 2])?;
+    scene.objects[0].material = Some(material);
     let clipped = triangulated(&scene.frame()?).frame;
     let clipped = render(&clipped, Shading::Flat, reading);
     Ok([grid.colours, clipped.colours])
 }
 
 /// Counts the pixels that `a` covers and `b` does not.
-fn only(a: &Drawn, b: &Drawn) -> usize {
+fn only(a: &F64Picture, b: &F64Picture) -> usize {
     let pairs = a.texels().iter().zip(b.texels());
     pairs.filter(|(a, b)| a[3] > b[3]).count()
 }
 
 /// Compares the test against the cube at each pixel with clipping.
-fn cube(content: &mut FigureContent) -> Result<(), FigureError> {
+fn cube(content: &mut FigureContent) -> Result {
     let [near, near_clipped] = floors(-1.0)?;
     let [behind, behind_clipped] = floors(2.0)?;
     content.text(
@@ -219,24 +188,21 @@ fn cube(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "cube-in-front",
         "pixels in which the cube's test and clipping differ, all corners in front of the eye",
-        (differing as f64, "pixels"),
-        differing <= SIDE as usize,
+        (differing as f64, "pixels", differing <= SIDE as usize),
         "\"Parts within the cube\" are rendered, as the notes say.",
     );
     let missing = only(&behind_clipped, &behind);
     content.contradicts(
         "cube-missing",
         "pixels that the cube's test loses, corners behind the eye",
-        (missing as f64, "pixels"),
-        missing != 0,
+        (missing as f64, "pixels", missing != 0),
         "The cube's test is no clipping: corners behind the eye have no place.",
     );
     let extra = only(&behind, &behind_clipped);
     content.contradicts(
         "cube-extra",
         "pixels that it draws where nothing is",
-        (extra as f64, "pixels"),
-        extra != 0,
+        (extra as f64, "pixels", extra != 0),
         "The cube's test draws a part of the floor above the horizon.",
     );
     Ok(())

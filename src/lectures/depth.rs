@@ -1,11 +1,11 @@
 //! Depth buffers: two ways to compute depth, and the reach of 16, 24 and 32 bits (L5).
 
-use super::content::{linear, log, written};
-use super::fixture::{draw, shipped, stored};
-use super::measure::{differing, largest};
-use super::{Agreement, Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    Agreement, Figure, FigureContent, FigureError, Plot, Result, Series, differing, draw, largest,
+    linear, log, shipped, stored, written,
+};
 use crate::raster::depth;
-use crate::scene::{DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Scene};
+use crate::scene::{Camera, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Scene};
 use alloc::format;
 use alloc::vec::Vec;
 
@@ -13,7 +13,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "depth",
     title: "Depth: two ways to compute it, and 16, 24 or 32 bits to keep it",
     lecture: "L5, Z-buffer, Z-value Computation",
-    make,
+    parts: &[fighting, ways, curve],
 };
 
 /// Width and height of the pictures.
@@ -26,6 +26,11 @@ const BITS: [(u32, DepthBits); 3] = [
     (32, DepthBits::ThirtyTwo),
 ];
 
+/// Loads a star a little above a floor, far from the eye.
+fn far_away() -> Result<Scene> {
+    shipped("z-fighting", SIZE)
+}
+
 fn with(scene: &Scene, bits: DepthBits, source: DepthSource) -> Scene {
     Scene {
         hidden_surfaces: HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }),
@@ -33,24 +38,16 @@ fn with(scene: &Scene, bits: DepthBits, source: DepthSource) -> Scene {
     }
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    let scene = shipped("z-fighting", SIZE)?;
-    fighting(&mut content, &scene)?;
-    ways(&mut content, &scene)?;
-    curve(&mut content, &scene);
-    Ok(content)
-}
-
 /// Draws a star a little above a floor: with too few bits both have one depth.
-fn fighting(content: &mut FigureContent, scene: &Scene) -> Result<(), FigureError> {
+fn fighting(content: &mut FigureContent) -> Result {
+    let scene = far_away()?;
     content.text(
         "A star that floats a little above a floor, drawn after it, far from the eye. The floor \
          stays where a buffer of few bits rounds both depths to one number: z-fighting.",
     );
     let mut pictures = Vec::new();
     for (_, bits) in BITS {
-        let scene = with(scene, bits, DepthSource::Interpolated);
+        let scene = with(&scene, bits, DepthSource::Interpolated);
         pictures.push(draw(&scene.frame()?, "flat")?);
     }
     let panels = BITS.iter().zip(&pictures);
@@ -65,8 +62,7 @@ fn fighting(content: &mut FigureContent, scene: &Scene) -> Result<(), FigureErro
         content.adds(
             format!("fighting-{bits}"),
             format!("pixels that {bits} bits show differently than 32"),
-            (wrong as f64, "pixels"),
-            true,
+            (wrong as f64, "pixels", true),
             format!("{bits} bits are {enough} here."),
         );
     }
@@ -74,8 +70,9 @@ fn fighting(content: &mut FigureContent, scene: &Scene) -> Result<(), FigureErro
 }
 
 /// Compares depth interpolated between corners with depth computed at each sample.
-fn ways(content: &mut FigureContent, scene: &Scene) -> Result<(), FigureError> {
-    let by = |source| Ok::<_, FigureError>(depth(&with(scene, BITS[2].1, source).frame()?));
+fn ways(content: &mut FigureContent) -> Result {
+    let scene = far_away()?;
+    let by = |source| Ok::<_, FigureError>(depth(&with(&scene, BITS[2].1, source).frame()?));
     let (corners, samples) = (by(DepthSource::Interpolated)?, by(DepthSource::PerSample)?);
     let both = corners.texels().iter().zip(samples.texels());
     let both = both.filter(|(a, b)| a.is_finite() && b.is_finite());
@@ -86,8 +83,7 @@ fn ways(content: &mut FigureContent, scene: &Scene) -> Result<(), FigureError> {
     content.confirms(
         "ways",
         "largest difference of depth by both ways",
-        (difference, ""),
-        difference <= bound,
+        (difference, "", difference <= bound),
         "Both ways agree to rounding, as 1/z is linear on the screen.",
     );
     Ok(())
@@ -99,8 +95,8 @@ fn lecture_depth(distance: f64, near: f64, far: f64) -> f64 {
     (far + near) / (far - near) + 2.0 * far * near / (far - near) / z
 }
 
-fn curve(content: &mut FigureContent, scene: &Scene) {
-    let (near, far) = (scene.camera.near, scene.camera.far);
+fn curve(content: &mut FigureContent) -> Result {
+    let Camera { near, far, .. } = far_away()?.camera;
     let curve = |near: f64| {
         let distances = (0..=60).map(|i| near * libm::pow(far / near, f64::from(i) / 60.0));
         let depth = |distance| 0.5 + 0.5 * lecture_depth(distance, near, far);
@@ -124,8 +120,7 @@ fn curve(content: &mut FigureContent, scene: &Scene) {
     content.adds(
         "half",
         "part of the depth range used up at twice the near distance",
-        (half, ""),
-        true,
+        (half, "", true),
         format!(
             "Of distances up to {}, those below {} take {:.0} % of the levels.",
             written(far),
@@ -148,4 +143,5 @@ fn curve(content: &mut FigureContent, scene: &Scene) {
             (_, false) => "Depth does not even keep the order.",
         },
     );
+    Ok(())
 }

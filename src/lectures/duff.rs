@@ -3,10 +3,10 @@
 //! T. Duff, *Smoothly shaded renderings of polyhedral objects on raster displays*, SIGGRAPH 1979, says that there are
 //! surfaces for which this is so. The example and its closed form are derived here.
 
-use super::content::{linear, written};
-use super::fixture::{DULL, ScreenPolygon, draw_each, frame, stored, toward};
-use super::measure::{jump, profile};
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    DULL, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw_each, frame, jump,
+    linear, profile, stored, toward, written,
+};
 use crate::picture::LinearPicture;
 use alloc::format;
 use alloc::vec::Vec;
@@ -15,7 +15,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "duff",
     title: "Duff\u{2019}s surprise: where Phong shading bends more than Gouraud shading",
     lecture: "L21 4; Duff 1979",
-    make,
+    parts: &[curves, jumps, sweep],
 };
 
 /// Pixels a degree: each facet is as wide as its arc.
@@ -33,7 +33,7 @@ const METHODS: [&str; 3] = ["gouraud", "naive-phong", "slerp-phong"];
 const NAMES: [&str; 3] = ["Gouraud", "naive Phong", "slerp Phong"];
 
 /// Draws two facets of one circle that meet at an angle of 0, left and right of it, each as wide as its arc.
-fn circle([left, right]: [f64; 2]) -> Result<[LinearPicture; 3], FigureError> {
+fn circle([left, right]: [f64; 2]) -> Result<[LinearPicture; 3]> {
     let facet = |angles: [f64; 2]| {
         let columns = angles.map(|degrees| JOINT + PIXELS * degrees);
         ScreenPolygon::strip(columns, f64::from(SIZE[1]), angles.map(toward))
@@ -58,12 +58,11 @@ fn scan_line(picture: &LinearPicture) -> Vec<f64> {
 }
 
 /// Returns the jump of the slope at the joint, by each method.
-fn slope_jumps(angles: [f64; 2]) -> Result<[f64; 3], FigureError> {
+fn slope_jumps(angles: [f64; 2]) -> Result<[f64; 3]> {
     Ok(circle(angles)?.map(|picture| jump(&scan_line(&picture), JOINT).slope))
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn curves(content: &mut FigureContent) -> Result {
     let [left, right] = ANGLES;
     content.text(format!(
         "Two facets of one circle, of {left}° and {right}°, each as wide on the screen as its arc, so \
@@ -92,19 +91,15 @@ fn make() -> Result<FigureContent, FigureError> {
         )
         .marked([JOINT]),
     );
-    jumps(&mut content)?;
-    sweep(&mut content)?;
-    Ok(content)
+    Ok(())
 }
 
-fn jumps(content: &mut FigureContent) -> Result<(), FigureError> {
+fn jumps(content: &mut FigureContent) -> Result {
     let [gouraud, naive, slerp] = slope_jumps(ANGLES)?;
-    let unit = "grey levels a pixel";
     content.contradicts(
         "naive-phong",
         "naive Phong: jump of the slope at the joint",
-        (naive, unit),
-        naive.abs() > gouraud.abs(),
+        (naive, "grey levels a pixel", naive.abs() > gouraud.abs()),
         format!(
             "Phong shading is worse here: {} times the jump of Gouraud shading.",
             written(naive.abs() / gouraud.abs())
@@ -113,30 +108,32 @@ fn jumps(content: &mut FigureContent) -> Result<(), FigureError> {
     content.adds(
         "gouraud",
         "Gouraud: jump of the slope at the joint",
-        (gouraud, unit),
-        true,
+        (gouraud, "grey levels a pixel", true),
         "Both chords are about equally steep, as the left facet reaches beyond the terminator.",
     );
     content.adds(
         "slerp-phong",
         "slerp Phong: jump of the slope at the joint",
-        (slerp, unit),
-        slerp.abs() < 0.01 * naive.abs(),
+        (
+            slerp,
+            "grey levels a pixel",
+            slerp.abs() < 0.01 * naive.abs(),
+        ),
         "None: uniform speed follows the circle.",
     );
     let expected = closed_form(ANGLES);
+    let is_near = (naive - expected).abs() < 0.02 * expected.abs();
     content.adds(
         "closed-form",
         "naive Phong: the same by 255 sin θ (sin φ₂ / l₂ − sin φ₁ / l₁)",
-        (expected, unit),
-        (naive - expected).abs() < 0.02 * expected.abs(),
+        (expected, "grey levels a pixel", is_near),
         "The engine draws what the formula says.",
     );
     Ok(())
 }
 
 /// Measures the jumps for other angles of the left facet.
-fn sweep(content: &mut FigureContent) -> Result<(), FigureError> {
+fn sweep(content: &mut FigureContent) -> Result {
     let right = ANGLES[1];
     let angles = || (1..=9).map(|i| 10.0 * f64::from(i));
     let mut curves = NAMES.map(|name| Series::new(name, []));

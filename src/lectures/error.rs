@@ -7,6 +7,9 @@ use crate::mesh::builtin::BuiltinError;
 use crate::scene::input::InputError;
 use crate::shading::MethodError;
 
+/// The result of a part of a figure.
+pub(super) type Result<T = (), E = FigureError> = core::result::Result<T, E>;
+
 /// An error of the room that a figure draws with.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error(transparent)]

@@ -1,9 +1,9 @@
 //! The exercises of Lecture 21: a table of sines read between its lines, and e^t by one multiplication a pixel.
 
-use super::content::{linear, log, written};
-use super::fixture::{DULL, ScreenCorner, ScreenPolygon, draw, frame, grey, stored};
-use super::measure::largest;
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    DULL, Figure, FigureContent, Plot, Result, ScreenCorner, ScreenPolygon, Series, draw, frame,
+    grey, largest, linear, log, stored, written,
+};
 use crate::number::{Counter, Num};
 use crate::picture::LinearPicture;
 use crate::raster::depth;
@@ -16,22 +16,14 @@ pub(super) static FIGURE: Figure = Figure {
     name: "exercises",
     title: "The exercises: a table of sines, and e to the t by one multiplication a pixel",
     lecture: "L21, Exercises 1 and 2",
-    make,
+    parts: &[sine, exponential, fog],
 };
-
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    sine(&mut content)?;
-    exponential(&mut content);
-    fog(&mut content)?;
-    Ok(content)
-}
 
 /// The sines of 24° and 25° in the table of Exercise 1, in five decimals.
 const TABLE: [f64; 2] = [0.40674, 0.42262];
 
 /// Exercise 1: Gouraud shading reads between the lines of a table.
-fn sine(content: &mut FigureContent) -> Result<(), FigureError> {
+fn sine(content: &mut FigureContent) -> Result {
     // From the centre of pixel 0 to that of pixel 10: pixel 3 is 0.3 of the way. L · N is the normal's z.
     let normals = TABLE.map(|z| DVec3::new(libm::sqrt(1.0 - z * z), 0.0, z));
     let strip = ScreenPolygon::strip([0.5, 10.5], 4.0, normals);
@@ -49,15 +41,13 @@ fn sine(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "sine",
         "sin 24.3° by linear interpolation",
-        (found, ""),
-        (found - truth).abs() < 1.5e-5,
+        (found, "", (found - truth).abs() < 1.5e-5),
         "The estimate is as good as the table that it is read from.",
     );
     content.adds(
         "sine-error",
         "its distance from the sine",
-        (truth - found, ""),
-        true,
+        (truth - found, "", true),
         "A chord lies below the sine, and the table is rounded.",
     );
     Ok(())
@@ -91,7 +81,7 @@ impl<F: Num> Walk<F> for Exponential<F> {
 }
 
 /// Exercise 2: the cost of a step, and the drift.
-fn exponential(content: &mut FigureContent) {
+fn exponential(content: &mut FigureContent) -> Result {
     let counter = Counter::default();
     let mut counted = Exponential {
         at: counter.number(1.0),
@@ -100,11 +90,11 @@ fn exponential(content: &mut FigureContent) {
     counted.next();
     let counts = counter.take();
     let others = counts.additions + counts.divisions + counts.powers + counts.trigonometric;
+    let all = counts.multiplications + others;
     content.confirms(
         "multiplications",
         "operations a pixel of e to the t",
-        (f64::from(counts.multiplications + others), ""),
-        counts.multiplications == 1 && others == 0,
+        (all, "", all == 1 && counts.multiplications == 1),
         "One multiplication and nothing else, counted.",
     );
 
@@ -135,17 +125,17 @@ fn exponential(content: &mut FigureContent) {
     content.confirms(
         "drift",
         "largest relative error over 1024 pixels",
-        (most, ""),
-        most <= bound,
+        (most, "", most <= bound),
         "Within two roundings a pixel: far below a grey level.",
     );
+    Ok(())
 }
 
 /// Fog lets through e^-`DENSITY` of the light from a surface at depth 1.
 const DENSITY: f64 = 2.5;
 
 /// Draws exponential fog over a tilted plane: depth is linear on the screen, so that the exponential can be stepped.
-fn fog(content: &mut FigureContent) -> Result<(), FigureError> {
+fn fog(content: &mut FigureContent) -> Result {
     // A plane: depth is a linear function of the position.
     let corner = |[x, y]: [f64; 2]| ScreenCorner {
         depth: 0.45 * x / 240.0 + 0.55 * (1.0 - y / 132.0),
@@ -193,8 +183,7 @@ fn fog(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "fog",
         "largest difference of the fog by steps from that by exponentials",
-        (levels, "grey levels"),
-        levels < 0.5,
+        (levels, "grey levels", levels < 0.5),
         "The pictures cannot be told apart.",
     );
     Ok(())

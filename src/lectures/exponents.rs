@@ -1,11 +1,9 @@
 //! The exponent of the highlight: cosine powers, spheres for k_s and p, and N·H against R·V (L5; CS171 2, Figure 7).
 
-use super::content::{linear, written};
-use super::fixture::{draw, grey, scene, stored};
-use super::measure::share;
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    Figure, FigureContent, Plot, Result, Series, draw, grey, linear, scene, share, stored, written,
+};
 use crate::mesh::Material;
-use crate::mesh::builtin::builtin;
 use crate::picture::LinearPicture;
 use crate::scene::SpecularModel;
 use alloc::format;
@@ -16,7 +14,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "exponents",
     title: "The exponent and the size of the highlight",
     lecture: "L5, Cosine power plots; CS171 2, Figures 7 and 8",
-    make,
+    parts: &[powers, grid, half_vector],
 };
 
 const EXPONENTS: [f32; 5] = [1.0, 8.0, 32.0, 128.0, 512.0];
@@ -24,20 +22,12 @@ const STRENGTHS: [f32; 3] = [0.25, 0.5, 0.75];
 /// Half of the visible height; the sphere has radius 1.
 const HALF_HEIGHT: f64 = 1.1;
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    powers(&mut content);
-    grid(&mut content)?;
-    half_vector(&mut content)?;
-    Ok(content)
-}
-
 /// Returns the angle at which cos^p has come down to a half, in degrees.
 fn half_width(p: f64) -> f64 {
     libm::acos(libm::pow(0.5, 1.0 / p)).to_degrees()
 }
 
-fn powers(content: &mut FigureContent) {
+fn powers(content: &mut FigureContent) -> Result {
     let curve = |p: f32| {
         let power = |degrees: f64| libm::pow(libm::cos(degrees.to_radians()).max(0.0), p.into());
         Series::sampled(format!("p = {p}"), (0..=90).map(f64::from), power)
@@ -60,10 +50,10 @@ fn powers(content: &mut FigureContent) {
     content.confirms(
         "narrows",
         "half width at p = 1 over that at p = 512",
-        (widest / narrowest, ""),
-        widths.is_sorted_by(|a, b| a > b),
+        (widest / narrowest, "", widths.is_sorted_by(|a, b| a > b)),
         "Increasing p narrows the lobe.",
     );
+    Ok(())
 }
 
 /// Draws a sphere, `size` pixels of a picture with this much space above the middle.
@@ -74,8 +64,8 @@ fn sphere(
     light: DVec3,
     half_height: f64,
     size: [u32; 2],
-) -> Result<LinearPicture, FigureError> {
-    let mut scene = scene(builtin(spec)?, material, light, half_height, size);
+) -> Result<LinearPicture> {
+    let mut scene = scene(spec, material, light, half_height, size)?;
     (scene.specular, scene.shininess_for) = (specular, specular);
     draw(&scene.frame()?, "naive-phong")
 }
@@ -87,14 +77,14 @@ fn shiny(
     specular: SpecularModel,
     light: DVec3,
     side: u32,
-) -> Result<LinearPicture, FigureError> {
+) -> Result<LinearPicture> {
     let material = grey(0.02, 0.2, strength, exponent);
     let spec = "sphere?rings=32&segments=64";
     sphere(spec, material, specular, light, HALF_HEIGHT, [side; 2])
 }
 
 /// Draws the grid of the lecture, k_s downward and p to the right.
-fn grid(content: &mut FigureContent) -> Result<(), FigureError> {
+fn grid(content: &mut FigureContent) -> Result {
     let light = DVec3::new(-0.4, 0.5, 0.8);
     let (mut panels, mut bright) = (Vec::new(), Vec::new());
     for strength in STRENGTHS {
@@ -115,8 +105,7 @@ fn grid(content: &mut FigureContent) -> Result<(), FigureError> {
             "share of the sphere in the highlight, p = {} over p = {}",
             EXPONENTS[0], EXPONENTS[3]
         ),
-        (matte / shiny.max(1e-4), ""),
-        matte >= shiny,
+        (matte / shiny.max(1e-4), "", matte >= shiny),
         "Very shiny surfaces have a large p, as Figure 7 of CS171 shows: its text says close to 1.",
     );
     Ok(())
@@ -124,7 +113,7 @@ fn grid(content: &mut FigureContent) -> Result<(), FigureError> {
 
 /// Measures the half width of the highlight alone, in degrees of the surface, on the middle row of a sphere lit from
 /// the eye. Returns the curve as well.
-fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f64)>), FigureError> {
+fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f64)>)> {
     const SIDE: u32 = 481;
     // Three rows of the picture of full height: the middle one passes through the middle of the sphere.
     let picture = sphere(
@@ -156,7 +145,7 @@ fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f6
 }
 
 /// Compares R·V with N·H of the same exponent, and of four times as much.
-fn half_vector(content: &mut FigureContent) -> Result<(), FigureError> {
+fn half_vector(content: &mut FigureContent) -> Result {
     let (mut widths, mut curves, mut panels) = (Vec::new(), Vec::new(), Vec::new());
     for (label, exponent, specular) in [
         ("R·V, p = 20", 20.0, SpecularModel::Phong),
@@ -186,22 +175,21 @@ fn half_vector(content: &mut FigureContent) -> Result<(), FigureError> {
     content.contradicts(
         "same-exponent",
         "half width of N·H over that of R·V, same exponent",
-        (same / phong, ""),
-        same / phong > 1.5,
+        (same / phong, "", same / phong > 1.5),
         "CS171 says that the angle at H \"can also be used\": not with the same exponent.",
     );
+    let ratio = converted / phong;
     content.adds(
         "converted",
         "half width of N·H with four times the exponent, over that of R·V",
-        (converted / phong, ""),
-        (converted / phong - 1.0).abs() < 0.05,
+        (ratio, "", (ratio - 1.0).abs() < 0.05),
         "Four times the exponent makes up for it.",
     );
+    let expected = half_width(20.0) / 2.0;
     content.adds(
         "half-width",
         "half width of R·V for p = 20 on the sphere",
-        (phong, "degrees"),
-        (phong - half_width(20.0) / 2.0).abs() < 0.1,
+        (phong, "degrees", (phong - expected).abs() < 0.1),
         "Half of the half width of cos^20, as the normal turns half as fast as R.",
     );
     Ok(())

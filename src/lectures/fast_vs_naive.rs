@@ -1,23 +1,20 @@
 //! Fast Phong against naive Phong: the same picture for fewer operations (L21 4.2–4.4).
 
-use super::content::written;
-use super::fixture::{draw_each, map_caption, stored};
-use super::{Figure, FigureContent, FigureError};
+use super::{
+    Figure, FigureContent, FigureError, Result, draw_each, fitted, map_caption, stored, written,
+};
 use crate::compare::metrics::{compare, difference_map};
-use crate::mesh::builtin::builtin;
 use crate::number::Counts;
-use crate::scene::Scene;
 use crate::shading::{METHODS, OperationCounts, Variant};
-use alloc::format;
 use alloc::string::ToString;
-use alloc::vec;
 use alloc::vec::Vec;
+use alloc::{format, vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "fast-vs-naive",
     title: "Fast Phong against naive Phong: the picture and the price",
     lecture: "L21 4.1–4.4, 5",
-    make,
+    parts: &[meshes, operations],
 };
 
 /// The meshes, coarse and fine, with and without flat parts.
@@ -32,21 +29,12 @@ const MESHES: [&str; 6] = [
 /// Grey levels at the yellow end of the difference map.
 const MAP_SCALE: f32 = 8.0;
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    meshes(&mut content)?;
-    operations(&mut content)?;
-    Ok(content)
-}
-
 /// Compares naive Phong on every mesh with fast Phong, with one step and with the fewest that suffice on each span, which
 /// is the default.
-fn meshes(content: &mut FigureContent) -> Result<(), FigureError> {
+fn meshes(content: &mut FigureContent) -> Result {
     let (mut rows, mut fewest, mut by_one) = (Vec::new(), 0.0f64, Vec::new());
     for mesh in MESHES {
-        let mut scene = Scene::of_mesh(builtin(mesh)?);
-        (scene.width, scene.height) = (200, 150);
-        let frame = scene.frame()?;
+        let frame = fitted(mesh, [200, 150])?.frame()?;
         let [naive, fast, one] =
             draw_each(&frame, ["naive-phong", "fast-phong", "fast-phong:steps=1"])?;
         let (by_default, with_one) = (compare(&naive, &fast)?, compare(&naive, &one)?);
@@ -65,8 +53,7 @@ fn meshes(content: &mut FigureContent) -> Result<(), FigureError> {
         "default",
         "fast Phong with the fewest steps that suffice: largest difference from naive Phong over all \
          meshes",
-        (fewest, "grey levels"),
-        fewest <= 1.0,
+        (fewest, "grey levels", fewest <= 1.0),
         "No pixel differs by more than a grey level.",
     );
     let verdict = |error: f64| match error <= 1.0 {
@@ -77,8 +64,7 @@ fn meshes(content: &mut FigureContent) -> Result<(), FigureError> {
     content.adds(
         "one-step-sphere",
         "fast Phong with 1 step: largest difference on the coarse sphere",
-        (coarse, "grey levels"),
-        true,
+        (coarse, "grey levels", true),
         verdict(coarse),
     );
     by_one.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -86,8 +72,7 @@ fn meshes(content: &mut FigureContent) -> Result<(), FigureError> {
     content.adds(
         "one-step",
         format!("fast Phong with 1 step: largest difference over all meshes, on {mesh}"),
-        (*error, "grey levels"),
-        true,
+        (*error, "grey levels", true),
         verdict(*error),
     );
     content.text(format!(
@@ -109,7 +94,7 @@ fn meshes(content: &mut FigureContent) -> Result<(), FigureError> {
 }
 
 /// Counts the operations a pixel for one light, of walk and shade.
-fn operations(content: &mut FigureContent) -> Result<(), FigureError> {
+fn operations(content: &mut FigureContent) -> Result {
     content.text(
         "Operations a pixel for one light and shininess 32, counted by running each method on \
          numbers that count: to step from the previous pixel (walk), and for the colour (shade). The \
@@ -118,12 +103,8 @@ fn operations(content: &mut FigureContent) -> Result<(), FigureError> {
     let rows = METHODS.iter().map(|entry| {
         let OperationCounts { walk, shade, .. } = entry.variant().operations(1);
         let of = |c: Counts| [c.additions, c.multiplications, c.divisions, c.roots];
-        let cells = [of(walk), of(shade)].concat();
-        let cells = cells.iter().map(u32::to_string);
-        [entry.info.name.to_string()]
-            .into_iter()
-            .chain(cells)
-            .collect::<Vec<_>>()
+        let cells = of(walk).into_iter().chain(of(shade)).map(|n| n.to_string());
+        [entry.info.name.to_string()].into_iter().chain(cells)
     });
     content.table(
         "method | walk: + − | walk: × | walk: ÷ | walk: √ | shade: + − | shade: × | shade: ÷ \
@@ -136,39 +117,39 @@ fn operations(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "roots-naive",
         "naive Phong: square roots a pixel",
-        (f64::from(roots(&naive)), ""),
-        roots(&naive) == 1,
+        (roots(&naive), "", roots(&naive) == 1),
         "One, to normalise the interpolated normal.",
     );
     content.confirms(
         "roots-fast",
         "fast Phong: square roots a pixel",
-        (f64::from(roots(&fast)), ""),
-        roots(&fast) == 0,
+        (roots(&fast), "", roots(&fast) == 0),
         "None: Newton\u{2019}s steps take their place.",
     );
     content.confirms(
         "walk-naive",
         "naive Phong: additions to step the normal (4.2)",
-        (f64::from(naive.walk.additions), ""),
-        naive.walk.additions == 3,
+        (naive.walk.additions, "", naive.walk.additions == 3),
         "Three additions a pixel.",
     );
     let gouraud = count("gouraud")?.walk.additions;
     content.confirms(
         "walk-gouraud",
         "Gouraud: additions a pixel, for three channels (3.6)",
-        (f64::from(gouraud), ""),
-        gouraud == 3,
+        (gouraud, "", gouraud == 3),
         "One addition a channel.",
     );
-    let slerp = count("slerp-phong")?.walk;
+    let Counts {
+        additions,
+        multiplications,
+        ..
+    } = count("slerp-phong")?.walk;
+    // One addition and two multiplications each make J and K of the sines (4.8).
+    let is_as_said = (additions, multiplications) == (4 + 2, 8 + 4);
     content.confirms(
         "walk-slerp",
         "slerp Phong: additions and multiplications to step J and K (4.8)–(4.12)",
-        (f64::from(slerp.additions + slerp.multiplications), ""),
-        // One addition and two multiplications each make J and K of the sines (4.8).
-        (slerp.additions, slerp.multiplications) == (4 + 2, 8 + 4),
+        (additions + multiplications, "", is_as_said),
         "6 additions, 12 multiplications: 4 and 8 for the sines, as the lecture counts, 1 and 2 \
          for each of J and K.",
     );

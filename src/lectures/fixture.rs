@@ -3,18 +3,18 @@
 //! [`frame`] takes polygons in screen space with given normals; [`scene`] puts one mesh before a camera that looks
 //! along -z; [`shipped`] loads a scene of the repository.
 
-use super::FigureError;
+use super::Result;
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
-use crate::mesh::{Material, PolygonMesh};
+use crate::mesh::builtin::builtin;
+use crate::mesh::{Material, MeshBuilder};
 use crate::picture::encoding::store;
 use crate::picture::{Encoding, LinearPicture, Picture8};
 use crate::scene::input::{load, resolve};
-use crate::scene::{Camera, HiddenSurfaces, Light, Lighting, Projection, Scene};
+use crate::scene::{Camera, Culling, HiddenSurfaces, Light, Lighting, Projection, Scene};
 use crate::shading::Variant;
-use alloc::format;
 use alloc::string::String;
-use alloc::vec;
 use alloc::vec::Vec;
+use alloc::{format, vec};
 use glam::DVec3;
 
 /// A corner of a polygon in screen space.
@@ -92,7 +92,7 @@ pub(super) fn frame(
     material: Material,
     light: DVec3,
     polygons: &[ScreenPolygon],
-) -> Result<Frame, FigureError> {
+) -> Result<Frame> {
     let mut builder = FrameBuilder::new(width, height);
     builder.hidden_surfaces(HiddenSurfaces::DrawOrder);
     let light = Light::directional(light.normalize(), [1.0; 3]);
@@ -127,16 +127,19 @@ pub(super) fn ends(degrees: f64) -> [DVec3; 2] {
     [toward(-degrees / 2.0), toward(degrees / 2.0)]
 }
 
-/// Puts `mesh` around the origin, seen from +z, under one white light. `half_height` of space is visible above the middle.
+/// Puts a built-in mesh around the origin, seen from +z, under one white light. `half_height` of space is visible above the
+/// middle.
+///
+/// # Errors
+/// If there is no such mesh.
 pub(super) fn scene(
-    mesh: PolygonMesh,
+    mesh: &str,
     material: Material,
     light: DVec3,
     half_height: f64,
-    [width, height]: [u32; 2],
-) -> Scene {
-    let mut scene = Scene::of_mesh(mesh);
-    (scene.width, scene.height) = (width, height);
+    size: [u32; 2],
+) -> Result<Scene> {
+    let mut scene = fitted(mesh, size)?;
     scene.camera = Camera {
         eye: DVec3::new(0.0, 0.0, 5.0),
         target: DVec3::ZERO,
@@ -149,14 +152,48 @@ pub(super) fn scene(
     for object in &mut scene.objects {
         object.material = Some(material);
     }
-    scene
+    Ok(scene)
+}
+
+/// Puts a built-in mesh before a camera that fits it.
+///
+/// # Errors
+/// If there is no such mesh.
+pub(super) fn fitted(mesh: &str, [width, height]: [u32; 2]) -> Result<Scene> {
+    let mut scene = Scene::of_mesh(builtin(mesh)?);
+    (scene.width, scene.height) = (width, height);
+    Ok(scene)
+}
+
+/// Puts a mesh of these corners and polygons before a camera, which sees it from both sides. There is no light but ambient
+/// light.
+///
+/// # Errors
+/// If a polygon names a corner that does not exist.
+pub(super) fn bare(
+    corners: &[DVec3],
+    polygons: &[&[u32]],
+    camera: Camera,
+    [width, height]: [u32; 2],
+) -> Result<Scene> {
+    let mut builder = MeshBuilder::new(corners.iter().map(|c| c.as_vec3()).collect());
+    for polygon in polygons {
+        builder.polygon(polygon);
+    }
+    Ok(Scene {
+        width,
+        height,
+        culling: Culling::None,
+        objects: Scene::of_mesh(builder.finish()?).objects,
+        ..Scene::new(camera)
+    })
 }
 
 /// Loads a shipped scene, for a picture of this size.
 ///
 /// # Errors
 /// If there is no such scene.
-pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene, FigureError> {
+pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene> {
     let mut scene = resolve(&load(name)?)?.scene;
     (scene.width, scene.height) = (width, height);
     Ok(scene)
@@ -166,7 +203,7 @@ pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene, Fi
 ///
 /// # Errors
 /// If there is no such method.
-pub(super) fn draw(frame: &Frame, method: &str) -> Result<LinearPicture, FigureError> {
+pub(super) fn draw(frame: &Frame, method: &str) -> Result<LinearPicture> {
     Ok(Variant::parse(method)?.render_linear(frame))
 }
 
@@ -177,7 +214,7 @@ pub(super) fn draw(frame: &Frame, method: &str) -> Result<LinearPicture, FigureE
 pub(super) fn draw_each<const N: usize>(
     frame: &Frame,
     methods: [&str; N],
-) -> Result<[LinearPicture; N], FigureError> {
+) -> Result<[LinearPicture; N]> {
     let variants: Vec<Variant> = methods
         .iter()
         .map(|method| Variant::parse(method))

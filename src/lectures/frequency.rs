@@ -1,23 +1,19 @@
 //! Shading frequency against mesh resolution: faces, vertices, pixels, on six spheres (L5).
 
-use super::content::{log, written};
-use super::fixture::{draw, stored};
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{Figure, FigureContent, Plot, Result, Series, draw, fitted, log, stored, written};
 use crate::compare::metrics::{Difference, compare_where};
 use crate::frame::Frame;
-use crate::mesh::builtin::builtin;
 use crate::reference::{self, Model};
 use crate::scene::Scene;
-use alloc::format;
 use alloc::string::ToString;
-use alloc::vec;
 use alloc::vec::Vec;
+use alloc::{format, vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "frequency",
     title: "Shading frequency and mesh resolution",
     lecture: "L5, Shading frequency: triangle, vertex or pixel",
-    make,
+    parts: &[spheres],
 };
 
 /// Bands from pole to pole of the spheres; twice as many cells around.
@@ -35,18 +31,19 @@ const FREQUENCIES: [(&str, &str); 3] = [
 ];
 
 /// Makes a sphere of so many rings, through one camera for all.
-fn sphere(rings: u32) -> Result<Frame, FigureError> {
-    let mesh = |rings: u32| builtin(&format!("sphere?rings={rings}&segments={}", 2 * rings));
-    let mut scene = Scene::of_mesh(mesh(FINEST)?);
-    (scene.width, scene.height) = (SIDE, SIDE);
-    if rings != FINEST {
-        scene.objects = Scene::of_mesh(mesh(rings)?).objects;
+fn sphere(rings: u32) -> Result<Frame> {
+    let sphere = |rings| {
+        let mesh = format!("sphere?rings={rings}&segments={}", 2 * rings);
+        fitted(&mesh, [SIDE; 2])
+    };
+    Ok(Scene {
+        objects: sphere(rings)?.objects,
+        ..sphere(FINEST)?
     }
-    Ok(scene.frame()?)
+    .frame()?)
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn spheres(content: &mut FigureContent) -> Result {
     let finest = sphere(FINEST)?;
     let truth = reference::render(&finest, Model::Phong).to_linear();
     let frames = RINGS
@@ -72,8 +69,8 @@ fn make() -> Result<FigureContent, FigureError> {
         errors.push(row);
     }
     content.pictures(RINGS.len(), "A sphere, shaded once a", panels);
-    numbers(&mut content, &errors);
-    Ok(content)
+    numbers(content, &errors);
+    Ok(())
 }
 
 /// Shows the errors, a row a frequency.
@@ -110,12 +107,14 @@ fn numbers(content: &mut FigureContent, errors: &[Vec<Difference>]) {
         for (end, k) in [("coarsest", 0), ("finest", LAST)] {
             let key = format!("{frequency}-{end}");
             let label = format!("once a {frequency}, {} polygons: RMS error", polygons[k]);
-            let value = (rms(i, k), "grey levels");
+            let rms_here = rms(i, k);
             if i == 0 {
-                content.adds(key, label, value, rms(0, k) > 1.0, "Visible facets.");
+                let value = (rms_here, "grey levels", rms_here > 1.0);
+                content.adds(key, label, value, "Visible facets.");
             } else {
+                let value = (rms_here, "grey levels", rms_here < rms(i - 1, k));
                 let says = format!("Less than once a {}.", FREQUENCIES[i - 1].1);
-                content.confirms(key, label, value, rms(i, k) < rms(i - 1, k), says);
+                content.confirms(key, label, value, says);
             }
         }
     }
@@ -126,8 +125,7 @@ fn numbers(content: &mut FigureContent, errors: &[Vec<Difference>]) {
             "faces of {} polygons by pixels of {}: ratio of RMS errors",
             polygons[LAST], polygons[1]
         ),
-        (fine_faces / coarse_pixels, ""),
-        fine_faces <= coarse_pixels,
+        (fine_faces / coarse_pixels, "", fine_faces <= coarse_pixels),
         "Many faces make up for a low shading frequency.",
     );
 }

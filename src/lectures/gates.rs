@@ -1,11 +1,8 @@
 //! Highlights from behind, and colours clamped at vertices or at pixels (CS171 2; L5; L21 3).
 
-use super::fixture::{draw, draw_each, grey, scene, stored};
-use super::measure::{levels, percent};
-use super::{Figure, FigureContent, FigureError};
+use super::{Figure, FigureContent, Result, draw, draw_each, grey, levels, percent, scene, stored};
 use crate::compare::metrics::compare;
 use crate::mesh::Material;
-use crate::mesh::builtin::builtin;
 use crate::picture::LinearPicture;
 use crate::reference::{self, Model};
 use crate::scene::{SpecularGate, SpecularModel};
@@ -15,7 +12,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "gates",
     title: "Light from behind, and clamped colours",
     lecture: "CS171 2, Specular reflection; L5; L21 2.1, L21 3",
-    make,
+    parts: &[gates, clamping],
 };
 
 /// From behind and above: it lights surfaces that turn away from the eye.
@@ -24,17 +21,10 @@ const BEHIND: DVec3 = DVec3::new(-0.55, 0.5, -0.67);
 const SHINY: Material = grey(0.08, 0.4, 0.8, 12.0);
 const MATTE: Material = grey(0.08, 0.4, 0.0, 1.0);
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    gates(&mut content)?;
-    clamping(&mut content)?;
-    Ok(content)
-}
-
 /// Draws a torus in light from behind, its highlights by N·H as the lectures print them.
-fn torus(material: Material, gate: SpecularGate) -> Result<LinearPicture, FigureError> {
-    let mesh = builtin("torus?segments=96&sides=48")?;
-    let mut scene = scene(mesh, material, BEHIND, 1.5, [112, 112]);
+fn torus(material: Material, gate: SpecularGate) -> Result<LinearPicture> {
+    let mesh = "torus?segments=96&sides=48";
+    let mut scene = scene(mesh, material, BEHIND, 1.5, [112, 112])?;
     (scene.specular, scene.shininess_for) = (SpecularModel::Blinn, SpecularModel::Blinn);
     scene.gate = gate;
     draw(&scene.frame()?, "duff-phong")
@@ -55,7 +45,7 @@ fn largest_step(picture: &LinearPicture, other: &LinearPicture) -> f64 {
     largest
 }
 
-fn gates(content: &mut FigureContent) -> Result<(), FigureError> {
+fn gates(content: &mut FigureContent) -> Result {
     content.text(
         "A torus in light from behind it. The lectures raise a cosine to a power without asking \
          whether the light reaches the surface at all.",
@@ -85,35 +75,35 @@ fn gates(content: &mut FigureContent) -> Result<(), FigureError> {
     content.contradicts(
         "behind",
         "share of the surface turned away from the light that shines, as printed",
-        (from_behind, "%"),
-        from_behind > 1.0,
+        (from_behind, "%", from_behind > 1.0),
         "Light from behind shines through.",
     );
     let none = behind(&gated).max(behind(&weighted));
     content.adds(
         "behind-gated",
         "the same with a gate or a weight",
-        (none, "%"),
-        none == 0.0,
+        (none, "%", none == 0.0),
         "None.",
     );
-    let line = largest_step(&gated, &weighted);
+    let (line, no_line) = (
+        largest_step(&gated, &weighted),
+        largest_step(&weighted, &gated),
+    );
     content.adds(
         "line",
         "largest step between neighbouring pixels that the gate makes and the weight does not",
-        (line, "grey levels"),
-        line > 2.0 * largest_step(&weighted, &gated),
+        (line, "grey levels", line > 2.0 * no_line),
         "The gate ends highlights in a hard line; the weight does not.",
     );
     Ok(())
 }
 
 /// Draws a coarse sphere with more light than a picture can hold.
-fn clamping(content: &mut FigureContent) -> Result<(), FigureError> {
-    let mesh = builtin("sphere?rings=8&segments=16")?;
+fn clamping(content: &mut FigureContent) -> Result {
     let light = DVec3::new(-0.4, 0.5, 0.8);
-    let bright = scene(mesh, grey(0.2, 1.0, 0.6, 10.0), light, 1.1, [112, 112]);
-    let frame = bright.frame()?;
+    let bright = grey(0.2, 1.0, 0.6, 10.0);
+    let sphere = scene("sphere?rings=8&segments=16", bright, light, 1.1, [112, 112])?;
+    let frame = sphere.frame()?;
     let truth = reference::render(&frame, Model::Phong).to_linear();
     let [clamped, separate] = draw_each(&frame, ["gouraud", "gouraud-separate"])?;
     content.text(
@@ -133,8 +123,7 @@ fn clamping(content: &mut FigureContent) -> Result<(), FigureError> {
     content.adds(
         "clamped",
         "clamped at vertices against clamped at pixels, largest difference",
-        (difference, "grey levels"),
-        difference > 1.0,
+        (difference, "grey levels", difference > 1.0),
         "Clamping and interpolating cannot be exchanged.",
     );
     let (first, last) = (compare(&truth, &clamped)?, compare(&truth, &separate)?);
@@ -142,8 +131,7 @@ fn clamping(content: &mut FigureContent) -> Result<(), FigureError> {
     content.adds(
         "nearer",
         "RMS error of clamping at vertices over that of clamping at pixels",
-        (ratio, ""),
-        ratio > 1.0,
+        (ratio, "", ratio > 1.0),
         "Colours that are clamped last are nearer to shading at every pixel.",
     );
     Ok(())

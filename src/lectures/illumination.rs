@@ -1,12 +1,11 @@
 //! Ambient, diffuse and specular light apart and summed (L5, L21 2.1), and Lambert's law on a cube that turns.
 
-use super::content::{linear, written};
-use super::fixture::{DULL, draw, grey, scene, stored};
-use super::measure::{largest, levels};
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    DULL, Figure, FigureContent, Plot, Result, Series, draw, grey, largest, levels, linear, scene,
+    stored, written,
+};
 use crate::frame::Frame;
 use crate::mesh::Material;
-use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::picture::LinearPicture;
 use crate::raster::polygon_numbers;
@@ -18,29 +17,20 @@ pub(super) static FIGURE: Figure = Figure {
     name: "illumination",
     title: "Ambient, diffuse and specular light",
     lecture: "L21 2.1; L5, Phong reflection, Lambert's cosine law; CS171 2",
-    make,
+    parts: &[terms, diffuse_series, cube],
 };
 
 /// Width and height of the pictures.
 const SIZE: [u32; 2] = [96, 96];
 const LIGHT: DVec3 = DVec3::new(-0.5, 0.6, 0.7);
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    terms(&mut content)?;
-    diffuse_series(&mut content)?;
-    cube(&mut content)?;
-    Ok(content)
-}
-
-fn sphere(material: Material) -> Result<LinearPicture, FigureError> {
-    let mesh = builtin("sphere?rings=24&segments=48")?;
-    let scene = scene(mesh, material, LIGHT, 1.1, SIZE);
+fn sphere(material: Material) -> Result<LinearPicture> {
+    let scene = scene("sphere?rings=24&segments=48", material, LIGHT, 1.1, SIZE)?;
     draw(&scene.frame()?, "naive-phong")
 }
 
 /// Draws the three terms of 2.1, and their sum.
-fn terms(content: &mut FigureContent) -> Result<(), FigureError> {
+fn terms(content: &mut FigureContent) -> Result {
     // Together at most 1, so that nothing is clamped.
     let ambient = sphere(grey(0.12, 0.0, 0.0, 30.0))?;
     let diffuse = sphere(grey(0.0, 0.5, 0.0, 30.0))?;
@@ -69,15 +59,14 @@ fn terms(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "sum",
         "three pictures added up against one with all terms, largest difference",
-        (difference, "grey levels"),
-        difference < 0.01,
+        (difference, "grey levels", difference < 0.01),
         "The terms add, to rounding.",
     );
     Ok(())
 }
 
 /// Draws diffuse light alone for growing k_d.
-fn diffuse_series(content: &mut FigureContent) -> Result<(), FigureError> {
+fn diffuse_series(content: &mut FigureContent) -> Result {
     let (mut panels, mut ratios) = (Vec::new(), Vec::new());
     for kd in [0.25f32, 0.5, 0.75, 1.0] {
         let picture = sphere(grey(0.0, kd, 0.0, 1.0))?;
@@ -94,16 +83,15 @@ fn diffuse_series(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "kd",
         "brightest pixel over k_d: largest relative change along the series",
-        (change, ""),
-        change < 1e-6,
+        (change, "", change < 1e-6),
         "Diffuse light is proportional to k_d.",
     );
     Ok(())
 }
 
 /// Makes the cube of the lecture, turned clockwise by `degrees` around the z axis, under light from above.
-fn turned(degrees: f64) -> Result<Frame, FigureError> {
-    let mut cube = scene(builtin("cube")?, DULL, DVec3::Y, 2.4, SIZE);
+fn turned(degrees: f64) -> Result<Frame> {
+    let mut cube = scene("cube", DULL, DVec3::Y, 2.4, SIZE)?;
     // From the right and from above, so that the top is seen at every angle, and on grey, so that unlit faces are.
     cube.camera.eye = DVec3::new(2.8, 2.2, 3.4);
     cube.background = [0.3; 3];
@@ -128,7 +116,7 @@ fn top(frame: &Frame, picture: &LinearPicture, degrees: f64) -> Option<f64> {
 }
 
 /// Turns a cube under light from above (L5: "top face of 60° rotated cube intercepts half the light").
-fn cube(content: &mut FigureContent) -> Result<(), FigureError> {
+fn cube(content: &mut FigureContent) -> Result {
     let (mut measured, mut panels) = (Vec::new(), Vec::new());
     for degrees in [0.0, 15.0, 30.0, 45.0, 60.0, 75.0] {
         let frame = turned(degrees)?;
@@ -166,8 +154,7 @@ fn cube(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "cube",
         "light on the top face at 60°, over that at 0°",
-        (ratio, ""),
-        (ratio - 0.5).abs() < 1e-6,
+        (ratio, "", (ratio - 0.5).abs() < 1e-6),
         "Half the light, as the lecture says.",
     );
     let worst = largest(
@@ -181,8 +168,7 @@ fn cube(content: &mut FigureContent) -> Result<(), FigureError> {
             "largest distance from the cosine at {} angles",
             measured.len()
         ),
-        (worst, ""),
-        worst < 1e-6,
+        (worst, "", worst < 1e-6),
         format!("The cosine law, to rounding ({}).", written(worst)),
     );
     Ok(())

@@ -1,36 +1,30 @@
 //! Normals under a transform that stretches: by the matrix of the points, and by its inverse transpose (CS171 2, Figure 4).
 
-use super::content::{linear, written};
-use super::fixture::{draw, grey, scene, stored};
-use super::measure::{angle, largest, levels};
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    Figure, FigureContent, Plot, Result, Series, angle, draw, grey, largest, levels, linear, scene,
+    stored, written,
+};
 use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
 use crate::picture::LinearPicture;
 use alloc::format;
+use alloc::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "inverse-transpose",
     title: "Normals of a stretched surface",
     lecture: "CS171 2, Surface normals, Figure 4",
-    make,
+    parts: &[ellipse, ellipsoid],
 };
 
 /// Factor by which the circle and the sphere are stretched across.
 const STRETCH: f64 = 2.5;
 const LIGHT: DVec3 = DVec3::new(-0.7, 0.5, 0.5);
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    ellipse(&mut content);
-    ellipsoid(&mut content)?;
-    Ok(content)
-}
-
 /// Goes around the ellipse of Figure 4: the true normal is at right angles to the tangent.
-fn ellipse(content: &mut FigureContent) {
+fn ellipse(content: &mut FigureContent) -> Result {
     let error = |degrees: f64, normal: fn(f64, f64) -> DVec3| {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         // The tangent of the circle, stretched as its points are, turned back by a right angle.
@@ -58,8 +52,7 @@ fn ellipse(content: &mut FigureContent) {
     content.confirms(
         "matrix",
         "largest error of normals by the matrix of the points",
-        (wrong, "degrees"),
-        wrong > 1.0,
+        (wrong, "degrees", wrong > 1.0),
         "They are no normals, as the notes say.",
     );
     // Both vectors are computed from the same sine and cosine, in a few roundings of 2⁻⁵³ each.
@@ -67,19 +60,17 @@ fn ellipse(content: &mut FigureContent) {
     content.confirms(
         "inverse-transpose",
         "largest error of normals by the inverse transpose",
-        (right, "degrees"),
-        right < 1e-6,
+        (right, "degrees", right < 1e-6),
         "They are at right angles to the surface, to rounding.",
     );
+    Ok(())
 }
 
-fn sphere() -> Result<PolygonMesh, FigureError> {
-    Ok(builtin("sphere?rings=32&segments=64")?)
-}
+const SPHERE: &str = "sphere?rings=32&segments=64";
 
 /// Makes a mesh of the ellipsoid itself. Its given normals are stretched like its points, which the notes warn of.
-fn stretched() -> Result<PolygonMesh, FigureError> {
-    let sphere = sphere()?;
+fn stretched() -> Result<PolygonMesh> {
+    let sphere = builtin(SPHERE)?;
     let across = DVec3::new(STRETCH, 1.0, 1.0);
     let stretched = sphere.positions().iter().map(|p| p.as_dvec3() * across);
     let mut mesh = MeshBuilder::new(stretched.clone().map(|p| p.as_vec3()).collect());
@@ -94,22 +85,20 @@ fn stretched() -> Result<PolygonMesh, FigureError> {
     Ok(mesh.finish()?)
 }
 
-fn lit(
-    mesh: PolygonMesh,
-    normals: NormalSource,
-    transform: DAffine3,
-) -> Result<LinearPicture, FigureError> {
-    let mut scene = scene(mesh, grey(0.06, 0.6, 0.34, 30.0), LIGHT, 1.15, [208, 84]);
+fn lit(mesh: PolygonMesh, normals: NormalSource, transform: DAffine3) -> Result<LinearPicture> {
+    let material = grey(0.06, 0.6, 0.34, 30.0);
+    let mut scene = scene(SPHERE, material, LIGHT, 1.15, [208, 84])?;
     for object in &mut scene.objects {
+        object.mesh = Arc::new(mesh.clone());
         (object.normals, object.transform) = (normals, transform);
     }
     draw(&scene.frame()?, "naive-phong")
 }
 
 /// Draws an ellipsoid by the engine, by its own polygons, and with the wrong normals.
-fn ellipsoid(content: &mut FigureContent) -> Result<(), FigureError> {
+fn ellipsoid(content: &mut FigureContent) -> Result {
     let by_scale = DAffine3::from_scale(DVec3::new(STRETCH, 1.0, 1.0));
-    let right = lit(sphere()?, NormalSource::Given, by_scale)?;
+    let right = lit(builtin(SPHERE)?, NormalSource::Given, by_scale)?;
     // Averages are taken before the transform: of the stretched polygons only where the mesh itself is stretched.
     let polygons = lit(stretched()?, NormalSource::Averaged, DAffine3::IDENTITY)?;
     let wrong = lit(stretched()?, NormalSource::Given, DAffine3::IDENTITY)?;
@@ -129,8 +118,7 @@ fn ellipsoid(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "engine",
         "engine's normals against those averaged from its polygons, largest difference",
-        (near, "grey levels"),
-        near < far / 4.0,
+        (near, "grey levels", near < far / 4.0),
         format!(
             "The polygons confirm the inverse transpose; by the matrix the difference is {} levels.",
             written(far)
@@ -139,8 +127,7 @@ fn ellipsoid(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "picture",
         "by the matrix against by the inverse transpose, largest difference",
-        (far, "grey levels"),
-        far > 8.0,
+        (far, "grey levels", far > 8.0),
         "The light is on the wrong part of the surface.",
     );
     Ok(())

@@ -1,9 +1,9 @@
 //! Mach bands: jumps of the intensity and of its slope at the edges of polygons (L21 2–4).
 
-use super::content::{linear, written};
-use super::fixture::{ScreenPolygon, draw_each, frame, grey, stored, toward};
-use super::measure::{jump, largest, profile};
-use super::{Agreement, Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    Agreement, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw_each, frame, grey,
+    jump, largest, linear, profile, stored, toward, written,
+};
 use crate::frame::Frame;
 use crate::reference::{self, Model};
 use alloc::format;
@@ -15,7 +15,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "mach-bands",
     title: "Mach bands: weakened at the edges, not eliminated",
     lecture: "L21 2, 3, 4: \"this blurring eliminates Mach bands\"",
-    make,
+    parts: &[bands],
 };
 
 /// Width and height of the pictures.
@@ -31,7 +31,7 @@ fn column(degrees: f64) -> f64 {
 }
 
 /// Makes an upright cylinder seen from the side, whose facets meet at these angles, with its own normals at the edges.
-fn cylinder(angles: &[f64]) -> Result<Frame, FigureError> {
+fn cylinder(angles: &[f64]) -> Result<Frame> {
     let facet = |pair: &[f64]| {
         let sides = [pair[0], pair[1]];
         let strip = ScreenPolygon::strip(sides.map(column), SIZE[1].into(), sides.map(toward));
@@ -46,8 +46,7 @@ fn cylinder(angles: &[f64]) -> Result<Frame, FigureError> {
     frame(SIZE, grey(0.1, 0.6, 0.3, 12.0), light, &facets)
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn bands(content: &mut FigureContent) -> Result {
     let fine: Vec<f64> = (0..=300).map(|i| -75.0 + 0.5 * f64::from(i)).collect();
     let smooth = reference::render(&cylinder(&fine)?, Model::Phong).to_linear();
     let drawn = draw_each(&cylinder(&FACETS)?, METHODS)?;
@@ -67,9 +66,9 @@ fn make() -> Result<FigureContent, FigureError> {
         .iter()
         .map(|(name, picture)| (*name, profile(picture, SIZE[1] as usize / 2)))
         .collect();
-    curves(&mut content, &profiles);
-    numbers(&mut content, &profiles);
-    Ok(content)
+    curves(content, &profiles);
+    numbers(content, &profiles);
+    Ok(())
 }
 
 fn curves(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
@@ -121,8 +120,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
     content.adds(
         "slope-cylinder",
         "the cylinder itself: largest jump of the slope",
-        (control, "grey levels a pixel"),
-        true,
+        (control, "grey levels a pixel", true),
         "The measurement gives this much where nothing bends.",
     );
     let mut rows = Vec::new();
@@ -133,8 +131,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
         content.confirms(
             format!("value-{name}"),
             format!("{name}: largest jump of the intensity"),
-            (value, "grey levels"),
-            (value < 0.5) != is_flat,
+            (value, "grey levels", (value < 0.5) != is_flat),
             if is_flat {
                 "The intensity jumps at edges."
             } else {

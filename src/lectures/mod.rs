@@ -47,11 +47,18 @@ mod supersampling;
 
 pub use content::{Agreement, FigureBlock, FigureContent, Finding, Panel, Plot, Scale, Series};
 pub use error::FigureError;
+use error::Result;
 
 use crate::number::suggest::nearest;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+use content::{linear, log, written};
+use fixture::{
+    DULL, ScreenCorner, ScreenPolygon, bare, draw, draw_each, ends, fitted, frame, grey,
+    map_caption, scene, shipped, stored, toward,
+};
+use measure::{angle, covered_by_both, differing, jump, largest, levels, percent, profile, share};
 
 /// All figures, in the order of the lectures.
 pub static FIGURES: &[&Figure] = &[
@@ -89,7 +96,8 @@ pub struct Figure {
     /// The place in the lectures: `L21` is *Lecture 21: Shading*, `L5` *Lecture 5: Shading*, `CS171` the notes to
     /// Caltech's second assignment.
     pub lecture: &'static str,
-    make: fn() -> Result<FigureContent, FigureError>,
+    /// The functions that draw and measure it, each a part of the content.
+    parts: &'static [fn(&mut FigureContent) -> Result],
 }
 
 impl Figure {
@@ -120,7 +128,9 @@ impl Figure {
     ///
     /// # Errors
     /// [`FigureError`] when a mesh, scene or frame of it cannot be made.
-    pub fn make(&self) -> Result<FigureContent, FigureError> {
-        (self.make)()
+    pub fn make(&self) -> Result<FigureContent> {
+        let mut content = FigureContent::default();
+        self.parts.iter().try_for_each(|part| part(&mut content))?;
+        Ok(content)
     }
 }

@@ -1,9 +1,9 @@
 //! The normal of a polygon from two edges, and by Newell's formula (L21 1.1).
 
-use super::content::written;
-use super::fixture::{ScreenCorner, ScreenPolygon, draw, frame, grey, stored};
-use super::measure::angle;
-use super::{Agreement, Figure, FigureContent, FigureError};
+use super::{
+    Agreement, Figure, FigureContent, Result, ScreenCorner, ScreenPolygon, angle, draw, frame,
+    grey, stored, written,
+};
 use crate::mesh::newell::newell;
 use crate::picture::LinearPicture;
 use alloc::format;
@@ -15,7 +15,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "newell",
     title: "Newell\u{2019}s formula, and the normal from two edges",
     lecture: "L21 1.1: (1.1), |N| = 2 Area",
-    make,
+    parts: &[pictures, errors],
 };
 
 /// A polygon in its plane, counter-clockwise.
@@ -53,19 +53,16 @@ fn with_corner(part: f64, outside: f64) -> Vec<DVec2> {
 
 /// Returns a regular polygon, three cases that the lecture names, and one that it does not.
 fn examples() -> [Example; 5] {
+    let beside_edge = |outside| with_corner(0.5, outside);
     let reflex = [(-1.0, -0.8), (0.0, -0.2), (1.0, -0.8), (0.0, 1.0)].map(DVec2::from);
     [
         ("hexagon", "regular hexagon", hexagon()),
         ("short", "an edge of 10⁻⁶", with_corner(1e-6, 2e-7)),
-        (
-            "collinear",
-            "three collinear vertices",
-            with_corner(0.5, 0.0),
-        ),
+        ("collinear", "three collinear vertices", beside_edge(0.0)),
         (
             "nearly",
             "three nearly collinear vertices",
-            with_corner(0.5, 1e-7),
+            beside_edge(1e-7),
         ),
         ("reflex", "a reflex corner", reflex.into()),
     ]
@@ -115,8 +112,8 @@ fn worst(corners: &[Vec3]) -> DVec3 {
     by_two_edges(corners)[corners.len() - 1]
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+/// Draws all polygons, lit by the one normal and by the other.
+fn pictures(content: &mut FigureContent) -> Result {
     content.text(
         "The same plane for all polygons, tilted, with corners rounded to f32. The normal from two \
          edges is taken at its worst corner: any corner may be the first one that a file names. \
@@ -137,6 +134,11 @@ fn make() -> Result<FigureContent, FigureError> {
             ),
         ],
     );
+    Ok(())
+}
+
+/// Measures the angles from the true normal, and the area.
+fn errors(content: &mut FigureContent) -> Result {
     let (mut rows, mut most, mut area) = (Vec::new(), 0.0f64, 0.0f64);
     for example in &examples() {
         let corners = example.in_space();
@@ -154,7 +156,7 @@ fn make() -> Result<FigureContent, FigureError> {
         most = most.max(errors[2].min(180.0));
         let [length, twice] = [sum.length(), twice].map(|value| format!("{value:.7}"));
         rows.push([example.what.to_string(), best, worst, newell, length, twice]);
-        failure(&mut content, example, errors[1]);
+        failure(content, example, errors[1]);
     }
     content.table(
         "polygon | two edges: best corner | worst corner | Newell | |N| | 2 Area",
@@ -163,18 +165,16 @@ fn make() -> Result<FigureContent, FigureError> {
     content.confirms(
         "newell",
         "Newell's formula: largest error over all polygons",
-        (most, "degrees"),
-        most < 1e-4,
+        (most, "degrees", most < 1e-4),
         "Rounding of the corners, and no more.",
     );
     content.confirms(
         "area",
         "|N| against 2 Area: largest relative difference",
-        (area, ""),
-        area < 1e-6,
+        (area, "", area < 1e-6),
         "|N| = 2 Area, rounding aside.",
     );
-    Ok(content)
+    Ok(())
 }
 
 /// Concludes from the error of two edges at the worst corner.
@@ -204,7 +204,7 @@ fn failure(content: &mut FigureContent, example: &Example, error: f64) {
 }
 
 /// Draws all polygons side by side, lit by a normal of their corners.
-fn lit_by(normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPicture, FigureError> {
+fn lit_by(normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPicture> {
     let polygon = |(i, example): (usize, &Example)| {
         let middle = DVec2::new(24.0 + 48.0 * i as f64, 24.0);
         let corner =

@@ -1,23 +1,22 @@
 //! Newton's method along a span: the error after so many steps a pixel, and where the method breaks (L21 4.2).
 
-use super::content::{linear, log, written};
-use super::fixture::{DULL, ScreenPolygon, draw, ends, frame, stored};
-use super::measure::{largest, levels};
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    DULL, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw, ends, frame, largest,
+    levels, linear, log, stored, written,
+};
 use crate::number::vec3;
 use crate::shading::Walk;
 use crate::shading::increments::{Newton, NewtonSteps};
-use alloc::format;
 use alloc::string::String;
-use alloc::vec;
 use alloc::vec::Vec;
+use alloc::{format, vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "newton",
     title: "Newton\u{2019}s method from pixel to pixel: steps, angles, and where it breaks",
     lecture: "L21 4.2: \"after only a few iterations\"",
-    make,
+    parts: &[curves, numbers, opposed],
 };
 
 /// Pixels of the span that is walked.
@@ -54,20 +53,12 @@ fn plural(steps: u32) -> String {
     format!("{steps} step{}", if steps == 1 { "" } else { "s" })
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn curves(content: &mut FigureContent) -> Result {
     content.text(format!(
         "d = √(N · N) is followed from pixel to pixel by a fixed number of steps x − (x² − d²) / 2x, \
          starting from the d of the previous pixel; the first pixel of a span has a true root. Shown is \
          the walk of the method itself, in f32, over spans of {PIXELS} pixels, against the root in f64.",
     ));
-    curves(&mut content);
-    numbers(&mut content);
-    opposed(&mut content)?;
-    Ok(content)
-}
-
-fn curves(content: &mut FigureContent) {
     let over_angles = |steps| {
         Series::sampled(plural(steps), angles(), |degrees| {
             largest_error(degrees, steps)
@@ -97,15 +88,15 @@ fn curves(content: &mut FigureContent) {
              which vanishes in the middle, where d is smallest. Errors below 10⁻⁸ are drawn there."
         ),
     ));
+    Ok(())
 }
 
-fn numbers(content: &mut FigureContent) {
+fn numbers(content: &mut FigureContent) -> Result {
     let first = largest(STEPS.map(|steps| errors(150.0, steps)[0].abs()));
     content.adds(
         "first-pixel",
         "first pixel of a span: relative error of d",
-        (first, ""),
-        first < 2e-7,
+        (first, "", first < 2e-7),
         "A true root, rounded.",
     );
     for steps in STEPS {
@@ -116,8 +107,7 @@ fn numbers(content: &mut FigureContent) {
                 "span of 60°, {}: largest relative error of d",
                 plural(steps)
             ),
-            (error, ""),
-            error < INVISIBLE,
+            (error, "", error < INVISIBLE),
             "A few iterations are enough: rounding to grey levels hides the error.",
         );
     }
@@ -135,8 +125,7 @@ fn numbers(content: &mut FigureContent) {
     content.adds(
         "theory",
         "the same with 1 step, against e² / (2 (1 + e)): largest difference",
-        (off, ""),
-        off < 1e-6,
+        (off, "", off < 1e-6),
         "The error is as theory says, rounding aside.",
     );
     for steps in STEPS {
@@ -148,18 +137,18 @@ fn numbers(content: &mut FigureContent) {
                 "{}: largest angle over {PIXELS} pixels without a visible error",
                 plural(steps)
             ),
-            (degrees, "degrees"),
-            true,
+            (degrees, "degrees", true),
             format!(
                 "That is {}° a pixel; in steps of 5°, half a grey level counts as visible.",
                 written(degrees / PIXELS as f64)
             ),
         );
     }
+    Ok(())
 }
 
 /// Draws normals that nearly cancel: the length falls to almost nothing and grows again within a pixel or two.
-fn opposed(content: &mut FigureContent) -> Result<(), FigureError> {
+fn opposed(content: &mut FigureContent) -> Result {
     const DEGREES: f64 = 179.9;
     let strip = ScreenPolygon::strip([0.0, 31.0], 6.0, ends(DEGREES));
     let frame = frame([31, 6], DULL, DVec3::new(1.0, 0.0, 0.6), &[strip])?;
@@ -181,8 +170,7 @@ fn opposed(content: &mut FigureContent) -> Result<(), FigureError> {
         content.contradicts(
             format!("opposed-{steps}"),
             format!("normals {DEGREES}° apart, {name}: largest difference from naive Phong"),
-            (worst, "grey levels"),
-            worst > 1.0,
+            (worst, "grey levels", worst > 1.0),
             "Few iterations are not enough where normals nearly cancel.",
         );
         panels.push((format!("fast Phong, {name}"), stored(&fast)));
@@ -191,8 +179,7 @@ fn opposed(content: &mut FigureContent) -> Result<(), FigureError> {
     content.adds(
         "not-finite",
         "pixels there that are infinite or not a number",
-        (not_finite as f64, "pixels"),
-        not_finite == 0,
+        (not_finite as f64, "pixels", not_finite == 0),
         "Wrong, but always a number.",
     );
     Ok(())

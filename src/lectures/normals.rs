@@ -1,9 +1,9 @@
 //! Averaged vertex normals against those of the surface, and the length of interpolated ones (L5; L21 3.1).
 
-use super::content::{linear, log, written};
-use super::fixture::{DULL, draw_each, ends, scene, stored};
-use super::measure::{angle, covered_by_both, largest};
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    DULL, Figure, FigureContent, Plot, Result, Series, angle, covered_by_both, draw_each, ends,
+    largest, linear, log, scene, stored, written,
+};
 use crate::frame::Frame;
 use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
@@ -20,21 +20,13 @@ pub(super) static FIGURE: Figure = Figure {
     name: "normals",
     title: "Vertex normals: where they come from, and how long they are in between",
     lecture: "L5, Defining per-vertex and per-pixel normal vectors; L21 3.1",
-    make,
+    parts: &[sources, lengths, darkened],
 };
-
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    sources(&mut content)?;
-    lengths(&mut content);
-    darkened(&mut content)?;
-    Ok(content)
-}
 
 /// Returns the number of polygons of a mesh, and the angles between its averaged and its given normals, in degrees, over
 /// all corners.
-fn angles(spec: &str) -> Result<(usize, Vec<f64>), FigureError> {
-    let by = |source: NormalSource| -> Result<Frame, FigureError> {
+fn angles(spec: &str) -> Result<(usize, Vec<f64>)> {
+    let by = |source: NormalSource| -> Result<Frame> {
         let mut scene = Scene::of_mesh(builtin(spec)?);
         scene.culling = Culling::None;
         for object in &mut scene.objects {
@@ -76,7 +68,7 @@ const FAMILIES: [(&str, [&str; 3]); 3] = [
 ];
 
 /// Compares averaged normals with given ones (L5: "best to get vertex normals from the underlying geometry").
-fn sources(content: &mut FigureContent) -> Result<(), FigureError> {
+fn sources(content: &mut FigureContent) -> Result {
     let (mut rows, mut curves, mut means) = (Vec::new(), Vec::new(), Vec::new());
     for (name, specs) in FAMILIES {
         let mut points = Vec::new();
@@ -115,30 +107,27 @@ fn sources(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "averaged",
         "mean angle of averaged normals, teapot of fewest polygons",
-        (coarse, "degrees"),
-        coarse > 1.0,
+        (coarse, "degrees", coarse > 1.0),
         "Averages are not the normals of the surface: take those where they are known.",
     );
     content.adds(
         "regular",
         "mean angle of averaged normals, torus of fewest polygons",
-        (torus, "degrees"),
-        torus < 1.0,
+        (torus, "degrees", torus < 1.0),
         "Polygons that lie evenly around a vertex make good averages, however large they are.",
     );
     content.adds(
         "finer",
         "mean angle of the coarsest teapot over that of the finest, which has cells of a quarter of \
          the size",
-        (coarse / fine, ""),
-        means.iter().all(|means| means.is_sorted_by(|a, b| a > b)),
+        (coarse / fine, "", means.iter().all(|means| means.is_sorted_by(|a, b| a > b))),
         "Of each surface the finer mesh has the better averages.",
     );
     Ok(())
 }
 
 /// Measures the length of interpolated normals (L5: "Problem: length of vectors?"), as Duff's forward differences step it.
-fn lengths(content: &mut FigureContent) {
+fn lengths(content: &mut FigureContent) -> Result {
     const PIXELS: usize = 64;
     let mut worst: f64 = 0.0;
     let curves = [30.0, 60.0, 90.0, 120.0].map(|degrees: f64| {
@@ -166,16 +155,16 @@ fn lengths(content: &mut FigureContent) {
     content.adds(
         "half-way",
         "length half-way between two normals, largest distance from cos(φ/2)",
-        (worst, ""),
-        worst < 1e-5,
+        (worst, "", worst < 1e-5),
         "cos(φ/2), to rounding: between normals 120° apart half of the length is left.",
     );
+    Ok(())
 }
 
 /// Shades by normals that are not normalised: by Gouraud's method on a dull surface, as L·N is linear in N.
-fn darkened(content: &mut FigureContent) -> Result<(), FigureError> {
-    let mesh = builtin("sphere?rings=6&segments=8")?;
-    let dull = scene(mesh, DULL, DVec3::new(-0.3, 0.4, 0.9), 1.1, [112, 112]);
+fn darkened(content: &mut FigureContent) -> Result {
+    let light = DVec3::new(-0.3, 0.4, 0.9);
+    let dull = scene("sphere?rings=6&segments=8", DULL, light, 1.1, [112, 112])?;
     let [shortened, unit] = draw_each(&dull.frame()?, ["gouraud", "naive-phong"])?;
     content.text(
         "Gouraud's method on a dull surface shows normals that are not normalised: L·N is linear in \
@@ -195,8 +184,7 @@ fn darkened(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "darkened",
         "largest part of the light that is lost without normalising",
-        (100.0 * lost, "%"),
-        lost > 0.01,
+        (100.0 * lost, "%", lost > 0.01),
         "The length of vectors is a problem: the middle of each polygon is dark.",
     );
     Ok(())

@@ -1,8 +1,6 @@
 //! Hidden surfaces by the painter's algorithm, and by a depth buffer (L5).
 
-use super::fixture::{draw, shipped, stored};
-use super::measure::differing;
-use super::{Figure, FigureContent, FigureError};
+use super::{Figure, FigureContent, Result, differing, draw, shipped, stored};
 use crate::picture::LinearPicture;
 use crate::raster::painter::conflicts;
 use crate::scene::{DepthBuffer, HiddenSurfaces, PainterKey, Scene};
@@ -13,7 +11,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "painter",
     title: "The painter's algorithm, the ring that it cannot draw, and polygons that cut each other",
     lecture: "L5, Painter's Algorithm, Z-Buffer",
-    make,
+    parts: &[ring, cutting, order],
 };
 
 /// Width and height of the pictures.
@@ -36,14 +34,14 @@ struct Subject {
 }
 
 impl Subject {
-    fn new(name: &str) -> Result<Subject, FigureError> {
+    fn new(name: &str) -> Result<Subject> {
         let scene = shipped(name, SIZE)?;
         let by_depth = drawn(&scene, depth_buffer())?;
         Ok(Subject { scene, by_depth })
     }
 
     /// Shows the scene by depth buffer and by painter, side by side. Returns the pixels that differ.
-    fn by_both(&self, content: &mut FigureContent, what: &str) -> Result<usize, FigureError> {
+    fn by_both(&self, content: &mut FigureContent, what: &str) -> Result<usize> {
         let by_painter = drawn(&self.scene, HiddenSurfaces::Painter(PainterKey::Mean))?;
         content.pictures(
             2,
@@ -57,7 +55,7 @@ impl Subject {
     }
 
     /// Counts the pixels that differ from the depth buffer's picture, for all orders of drawing.
-    fn by_orders(&self, hidden_surfaces: HiddenSurfaces) -> Result<Vec<usize>, FigureError> {
+    fn by_orders(&self, hidden_surfaces: HiddenSurfaces) -> Result<Vec<usize>> {
         let by_order = |order: [usize; 3]| {
             let scene = Scene {
                 objects: order.map(|i| self.scene.objects[i].clone()).into(),
@@ -73,7 +71,7 @@ fn depth_buffer() -> HiddenSurfaces {
     HiddenSurfaces::ZBuffer(DepthBuffer::default())
 }
 
-fn drawn(scene: &Scene, hidden_surfaces: HiddenSurfaces) -> Result<LinearPicture, FigureError> {
+fn drawn(scene: &Scene, hidden_surfaces: HiddenSurfaces) -> Result<LinearPicture> {
     let scene = Scene {
         hidden_surfaces,
         ..scene.clone()
@@ -81,20 +79,18 @@ fn drawn(scene: &Scene, hidden_surfaces: HiddenSurfaces) -> Result<LinearPicture
     draw(&scene.frame()?, "naive-phong")
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn ring(content: &mut FigureContent) -> Result {
     content.text(
         "The painter draws from back to front, here by the mean depth of each polygon's corners: each \
          polygon covers those before it. A depth buffer decides at each pixel. Three triangles in a \
          ring, and three polygons that cut each other, by both.",
     );
     let ring = Subject::new("cyclic-triangles")?;
-    let wrong = ring.by_both(&mut content, "three triangles in a ring")?;
+    let wrong = ring.by_both(content, "three triangles in a ring")?;
     content.confirms(
         "ring-wrong",
         "pixels of the ring that the painter draws wrongly",
-        (wrong as f64, "pixels"),
-        wrong > 0,
+        (wrong as f64, "pixels", wrong > 0),
         "The painter cannot draw the ring.",
     );
     let orders = ring.by_orders(HiddenSurfaces::DrawOrder)?;
@@ -102,53 +98,53 @@ fn make() -> Result<FigureContent, FigureError> {
     content.confirms(
         "ring-best-order",
         "wrong pixels in the best of all six orders",
-        (least as f64, "pixels"),
-        least > 0,
+        (least as f64, "pixels", least > 0),
         "No order is right, all were tried.",
     );
     let cycles = conflicts(&ring.scene.frame()?).cycles;
+    let members: usize = cycles.iter().map(Vec::len).sum();
     content.adds(
         "ring-cycle",
         "polygons that are found to hide each other in a ring",
-        (
-            cycles.iter().map(Vec::len).sum::<usize>() as f64,
-            "polygons",
-        ),
-        true,
+        (members as f64, "polygons", true),
         format!(
             "The program warns of {} such ring before it draws.",
             cycles.len()
         ),
     );
+    Ok(())
+}
+
+fn cutting(content: &mut FigureContent) -> Result {
     let cutting = Subject::new("interpenetration")?;
-    let wrong = cutting.by_both(&mut content, "polygons that cut each other")?;
+    let wrong = cutting.by_both(content, "polygons that cut each other")?;
     content.confirms(
         "cutting-wrong",
         "pixels of polygons that cut each other which the painter draws wrongly",
-        (wrong as f64, "pixels"),
-        wrong > 0,
+        (wrong as f64, "pixels", wrong > 0),
         "Only the depth buffer shows where they meet.",
     );
     let pairs = conflicts(&cutting.scene.frame()?).interpenetrating;
     content.adds(
         "cutting-pairs",
         "pairs of polygons that cut each other on the picture",
-        (pairs as f64, "pairs"),
-        true,
+        (pairs as f64, "pairs", true),
         "Each hides a part of the other, so that either order is wrong.",
     );
-    let orders = [
-        ring.by_orders(depth_buffer())?,
-        cutting.by_orders(depth_buffer())?,
-    ]
-    .concat();
-    let most = orders.into_iter().max().unwrap_or(0);
+    Ok(())
+}
+
+fn order(content: &mut FigureContent) -> Result {
+    let mut most = 0;
+    for name in ["cyclic-triangles", "interpenetration"] {
+        let orders = Subject::new(name)?.by_orders(depth_buffer())?;
+        most = most.max(orders.into_iter().max().unwrap_or(0));
+    }
     content.confirms(
         "order",
         "most pixels by which the depth buffer's pictures differ in any of six orders",
-        (most as f64, "pixels"),
-        most == 0,
+        (most as f64, "pixels", most == 0),
         "The order of drawing does not matter to a depth buffer.",
     );
-    Ok(content)
+    Ok(())
 }

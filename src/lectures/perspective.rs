@@ -1,27 +1,23 @@
 //! Perspective: Lecture 5's checkerboard wrong and right, the weight that makes it right, and the depth of a point.
 
-use super::content::{linear, written};
-use super::fixture::stored;
-use super::measure::{largest, percent};
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    Figure, FigureContent, Plot, Result, Series, bare, largest, linear, percent, stored, written,
+};
 use crate::frame::perspective::{Frustum, printed_weight_in_space, weight_in_space};
 use crate::frame::{FrameBuilder, SubPixel, Vertex};
-use crate::mesh::vertex_normals::NormalSource;
-use crate::mesh::{Material, MeshBuilder};
+use crate::mesh::Material;
 use crate::picture::LinearPicture;
 use crate::raster::{checkerboard, vertex_colours};
-use crate::scene::{Camera, Culling, Interpolation, Lighting, Object, Projection, Scene};
+use crate::scene::{Camera, Interpolation, Lighting, Projection};
 use alloc::format;
-use alloc::sync::Arc;
-use alloc::vec;
 use alloc::vec::Vec;
-use glam::{DAffine3, DVec3, Vec3};
+use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "perspective",
     title: "Perspective: the checkerboard, wrong and right",
     lecture: "L5, Perspective Projection and Interpolation",
-    make,
+    parts: &[boards, weight, depth],
 };
 
 const WIDTH: usize = 128;
@@ -43,26 +39,11 @@ const CAMERA: Camera = Camera {
 };
 
 /// Draws the board on a floor of these polygons.
-fn board(polygons: &[&[u32]], interpolation: Interpolation) -> Result<LinearPicture, FigureError> {
-    let r = REACH as f32;
-    let corners = [(-r, -r), (-r, r), (r, r), (r, -r)].map(|(x, z)| Vec3::new(x, 0.0, z));
-    let mut builder = MeshBuilder::new(corners.to_vec());
-    for polygon in polygons {
-        builder.polygon(polygon);
-    }
-    let scene = Scene {
-        width: WIDTH as u32,
-        height: HEIGHT as u32,
-        interpolation,
-        culling: Culling::None,
-        objects: vec![Object {
-            mesh: Arc::new(builder.finish()?),
-            transform: DAffine3::IDENTITY,
-            material: None,
-            normals: NormalSource::Averaged,
-        }],
-        ..Scene::new(CAMERA)
-    };
+fn board(polygons: &[&[u32]], interpolation: Interpolation) -> Result<LinearPicture> {
+    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
+    let corners = corners.map(|(x, z)| REACH * DVec3::new(x, 0.0, z));
+    let mut scene = bare(&corners, polygons, CAMERA, [WIDTH as u32, HEIGHT as u32])?;
+    scene.interpolation = interpolation;
     Ok(checkerboard(&scene.frame()?, SQUARE, BOARD))
 }
 
@@ -80,7 +61,7 @@ fn ray(x: usize, y: usize) -> Option<[f32; 3]> {
 }
 
 /// Returns the percentage of the rays that meet the floor where the picture has the other colour.
-fn wrong(picture: &LinearPicture) -> f64 {
+fn wrong(picture: LinearPicture) -> f64 {
     let pixels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
     let met = pixels.filter_map(|(x, y)| Some(picture.get(x, y)[..3] == ray(x, y)?));
     let is_right: Vec<bool> = met.collect();
@@ -88,8 +69,7 @@ fn wrong(picture: &LinearPicture) -> f64 {
     percent(wrong, is_right.len())
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn boards(content: &mut FigureContent) -> Result {
     content.text(
         "A floor of eight by eight squares, its world coordinates interpolated and the board computed \
          at each pixel. Linear on the screen, the squares are of one size and bend at the diagonal of \
@@ -97,41 +77,38 @@ fn make() -> Result<FigureContent, FigureError> {
     );
     let whole: &[&[u32]] = &[&[0, 1, 2, 3]];
     let triangles: &[&[u32]] = &[&[0, 1, 2], &[0, 2, 3]];
-    let screen = ("linear on the screen", board(whole, Interpolation::Screen)?);
-    let cut = (
-        "the same, cut into two triangles",
-        board(triangles, Interpolation::Screen)?,
-    );
-    let space = (
-        "linear in space",
-        board(triangles, Interpolation::Perspective)?,
-    );
+    let screen = board(whole, Interpolation::Screen)?;
+    let cut = board(triangles, Interpolation::Screen)?;
+    let space = board(triangles, Interpolation::Perspective)?;
     content.pictures(
         3,
         "A checkerboard seen in perspective",
-        [&screen, &cut, &space].map(|(caption, picture)| (*caption, stored(picture))),
+        [
+            ("linear on the screen", stored(&screen)),
+            ("the same, cut into two triangles", stored(&cut)),
+            ("linear in space", stored(&space)),
+        ],
     );
-    for (key, (how, picture)) in [("screen", &screen), ("screen-triangles", &cut)] {
-        let wrong = wrong(picture);
-        content.confirms(
-            format!("wrong-{key}"),
-            format!("pixels of the floor in the wrong colour, {how}"),
-            (wrong, "%"),
-            wrong >= 0.5,
-            "The board is wrong, as the slide shows it.",
-        );
-    }
-    let wrong = wrong(&space.1);
+    let [screen, cut, space] = [screen, cut, space].map(wrong);
+    content.confirms(
+        "wrong-screen",
+        "pixels of the floor in the wrong colour, linear on the screen",
+        (screen, "%", screen >= 0.5),
+        "The board is wrong, as the slide shows it.",
+    );
+    content.confirms(
+        "wrong-screen-triangles",
+        "pixels of the floor in the wrong colour, the same, cut into two triangles",
+        (cut, "%", cut >= 0.5),
+        "The board is wrong, as the slide shows it.",
+    );
     content.confirms(
         "wrong-space",
-        format!("pixels of the floor in the wrong colour, {}", space.0),
-        (wrong, "%"),
-        wrong < 0.5,
+        "pixels of the floor in the wrong colour, linear in space",
+        (space, "%", space < 0.5),
         "The board is right: only pixels on the rim of a square may fall to either side.",
     );
-    weight(&mut content)?;
-    depth(&mut content);
-    Ok(content)
+    Ok(())
 }
 
 /// Depths of the two ends of an edge.
@@ -140,7 +117,7 @@ const ENDS: [f64; 2] = [1.0, 4.0];
 const STRIP: usize = 128;
 
 /// Draws a strip from A, on its left, to B: the red of A is 1, that of B 0, so that red is the weight of A.
-fn strip() -> Result<LinearPicture, FigureError> {
+fn strip() -> Result<LinearPicture> {
     let mut builder = FrameBuilder::new(STRIP as u32, 1);
     builder.interpolation(Interpolation::Perspective);
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
@@ -161,7 +138,7 @@ fn strip() -> Result<LinearPicture, FigureError> {
 }
 
 /// Compares the weight of A along an edge in the engine with the corrected and with the printed formula.
-fn weight(content: &mut FigureContent) -> Result<(), FigureError> {
+fn weight(content: &mut FigureContent) -> Result {
     let [z_a, z_b] = ENDS;
     let drawn = strip()?;
     let alphas = || (0..STRIP).map(|x| 1.0 - (x as f64 + 0.5) / STRIP as f64);
@@ -197,22 +174,20 @@ fn weight(content: &mut FigureContent) -> Result<(), FigureError> {
     content.contradicts(
         "printed-weight",
         "largest difference of the printed weight from the engine's",
-        (wrong, ""),
-        wrong >= 1e-3,
+        (wrong, "", wrong >= 1e-3),
         "(1 − α) z_A / (z_B + (1 − α)(z_A − z_B)) weighs the other end.",
     );
     content.adds(
         "weight",
         "largest difference of the corrected weight from the engine's",
-        (right, ""),
-        right < 1e-4,
+        (right, "", right < 1e-4),
         "The engine, which divides interpolated values by interpolated weights, has this weight.",
     );
     Ok(())
 }
 
 /// Measures the depth of a middle point (L5: "Z-value is preserved after projection").
-fn depth(content: &mut FigureContent) {
+fn depth(content: &mut FigureContent) -> Result {
     let Camera { near, far, .. } = CAMERA;
     let frustum = Frustum {
         left: -1.0,
@@ -227,12 +202,12 @@ fn depth(content: &mut FigureContent) {
     content.contradicts(
         "depth",
         "NDC depth, −1 to 1, of the point half-way between near and far plane",
-        (middle, ""),
-        middle.abs() >= 0.01,
+        (middle, "", middle.abs() >= 0.01),
         format!(
             "Depth keeps its order, not its value: the first {} % of the way from near to far take half \
              of the range.",
             written(100.0 * (half - near) / (far - near))
         ),
     );
+    Ok(())
 }

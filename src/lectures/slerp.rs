@@ -1,9 +1,9 @@
 //! Spherical linear interpolation: its speed, the drift of its recurrences, and its ends (L21 4.4).
 
-use super::content::{linear, log, written};
-use super::fixture::{ScreenPolygon, draw, ends, frame, grey};
-use super::measure::{angle, largest};
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    Figure, FigureContent, Plot, Result, ScreenPolygon, Series, angle, draw, ends, frame, grey,
+    largest, linear, log, written,
+};
 use crate::frame::Frame;
 use crate::number::{Counter, vec3};
 use crate::raster::normals;
@@ -18,7 +18,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "slerp",
     title: "Slerp: uniform speed, the drift of its recurrences, and angles near 0° and 180°",
     lecture: "L21 4.4: (4.7)–(4.12)",
-    make,
+    parts: &[speed, operations, drift, ends_of_range],
 };
 
 /// Pixels of the span whose normals are compared.
@@ -27,23 +27,14 @@ const SPAN: usize = 64;
 const LONG: usize = 1024;
 
 /// Makes a strip of [`SPAN`] pixels between normals so many degrees apart, lit from the upper right.
-fn strip(degrees: f64) -> Result<Frame, FigureError> {
+fn strip(degrees: f64) -> Result<Frame> {
     let strip = ScreenPolygon::strip([0.0, SPAN as f64], 4.0, ends(degrees));
     let light = DVec3::new(0.3, 0.4, 0.8);
     frame([SPAN as u32, 4], grey(0.1, 0.5, 0.4, 20.0), light, &[strip])
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    speed(&mut content)?;
-    operations(&mut content);
-    drift(&mut content);
-    ends_of_range(&mut content)?;
-    Ok(content)
-}
-
 /// Measures degrees a pixel of the two ways to interpolate.
-fn speed(content: &mut FigureContent) -> Result<(), FigureError> {
+fn speed(content: &mut FigureContent) -> Result {
     const DEGREES: f64 = 120.0;
     let picture = normals(&strip(DEGREES)?);
     let linear_normals = picture.row(2).iter().map(|texel| {
@@ -94,16 +85,14 @@ fn speed(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "speed-slerp",
         "great circle: fastest turn by slowest turn",
-        (slerp, ""),
-        slerp < 1.001,
+        (slerp, "", slerp < 1.001),
         "Uniform speed, as the lecture says.",
     );
     let cosine = libm::cos(DEGREES.to_radians() / 2.0);
     content.adds(
         "speed-linear",
         "linear, then normalised: fastest turn by slowest turn",
-        (lerp, ""),
-        true,
+        (lerp, "", true),
         format!(
             "1 / cos² of half the angle would be {} over a whole span.",
             written(1.0 / libm::pow(cosine, 2.0))
@@ -113,24 +102,23 @@ fn speed(content: &mut FigureContent) -> Result<(), FigureError> {
 }
 
 /// Counts the operations of (4.9)–(4.12).
-fn operations(content: &mut FigureContent) {
+fn operations(content: &mut FigureContent) -> Result {
     let counter = Counter::default();
     let [phi, t0, dt] = [0.5, 0.1, 0.01].map(|x| counter.number(x));
     let mut sines = Sines::new(phi, t0, dt);
     counter.take();
     sines.next();
     let step = counter.take();
+    let (additions, multiplications) = (step.additions, step.multiplications);
     let others = step.divisions + step.roots + step.trigonometric;
+    let is_as_said = (additions, multiplications, others) == (4, 8, 0);
     content.confirms(
         "step",
         "additions and multiplications of (4.9) to (4.12)",
-        (
-            f64::from(step.additions + step.multiplications),
-            "operations",
-        ),
-        (step.additions, step.multiplications, others) == (4, 8, 0),
+        (additions + multiplications, "operations", is_as_said),
         "4 additions and 8 multiplications, counted by the method's own walk.",
     );
+    Ok(())
 }
 
 /// Walks J = L · N along a great circle by three recurrences in `f32`: the errors against the sines themselves in `f64`.
@@ -168,7 +156,7 @@ fn recurrences(degrees: f64) -> [Vec<f64>; 3] {
     [goldman, chebyshev, difference]
 }
 
-fn drift(content: &mut FigureContent) {
+fn drift(content: &mut FigureContent) -> Result {
     const DEGREES: f64 = 30.0;
     const NAMES: [[&str; 3]; 3] = [
         [
@@ -211,15 +199,15 @@ fn drift(content: &mut FigureContent) {
         content.adds(
             format!("drift-{key}"),
             format!("{name}: largest error over {LONG} pixels"),
-            (most, ""),
-            true,
+            (most, "", true),
             format!("{meaning}: {visible}."),
         );
     }
+    Ok(())
 }
 
 /// Compares the printed formulas for φ in `f32`, and slerp Phong over such a span, with the truth.
-fn ends_of_range(content: &mut FigureContent) -> Result<(), FigureError> {
+fn ends_of_range(content: &mut FigureContent) -> Result {
     let mut rows = Vec::new();
     let (mut worst, mut printed_worst): (f64, f64) = (0.0, 0.0);
     for degrees in [0.0, 1e-3, 0.02, 0.1, 1.0, 90.0, 178.0, 178.9, 179.1, 180.0] {
@@ -260,15 +248,13 @@ fn ends_of_range(content: &mut FigureContent) -> Result<(), FigureError> {
     content.contradicts(
         "printed-angle",
         "φ by the inverse cosine in f32, from 0.02° to 90°: largest relative error",
-        (printed_worst, ""),
-        printed_worst >= 1e-3,
+        (printed_worst, "", printed_worst >= 1e-3),
         "The formula as printed loses the angle where surfaces are flat.",
     );
     content.adds(
         "ends",
         "slerp Phong from 0° to 180°: largest difference from the reference",
-        (worst, "grey levels"),
-        worst < 0.5,
+        (worst, "grey levels", worst < 0.5),
         "Never visible, at neither end.",
     );
     Ok(())

@@ -1,9 +1,9 @@
 //! The square of Figure 5: turning it, or cutting it into triangles, changes its shading (L21 3).
 
-use super::content::written;
-use super::fixture::{DULL, ScreenCorner, ScreenPolygon, draw, frame, map_caption, stored};
-use super::measure::{angle, covered_by_both, largest, levels};
-use super::{Agreement, Figure, FigureContent, FigureError};
+use super::{
+    Agreement, DULL, Figure, FigureContent, Result, ScreenCorner, ScreenPolygon, angle,
+    covered_by_both, draw, frame, largest, levels, map_caption, stored, written,
+};
 use crate::compare::metrics::difference_map;
 use crate::frame::Frame;
 use crate::picture::LinearPicture;
@@ -18,7 +18,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "square",
     title: "The square that changes when it is turned",
     lecture: "L21 3, Figure 5; L21 4.1",
-    make,
+    parts: &[turns, numbers, directions, diagonals, great_circles],
 };
 
 /// Width and height of the pictures.
@@ -60,7 +60,7 @@ const PAST_DARK: Polygons = &[&[0, 1, 3], &[1, 2, 3]];
 
 /// Makes a square that stands on a corner, turned clockwise by `degrees`. Its normals are not turned: the light sees the
 /// same ones.
-fn square(degrees: f64, polygons: Polygons, normals: Normals) -> Result<Frame, FigureError> {
+fn square(degrees: f64, polygons: Polygons, normals: Normals) -> Result<Frame> {
     let middle = f64::from(SIDE) / 2.0;
     let (sin, cos) = sine_and_cosine(degrees);
     let places = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
@@ -142,14 +142,13 @@ fn turned_both_ways(
     polygons: Polygons,
     normals: Normals,
     draw: impl Fn(&Frame) -> LinearPicture,
-) -> Result<[LinearPicture; 2], FigureError> {
+) -> Result<[LinearPicture; 2]> {
     let upright = draw(&square(0.0, polygons, normals)?);
     let turned = draw(&square(degrees, polygons, normals)?);
     Ok([upright, turned_back(&turned, degrees)])
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
+fn turns(content: &mut FigureContent) -> Result {
     content.text(
         "Three corners are white and one is black. At 0° every scan line of the upper half runs between \
          two white edges; turned by 90°, the same half lies between a white edge and one that turns \
@@ -164,15 +163,11 @@ fn make() -> Result<FigureContent, FigureError> {
         }
         content.pictures(3, "The square", panels);
     }
-    numbers(&mut content)?;
-    directions(&mut content)?;
-    diagonals(&mut content)?;
-    great_circles(&mut content)?;
-    Ok(content)
+    Ok(())
 }
 
 /// Compares, by every method, the square and its triangles turned by 45° and by 90°, and both ways to cut.
-fn numbers(content: &mut FigureContent) -> Result<(), FigureError> {
+fn numbers(content: &mut FigureContent) -> Result {
     let mut rows = Vec::new();
     for method in METHODS {
         let variant = Variant::parse(method)?;
@@ -196,8 +191,7 @@ fn numbers(content: &mut FigureContent) -> Result<(), FigureError> {
         content.confirms(
             format!("square-{method}"),
             format!("{method}, square turned by 90°: largest difference"),
-            (square_90, "grey levels"),
-            square_90 > 1.0,
+            (square_90, "grey levels", square_90 > 1.0),
             "The shading depends on the orientation.",
         );
         // Half a grey level is the least that can be seen in a stored picture.
@@ -216,8 +210,7 @@ fn numbers(content: &mut FigureContent) -> Result<(), FigureError> {
         content.confirms(
             format!("diagonals-{method}"),
             format!("{method}, one diagonal or the other: largest difference"),
-            (diagonal, "grey levels"),
-            diagonal > 1.0,
+            (diagonal, "grey levels", diagonal > 1.0),
             "Different subdivisions give different pixels.",
         );
     }
@@ -237,14 +230,13 @@ fn numbers(content: &mut FigureContent) -> Result<(), FigureError> {
 }
 
 /// Compares the interpolated normals themselves.
-fn directions(content: &mut FigureContent) -> Result<(), FigureError> {
+fn directions(content: &mut FigureContent) -> Result {
     let [upright, turned] = turned_both_ways(90.0, WHOLE, DARK_BELOW, normals)?;
     let square = angles(&upright, &turned);
     content.confirms(
         "normals-square",
         "interpolated normals, square turned by 90°: largest angle",
-        (square, "degrees"),
-        square > 1.0,
+        (square, "degrees", square > 1.0),
         "Normals depend on the orientation as intensities do.",
     );
     let [upright, turned] = turned_both_ways(90.0, THROUGH_DARK, apart(), normals)?;
@@ -252,15 +244,14 @@ fn directions(content: &mut FigureContent) -> Result<(), FigureError> {
     content.confirms(
         "normals-triangles",
         "interpolated normals, triangles turned by 90°: largest angle",
-        (triangles, "degrees"),
-        triangles < 0.1,
+        (triangles, "degrees", triangles < 0.1),
         "On triangles normals are barycentric as well.",
     );
     Ok(())
 }
 
 /// Draws both ways to cut the square.
-fn diagonals(content: &mut FigureContent) -> Result<(), FigureError> {
+fn diagonals(content: &mut FigureContent) -> Result {
     content.text(
         "Cutting the square into triangles makes it independent of the orientation, and dependent on the \
          diagonal (L21 3).",
@@ -281,7 +272,7 @@ fn diagonals(content: &mut FigureContent) -> Result<(), FigureError> {
 }
 
 /// Turns triangles shaded by slerp Phong, turns them back, and compares.
-fn great_circles(content: &mut FigureContent) -> Result<(), FigureError> {
+fn great_circles(content: &mut FigureContent) -> Result {
     content.text(
         "Interpolation along great circles is not barycentric, so that cutting into triangles does not \
          help it: first along edges and then along scan lines is another normal when the scan lines run \

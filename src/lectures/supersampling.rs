@@ -1,14 +1,14 @@
 //! Supersampling with a depth buffer: occlusion at each sample, and the edge that its filter gives (L5).
 
-use super::content::{log, written};
-use super::fixture::{ScreenCorner, ScreenPolygon, shipped};
-use super::{Figure, FigureContent, FigureError, Plot, Series};
+use super::{
+    Figure, FigureContent, Plot, Result, ScreenCorner, ScreenPolygon, Series, draw, log, shipped,
+    written,
+};
 use crate::frame::{Frame, FrameBuilder};
 use crate::mesh::Material;
 use crate::picture::encoding::{srgb_encode, store};
 use crate::picture::{Encoding, LinearPicture};
-use crate::scene::{Lighting, Scene};
-use crate::shading::Variant;
+use crate::scene::Lighting;
 use alloc::format;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -17,7 +17,7 @@ pub(super) static FIGURE: Figure = Figure {
     name: "supersampling",
     title: "Supersampling with a depth buffer: the filtered edge",
     lecture: "L5, Z-buffer and Supersampling",
-    make,
+    parts: &[edge, filtering, cutting],
 };
 
 /// Samples a pixel along each side.
@@ -29,14 +29,10 @@ const TRIANGLE: [[f64; 2]; 3] = [[3.2, 1.3], [21.7, 8.1], [6.4, 16.6]];
 const PLANE: [[f64; 2]; 4] = [[-1.0, -1.0], [25.0, -1.0], [25.0, 19.0], [-1.0, 19.0]];
 
 /// Makes a frame of polygons, each of one colour, depth and corners in pixels, with so many samples a pixel.
-fn frame(
-    size: [u32; 2],
-    samples: u32,
-    polygons: &[([f32; 3], f64, &[[f64; 2]])],
-) -> Result<Frame, FigureError> {
+fn frame(size: [u32; 2], samples: u32, polygons: &[([f32; 3], f64, &[[f64; 2]])]) -> Result<Frame> {
     let [width, height] = size.map(|side| side * samples);
     let mut builder = FrameBuilder::new(width, height);
-    builder.samples(samples).encoding(Encoding::Srgb);
+    builder.samples(samples);
     for (number, (colour, depth, corners)) in polygons.iter().enumerate() {
         let material = Material {
             ambient: *colour,
@@ -55,9 +51,7 @@ fn frame(
     Ok(builder.finish()?)
 }
 
-fn make() -> Result<FigureContent, FigureError> {
-    let mut content = FigureContent::default();
-    let flat = Variant::parse("flat")?;
+fn edge(content: &mut FigureContent) -> Result {
     content.text(
         "A green triangle before a yellow plane, with n × n samples a pixel. Visibility is decided, \
          and light is computed, at each sample; the mean of a pixel's samples is taken in linear light.",
@@ -66,18 +60,18 @@ fn make() -> Result<FigureContent, FigureError> {
     for samples in SAMPLES {
         let plane = ([1.0, 1.0, 0.0], 0.8, &PLANE[..]);
         let triangle = ([0.0, 1.0, 0.0], 0.2, &TRIANGLE[..]);
-        let picture = flat.render_linear(&frame(SIZE, samples, &[plane, triangle])?);
+        let picture = draw(&frame(SIZE, samples, &[plane, triangle])?, "flat")?;
         let error = share_error(&picture);
         points.push((f64::from(samples), error));
         let caption = format!("{samples} × {samples} samples: {}", written(error));
         panels.push((caption, store(&picture, Encoding::Srgb)));
     }
     content.pictures(SAMPLES.len(), "The edge of a green triangle", panels);
+    let falls = points.is_sorted_by(|a, b| a.1 > b.1);
     content.confirms(
         "share",
         "error with one sample over error with 8 × 8",
-        (points[0].1 / points[3].1, ""),
-        points.is_sorted_by(|a, b| a.1 > b.1),
+        (points[0].1 / points[3].1, "", falls),
         "More samples, better edges: the depth test works for each sample.",
     );
     content.plot(Plot::new(
@@ -86,33 +80,35 @@ fn make() -> Result<FigureContent, FigureError> {
         [Series::new("measured", points)],
         "Against the exact area of the triangle in each pixel that its edges cross.",
     ));
+    Ok(())
+}
 
-    // A pixel that is half white and half black: the mean of light, and not of stored levels.
+/// Draws a pixel that is half white and half black: the mean of light, and not of stored levels.
+fn filtering(content: &mut FigureContent) -> Result {
     let half = [[0.0, 0.0], [1.5, 0.0], [1.5, 2.0], [0.0, 2.0]];
-    let stored = flat.render(&frame([2, 2], 2, &[([1.0; 3], 0.5, &half)])?);
-    let level = f64::from(stored.get(1, 0)[0]);
+    let picture = draw(&frame([2, 2], 2, &[([1.0; 3], 0.5, &half)])?, "flat")?;
+    let level = f64::from(store(&picture, Encoding::Srgb).get(1, 0)[0]);
     let exact = f64::from(srgb_encode(0.5)) * 255.0;
     content.adds(
         "linear",
         "stored level of a pixel that is half white and half black, sRGB",
-        (level, "of 255"),
-        (level - exact).abs() <= 0.5,
+        (level, "of 255", (level - exact).abs() <= 0.5),
         format!("The mean is taken before encoding: half of the light is level {exact:.0}."),
     );
+    Ok(())
+}
 
-    // The line where two polygons cut each other is filtered like an edge.
-    let scene = shipped("interpenetration", [120, 90])?;
+/// Draws two polygons that cut each other: the line is filtered like an edge.
+fn cutting(content: &mut FigureContent) -> Result {
+    let mut scene = shipped("interpenetration", [120, 90])?;
     let mut panels = Vec::new();
     for samples in [1, 4] {
-        let scene = Scene {
-            samples,
-            ..scene.clone()
-        };
-        let caption = format!("{samples} × {samples} samples");
-        panels.push((caption, flat.render(&scene.frame()?)));
+        scene.samples = samples;
+        let picture = store(&draw(&scene.frame()?, "flat")?, scene.encoding);
+        panels.push((format!("{samples} × {samples} samples"), picture));
     }
     content.pictures(2, "Polygons that cut each other", panels);
-    Ok(content)
+    Ok(())
 }
 
 /// Returns the part of the unit square at (`x`, `y`) that lies in the triangle: cut by its three edges, then measured.

@@ -201,8 +201,7 @@ fn figure() -> FigureContent {
     content.confirms(
         "key",
         "label",
-        (0.411504, "levels"),
-        true,
+        (0.411504, "levels", true),
         "Exactly <right>.",
     );
     content
