@@ -5,9 +5,7 @@ use super::{
 };
 use crate::picture::LinearPicture;
 use crate::scene::{Falloff, Light};
-use alloc::string::ToString;
-use alloc::vec::Vec;
-use alloc::{format, vec};
+use alloc::{format, vec, vec::Vec};
 use glam::{DAffine3, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
@@ -45,9 +43,7 @@ fn strength(falloff: Falloff, r: f64) -> f64 {
 fn floor(falloff: Falloff, intensity: f32) -> Result<LinearPicture> {
     let sheet = "corrugated?waves=0&amplitude=0&segments=8&rows=8";
     let mut scene = scene(sheet, DULL, DVec3::Z, 2.0, [96, 96])?;
-    for object in &mut scene.objects {
-        object.transform = DAffine3::from_scale(DVec3::new(2.5, 2.5, 1.0));
-    }
+    scene.objects[0].transform = DAffine3::from_scale(DVec3::new(2.5, 2.5, 1.0));
     let position = DVec3::new(0.0, 0.0, HEIGHT);
     scene.lights = vec![Light {
         falloff,
@@ -77,19 +73,16 @@ fn curves(content: &mut FigureContent) -> Result {
 fn floors(content: &mut FigureContent) -> Result {
     content.text(format!(
         "A white floor of 4 by 4, and a light of strength 1 at the height {HEIGHT}. The cosine \
-         makes the rim dark under every falloff."
+         darkens the rim."
     ));
     let (mut panels, mut rows, mut clipped) = (Vec::new(), Vec::new(), Vec::new());
     for (label, falloff) in FALLOFFS {
         let picture = floor(falloff, 1.0)?;
-        clipped.push(100.0 * share(&picture, |texel| texel[0] >= 1.0));
-        let cells = [
-            clipped[clipped.len() - 1],
-            below(1.0, &picture),
-            below(10.0, &picture),
-        ];
+        let white = 100.0 * share(&picture, |texel| texel[0] >= 1.0);
+        let cells = [white, below(1.0, &picture), below(10.0, &picture)];
         let cells = cells.map(|share| format!("{} %", written(share)));
-        rows.push([vec![label.to_string()], cells.to_vec()].concat());
+        rows.push(format!("{label} | {}", cells.join(" | ")));
+        clipped.push(white);
         panels.push((label, stored(&picture)));
     }
     content.pictures(

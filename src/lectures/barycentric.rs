@@ -63,10 +63,9 @@ fn painted(weights: fn(DVec2) -> Weights) -> LinearPicture {
 
 fn pictures(content: &mut FigureContent) -> Result {
     content.text(
-        "A right triangle by CS171's Algorithm 2: red at both ends of the hypotenuse, blue at the \
-         right angle. Beside it the weights themselves, α red, β green, γ blue, with the centre of \
-         mass in white. Then two misprints, drawn by Algorithm 1. The notes divide γ by f_ac(p) in \
-         place of f_ab(c). The slides of Lecture 5 take areas without signs, which fills all.",
+        "A right triangle by CS171's Algorithm 2, and its weights: α red, β green, γ blue, the \
+         centre of mass white. Then two misprints. The notes divide γ by f_ac(p) in place of \
+         f_ab(c); Lecture 5's slides take areas without signs.",
     );
     let mut grid = Grid::new(SIDE, SIDE, DVec3::ZERO);
     let colours = [DVec3::X, DVec3::X, DVec3::Z];

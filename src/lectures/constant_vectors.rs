@@ -1,17 +1,15 @@
 //! L and V constant along each polygon, as the lecture assumes, against those of each pixel (L21 1; Duff 1979).
 
 use super::{
-    Figure, FigureContent, Plot, Result, Series, draw_each, grey, levels, log, scene, stored,
-    written,
+    Figure, FigureContent, Plot, Result, Series, draw_each, grey, levels, log, max_and_rms, scene,
+    stored,
 };
 use crate::compare::metrics::{compare, difference_map};
 use crate::number::Counts;
 use crate::reference::{self, Model};
 use crate::scene::{Falloff, Interpolation, Light, Scene};
 use crate::shading::{OperationCounts, SpanBench, Variant};
-use alloc::string::ToString;
-use alloc::vec::Vec;
-use alloc::{format, vec};
+use alloc::{format, string::ToString, vec, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -40,9 +38,8 @@ fn sphere(rings: u32, distance: f64) -> Result<Scene> {
 
 fn pictures(content: &mut FigureContent) -> Result {
     content.text(
-        "Fast Phong shading takes L·V from 4.6 as a constant of the polygon, and L and V with it. \
-         With light and eye at infinity that is exact. With a light at a position it is as good as \
-         the polygons are small, or the light is far.",
+        "Fast Phong shading takes L, V and the L·V of 4.6 as constants of the polygon. That is \
+         exact with light and eye at infinity. Otherwise polygons must be small, or the light far.",
     );
     let near = sphere(RINGS[1], DISTANCES[0])?.frame()?;
     let [fast, duff, naive] = draw_each(&near, ["fast-phong", "duff-phong", "naive-phong"])?;
@@ -73,14 +70,13 @@ fn errors(content: &mut FigureContent) -> Result {
     let polygons = RINGS.map(|rings| 2 * rings * rings);
     let (mut rows, mut curves) = (Vec::new(), Vec::new());
     for distance in DISTANCES {
-        let (mut row, mut curve) = (vec![distance.to_string()], Vec::new());
+        let (mut row, mut curve) = (distance.to_string(), Vec::new());
         for (rings, polygons) in RINGS.into_iter().zip(polygons) {
             let frame = sphere(rings, distance)?.frame()?;
             let truth = reference::render(&frame, Model::Phong).to_linear();
             let difference = compare(&truth, &fast.render_linear(&frame))?;
-            let [max, rms] = [difference.max, difference.rms].map(|error| 255.0 * error);
-            row.push(format!("{} / {}", written(max), written(rms)));
-            curve.push((f64::from(polygons), rms));
+            row += &max_and_rms(&difference);
+            curve.push((f64::from(polygons), 255.0 * difference.rms));
         }
         rows.push(row);
         curves.push(Series::new(format!("light at {distance}"), curve));
@@ -95,8 +91,8 @@ fn errors(content: &mut FigureContent) -> Result {
         "The error of constant vectors over the number of polygons",
         [log("polygons of the sphere"), log("RMS error, grey levels")],
         curves,
-        "Distances are in radii of the sphere. The eye stays five radii from the middle: what a \
-         far light leaves is its part.",
+        "Distances are in radii. The eye stays five radii from the middle, and a far light leaves \
+         its error.",
     ));
     content.contradicts(
         "coarse",
@@ -123,13 +119,13 @@ fn products(content: &mut FigureContent) -> Result {
     };
     let mut rows = Vec::new();
     for method in ["naive-phong", "duff-phong"] {
-        let mut row = vec![method.to_string()];
+        let mut row = method.to_string();
         for lights in [1, 2] {
             let OperationCounts { walk, shade, .. } = counts(method, lights)?;
             let sum = |of: fn(&Counts) -> u32| of(&walk) + of(&shade);
-            row.push(sum(|c| c.additions).to_string());
-            row.push(sum(|c| c.multiplications).to_string());
-            row.push(sum(|c| c.divisions + c.roots).to_string());
+            let [additions, multiplications] = [sum(|c| c.additions), sum(|c| c.multiplications)];
+            let others = sum(|c| c.divisions + c.roots);
+            row += &format!(" | {additions} | {multiplications} | {others}");
         }
         rows.push(row);
     }

@@ -1,9 +1,11 @@
 //! The data of a finished figure: texts, pictures, curves, tables and findings, without any layout.
 
 use crate::picture::Picture8;
-use alloc::format;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
+use alloc::{
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
 use serde::{Serialize, Serializer};
 
 /// A finished figure.
@@ -50,14 +52,12 @@ impl FigureContent {
         self.blocks.push(FigureBlock::Plot(plot));
     }
 
-    /// Adds a table. Its head separates cells by ` | `, as Markdown does.
-    pub fn table<R>(&mut self, head: &str, rows: impl IntoIterator<Item = R>)
-    where
-        R: IntoIterator<Item = String>,
-    {
+    /// Adds a table. In the head and in each row ` | ` separates the cells, as in Markdown.
+    pub fn table(&mut self, head: &str, rows: impl IntoIterator<Item = String>) {
+        let cells = |row: &str| row.split(" | ").map(String::from).collect();
         self.blocks.push(FigureBlock::Table {
-            head: head.split(" | ").map(String::from).collect(),
-            rows: rows.into_iter().map(Vec::from_iter).collect(),
+            head: cells(head),
+            rows: rows.into_iter().map(|row| cells(&row)).collect(),
         });
     }
 

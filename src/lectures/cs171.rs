@@ -35,14 +35,12 @@ fn sphere() -> Result<Frame> {
     scene.gate = SpecularGate::Ungated;
     scene.local_viewer = true;
     scene.ambient = [1.0; 3];
-    for object in &mut scene.objects {
-        object.material = Some(Material {
-            ambient: [0.06, 0.01, 0.01],
-            diffuse: [0.7, 0.08, 0.06],
-            specular: [0.5; 3],
-            shininess: 60.0,
-        });
-    }
+    scene.objects[0].material = Some(Material {
+        ambient: [0.06, 0.01, 0.01],
+        diffuse: [0.7, 0.08, 0.06],
+        specular: [0.5; 3],
+        shininess: 60.0,
+    });
     let [right, up, forward] = scene.camera.axes();
     let at = |r: f64, u: f64, toward: f64| right * r + up * u - forward * toward;
     scene.lights = vec![
@@ -55,10 +53,9 @@ fn sphere() -> Result<Frame> {
 /// Measures the highlights by their green light, of which the sphere's own colour has nearly none.
 fn highlights(content: &mut FigureContent) -> Result {
     content.text(
-        "A red sphere, a yellow and a blue light at positions, all by Algorithm 8: once a triangle \
-         (Figure 10), once a vertex (Figure 9), once a pixel (Figure 11). The last picture is \
-         Algorithm 7 as it is printed: the interpolated normal goes to the lighting model as it is, \
-         though that asks for a unit normal.",
+        "A red sphere under two lights at positions, by Algorithm 8: once a triangle (Figure 10), \
+         a vertex (Figure 9), a pixel (Figure 11). Algorithm 7 as printed does not normalise the \
+         interpolated normal, though the lighting model asks for a unit normal.",
     );
     let frame = sphere()?;
     let unit = Reading::default();
@@ -168,10 +165,9 @@ fn cube(content: &mut FigureContent) -> Result {
     let [near, near_clipped] = floors(-1.0)?;
     let [behind, behind_clipped] = floors(2.0)?;
     content.text(
-        "The test against the NDC cube. On the left a floor that ends before the near plane, but in \
-         front of the eye: the test at each pixel cuts off as much as clipping. On the right the \
-         floor goes on behind the eye. Its corners there are divided by a negative depth and stand \
-         above the horizon: no test at a pixel puts that right, and clipping must come first.",
+        "The test against the NDC cube. It cuts off as much as clipping where the whole floor is \
+         in front of the eye. Corners behind the eye are divided by a negative depth and stand \
+         above the horizon: clipping must come first.",
     );
     content.pictures(
         4,

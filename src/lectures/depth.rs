@@ -6,8 +6,7 @@ use super::{
 };
 use crate::raster::depth;
 use crate::scene::{Camera, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Scene};
-use alloc::format;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "depth",
@@ -42,8 +41,8 @@ fn with(scene: &Scene, bits: DepthBits, source: DepthSource) -> Scene {
 fn fighting(content: &mut FigureContent) -> Result {
     let scene = far_away()?;
     content.text(
-        "A star that floats a little above a floor, drawn after it, far from the eye. The floor \
-         stays where a buffer of few bits rounds both depths to one number: z-fighting.",
+        "A star a little above a floor, far from the eye. Where few bits round both depths to one \
+         number, the floor shows through: z-fighting.",
     );
     let mut pictures = Vec::new();
     for (_, bits) in BITS {
@@ -110,9 +109,9 @@ fn curve(content: &mut FigureContent) -> Result {
         ],
         [near, 5.0 * near, 25.0 * near].map(curve),
         format!(
-            "L5's formula, mapped to 0..1, for a far plane at {}. \"Z-value is preserved after \
-             projection\" is not so: its order is, and the nearer the near plane, the fewer levels \
-             are left for far surfaces.",
+            "L5's formula, mapped to 0..1, for a far plane at {}. Only the order of z is \
+             \"preserved after projection\": a nearer near plane leaves fewer levels for far \
+             surfaces.",
             written(far)
         ),
     ));

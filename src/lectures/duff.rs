@@ -8,8 +8,7 @@ use super::{
     linear, profile, stored, toward, written,
 };
 use crate::picture::LinearPicture;
-use alloc::format;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "duff",
@@ -65,11 +64,9 @@ fn slope_jumps(angles: [f64; 2]) -> Result<[f64; 3]> {
 fn curves(content: &mut FigureContent) -> Result {
     let [left, right] = ANGLES;
     content.text(format!(
-        "Two facets of one circle, of {left}° and {right}°, each as wide on the screen as its arc, so \
-         that the intensity of the circle itself does not bend where they meet. The light stands \
-         {LIGHT}° from the normal there. Linear normals of a facet turn slower at its ends than in its \
-         middle, the more so the larger its angle: at the joint the rates differ, and the intensity \
-         bends.",
+        "Two facets of one circle, of {left}° and {right}°, each as wide as its arc: the intensity \
+         of the circle does not bend at the joint, {LIGHT}° from the light. Linear normals turn \
+         slower at the ends of a facet, the more so the larger its angle: there the rates differ.",
     ));
     let pictures = circle(ANGLES)?;
     content.pictures(
@@ -149,9 +146,8 @@ fn sweep(content: &mut FigureContent) -> Result {
         "Jump of the slope over the angle of the left facet",
         [linear(angle), linear("jump of the slope, levels a pixel")],
         curves.into_iter().chain([formula]),
-        "Equal angles: no jump for naive Phong. The jump of Gouraud shading comes from its chords, \
-         which cut off the circle; it happens to vanish where the left facet reaches far beyond the \
-         terminator.",
+        "Equal angles: no jump for naive Phong. The jump of Gouraud shading comes from its chords; \
+         it happens to vanish where the left facet reaches far beyond the terminator.",
     ));
     Ok(())
 }

@@ -8,8 +8,7 @@ use crate::number::{Counter, Num};
 use crate::picture::LinearPicture;
 use crate::raster::depth;
 use crate::shading::Walk;
-use alloc::format;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -32,9 +31,9 @@ fn sine(content: &mut FigureContent) -> Result {
     let truth = libm::sin(24.3_f64.to_radians());
     let [low, high] = TABLE;
     content.text(format!(
-        "Exercise 1. A span of ten pixels from {low} (sin 24°) to {high} (sin 25°), shaded by \
-         Gouraud's method, holds {found:.6} at its fourth pixel, 0.3 of the way: the sine of 24.3° is \
-         {truth:.6}. Linear interpolation is off by {}; half a unit of the table's last decimal is {}.",
+        "Exercise 1. Gouraud's method shades a span of ten pixels from {low} (sin 24°) to {high} \
+         (sin 25°). Its fourth pixel, 0.3 of the way, holds {found:.6}; sin 24.3° is {truth:.6}. \
+         The error is {}; half a unit of the table's last decimal is {}.",
         written(truth - found),
         written(0.5e-5)
     ));
@@ -116,8 +115,8 @@ fn exponential(content: &mut FigureContent) -> Result {
             Series::new(format!("from 1 to e^−{fall}"), shown)
         }),
         format!(
-            "In f32, over {PIXELS} pixels. Two roundings of 2⁻²⁴ a pixel (of the product, and of the \
-             factor that is in each) allow {} at the end; {} was the largest.",
+            "In f32, over {PIXELS} pixels. Two roundings of 2⁻²⁴ a pixel, of the product and of \
+             its factor, allow {} at the end; {} was the largest.",
             written(bound),
             written(most)
         ),
@@ -166,10 +165,9 @@ fn fog(content: &mut FigureContent) -> Result {
     }
     let levels = 255.0 * most;
     content.text(format!(
-        "Exercise 2 at work: a dark plane, tilted against the screen, in exponential fog. Under an \
-         orthographic camera depth is linear on the screen, so that one multiplication a pixel gives \
-         the fog of each pixel exactly, rounding aside. The two pictures differ by at most {} grey \
-         levels.",
+        "Exercise 2 at work: a dark, tilted plane in exponential fog. Under an orthographic camera \
+         depth is linear on the screen: one multiplication a pixel gives the fog, to rounding. The \
+         two pictures differ by at most {} grey levels.",
         written(levels)
     ));
     content.pictures(

@@ -3,11 +3,9 @@
 use super::{
     Figure, FigureContent, Plot, Result, Series, draw, grey, linear, scene, share, stored, written,
 };
-use crate::mesh::Material;
 use crate::picture::LinearPicture;
-use crate::scene::SpecularModel;
-use alloc::format;
-use alloc::vec::Vec;
+use crate::scene::{Scene, SpecularModel};
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -56,31 +54,17 @@ fn powers(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Draws a sphere, `size` pixels of a picture with this much space above the middle.
-fn sphere(
-    spec: &str,
-    material: Material,
-    specular: SpecularModel,
-    light: DVec3,
-    half_height: f64,
-    size: [u32; 2],
-) -> Result<LinearPicture> {
-    let mut scene = scene(spec, material, light, half_height, size)?;
+/// Draws a scene whose highlights and exponents are those of `specular`.
+fn drawn(mut scene: Scene, specular: SpecularModel) -> Result<LinearPicture> {
     (scene.specular, scene.shininess_for) = (specular, specular);
     draw(&scene.frame()?, "naive-phong")
 }
 
-/// Draws a sphere with a highlight over some diffuse light.
-fn shiny(
-    strength: f32,
-    exponent: f32,
-    specular: SpecularModel,
-    light: DVec3,
-    side: u32,
-) -> Result<LinearPicture> {
+/// Makes a sphere with a highlight over some diffuse light.
+fn shiny(strength: f32, exponent: f32, light: DVec3, side: u32) -> Result<Scene> {
     let material = grey(0.02, 0.2, strength, exponent);
     let spec = "sphere?rings=32&segments=64";
-    sphere(spec, material, specular, light, HALF_HEIGHT, [side; 2])
+    scene(spec, material, light, HALF_HEIGHT, [side; 2])
 }
 
 /// Draws the grid of the lecture, k_s downward and p to the right.
@@ -89,7 +73,8 @@ fn grid(content: &mut FigureContent) -> Result {
     let (mut panels, mut bright) = (Vec::new(), Vec::new());
     for strength in STRENGTHS {
         for exponent in EXPONENTS {
-            let picture = shiny(strength, exponent, SpecularModel::Phong, light, 56)?;
+            let sphere = shiny(strength, exponent, light, 56)?;
+            let picture = drawn(sphere, SpecularModel::Phong)?;
             // Brighter than diffuse and ambient light alone can be.
             bright.push(share(&picture, |texel| texel[0] > 0.22 + strength / 2.0));
             panels.push((format!("k_s {strength}, p {exponent}"), stored(&picture)));
@@ -116,14 +101,11 @@ fn grid(content: &mut FigureContent) -> Result {
 fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f64)>)> {
     const SIDE: u32 = 481;
     // Three rows of the picture of full height: the middle one passes through the middle of the sphere.
-    let picture = sphere(
-        "sphere?rings=96&segments=192",
-        grey(0.0, 0.0, 1.0, exponent),
-        specular,
-        DVec3::Z,
-        3.0 * HALF_HEIGHT / f64::from(SIDE),
-        [SIDE, 3],
-    )?;
+    let half_height = 3.0 * HALF_HEIGHT / f64::from(SIDE);
+    let material = grey(0.0, 0.0, 1.0, exponent);
+    let spec = "sphere?rings=96&segments=192";
+    let sphere = scene(spec, material, DVec3::Z, half_height, [SIDE, 3])?;
+    let picture = drawn(sphere, specular)?;
     let degrees = |x: f64| {
         let across = 2.0 * HALF_HEIGHT * (x + 0.5 - f64::from(SIDE) / 2.0) / f64::from(SIDE);
         libm::asin(across.clamp(-1.0, 1.0)).to_degrees()
@@ -156,12 +138,11 @@ fn half_vector(content: &mut FigureContent) -> Result {
         widths.push(width);
         let points = points.into_iter().filter(|p| p.0 < 60.0).step_by(3);
         curves.push(Series::new(label, points));
-        let picture = shiny(0.75, exponent, specular, DVec3::Z, 80)?;
+        let picture = drawn(shiny(0.75, exponent, DVec3::Z, 80)?, specular)?;
         panels.push((label, stored(&picture)));
     }
     content.text(
-        "The vector halfway between light and eye turns half as fast as R: the same exponent makes a \
-         wider highlight.",
+        "The half vector turns half as fast as R: the same exponent makes a wider highlight.",
     );
     content.pictures(3, "A sphere with a highlight", panels);
     content.plot(Plot::new(

@@ -6,9 +6,7 @@ use super::{
 use crate::compare::metrics::{compare, difference_map};
 use crate::number::Counts;
 use crate::shading::{METHODS, OperationCounts, Variant};
-use alloc::string::ToString;
-use alloc::vec::Vec;
-use alloc::{format, vec};
+use alloc::{format, vec::Vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "fast-vs-naive",
@@ -39,8 +37,8 @@ fn meshes(content: &mut FigureContent) -> Result {
             draw_each(&frame, ["naive-phong", "fast-phong", "fast-phong:steps=1"])?;
         let (by_default, with_one) = (compare(&naive, &fast)?, compare(&naive, &one)?);
         let errors = [by_default.max, by_default.rms, with_one.max, with_one.rms];
-        let names = vec![mesh.to_string(), frame.polygons().len().to_string()];
-        rows.push([names, errors.map(|error| written(255.0 * error)).to_vec()].concat());
+        let cells = errors.map(|error| written(255.0 * error)).join(" | ");
+        rows.push(format!("{mesh} | {} | {cells}", frame.polygons().len()));
         fewest = fewest.max(255.0 * by_default.max);
         by_one.push((255.0 * with_one.max, mesh, naive, one));
     }
@@ -51,8 +49,7 @@ fn meshes(content: &mut FigureContent) -> Result {
     );
     content.confirms(
         "default",
-        "fast Phong with the fewest steps that suffice: largest difference from naive Phong over all \
-         meshes",
+        "fast Phong with the fewest sufficient steps: largest difference from naive Phong",
         (fewest, "grey levels", fewest <= 1.0),
         "No pixel differs by more than a grey level.",
     );
@@ -97,14 +94,18 @@ fn meshes(content: &mut FigureContent) -> Result {
 fn operations(content: &mut FigureContent) -> Result {
     content.text(
         "Operations a pixel for one light and shininess 32, counted by running each method on \
-         numbers that count: to step from the previous pixel (walk), and for the colour (shade). The \
-         power costs five multiplications in every method but flat and Gouraud shading.",
+         counting numbers: walk steps from the previous pixel, shade computes the colour. The \
+         power is five multiplications in every method but flat and Gouraud shading.",
     );
     let rows = METHODS.iter().map(|entry| {
         let OperationCounts { walk, shade, .. } = entry.variant().operations(1);
-        let of = |c: Counts| [c.additions, c.multiplications, c.divisions, c.roots];
-        let cells = of(walk).into_iter().chain(of(shade)).map(|n| n.to_string());
-        [entry.info.name.to_string()].into_iter().chain(cells)
+        let cells = [walk, shade].map(|c| {
+            format!(
+                "{} | {} | {} | {}",
+                c.additions, c.multiplications, c.divisions, c.roots
+            )
+        });
+        format!("{} | {}", entry.info.name, cells.join(" | "))
     });
     content.table(
         "method | walk: + − | walk: × | walk: ÷ | walk: √ | shade: + − | shade: × | shade: ÷ \

@@ -12,9 +12,7 @@ use crate::picture::{Encoding, LinearPicture, Picture8};
 use crate::scene::input::{load, resolve};
 use crate::scene::{Camera, Culling, HiddenSurfaces, Light, Lighting, Projection, Scene};
 use crate::shading::Variant;
-use alloc::string::String;
-use alloc::vec::Vec;
-use alloc::{format, vec};
+use alloc::{format, string::String, vec, vec::Vec};
 use glam::DVec3;
 
 /// A corner of a polygon in screen space.
@@ -149,9 +147,7 @@ pub(super) fn scene(
         far: 9.0,
     };
     scene.lights = vec![Light::directional(light.normalize(), [1.0; 3])];
-    for object in &mut scene.objects {
-        object.material = Some(material);
-    }
+    scene.objects[0].material = Some(material);
     Ok(scene)
 }
 

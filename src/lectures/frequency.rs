@@ -1,13 +1,11 @@
 //! Shading frequency against mesh resolution: faces, vertices, pixels, on six spheres (L5).
 
-use super::{Figure, FigureContent, Plot, Result, Series, draw, fitted, log, stored, written};
+use super::{Figure, FigureContent, Plot, Result, Series, draw, fitted, log, max_and_rms, stored};
 use crate::compare::metrics::{Difference, compare_where};
 use crate::frame::Frame;
 use crate::reference::{self, Model};
 use crate::scene::Scene;
-use alloc::string::ToString;
-use alloc::vec::Vec;
-use alloc::{format, vec};
+use alloc::{format, string::String, vec::Vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "frequency",
@@ -51,8 +49,8 @@ fn spheres(content: &mut FigureContent) -> Result {
         .into_iter()
         .collect::<Result<Vec<_>, _>>()?;
     content.text(format!(
-        "One sphere in six resolutions, shaded once a face, a vertex, and a pixel. Errors are against \
-         the Phong reference on {} polygons, over the pixels that both spheres cover.",
+        "One sphere in six resolutions, shaded once a face, a vertex, and a pixel. Errors are \
+         against the Phong reference on {} polygons, over pixels that both cover.",
         finest.polygons().len()
     ));
     let (mut panels, mut errors) = (Vec::new(), Vec::new());
@@ -81,12 +79,8 @@ fn numbers(content: &mut FigureContent, errors: &[Vec<Difference>]) {
         .iter()
         .zip(errors)
         .map(|((_, frequency), errors)| {
-            let mut row = vec![frequency.to_string()];
-            for d in errors {
-                let [max, rms] = [d.max, d.rms].map(|error| written(255.0 * error));
-                row.push(format!("{max} / {rms}"));
-            }
-            row
+            let cells: String = errors.iter().map(max_and_rms).collect();
+            format!("{frequency}{cells}")
         });
     let head = polygons.map(|polygons| format!(" | {polygons}"));
     content.table(

@@ -48,7 +48,7 @@ fn largest_step(picture: &LinearPicture, other: &LinearPicture) -> f64 {
 fn gates(content: &mut FigureContent) -> Result {
     content.text(
         "A torus in light from behind it. The lectures raise a cosine to a power without asking \
-         whether the light reaches the surface at all.",
+         whether the light reaches the surface.",
     );
     let gated = torus(SHINY, SpecularGate::Gated)?;
     let ungated = torus(SHINY, SpecularGate::Ungated)?;
@@ -107,8 +107,8 @@ fn clamping(content: &mut FigureContent) -> Result {
     let truth = reference::render(&frame, Model::Phong).to_linear();
     let [clamped, separate] = draw_each(&frame, ["gouraud", "gouraud-separate"])?;
     content.text(
-        "An overexposed sphere: Gouraud's method with colours clamped at the vertices, with colours \
-         clamped at the pixels, and shading at every pixel.",
+        "An overexposed sphere: Gouraud's method clamped at the vertices, clamped at the pixels, \
+         and shading at every pixel.",
     );
     content.pictures(
         3,

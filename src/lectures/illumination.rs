@@ -9,8 +9,7 @@ use crate::mesh::Material;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::picture::LinearPicture;
 use crate::raster::polygon_numbers;
-use alloc::format;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::{DAffine3, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
@@ -37,8 +36,7 @@ fn terms(content: &mut FigureContent) -> Result {
     let specular = sphere(grey(0.0, 0.0, 0.38, 30.0))?;
     let all = sphere(grey(0.12, 0.5, 0.38, 30.0))?;
     content.text(
-        "The three terms of equation 2.1, each alone, and all of them: the same sphere and light, \
-         drawn four times.",
+        "The three terms of equation 2.1, each alone and together, on one sphere in one light.",
     );
     content.pictures(
         4,
@@ -95,10 +93,8 @@ fn turned(degrees: f64) -> Result<Frame> {
     // From the right and from above, so that the top is seen at every angle, and on grey, so that unlit faces are.
     cube.camera.eye = DVec3::new(2.8, 2.2, 3.4);
     cube.background = [0.3; 3];
-    for object in &mut cube.objects {
-        object.normals = NormalSource::Crease(30.0);
-        object.transform = DAffine3::from_rotation_z(-degrees.to_radians());
-    }
+    cube.objects[0].normals = NormalSource::Crease(30.0);
+    cube.objects[0].transform = DAffine3::from_rotation_z(-degrees.to_radians());
     Ok(cube.frame()?)
 }
 
@@ -129,8 +125,7 @@ fn cube(content: &mut FigureContent) -> Result {
         }
     }
     content.text(
-        "Lambert's law: the face that is on top receives light in proportion to the cosine of the \
-         angle by which the cube is turned.",
+        "Lambert's law: the face on top receives light in proportion to the cosine of its turn.",
     );
     content.pictures(2, "A cube under light from above", panels);
     let cosine = |degrees: f64| libm::cos(degrees.to_radians());

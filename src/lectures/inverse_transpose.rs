@@ -8,8 +8,8 @@ use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
 use crate::picture::LinearPicture;
-use alloc::format;
-use alloc::sync::Arc;
+use crate::scene::Object;
+use alloc::{format, sync::Arc, vec};
 use glam::{DAffine3, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
@@ -88,10 +88,12 @@ fn stretched() -> Result<PolygonMesh> {
 fn lit(mesh: PolygonMesh, normals: NormalSource, transform: DAffine3) -> Result<LinearPicture> {
     let material = grey(0.06, 0.6, 0.34, 30.0);
     let mut scene = scene(SPHERE, material, LIGHT, 1.15, [208, 84])?;
-    for object in &mut scene.objects {
-        object.mesh = Arc::new(mesh.clone());
-        (object.normals, object.transform) = (normals, transform);
-    }
+    scene.objects = vec![Object {
+        mesh: Arc::new(mesh),
+        material: Some(material),
+        normals,
+        transform,
+    }];
     draw(&scene.frame()?, "naive-phong")
 }
 
@@ -120,7 +122,7 @@ fn ellipsoid(content: &mut FigureContent) -> Result {
         "engine's normals against those averaged from its polygons, largest difference",
         (near, "grey levels", near < far / 4.0),
         format!(
-            "The polygons confirm the inverse transpose; by the matrix the difference is {} levels.",
+            "The polygons confirm the inverse transpose: the matrix is off by {} levels.",
             written(far)
         ),
     );

@@ -6,9 +6,7 @@ use super::{
 };
 use crate::frame::Frame;
 use crate::reference::{self, Model};
-use alloc::format;
-use alloc::string::ToString;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -53,10 +51,9 @@ fn bands(content: &mut FigureContent) -> Result {
     let drawn = METHODS.into_iter().zip(drawn);
     let pictures: Vec<_> = drawn.chain([("the cylinder", smooth)]).collect();
     content.text(
-        "A cylinder of five facets of 30°, and its intensities along a scan line; the cylinder \
-         itself is the reference on 300 facets. Lines stand where facets meet. The eye exaggerates \
-         jumps of intensity, and also, less, jumps of its slope: bands are seen there although no \
-         intensity jumps (Mach; Phong 1975).",
+        "A cylinder of five facets of 30°, and its intensities along a scan line; the reference is \
+         drawn on 300 facets. The eye exaggerates jumps of intensity and, less, of its slope: it \
+         sees bands there although no intensity jumps (Mach; Phong 1975).",
     );
     let panels = pictures
         .iter()
@@ -126,7 +123,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
     let mut rows = Vec::new();
     for (name, profile) in methods {
         let (value, slope) = jumps(profile);
-        rows.push([name.to_string(), written(value), written(slope)]);
+        rows.push(format!("{name} | {} | {}", written(value), written(slope)));
         let is_flat = *name == "flat";
         content.confirms(
             format!("value-{name}"),

@@ -1,7 +1,9 @@
 //! Numbers that figures take from pictures: differences, shares, angles, and jumps along a scan line.
 
+use super::content::written;
+use crate::compare::metrics::Difference;
 use crate::picture::LinearPicture;
-use alloc::vec::Vec;
+use alloc::{format, string::String, vec::Vec};
 use glam::DVec3;
 
 /// Pixels between the three of each side that a slope is taken from.
@@ -32,6 +34,12 @@ pub(super) fn levels(a: &LinearPicture, b: &LinearPicture) -> f64 {
         covered_by_both(a, b)
             .flat_map(|(a, b)| [0, 1, 2].map(|c| 255.0 * f64::from((a[c] - b[c]).abs()))),
     )
+}
+
+/// Writes the largest and the RMS error in grey levels, as the next cell of a table's row.
+pub(super) fn max_and_rms(difference: &Difference) -> String {
+    let [max, rms] = [difference.max, difference.rms].map(|error| written(255.0 * error));
+    format!(" | {max} / {rms}")
 }
 
 /// Counts the pixels of two pictures that differ by more than half a grey level.

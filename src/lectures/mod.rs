@@ -50,15 +50,15 @@ pub use error::FigureError;
 use error::Result;
 
 use crate::number::suggest::nearest;
-use alloc::format;
-use alloc::string::String;
-use alloc::vec::Vec;
+use alloc::{format, string::String, vec::Vec};
 use content::{linear, log, written};
 use fixture::{
     DULL, ScreenCorner, ScreenPolygon, bare, draw, draw_each, ends, fitted, frame, grey,
     map_caption, scene, shipped, stored, toward,
 };
-use measure::{angle, covered_by_both, differing, jump, largest, levels, percent, profile, share};
+use measure::{
+    angle, covered_by_both, differing, jump, largest, levels, max_and_rms, percent, profile, share,
+};
 
 /// All figures, in the order of the lectures.
 pub static FIGURES: &[&Figure] = &[

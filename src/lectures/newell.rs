@@ -6,9 +6,7 @@ use super::{
 };
 use crate::mesh::newell::newell;
 use crate::picture::LinearPicture;
-use alloc::format;
-use alloc::string::ToString;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
 pub(super) static FIGURE: Figure = Figure {
@@ -115,9 +113,9 @@ fn worst(corners: &[Vec3]) -> DVec3 {
 /// Draws all polygons, lit by the one normal and by the other.
 fn pictures(content: &mut FigureContent) -> Result {
     content.text(
-        "The same plane for all polygons, tilted, with corners rounded to f32. The normal from two \
-         edges is taken at its worst corner: any corner may be the first one that a file names. \
-         Newell's formula takes the sum over all.",
+        "One tilted plane for all polygons, with corners rounded to f32. The normal from two edges \
+         is taken at its worst corner: a file may name any corner first. Newell's formula sums \
+         over all.",
     );
     let names = examples().map(|example| example.what).join(", ");
     content.pictures(
@@ -154,8 +152,11 @@ fn errors(content: &mut FigureContent) -> Result {
         let twice = twice_the_area(&example.corners);
         area = area.max((sum.length() / twice - 1.0).abs());
         most = most.max(errors[2].min(180.0));
-        let [length, twice] = [sum.length(), twice].map(|value| format!("{value:.7}"));
-        rows.push([example.what.to_string(), best, worst, newell, length, twice]);
+        rows.push(format!(
+            "{} | {best} | {worst} | {newell} | {:.7} | {twice:.7}",
+            example.what,
+            sum.length()
+        ));
         failure(content, example, errors[1]);
     }
     content.table(

@@ -7,9 +7,7 @@ use super::{
 use crate::number::vec3;
 use crate::shading::Walk;
 use crate::shading::increments::{Newton, NewtonSteps};
-use alloc::string::String;
-use alloc::vec::Vec;
-use alloc::{format, vec};
+use alloc::{format, string::String, vec, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -55,9 +53,9 @@ fn plural(steps: u32) -> String {
 
 fn curves(content: &mut FigureContent) -> Result {
     content.text(format!(
-        "d = √(N · N) is followed from pixel to pixel by a fixed number of steps x − (x² − d²) / 2x, \
-         starting from the d of the previous pixel; the first pixel of a span has a true root. Shown is \
-         the walk of the method itself, in f32, over spans of {PIXELS} pixels, against the root in f64.",
+        "A fixed number of steps x − (x² − d²) / 2x follows d = √(N · N) from pixel to pixel, from \
+         the d of the previous one; the first pixel has a true root. The method's own walk in f32, \
+         over spans of {PIXELS} pixels, is compared with the root in f64.",
     ));
     let over_angles = |steps| {
         Series::sampled(plural(steps), angles(), |degrees| {
@@ -84,8 +82,8 @@ fn curves(content: &mut FigureContent) -> Result {
         [linear("pixel"), log("relative error of d")],
         STEPS.map(along_a_span),
         format!(
-            "A span of {DEGREES}°. The first pixel has a true root; the error follows the change of d, \
-             which vanishes in the middle, where d is smallest. Errors below 10⁻⁸ are drawn there."
+            "A span of {DEGREES}°. The error follows the change of d, which vanishes in the \
+             middle, where d is smallest. Errors below 10⁻⁸ are drawn there."
         ),
     ));
     Ok(())
@@ -154,10 +152,9 @@ fn opposed(content: &mut FigureContent) -> Result {
     let frame = frame([31, 6], DULL, DVec3::new(1.0, 0.0, 0.6), &[strip])?;
     let naive = draw(&frame, "naive-phong")?;
     content.text(format!(
-        "Where the normals at the ends are almost opposed ({DEGREES}° here, over 31 pixels, one of them \
-         in the middle), d falls to almost nothing in the middle and grows again by a large factor a \
-         pixel. A step from a guess that is far too small overshoots to about d² / 2x, and the span is \
-         dark until the steps have come down again."
+        "Almost opposed normals at the ends ({DEGREES}°, over 31 pixels): d falls to almost \
+         nothing in the middle and grows again. A step from far too small a guess overshoots to \
+         about d² / 2x, and the span is dark until the steps have come down."
     ));
     let mut panels = vec![(String::from("naive Phong"), stored(&naive))];
     let mut not_finite = 0;

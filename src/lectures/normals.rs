@@ -11,9 +11,7 @@ use crate::number::vec3;
 use crate::scene::{Culling, Scene};
 use crate::shading::Walk;
 use crate::shading::increments::Quadratic;
-use alloc::format;
-use alloc::string::ToString;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -29,67 +27,37 @@ fn angles(spec: &str) -> Result<(usize, Vec<f64>)> {
     let by = |source: NormalSource| -> Result<Frame> {
         let mut scene = Scene::of_mesh(builtin(spec)?);
         scene.culling = Culling::None;
-        for object in &mut scene.objects {
-            object.normals = source;
-        }
+        scene.objects[0].normals = source;
         Ok(scene.frame()?)
     };
-    let normals = |frame: &Frame| -> Vec<DVec3> {
-        let corners = frame.polygons().iter().flat_map(|p| frame.corners(p));
-        corners
-            .map(|v| DVec3::from_array(frame.normal(*v).map(f64::from)))
-            .collect()
-    };
     let (averaged, given) = (by(NormalSource::Averaged)?, by(NormalSource::Given)?);
-    let pairs = normals(&averaged).into_iter().zip(normals(&given));
-    let angles = pairs.map(|(a, b)| angle(a, b)).collect();
-    Ok((builtin(spec)?.polygon_count(), angles))
+    let normal = |frame: &Frame, v: u32| DVec3::from_array(frame.normal(v).map(f64::from));
+    let corners = |frame| Frame::polygons(frame).iter().flat_map(|p| frame.corners(p));
+    let pairs = corners(&averaged).zip(corners(&given));
+    let angles = pairs.map(|(a, b)| angle(normal(&averaged, *a), normal(&given, *b)));
+    Ok((builtin(spec)?.polygon_count(), angles.collect()))
 }
-
-/// The surfaces, each from few polygons to many.
-const FAMILIES: [(&str, [&str; 3]); 3] = [
-    (
-        "sphere",
-        [
-            "sphere?rings=6&segments=12",
-            "sphere?rings=12&segments=24",
-            "sphere?rings=24&segments=48",
-        ],
-    ),
-    (
-        "torus",
-        [
-            "torus?segments=12&sides=8",
-            "torus?segments=24&sides=16",
-            "torus?segments=48&sides=32",
-        ],
-    ),
-    ("teapot", ["teapot?res=2", "teapot?res=4", "teapot?res=8"]),
-];
 
 /// Compares averaged normals with given ones (L5: "best to get vertex normals from the underlying geometry").
 fn sources(content: &mut FigureContent) -> Result {
     let (mut rows, mut curves, mut means) = (Vec::new(), Vec::new(), Vec::new());
-    for (name, specs) in FAMILIES {
+    let spheres = [6, 12, 24].map(|n| format!("sphere?rings={n}&segments={}", 2 * n));
+    let tori = [4, 8, 16].map(|n| format!("torus?segments={}&sides={}", 3 * n, 2 * n));
+    let teapots = [2, 4, 8].map(|n| format!("teapot?res={n}"));
+    for (name, specs) in [("sphere", spheres), ("torus", tori), ("teapot", teapots)] {
         let mut points = Vec::new();
         for spec in specs {
-            let (polygons, angles) = angles(spec)?;
+            let (polygons, angles) = angles(&spec)?;
             let mean = angles.iter().sum::<f64>() / angles.len().max(1) as f64;
             points.push((polygons as f64, mean));
-            let most = largest(angles);
-            rows.push([
-                name.into(),
-                polygons.to_string(),
-                written(most),
-                written(mean),
-            ]);
+            let [most, mean] = [largest(angles), mean].map(written);
+            rows.push(format!("{name} | {polygons} | {most} | {mean}"));
         }
         means.push([0, 1, 2].map(|i| points[i].1));
         curves.push(Series::new(name, points));
     }
     content.text(
-        "The angle between a vertex normal averaged over the polygons around it (3.1) and the normal \
-         of the surface there.",
+        "The angle between an averaged vertex normal (3.1) and the normal of the surface there.",
     );
     content.table(
         "surface | polygons | largest, degrees | mean, degrees",
@@ -118,9 +86,12 @@ fn sources(content: &mut FigureContent) -> Result {
     );
     content.adds(
         "finer",
-        "mean angle of the coarsest teapot over that of the finest, which has cells of a quarter of \
-         the size",
-        (coarse / fine, "", means.iter().all(|means| means.is_sorted_by(|a, b| a > b))),
+        "mean angle of the coarsest teapot over that of the finest, with cells a quarter the size",
+        (
+            coarse / fine,
+            "",
+            means.iter().all(|means| means.is_sorted_by(|a, b| a > b)),
+        ),
         "Of each surface the finer mesh has the better averages.",
     );
     Ok(())
@@ -167,8 +138,8 @@ fn darkened(content: &mut FigureContent) -> Result {
     let dull = scene("sphere?rings=6&segments=8", DULL, light, 1.1, [112, 112])?;
     let [shortened, unit] = draw_each(&dull.frame()?, ["gouraud", "naive-phong"])?;
     content.text(
-        "Gouraud's method on a dull surface shows normals that are not normalised: L·N is linear in \
-         N, so that interpolating it is interpolating N and leaving its length.",
+        "Gouraud's method on a dull surface shows normals that are not normalised, as L·N is \
+         linear in N.",
     );
     content.pictures(
         2,

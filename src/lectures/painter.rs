@@ -4,8 +4,7 @@ use super::{Figure, FigureContent, Result, differing, draw, shipped, stored};
 use crate::picture::LinearPicture;
 use crate::raster::painter::conflicts;
 use crate::scene::{DepthBuffer, HiddenSurfaces, PainterKey, Scene};
-use alloc::format;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "painter",
@@ -81,9 +80,9 @@ fn drawn(scene: &Scene, hidden_surfaces: HiddenSurfaces) -> Result<LinearPicture
 
 fn ring(content: &mut FigureContent) -> Result {
     content.text(
-        "The painter draws from back to front, here by the mean depth of each polygon's corners: each \
-         polygon covers those before it. A depth buffer decides at each pixel. Three triangles in a \
-         ring, and three polygons that cut each other, by both.",
+        "The painter draws from back to front, here by the mean depth of each polygon's corners. A \
+         depth buffer decides at each pixel. Both draw a ring of triangles, and polygons that cut \
+         each other.",
     );
     let ring = Subject::new("cyclic-triangles")?;
     let wrong = ring.by_both(content, "three triangles in a ring")?;

@@ -9,8 +9,7 @@ use crate::mesh::Material;
 use crate::picture::LinearPicture;
 use crate::raster::{checkerboard, vertex_colours};
 use crate::scene::{Camera, Interpolation, Lighting, Projection};
-use alloc::format;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -71,9 +70,9 @@ fn wrong(picture: LinearPicture) -> f64 {
 
 fn boards(content: &mut FigureContent) -> Result {
     content.text(
-        "A floor of eight by eight squares, its world coordinates interpolated and the board computed \
-         at each pixel. Linear on the screen, the squares are of one size and bend at the diagonal of \
-         the triangles; linear in space, they are those that the rays of the pixels meet.",
+        "A floor of eight by eight squares, computed at each pixel from interpolated world \
+         coordinates. Linear on the screen, the squares are of one size and bend at the diagonal. \
+         Linear in space, they are those that the rays of the pixels meet.",
     );
     let whole: &[&[u32]] = &[&[0, 1, 2, 3]];
     let triangles: &[&[u32]] = &[&[0, 1, 2], &[0, 2, 3]];
@@ -167,8 +166,8 @@ fn weight(content: &mut FigureContent) -> Result {
             Series::sampled("linear on the screen", alphas(), |alpha| alpha),
         ],
         format!(
-            "From A at depth {z_a} to B at depth {z_b}. The slide prints the weight of B: at A, where \
-             α = 1, it is 0."
+            "From A at depth {z_a} to B at depth {z_b}. The slide prints the weight of B: 0 at A, \
+             where α = 1."
         ),
     ));
     content.contradicts(
@@ -204,8 +203,8 @@ fn depth(content: &mut FigureContent) -> Result {
         "NDC depth, −1 to 1, of the point half-way between near and far plane",
         (middle, "", middle.abs() >= 0.01),
         format!(
-            "Depth keeps its order, not its value: the first {} % of the way from near to far take half \
-             of the range.",
+            "Depth keeps its order, not its value: the first {} % of the way take half of the \
+             range.",
             written(100.0 * (half - near) / (far - near))
         ),
     );

@@ -10,8 +10,7 @@ use crate::raster::normals;
 use crate::reference::{self, Model};
 use crate::shading::Walk;
 use crate::shading::increments::{GreatCircle, Sines};
-use alloc::format;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -64,8 +63,8 @@ fn speed(content: &mut FigureContent) -> Result {
         Series::new(name, (1..).map(f64::from).zip(turns.iter().copied()))
     };
     content.text(format!(
-        "Between normals {DEGREES}° apart, over {SPAN} pixels: the turn of the unit normal from pixel to \
-         pixel.",
+        "The turn of the unit normal a pixel, between normals {DEGREES}° apart, over {SPAN} \
+         pixels.",
     ));
     content.plot(Plot::new(
         "Speed of the normal along a span",
@@ -74,8 +73,8 @@ fn speed(content: &mut FigureContent) -> Result {
             curve("linear, then normalised", &lerp),
             curve("great circle", &slerp),
         ],
-        "A chord that is walked at uniform speed is seen from the middle of the circle to turn fastest \
-         where it is nearest: in its middle.",
+        "A chord walked at uniform speed turns fastest where it is nearest to the middle of the \
+         circle.",
     ));
     let ratio = |turns: Vec<f64>| {
         let least = turns.iter().copied().fold(f64::INFINITY, f64::min);
@@ -184,9 +183,8 @@ fn drift(content: &mut FigureContent) -> Result {
             Series::new(*name, shown.map(|k| (k as f64, errors[k].max(1e-9))))
         }),
         format!(
-            "{DEGREES}° over {LONG} pixels, against the cosine itself in f64. Chebyshev's recurrence \
-             subtracts nearly equal numbers: a rounding becomes an error of the angle of a step, which \
-             all later steps repeat."
+            "{DEGREES}° over {LONG} pixels, against the cosine in f64. Chebyshev's recurrence \
+             subtracts nearly equal numbers: a rounding changes the angle of all later steps."
         ),
     ));
     for ([key, name, meaning], errors) in NAMES.into_iter().zip(all) {
@@ -233,13 +231,16 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
         } else {
             ["not a number".into(), "not a number".into()]
         };
-        rows.push([format!("{degrees}°"), digits, percent, written(off)]);
+        rows.push(format!(
+            "{degrees}° | {digits} | {percent} | {}",
+            written(off)
+        ));
     }
     content.text(
-        "The lecture divides by sin φ and takes φ from the inverse cosine. In f32 the cosine of a small \
-         angle is 1, or a little more, and at 180° there is no great circle between the normals, but all \
-         of them. The method takes φ from the half-angle form 2 atan2(|N₂ − N₁|, |N₁ + N₂|), keeps to \
-         the chord below 10⁻³ radians, and to the normal of the polygon above 179°.",
+        "The lecture divides by sin φ and takes φ from the inverse cosine. In f32 the cosine of a \
+         small angle is about 1, and at 180° there are many great circles. The method takes φ from \
+         2 atan2(|N₂ − N₁|, |N₁ + N₂|), the chord below 10⁻³ radians, and the polygon's normal \
+         above 179°.",
     );
     content.table(
         "angle of the span | φ as printed, in f32, degrees | its error, % | slerp Phong, off by levels",

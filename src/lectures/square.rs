@@ -9,9 +9,7 @@ use crate::frame::Frame;
 use crate::picture::LinearPicture;
 use crate::raster::normals;
 use crate::shading::Variant;
-use alloc::format;
-use alloc::string::ToString;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -150,10 +148,9 @@ fn turned_both_ways(
 
 fn turns(content: &mut FigureContent) -> Result {
     content.text(
-        "Three corners are white and one is black. At 0° every scan line of the upper half runs between \
-         two white edges; turned by 90°, the same half lies between a white edge and one that turns \
-         black. The methods interpolate along edges and then along scan lines, so that the colour of a \
-         point depends on how its polygon is turned.",
+        "Three corners are white and one is black. At 0° every scan line of the upper half runs \
+         between two white edges; at 90° one of its edges turns black. The methods interpolate \
+         along edges, then along scan lines: the colour of a point depends on the orientation.",
     );
     for (method, name) in [("gouraud", "Gouraud"), ("naive-phong", "naive Phong")] {
         let mut panels = Vec::new();
@@ -180,14 +177,10 @@ fn numbers(content: &mut FigureContent) -> Result {
         let through = draw(&square(0.0, THROUGH_DARK, DARK_BELOW)?, method)?;
         let past = draw(&square(0.0, PAST_DARK, DARK_BELOW)?, method)?;
         let diagonal = levels(&through, &past);
-        rows.push([
-            method.to_string(),
-            written(change(45.0, WHOLE, DARK_BELOW)?),
-            written(square_90),
-            written(change(45.0, THROUGH_DARK, apart())?),
-            written(triangles_90),
-            written(diagonal),
-        ]);
+        let square_45 = change(45.0, WHOLE, DARK_BELOW)?;
+        let triangles_45 = change(45.0, THROUGH_DARK, apart())?;
+        let cells = [square_45, square_90, triangles_45, triangles_90, diagonal].map(written);
+        rows.push(format!("{method} | {}", cells.join(" | ")));
         content.confirms(
             format!("square-{method}"),
             format!("{method}, square turned by 90°: largest difference"),
@@ -220,11 +213,10 @@ fn numbers(content: &mut FigureContent) -> Result {
         rows,
     );
     content.text(
-        "Pictures are turned back and compared where both cover a pixel. A quarter turn takes pixels to \
-         pixels. After 45° a pixel lies between four others, and reading between them smooths the fold at \
-         the diagonal: the column of the triangles shows the size of that alone. The triangles have four \
-         normals that lean by about 60°, each its own way: between normals on one great circle, as those \
-         of Figure 5, every way of interpolating is the same.",
+        "Pictures are turned back and compared where both cover a pixel. After 45° a pixel lies \
+         between four others, which smooths the fold at the diagonal: the triangles show by how \
+         much. Their four normals lean by about 60°, each its own way: on one great circle, as in \
+         Figure 5, all methods interpolate alike.",
     );
     Ok(())
 }
@@ -253,8 +245,8 @@ fn directions(content: &mut FigureContent) -> Result {
 /// Draws both ways to cut the square.
 fn diagonals(content: &mut FigureContent) -> Result {
     content.text(
-        "Cutting the square into triangles makes it independent of the orientation, and dependent on the \
-         diagonal (L21 3).",
+        "Cut into triangles, the square depends on the diagonal in place of the orientation (L21 \
+         3).",
     );
     let one = draw(&square(0.0, THROUGH_DARK, DARK_BELOW)?, "gouraud")?;
     let other = draw(&square(0.0, PAST_DARK, DARK_BELOW)?, "gouraud")?;
@@ -274,9 +266,8 @@ fn diagonals(content: &mut FigureContent) -> Result {
 /// Turns triangles shaded by slerp Phong, turns them back, and compares.
 fn great_circles(content: &mut FigureContent) -> Result {
     content.text(
-        "Interpolation along great circles is not barycentric, so that cutting into triangles does not \
-         help it: first along edges and then along scan lines is another normal when the scan lines run \
-         the other way.",
+        "Interpolation along great circles is not barycentric: it depends on the orientation of \
+         triangles too.",
     );
     let slerp = Variant::parse("slerp-phong")?;
     let draw = |frame: &Frame| slerp.render_linear(frame);

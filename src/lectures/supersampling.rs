@@ -9,8 +9,7 @@ use crate::mesh::Material;
 use crate::picture::encoding::{srgb_encode, store};
 use crate::picture::{Encoding, LinearPicture};
 use crate::scene::Lighting;
-use alloc::format;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
@@ -53,8 +52,8 @@ fn frame(size: [u32; 2], samples: u32, polygons: &[([f32; 3], f64, &[[f64; 2]])]
 
 fn edge(content: &mut FigureContent) -> Result {
     content.text(
-        "A green triangle before a yellow plane, with n × n samples a pixel. Visibility is decided, \
-         and light is computed, at each sample; the mean of a pixel's samples is taken in linear light.",
+        "A green triangle before a yellow plane, with n × n samples a pixel. Visibility and light \
+         are computed at each sample, and averaged in linear light.",
     );
     let (mut panels, mut points) = (Vec::new(), Vec::new());
     for samples in SAMPLES {
