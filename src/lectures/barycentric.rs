@@ -1,20 +1,18 @@
-//! Barycentric coordinates: the triangle from red to blue, the weights as colours, and what two slips of the pen draw.
+//! Barycentric coordinates: the triangle from red to blue, the weights as colours, and two misprints drawn.
 
-use super::stage::{stored, written};
-use super::{Agreement, Content, Figure, FigureError, Finding, Shown};
+use super::{Figure, FigureContent, Result, largest, percent, stored};
 use crate::picture::{LinearPicture, Picture};
 use crate::reference::cs171::barycentric::{
     Weights, centre_of_mass, printed_gamma, signed_area, unsigned_weights, weights,
 };
 use crate::reference::cs171::{Grid, Inside, raster_colored_triangle, raster_triangle};
-use alloc::format;
 use glam::{DVec2, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "barycentric",
     title: "Barycentric coordinates: right, as printed, and without signs",
     lecture: "CS171 1; L5, Barycentric Coordinates",
-    make,
+    parts: &[pictures, misprints, other_formulas],
 };
 
 /// Width and height of the pictures.
@@ -27,11 +25,9 @@ const TRIANGLE: [DVec2; 3] = [
     DVec2::new(8.0, 64.0),
 ];
 
-/// Centres of all pixels.
-fn pixels() -> impl Iterator<Item = (usize, usize, DVec2)> {
-    (0..SIDE * SIDE)
-        .map(|i| (i % SIDE, i / SIDE))
-        .map(|(x, y)| (x, y, DVec2::new(x as f64 + 0.5, y as f64 + 0.5)))
+/// Returns the centres of all pixels, row by row.
+fn pixels() -> impl Iterator<Item = DVec2> {
+    (0..SIDE * SIDE).map(|i| DVec2::new((i % SIDE) as f64 + 0.5, (i / SIDE) as f64 + 0.5))
 }
 
 /// True if Algorithm 1 fills a pixel of these weights.
@@ -39,170 +35,128 @@ fn is_in(weights: Weights) -> bool {
     weights.iter().all(|w| (0.0..=1.0).contains(w))
 }
 
-/// The weights as printed: γ is not one.
+fn exact(p: DVec2) -> Weights {
+    weights(TRIANGLE, p)
+}
+
+/// Returns the weights as printed: γ is none.
 fn as_printed(p: DVec2) -> Weights {
-    let [alpha, beta, _] = weights(TRIANGLE, p);
+    let [alpha, beta, _] = exact(p);
     [alpha, beta, printed_gamma(TRIANGLE, p)]
 }
 
-/// Every pixel that `weights_at` calls inside, in the colour of its weights.
-fn painted(weights_at: impl Fn(DVec2) -> Weights) -> LinearPicture {
+fn without_signs(p: DVec2) -> Weights {
+    unsigned_weights(TRIANGLE, p)
+}
+
+/// Draws every pixel that `weights` calls inside, in the colour of its weights.
+fn painted(weights: fn(DVec2) -> Weights) -> LinearPicture {
     let mut picture = Picture::new(SIDE, SIDE, [0.0; 4]);
-    for (x, y, p) in pixels() {
-        let w = weights_at(p);
-        if is_in(w) {
-            let [r, g, b] = w.map(|w| w as f32);
-            picture.row_mut(y)[x] = [r, g, b, 1.0];
+    for (texel, p) in picture.texels_mut().iter_mut().zip(pixels()) {
+        if is_in(weights(p)) {
+            let [r, g, b] = weights(p).map(|w| w as f32);
+            *texel = [r, g, b, 1.0];
         }
     }
     picture
 }
 
-fn make() -> Result<Content, FigureError> {
-    let mut content = Content::default();
-    let mut grid = Grid::new(SIDE, SIDE, DVec3::ZERO);
-    raster_colored_triangle(
-        TRIANGLE,
-        [DVec3::X, DVec3::X, DVec3::Z],
-        Inside::Closed,
-        &mut grid,
+fn pictures(content: &mut FigureContent) -> Result {
+    content.text(
+        "A right triangle by CS171's Algorithm 2, and its weights: α red, β green, γ blue, the \
+         centre of mass white. Then two misprints. The notes divide γ by f_ac(p) in place of \
+         f_ab(c); Lecture 5's slides take areas without signs.",
     );
+    let mut grid = Grid::new(SIDE, SIDE, DVec3::ZERO);
+    let colours = [DVec3::X, DVec3::X, DVec3::Z];
+    raster_colored_triangle(TRIANGLE, colours, Inside::Closed, &mut grid);
     let gradient = grid.colours.map(|texel| texel.map(|c| c as f32));
-    let mut right = painted(|p| weights(TRIANGLE, p));
+    let mut right = painted(exact);
     let centre = centre_of_mass(TRIANGLE);
     for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
         right.row_mut(centre.y as usize + dy)[centre.x as usize + dx] = [1.0; 4];
     }
-    let printed = painted(as_printed);
-    let unsigned = painted(|p| unsigned_weights(TRIANGLE, p));
-    content.text(
-        "A right triangle by CS171's Algorithm 2: red at both ends of the hypotenuse, blue at the right angle. Beside it \
-         the weights themselves, α red, β green, γ blue, with the centre of mass in white. Then what Algorithm 1 fills if γ \
-         is divided by f_ac(p), as the notes print it, in place of f_ab(c); and what it fills if the weights are areas \
-         without signs, as the slides of Lecture 5 print them: all there is.",
-    );
-    let shown = |caption: &str, alt: &str, picture: &LinearPicture| {
-        Shown::new(caption, alt, stored(picture))
-    };
+    let panels = [
+        ("from red to blue (Algorithm 2)", gradient),
+        ("the weights", right),
+        ("γ as printed", painted(as_printed)),
+        ("areas without signs", painted(without_signs)),
+    ];
     content.pictures(
         4,
-        [
-            shown(
-                "from red to blue (Algorithm 2)",
-                "A right triangle that goes from red to blue.",
-                &gradient,
-            ),
-            shown(
-                "the weights",
-                "A triangle with a red, a green and a blue corner.",
-                &right,
-            ),
-            shown(
-                "γ as printed",
-                "What of the triangle is filled with the wrong γ.",
-                &printed,
-            ),
-            shown(
-                "areas without signs",
-                "A square that is coloured all over.",
-                &unsigned,
-            ),
-        ]
-        .into(),
+        "A right triangle",
+        panels.map(|(caption, picture)| (caption, stored(&picture))),
     );
-    counted(&mut content);
-    measured(&mut content);
-    Ok(content)
+    Ok(())
 }
 
-/// Pixels that the two slips lose or gain.
-fn counted(content: &mut Content) {
-    let (mut inside, mut lost, mut outside, mut gained, mut elsewhere) = (0, 0, 0, 0, 0);
-    for (_, _, p) in pixels() {
-        if is_in(weights(TRIANGLE, p)) {
-            inside += 1;
-            lost += usize::from(!is_in(as_printed(p)));
-        } else {
-            outside += 1;
-            elsewhere += usize::from(is_in(as_printed(p)));
-            gained += usize::from(is_in(unsigned_weights(TRIANGLE, p)));
-        }
-    }
-    let share = |part: usize, all: usize| 100.0 * part as f64 / all.max(1) as f64;
-    let lost = share(lost, inside);
-    content.claim("printed-gamma", "pixels of the triangle that the printed γ loses", (lost, "%"), lost == 0.0, ["The printed γ fills the triangle as the corrected one does.", "f_ab(p) / f_ac(p) is no weight but −γ/β, below 0 inside: divide by f_ab(c). What is left is the edge ab."]);
-    let elsewhere = share(elsewhere, inside);
-    content.claim(
+/// Counts the pixels that the two misprints lose or gain.
+fn misprints(content: &mut FigureContent) -> Result {
+    let count = |is: &dyn Fn(DVec2) -> bool| pixels().filter(|p| is(*p)).count();
+    let is_inside = |p| is_in(exact(p));
+    let inside = count(&is_inside);
+    let lost = percent(count(&|p| is_inside(p) && !is_in(as_printed(p))), inside);
+    content.contradicts(
+        "printed-gamma",
+        "pixels of the triangle that the printed γ loses",
+        (lost, "%", lost != 0.0),
+        "f_ab(p) / f_ac(p) is −γ/β and no weight: divide by f_ab(c). The edge ab is left.",
+    );
+    let elsewhere = percent(count(&|p| !is_inside(p) && is_in(as_printed(p))), inside);
+    content.contradicts(
         "printed-gamma-outside",
         "pixels outside that it fills, in parts of the triangle",
-        (elsewhere, "%"),
-        elsewhere == 0.0,
-        [
-            "It fills nothing outside.",
-            "It fills another triangle, beyond the edge ab, where γ is below 0.",
-        ],
+        (elsewhere, "%", elsewhere != 0.0),
+        "It fills another triangle, beyond the edge ab, where γ is below 0.",
     );
-    let gained = share(gained, outside);
-    content.claim("unsigned-areas", "pixels outside that areas without signs call inside", (gained, "%"), gained == 0.0, ["Areas need no signs.", "Quotients of areas without signs lie in 0..1 wherever the point is: the signs tell inside from outside."]);
+    let gained = count(&|p| !is_inside(p) && is_in(without_signs(p)));
+    let gained = percent(gained, SIDE * SIDE - inside);
+    content.contradicts(
+        "unsigned-areas",
+        "pixels outside that areas without signs call inside",
+        (gained, "%", gained != 0.0),
+        "Without signs the quotients lie in 0..1 everywhere: only signs tell inside from outside.",
+    );
+    Ok(())
 }
 
-/// What the lectures say of the weights.
-fn measured(content: &mut Content) {
-    let mut worst = [0.0f64; 2];
+/// Compares the weights with the areas, the distances and the thirds that the lectures name.
+fn other_formulas(content: &mut FigureContent) -> Result {
     let [a, b, c] = TRIANGLE;
-    let leg = b.x - a.x;
+    let (mut area, mut distance) = (0.0f64, 0.0f64);
     raster_triangle(
         TRIANGLE,
         [SIDE, SIDE],
         Inside::Closed,
         |x, y, [_, beta, gamma]| {
             let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-            let area = signed_area([a, p, c]) / signed_area(TRIANGLE);
+            let share = signed_area([a, p, c]) / signed_area(TRIANGLE);
+            area = area.max((share - beta).abs());
             // The distance from the hypotenuse, over that of the right angle: both along a leg.
-            let distance = ((p.y - a.y) - (p.x - a.x)) / leg;
-            worst = [
-                worst[0].max((area - beta).abs()),
-                worst[1].max((distance - gamma).abs()),
-            ];
+            let along_leg = ((p.y - a.y) - (p.x - a.x)) / (b.x - a.x);
+            distance = distance.max((along_leg - gamma).abs());
         },
     );
-    let thirds = weights(TRIANGLE, centre_of_mass(TRIANGLE));
-    let centre = thirds
-        .iter()
-        .fold(0.0f64, |worst, w| worst.max((w - 1.0 / 3.0).abs()));
-    for (key, label, value, holds) in [
-        (
-            "area",
-            "largest difference of A_b / A from β",
-            worst[0],
-            "Areas are the weights.",
-        ),
+    let centre = largest(exact(centre_of_mass(TRIANGLE)).map(|w| (w - 1.0 / 3.0).abs()));
+    for (key, what, value, says) in [
+        ("area", "A_b / A from β", area, "Areas are the weights."),
         (
             "distance",
-            "largest difference of the distance from ab from γ",
-            worst[1],
+            "the distance from ab from γ",
+            distance,
             "Distances are the weights.",
         ),
         (
             "centre",
-            "largest difference of a weight at the centre of mass from ⅓",
+            "a weight at the centre of mass from ⅓",
             centre,
             "It weighs all corners alike.",
         ),
     ] {
-        // Quotients of numbers below 2¹³ that round a few times each, about sums that cancel at most their last 13 bits.
-        let is_so = value < 1e-12;
-        let verdict = if is_so {
-            holds.into()
-        } else {
-            format!("It is off by {}.", written(value))
-        };
-        content.found(Finding::new(
-            key,
-            label,
-            (value, ""),
-            Agreement::if_holds(is_so),
-            verdict,
-        ));
+        // Quotients of numbers below 2¹³ that round a few times each, about sums that cancel at
+        // most their last 13 bits.
+        let label = alloc::format!("largest difference of {what}");
+        content.confirms(key, label, (value, "", value < 1e-12), says);
     }
+    Ok(())
 }

@@ -1,133 +1,174 @@
-//! What a figure is made of: data, with nothing said of how it looks.
+//! The data of a finished figure: texts, pictures, curves, tables and findings, without any layout.
 
 use crate::picture::Picture8;
-use alloc::format;
-use alloc::string::String;
-use alloc::vec::Vec;
+use alloc::{
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
 use serde::{Serialize, Serializer};
 
-/// A figure that was made.
+/// A finished figure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Content {
-    /// What is shown, from top to bottom.
-    pub blocks: Vec<Block>,
-    /// What was measured.
+pub struct FigureContent {
+    /// The blocks, from top to bottom.
+    pub blocks: Vec<FigureBlock>,
+    /// The measured values.
     pub findings: Vec<Finding>,
 }
 
-impl Content {
-    /// The finding with this key.
+impl FigureContent {
+    /// Returns the finding with this key.
     pub fn finding(&self, key: &str) -> Option<&Finding> {
         self.findings.iter().find(|finding| finding.key == key)
     }
 
     /// Adds a paragraph.
     pub fn text(&mut self, text: impl Into<String>) {
-        self.blocks.push(Block::Text(text.into()));
+        self.blocks.push(FigureBlock::Text(text.into()));
     }
 
-    /// Adds pictures, so many in a row where there is room.
-    pub fn pictures(&mut self, columns: usize, shown: Vec<Shown>) {
-        self.blocks.push(Block::Pictures { columns, shown });
+    /// Adds captions and pictures of one subject, `columns` in a row where there is room.
+    pub fn pictures<C: Into<String>>(
+        &mut self,
+        columns: usize,
+        subject: &str,
+        panels: impl IntoIterator<Item = (C, Picture8)>,
+    ) {
+        let panel = |(caption, picture): (C, Picture8)| {
+            let caption = caption.into();
+            Panel {
+                alt: format!("{subject}, {caption}."),
+                caption,
+                picture,
+            }
+        };
+        let shown = panels.into_iter().map(panel).collect();
+        self.blocks.push(FigureBlock::Pictures { columns, shown });
     }
 
     /// Adds curves.
     pub fn plot(&mut self, plot: Plot) {
-        self.blocks.push(Block::Plot(plot));
+        self.blocks.push(FigureBlock::Plot(plot));
     }
 
-    /// Adds a table.
-    pub fn table(&mut self, head: &[&str], rows: Vec<Vec<String>>) {
-        self.blocks.push(Block::Table {
-            head: head.iter().map(|&cell| cell.into()).collect(),
-            rows,
+    /// Adds a table. In the head and in each row ` | ` separates the cells, as in Markdown.
+    pub fn table(&mut self, head: &str, rows: impl IntoIterator<Item = String>) {
+        let cells = |row: &str| row.split(" | ").map(String::from).collect();
+        self.blocks.push(FigureBlock::Table {
+            head: cells(head),
+            rows: rows.into_iter().map(|row| cells(&row)).collect(),
         });
     }
 
-    /// Adds what confirms the lecture if `holds`, else contradicts it; `says` is the sentence of each case.
-    pub fn claim(
+    /// Adds a value with its unit. It confirms the lecture if `so`, and contradicts it otherwise.
+    pub fn confirms(
         &mut self,
         key: impl Into<String>,
         label: impl Into<String>,
-        value: (f64, &'static str),
-        holds: bool,
-        [so, not]: [impl Into<String>; 2],
+        (value, unit, so): (impl Into<f64>, &str, bool),
+        says: impl Into<String>,
     ) {
-        let says = if holds { so } else { not };
-        self.found(Finding::new(
-            key,
-            label,
-            value,
-            Agreement::if_holds(holds),
-            says,
-        ));
+        let agreement = Agreement::if_holds(so);
+        self.found(key, label, (value.into(), unit), agreement, said(so, says));
     }
 
-    /// Adds what the lecture says nothing of.
+    /// Adds a value with its unit. It contradicts the lecture if `so`, and confirms it otherwise.
+    pub fn contradicts(
+        &mut self,
+        key: impl Into<String>,
+        label: impl Into<String>,
+        (value, unit, so): (impl Into<f64>, &str, bool),
+        says: impl Into<String>,
+    ) {
+        let agreement = Agreement::if_holds(!so);
+        self.found(key, label, (value.into(), unit), agreement, said(so, says));
+    }
+
+    /// Adds a value with its unit that the lecture does not mention. The sentence is true if `so`.
     pub fn adds(
         &mut self,
         key: impl Into<String>,
         label: impl Into<String>,
-        value: (f64, &'static str),
+        (value, unit, so): (impl Into<f64>, &str, bool),
         says: impl Into<String>,
     ) {
-        self.found(Finding::new(key, label, value, Agreement::Adds, says));
+        self.found(
+            key,
+            label,
+            (value.into(), unit),
+            Agreement::Adds,
+            said(so, says),
+        );
     }
 
-    /// Adds what was measured.
-    pub fn found(&mut self, finding: Finding) {
-        self.findings.push(finding);
+    /// Adds a value whose agreement and sentence the caller has chosen.
+    pub fn found(
+        &mut self,
+        key: impl Into<String>,
+        label: impl Into<String>,
+        (value, unit): (f64, &str),
+        agreement: Agreement,
+        verdict: impl Into<String>,
+    ) {
+        self.findings.push(Finding {
+            key: key.into(),
+            label: label.into(),
+            value,
+            unit: unit.into(),
+            agreement,
+            verdict: verdict.into(),
+        });
+    }
+}
+
+/// Returns the sentence, marked as false unless `so`.
+fn said(so: bool, says: impl Into<String>) -> String {
+    let says = says.into();
+    if so {
+        says
+    } else {
+        format!("This does not hold: {says}")
     }
 }
 
 /// A part of a figure.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Block {
+pub enum FigureBlock {
     /// A paragraph of plain text.
     Text(String),
     /// Pictures side by side.
     Pictures {
-        /// How many stand in a row where there is room, 1 or more.
+        /// The pictures in a row where there is room, 1 or more.
         columns: usize,
         /// The pictures, row by row.
-        shown: Vec<Shown>,
+        shown: Vec<Panel>,
     },
     /// Curves.
     Plot(Plot),
     /// Rows of cells; the first cell of a row names it.
     Table {
-        /// What the columns hold.
+        /// The titles of the columns.
         head: Vec<String>,
-        /// As many cells a row as the head has.
+        /// The cells: each row has as many as the head.
         rows: Vec<Vec<String>>,
     },
 }
 
-/// A picture with what stands below it.
+/// A picture with its caption.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Shown {
-    /// What stands below it.
+pub struct Panel {
+    /// The caption below the picture.
     pub caption: String,
-    /// What it shows, for who cannot see it.
+    /// The description for readers who cannot see the picture.
     pub alt: String,
-    /// The picture itself, small: its pixels are shown as squares. It is stored beside the data.
+    /// The picture, small: the page shows its pixels as squares. It is stored beside the data.
     #[serde(skip)]
     pub picture: Picture8,
 }
 
-impl Shown {
-    /// A picture with what stands below it, and what it shows, for who cannot see it.
-    pub fn new(caption: impl Into<String>, alt: impl Into<String>, picture: Picture8) -> Shown {
-        Shown {
-            caption: caption.into(),
-            alt: alt.into(),
-            picture,
-        }
-    }
-}
-
-/// How values are laid out along an axis.
+/// The scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scale {
@@ -137,34 +178,71 @@ pub enum Scale {
     Log,
 }
 
-/// Curves over one another.
+/// Returns a linear axis.
+pub(super) fn linear(label: impl Into<String>) -> (String, Scale) {
+    (label.into(), Scale::Linear)
+}
+
+/// Returns a logarithmic axis.
+pub(super) fn log(label: impl Into<String>) -> (String, Scale) {
+    (label.into(), Scale::Log)
+}
+
+/// A chart of curves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plot {
-    /// What is shown, in a line.
+    /// The title, one line.
     pub title: String,
-    /// What the horizontal axis holds, with its unit, and its scale.
+    /// The quantity along the horizontal axis with its unit, and the scale.
     pub x: (String, Scale),
-    /// What the vertical axis holds, with its unit, and its scale.
+    /// The quantity along the vertical axis with its unit, and the scale.
     pub y: (String, Scale),
     /// The curves: six at most can be told from one another.
     pub series: Vec<Series>,
-    /// Places along the horizontal axis that a line marks, such as edges of polygons.
+    /// The values of x that a vertical line marks, such as edges of polygons.
     pub marks: Vec<f64>,
-    /// What stands below, in a sentence or two.
+    /// The caption, a sentence or two.
     pub caption: String,
 }
 
-/// One curve.
+impl Plot {
+    /// Makes a chart without marks.
+    pub fn new(
+        title: impl Into<String>,
+        [x, y]: [(String, Scale); 2],
+        series: impl IntoIterator<Item = Series>,
+        caption: impl Into<String>,
+    ) -> Plot {
+        Plot {
+            title: title.into(),
+            x,
+            y,
+            series: series.into_iter().collect(),
+            marks: Vec::new(),
+            caption: caption.into(),
+        }
+    }
+
+    /// Marks values of x by vertical lines.
+    pub fn marked(self, marks: impl Into<Vec<f64>>) -> Plot {
+        Plot {
+            marks: marks.into(),
+            ..self
+        }
+    }
+}
+
+/// A curve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Series {
-    /// What it is called.
+    /// The name of the curve.
     pub label: String,
-    /// Its points, in the order in which they are joined; what is not finite is left out.
+    /// The points, in the order in which they are joined; the page leaves out those that are not finite.
     #[serde(serialize_with = "five_digits")]
     pub points: Vec<(f64, f64)>,
 }
 
-/// Writes points with five significant digits, which no chart can show; `null` for what is not finite.
+/// Writes points with five significant digits, which no chart can show; `null` for a value that is not finite.
 fn five_digits<S: Serializer>(points: &[(f64, f64)], to: S) -> Result<S::Ok, S::Error> {
     let short = |value: f64| format!("{value:.4e}").parse::<f64>().unwrap_or(value);
     let points = points.iter().map(|(x, y)| (short(*x), short(*y)));
@@ -172,29 +250,38 @@ fn five_digits<S: Serializer>(points: &[(f64, f64)], to: S) -> Result<S::Ok, S::
 }
 
 impl Series {
-    /// A curve through `points`.
+    /// Makes a curve through `points`.
     pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Series {
         Series {
             label: label.into(),
             points: points.into_iter().collect(),
         }
     }
+
+    /// Makes the curve of a function, sampled at each `x`.
+    pub(super) fn sampled(
+        label: impl Into<String>,
+        x: impl IntoIterator<Item = f64>,
+        y: impl Fn(f64) -> f64,
+    ) -> Series {
+        Series::new(label, x.into_iter().map(|x| (x, y(x))))
+    }
 }
 
-/// What a measured value says about the lecture.
+/// The relation of a measured value to the lecture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Agreement {
-    /// As the lecture says.
+    /// The lecture is right.
     Confirms,
-    /// Not as the lecture says.
+    /// The lecture is wrong.
     Contradicts,
-    /// The lecture says nothing of it.
+    /// The lecture does not mention it.
     Adds,
 }
 
 impl Agreement {
-    /// [`Agreement::Confirms`] if what the lecture says `holds`, else [`Agreement::Contradicts`].
+    /// Returns [`Agreement::Confirms`] if the lecture's statement `holds`, else [`Agreement::Contradicts`].
     pub fn if_holds(holds: bool) -> Agreement {
         if holds {
             Agreement::Confirms
@@ -203,7 +290,7 @@ impl Agreement {
         }
     }
 
-    /// The word for it: `confirms`, `contradicts` or `adds`.
+    /// Returns `confirms`, `contradicts` or `adds`.
     pub fn word(self) -> &'static str {
         match self {
             Agreement::Confirms => "confirms",
@@ -213,39 +300,70 @@ impl Agreement {
     }
 }
 
-/// One measured value, and what follows from it.
+/// A measured value and the conclusion from it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// What programs call it: the same from run to run, unique in its figure.
+    /// The name for programs: it never changes, and is unique in its figure.
     pub key: String,
-    /// What people call it.
+    /// The name for people.
     pub label: String,
     /// The value, finite.
     pub value: f64,
-    /// Its unit; empty for a pure number.
+    /// The unit of the value; empty for a pure number.
     pub unit: String,
-    /// What it says about the lecture.
+    /// The relation to the lecture.
     pub agreement: Agreement,
-    /// That in a sentence, which was chosen by the value.
+    /// The conclusion, a sentence that the value has chosen.
     pub verdict: String,
 }
 
-impl Finding {
-    /// A measured value, with what follows from it.
-    pub fn new(
-        key: impl Into<String>,
-        label: impl Into<String>,
-        (value, unit): (f64, &'static str),
-        agreement: Agreement,
-        verdict: impl Into<String>,
-    ) -> Finding {
-        Finding {
-            key: key.into(),
-            label: label.into(),
-            value,
-            unit: unit.into(),
-            agreement,
-            verdict: verdict.into(),
-        }
+/// Writes a number for a sentence: three significant digits, a power of ten if it is very small.
+pub(super) fn written(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && size < 1e-3 {
+        let exponent = libm::floor(libm::log10(size)) as i32;
+        let superscript = |digit: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit as usize - '0' as usize);
+        let digits = exponent.unsigned_abs().to_string();
+        return format!(
+            "{:.1}·10⁻{}",
+            value / libm::pow(10.0, f64::from(exponent)),
+            digits.chars().filter_map(superscript).collect::<String>()
+        );
+    }
+    let decimals = (0..5)
+        .find(|&digits| size >= 100.0 / libm::pow(10.0, f64::from(digits)))
+        .unwrap_or(5);
+    let text = format!("{value:.*}", decimals as usize);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').into()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::written;
+
+    #[test]
+    fn numbers_in_sentences_are_short() {
+        let texts = [
+            1234.4, 100.0, 12.345, 1.0, 0.1234, 0.5, 0.00012, -0.0000031, 0.0,
+        ]
+        .map(written);
+        assert_eq!(
+            texts,
+            [
+                "1234",
+                "100",
+                "12.3",
+                "1",
+                "0.123",
+                "0.5",
+                "1.2·10⁻⁴",
+                "-3.1·10⁻⁶",
+                "0"
+            ]
+        );
     }
 }

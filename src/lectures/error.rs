@@ -1,4 +1,4 @@
-//! Why a figure could not be made.
+//! The error of a figure that cannot be made.
 
 use crate::compare::metrics::SizeMismatch;
 use crate::frame::FrameError;
@@ -7,7 +7,10 @@ use crate::mesh::builtin::BuiltinError;
 use crate::scene::input::InputError;
 use crate::shading::MethodError;
 
-/// Why a figure could not be made: the room it is drawn from refused.
+/// The result of a part of a figure.
+pub(super) type Result<T = (), E = FigureError> = core::result::Result<T, E>;
+
+/// An error of the room that a figure draws with.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error(transparent)]
 pub enum FigureError {

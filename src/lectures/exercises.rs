@@ -1,74 +1,52 @@
 //! The exercises of Lecture 21: a table of sines read between its lines, and e^t by one multiplication a pixel.
 
-use super::stage::{Corner, Facet, Grey, frame, stored, written};
-use super::{Content, Figure, FigureError, Plot, Scale, Series, Shown};
+use super::{
+    DULL, Figure, FigureContent, Plot, Result, ScreenCorner, ScreenPolygon, Series, draw, frame,
+    grey, largest, linear, log, stored, written,
+};
 use crate::number::{Counter, Num};
 use crate::picture::LinearPicture;
 use crate::raster::depth;
-use crate::shading::{Variant, Walk};
-use alloc::format;
-use alloc::vec::Vec;
+use crate::shading::Walk;
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "exercises",
     title: "The exercises: a table of sines, and e to the t by one multiplication a pixel",
     lecture: "L21, Exercises 1 and 2",
-    make,
+    parts: &[sine, exponential, fog],
 };
 
-fn make() -> Result<Content, FigureError> {
-    let mut content = Content::default();
-    sine(&mut content)?;
-    exponential(&mut content);
-    fog(&mut content)?;
-    Ok(content)
-}
+/// The sines of 24° and 25° in the table of Exercise 1, in five decimals.
+const TABLE: [f64; 2] = [0.40674, 0.42262];
 
-/// The two lines of the table in Exercise 1: degrees, and the sine in five decimals.
-const TABLE: [(f64, f64); 2] = [(24.0, 0.40674), (25.0, 0.42262)];
-
-/// Exercise 1: Gouraud shading is a machine that reads between the lines of a table.
-fn sine(content: &mut Content) -> Result<(), FigureError> {
+/// Exercise 1: Gouraud shading reads between the lines of a table.
+fn sine(content: &mut FigureContent) -> Result {
     // From the centre of pixel 0 to that of pixel 10: pixel 3 is 0.3 of the way. L · N is the normal's z.
-    let normal = |z: f64| DVec3::new(libm::sqrt(1.0 - z * z), 0.0, z);
-    let [(_, low), (_, high)] = TABLE;
-    let at = |place, z| Corner::new(place, normal(z));
-    let strip = [
-        at([0.5, 0.0], low),
-        at([10.5, 0.0], high),
-        at([10.5, 4.0], high),
-        at([0.5, 4.0], low),
-    ];
-    let picture = Variant::parse("gouraud")?.render_linear(&frame(
-        [11, 4],
-        &Grey::dull(DVec3::Z),
-        &[Facet::new(strip)],
-    )?);
+    let normals = TABLE.map(|z| DVec3::new(libm::sqrt(1.0 - z * z), 0.0, z));
+    let strip = ScreenPolygon::strip([0.5, 10.5], 4.0, normals);
+    let picture = draw(&frame([11, 4], DULL, DVec3::Z, &[strip])?, "gouraud")?;
     let found = f64::from(picture.get(3, 1)[0]);
     let truth = libm::sin(24.3_f64.to_radians());
+    let [low, high] = TABLE;
     content.text(format!(
-        "Exercise 1. A span of ten pixels from {low} (sin 24°) to {high} (sin 25°), shaded by Gouraud's method, holds \
-         {found:.6} at its fourth pixel, 0.3 of the way: the sine of 24.3° is {truth:.6}. Linear interpolation is off by \
-         {}; half a unit of the table's last decimal is {}.",
+        "Exercise 1. Gouraud's method shades a span of ten pixels from {low} (sin 24°) to {high} \
+         (sin 25°). Its fourth pixel, 0.3 of the way, holds {found:.6}; sin 24.3° is {truth:.6}. \
+         The error is {}; half a unit of the table's last decimal is {}.",
         written(truth - found),
         written(0.5e-5)
     ));
-    let is_within = (found - truth).abs() < 1.5e-5;
-    content.claim(
+    content.confirms(
         "sine",
         "sin 24.3° by linear interpolation",
-        (found, ""),
-        is_within,
-        [
-            "The estimate is as good as the table that it is read from.",
-            "The estimate is worse than the table that it is read from.",
-        ],
+        (found, "", (found - truth).abs() < 1.5e-5),
+        "The estimate is as good as the table that it is read from.",
     );
     content.adds(
         "sine-error",
         "its distance from the sine",
-        (truth - found, ""),
+        (truth - found, "", true),
         "A chord lies below the sine, and the table is rounded.",
     );
     Ok(())
@@ -101,8 +79,8 @@ impl<F: Num> Walk<F> for Exponential<F> {
     }
 }
 
-/// Exercise 2: what a step costs, and how far it drifts.
-fn exponential(content: &mut Content) {
+/// Exercise 2: the cost of a step, and the drift.
+fn exponential(content: &mut FigureContent) -> Result {
     let counter = Counter::default();
     let mut counted = Exponential {
         at: counter.number(1.0),
@@ -111,149 +89,107 @@ fn exponential(content: &mut Content) {
     counted.next();
     let counts = counter.take();
     let others = counts.additions + counts.divisions + counts.powers + counts.trigonometric;
-    let is_one = counts.multiplications == 1 && others == 0;
-    content.claim(
+    let all = counts.multiplications + others;
+    content.confirms(
         "multiplications",
         "operations a pixel of e to the t",
-        (f64::from(counts.multiplications + others), ""),
-        is_one,
-        [
-            "One multiplication and nothing else, counted.",
-            "More than one multiplication, counted.",
-        ],
+        (all, "", all == 1 && counts.multiplications == 1),
+        "One multiplication and nothing else, counted.",
     );
 
     const PIXELS: usize = 1024;
-    let mut largest: f64 = 0.0;
-    let curves = [0.25, 1.0, 4.0].map(|fall: f64| {
+    let errors = [0.25, 1.0, 4.0].map(|fall: f64| {
         let step = -fall / PIXELS as f64;
         let mut walk = Exponential::new(0.0, step);
-        let errors: Vec<f64> = (0..PIXELS)
-            .map(|k| {
-                let exact = libm::exp(step * k as f64);
-                (f64::from(walk.next()) / exact - 1.0).abs()
-            })
-            .collect();
-        largest = errors.iter().copied().fold(largest, f64::max);
-        Series::new(
-            format!("from 1 to e^−{fall}"),
-            (8..PIXELS).step_by(8).map(|k| (k as f64, errors[k])),
-        )
+        let error = |k| (f64::from(walk.next()) / libm::exp(step * k as f64) - 1.0).abs();
+        (fall, (0..PIXELS).map(error).collect::<Vec<f64>>())
     });
+    let most = largest(errors.iter().flat_map(|(_, errors)| errors.iter().copied()));
     // Each of the products is rounded once, and the factor, rounded once, is in each of them.
     let bound = 2.0 * (PIXELS - 1) as f64 / (1 << 24) as f64;
-    content.plot(Plot {
-        title: "Exponential by one multiplication a pixel: relative error over a span".into(),
-        x: ("pixel".into(), Scale::Linear),
-        y: ("relative error".into(), Scale::Log),
-        series: curves.into(),
-        marks: Vec::new(),
-        caption: format!(
-            "In f32, over {PIXELS} pixels. Two roundings of 2⁻²⁴ a pixel (of the product, and of the factor that is in \
-             each) allow {} at the end; {} was the largest.",
+    content.plot(Plot::new(
+        "Exponential by one multiplication a pixel: relative error over a span",
+        [linear("pixel"), log("relative error")],
+        errors.map(|(fall, errors)| {
+            let shown = (8..PIXELS).step_by(8).map(|k| (k as f64, errors[k]));
+            Series::new(format!("from 1 to e^−{fall}"), shown)
+        }),
+        format!(
+            "In f32, over {PIXELS} pixels. Two roundings of 2⁻²⁴ a pixel, of the product and of \
+             its factor, allow {} at the end; {} was the largest.",
             written(bound),
-            written(largest)
+            written(most)
         ),
-    });
-    let holds = largest <= bound;
-    content.claim(
+    ));
+    content.confirms(
         "drift",
         "largest relative error over 1024 pixels",
-        (largest, ""),
-        holds,
-        [
-            "Within two roundings a pixel: far below a grey level.",
-            "More than two roundings a pixel explain.",
-        ],
+        (most, "", most <= bound),
+        "Within two roundings a pixel: far below a grey level.",
     );
+    Ok(())
 }
 
-/// What is seen of a surface at depth 0 is left by fog in this part at depth 1: e^-`DENSITY`.
+/// Fog lets through e^-`DENSITY` of the light from a surface at depth 1.
 const DENSITY: f64 = 2.5;
 
-/// Exponential fog over a tilted plane: depth is linear on the screen, so that the exponential can be stepped.
-fn fog(content: &mut Content) -> Result<(), FigureError> {
-    // A plane: depth is a linear function of the place.
-    let at = |x: f64, y: f64| Corner {
-        place: [x, y],
+/// Draws exponential fog over a tilted plane: depth is linear on the screen, so that the exponential can be stepped.
+fn fog(content: &mut FigureContent) -> Result {
+    // A plane: depth is a linear function of the position.
+    let corner = |[x, y]: [f64; 2]| ScreenCorner {
         depth: 0.45 * x / 240.0 + 0.55 * (1.0 - y / 132.0),
-        normal: DVec3::Z,
+        ..ScreenCorner::new([x, y], DVec3::Z)
     };
-    let plane = [
-        at(20.0, 8.0),
-        at(232.0, 24.0),
-        at(220.0, 124.0),
-        at(6.0, 110.0),
-    ];
-    let grey = Grey {
-        diffuse: 0.15,
-        ..Grey::dull(DVec3::Z)
-    };
-    let frame = frame([240, 132], &grey, &[Facet::new(plane)])?;
-    let surface = Variant::parse("flat")?.render_linear(&frame);
+    let plane = [[20.0, 8.0], [232.0, 24.0], [220.0, 124.0], [6.0, 110.0]].map(corner);
+    let plane = [ScreenPolygon::new(plane)];
+    let frame = frame([240, 132], grey(0.0, 0.15, 0.0, 1.0), DVec3::Z, &plane)?;
+    let surface = draw(&frame, "flat")?;
     let depth = depth(&frame);
     let (mut stepped, mut exact) = (surface.clone(), surface.clone());
-    let mut largest: f64 = 0.0;
+    let mut most: f64 = 0.0;
     for y in 0..surface.height() {
         let covered = |x: &usize| depth.get(*x, y).is_finite();
         let Some(start) = (0..surface.width()).find(covered) else {
             continue;
         };
         let count = (start..surface.width()).take_while(covered).count();
-        let first = f64::from(depth.get(start, y));
-        let last = f64::from(depth.get(start + count - 1, y));
-        let step = (last - first) / (count - 1).max(1) as f64;
-        let mut walk = Exponential::new(-DENSITY * first, -DENSITY * step);
+        let at = |x| f64::from(depth.get(x, y));
+        let step = (at(start + count - 1) - at(start)) / (count - 1).max(1) as f64;
+        let mut walk = Exponential::new(-DENSITY * at(start), -DENSITY * step);
         for x in start..start + count {
-            let (left, truth) = (
-                walk.next(),
-                libm::exp(-DENSITY * f64::from(depth.get(x, y))),
-            );
+            let (left, truth) = (walk.next(), libm::exp(-DENSITY * at(x)));
             mix(&mut stepped, x, y, left);
             mix(&mut exact, x, y, truth as f32);
-            largest = largest.max((f64::from(left) - truth).abs());
+            most = most.max((f64::from(left) - truth).abs());
         }
     }
-    let levels = 255.0 * largest;
-    let shown = |caption: &str, picture: &LinearPicture| {
-        Shown::new(
-            caption,
-            format!("A tilted plane that fades into white fog, {caption}."),
-            stored(picture),
-        )
-    };
+    let levels = 255.0 * most;
     content.text(format!(
-        "Exercise 2 at work: a dark plane, tilted against the screen, in exponential fog. Under an orthographic camera \
-         depth is linear on the screen, so that one multiplication a pixel gives the fog of each pixel exactly, rounding \
-         aside. The two pictures differ by at most {} grey levels.",
+        "Exercise 2 at work: a dark, tilted plane in exponential fog. Under an orthographic camera \
+         depth is linear on the screen: one multiplication a pixel gives the fog, to rounding. The \
+         two pictures differ by at most {} grey levels.",
         written(levels)
     ));
     content.pictures(
         2,
+        "A tilted plane that fades into white fog",
         [
-            shown("one multiplication a pixel", &stepped),
-            shown("one exponential a pixel", &exact),
-        ]
-        .into(),
+            ("one multiplication a pixel", stored(&stepped)),
+            ("one exponential a pixel", stored(&exact)),
+        ],
     );
-    let holds = levels < 0.5;
-    content.claim(
+    content.confirms(
         "fog",
         "largest difference of the fog by steps from that by exponentials",
-        (levels, "grey levels"),
-        holds,
-        [
-            "The pictures cannot be told apart.",
-            "The pictures can be told apart.",
-        ],
+        (levels, "grey levels", levels < 0.5),
+        "The pictures cannot be told apart.",
     );
     Ok(())
 }
 
-/// Lets through the part `left` of what is seen, and adds white fog for the rest.
+/// Lets through the part `left` of a pixel's light, and adds white fog for the rest.
 fn mix(picture: &mut LinearPicture, x: usize, y: usize, left: f32) {
-    let texel = &mut picture.row_mut(y)[x];
-    for channel in &mut texel[..3] {
+    for channel in &mut picture.row_mut(y)[x][..3] {
         *channel = *channel * left + (1.0 - left);
     }
 }

@@ -1,9 +1,11 @@
-//! The lecture's figures and claims, each made anew by the engines, with the measured number beside it.
+//! Figures and claims of the lectures, drawn anew by the engines, with the measured number beside each.
 //!
-//! A figure is one file beside this one and one line of [`FIGURES`]. It computes from what everybody can call: frames,
-//! methods, the reference, walks, metrics. What it gives are texts, pictures, curves, tables and [`Finding`]s; how they
-//! look on a page is the business of [`crate::report`]. No number is written down in a figure: sentences choose their
-//! words by what was measured.
+//! A figure is one file and one line of [`FIGURES`]. It draws with the public parts of the crate and gives data: texts,
+//! pictures, curves, tables and [`Finding`]s. [`crate::report`] lays them out. A finding is a key, a label, a value, a
+//! unit, a verdict and one sentence; the value decides whether the sentence holds.
+//!
+//! Start with `exercises.rs`, then `content.rs` (the data), `fixture.rs` (what figures draw) and `measure.rs` (numbers taken
+//! from pictures).
 //!
 //! ```
 //! use fastphong::lectures::Figure;
@@ -27,32 +29,38 @@ mod error;
 mod exercises;
 mod exponents;
 mod fast_vs_naive;
+mod fixture;
 mod frequency;
 mod gates;
 mod illumination;
 mod inverse_transpose;
-mod lit;
 mod mach_bands;
+mod measure;
 mod newell;
 mod newton;
 mod normals;
 mod painter;
 mod perspective;
-mod profile;
 mod slerp;
 mod square;
-mod stage;
 mod supersampling;
 
-pub use content::{Agreement, Block, Content, Finding, Plot, Scale, Series, Shown};
+pub use content::{Agreement, FigureBlock, FigureContent, Finding, Panel, Plot, Scale, Series};
 pub use error::FigureError;
+use error::Result;
 
 use crate::number::suggest::nearest;
-use alloc::format;
-use alloc::string::String;
-use alloc::vec::Vec;
+use alloc::{format, string::String, vec::Vec};
+use content::{linear, log, written};
+use fixture::{
+    DULL, ScreenCorner, ScreenPolygon, bare, draw, draw_each, ends, fitted, frame, grey,
+    map_caption, scene, shipped, stored, toward,
+};
+use measure::{
+    angle, covered_by_both, differing, jump, largest, levels, max_and_rms, percent, profile, share,
+};
 
-/// All figures, in the order of the lectures. A figure is one file beside this one, and one line here.
+/// All figures, in the order of the lectures.
 pub static FIGURES: &[&Figure] = &[
     &newell::FIGURE,
     &mach_bands::FIGURE,
@@ -78,30 +86,31 @@ pub static FIGURES: &[&Figure] = &[
     &perspective::FIGURE,
 ];
 
-/// One thing that a lecture shows or says, to be made anew.
+/// A drawing or statement of a lecture, to be made anew.
 #[derive(Debug, serde::Serialize)]
 pub struct Figure {
-    /// What users call it: lower case, words joined by `-`.
+    /// The name for users: lower case, words joined by `-`.
     pub name: &'static str,
-    /// What it shows, as a heading.
+    /// The heading.
     pub title: &'static str,
-    /// Where the lecture shows or says it: `L21` is *Lecture 21: Shading*, `L5` *Lecture 5: Shading*, `CS171` the notes to
+    /// The place in the lectures: `L21` is *Lecture 21: Shading*, `L5` *Lecture 5: Shading*, `CS171` the notes to
     /// Caltech's second assignment.
     pub lecture: &'static str,
+    /// The functions that draw and measure it, each a part of the content.
     #[serde(skip)]
-    make: fn() -> Result<Content, FigureError>,
+    parts: &'static [fn(&mut FigureContent) -> Result],
 }
 
 impl Figure {
-    /// The figure called `name`.
+    /// Returns the figure called `name`.
     pub fn named(name: &str) -> Option<&'static Figure> {
         FIGURES.iter().copied().find(|figure| figure.name == name)
     }
 
-    /// The figure called `name`, or a sentence that says which there are.
+    /// Finds the figure called `name`.
     ///
     /// # Errors
-    /// The sentence, if there is no such figure.
+    /// A sentence with the nearest name, or with all of them, if there is no such figure.
     pub fn find(name: &str) -> Result<&'static Figure, String> {
         let names = || FIGURES.iter().map(|figure| figure.name);
         Figure::named(name).ok_or_else(|| match nearest(name, names()) {
@@ -116,11 +125,13 @@ impl Figure {
         })
     }
 
-    /// Draws and measures it.
+    /// Draws and measures the figure.
     ///
     /// # Errors
-    /// [`FigureError`] when what it draws cannot be made.
-    pub fn make(&self) -> Result<Content, FigureError> {
-        (self.make)()
+    /// [`FigureError`] when a mesh, scene or frame of it cannot be made.
+    pub fn make(&self) -> Result<FigureContent> {
+        let mut content = FigureContent::default();
+        self.parts.iter().try_for_each(|part| part(&mut content))?;
+        Ok(content)
     }
 }

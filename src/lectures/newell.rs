@@ -1,38 +1,46 @@
 //! The normal of a polygon from two edges, and by Newell's formula (L21 1.1).
 
-use super::stage::{Corner, Facet, Grey, frame, stored, written};
-use super::{Agreement, Content, Figure, FigureError, Finding, Shown};
+use super::{
+    Agreement, Figure, FigureContent, Result, ScreenCorner, ScreenPolygon, angle, draw, frame,
+    grey, stored, written,
+};
 use crate::mesh::newell::newell;
-use crate::shading::Variant;
-use alloc::format;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
+use crate::picture::LinearPicture;
+use alloc::{format, vec::Vec};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "newell",
     title: "Newell\u{2019}s formula, and the normal from two edges",
     lecture: "L21 1.1: (1.1), |N| = 2 Area",
-    make,
+    parts: &[pictures, errors],
 };
 
-/// A polygon in its plane, counter-clockwise, and why the normal from two edges fails there.
+/// A polygon in its plane, counter-clockwise.
 struct Example {
     key: &'static str,
     what: &'static str,
     corners: Vec<DVec2>,
-    /// True if the lecture names the case.
-    is_named: bool,
 }
 
-/// The regular hexagon of radius 1.
+impl Example {
+    /// Returns the corners in space, rounded as a mesh stores them.
+    fn in_space(&self) -> Vec<Vec3> {
+        let corners = self.corners.iter();
+        corners
+            .map(|c| (tilt() * c.extend(0.0)).as_vec3())
+            .collect()
+    }
+}
+
+/// Returns the regular hexagon of radius 1.
 fn hexagon() -> Vec<DVec2> {
     (0..6)
         .map(|k| DVec2::from_angle(f64::from(k) * core::f64::consts::FRAC_PI_3))
         .collect()
 }
 
-/// A hexagon with one more corner between the first two: at this part of their edge, and so far outside of it.
+/// Returns a hexagon with one more corner between the first two: at this part of their edge, and so far outside of it.
 fn with_corner(part: f64, outside: f64) -> Vec<DVec2> {
     let mut corners = hexagon();
     let edge = corners[1] - corners[0];
@@ -41,58 +49,30 @@ fn with_corner(part: f64, outside: f64) -> Vec<DVec2> {
     corners
 }
 
+/// Returns a regular polygon, three cases that the lecture names, and one that it does not.
 fn examples() -> [Example; 5] {
+    let beside_edge = |outside| with_corner(0.5, outside);
     let reflex = [(-1.0, -0.8), (0.0, -0.2), (1.0, -0.8), (0.0, 1.0)].map(DVec2::from);
     [
-        Example {
-            key: "hexagon",
-            what: "regular hexagon",
-            corners: hexagon(),
-            is_named: true,
-        },
-        Example {
-            key: "short",
-            what: "an edge of 10⁻⁶",
-            corners: with_corner(1e-6, 2e-7),
-            is_named: true,
-        },
-        Example {
-            key: "collinear",
-            what: "three collinear vertices",
-            corners: with_corner(0.5, 0.0),
-            is_named: true,
-        },
-        Example {
-            key: "nearly",
-            what: "three nearly collinear vertices",
-            corners: with_corner(0.5, 1e-7),
-            is_named: true,
-        },
-        Example {
-            key: "reflex",
-            what: "a reflex corner",
-            corners: reflex.into(),
-            is_named: false,
-        },
+        ("hexagon", "regular hexagon", hexagon()),
+        ("short", "an edge of 10⁻⁶", with_corner(1e-6, 2e-7)),
+        ("collinear", "three collinear vertices", beside_edge(0.0)),
+        (
+            "nearly",
+            "three nearly collinear vertices",
+            beside_edge(1e-7),
+        ),
+        ("reflex", "a reflex corner", reflex.into()),
     ]
+    .map(|(key, what, corners)| Example { key, what, corners })
 }
 
-/// The tilt of all polygons, so that no coordinate is a round number: toward +z with x and y of their own.
+/// Returns the tilt of all polygons, toward +z with x and y of their own, so that no coordinate is a round number.
 fn tilt() -> DQuat {
     DQuat::from_rotation_arc(DVec3::Z, DVec3::new(0.31, 0.47, 0.83).normalize())
 }
 
-/// The corners in space, rounded as a mesh stores them.
-fn placed(example: &Example) -> Vec<Vec3> {
-    let tilt = tilt();
-    example
-        .corners
-        .iter()
-        .map(|corner| (tilt * corner.extend(0.0)).as_vec3())
-        .collect()
-}
-
-/// (P_{i+1} − P_i) × (P_{i+2} − P_{i+1}), in `f32` as the corners are; zero may come out.
+/// Computes (P_{i+1} − P_i) × (P_{i+2} − P_{i+1}), in `f32` as the corners are; zero may come out.
 fn two_edges(corners: &[Vec3], i: usize) -> DVec3 {
     let at = |k: usize| corners[(i + k) % corners.len()];
     (at(1) - at(0)).cross(at(2) - at(1)).as_dvec3()
@@ -102,174 +82,147 @@ fn by_newell(corners: &[Vec3]) -> DVec3 {
     newell(corners.iter().map(|corner| corner.as_dvec3()))
 }
 
-/// The angle from the true normal in degrees; `None` for a vector without a direction.
-fn error(normal: DVec3) -> Option<f64> {
-    let truth = tilt() * DVec3::Z;
+/// Returns the angle from the true normal in degrees; infinity for a vector without a direction.
+fn error(normal: DVec3) -> f64 {
     let unit = normal / normal.length();
-    unit.is_finite()
-        .then(|| 2.0 * libm::atan2((unit - truth).length(), (unit + truth).length()).to_degrees())
+    if unit.is_finite() {
+        angle(unit, tilt() * DVec3::Z)
+    } else {
+        f64::INFINITY
+    }
 }
 
-/// Twice the area in the plane, by the shoelace formula.
+/// Returns twice the area in the plane, by the shoelace formula.
 fn twice_the_area(corners: &[DVec2]) -> f64 {
     (0..corners.len())
         .map(|k| corners[k].perp_dot(corners[(k + 1) % corners.len()]))
         .sum()
 }
 
-/// The corner at which the normal from two edges is worst, with that normal: one without a direction is the worst.
+/// Returns the normals from two edges at every corner, from the best one to the worst.
+fn by_two_edges(corners: &[Vec3]) -> Vec<DVec3> {
+    let mut normals: Vec<_> = (0..corners.len()).map(|i| two_edges(corners, i)).collect();
+    normals.sort_by(|a, b| error(*a).total_cmp(&error(*b)));
+    normals
+}
+
 fn worst(corners: &[Vec3]) -> DVec3 {
-    let badness = |normal: &DVec3| error(*normal).unwrap_or(f64::INFINITY);
-    let all = (0..corners.len()).map(|i| two_edges(corners, i));
-    all.max_by(|a, b| badness(a).total_cmp(&badness(b)))
-        .unwrap_or(DVec3::ZERO)
+    by_two_edges(corners)[corners.len() - 1]
 }
 
-fn make() -> Result<Content, FigureError> {
-    let mut content = Content::default();
+/// Draws all polygons, lit by the one normal and by the other.
+fn pictures(content: &mut FigureContent) -> Result {
     content.text(
-        "The same plane for all polygons, tilted, with corners rounded to f32. The normal from two edges is taken at its \
-         worst corner: any corner may be the first one that a file names. Newell's formula takes the sum over all.",
+        "One tilted plane for all polygons, with corners rounded to f32. The normal from two edges \
+         is taken at its worst corner: a file may name any corner first. Newell's formula sums \
+         over all.",
     );
-    pictures(&mut content)?;
-    let mut rows = Vec::new();
-    let mut largest: f64 = 0.0;
-    let mut area: f64 = 0.0;
-    for example in &examples() {
-        let corners = placed(example);
-        let (edges, sum) = (worst(&corners), by_newell(&corners));
-        let good = (0..corners.len())
-            .filter_map(|i| error(two_edges(&corners, i)))
-            .fold(f64::INFINITY, f64::min);
-        let twice = twice_the_area(&example.corners);
-        let off = (sum.length() / twice - 1.0).abs();
-        area = area.max(off);
-        largest = largest.max(error(sum).unwrap_or(180.0));
-        let degrees = |error: Option<f64>| {
-            error.map_or(String::from("no direction"), |e| format!("{}°", written(e)))
-        };
-        rows.push(Vec::from([
-            example.what.to_string(),
-            degrees(Some(good)),
-            degrees(error(edges)),
-            degrees(error(sum)),
-            format!("{:.7}", sum.length()),
-            format!("{twice:.7}"),
-        ]));
-        failure(&mut content, example, error(edges));
-    }
-    content.table(
-        &[
-            "polygon",
-            "two edges: best corner",
-            "worst corner",
-            "Newell",
-            "|N|",
-            "2 Area",
-        ],
-        rows,
-    );
-    content.claim(
-        "newell",
-        "Newell's formula: largest error over all polygons",
-        (largest, "degrees"),
-        largest < 1e-4,
-        [
-            "Rounding of the corners, and no more.",
-            "More than rounding of the corners.",
-        ],
-    );
-    content.claim(
-        "area",
-        "|N| against 2 Area: largest relative difference",
-        (area, ""),
-        area < 1e-6,
-        ["|N| = 2 Area, rounding aside.", "|N| is not 2 Area."],
-    );
-    Ok(content)
-}
-
-fn failure(content: &mut Content, example: &Example, error: Option<f64>) {
-    // Where there is no direction, any may be taken: the opposite one at worst.
-    let degrees = error.unwrap_or(180.0);
-    let fails = degrees > 1.0;
-    let verdict = match error {
-        None => "The two edges have no normal: their cross product is zero.",
-        Some(e) if e > 90.0 => {
-            "It points to the other side: the polygon would be culled, or lit from behind."
-        }
-        Some(_) if fails => "Visibly wrong.",
-        Some(_) => "Good where nothing is degenerate.",
-    };
-    let agreement = match (example.is_named, example.key) {
-        (true, "hexagon") => Agreement::if_holds(!fails),
-        (true, _) => Agreement::if_holds(fails),
-        (false, _) => Agreement::Adds,
-    };
-    content.found(Finding::new(
-        example.key,
-        format!(
-            "two edges at the worst corner, {}: error (180 if there is no direction)",
-            example.what
-        ),
-        (degrees, "degrees"),
-        agreement,
-        verdict,
-    ));
-}
-
-/// All polygons side by side, lit by the one normal and by the other.
-fn pictures(content: &mut Content) -> Result<(), FigureError> {
-    // Far from the normal, so that a few degrees are seen.
-    let light = DVec3::new(-0.6, 0.3, 0.7);
-    let grey = Grey {
-        ambient: 0.08,
-        diffuse: 0.9,
-        ..Grey::dull(light)
-    };
-    let draw = |normal: &dyn Fn(&[Vec3]) -> DVec3| {
-        let facets: Vec<Facet> = examples()
-            .iter()
-            .enumerate()
-            .map(|(i, example)| {
-                let middle = DVec2::new(24.0 + 48.0 * i as f64, 24.0);
-                let place =
-                    |corner: &DVec2| [middle.x + 21.0 * corner.x, middle.y - 21.0 * corner.y];
-                let corners: Vec<Corner> = example
-                    .corners
-                    .iter()
-                    .map(|c| Corner::new(place(c), DVec3::Z))
-                    .collect();
-                let normal = normal(&placed(example));
-                // No direction: no light but the ambient one.
-                Facet {
-                    corners,
-                    normal: normal.try_normalize().unwrap_or(DVec3::ZERO),
-                }
-            })
-            .collect();
-        Ok::<_, FigureError>(stored(&Variant::parse("flat")?.render_linear(&frame(
-            [240, 48],
-            &grey,
-            &facets,
-        )?)))
-    };
-    let names: Vec<&str> = examples().iter().map(|example| example.what).collect();
-    let names = names.join(", ");
+    let names = examples().map(|example| example.what).join(", ");
     content.pictures(
         1,
-        Vec::from([
-            Shown::new(
+        "Five polygons of one plane",
+        [
+            (
                 format!("lit by the normal from two edges, at its worst corner: {names}"),
-                "Five polygons of one plane; four of them are dark or of another grey than the first.",
-                draw(&worst)?,
+                stored(&lit_by(worst)?),
             ),
-            Shown::new(
-                "lit by the normal of Newell\u{2019}s formula",
-                "The same polygons, all of one grey.",
-                draw(&by_newell)?,
+            (
+                "lit by the normal of Newell\u{2019}s formula".into(),
+                stored(&lit_by(by_newell)?),
             ),
-        ]),
+        ],
     );
     Ok(())
+}
+
+/// Measures the angles from the true normal, and the area.
+fn errors(content: &mut FigureContent) -> Result {
+    let (mut rows, mut most, mut area) = (Vec::new(), 0.0f64, 0.0f64);
+    for example in &examples() {
+        let corners = example.in_space();
+        let (edges, sum) = (by_two_edges(&corners), by_newell(&corners));
+        let errors = [edges[0], edges[edges.len() - 1], sum].map(error);
+        let [best, worst, newell] = errors.map(|error| {
+            if error.is_finite() {
+                format!("{}°", written(error))
+            } else {
+                "no direction".into()
+            }
+        });
+        let twice = twice_the_area(&example.corners);
+        area = area.max((sum.length() / twice - 1.0).abs());
+        most = most.max(errors[2].min(180.0));
+        rows.push(format!(
+            "{} | {best} | {worst} | {newell} | {:.7} | {twice:.7}",
+            example.what,
+            sum.length()
+        ));
+        failure(content, example, errors[1]);
+    }
+    content.table(
+        "polygon | two edges: best corner | worst corner | Newell | |N| | 2 Area",
+        rows,
+    );
+    content.confirms(
+        "newell",
+        "Newell's formula: largest error over all polygons",
+        (most, "degrees", most < 1e-4),
+        "Rounding of the corners, and no more.",
+    );
+    content.confirms(
+        "area",
+        "|N| against 2 Area: largest relative difference",
+        (area, "", area < 1e-6),
+        "|N| = 2 Area, rounding aside.",
+    );
+    Ok(())
+}
+
+/// Concludes from the error of two edges at the worst corner.
+fn failure(content: &mut FigureContent, example: &Example, error: f64) {
+    let fails = error > 1.0;
+    let agreement = match example.key {
+        "hexagon" => Agreement::if_holds(!fails),
+        "reflex" => Agreement::Adds,
+        _ => Agreement::if_holds(fails),
+    };
+    let what = example.what;
+    content.found(
+        example.key,
+        format!("two edges at the worst corner, {what}: error (180 if there is no direction)"),
+        // Without a direction any may be taken: the opposite one at worst.
+        (error.min(180.0), "degrees"),
+        agreement,
+        match error {
+            f64::INFINITY => "The two edges have no normal: their cross product is zero.",
+            90.0.. => {
+                "It points to the other side: the polygon would be culled, or lit from behind."
+            }
+            1.0.. => "Visibly wrong.",
+            _ => "Good where nothing is degenerate.",
+        },
+    );
+}
+
+/// Draws all polygons side by side, lit by a normal of their corners.
+fn lit_by(normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPicture> {
+    let polygon = |(i, example): (usize, &Example)| {
+        let middle = DVec2::new(24.0 + 48.0 * i as f64, 24.0);
+        let corner =
+            |c: &DVec2| ScreenCorner::new([middle.x + 21.0 * c.x, middle.y - 21.0 * c.y], DVec3::Z);
+        ScreenPolygon {
+            corners: example.corners.iter().map(corner).collect(),
+            // No direction: no light but the ambient one.
+            normal: normal(&example.in_space())
+                .try_normalize()
+                .unwrap_or(DVec3::ZERO),
+        }
+    };
+    let polygons: Vec<_> = examples().iter().enumerate().map(polygon).collect();
+    // Far from the normal, so that a few degrees are seen.
+    let light = DVec3::new(-0.6, 0.3, 0.7);
+    draw(
+        &frame([240, 48], grey(0.08, 0.9, 0.0, 1.0), light, &polygons)?,
+        "flat",
+    )
 }

@@ -1,24 +1,22 @@
-//! Perspective: Lecture 5's checkerboard wrong and right, the weight that makes it right, and what becomes of depth.
+//! Perspective: Lecture 5's checkerboard wrong and right, the weight that makes it right, and the depth of a point.
 
-use super::stage::{stored, written};
-use super::{Agreement, Content, Figure, FigureError, Finding, Plot, Scale, Series, Shown};
+use super::{
+    Figure, FigureContent, Plot, Result, Series, bare, largest, linear, percent, stored, written,
+};
 use crate::frame::perspective::{Frustum, printed_weight_in_space, weight_in_space};
-use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
-use crate::mesh::vertex_normals::NormalSource;
-use crate::mesh::{Material, MeshBuilder, PolygonMesh};
+use crate::frame::{FrameBuilder, SubPixel, Vertex};
+use crate::mesh::Material;
 use crate::picture::LinearPicture;
 use crate::raster::{checkerboard, vertex_colours};
-use crate::scene::{Camera, Culling, Interpolation, Lighting, Object, Projection, Scene};
-use alloc::format;
-use alloc::sync::Arc;
-use alloc::vec::Vec;
-use glam::{DAffine3, DVec3, Vec3};
+use crate::scene::{Camera, Interpolation, Lighting, Projection};
+use alloc::{format, vec::Vec};
+use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "perspective",
     title: "Perspective: the checkerboard, wrong and right",
     lecture: "L5, Perspective Projection and Interpolation",
-    make,
+    parts: &[boards, weight, depth],
 };
 
 const WIDTH: usize = 128;
@@ -28,133 +26,88 @@ const BOARD: [[f32; 3]; 2] = [[0.9; 3], [0.15, 0.2, 0.45]];
 const SQUARE: f64 = 1.0;
 /// Half of the side of the floor.
 const REACH: f64 = 4.0;
+/// Vertical field of view, in degrees.
+const FOVY: f64 = 50.0;
+const CAMERA: Camera = Camera {
+    eye: DVec3::new(1.0, 2.4, 6.5),
+    target: DVec3::new(0.0, -0.2, 0.0),
+    up: DVec3::Y,
+    projection: Projection::Perspective { fovy: FOVY },
+    near: 1.0,
+    far: 40.0,
+};
 
-fn camera() -> Camera {
-    Camera {
-        eye: DVec3::new(1.0, 2.4, 6.5),
-        target: DVec3::new(0.0, -0.2, 0.0),
-        up: DVec3::Y,
-        projection: Projection::Perspective { fovy: 50.0 },
-        near: 1.0,
-        far: 40.0,
-    }
-}
-
-/// The floor, whole or cut along a diagonal.
-fn floor(triangles: bool) -> Result<PolygonMesh, FigureError> {
-    let r = REACH as f32;
-    let corners = [(-r, -r), (-r, r), (r, r), (r, -r)].map(|(x, z)| Vec3::new(x, 0.0, z));
-    let mut builder = MeshBuilder::new(corners.to_vec());
-    if triangles {
-        builder.polygon(&[0, 1, 2]).polygon(&[0, 2, 3]);
-    } else {
-        builder.polygon(&[0, 1, 2, 3]);
-    }
-    Ok(builder.finish()?)
-}
-
-fn board(triangles: bool, interpolation: Interpolation) -> Result<LinearPicture, FigureError> {
-    let object = Object {
-        mesh: Arc::new(floor(triangles)?),
-        transform: DAffine3::IDENTITY,
-        material: None,
-        normals: NormalSource::Averaged,
-    };
-    let scene = Scene {
-        width: WIDTH as u32,
-        height: HEIGHT as u32,
-        interpolation,
-        culling: Culling::None,
-        objects: [object].into(),
-        ..Scene::new(camera())
-    };
+/// Draws the board on a floor of these polygons.
+fn board(polygons: &[&[u32]], interpolation: Interpolation) -> Result<LinearPicture> {
+    let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
+    let corners = corners.map(|(x, z)| REACH * DVec3::new(x, 0.0, z));
+    let mut scene = bare(&corners, polygons, CAMERA, [WIDTH as u32, HEIGHT as u32])?;
+    scene.interpolation = interpolation;
     Ok(checkerboard(&scene.frame()?, SQUARE, BOARD))
 }
 
-/// The colour of the board where the ray of each pixel meets the floor.
+/// Returns the colour of the board where the ray of a pixel meets the floor.
 fn ray(x: usize, y: usize) -> Option<[f32; 3]> {
-    let camera = camera();
-    let Projection::Perspective { fovy } = camera.projection else {
-        return None;
-    };
-    let [right, up, forward] = camera.axes();
-    let scale = libm::tan(fovy.to_radians() / 2.0);
-    let (u, v) = (
-        (2 * x + 1) as f64 / WIDTH as f64 - 1.0,
-        1.0 - (2 * y + 1) as f64 / HEIGHT as f64,
-    );
+    let [right, up, forward] = CAMERA.axes();
+    let scale = libm::tan(FOVY.to_radians() / 2.0);
+    let u = (2 * x + 1) as f64 / WIDTH as f64 - 1.0;
+    let v = 1.0 - (2 * y + 1) as f64 / HEIGHT as f64;
     let ray = forward + right * (u * scale * WIDTH as f64 / HEIGHT as f64) + up * (v * scale);
-    let p = camera.eye - camera.eye.y / ray.y * ray;
+    let p = CAMERA.eye - CAMERA.eye.y / ray.y * ray;
     let is_met = ray.y < 0.0 && p.x.abs() < REACH && p.z.abs() < REACH;
     let squares = libm::floor(p.x / SQUARE) + libm::floor(p.z / SQUARE);
     is_met.then(|| BOARD[usize::from(squares.rem_euclid(2.0) != 0.0)])
 }
 
-/// The part of the rays that meet the floor, in per cent, that the picture has in the other colour.
-fn wrong(picture: &LinearPicture) -> f64 {
-    let (mut wrong, mut all) = (0, 0);
-    for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
-        if let Some(colour) = ray(x, y) {
-            wrong += usize::from(picture.get(x, y)[..3] != colour);
-            all += 1;
-        }
-    }
-    100.0 * wrong as f64 / f64::from(all.max(1))
+/// Returns the percentage of the rays that meet the floor where the picture has the other colour.
+fn wrong(picture: LinearPicture) -> f64 {
+    let pixels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
+    let met = pixels.filter_map(|(x, y)| Some(picture.get(x, y)[..3] == ray(x, y)?));
+    let is_right: Vec<bool> = met.collect();
+    let wrong = is_right.iter().filter(|is_right| !**is_right).count();
+    percent(wrong, is_right.len())
 }
 
-fn make() -> Result<Content, FigureError> {
-    let mut content = Content::default();
-    let pictures = [
-        (
-            "screen",
-            "linear on the screen",
-            board(false, Interpolation::Screen)?,
-        ),
-        (
-            "screen-triangles",
-            "the same, cut into two triangles",
-            board(true, Interpolation::Screen)?,
-        ),
-        (
-            "space",
-            "linear in space",
-            board(true, Interpolation::Perspective)?,
-        ),
-    ];
+fn boards(content: &mut FigureContent) -> Result {
     content.text(
-        "A floor of eight by eight squares, its world coordinates interpolated and the board computed at each pixel. Linear \
-         on the screen, the squares are of one size and bend at the diagonal of the triangles; linear in space, they are \
-         those that the rays of the pixels meet.",
+        "A floor of eight by eight squares, computed at each pixel from interpolated world \
+         coordinates. Linear on the screen, the squares are of one size and bend at the diagonal. \
+         Linear in space, they are those that the rays of the pixels meet.",
     );
-    let shown = |(_, caption, picture): &(&str, &str, LinearPicture)| {
-        Shown::new(
-            *caption,
-            format!("A checkerboard seen in perspective, {caption}."),
-            stored(picture),
-        )
-    };
-    content.pictures(3, pictures.iter().map(shown).collect());
-    for (key, how, picture) in &pictures {
-        let wrong = wrong(picture);
-        let is_space = *key == "space";
-        let verdict = match (wrong < 0.5, is_space) {
-            (true, _) => {
-                "The board is right: only pixels on the rim of a square may fall to either side."
-            }
-            (false, true) => "The board is wrong.",
-            (false, false) => "The board is wrong, as the slide shows it.",
-        };
-        content.found(Finding::new(
-            format!("wrong-{key}"),
-            format!("pixels of the floor in the wrong colour, {how}"),
-            (wrong, "%"),
-            Agreement::if_holds((wrong < 0.5) == is_space),
-            verdict,
-        ));
-    }
-    weight(&mut content)?;
-    depth(&mut content);
-    Ok(content)
+    let whole: &[&[u32]] = &[&[0, 1, 2, 3]];
+    let triangles: &[&[u32]] = &[&[0, 1, 2], &[0, 2, 3]];
+    let screen = board(whole, Interpolation::Screen)?;
+    let cut = board(triangles, Interpolation::Screen)?;
+    let space = board(triangles, Interpolation::Perspective)?;
+    content.pictures(
+        3,
+        "A checkerboard seen in perspective",
+        [
+            ("linear on the screen", stored(&screen)),
+            ("the same, cut into two triangles", stored(&cut)),
+            ("linear in space", stored(&space)),
+        ],
+    );
+    let [screen, cut, space] = [screen, cut, space].map(wrong);
+    content.confirms(
+        "wrong-screen",
+        "pixels of the floor in the wrong colour, linear on the screen",
+        (screen, "%", screen >= 0.5),
+        "The board is wrong, as the slide shows it.",
+    );
+    content.confirms(
+        "wrong-screen-triangles",
+        "pixels of the floor in the wrong colour, the same, cut into two triangles",
+        (cut, "%", cut >= 0.5),
+        "The board is wrong, as the slide shows it.",
+    );
+    content.confirms(
+        "wrong-space",
+        "pixels of the floor in the wrong colour, linear in space",
+        (space, "%", space < 0.5),
+        "The board is right: only pixels on the rim of a square may fall to either side.",
+    );
+    Ok(())
 }
 
 /// Depths of the two ends of an edge.
@@ -162,8 +115,8 @@ const ENDS: [f64; 2] = [1.0, 4.0];
 /// Pixels between them.
 const STRIP: usize = 128;
 
-/// A strip from A, on its left, to B: the red of A is 1, that of B 0, so that red is the weight of A.
-fn strip() -> Result<Frame, FigureError> {
+/// Draws a strip from A, on its left, to B: the red of A is 1, that of B 0, so that red is the weight of A.
+fn strip() -> Result<LinearPicture> {
     let mut builder = FrameBuilder::new(STRIP as u32, 1);
     builder.interpolation(Interpolation::Perspective);
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
@@ -180,69 +133,61 @@ fn strip() -> Result<Frame, FigureError> {
         number
     });
     builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
-    Ok(builder.finish()?)
+    Ok(vertex_colours(&builder.finish()?))
 }
 
-/// The weight of A along an edge: as the engine has it, corrected, and as printed.
-fn weight(content: &mut Content) -> Result<(), FigureError> {
+/// Compares the weight of A along an edge in the engine with the corrected and with the printed formula.
+fn weight(content: &mut FigureContent) -> Result {
     let [z_a, z_b] = ENDS;
-    let drawn = vertex_colours(&strip()?);
-    let alpha = |x: usize| 1.0 - (x as f64 + 0.5) / STRIP as f64;
-    let engine: Vec<(f64, f64)> = (0..STRIP)
-        .map(|x| (alpha(x), f64::from(drawn.get(x, 0)[0])))
-        .collect();
-    let curve = |of: &dyn Fn(f64) -> f64| {
-        (0..STRIP)
-            .map(|x| (alpha(x), of(alpha(x))))
-            .collect::<Vec<_>>()
-    };
-    let corrected = curve(&|alpha| weight_in_space(alpha, z_a, z_b));
-    let printed = curve(&|alpha| printed_weight_in_space(alpha, z_a, z_b));
-    let off = |curve: &[(f64, f64)]| {
-        engine
-            .iter()
-            .zip(curve)
-            .fold(0.0f64, |m, (e, c)| m.max((e.1 - c.1).abs()))
+    let drawn = strip()?;
+    let alphas = || (0..STRIP).map(|x| 1.0 - (x as f64 + 0.5) / STRIP as f64);
+    let red = drawn.row(0).iter().map(|texel| f64::from(texel[0]));
+    let engine: Vec<(f64, f64)> = alphas().zip(red).collect();
+    let corrected = |alpha| weight_in_space(alpha, z_a, z_b);
+    let printed = |alpha| printed_weight_in_space(alpha, z_a, z_b);
+    let off = |weight: &dyn Fn(f64) -> f64| {
+        largest(
+            engine
+                .iter()
+                .map(|(alpha, drawn)| (drawn - weight(*alpha)).abs()),
+        )
     };
     let (right, wrong) = (off(&corrected), off(&printed));
-    content.plot(Plot {
-        title: "The weight in space of the end A of an edge".into(),
-        x: ("α, the weight of A on the screen".into(), Scale::Linear),
-        y: ("β, the weight of A in space".into(), Scale::Linear),
-        series: [
+    content.plot(Plot::new(
+        "The weight in space of the end A of an edge",
+        [
+            linear("α, the weight of A on the screen"),
+            linear("β, the weight of A in space"),
+        ],
+        [
             Series::new("the engine", engine.into_iter().step_by(8)),
-            Series::new("α z_B / (α z_B + (1 − α) z_A)", corrected),
-            Series::new("as printed", printed),
-            Series::new("linear on the screen", curve(&|alpha| alpha)),
-        ]
-        .into(),
-        marks: Vec::new(),
-        caption: format!(
-            "From A at depth {z_a} to B at depth {z_b}. What the slide prints is the weight of B: at A, where α = 1, it is 0."
+            Series::sampled("α z_B / (α z_B + (1 − α) z_A)", alphas(), corrected),
+            Series::sampled("as printed", alphas(), printed),
+            Series::sampled("linear on the screen", alphas(), |alpha| alpha),
+        ],
+        format!(
+            "From A at depth {z_a} to B at depth {z_b}. The slide prints the weight of B: 0 at A, \
+             where α = 1."
         ),
-    });
-    let is_printed = wrong < 1e-3;
-    content.claim(
+    ));
+    content.contradicts(
         "printed-weight",
         "largest difference of the printed weight from the engine's",
-        (wrong, ""),
-        is_printed,
-        [
-            "The weight is as printed.",
-            "(1 − α) z_A / (z_B + (1 − α)(z_A − z_B)) weighs the other end.",
-        ],
+        (wrong, "", wrong >= 1e-3),
+        "(1 − α) z_A / (z_B + (1 − α)(z_A − z_B)) weighs the other end.",
     );
-    content.adds("weight", "largest difference of the corrected weight from the engine's", (right, ""), if right < 1e-4 {
-            "The engine, which divides interpolated values by interpolated weights, has this weight.".into()
-        } else {
-            format!("The engine's weight is off by {}.", written(right))
-        });
+    content.adds(
+        "weight",
+        "largest difference of the corrected weight from the engine's",
+        (right, "", right < 1e-4),
+        "The engine, which divides interpolated values by interpolated weights, has this weight.",
+    );
     Ok(())
 }
 
-/// "Z-value is preserved after projection."
-fn depth(content: &mut Content) {
-    let Camera { near, far, .. } = camera();
+/// Measures the depth of a middle point (L5: "Z-value is preserved after projection").
+fn depth(content: &mut FigureContent) -> Result {
+    let Camera { near, far, .. } = CAMERA;
     let frustum = Frustum {
         left: -1.0,
         right: 1.0,
@@ -252,9 +197,16 @@ fn depth(content: &mut Content) {
         far,
     };
     let middle = frustum.ndc_depth(-(near + far) / 2.0);
-    let is_preserved = middle.abs() < 0.01;
-    content.claim("depth", "NDC depth, −1 to 1, of the point half-way between near and far plane", (middle, ""), is_preserved, ["Depth keeps its value, up to scale.".into(), format!(
-                "Depth keeps its order and not its value: half of the range goes to the first {} % of the way from near to far.",
-                written(100.0 * (2.0 * far * near / (far + near) - near) / (far - near))
-            )]);
+    let half = 2.0 * far * near / (far + near);
+    content.contradicts(
+        "depth",
+        "NDC depth, −1 to 1, of the point half-way between near and far plane",
+        (middle, "", middle.abs() >= 0.01),
+        format!(
+            "Depth keeps its order, not its value: the first {} % of the way take half of the \
+             range.",
+            written(100.0 * (half - near) / (far - near))
+        ),
+    );
+    Ok(())
 }

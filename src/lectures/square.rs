@@ -1,23 +1,22 @@
-//! The square of Figure 5: what turning it, and what cutting it, does to its shading (L21 3).
+//! The square of Figure 5: turning it, or cutting it into triangles, changes its shading (L21 3).
 
-use super::stage::{Corner, Facet, Grey, frame, leaning, stored, written};
-use super::{Agreement, Content, Figure, FigureError, Finding, Shown};
+use super::{
+    Agreement, DULL, Figure, FigureContent, Result, ScreenCorner, ScreenPolygon, angle,
+    covered_by_both, draw, frame, largest, levels, map_caption, stored, written,
+};
 use crate::compare::metrics::difference_map;
 use crate::frame::Frame;
 use crate::picture::LinearPicture;
 use crate::raster::normals;
 use crate::shading::Variant;
-use alloc::format;
-use alloc::string::{String, ToString};
-use alloc::vec;
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "square",
     title: "The square that changes when it is turned",
     lecture: "L21 3, Figure 5; L21 4.1",
-    make,
+    parts: &[turns, numbers, directions, diagonals, great_circles],
 };
 
 /// Width and height of the pictures.
@@ -35,9 +34,12 @@ type Normals = [DVec3; 4];
 /// Figure 5: three normals face the light, and that of the lowest corner is at a right angle to it.
 const DARK_BELOW: Normals = [DVec3::Z, DVec3::Z, DVec3::NEG_Y, DVec3::Z];
 
-/// Normals of which no three lie on one great circle: what is interpolated between three that do is the same by every
-/// way there is.
+/// Returns normals of which no three lie on one great circle. Every way to interpolate between three that do is the same.
 fn apart() -> Normals {
+    let leaning = |right: f64, up: f64| {
+        let [x, y] = [right, up].map(|degrees| libm::tan(degrees.to_radians()));
+        DVec3::new(x, y, 1.0).normalize()
+    };
     [
         leaning(10.0, 60.0),
         leaning(65.0, -10.0),
@@ -46,47 +48,29 @@ fn apart() -> Normals {
     ]
 }
 
-/// How the square is made of polygons.
-#[derive(Clone, Copy)]
-enum Cut {
-    /// One polygon of four corners.
-    Whole,
-    /// Two triangles that share the diagonal from the dark corner.
-    ThroughDark,
-    /// Two triangles that share the other one.
-    PastDark,
-}
+/// The polygons of the square, by the numbers of their corners.
+type Polygons = &'static [&'static [usize]];
+const WHOLE: Polygons = &[&[0, 1, 2, 3]];
+/// Two triangles that share the diagonal from the dark corner.
+const THROUGH_DARK: Polygons = &[&[0, 1, 2], &[0, 2, 3]];
+/// Two triangles that share the other diagonal.
+const PAST_DARK: Polygons = &[&[0, 1, 3], &[1, 2, 3]];
 
-/// A square that stands on a corner, turned clockwise by `degrees`. Its normals are not turned: what the light sees of
-/// them stays.
-fn square(degrees: f64, cut: Cut, normals: Normals) -> Result<Frame, FigureError> {
+/// Makes a square that stands on a corner, turned clockwise by `degrees`. Its normals are not turned: the light sees the
+/// same ones.
+fn square(degrees: f64, polygons: Polygons, normals: Normals) -> Result<Frame> {
     let middle = f64::from(SIDE) / 2.0;
     let (sin, cos) = sine_and_cosine(degrees);
-    let corner = |x: f64, y: f64, normal| {
-        let place = [
-            middle + REACH * (cos * x - sin * y),
-            middle + REACH * (sin * x + cos * y),
-        ];
-        Corner::new(place, normal)
-    };
-    let [above, beside, below, opposite] = normals;
-    let [top, right] = [corner(0.0, -1.0, above), corner(1.0, 0.0, beside)];
-    let [dark, left] = [corner(0.0, 1.0, below), corner(-1.0, 0.0, opposite)];
-    let facets = match cut {
-        Cut::Whole => vec![Facet::new([top, right, dark, left])],
-        Cut::ThroughDark => vec![
-            Facet::new([top, right, dark]),
-            Facet::new([top, dark, left]),
-        ],
-        Cut::PastDark => vec![
-            Facet::new([top, right, left]),
-            Facet::new([right, dark, left]),
-        ],
-    };
-    frame([SIDE, SIDE], &Grey::dull(DVec3::Z), &facets)
+    let places = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
+    let places = places.map(|(x, y)| [cos * x - sin * y, sin * x + cos * y]);
+    let corner = |i: &usize| ScreenCorner::new(places[*i].map(|c| middle + REACH * c), normals[*i]);
+    let polygon =
+        |corners: &&[usize]| ScreenPolygon::new(corners.iter().map(corner).collect::<Vec<_>>());
+    let polygons: Vec<_> = polygons.iter().map(polygon).collect();
+    frame([SIDE; 2], DULL, DVec3::Z, &polygons)
 }
 
-/// Exact at quarter turns.
+/// Returns sine and cosine, exact at quarter turns.
 fn sine_and_cosine(degrees: f64) -> (f64, f64) {
     if degrees == 90.0 {
         (1.0, 0.0)
@@ -95,7 +79,7 @@ fn sine_and_cosine(degrees: f64) -> (f64, f64) {
     }
 }
 
-/// `turned` turned back by `degrees`: the texel that stood there, or one between its neighbours; alpha 0 where one of
+/// Turns `turned` back by `degrees`: the pixel that stood there, or one between its neighbours; alpha 0 where one of
 /// them is not covered.
 fn turned_back(turned: &LinearPicture, degrees: f64) -> LinearPicture {
     let (sin, cos) = sine_and_cosine(degrees);
@@ -104,16 +88,16 @@ fn turned_back(turned: &LinearPicture, degrees: f64) -> LinearPicture {
     for y in 0..back.height() {
         for x in 0..back.width() {
             let (dx, dy) = (x as f64 - middle, y as f64 - middle);
-            let place = [middle + cos * dx - sin * dy, middle + sin * dx + cos * dy];
-            back.row_mut(y)[x] = between(turned, place).unwrap_or([0.0; 4]);
+            let position = [middle + cos * dx - sin * dy, middle + sin * dx + cos * dy];
+            back.row_mut(y)[x] = between(turned, position).unwrap_or([0.0; 4]);
         }
     }
     back
 }
 
-/// The texel at `place`, counted in texels from the centre of the first one, linear between the four around it; `None`
-/// unless all that count are covered.
-fn between(picture: &LinearPicture, place: [f64; 2]) -> Option<[f32; 4]> {
+/// Returns the colour at `position`, counted in pixels from the centre of the first one, linear between the four around it;
+/// `None` unless all that count are covered.
+fn between(picture: &LinearPicture, position: [f64; 2]) -> Option<[f32; 4]> {
     let along = |at: f64| {
         let first = libm::floor(at + 1e-9);
         let part = (at - first).max(0.0);
@@ -123,8 +107,8 @@ fn between(picture: &LinearPicture, place: [f64; 2]) -> Option<[f32; 4]> {
         ]
     };
     let mut sum = [0.0f64; 3];
-    for (y, part_y) in along(place[1]) {
-        for (x, part_x) in along(place[0]) {
+    for (y, part_y) in along(position[1]) {
+        for (x, part_x) in along(position[0]) {
             let part = part_x * part_y;
             if part == 0.0 {
                 continue;
@@ -143,248 +127,162 @@ fn between(picture: &LinearPicture, place: [f64; 2]) -> Option<[f32; 4]> {
     Some([r, g, b, 1.0])
 }
 
-/// The largest value of `of` over the pixels that both pictures cover.
-fn largest(a: &LinearPicture, b: &LinearPicture, of: impl Fn([f32; 4], [f32; 4]) -> f64) -> f64 {
-    let both = a
-        .texels()
-        .iter()
-        .zip(b.texels())
-        .filter(|(a, b)| a[3] > 0.0 && b[3] > 0.0);
-    both.map(|(a, b)| of(*a, *b)).fold(0.0, f64::max)
-}
-
-fn levels(a: [f32; 4], b: [f32; 4]) -> f64 {
-    255.0 * f64::from((a[0] - b[0]).abs())
-}
-
-/// The angle between two normals that are stored as (N + 1)/2, in degrees.
-fn angle(a: [f32; 4], b: [f32; 4]) -> f64 {
+/// Returns the largest angle between the normals of two pictures, which store them as (N + 1)/2, in degrees.
+fn angles(a: &LinearPicture, b: &LinearPicture) -> f64 {
     let normal =
         |texel: [f32; 4]| DVec3::from_array([0, 1, 2].map(|i| 2.0 * f64::from(texel[i]) - 1.0));
-    let (a, b) = (normal(a), normal(b));
-    (2.0 * libm::atan2((a - b).length(), (a + b).length())).to_degrees()
+    largest(covered_by_both(a, b).map(|(a, b)| angle(normal(a), normal(b))))
 }
 
-/// By how much turning changes what `draw` makes of the square, turned back.
-fn change(
+/// Draws the square upright, and turned by `degrees` and turned back.
+fn turned_both_ways(
     degrees: f64,
-    cut: Cut,
+    polygons: Polygons,
     normals: Normals,
-    draw: &dyn Fn(&Frame) -> LinearPicture,
-    of: fn([f32; 4], [f32; 4]) -> f64,
-) -> Result<f64, FigureError> {
-    let upright = draw(&square(0.0, cut, normals)?);
-    Ok(largest(
-        &upright,
-        &turned_back(&draw(&square(degrees, cut, normals)?), degrees),
-        of,
-    ))
+    draw: impl Fn(&Frame) -> LinearPicture,
+) -> Result<[LinearPicture; 2]> {
+    let upright = draw(&square(0.0, polygons, normals)?);
+    let turned = draw(&square(degrees, polygons, normals)?);
+    Ok([upright, turned_back(&turned, degrees)])
 }
 
-fn make() -> Result<Content, FigureError> {
-    let mut content = Content::default();
+fn turns(content: &mut FigureContent) -> Result {
     content.text(
-        "Three corners are white and one is black. At 0° every scan line of the upper half runs between two white edges; \
-         turned by 90°, the same half lies between a white edge and one that turns black. The methods interpolate along \
-         edges and then along scan lines, so that the colour of a point depends on how its polygon is turned.",
+        "Three corners are white and one is black. At 0° every scan line of the upper half runs \
+         between two white edges; at 90° one of its edges turns black. The methods interpolate \
+         along edges, then along scan lines: the colour of a point depends on the orientation.",
     );
-    turns(&mut content, "gouraud", "Gouraud")?;
-    turns(&mut content, "naive-phong", "naive Phong")?;
-    numbers(&mut content)?;
-    directions(&mut content)?;
-    diagonals(&mut content)?;
-    great_circles(&mut content)?;
-    Ok(content)
-}
-
-/// A method at 0°, 45° and 90°.
-fn turns(content: &mut Content, method: &str, name: &str) -> Result<(), FigureError> {
-    let variant = Variant::parse(method)?;
-    let mut shown = Vec::new();
-    for degrees in [0.0, 45.0, 90.0] {
-        let picture = stored(&variant.render_linear(&square(degrees, Cut::Whole, DARK_BELOW)?));
-        let alt = format!("The square shaded by {name}, turned by {degrees} degrees.");
-        shown.push(Shown::new(format!("{name}, {degrees}°"), alt, picture));
+    for (method, name) in [("gouraud", "Gouraud"), ("naive-phong", "naive Phong")] {
+        let mut panels = Vec::new();
+        for degrees in [0.0, 45.0, 90.0] {
+            let picture = draw(&square(degrees, WHOLE, DARK_BELOW)?, method)?;
+            panels.push((format!("{name}, {degrees}°"), stored(&picture)));
+        }
+        content.pictures(3, "The square", panels);
     }
-    content.pictures(3, shown);
     Ok(())
 }
 
-/// Every method: the square and its triangles, by 45° and by 90°; and both ways to cut.
-fn numbers(content: &mut Content) -> Result<(), FigureError> {
+/// Compares, by every method, the square and its triangles turned by 45° and by 90°, and both ways to cut.
+fn numbers(content: &mut FigureContent) -> Result {
     let mut rows = Vec::new();
     for method in METHODS {
         let variant = Variant::parse(method)?;
-        let draw = |frame: &Frame| variant.render_linear(frame);
-        let whole = |degrees| change(degrees, Cut::Whole, DARK_BELOW, &draw, levels);
-        let cut = |degrees| change(degrees, Cut::ThroughDark, apart(), &draw, levels);
-        let [square_45, square_90, cut_45, cut_90] =
-            [whole(45.0)?, whole(90.0)?, cut(45.0)?, cut(90.0)?];
-        let cuts = [Cut::ThroughDark, Cut::PastDark].map(|cut| square(0.0, cut, DARK_BELOW));
-        let [one, other] = cuts;
-        let diagonal = largest(&draw(&one?), &draw(&other?), levels);
-        let numbers = [square_45, square_90, cut_45, cut_90, diagonal].map(written);
-        rows.push([vec![method.to_string()], numbers.to_vec()].concat());
-        let turns = square_90 > 1.0;
-        content.claim(
+        let change = |degrees, polygons, normals| {
+            let draw = |frame: &Frame| variant.render_linear(frame);
+            turned_both_ways(degrees, polygons, normals, draw).map(|[a, b]| levels(&a, &b))
+        };
+        let square_90 = change(90.0, WHOLE, DARK_BELOW)?;
+        let triangles_90 = change(90.0, THROUGH_DARK, apart())?;
+        let through = draw(&square(0.0, THROUGH_DARK, DARK_BELOW)?, method)?;
+        let past = draw(&square(0.0, PAST_DARK, DARK_BELOW)?, method)?;
+        let diagonal = levels(&through, &past);
+        let square_45 = change(45.0, WHOLE, DARK_BELOW)?;
+        let triangles_45 = change(45.0, THROUGH_DARK, apart())?;
+        let cells = [square_45, square_90, triangles_45, triangles_90, diagonal].map(written);
+        rows.push(format!("{method} | {}", cells.join(" | ")));
+        content.confirms(
             format!("square-{method}"),
             format!("{method}, square turned by 90°: largest difference"),
-            (square_90, "grey levels"),
-            turns,
-            [
-                "The shading depends on the orientation.",
-                "The shading does not depend on it.",
-            ],
+            (square_90, "grey levels", square_90 > 1.0),
+            "The shading depends on the orientation.",
         );
         // Half a grey level is the least that can be seen in a stored picture.
-        let agrees = cut_90 < 0.5;
-        content.found(Finding::new(
+        let agrees = triangles_90 < 0.5;
+        content.found(
             format!("triangles-{method}"),
             format!("{method}, triangles turned by 90°: largest difference"),
-            (cut_90, "grey levels"),
+            (triangles_90, "grey levels"),
             Agreement::if_holds(agrees),
-            triangles_verdict(agrees),
-        ));
-        content.claim(
+            if agrees {
+                "Triangles do not depend on the orientation: only rounding is left."
+            } else {
+                "Triangles depend on the orientation too: great circles are not barycentric."
+            },
+        );
+        content.confirms(
             format!("diagonals-{method}"),
             format!("{method}, one diagonal or the other: largest difference"),
-            (diagonal, "grey levels"),
-            diagonal > 1.0,
-            [
-                "Different subdivisions give different pixels.",
-                "Both cuts look the same.",
-            ],
+            (diagonal, "grey levels", diagonal > 1.0),
+            "Different subdivisions give different pixels.",
         );
     }
     content.table(
-        &[
-            "largest difference in grey levels",
-            "square, 45°",
-            "square, 90°",
-            "triangles, 45°",
-            "triangles, 90°",
-            "other diagonal",
-        ],
+        "largest difference in grey levels | square, 45° | square, 90° | triangles, 45° \
+         | triangles, 90° | other diagonal",
         rows,
     );
     content.text(
-        "Pictures are turned back and compared where both cover a pixel. A quarter turn takes pixels to pixels; after 45° \
-         a pixel lies between four others, and what is read between them smooths the fold at the diagonal: the column of \
-         the triangles shows what that alone amounts to. The triangles have four normals that lean by about 60°, each its \
-         own way: between normals on one great circle, as those of Figure 5, every way of interpolating is the same.",
+        "Pictures are turned back and compared where both cover a pixel. After 45° a pixel lies \
+         between four others, which smooths the fold at the diagonal: the triangles show by how \
+         much. Their four normals lean by about 60°, each its own way: on one great circle, as in \
+         Figure 5, all methods interpolate alike.",
     );
     Ok(())
 }
 
-fn triangles_verdict(agrees: bool) -> &'static str {
-    if agrees {
-        "Triangles do not depend on the orientation: rounding is all that is left."
-    } else {
-        "Triangles depend on the orientation too: great circles are not barycentric."
-    }
-}
-
-/// The same for the normals themselves.
-fn directions(content: &mut Content) -> Result<(), FigureError> {
-    let square = change(90.0, Cut::Whole, DARK_BELOW, &normals, angle)?;
-    let triangles = change(90.0, Cut::ThroughDark, apart(), &normals, angle)?;
-    content.claim(
+/// Compares the interpolated normals themselves.
+fn directions(content: &mut FigureContent) -> Result {
+    let [upright, turned] = turned_both_ways(90.0, WHOLE, DARK_BELOW, normals)?;
+    let square = angles(&upright, &turned);
+    content.confirms(
         "normals-square",
         "interpolated normals, square turned by 90°: largest angle",
-        (square, "degrees"),
-        square > 1.0,
-        [
-            "Normals depend on the orientation as intensities do.",
-            "Normals agree.",
-        ],
+        (square, "degrees", square > 1.0),
+        "Normals depend on the orientation as intensities do.",
     );
-    let agrees = triangles < 0.1;
-    content.claim(
+    let [upright, turned] = turned_both_ways(90.0, THROUGH_DARK, apart(), normals)?;
+    let triangles = angles(&upright, &turned);
+    content.confirms(
         "normals-triangles",
         "interpolated normals, triangles turned by 90°: largest angle",
-        (triangles, "degrees"),
-        agrees,
+        (triangles, "degrees", triangles < 0.1),
+        "On triangles normals are barycentric as well.",
+    );
+    Ok(())
+}
+
+/// Draws both ways to cut the square.
+fn diagonals(content: &mut FigureContent) -> Result {
+    content.text(
+        "Cut into triangles, the square depends on the diagonal in place of the orientation (L21 \
+         3).",
+    );
+    let one = draw(&square(0.0, THROUGH_DARK, DARK_BELOW)?, "gouraud")?;
+    let other = draw(&square(0.0, PAST_DARK, DARK_BELOW)?, "gouraud")?;
+    let map = difference_map(&one, &other, MAP_SCALES[0])?;
+    content.pictures(
+        3,
+        "The square of two triangles",
         [
-            "On triangles normals are barycentric as well.",
-            "Normals of triangles disagree.",
+            ("Gouraud, cut from top to bottom".into(), stored(&one)),
+            ("cut from left to right".into(), stored(&other)),
+            (map_caption(MAP_SCALES[0]), map),
         ],
     );
     Ok(())
 }
 
-/// Two diagonals, two pictures.
-fn diagonals(content: &mut Content) -> Result<(), FigureError> {
-    let gouraud = Variant::parse("gouraud")?;
-    let [one, other] = [
-        gouraud.render_linear(&square(0.0, Cut::ThroughDark, DARK_BELOW)?),
-        gouraud.render_linear(&square(0.0, Cut::PastDark, DARK_BELOW)?),
-    ];
+/// Turns triangles shaded by slerp Phong, turns them back, and compares.
+fn great_circles(content: &mut FigureContent) -> Result {
     content.text(
-        "Cutting the square into triangles makes it independent of the orientation, and dependent on the diagonal (L21 3).",
+        "Interpolation along great circles is not barycentric: it depends on the orientation of \
+         triangles too.",
     );
-    content.pictures(
-        3,
-        vec![
-            Shown::new(
-                "Gouraud, cut from top to bottom",
-                "Two triangles that meet in the upright diagonal.",
-                stored(&one),
-            ),
-            Shown::new(
-                "cut from left to right",
-                "Two triangles that meet in the level diagonal; the upper one is all white.",
-                stored(&other),
-            ),
-            Shown::new(
-                scale(MAP_SCALES[0]),
-                "Both cuts differ most in the middle.",
-                difference_map(&one, &other, MAP_SCALES[0])?,
-            ),
-        ],
-    );
-    Ok(())
-}
-
-/// Slerp on triangles: turned, turned back, compared.
-fn great_circles(content: &mut Content) -> Result<(), FigureError> {
     let slerp = Variant::parse("slerp-phong")?;
-    let upright = slerp.render_linear(&square(0.0, Cut::ThroughDark, apart())?);
-    let turned = turned_back(
-        &slerp.render_linear(&square(90.0, Cut::ThroughDark, apart())?),
-        90.0,
-    );
+    let draw = |frame: &Frame| slerp.render_linear(frame);
+    let [upright, turned] = turned_both_ways(90.0, THROUGH_DARK, apart(), draw)?;
     let map = difference_map(&upright, &turned, MAP_SCALES[1])?;
-    content.text(
-        "Interpolation along great circles is not barycentric, so that cutting into triangles does not help it: first \
-         along edges and then along scan lines is another normal when the scan lines run the other way.",
-    );
     content.pictures(
         3,
-        vec![
-            Shown::new(
-                "slerp Phong, triangles, 0°",
-                "The triangles shaded by slerp Phong.",
-                stored(&upright),
-            ),
-            Shown::new(
-                "90°, turned back",
-                "The same, drawn when turned by 90 degrees and turned back.",
-                stored(&turned),
-            ),
-            Shown::new(
-                scale(MAP_SCALES[1]),
-                "Where both differ: over the whole of both triangles.",
-                map,
-            ),
+        "The triangles by slerp Phong",
+        [
+            ("slerp Phong, triangles, 0°".into(), stored(&upright)),
+            ("90°, turned back".into(), stored(&turned)),
+            (map_caption(MAP_SCALES[1]), map),
         ],
     );
     Ok(())
-}
-
-fn scale(levels: f32) -> String {
-    format!(
-        "their difference: purple to yellow is up to {levels} grey levels, black none, magenta more"
-    )
 }
 
 #[cfg(test)]
@@ -403,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_between_texels_is_linear_and_needs_all_of_them() {
+    fn a_position_between_texels_is_linear_and_needs_all_of_them() {
         let mut picture = LinearPicture::new(2, 2, [0.0, 0.0, 0.0, 1.0]);
         picture.row_mut(0)[1] = [1.0, 0.5, 0.0, 1.0];
         assert_eq!(

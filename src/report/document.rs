@@ -6,7 +6,7 @@
 use crate::compare::comparison::{BASELINE, Comparison, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::experiments::{Scaling, Speedups};
 use crate::compare::timing::Machine;
-use crate::lectures::{Content, Figure};
+use crate::lectures::{Figure, FigureContent};
 use crate::number::Counts;
 use crate::shading::{METHODS, OperationCounts, Variant};
 use alloc::collections::BTreeMap;
@@ -112,7 +112,7 @@ pub struct FigureData {
     pub figure: &'static Figure,
     /// Text, pictures and curves, and the findings.
     #[serde(flatten)]
-    pub content: Content,
+    pub content: FigureContent,
 }
 
 impl Document {

@@ -45,7 +45,7 @@ pub use page::shell_word;
 pub use pictures::{LEAST_ERROR, STEPS_AN_OCTAVE};
 
 use crate::compare::comparison::Comparison;
-use crate::lectures::{Block, Content};
+use crate::lectures::{FigureBlock, FigureContent};
 use crate::picture::encoding::store;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -108,9 +108,9 @@ impl Report {
     /// # Errors
     /// If a picture of a figure has no pixels, or more than its file format can count.
     pub fn new(document: &Document, pictures: Vec<ScenePictures>) -> std::io::Result<Report> {
-        let files = |content: &Content| {
+        let files = |content: &FigureContent| {
             let shown = content.blocks.iter().flat_map(|block| match block {
-                Block::Pictures { shown, .. } => &shown[..],
+                FigureBlock::Pictures { shown, .. } => &shown[..],
                 _ => &[],
             });
             shown.map(|shown| png(&shown.picture)).collect()

@@ -6,7 +6,7 @@ use crate::compare::comparison::{
 };
 use crate::compare::experiments::{MethodSpeedups, SpeedCorner, Speedup, Speedups, Work};
 use crate::compare::timing::{Ratio, Timing};
-use crate::lectures::{Agreement, FIGURES, Finding, Plot, Scale, Series, Shown};
+use crate::lectures::{FIGURES, FigureContent, Plot, Scale, Series};
 use crate::mesh::builtin::builtin;
 use crate::picture::Picture8;
 use crate::raster::Renderer;
@@ -169,25 +169,19 @@ fn the_page_is_readable_without_javascript() {
 }
 
 fn figure() -> FigureData {
-    let mut content = Content::default();
+    let mut content = FigureContent::default();
     content.text("A <text>.");
     let picture = Picture8::new(4, 3, [9, 9, 9, 255]);
-    content.pictures(2, vec![Shown::new("caption", "alt", picture)]);
-    content.plot(Plot {
-        title: "plot".into(),
-        x: ("x".into(), Scale::Linear),
-        y: ("y".into(), Scale::Log),
-        series: vec![Series::new("s", [(0.0, 1.0 / 3.0), (1.0, f64::NAN)])],
-        marks: vec![0.5],
-        caption: "caption".into(),
-    });
-    content.found(Finding::new(
+    content.pictures(2, "subject", [("caption", picture)]);
+    let axes = [("x".into(), Scale::Linear), ("y".into(), Scale::Log)];
+    let series = [Series::new("s", [(0.0, 1.0 / 3.0), (1.0, f64::NAN)])];
+    content.plot(Plot::new("plot", axes, series, "caption").marked([0.5]));
+    content.confirms(
         "key",
         "label",
-        (0.411504, "levels"),
-        Agreement::Confirms,
+        (0.411504, "levels", true),
         "Exactly <right>.",
-    ));
+    );
     FigureData {
         figure: FIGURES[0],
         content,

@@ -6,13 +6,13 @@ mod projection;
 mod shading;
 mod surfaces;
 
-use fastphong::lectures::{Agreement, Block, Content, FIGURES, Figure};
+use fastphong::lectures::{Agreement, FIGURES, Figure, FigureBlock, FigureContent};
 use fastphong::report::{Document, FigureData, Report};
 use std::collections::BTreeSet;
 
 /// A figure, made, with what every figure must have.
 #[track_caller]
-fn made(name: &str) -> Content {
+fn made(name: &str) -> FigureContent {
     let figure = Figure::find(name).expect("it stands in the table");
     let content = figure.make().expect("what it draws can be drawn");
     assert!(
@@ -40,13 +40,13 @@ fn made(name: &str) -> Content {
     }
     for block in &content.blocks {
         match block {
-            Block::Text(text) => assert!(!text.is_empty()),
-            Block::Pictures { shown, .. } => assert!(
+            FigureBlock::Text(text) => assert!(!text.is_empty()),
+            FigureBlock::Pictures { shown, .. } => assert!(
                 shown
                     .iter()
                     .all(|s| !s.alt.is_empty() && !s.caption.is_empty())
             ),
-            Block::Plot(plot) => {
+            FigureBlock::Plot(plot) => {
                 assert!(
                     (1..=6).contains(&plot.series.len()),
                     "{name}, {}: curves that look alike",
@@ -58,7 +58,7 @@ fn made(name: &str) -> Content {
                     plot.title
                 );
             }
-            Block::Table { head, rows } => {
+            FigureBlock::Table { head, rows } => {
                 assert!(rows.iter().all(|row| row.len() == head.len()), "{name}")
             }
         }
@@ -77,7 +77,7 @@ fn made(name: &str) -> Content {
 
 /// The value of a finding.
 #[track_caller]
-fn value(content: &Content, key: &str) -> f64 {
+fn value(content: &FigureContent, key: &str) -> f64 {
     content
         .finding(key)
         .unwrap_or_else(|| panic!("no finding {key}"))
@@ -85,7 +85,7 @@ fn value(content: &Content, key: &str) -> f64 {
 }
 
 #[track_caller]
-fn agreement(content: &Content, key: &str) -> Agreement {
+fn agreement(content: &FigureContent, key: &str) -> Agreement {
     content
         .finding(key)
         .unwrap_or_else(|| panic!("no finding {key}"))

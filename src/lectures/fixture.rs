@@ -1,0 +1,231 @@
+//! Frames and scenes that figures draw, and the call that draws them.
+//!
+//! [`frame`] takes polygons in screen space with given normals; [`scene`] puts one mesh before a camera that looks
+//! along -z; [`shipped`] loads a scene of the repository.
+
+use super::Result;
+use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use crate::mesh::builtin::builtin;
+use crate::mesh::{Material, MeshBuilder};
+use crate::picture::encoding::store;
+use crate::picture::{Encoding, LinearPicture, Picture8};
+use crate::scene::input::{load, resolve};
+use crate::scene::{Camera, Culling, HiddenSurfaces, Light, Lighting, Projection, Scene};
+use crate::shading::Variant;
+use alloc::{format, string::String, vec, vec::Vec};
+use glam::DVec3;
+
+/// A corner of a polygon in screen space.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ScreenCorner {
+    /// Column and row, in pixels.
+    pub position: [f64; 2],
+    /// Depth, 0 at the near plane, 1 at the far plane.
+    pub depth: f64,
+    /// Unit vertex normal.
+    pub normal: DVec3,
+}
+
+impl ScreenCorner {
+    /// Makes a corner half-way between near and far plane.
+    pub fn new(position: [f64; 2], normal: DVec3) -> ScreenCorner {
+        ScreenCorner {
+            position,
+            depth: 0.5,
+            normal,
+        }
+    }
+}
+
+/// A polygon in screen space.
+#[derive(Clone, Debug)]
+pub(super) struct ScreenPolygon {
+    /// Its corners in order.
+    pub corners: Vec<ScreenCorner>,
+    /// Its unit normal, for flat shading.
+    pub normal: DVec3,
+}
+
+impl ScreenPolygon {
+    /// Makes a polygon that faces the eye.
+    pub fn new(corners: impl Into<Vec<ScreenCorner>>) -> ScreenPolygon {
+        ScreenPolygon {
+            corners: corners.into(),
+            normal: DVec3::Z,
+        }
+    }
+
+    /// Makes an upright strip from row 0 to `height` with one normal along each of its two sides.
+    pub fn strip([left, right]: [f64; 2], height: f64, [from, to]: [DVec3; 2]) -> ScreenPolygon {
+        ScreenPolygon::new([
+            ScreenCorner::new([left, 0.0], from),
+            ScreenCorner::new([right, 0.0], to),
+            ScreenCorner::new([right, height], to),
+            ScreenCorner::new([left, height], from),
+        ])
+    }
+
+    /// Adds the polygon to a frame, as its polygon `number`.
+    pub fn add(&self, builder: &mut FrameBuilder, material: u32, number: usize) {
+        let vertex = |corner: &ScreenCorner| Vertex {
+            x: SubPixel::from_num(corner.position[0]),
+            y: SubPixel::from_num(corner.position[1]),
+            depth: corner.depth as f32,
+            inv_w: 1.0,
+            normal: corner.normal.as_vec3().to_array(),
+            material,
+        };
+        let corners = self.corners.iter().map(|c| builder.vertex(vertex(c)));
+        let corners: Vec<u32> = corners.collect();
+        builder.polygon(&corners, self.normal.as_vec3().to_array(), number as u32);
+    }
+}
+
+/// Makes a frame of `polygons` of one material under one white light, drawn in this order and all visible.
+///
+/// # Errors
+/// If a coordinate is beyond the guard band, or the size is not allowed.
+pub(super) fn frame(
+    [width, height]: [u32; 2],
+    material: Material,
+    light: DVec3,
+    polygons: &[ScreenPolygon],
+) -> Result<Frame> {
+    let mut builder = FrameBuilder::new(width, height);
+    builder.hidden_surfaces(HiddenSurfaces::DrawOrder);
+    let light = Light::directional(light.normalize(), [1.0; 3]);
+    let material = builder.lighting(Lighting::new(&material, [1.0; 3], &[light], DVec3::Z));
+    for (number, polygon) in polygons.iter().enumerate() {
+        polygon.add(&mut builder, material, number);
+    }
+    Ok(builder.finish()?)
+}
+
+/// Returns a material that reflects all channels alike: `k_a`, `k_d`, `k_s` and the exponent (L21 2.1).
+pub(super) const fn grey(ambient: f32, diffuse: f32, specular: f32, shininess: f32) -> Material {
+    Material {
+        ambient: [ambient; 3],
+        diffuse: [diffuse; 3],
+        specular: [specular; 3],
+        shininess,
+    }
+}
+
+/// A dull white surface: its intensity is L · N.
+pub(super) const DULL: Material = grey(0.0, 1.0, 0.0, 1.0);
+
+/// Returns the unit vector in the plane of x and z that stands `degrees` to the right of +z.
+pub(super) fn toward(degrees: f64) -> DVec3 {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    DVec3::new(sin, 0.0, cos)
+}
+
+/// Returns two unit normals `degrees` apart, symmetric about +z.
+pub(super) fn ends(degrees: f64) -> [DVec3; 2] {
+    [toward(-degrees / 2.0), toward(degrees / 2.0)]
+}
+
+/// Puts a built-in mesh around the origin, seen from +z, under one white light. `half_height` of space is visible above the
+/// middle.
+///
+/// # Errors
+/// If there is no such mesh.
+pub(super) fn scene(
+    mesh: &str,
+    material: Material,
+    light: DVec3,
+    half_height: f64,
+    size: [u32; 2],
+) -> Result<Scene> {
+    let mut scene = fitted(mesh, size)?;
+    scene.camera = Camera {
+        eye: DVec3::new(0.0, 0.0, 5.0),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection: Projection::Orthographic { half_height },
+        near: 1.0,
+        far: 9.0,
+    };
+    scene.lights = vec![Light::directional(light.normalize(), [1.0; 3])];
+    scene.objects[0].material = Some(material);
+    Ok(scene)
+}
+
+/// Puts a built-in mesh before a camera that fits it.
+///
+/// # Errors
+/// If there is no such mesh.
+pub(super) fn fitted(mesh: &str, [width, height]: [u32; 2]) -> Result<Scene> {
+    let mut scene = Scene::of_mesh(builtin(mesh)?);
+    (scene.width, scene.height) = (width, height);
+    Ok(scene)
+}
+
+/// Puts a mesh of these corners and polygons before a camera, which sees it from both sides. There is no light but ambient
+/// light.
+///
+/// # Errors
+/// If a polygon names a corner that does not exist.
+pub(super) fn bare(
+    corners: &[DVec3],
+    polygons: &[&[u32]],
+    camera: Camera,
+    [width, height]: [u32; 2],
+) -> Result<Scene> {
+    let mut builder = MeshBuilder::new(corners.iter().map(|c| c.as_vec3()).collect());
+    for polygon in polygons {
+        builder.polygon(polygon);
+    }
+    Ok(Scene {
+        width,
+        height,
+        culling: Culling::None,
+        objects: Scene::of_mesh(builder.finish()?).objects,
+        ..Scene::new(camera)
+    })
+}
+
+/// Loads a shipped scene, for a picture of this size.
+///
+/// # Errors
+/// If there is no such scene.
+pub(super) fn shipped(name: &str, [width, height]: [u32; 2]) -> Result<Scene> {
+    let mut scene = resolve(&load(name)?)?.scene;
+    (scene.width, scene.height) = (width, height);
+    Ok(scene)
+}
+
+/// Draws a frame by a method.
+///
+/// # Errors
+/// If there is no such method.
+pub(super) fn draw(frame: &Frame, method: &str) -> Result<LinearPicture> {
+    Ok(Variant::parse(method)?.render_linear(frame))
+}
+
+/// Draws a frame by several methods.
+///
+/// # Errors
+/// If there is no such method.
+pub(super) fn draw_each<const N: usize>(
+    frame: &Frame,
+    methods: [&str; N],
+) -> Result<[LinearPicture; N]> {
+    let variants: Vec<Variant> = methods
+        .iter()
+        .map(|method| Variant::parse(method))
+        .collect::<Result<_, _>>()?;
+    Ok(core::array::from_fn(|i| variants[i].render_linear(frame)))
+}
+
+/// Stores a picture in eight bits, without a transfer function.
+pub(super) fn stored(picture: &LinearPicture) -> Picture8 {
+    store(picture, Encoding::Linear)
+}
+
+/// Returns the caption of a difference map whose yellow end stands for `levels`.
+pub(super) fn map_caption(levels: f32) -> String {
+    format!(
+        "their difference: purple to yellow is up to {levels} grey levels, black none, magenta more"
+    )
+}
