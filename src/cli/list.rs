@@ -135,7 +135,7 @@ fn stepped(of: Stepped) -> &'static str {
 
 /// Describes a method as data, without its texts of more than one line.
 pub fn method_json(info: &Info) -> Value {
-    let parameter = |p: &fastphong::shading::Parameter| {
+    let parameter = |p: &fastphong::shading::MethodParameter| {
         json!({
             "name": p.name, "meaning": p.meaning, "default": value_json(p, p.default),
             "least": p.least, "most": p.most, "auto": p.auto.map(|auto| auto.meaning),
@@ -157,7 +157,7 @@ pub fn method_json(info: &Info) -> Value {
 }
 
 /// Returns the value of a parameter of a method: a number, or `"auto"`.
-pub fn value_json(parameter: &fastphong::shading::Parameter, value: u32) -> Value {
+pub fn value_json(parameter: &fastphong::shading::MethodParameter, value: u32) -> Value {
     match parameter.is_auto(value) {
         true => "auto".into(),
         false => value.into(),

@@ -7,7 +7,7 @@ use crate::frame::FrameStats;
 use crate::picture::Encoding;
 use crate::raster::Renderer;
 use crate::scene::Interpolation;
-use crate::shading::Parameter;
+use crate::shading::MethodParameter;
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -289,7 +289,7 @@ impl From<&Row> for RowData {
     fn from(row: &Row) -> Self {
         let info = row.variant.info();
         let values = info.parameters.iter().zip(row.variant.parameters());
-        let value = |(p, value): (&Parameter, &u32)| match p.is_auto(*value) {
+        let value = |(p, value): (&MethodParameter, &u32)| match p.is_auto(*value) {
             true => (p.name.to_string(), p.text(*value).into()),
             false => (p.name.to_string(), (*value).into()),
         };
