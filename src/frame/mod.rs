@@ -1,4 +1,4 @@
-//! A frame: projected polygons and the light on them. The waist of the house.
+//! A frame: projected polygons and the light on them. The waist of the crate.
 //!
 //! Left of it stand files, matrices and failure; right of it arithmetic that cannot fail and does not know where
 //! polygons come from. The shading methods, the barycentric renderer and the `f64` reference all take the same frame,

@@ -37,7 +37,7 @@ pub(crate) struct Extras {
 }
 
 impl Extras {
-    /// Returns how many numbers they have.
+    /// Returns the number of their values.
     pub fn count(self) -> usize {
         3 * usize::from(self.point) + usize::from(self.weight)
     }
@@ -73,8 +73,8 @@ impl Extras {
     }
 }
 
-/// Returns the number of values that a run starts from: its `varyings` at the first pixel, then their steps; or for great circles both unit normals,
-/// t and Δt at the first pixel, and the polygon's normal.
+/// Returns the number of values that a run starts from: its `varyings` at the first pixel, then their steps; or for great circles
+/// both unit normals, t and Δt at the first pixel, and the polygon's normal.
 pub(crate) const fn start_len(great_circle: bool, varyings: usize) -> usize {
     if great_circle { 11 } else { 2 * varyings }
 }
@@ -87,7 +87,7 @@ pub(crate) struct Vertices<'a> {
     pub normals: &'a [[f32; 3]],
     /// Positions, one a normal; any vectors if nothing is lit from a position.
     pub points: &'a [[f32; 3]],
-    /// Numbers from the varyings of a vertex to those of the next.
+    /// The stride from the varyings of a vertex to those of the next, in numbers.
     pub stride: usize,
 }
 
@@ -95,17 +95,17 @@ pub(crate) struct Vertices<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pixels<'a> {
     pub parameters: &'a [u32],
-    /// By the number in [`Run::uniforms`].
+    /// The uniforms, indexed by [`Run::uniforms`].
     pub uniforms: &'a [Uniforms],
     pub extras: Extras,
-    /// Runs, whose pixels stand one after the other.
+    /// The runs, whose pixels stand one after the other.
     pub runs: &'a [Run],
     /// The numbers that each run starts from.
     pub starts: &'a [f32],
 }
 
 impl<'a> Pixels<'a> {
-    /// Returns how many lights there are.
+    /// Returns the number of lights.
     fn lights(&self) -> usize {
         self.uniforms.first().map_or(0, |all| all.lights.len())
     }
@@ -131,15 +131,15 @@ type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
 /// A method compiled for one number of lights.
 #[derive(Clone, Copy)]
 pub struct Kernels {
-    /// Numbers of a varying and of a pixel, where there are so many lights.
+    /// Returns the numbers of a varying and of a pixel for so many lights.
     pub(crate) counts: fn(usize) -> [usize; 2],
     pub(crate) great_circle: bool,
     /// True if pixels are the varyings themselves.
     pub(crate) linear: bool,
     pub(crate) passes_normal: bool,
-    /// Varyings of vertices from their normals and positions, `stride` numbers apart.
+    /// Computes the varyings of vertices from normals and positions, `stride` numbers apart.
     pub(crate) vertices: VertexKernel,
-    /// The scalar pixel loop.
+    /// Shades runs: the scalar pixel loop.
     pub(crate) pixels: fn(&Pixels<'_>, &mut [[f32; 3]]),
     /// The kernels of each instruction set.
     pub(crate) simd: &'static [(Level, SimdKernels)],
@@ -149,11 +149,11 @@ pub struct Kernels {
 #[derive(Clone, Copy)]
 #[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub(crate) struct SimdKernels {
-    /// Varyings of vertices, for methods that are lit there: else the scalar kernel.
+    /// Computes the varyings of vertices, for methods that are lit there; others use the scalar kernel.
     pub vertices: Option<VertexKernel>,
-    /// The pixels of runs, for methods whose walks are not linear: for each run plane by plane, whole blocks.
+    /// Walks along runs, for methods whose walks are not linear: writes each run plane by plane, in whole blocks.
     pub walk: Option<fn(&Pixels<'_>, &mut [f32])>,
-    /// One row of the G-buffer to colours.
+    /// Shades one row of the G-buffer.
     pub shade: fn(&ShadeRow<'_>, &[f32], &mut RowColours<'_>),
 }
 
@@ -327,7 +327,7 @@ pub(crate) struct ShadeRow<'a> {
     pub parameters: &'a [u32],
     pub uniforms: &'a Uniforms,
     pub extras: Extras,
-    /// Numbers of a pixel in the G-buffer: depth, planes, extras, and what kernels do not read.
+    /// The numbers of a pixel in the G-buffer: depth, planes, extras, and others that kernels do not read.
     pub numbers: usize,
 }
 
@@ -362,18 +362,26 @@ impl SimdKernels {
 /// Lights vertices eight at a time.
 #[cfg(feature = "simd")]
 fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
+    let simd = S::get();
     vectorize(
-        S::get(),
+        simd,
         #[inline(always)]
-        || light::<M, f32x8<S>>(job, out, transposed::<S>, |x| x.into()),
+        || {
+            light::<M, f32x8<S>>(
+                job,
+                out,
+                #[inline(always)]
+                |all| transposed(simd, all),
+                |x| x.into(),
+            );
+        },
     );
 }
 
 /// Returns up to eight vectors as one of blocks; the last one stands for those that are missing.
 #[cfg(feature = "simd")]
 #[inline(always)]
-fn transposed<S: Token>(all: &[[f32; 3]]) -> Vec3<f32x8<S>> {
-    let simd = S::get();
+fn transposed<S: Token>(simd: S, all: &[[f32; 3]]) -> Vec3<f32x8<S>> {
     let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
     for k in 0..BLOCK {
         [x[k], y[k], z[k]] = all[k.min(all.len() - 1)];
@@ -404,14 +412,16 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
                     out = rest;
                     let circle = match great_circle {
                         true => circle_in_blocks(numbers),
-                        false => [[0.0; BLOCK]; 12],
+                        false => [0.0; 12 * BLOCK],
                     };
                     let span = each(
                         Span::<M, f32x8<S>>::filled(lights, zero),
                         #[inline(always)]
                         |i, block| {
                             *block = match i {
-                                _ if great_circle => f32x8::from_slice(simd, &circle[i % 12]),
+                                _ if great_circle => {
+                                    f32x8::from_slice(simd, &circle[i % 12 * BLOCK..][..BLOCK])
+                                }
                                 _ if i < own => counted * numbers[own + i] + numbers[i],
                                 _ => zero.like(numbers[i] * BLOCK as f32),
                             };
@@ -435,11 +445,11 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
 /// pixel; then steps a block long.
 #[cfg(feature = "simd")]
 #[inline(always)]
-fn circle_in_blocks(numbers: &[f32]) -> [[f32; BLOCK]; 12] {
+fn circle_in_blocks(numbers: &[f32]) -> [f32; 12 * BLOCK] {
     let mut circle = circle(numbers);
-    let mut lanes = [[0.0; BLOCK]; 12];
+    let mut lanes = [0.0; 12 * BLOCK];
     for k in 0..BLOCK {
-        each(circle, |i, number| lanes[i][k] = *number);
+        each(circle, |i, number| lanes[i * BLOCK + k] = *number);
         circle.sines.next();
     }
     // The step of a block: eight turns of the step of a pixel, as three doublings.
@@ -447,7 +457,8 @@ fn circle_in_blocks(numbers: &[f32]) -> [[f32; BLOCK]; 12] {
     for _ in 0..BLOCK.trailing_zeros() {
         (sin, cos) = (2.0 * sin * cos, cos * cos - sin * sin);
     }
-    (lanes[10], lanes[11]) = ([sin; BLOCK], [cos; BLOCK]);
+    lanes[10 * BLOCK..][..BLOCK].fill(sin);
+    lanes[11 * BLOCK..].fill(cos);
     lanes
 }
 

@@ -20,7 +20,7 @@ pub(crate) fn each<F: Num, P: Planes<F>>(mut value: P, mut to: impl FnMut(usize,
     value
 }
 
-/// Returns how many numbers a value has where there are `lights` lights.
+/// Returns the number of numbers in a value for `lights` lights.
 #[inline(always)]
 pub(crate) fn count<P: Planes<f32>>(lights: usize) -> usize {
     let mut count = 0;
@@ -79,7 +79,7 @@ planes!([A, B, C] (A, B, C), { 0: A, 1: B, 2: C }, |a, b, c| (a, b, c));
 /// For so many lights all numbers are stepped and stored, without a count: they stay in registers.
 const MOST_UNROLLED: usize = 8;
 
-/// One value a light, for up to `L` lights; those of lights that there are, or all where they are few.
+/// One value a light, for up to `L` lights; only the lights that exist are stored, or all `L` if they are few.
 #[derive(Clone, Copy, Debug)]
 pub struct PerLight<F, const L: usize> {
     values: [F; L],
@@ -96,7 +96,7 @@ impl<F: Copy, const L: usize> PerLight<F, L> {
         }
     }
 
-    /// Returns how many values are stepped and stored.
+    /// Returns the number of values that are stepped and stored.
     #[inline(always)]
     pub(super) fn len(&self) -> usize {
         if L <= MOST_UNROLLED { L } else { self.count }
