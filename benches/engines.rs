@@ -1,6 +1,6 @@
-//! Whole frames, from a prepared scene to the stored picture: the span engine, which is the lecture's own form, and the row
-//! engine on every instruction set that this machine has, on one thread, beside the floor: every pixel cleared, tested and written
-//! once; both at 1920 × 1080 too. Four lights and a million triangles by the lecture's own form and by the fastest.
+//! Whole frames, from a prepared scene to the stored picture, on one thread: the scalar span engine, and the row engine on every
+//! instruction set of this machine. Beside them the floor: every pixel cleared, tested and written once; both at 1920 × 1080 too.
+//! Four lights and a million triangles by the span engine and by the fastest engine.
 
 mod scenes;
 
@@ -57,7 +57,7 @@ fn engines(c: &mut Criterion) {
     }
 }
 
-/// Four lights, and a million triangles: the lecture's own form and the fastest.
+/// Times four lights and a million triangles: by the scalar span engine and by the fastest engine.
 fn large(c: &mut Criterion) {
     for &(name, mesh, lights) in scenes::LARGE {
         let prepared = scenes::lit(mesh, lights).prepare().expect("a valid scene");
@@ -80,7 +80,7 @@ fn large(c: &mut Criterion) {
     }
 }
 
-/// A frame of 1920 × 1080 pixels of few triangles, projection included, and the floor beside it.
+/// Times a frame of 1920 × 1080 pixels of few triangles, projection included, and the floor beside it.
 fn over_floor(c: &mut Criterion) {
     let (name, mesh) = scenes::SCENES[0];
     let scene = Scene {

@@ -1,7 +1,7 @@
-//! Whole pictures: every method in the lecture's own form and in the fastest, and those that the barycentric renderer has in it.
+//! Whole pictures: every method by the scalar span engine, by the fastest engine and, if it can, by the barycentric renderer.
 //!
 //! From the projected frame to the stored picture, per covered pixel. `fastphong bench` times the same in interleaved
-//! rounds, and is the one to quote; this one tells whether a change of the code made it faster.
+//! rounds, and is the one to quote; this benchmark tells whether a change of the code made it faster.
 
 mod scenes;
 

@@ -1,8 +1,8 @@
-//! One span at a time: what a method takes to set up, and what it takes for each pixel.
+//! One span at a time: the cost of a method's set-up, and of each pixel.
 //!
 //! The time of a span of n pixels is set-up + n · slope. At n = 1 it is nearly all set-up (constants of the material and
 //! two vertices are part of it here, once a span); at n = 1024 the time per element is nearly the slope. Methods that
-//! step scalars instead of vectors pay in the former for the latter; where their lines cross is how long spans must be.
+//! step scalars instead of vectors pay more set-up for a smaller slope; their lines cross at the length from which that pays.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use fastphong::compare::timing::SpanRow;

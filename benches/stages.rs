@@ -1,4 +1,4 @@
-//! What happens before and around shading: meshes, vertex normals, projection, coverage, triangulation.
+//! The stages before and around shading: meshes, vertex normals, projection, coverage, triangulation.
 
 mod scenes;
 
@@ -52,7 +52,7 @@ fn stages(c: &mut Criterion) {
     }
 }
 
-/// Scenes of triangles, about half of them culled: from the scene to the frame. Set RAYON_NUM_THREADS for a number of
+/// Times projection: scenes of triangles, about half of them culled, into frames. Set RAYON_NUM_THREADS for a number of
 /// threads.
 fn projection(c: &mut Criterion) {
     for (name, mesh) in scenes::TRIANGLES {

@@ -11,7 +11,7 @@
 
 use fastphong::number::{Num, Vec3};
 use fastphong::scene::input;
-use fastphong::shading::{Entry, Info, Linear, Lit, Model, Parameter, Shader};
+use fastphong::shading::{Entry, Info, LightModel, Linear, Lit, MethodParameter, Shader};
 use std::io::Write;
 
 /// Cel shading: the diffuse term in a few bands, and a highlight with a hard edge.
@@ -31,7 +31,7 @@ impl Shader for Toon {
     const INFO: Info = Info {
         name: "toon",
         title: "bands of light, and a highlight with a hard edge",
-        parameters: &[Parameter::new("bands", "bands of light", 3, 1, 8)],
+        parameters: &[MethodParameter::new("bands", "bands of light", 3, 1, 8)],
         ..Info::OF_PIXELS
     };
     const PASSES_NORMAL: bool = true;
@@ -39,7 +39,7 @@ impl Shader for Toon {
     type Walk<F: Num> = Linear<Vec3<F>>; // three additions a pixel
 
     #[inline(always)]
-    fn new(parameters: &[u32], _: &Model) -> Self {
+    fn new(parameters: &[u32], _: &LightModel) -> Self {
         Toon {
             bands: parameters[0],
         }

@@ -14,7 +14,7 @@ pub const SCENES: &[(&str, &str)] = &[
     ("prism", "prism"),
 ];
 
-/// Name and mesh of the scenes whose way into a frame is timed.
+/// Name and mesh of the scenes whose projection is timed.
 #[allow(dead_code)] // not by every benchmark
 pub const TRIANGLES: &[(&str, &str)] = &[
     ("sphere-5k", "sphere?polygons=5000&triangles=true"),
@@ -43,7 +43,7 @@ pub const LARGE: &[(&str, &str, usize)] = &[
     ),
 ];
 
-/// A camera before and above a mesh that fills 90 % of the picture.
+/// Returns a camera before and above a mesh that fills 90 % of the picture.
 pub fn camera(mesh: &PolygonMesh, fovy: Option<f64>) -> Camera {
     let direction = DVec3::new(0.3, 0.5, 1.0);
     let fit = Fit {
@@ -56,13 +56,13 @@ pub fn camera(mesh: &PolygonMesh, fovy: Option<f64>) -> Camera {
     Camera::fit(mesh.positions().iter().map(|p| p.as_dvec3()), &fit).expect("a mesh with vertices")
 }
 
-/// The scene of a mesh under one light.
+/// Returns the scene of a mesh under one light.
 #[allow(dead_code)] // not by every benchmark
 pub fn scene(mesh: &str) -> Scene {
     lit(mesh, 1)
 }
 
-/// A mesh that fills 90 % of 640 × 480 pixels, seen and lit from the front and from above, by up to four lights. Vertex normals
+/// Returns the scene of a mesh that fills 90 % of 640 × 480 pixels, seen and lit from the front and from above, by up to four lights. Vertex normals
 /// are averaged, so that they differ over every polygon, the prism's as well.
 pub fn lit(mesh: &str, lights: usize) -> Scene {
     let directions = [

@@ -161,7 +161,7 @@ fn stepped(of: Stepped) -> &'static str {
 
 /// Describes a method as data, without its texts of more than one line.
 pub fn method_json(info: &Info) -> Value {
-    let parameter = |p: &fastphong::shading::Parameter| {
+    let parameter = |p: &fastphong::shading::MethodParameter| {
         json!({
             "name": p.name, "meaning": p.meaning, "default": parameter_json(p, p.default),
             "least": p.least, "most": p.most, "auto": p.auto.map(|auto| auto.meaning),

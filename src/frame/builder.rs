@@ -1,4 +1,4 @@
-//! Making a frame, and checking it once.
+//! A builder of frames, which checks them once.
 
 use super::painter::back_to_front;
 use super::projection::Scratch;
@@ -13,14 +13,14 @@ use crate::scene::{
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-/// Collects vertices and polygons, then checks them once, so that what reads a frame need not.
+/// A builder of a frame: collects vertices and polygons, then checks them once, so that no reader of the frame need to.
 #[derive(Clone, Debug)]
 pub struct FrameBuilder {
     frame: Frame,
 }
 
 impl FrameBuilder {
-    /// An empty frame of `width` × `height` samples, each of them a pixel, black, with a depth buffer of floats, linear on
+    /// Starts an empty frame of `width` × `height` samples, each of them a pixel, black, with a depth buffer of floats, linear on
     /// the screen.
     pub fn new(width: u32, height: u32) -> Self {
         FrameBuilder {
@@ -28,32 +28,32 @@ impl FrameBuilder {
         }
     }
 
-    /// Sets how many samples of the frame make a pixel along each side, 1 (as it is), 2, 4 or 8: a divisor of its width and
+    /// Sets the samples of a pixel along each side, 1 (as it is), 2, 4 or 8: a divisor of its width and
     /// its height.
     pub fn samples(&mut self, samples: u32) -> &mut Self {
         self.frame.samples = samples;
         self
     }
 
-    /// Sets the colour where nothing is drawn.
+    /// Sets the colour of pixels that nothing covers.
     pub fn background(&mut self, colour: Rgb) -> &mut Self {
         self.frame.background = colour;
         self
     }
 
-    /// Sets how attributes vary over the screen.
+    /// Sets the interpolation of attributes over the screen.
     pub fn interpolation(&mut self, interpolation: Interpolation) -> &mut Self {
         self.frame.interpolation = interpolation;
         self
     }
 
-    /// Sets how hidden surfaces are found.
+    /// Sets the method of hidden surface removal.
     pub fn hidden_surfaces(&mut self, how: HiddenSurfaces) -> &mut Self {
         self.frame.hidden_surfaces = how;
         self
     }
 
-    /// Sets what keeps polygons within the view: whether each sample is tested for its depth.
+    /// Sets the kind of clipping, which may test the depth of each sample.
     pub fn clipping(&mut self, clipping: Clipping) -> &mut Self {
         self.frame.clipping = clipping;
         self
@@ -65,13 +65,13 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets how values are stored in eight bits.
+    /// Sets the encoding of colours in eight bits.
     pub fn encoding(&mut self, encoding: Encoding) -> &mut Self {
         self.frame.encoding = encoding;
         self
     }
 
-    /// Sets what became of the scene's polygons.
+    /// Sets the counts of the scene's polygons by their fate.
     pub fn stats(&mut self, stats: FrameStats) -> &mut Self {
         self.frame.stats = stats;
         self
@@ -83,7 +83,7 @@ impl FrameBuilder {
         (self.frame.lightings.len() - 1) as u32
     }
 
-    /// Says where in the world the eye is. See [`Frame::eye`].
+    /// Sets the position of the eye in the world. See [`Frame::eye`].
     pub fn eye(&mut self, position: [f64; 3]) -> &mut Self {
         self.frame.eye = position;
         self
@@ -108,12 +108,12 @@ impl FrameBuilder {
         (self.frame.vertices.len() - 1) as u32
     }
 
-    /// The frame's geometry, which is shared with no other yet.
+    /// Returns the frame's geometry, which is shared with no other yet.
     fn geometry(&mut self) -> &mut Geometry {
         Arc::make_mut(&mut self.frame.geometry)
     }
 
-    /// Says where a vertex is: needed where a light or the eye is at a position. See [`Frame::position`].
+    /// Sets the position of a vertex, needed if a light or the eye is at a position. See [`Frame::position`].
     ///
     /// # Panics
     /// When there is no such vertex.
@@ -124,7 +124,7 @@ impl FrameBuilder {
         self
     }
 
-    /// Says which colour a vertex has. See [`Frame::colour`].
+    /// Sets the colour of a vertex. See [`Frame::colour`].
     ///
     /// # Panics
     /// When there is no such vertex.
@@ -135,8 +135,8 @@ impl FrameBuilder {
         self
     }
 
-    /// Says what the mean of the corners of the polygon that comes next is, where it has not all of them; `corners` are
-    /// the vertices that it had, one at least.
+    /// Sets the mean for the next polygon to that of `corners`, one at least: for pieces, which have not all corners of their
+    /// polygon.
     ///
     /// # Panics
     /// When there is no such vertex.
@@ -145,7 +145,7 @@ impl FrameBuilder {
         self.mean(mean)
     }
 
-    /// Says what the mean of the corners of the polygon that comes next is.
+    /// Sets the mean of the corners of the next polygon.
     pub fn mean(&mut self, mean: Mean) -> &mut Self {
         self.frame
             .means
@@ -153,7 +153,7 @@ impl FrameBuilder {
         self
     }
 
-    /// Says that a vertex lies between two others; vertices must be named in ascending order.
+    /// Declares that a vertex lies between two others; vertices must be named in ascending order.
     pub fn clip_corner(&mut self, corner: ClipCorner) -> &mut Self {
         self.frame.clip_corners.push(corner);
         self
@@ -184,7 +184,7 @@ impl FrameBuilder {
         self
     }
 
-    /// The frame; under the painter's algorithm its polygons are sorted from back to front.
+    /// Checks and returns the frame; under the painter's algorithm its polygons are sorted from back to front.
     ///
     /// # Errors
     /// [`FrameError`] when a size, a number of lights, a coordinate or an index is outside its range.
@@ -231,7 +231,7 @@ impl FrameBuilder {
 }
 
 impl Frame {
-    /// A frame in which nothing is.
+    /// Returns a frame without vertices and polygons.
     pub(crate) fn empty(width: u32, height: u32) -> Frame {
         Frame {
             width,
@@ -305,7 +305,7 @@ impl Frame {
         }
     }
 
-    /// Under the painter's algorithm, sorts the polygons from back to front.
+    /// Sorts the polygons from back to front, under the painter's algorithm.
     pub(crate) fn sort(&mut self) {
         if let HiddenSurfaces::Painter(key) = self.hidden_surfaces {
             let order = back_to_front(self, key);

@@ -1,4 +1,4 @@
-//! What depth means: the distances between which it goes from 0 to 1.
+//! The depth range: the distances between which depth goes from 0 to 1.
 
 use crate::scene::{Camera, Projection};
 
@@ -7,22 +7,22 @@ use crate::scene::{Camera, Projection};
 pub enum DepthRange {
     /// Depth is linear in the distance d: z = (d − n) / (f − n).
     Orthographic {
-        /// Where depth is 0.
+        /// The distance at which depth is 0.
         near: f64,
-        /// Where depth is 1; over `near`.
+        /// The distance at which depth is 1; over `near`.
         far: f64,
     },
     /// Depth is linear in the reciprocal of the distance w: z = f/(f − n) · (1 − n/w).
     Perspective {
-        /// Where depth is 0; over 0.
+        /// The distance at which depth is 0; over 0.
         near: f64,
-        /// Where depth is 1; over `near`.
+        /// The distance at which depth is 1; over `near`.
         far: f64,
     },
 }
 
 impl DepthRange {
-    /// Near and far.
+    /// Returns the near and the far distance.
     pub fn ends(self) -> (f64, f64) {
         match self {
             DepthRange::Orthographic { near, far } | DepthRange::Perspective { near, far } => {
@@ -44,7 +44,7 @@ impl DepthRange {
 }
 
 impl From<&Camera> for DepthRange {
-    /// The near and the far plane of `camera`.
+    /// Takes the near and the far plane of `camera`.
     fn from(camera: &Camera) -> Self {
         let Camera { near, far, .. } = *camera;
         match camera.projection {
@@ -55,7 +55,7 @@ impl From<&Camera> for DepthRange {
 }
 
 impl Default for DepthRange {
-    /// The distance is the depth.
+    /// Makes the distance the depth.
     fn default() -> Self {
         DepthRange::Orthographic {
             near: 0.0,

@@ -1,4 +1,4 @@
-//! What a frame consists of: vertices, polygons, and what became of the scene's polygons.
+//! The elements of a frame: vertices, polygons, and counts of the scene's polygons that did not get here.
 
 #[allow(unused_imports)] // named by the documentation
 use super::Frame;
@@ -6,7 +6,7 @@ use super::SubPixel;
 #[allow(unused_imports)] // named by the documentation
 use crate::scene::Clipping;
 
-/// A vertex as a frame is given it: where it stands, and what the shading methods need to know of it.
+/// A vertex to be added to a frame: its screen coordinates, depth and vertex attributes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
     /// Column of the picture, at most [`Frame::GUARD`] pixels from 0.
@@ -15,17 +15,17 @@ pub struct Vertex {
     pub y: SubPixel,
     /// z/w: linear on the screen, 0 at the near plane, 1 at the far plane; outside that under [`Clipping::NdcCube`] only.
     pub depth: f32,
-    /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation, and what
-    /// depth is computed from at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)). Over 0, but under
+    /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation, and the
+    /// source of depth at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)). Over 0, but under
     /// [`Clipping::NdcCube`], where it is below 0 behind the eye.
     pub inv_w: f32,
     /// Unit vertex normal in world space (L21 3.1); ignored at a [`ClipCorner`].
     pub normal: [f32; 3],
-    /// Its entry in [`Frame::lightings`].
+    /// The index of its material in [`Frame::lightings`].
     pub material: u32,
 }
 
-/// Where a vertex stands on the picture: what rasterization reads, in 16 bytes.
+/// A vertex in screen space, as rasterization reads it, in 16 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ScreenVertex {
     /// Column of the picture, at most [`Frame::GUARD`] pixels from 0.
@@ -39,7 +39,7 @@ pub struct ScreenVertex {
 }
 
 impl ScreenVertex {
-    /// Column and row as one number, to be read and written at once: the bits of the column below those of the row.
+    /// Packs column and row into one number, to be read and written at once: the bits of the column below those of the row.
     #[inline(always)]
     pub(crate) fn place(&self) -> u64 {
         u64::from(self.x.to_bits() as u32) | u64::from(self.y.to_bits() as u32) << 32
@@ -51,12 +51,12 @@ impl ScreenVertex {
 pub struct ClipCorner {
     /// The vertex that this describes.
     pub vertex: u32,
-    /// Where `t` = 0; a smaller number than `vertex`. No polygon need use it, and then its place on the picture means
-    /// nothing: it may lie behind the eye.
+    /// The vertex at `t` = 0; a smaller number than `vertex`. If no polygon uses it, its pixel coordinates mean nothing: it
+    /// may lie behind the eye.
     pub a: u32,
-    /// Where `t` = 1; likewise.
+    /// The vertex at `t` = 1, of the same kind.
     pub b: u32,
-    /// How far from `a` to `b`, 0..=1.
+    /// The parameter from `a` to `b`, 0..=1.
     pub t: f32,
     /// Unit normal of the polygon that was clipped.
     pub face: [f32; 3],
@@ -65,13 +65,13 @@ pub struct ClipCorner {
 /// A projected polygon: three corners or more, of any shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Polygon {
-    /// Where its corners begin in the list of all corners.
+    /// The index of its first corner in the list of all corners.
     pub first: u32,
-    /// How many corners it has.
+    /// The number of its corners.
     pub count: u32,
-    /// Its entry in [`Frame::lightings`]; its vertices have the same.
+    /// The index of its material in [`Frame::lightings`]; its vertices have the same one.
     pub material: u32,
-    /// Its number in the scene, counted over all objects (pieces of one clipped polygon share it).
+    /// The number of its polygon in the scene, counted over all objects (pieces of one clipped polygon share it).
     pub source: u32,
     /// The number of its normal in the frame's geometry, and [`Polygon::FLIPPED`] where it is negated: see
     /// [`Frame::polygon_normal`].
@@ -83,7 +83,7 @@ impl Polygon {
     pub(crate) const FLIPPED: u32 = 1 << 31;
 }
 
-/// What became of the scene's polygons on their way into the frame.
+/// Counts of the scene's polygons, by their fate on the way into the frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "io", derive(serde::Serialize))]
 pub struct FrameStats {
@@ -101,7 +101,7 @@ pub struct FrameStats {
     pub unprojected: usize,
 }
 
-/// The mean of a polygon's corners: where a method that lights a whole polygon at once takes light and viewer from.
+/// The mean of a polygon's corners: the point at which methods evaluate light and eye that light a whole polygon at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mean {
     /// The mean of the corners' positions.

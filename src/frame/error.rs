@@ -1,10 +1,10 @@
-//! Why a frame could not be made.
+//! The error of frames that cannot be made.
 
 use super::Frame;
 use crate::scene::Scene;
 use core::fmt;
 
-/// Why a frame could not be made.
+/// The reason why a frame could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameError {
     /// A side of the picture is 0 or over [`Scene::MAX_SIDE`].
@@ -16,7 +16,7 @@ pub enum FrameError {
     },
     /// Samples a pixel along each side that are not 1, 2, 4 or 8, or no divisor of the frame's width and height, or too many.
     Samples {
-        /// How many.
+        /// The number asked for.
         samples: u32,
     },
     /// [`Clipping::NdcCube`](crate::scene::Clipping) with
@@ -24,7 +24,7 @@ pub enum FrameError {
     Unclipped,
     /// More lights than [`Scene::MAX_LIGHTS`], or not as many on every material.
     Lights {
-        /// How many.
+        /// The number asked for.
         found: usize,
     },
     /// A number of the light on a material is not finite, or an exponent or an attenuation is negative.
@@ -38,12 +38,12 @@ pub enum FrameError {
     Camera,
     /// A vertex is outside the guard band, or a number of it is not finite, or its weight is not positive.
     Vertex {
-        /// Its number.
+        /// The number of the element.
         index: usize,
     },
     /// A polygon or clip corner names something that does not exist, or a polygon has fewer than three corners.
     Polygon {
-        /// Its number.
+        /// The number of the element.
         index: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! What of a frame does not depend on the camera: shared between all frames of one scene.
+//! The part of a frame that does not depend on the camera, shared between all frames of one scene.
 
 use super::Polygon;
 use alloc::vec::Vec;
@@ -34,10 +34,10 @@ pub(crate) struct Models {
     pub objects: Vec<PlacedModel>,
 }
 
-/// Where the vertices of an object are, and where it is in the world.
+/// The range of vertices of an object, and its place in the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedModel {
-    /// Its first vertex, and the one after its last.
+    /// The first vertex, and the one after the last.
     pub first: usize,
     pub end: usize,
     /// Model space to world space.
@@ -51,7 +51,7 @@ impl Models {
         self.x.len()
     }
 
-    /// The position of a vertex in model space.
+    /// Returns the position of a vertex in model space.
     #[inline(always)]
     pub fn position(&self, vertex: usize) -> DVec3 {
         DVec3::new(
@@ -61,7 +61,7 @@ impl Models {
         )
     }
 
-    /// The object that a vertex belongs to.
+    /// Returns the number of the object that a vertex belongs to.
     #[inline]
     pub fn object_of(&self, vertex: usize) -> usize {
         self.objects.partition_point(|object| object.end <= vertex)
@@ -69,7 +69,7 @@ impl Models {
 }
 
 impl Geometry {
-    /// How many vertices there are, on both sides together.
+    /// Returns the number of vertices, on both sides together.
     #[inline(always)]
     pub fn vertex_count(&self) -> usize {
         self.normals.len() * if self.two_sided { 2 } else { 1 }
@@ -85,7 +85,7 @@ impl Geometry {
         }
     }
 
-    /// `None` for vertices that are not of the geometry.
+    /// Returns the material of a vertex; `None` for vertices that clipping made.
     #[inline(always)]
     pub fn material(&self, vertex: u32) -> Option<u32> {
         match self.materials.get(vertex as usize) {
@@ -110,7 +110,7 @@ impl Geometry {
             .unwrap_or([1.0; 3])
     }
 
-    /// The position of a vertex as seen from the eye.
+    /// Returns the position of a vertex relative to the eye.
     #[inline(always)]
     pub fn position(&self, vertex: u32, eye: [f64; 3]) -> [f32; 3] {
         match self.positions.get(vertex as usize) {
@@ -135,7 +135,7 @@ impl Geometry {
             .to_array()
     }
 
-    /// The vertex whose second side a number past the first sides names.
+    /// Returns the front vertex of a vertex on the second side; `None` for a vertex on the first.
     #[inline]
     fn front(&self, vertex: u32) -> Option<usize> {
         let front = (vertex as usize).checked_sub(self.normals.len())?;

@@ -1,4 +1,4 @@
-//! A frame: projected polygons and the light on them. The waist of the house.
+//! A frame: projected polygons and the light on them. The waist of the crate.
 //!
 //! Left of it stand files, matrices and failure; right of it arithmetic that cannot fail and does not know where
 //! polygons come from. The shading methods, the barycentric renderer and the `f64` reference all take the same frame,
@@ -33,8 +33,8 @@ pub type SubPixel = fixed::types::I24F8;
 
 /// Projected polygons in drawing order, and the light on them.
 ///
-/// What does not depend on the camera (normals, materials, corner lists) is shared between the frames of one
-/// [`PreparedScene`]; a frame of its own are places, and what is seen.
+/// The frames of one [`PreparedScene`] share all that does not depend on the camera: normals, materials, corner lists. Each
+/// frame owns screen coordinates and the polygons that are seen.
 #[derive(Clone, Debug)]
 pub struct Frame {
     pub(crate) width: u32,
@@ -48,14 +48,14 @@ pub struct Frame {
     pub(crate) encoding: Encoding,
     pub(crate) eye: [f64; 3],
     pub(crate) geometry: Arc<Geometry>,
-    /// Those of the geometry, then those that clipping made.
+    /// The vertices of the geometry, then those that clipping made.
     pub(crate) vertices: Vec<ScreenVertex>,
-    /// Of the vertices past those of the geometry.
+    /// Materials of the vertices that clipping made.
     pub(crate) cut_materials: Vec<u32>,
-    /// Of polygons whose corners are not those of the scene's polygon, in ascending order of where their corners begin.
+    /// Means of cut polygons, by the index of their first corner, in ascending order.
     pub(crate) means: Vec<(u32, Mean)>,
     pub(crate) clip_corners: Vec<ClipCorner>,
-    /// Corner lists that are not the geometry's; they are counted from where those end.
+    /// Corner lists of cut polygons; their indices continue those of the geometry's lists.
     pub(crate) cut_corners: Vec<u32>,
     pub(crate) polygons: Vec<Polygon>,
     pub(crate) lightings: Vec<Lighting>,
@@ -68,47 +68,47 @@ impl Frame {
     /// for the exact products of the edge walk in 64 bits (2²⁴ · 2²⁴ · 2).
     pub const GUARD: i32 = 2 * Scene::MAX_SIDE as i32;
 
-    /// Samples a row: pixels a row, but where each has several. All coordinates of the frame count samples.
+    /// Returns the samples of a row: its pixels, unless each has several. All coordinates of the frame count samples.
     pub fn width(&self) -> usize {
         self.width as usize
     }
 
-    /// Rows of samples.
+    /// Returns the number of rows of samples.
     pub fn height(&self) -> usize {
         self.height as usize
     }
 
-    /// Samples a pixel along each side, 1, 2, 4 or 8.
+    /// Returns the samples of a pixel along each side: 1, 2, 4 or 8.
     pub fn samples(&self) -> usize {
         self.samples as usize
     }
 
-    /// Pixels a row of the picture.
+    /// Returns the pixels of a row of the picture.
     pub fn picture_width(&self) -> usize {
         (self.width / self.samples) as usize
     }
 
-    /// Rows of the picture.
+    /// Returns the number of rows of the picture.
     pub fn picture_height(&self) -> usize {
         (self.height / self.samples) as usize
     }
 
-    /// Colour where nothing is drawn.
+    /// Returns the colour of pixels that nothing covers.
     pub fn background(&self) -> Rgb {
         self.background
     }
 
-    /// How attributes vary over the screen.
+    /// Returns the interpolation of attributes over the screen.
     pub fn interpolation(&self) -> Interpolation {
         self.interpolation
     }
 
-    /// How hidden surfaces are found.
+    /// Returns the method of hidden surface removal.
     pub fn hidden_surfaces(&self) -> HiddenSurfaces {
         self.hidden_surfaces
     }
 
-    /// What keeps polygons within the view: under [`Clipping::NdcCube`] samples are drawn where their depth is in 0..=1.
+    /// Returns the kind of clipping. Under [`Clipping::NdcCube`] samples are drawn where their depth is in 0..=1.
     pub fn clipping(&self) -> Clipping {
         self.clipping
     }
@@ -118,42 +118,42 @@ impl Frame {
         matches!(self.hidden_surfaces, HiddenSurfaces::ZBuffer(_))
     }
 
-    /// The distances at which depth is 0 and 1: what depth computed at each sample needs to know.
+    /// Returns the distances at which depth is 0 and 1, from which depth at each sample is computed.
     pub fn depth_range(&self) -> DepthRange {
         self.depth_range
     }
 
-    /// How values are stored in eight bits.
+    /// Returns the encoding of colours in eight bits.
     pub fn encoding(&self) -> Encoding {
         self.encoding
     }
 
-    /// The position of the eye in the world: where [`Frame::position`] counts from. 0 where the frame was not told.
+    /// Returns the position of the eye in the world, the origin of [`Frame::position`]; 0 if none was given.
     pub fn eye(&self) -> [f64; 3] {
         self.eye
     }
 
-    /// Where all vertices stand on the picture. Not all of them need be corners of a polygon; those without a place on the
-    /// picture (behind the eye, far outside the view) stand at 0, 0.
+    /// Returns all vertices in screen space. Not all of them need be corners of a polygon; those without pixel coordinates
+    /// (behind the eye, far outside the view) stand at 0, 0.
     pub fn vertices(&self) -> &[ScreenVertex] {
         &self.vertices
     }
 
-    /// Unit normal of a vertex in world space (L21 3.1). At a clip corner it means nothing.
+    /// Returns the unit normal of a vertex in world space (L21 3.1). At a clip corner it means nothing.
     #[inline(always)]
     pub fn normal(&self, vertex: u32) -> [f32; 3] {
         self.geometry.normal(vertex)
     }
 
-    /// The unit normals of all vertices, where all of them stand together and attributes are linear on the screen: there are no
-    /// clip corners and no second sides then.
+    /// Returns the unit normals of all vertices as one slice; `None` with clip corners, second sides, or attributes that are
+    /// not linear on the screen.
     pub(crate) fn normals_on_screen(&self) -> Option<&[[f32; 3]]> {
         let normals = &self.geometry.normals;
         (self.interpolation == Interpolation::Screen && normals.len() == self.vertices.len())
             .then_some(normals)
     }
 
-    /// The material of a vertex: its entry in [`Frame::lightings`].
+    /// Returns the material of a vertex: its index in [`Frame::lightings`].
     #[inline(always)]
     pub fn material(&self, vertex: u32) -> u32 {
         match self.geometry.material(vertex) {
@@ -162,7 +162,7 @@ impl Frame {
         }
     }
 
-    /// All that is known of a vertex but position and colour, as [`FrameBuilder::vertex`] takes it.
+    /// Returns a vertex without its position and colour, as [`FrameBuilder::vertex`] takes it.
     ///
     /// # Panics
     /// When there is no such vertex.
@@ -178,21 +178,21 @@ impl Frame {
         }
     }
 
-    /// Where a vertex is, in world units along the axes of the world, from the eye: so that what is near the eye, where
-    /// precision matters, has small coordinates. 0 where the frame was given no positions. At a clip corner it means
-    /// nothing, like the normal.
+    /// Returns the position of a vertex relative to the eye, in world units along the axes of the world: points near the
+    /// eye, where precision matters, have small coordinates. 0 if the frame was given no positions. At a clip corner it
+    /// means nothing, like the normal.
     #[inline(always)]
     pub fn position(&self, vertex: u32) -> [f32; 3] {
         self.geometry.position(vertex, self.eye)
     }
 
-    /// The colour of a vertex, linear; white where the frame was given no colours. At a clip corner it means nothing.
+    /// Returns the colour of a vertex, linear; white if the frame was given no colours. At a clip corner it means nothing.
     #[inline(always)]
     pub fn colour(&self, vertex: u32) -> [f32; 3] {
         self.geometry.colour(vertex)
     }
 
-    /// The mean of a polygon's corners, as they were before it was clipped or cut into triangles.
+    /// Returns the mean of a polygon's corners as they were before it was clipped or cut into triangles.
     pub fn mean(&self, polygon: &Polygon) -> Mean {
         // Corner lists do not overlap, so the first corner tells polygons apart.
         let place = self
@@ -226,17 +226,25 @@ impl Frame {
         self.lightings.iter().any(Lighting::is_local)
     }
 
-    /// The vertices that clipping made, in ascending order of their number.
+    /// Returns the vertices that clipping made, in ascending order of their number.
     pub fn clip_corners(&self) -> &[ClipCorner] {
         &self.clip_corners
     }
 
-    /// All polygons, in drawing order.
+    /// Returns the edge on which clipping made a vertex; `None` for the scene's own vertices.
+    pub fn clip_corner(&self, vertex: u32) -> Option<ClipCorner> {
+        let place = self
+            .clip_corners
+            .binary_search_by_key(&vertex, |c| c.vertex);
+        Some(self.clip_corners[place.ok()?])
+    }
+
+    /// Returns all polygons, in drawing order.
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
     }
 
-    /// The vertex numbers of a polygon's corners, in order.
+    /// Returns the vertex numbers of a polygon's corners, in order.
     #[inline]
     pub fn corners(&self, polygon: &Polygon) -> &[u32] {
         let (first, count) = (polygon.first as usize, polygon.count as usize);
@@ -248,23 +256,23 @@ impl Frame {
         }
     }
 
-    /// Unit normal of a polygon by Newell's formula in world space (L21 1.1).
+    /// Returns the unit normal of a polygon by Newell's formula, in world space (L21 1.1).
     #[inline(always)]
     pub fn polygon_normal(&self, polygon: &Polygon) -> [f32; 3] {
         self.geometry.face(polygon.face)
     }
 
-    /// The light on each material; all have the same number of lights.
+    /// Returns the light on each material; all have the same number of lights.
     pub fn lightings(&self) -> &[Lighting] {
         &self.lightings
     }
 
-    /// How many lights there are.
+    /// Returns the number of lights.
     pub fn light_count(&self) -> usize {
         self.lightings.first().map_or(0, |l| l.lights.len())
     }
 
-    /// What became of the scene's polygons on their way here.
+    /// Returns counts of the scene's polygons by their fate.
     pub fn stats(&self) -> FrameStats {
         self.stats
     }
@@ -277,7 +285,7 @@ impl Frame {
             .collect();
     }
 
-    /// The same frame with other polygons over the same vertices: `pieces` gives the corner lists that replace each
+    /// Returns a copy with other polygons over the same vertices: `pieces` gives the corner lists that replace each
     /// polygon.
     pub(crate) fn with_pieces(
         &self,

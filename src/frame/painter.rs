@@ -9,7 +9,7 @@ use super::{Frame, Polygon};
 use crate::scene::PainterKey;
 use alloc::vec::Vec;
 
-/// The numbers of the polygons of `frame` from back to front by `key`; of equal keys the order of drawing stays.
+/// Returns the numbers of the polygons of `frame` from back to front by `key`; polygons of equal keys keep their order.
 pub(crate) fn back_to_front(frame: &Frame, key: PainterKey) -> Vec<u32> {
     let keys: Vec<f64> = frame
         .polygons()
@@ -22,7 +22,7 @@ pub(crate) fn back_to_front(frame: &Frame, key: PainterKey) -> Vec<u32> {
     order
 }
 
-/// What a polygon is sorted by.
+/// Returns the depth by which a polygon is sorted.
 fn key_of(frame: &Frame, polygon: &Polygon, key: PainterKey) -> f64 {
     let depths = frame
         .corners(polygon)

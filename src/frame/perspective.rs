@@ -1,12 +1,12 @@
-//! What perspective does to depth and to interpolation, by the formulas of L5.
+//! Perspective in the formulas of L5: depth and interpolation.
 //!
-//! L5 looks along −z: what is seen has a z below 0, from −near to −far. Its cube of normalised device coordinates (NDC)
+//! L5 looks along −z: visible points have a z below 0, from −near to −far. Its cube of normalised device coordinates (NDC)
 //! reaches from −1 to 1 along all axes; [`Camera::clip_matrix`](crate::scene::Camera::clip_matrix) has depths from 0 to 1,
 //! and is otherwise the same matrix, turned by where the camera stands.
 
 use glam::{DMat4, DVec4};
 
-/// The sides of what is seen, at the near plane, and the distances of both planes.
+/// The view frustum: its sides at the near plane, and the distances of both planes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frustum {
     /// Left side, l.
@@ -24,7 +24,7 @@ pub struct Frustum {
 }
 
 impl Frustum {
-    /// The perspective transform, from camera coordinates to the cube times w:
+    /// Returns the perspective transform, from camera coordinates to the cube times w:
     /// ```text
     /// [ 2n/(r−l)     0       (r+l)/(r−l)        0       ]
     /// [    0      2n/(t−b)   (t+b)/(t−b)        0       ]
@@ -49,7 +49,7 @@ impl Frustum {
         DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
     }
 
-    /// What becomes of a depth z, −far..=−near:
+    /// Maps a depth z, −far..=−near, to NDC:
     /// ```text
     /// z ↦ (f + n) / (f − n) + (1 / z) 2 f n / (f − n)      (L5, Recall Z-value Computation)
     /// ```
@@ -61,7 +61,7 @@ impl Frustum {
     }
 }
 
-/// The weight in space of the end A of an edge, where its weight on the screen is `alpha`; `z_a` and `z_b` are the depths of
+/// Returns the weight in space of the end A of an edge, where its weight on the screen is `alpha`; `z_a` and `z_b` are the depths of
 /// both ends, with the same sign, in any unit.
 /// ```text
 /// β = α z_B / (α z_B + (1 − α) z_A)
@@ -72,14 +72,14 @@ pub fn weight_in_space(alpha: f64, z_a: f64, z_b: f64) -> f64 {
     alpha * z_b / (alpha * z_b + (1.0 - alpha) * z_a) // β = α z_B / (α z_B + (1 − α) z_A)
 }
 
-/// β as L5 prints it, `(1 − α) z_A / (z_B + (1 − α)(z_A − z_B))`: the weight of B, 1 − β, where the slide's definitions ask
+/// Returns β as L5 prints it, `(1 − α) z_A / (z_B + (1 − α)(z_A − z_B))`: the weight of B, 1 − β, where the slide's definitions ask
 /// for that of A. Where α = 1 the point is A and β should be 1; this is 0. It is here to be looked at, and nothing else
 /// calls it.
 pub fn printed_weight_in_space(alpha: f64, z_a: f64, z_b: f64) -> f64 {
     (1.0 - alpha) * z_a / (z_b + (1.0 - alpha) * (z_a - z_b))
 }
 
-/// The weights in space of a triangle's corners, where those on the screen are `weights` and `inv_w` are the reciprocals of
+/// Returns the weights in space of a triangle's corners, where those on the screen are `weights` and `inv_w` are the reciprocals of
 /// the corners' depths, in any unit: each weight by its reciprocal, over the sum of them.
 ///
 /// With two corners it is [`weight_in_space`]. Where all depths are the same the weights stay as they are, to the bit.

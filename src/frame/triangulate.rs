@@ -11,16 +11,16 @@ use alloc::vec::Vec;
 /// A frame of triangles.
 #[derive(Clone, Debug)]
 pub struct Triangulated {
-    /// The same vertices with triangles in place of the polygons of more than three corners, in the same order. They have
-    /// the material, the normal and the number in the scene of the polygon that they come from.
+    /// A frame of the same vertices, with triangles in place of the polygons of more than three corners, in the same order.
+    /// They keep the material, the normal and the number in the scene of the polygon that they come from.
     pub frame: Frame,
-    /// For each triangle the polygon that it comes from, an index into [`Frame::polygons`] of the frame that was cut.
+    /// The polygon that each triangle comes from, an index into [`Frame::polygons`] of the frame that was cut.
     pub origins: Vec<u32>,
     /// Polygons that were left out because they cross or overlap themselves on the picture.
     pub not_simple: usize,
 }
 
-/// `frame` with all its polygons cut into triangles that cover the same pixels.
+/// Returns `frame` with all its polygons cut into triangles that cover the same pixels.
 ///
 /// A convex polygon becomes the fan about its first corner. Corners that add no area (repeated ones, points of spikes) may
 /// be left out, and a polygon that has no area altogether gives no triangle. Takes time with the square of the number of
@@ -37,7 +37,7 @@ pub fn triangulated(frame: &Frame) -> Triangulated {
         if corners.len() == 3 {
             return add(corners);
         }
-        let places: Vec<Place> = corners
+        let places: Vec<Position> = corners
             .iter()
             .map(|&v| place(&frame.vertices()[v as usize]))
             .collect();
@@ -53,21 +53,21 @@ pub fn triangulated(frame: &Frame) -> Triangulated {
     }
 }
 
-/// Column and row in 1/256 pixel: at most 2²³ from 0 ([`Frame::GUARD`] pixels), so that twice an area is below 2⁵⁰.
-type Place = (i64, i64);
+/// A column and a row in 1/256 pixel: at most 2²³ from 0 ([`Frame::GUARD`] pixels), so that twice an area is below 2⁵⁰.
+type Position = (i64, i64);
 
-fn place(vertex: &ScreenVertex) -> Place {
+fn place(vertex: &ScreenVertex) -> Position {
     let bits = |c: SubPixel| i64::from(c.to_bits());
     (bits(vertex.x), bits(vertex.y))
 }
 
-/// Twice the signed area of a triangle: positive where it runs clockwise on the picture.
-fn area(a: Place, b: Place, c: Place) -> i64 {
+/// Returns twice the signed area of a triangle: positive where it runs clockwise on the picture.
+fn area(a: Position, b: Position, c: Position) -> i64 {
     (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
 }
 
-/// The triangles of a polygon as places in its list of corners; `None` if it is not simple.
-fn ears(places: &[Place]) -> Option<Vec<[usize; 3]>> {
+/// Returns the triangles of a polygon as indices into its list of corners; `None` if it is not simple.
+fn ears(places: &[Position]) -> Option<Vec<[usize; 3]>> {
     let origin = *places.first()?;
     // A polygon of 2³² corners adds at most 2³² areas of 2⁵⁰.
     let whole: i128 = places
@@ -111,17 +111,17 @@ fn ears(places: &[Place]) -> Option<Vec<[usize; 3]>> {
     are_apart(places, &triangles, sign).then_some(triangles)
 }
 
-/// What is left of a polygon while ears are cut off.
+/// The rest of a polygon while ears are cut off.
 struct Ring<'a> {
-    places: &'a [Place],
-    /// Corners that are left, in order.
+    places: &'a [Position],
+    /// The corners that are left, in order.
     left: Vec<usize>,
     /// 1 for a polygon that runs clockwise on the picture, −1 for the others.
     sign: i64,
 }
 
 impl Ring<'_> {
-    /// The corner `i` of those that are left, between its neighbours.
+    /// Returns the corner `i` of those that are left, between its neighbours.
     fn corner(&self, i: usize) -> [usize; 3] {
         let n = self.left.len();
         [
@@ -131,7 +131,7 @@ impl Ring<'_> {
         ]
     }
 
-    /// Twice the area at the corner `i`: positive where the polygon is convex.
+    /// Returns twice the area at the corner `i`: positive where the polygon is convex.
     fn area_at(&self, i: usize) -> i64 {
         let [a, b, c] = self.corner(i).map(|k| self.places[k]);
         self.sign * area(a, b, c)
@@ -145,7 +145,7 @@ impl Ring<'_> {
             return false;
         }
         let [a, b, c] = self.corner(i).map(|k| self.places[k]);
-        let blocks = |p: Place| {
+        let blocks = |p: Position| {
             let [ab, bc, ca] =
                 [(a, b), (b, c), (c, a)].map(|(from, to)| self.sign * area(from, to, p));
             let is_inside = if strict {
@@ -167,22 +167,22 @@ impl Ring<'_> {
 }
 
 /// True if two segments cross in a point that is an end of neither.
-fn segments_cross(a: Place, b: Place, p: Place, q: Place) -> bool {
+fn segments_cross(a: Position, b: Position, p: Position, q: Position) -> bool {
     let opposite = |s: i64, t: i64| s.signum() * t.signum() < 0;
     opposite(area(a, b, p), area(a, b, q)) && opposite(area(p, q, a), area(p, q, b))
 }
 
 /// True if no two of the triangles overlap. All have an area of this sign.
-fn are_apart(places: &[Place], triangles: &[[usize; 3]], sign: i64) -> bool {
+fn are_apart(places: &[Position], triangles: &[[usize; 3]], sign: i64) -> bool {
     // Two convex shapes are apart if an edge of one has the other on its outer side.
-    let separates = |t: &[Place; 3], other: &[Place; 3]| {
+    let separates = |t: &[Position; 3], other: &[Position; 3]| {
         (0..3).any(|k| {
             other
                 .iter()
                 .all(|&p| sign * area(t[k], t[(k + 1) % 3], p) <= 0)
         })
     };
-    let triangles: Vec<[Place; 3]> = triangles.iter().map(|t| t.map(|i| places[i])).collect();
+    let triangles: Vec<[Position; 3]> = triangles.iter().map(|t| t.map(|i| places[i])).collect();
     triangles.iter().enumerate().all(|(i, t)| {
         triangles[..i]
             .iter()
@@ -407,9 +407,9 @@ mod tests {
     }
 
     /// True if no two edges of a polygon meet but neighbours in their common corner.
-    fn is_simple(p: &[Place]) -> bool {
+    fn is_simple(p: &[Position]) -> bool {
         let n = p.len();
-        let on = |a: Place, b: Place, q: Place| {
+        let on = |a: Position, b: Position, q: Position| {
             let within = |lo: i64, hi: i64, v: i64| lo.min(hi) <= v && v <= lo.max(hi);
             area(a, b, q) == 0 && within(a.0, b.0, q.0) && within(a.1, b.1, q.1)
         };
@@ -437,7 +437,7 @@ mod tests {
         let (mut simple, mut left_out, mut touching) = (0, 0, 0);
         for round in 0..20_000 {
             // A coarse grid: most corners repeat, touch or line up with others.
-            let corners: Vec<Place> = (0..4 + round % 6)
+            let corners: Vec<Position> = (0..4 + round % 6)
                 .map(|_| (dice.below(6) * 128 + 128, dice.below(6) * 128 + 128))
                 .collect();
             let points: Points = corners

@@ -6,7 +6,9 @@ use crate::frame::Frame;
 use crate::frame::triangulate::triangulated;
 use crate::mesh::Material;
 use crate::picture::{Picture, Picture8};
-use crate::reference::cs171::{Corner, Grid, Reading, Shading, full_shading, render, world_to_ndc};
+use crate::reference::cs171::{
+    PixelGrid, Reading, Shading, TriangleCorner, full_shading, render, world_to_ndc,
+};
 use crate::scene::{Camera, Light, Lighting, Projection, SpecularGate, SpecularModel};
 use alloc::{format, vec};
 use glam::DVec3;
@@ -136,13 +138,13 @@ fn floors(behind: f64) -> Result<[F64Picture; 2]> {
 
     let light = Lighting::new(&material, [1.0; 3], &[], DVec3::Z);
     let matrix = camera.clip_matrix(1.0);
-    let [a, b, c, d] = corners.map(|v| Corner {
+    let [a, b, c, d] = corners.map(|v| TriangleCorner {
         world: v,
         normal: DVec3::Y,
         ndc: world_to_ndc(&matrix, v),
         inv_w: 1.0,
     });
-    let mut grid = Grid::new(SIDE as usize, SIDE as usize, DVec3::ZERO);
+    let mut grid = PixelGrid::new(SIDE as usize, SIDE as usize, DVec3::ZERO);
     for triangle in [[a, b, c], [a, c, d]] {
         full_shading(Shading::Flat, &triangle, &light, reading, &mut grid);
     }

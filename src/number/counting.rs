@@ -1,4 +1,4 @@
-//! Numbers that count every operation on them: what checks the papers' operation counts.
+//! Numbers that count every operation on them: a check of the papers' operation counts.
 
 use super::{MulAdd, Num, Real};
 use core::cell::Cell;
@@ -42,7 +42,7 @@ impl Counter {
     }
 }
 
-/// An `f32` that tells its counter about every operation.
+/// An `f32` that reports every operation to its counter.
 #[derive(Clone, Copy, Debug)]
 pub struct Counted<'a> {
     value: f32,
@@ -64,13 +64,13 @@ macro_rules! operator {
         impl $operator for Counted<'_> {
             type Output = Self;
             fn $name(self, other: Self) -> Self {
-                self.did(|counts| &mut counts.$kind, $operator::$name(self.value, other.value))
+                self.did(|c| &mut c.$kind, $operator::$name(self.value, other.value))
             }
         }
         impl $operator<f32> for Counted<'_> {
             type Output = Self;
             fn $name(self, other: f32) -> Self {
-                self.did(|counts| &mut counts.$kind, $operator::$name(self.value, other))
+                self.did(|c| &mut c.$kind, $operator::$name(self.value, other))
             }
         }
     )* };
@@ -84,11 +84,7 @@ impl Neg for Counted<'_> {
     }
 }
 
-impl MulAdd for Counted<'_> {
-    fn mul_add(self, factor: Self, summand: Self) -> Self {
-        self * factor + summand
-    }
-}
+impl MulAdd for Counted<'_> {}
 
 impl Num for Counted<'_> {
     const WIDTH: usize = 1;
@@ -97,45 +93,36 @@ impl Num for Counted<'_> {
         Counted { value, ..self }
     }
     fn sqrt(self) -> Self {
-        self.did(|counts| &mut counts.roots, Num::sqrt(self.value))
+        self.did(|c| &mut c.roots, Num::sqrt(self.value))
     }
     fn rsqrt(self) -> Self {
-        self.did(|counts| &mut counts.roots, 0.0)
-            .did(|counts| &mut counts.divisions, Num::rsqrt(self.value))
+        self.did(|c| &mut c.roots, 0.0)
+            .did(|c| &mut c.divisions, Num::rsqrt(self.value))
     }
     fn powf(self, exponent: f32) -> Self {
-        self.did(|counts| &mut counts.powers, Num::powf(self.value, exponent))
+        self.did(|c| &mut c.powers, Num::powf(self.value, exponent))
     }
     fn max(self, least: f32) -> Self {
-        self.did(
-            |counts| &mut counts.comparisons,
-            Num::max(self.value, least),
-        )
+        self.did(|c| &mut c.comparisons, Num::max(self.value, least))
     }
     fn gate(self, condition: Self, least: f32) -> Self {
         self.did(
-            |counts| &mut counts.comparisons,
+            |c| &mut c.comparisons,
             self.value.gate(condition.value, least),
         )
     }
     fn any_over(self, least: f32) -> bool {
-        self.did(|counts| &mut counts.comparisons, self.value).value > least
+        self.did(|c| &mut c.comparisons, self.value).value > least
     }
 }
 
 impl Real for Counted<'_> {
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = Real::sin_cos(self.value);
-        (
-            self.did(|counts| &mut counts.trigonometric, sin),
-            self.like(cos),
-        )
+        (self.did(|c| &mut c.trigonometric, sin), self.like(cos))
     }
     fn atan2(self, x: Self) -> Self {
-        self.did(
-            |counts| &mut counts.trigonometric,
-            Real::atan2(self.value, x.value),
-        )
+        self.did(|c| &mut c.trigonometric, Real::atan2(self.value, x.value))
     }
     fn value(self) -> f32 {
         self.value

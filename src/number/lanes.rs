@@ -9,7 +9,7 @@ use fearless_simd::{
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes<S>(pub S);
 
-/// What the row engine asks of eight integers, of which no result may need more than 32 bits.
+/// Operations of the row engine on eight integers, of which no result may need more than 32 bits.
 pub(crate) trait Int: Sized {
     /// Returns −1 (all bits) where `self < other`, else 0.
     fn less(self, other: Self) -> Self;

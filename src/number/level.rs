@@ -1,4 +1,4 @@
-//! Instruction sets: which one the pixel loops run on is chosen at run time.
+//! Instruction sets of the pixel loops, one of which is chosen at run time.
 
 use super::suggest::nearest;
 use alloc::format;
@@ -24,12 +24,12 @@ impl Level {
     /// All levels, from the least to the most.
     pub const ALL: [Level; 4] = [Level::Scalar, Level::Avx2, Level::Avx512, Level::Neon];
 
-    /// Returns the best one of this machine, which `auto` takes.
+    /// Returns the best level of this machine, which `auto` takes.
     pub fn best() -> Level {
         Level::available().last().unwrap_or_default()
     }
 
-    /// Returns those that this machine has, from the least to the most.
+    /// Returns the levels that this machine has, from the least to the most.
     pub fn available() -> impl Iterator<Item = Level> {
         Level::ALL.into_iter().filter(|level| level.is_available())
     }
@@ -38,14 +38,18 @@ impl Level {
     pub fn is_available(self) -> bool {
         match self {
             Level::Scalar => true,
-            #[cfg(feature = "simd")]
-            _ => super::simd::is_available(self),
-            #[cfg(not(feature = "simd"))]
+            #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+            Level::Avx2 => fearless_simd::Level::new().as_avx2().is_some(),
+            #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+            Level::Avx512 => fearless_simd::Level::new().as_avx512().is_some(),
+            #[cfg(all(feature = "simd", target_arch = "aarch64"))]
+            Level::Neon => fearless_simd::Level::new().as_neon().is_some(),
+            #[allow(unreachable_patterns)] // the rest depends on the platform
             _ => false,
         }
     }
 
-    /// Returns how many pixels are shaded at a time.
+    /// Returns the number of pixels that are shaded at a time.
     pub fn width(self) -> usize {
         match self {
             Level::Scalar => 1,
@@ -84,7 +88,7 @@ impl fmt::Display for Level {
 impl FromStr for Level {
     type Err = LevelError;
 
-    /// A level of this machine by its name, or the best one as `auto`.
+    /// Reads the name of a level of this machine, or `auto` for the best one.
     fn from_str(name: &str) -> Result<Level, LevelError> {
         if name == "auto" {
             return Ok(Level::best());
@@ -108,7 +112,7 @@ impl FromStr for Level {
     }
 }
 
-/// Why a name means no level of this machine, as people read it.
+/// The reason why a name means no level of this machine, as a sentence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LevelError(String);
 

@@ -32,19 +32,23 @@ pub(crate) use vectorized::vectorized;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+/// Pixels of a block of the G-buffer.
+pub const BLOCK: usize = 8;
+
 /// Multiplication followed by an addition.
-pub trait MulAdd {
+pub trait MulAdd: Sized + Mul<Output = Self> + Add<Output = Self> {
     /// Returns `self · factor + summand`, rounded once where the backend has one instruction for it, else twice.
-    fn mul_add(self, factor: Self, summand: Self) -> Self;
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        self * factor + summand
+    }
 }
 
 /// A number of an arithmetic backend: one pixel's value, or those of a block of pixels.
 pub trait Num:
     Copy
     + Neg<Output = Self>
-    + Add<Output = Self>
     + Sub<Output = Self>
-    + Mul<Output = Self>
     + Div<Output = Self>
     + Add<f32, Output = Self>
     + Sub<f32, Output = Self>

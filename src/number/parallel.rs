@@ -1,16 +1,15 @@
-//! Work on parts of arrays, on the threads of rayon's current pool; without the feature `threads`, one part after the other.
+//! Parallel loops over parts of arrays, on the threads of rayon's current pool; without the feature `threads`, one part after the other.
 //!
-//! What is computed never depends on the number of threads: parts are cut by size alone, and each writes only what is its
-//! own.
+//! Results never depend on the number of threads: parts are cut by size alone, and each writes to its own elements only.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Something that can be cut in two at a place: a slice, or several slices of equal lengths.
+/// A slice, or several slices of equal lengths: anything that can be split in two at an index.
 pub(crate) trait Parts: Sized + Send {
-    /// How many elements there are.
+    /// Returns the number of elements.
     fn len(&self) -> usize;
-    /// The first `at` elements, and the others.
+    /// Splits off the first `at` elements.
     fn split(self, at: usize) -> (Self, Self);
 }
 
@@ -53,7 +52,7 @@ pub(crate) fn join<A: Send, B: Send>(
     (a(), b())
 }
 
-/// How many threads [`join`] may use.
+/// Returns the number of threads that [`join`] may use.
 pub(crate) fn threads() -> usize {
     #[cfg(feature = "threads")]
     return rayon::current_num_threads();
@@ -61,14 +60,14 @@ pub(crate) fn threads() -> usize {
     1
 }
 
-/// Gives `work` each `size` elements, the last time what is left, with the number of the first of them.
+/// Calls `work` for each `size` elements, and for the rest, with the index of the first of them.
 ///
 /// Behind a pointer, so that what divides the work is compiled once for each kind of parts and not for each shader.
 pub(crate) fn for_each_chunk<P: Parts>(all: P, size: usize, work: &(dyn Fn(usize, P) + Sync)) {
     from(0, all, size, work);
 }
 
-/// The values of `of` for 0 to `count` − 1.
+/// Returns the values of `of` for 0 to `count` − 1.
 pub(crate) fn collect<T: Clone + Default + Send>(
     count: usize,
     chunk: usize,

@@ -3,7 +3,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
 
-/// `x`, 0 or more, to the power `n`; 0 to a power over 0 is 0, anything to the power 0 is 1.
+/// Returns `x`, 0 or more, to the power `n`; 0 to a power over 0 is 0, anything to the power 0 is 1.
 ///
 /// ```text
 /// x = 2^e m,  m in [√½, √2):   log₂ x = e + (2/ln 2) artanh s,   s = (m − 1)/(m + 1)

@@ -2,12 +2,7 @@
 
 use super::{MulAdd, Num, Real};
 
-impl MulAdd for f32 {
-    #[inline(always)]
-    fn mul_add(self, factor: f32, summand: f32) -> f32 {
-        self * factor + summand
-    }
-}
+impl MulAdd for f32 {}
 
 impl Num for f32 {
     const WIDTH: usize = 1;

@@ -1,31 +1,12 @@
 //! Blocks of 8 or 16 neighbouring pixels, on the instruction set that a token proves to be there.
 
-use super::{Level, MulAdd, Num};
+use super::powf::powf;
+use super::{MulAdd, Num};
 use fearless_simd::{
     Bytes, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, f32x16, i32x8, i32x16,
 };
 
-/// Pixels of a block of the G-buffer.
-pub const BLOCK: usize = 8;
-
-/// True if this machine has the instructions of `level`.
-pub(super) fn is_available(level: Level) -> bool {
-    let here = fearless_simd::Level::new();
-    match level {
-        Level::Scalar => true,
-        #[cfg(target_arch = "x86_64")]
-        Level::Avx2 => here.as_avx2().is_some(),
-        #[cfg(target_arch = "x86_64")]
-        Level::Avx512 => here.as_avx512().is_some(),
-        #[cfg(target_arch = "aarch64")]
-        Level::Neon => here.as_neon().is_some(),
-        #[allow(unreachable_patterns)] // which ones are left depends on the platform
-        _ => {
-            let _ = here;
-            false
-        }
-    }
-}
+pub use super::BLOCK;
 
 /// An instruction set that kernels are compiled for.
 pub trait Token: Simd {
@@ -67,7 +48,7 @@ pub(crate) fn align_stack() {
     core::hint::black_box(&mut Aligned(0));
 }
 
-/// Does `work` with the instructions of `simd`, on an aligned stack: what is inlined into it is compiled for them.
+/// Does `work` with the instructions of `simd`, on an aligned stack. Only inlined code is compiled for them.
 #[inline(always)]
 pub(crate) fn vectorize<S: Simd, T>(simd: S, work: impl FnOnce() -> T) -> T {
     simd.vectorize(
@@ -91,45 +72,38 @@ mod x86 {
     };
 
     fearless_simd::kernel!(
-        /// 1/√x to 12 bits.
+        /// Estimates 1/√x to 12 bits.
         #[inline(always)]
-        pub fn rsqrt8(token: Avx2, x: __m256) -> __m256 {
-            let _ = token;
+        pub fn rsqrt8(_token: Avx2, x: __m256) -> __m256 {
             _mm256_rsqrt_ps(x)
         }
     );
 
     fearless_simd::kernel!(
-        /// 1/√x to 14 bits.
+        /// Estimates 1/√x to 14 bits.
         #[inline(always)]
-        pub fn rsqrt16(token: Avx512, x: __m512) -> __m512 {
-            let _ = token;
+        pub fn rsqrt16(_token: Avx512, x: __m512) -> __m512 {
             _mm512_rsqrt14_ps(x)
         }
     );
 
     fearless_simd::kernel!(
-        /// `new` where `mask` has all bits, `old` where it has none.
+        /// Returns `new` where `mask` has all bits, `old` where it has none.
         #[inline(always)]
-        pub fn choose(token: Avx2, mask: __m256i, new: __m256i, old: __m256i) -> __m256i {
-            let _ = token;
+        pub fn choose(_token: Avx2, mask: __m256i, new: __m256i, old: __m256i) -> __m256i {
             _mm256_blendv_epi8(old, new, mask)
         }
     );
 
     fearless_simd::kernel!(
-        /// The levels of eight pixels as opaque RGBA8: rounded to the nearest whole one, half-way to the even one.
+        /// Packs the levels of eight pixels as opaque RGBA8: rounded to the nearest whole one, half-way to the even one.
         ///
-        /// Narrowing saturates, which is the clamp to 0..=255. What no `i32` holds is converted to the least of them, and NaN
-        /// too: both become 0.
+        /// Narrowing saturates, which is the clamp to 0..=255. Numbers that no `i32` holds, and NaN, are converted to the least
+        /// `i32`, and become 0.
         #[inline(always)]
-        pub fn rgba8(token: Avx2, r: __m256, g: __m256, b: __m256) -> __m256i {
-            let _ = token;
-            let (r, g, b) = (
-                _mm256_cvtps_epi32(r),
-                _mm256_cvtps_epi32(g),
-                _mm256_cvtps_epi32(b),
-            );
+        pub fn rgba8(_token: Avx2, r: __m256, g: __m256, b: __m256) -> __m256i {
+            let (r, g) = (_mm256_cvtps_epi32(r), _mm256_cvtps_epi32(g));
+            let b = _mm256_cvtps_epi32(b);
             // Four bytes of red, then of blue, of green and of alpha from each half of the pixels; then by pixel.
             let opaque = _mm256_set1_epi32(255);
             let (rb, ga) = (_mm256_packs_epi32(r, b), _mm256_packs_epi32(g, opaque));
@@ -144,7 +118,7 @@ mod x86 {
 }
 
 macro_rules! block {
-    ($block:ident, $bits:ident, $width:literal) => {
+    ($block:ident, $bits:ident, $width:literal, $estimate:ident, $powf:ident) => {
         impl<S: Simd> MulAdd for $block<S> {
             #[inline(always)]
             fn mul_add(self, factor: Self, summand: Self) -> Self {
@@ -171,13 +145,13 @@ macro_rules! block {
             /// all.
             #[inline(always)]
             fn rsqrt(self) -> Self {
-                let y = self.estimate();
+                let y = $estimate(self);
                 let three_halves = Self::splat(self.simd, 1.5);
                 y * SimdFloat::mul_add(-(self * 0.5 * y), y, three_halves)
             }
             #[inline(always)]
             fn powf(self, exponent: f32) -> Self {
-                self.power(exponent)
+                $powf(self, exponent)
             }
             #[inline(always)]
             fn max(self, least: f32) -> Self {
@@ -199,47 +173,33 @@ macro_rules! block {
         }
     };
 }
-block!(f32x8, i32x8, 8);
-block!(f32x16, i32x16, 16);
+block!(f32x8, i32x8, 8, estimate_8, powf);
+block!(f32x16, i32x16, 16, estimate_16, powf_16);
 
-/// What differs between blocks of 8 and of 16 pixels.
-trait Width {
-    /// 1/√x, of the precision that the processor estimates it to, or of all.
-    fn estimate(self) -> Self;
-    /// `self` to the power `n`.
-    fn power(self, n: f32) -> Self;
+/// Returns 1/√x to the precision of the processor's estimate, or in full.
+#[inline(always)]
+fn estimate_8<S: Simd>(x: f32x8<S>) -> f32x8<S> {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(token) = x.simd.level().as_avx2() {
+        return f32x8::simd_from(x.simd, x86::rsqrt8(token, x.into()));
+    }
+    f32x8::splat(x.simd, 1.0) / SimdFloat::sqrt(x)
 }
 
-impl<S: Simd> Width for f32x8<S> {
-    #[inline(always)]
-    fn estimate(self) -> Self {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(token) = self.simd.level().as_avx2() {
-            return Self::simd_from(self.simd, x86::rsqrt8(token, self.into()));
-        }
-        Self::splat(self.simd, 1.0) / SimdFloat::sqrt(self)
+#[inline(always)]
+fn estimate_16<S: Simd>(x: f32x16<S>) -> f32x16<S> {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(token) = x.simd.level().as_avx512() {
+        return f32x16::simd_from(x.simd, x86::rsqrt16(token, x.into()));
     }
-    #[inline(always)]
-    fn power(self, n: f32) -> Self {
-        super::powf::powf(self, n)
-    }
+    let (low, high) = x.simd.split_f32x16(x);
+    x.simd.combine_f32x8(estimate_8(low), estimate_8(high))
 }
 
-impl<S: Simd> Width for f32x16<S> {
-    #[inline(always)]
-    fn estimate(self) -> Self {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(token) = self.simd.level().as_avx512() {
-            return Self::simd_from(self.simd, x86::rsqrt16(token, self.into()));
-        }
-        let (low, high) = self.simd.split_f32x16(self);
-        self.simd.combine_f32x8(low.estimate(), high.estimate())
-    }
-    #[inline(always)]
-    fn power(self, n: f32) -> Self {
-        let (low, high) = self.simd.split_f32x16(self);
-        self.simd.combine_f32x8(low.power(n), high.power(n))
-    }
+#[inline(always)]
+fn powf_16<S: Simd>(x: f32x16<S>, n: f32) -> f32x16<S> {
+    let (low, high) = x.simd.split_f32x16(x);
+    x.simd.combine_f32x8(powf(low, n), powf(high, n))
 }
 
 /// A block of pixels that is shaded at a time: one or two blocks of the G-buffer.
@@ -249,13 +209,6 @@ pub trait Block<S: Simd>: Num + SimdBase<S, Element = f32> {
 
     /// Loads the values from `at` on of each cell; where it holds one, of the first.
     fn load(simd: S, cells: [&[f32]; 2], at: usize) -> Self;
-    /// Stores the values over the first [`Num::WIDTH`] of `to`.
-    fn store(self, to: &mut [f32]);
-    /// True if any of these depths is one of a drawn pixel: less than infinite.
-    #[inline(always)]
-    fn any_drawn(self) -> bool {
-        self.simd_lt(f32::INFINITY).any_true()
-    }
     /// Stores colours in grey levels, 255 for 1, clamped and rounded, opaque where `depth` is finite and `background`
     /// elsewhere. NaN becomes 0; magnitudes are below 2³¹.
     fn pack(levels: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]);
@@ -265,10 +218,6 @@ impl<S: Simd> Block<S> for f32x8<S> {
     #[inline(always)]
     fn load(simd: S, [cell, _]: [&[f32]; 2], at: usize) -> Self {
         f32x8::from_slice(simd, &cell[at..at + 8])
-    }
-    #[inline(always)]
-    fn store(self, to: &mut [f32]) {
-        self.store_slice(&mut to[..8]);
     }
     #[inline(always)]
     fn pack(levels: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]) {
@@ -304,18 +253,10 @@ impl<S: Simd> Block<S> for f32x16<S> {
         simd.combine_f32x8(low, high)
     }
     #[inline(always)]
-    fn store(self, to: &mut [f32]) {
-        self.store_slice(&mut to[..16]);
-    }
-    #[inline(always)]
     fn pack([r, g, b]: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]) {
         let simd = depth.simd;
-        let (r, g, b) = (
-            simd.split_f32x16(r),
-            simd.split_f32x16(g),
-            simd.split_f32x16(b),
-        );
-        let depth = simd.split_f32x16(depth);
+        let (r, g) = (simd.split_f32x16(r), simd.split_f32x16(g));
+        let (b, depth) = (simd.split_f32x16(b), simd.split_f32x16(depth));
         let (low, high) = to.split_at_mut(8);
         Block::pack([r.0, g.0, b.0], depth.0, background, low);
         Block::pack([r.1, g.1, b.1], depth.1, background, high);

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-/// The candidate nearest to `word`, if one is near enough to be meant; the first among equally near ones.
+/// Returns the candidate nearest to `word`, if one is near enough to be meant; the first among equally near ones.
 ///
 /// Near enough is one slip for each three letters of the longer word, and one slip for shorter ones. Case does not count.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -23,7 +23,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
-/// How many letters must be inserted, deleted, replaced or swapped with their neighbour to turn `a` into `b`.
+/// Returns the number of letters to insert, delete, replace or swap with their neighbour to turn `a` into `b`.
 ///
 /// The optimal string alignment distance: Damerau, *A technique for computer detection and correction of spelling
 /// errors*, CACM 7 (1964), where no letter is edited twice.

@@ -1,6 +1,6 @@
 //! Random numbers for tests: the same ones at every run.
 
-/// xorshift64* (Vigna 2016).
+/// A generator: xorshift64* (Vigna 2016).
 pub(crate) struct Random(u64);
 
 impl Random {
@@ -15,17 +15,17 @@ impl Random {
         self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
     }
 
-    /// 0..n.
+    /// Returns a number of 0..n.
     pub(crate) fn below(&mut self, n: u64) -> u64 {
         ((self.next() >> 32) * n) >> 32
     }
 
-    /// −1..1.
+    /// Returns a number of −1..1.
     pub(crate) fn signed(&mut self) -> f32 {
         (self.next() >> 40) as f32 / (1u32 << 23) as f32 - 1.0
     }
 
-    /// A unit vector.
+    /// Returns a unit vector.
     pub(crate) fn unit(&mut self) -> [f32; 3] {
         loop {
             let v = [self.signed(), self.signed(), self.signed()];

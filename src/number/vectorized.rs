@@ -3,7 +3,7 @@
 //! The compiler vectorises a loop over arrays by itself, but for what every machine has, unless it is told otherwise. No result
 //! depends on the instruction set: the compiler neither reorders operations nor joins them.
 
-/// Does `work` on the best instruction set. Only what is inlined into it is compiled for that: `work` itself must be
+/// Does `work` on the best instruction set. Only inlined code is compiled for it: `work` itself must be
 /// `#[inline(always)]`, and so must all functions and closures that it calls in its loops.
 #[inline(always)]
 pub(crate) fn vectorized<T>(work: impl FnOnce() -> T) -> T {

@@ -214,7 +214,7 @@ impl<'a> SetUp<'a> {
         let item = |i: usize| (corners[i].0, frame.normal(corners[i].1), [0.0; 3]);
         let mut values = self.lit(level, corners.len(), &item);
         for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
-            if clip_corner(frame, vertex).is_some() {
+            if frame.clip_corner(vertex).is_some() {
                 to.copy_from_slice(&self.clipped(level, number, vertex));
             }
             if is_weighted {
@@ -228,7 +228,7 @@ impl<'a> SetUp<'a> {
 
     /// Returns the varying of a vertex on polygon `number`: between the ends of the edge on which clipping made it, or lit.
     fn clipped(&self, level: Level, number: u32, vertex: u32) -> Vec<f32> {
-        let Some(corner) = clip_corner(self.frame, vertex) else {
+        let Some(corner) = self.frame.clip_corner(vertex) else {
             return self.lit(level, 1, &|_| (number, self.frame.normal(vertex), [0.0; 3]));
         };
         let ends = [corner.a, corner.b].map(|v| self.clipped(level, number, v));
@@ -290,11 +290,12 @@ impl<'a> SetUp<'a> {
             &mut values[..],
             CHUNK * stride,
             &|first, values: &mut [f32]| {
+                let normals = &normals[first / stride..][..values.len() / stride];
                 let vertices = Vertices {
                     parameters: self.parameters,
                     uniforms: &self.uniforms[0],
-                    normals: &normals[first / stride..][..values.len() / stride],
-                    points: &[],
+                    normals,
+                    points: normals, // of no use to directional lights
                     stride,
                 };
                 self.light(level, &vertices, values);
@@ -325,14 +326,6 @@ impl<'a> SetUp<'a> {
             }
         }
     }
-}
-
-fn clip_corner(frame: &Frame, vertex: u32) -> Option<ClipCorner> {
-    let all = frame.clip_corners();
-    let place = all
-        .binary_search_by_key(&vertex, |corner| corner.vertex)
-        .ok()?;
-    Some(all[place])
 }
 
 /// Stores what a corner that clipping made carries: what lies between the ends of its edge, which are never lit again.
@@ -389,7 +382,7 @@ mod tests {
                 let Varyings { values, count, .. } = &setup.varyings;
                 let is_borrowed = matches!(values, Cow::Borrowed(_));
                 assert_eq!(is_borrowed, is_there);
-                let clipped = |v: u32| clip_corner(&frame, v).is_some();
+                let clipped = |v: u32| frame.clip_corner(v).is_some();
                 let vertices = (0..).zip(frame.vertices()).filter(|(v, _)| !clipped(*v));
                 for (number, vertex) in vertices {
                     let weight = match scene.interpolation {

@@ -1,7 +1,7 @@
 //! Colours and normals: at the vertices, and between them.
 
 use super::Model;
-use super::coverage::{Crossing, Scanline, SpanPlace, Weights};
+use super::coverage::{Crossing, Scanline, SpanPlace, VertexWeights};
 use super::illumination::{illuminate, sum, wide};
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::scene::Interpolation;
@@ -14,12 +14,12 @@ const STRAIGHT: f64 = 1e-3;
 /// Above this angle the two normals name no great circle: 179°.
 const OPPOSITE: f64 = 179.0 / 180.0 * core::f64::consts::PI;
 
-/// From `a` to `b` in a straight line.
+/// Interpolates from `a` to `b` in a straight line.
 fn lerp(a: DVec3, b: DVec3, t: f64) -> DVec3 {
     (1.0 - t) * a + t * b
 }
 
-/// From `a` to `b` along the great circle, both unit vectors:
+/// Interpolates from `a` to `b`, both unit vectors, along the great circle:
 /// ```text
 /// slerp(N₁, N₂, t) = sin((1−t)φ)/sin(φ) N₁ + sin(tφ)/sin(φ) N₂      (L21 4.7)
 /// ```
@@ -36,7 +36,7 @@ fn slerp(a: DVec3, b: DVec3, t: f64, face: DVec3) -> DVec3 {
     }
 }
 
-/// The direction of `n`, or zero where it has none.
+/// Returns the direction of `n`, or zero if it has none.
 fn unit(n: DVec3) -> DVec3 {
     let length = n.length();
     if length > 0.0 {
@@ -46,7 +46,7 @@ fn unit(n: DVec3) -> DVec3 {
     }
 }
 
-/// What a model interpolates, at every vertex of a frame.
+/// The attributes that a model interpolates, at every vertex of a frame.
 pub(crate) struct VertexAttributes<'a> {
     frame: &'a Frame,
     model: Model,
@@ -59,10 +59,10 @@ pub(crate) struct VertexAttributes<'a> {
 }
 
 impl<'a> VertexAttributes<'a> {
-    /// Colours or normals at the vertices of `frame`, as `model` asks for.
+    /// Computes colours or normals at the vertices of `frame`, as `model` asks for.
     ///
-    /// A vertex that clipping made lies between two others, which may be such vertices too: it has what the model would
-    /// show there, and is not lit by a normal of its own.
+    /// A vertex that clipping made lies between two others, which may be such vertices too: its value is interpolated as the
+    /// model does, and it is not lit by a normal of its own.
     pub fn new(frame: &'a Frame, model: Model) -> Self {
         let position = |number: u32| wide(frame.position(number));
         let normal = |number: u32| wide(frame.normal(number));
@@ -120,7 +120,7 @@ impl<'a> VertexAttributes<'a> {
         }
     }
 
-    /// The colour of the pixel `x` on a scanline of `polygon`; `None` where the polygon does not cover it.
+    /// Returns the colour of the pixel `x` on a scanline of `polygon`; `None` where the polygon does not cover it.
     pub fn colour(&self, polygon: &Polygon, scanline: &Scanline, x: usize) -> Option<DVec3> {
         let lighting = &self.frame.lightings()[polygon.material as usize];
         let mean = || self.frame.mean(polygon);
@@ -169,9 +169,9 @@ impl<'a> VertexAttributes<'a> {
         })
     }
 
-    /// The blend of the corners' values: linear on the screen, or in space, where value/w and 1/w are linear on the
+    /// Blends the corners' values: linear on the screen, or in space, where value/w and 1/w are linear on the
     /// screen (perspective interpolation).
-    fn interpolated(&self, values: &[DVec3], weights: &Weights) -> DVec3 {
+    fn interpolated(&self, values: &[DVec3], weights: &VertexWeights) -> DVec3 {
         match self.frame.interpolation() {
             Interpolation::Screen => weights.sum(|v| values[v]),
             Interpolation::Perspective => {
@@ -181,7 +181,7 @@ impl<'a> VertexAttributes<'a> {
         }
     }
 
-    /// Slerp along both edges, then along the span between them (L21 4.4).
+    /// Interpolates by slerp along both edges, then along the span between them (L21 4.4).
     fn slerped(&self, place: &SpanPlace, face: DVec3) -> DVec3 {
         let on_edge = |edge: &Crossing| {
             slerp(

@@ -1,4 +1,4 @@
-//! Which pixels a polygon covers, and where in the polygon they lie, from exact integers.
+//! Coverage in exact integers: the pixels of a polygon, and their coordinates in it.
 //!
 //! All coordinates here are whole numbers of 1/256 pixel. They are at most 2²³ from 0 ([`Frame::GUARD`] pixels), so a
 //! product of two differences stays below 2⁴⁹: `i64` holds it, and `f64` too, exactly. Only the comparison of two
@@ -9,21 +9,21 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::ops::{Add, Mul, Range};
 
-/// One pixel.
+/// A pixel in sub-pixels.
 const PIXEL: i64 = 1 << SubPixel::FRAC_NBITS;
 
-/// The centre of the pixel number `i` of a row or column.
+/// Returns the centre of the pixel number `i` of a row or column.
 pub(crate) fn centre(i: usize) -> i64 {
     i as i64 * PIXEL + PIXEL / 2
 }
 
-/// Column and row of a vertex.
+/// Returns column and row of a vertex.
 fn position(frame: &Frame, vertex: u32) -> (i64, i64) {
     let v = &frame.vertices()[vertex as usize];
     (i64::from(v.x.to_bits()), i64::from(v.y.to_bits()))
 }
 
-/// The pixels of the picture in the smallest box around `corners`: columns, rows.
+/// Returns the pixels of the picture in the smallest box around `corners`: columns, rows.
 pub(crate) fn bounding_box(frame: &Frame, corners: &[u32]) -> (Range<usize>, Range<usize>) {
     let pixels = |coordinates: &dyn Fn(u32) -> i64, side: usize| {
         let lowest = corners.iter().map(|&v| coordinates(v)).min().unwrap_or(0);
@@ -37,23 +37,23 @@ pub(crate) fn bounding_box(frame: &Frame, corners: &[u32]) -> (Range<usize>, Ran
     )
 }
 
-/// Where a scanline crosses an edge of a polygon: at `x_height / height`, exactly.
+/// The crossing of a scanline and an edge of a polygon: at `x_height / height`, exactly.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossing {
     /// The vertex at the upper end of the edge.
     pub top: u32,
     /// The vertex at the lower end.
     pub bottom: u32,
-    /// From the upper end down to the scanline.
+    /// The distance from the upper end down to the scanline.
     fall: i64,
-    /// From the upper end down to the lower one; more than 0.
+    /// The distance from the upper end down to the lower one; more than 0.
     height: i64,
-    /// Column of the crossing times `height`.
+    /// The column of the crossing times `height`.
     x_height: i64,
 }
 
 impl Crossing {
-    /// The crossing of the edge between two vertices (in any order) with the scanline `yc`: an edge holds its upper end
+    /// Intersects the edge between two vertices (in any order) with the scanline `yc`: an edge holds its upper end
     /// and not its lower one, so that a corner between two edges is crossed once, and a horizontal edge never.
     fn of_edge(frame: &Frame, from: u32, to: u32, yc: i64) -> Option<Crossing> {
         let (top, bottom) = if position(frame, from).1 <= position(frame, to).1 {
@@ -81,13 +81,13 @@ impl Crossing {
         self.x_height <= xc * self.height
     }
 
-    /// From left to right.
+    /// Orders crossings from left to right.
     fn compare(&self, other: &Crossing) -> Ordering {
         let cross = |a: i64, b: i64| i128::from(a) * i128::from(b);
         cross(self.x_height, other.height).cmp(&cross(other.x_height, self.height))
     }
 
-    /// How far down the edge, 0..1.
+    /// Returns the parameter down the edge, 0..1.
     pub fn t(&self) -> f64 {
         self.fall as f64 / self.height as f64
     }
@@ -100,12 +100,12 @@ pub(crate) struct SpanPlace {
     pub left: Crossing,
     /// The edge to its right.
     pub right: Crossing,
-    /// How far from the left edge to the right one, 0..1.
+    /// The parameter from the left edge to the right one, 0..1.
     pub u: f64,
 }
 
 impl SpanPlace {
-    /// The place of the column `xc`; both crossings must differ.
+    /// Places the column `xc` between two crossings, which must differ.
     fn new(left: Crossing, right: Crossing, xc: i64) -> SpanPlace {
         // (xc − l) / (r − l) for the fractions l and r, multiplied by both heights: one rounding at the end.
         let (l, lh) = (i128::from(left.x_height), i128::from(left.height));
@@ -115,23 +115,23 @@ impl SpanPlace {
     }
 }
 
-/// What a pixel's attributes are made of: vertices and their shares, which sum to 1.
+/// The weights of vertices in a pixel's attributes; they sum to 1.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Weights([(u32, f64); 4]);
+pub(crate) struct VertexWeights([(u32, f64); 4]);
 
-impl Weights {
-    /// Barycentric coordinates of (`xc`, `yc`) in a triangle, as quotients of areas:
+impl VertexWeights {
+    /// Returns the barycentric coordinates of (`xc`, `yc`) in a triangle, as quotients of areas:
     /// ```text
     /// P = β₁ P₁ + β₂ P₂ + β₃ P₃      (L21 3)
     /// ```
     /// The triangle must have an area.
-    fn of_triangle(frame: &Frame, corners: [u32; 3], xc: i64, yc: i64) -> Weights {
+    fn of_triangle(frame: &Frame, corners: [u32; 3], xc: i64, yc: i64) -> VertexWeights {
         let [a, b, c] = corners.map(|v| position(frame, v));
         let twice_area = |p: (i64, i64), q: (i64, i64), r: (i64, i64)| {
             ((q.0 - p.0) * (r.1 - p.1) - (q.1 - p.1) * (r.0 - p.0)) as f64
         };
         let (p, all) = ((xc, yc), twice_area(a, b, c));
-        Weights([
+        VertexWeights([
             (corners[0], twice_area(p, b, c) / all),
             (corners[1], twice_area(a, p, c) / all),
             (corners[2], twice_area(a, b, p) / all),
@@ -139,13 +139,13 @@ impl Weights {
         ])
     }
 
-    /// Linear along both edges, then along the span between them:
+    /// Interpolates linearly along both edges, then along the span between them:
     /// ```text
     /// P = (1−u) ((1−t) P₁ + t P₂) + u ((1−s) P₃ + s P₄)      (L21 3)
     /// ```
-    fn of_span(place: &SpanPlace) -> Weights {
+    fn of_span(place: &SpanPlace) -> VertexWeights {
         let (u, t, s) = (place.u, place.left.t(), place.right.t());
-        Weights([
+        VertexWeights([
             (place.left.top, (1.0 - u) * (1.0 - t)),
             (place.left.bottom, (1.0 - u) * t),
             (place.right.top, u * (1.0 - s)),
@@ -153,7 +153,7 @@ impl Weights {
         ])
     }
 
-    /// The weighted sum of what `value` gives for each vertex number.
+    /// Returns the weighted sum of `value` over the vertices.
     pub fn sum<T: Default + Add<Output = T> + Mul<f64, Output = T>>(
         &self,
         value: impl Fn(usize) -> T,
@@ -175,7 +175,7 @@ pub(crate) struct Scanline<'a> {
 }
 
 impl<'a> Scanline<'a> {
-    /// A scanline that crosses nothing yet.
+    /// Makes a scanline that crosses nothing yet.
     pub fn new(frame: &'a Frame) -> Self {
         Scanline {
             frame,
@@ -185,7 +185,7 @@ impl<'a> Scanline<'a> {
         }
     }
 
-    /// Makes this the scanline through the pixel centres of row `y` of the polygon with these corners.
+    /// Moves to the scanline through the pixel centres of row `y` of the polygon with these corners.
     pub fn cut(&mut self, corners: &'a [u32], y: usize) {
         self.corners = corners;
         self.yc = centre(y);
@@ -197,7 +197,7 @@ impl<'a> Scanline<'a> {
         self.crossings.sort_by(Crossing::compare);
     }
 
-    /// The two edges between which the centre of the pixel `x` lies; `None` where the polygon does not cover it.
+    /// Returns the two edges between which the centre of the pixel `x` lies; `None` where the polygon does not cover it.
     ///
     /// It is inside if the number of crossings at it or left of it is odd.
     pub fn edges(&self, x: usize) -> Option<(Crossing, Crossing)> {
@@ -209,19 +209,19 @@ impl<'a> Scanline<'a> {
         (passed % 2 == 1).then(|| (self.crossings[passed - 1], self.crossings[passed]))
     }
 
-    /// The place of the pixel `x` between two edges; `None` where the polygon does not cover it.
+    /// Returns the place of the pixel `x` between two edges; `None` where the polygon does not cover it.
     pub fn place(&self, x: usize) -> Option<SpanPlace> {
         self.edges(x)
             .map(|(left, right)| SpanPlace::new(left, right, centre(x)))
     }
 
-    /// What the attributes at the pixel `x` are made of; `None` where the polygon does not cover it.
-    pub fn weights(&self, x: usize) -> Option<Weights> {
+    /// Returns the weights at the pixel `x`; `None` if the polygon does not cover it.
+    pub fn weights(&self, x: usize) -> Option<VertexWeights> {
         if let &[a, b, c] = self.corners {
             self.edges(x)
-                .map(|_| Weights::of_triangle(self.frame, [a, b, c], centre(x), self.yc))
+                .map(|_| VertexWeights::of_triangle(self.frame, [a, b, c], centre(x), self.yc))
         } else {
-            self.place(x).map(|place| Weights::of_span(&place))
+            self.place(x).map(|place| VertexWeights::of_span(&place))
         }
     }
 }
@@ -370,7 +370,7 @@ mod tests {
         let frame = shape(7, 5, &[&[(0.0, 0.0), (6.0, 0.0), (1.5, 4.5)]]);
         let mut scanline = Scanline::new(&frame);
         scanline.cut(frame.corners(&frame.polygons()[0]), 1);
-        let Weights(weights) = scanline.weights(2).unwrap();
+        let VertexWeights(weights) = scanline.weights(2).unwrap();
         assert_eq!(
             weights,
             [(0, 1.0 / 3.0), (1, 1.0 / 3.0), (2, 1.0 / 3.0), (2, 0.0)]
@@ -393,8 +393,9 @@ mod tests {
                     continue;
                 };
                 let three = [corners[0], corners[1], corners[2]];
-                let areas = Weights::of_triangle(&frame, three, centre(x), centre(y)).sum(value);
-                worst = worst.max((areas - Weights::of_span(&place).sum(value)).abs());
+                let areas =
+                    VertexWeights::of_triangle(&frame, three, centre(x), centre(y)).sum(value);
+                worst = worst.max((areas - VertexWeights::of_span(&place).sum(value)).abs());
                 pixels += 1;
             }
         }

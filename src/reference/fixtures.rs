@@ -76,7 +76,7 @@ pub(crate) fn between(vertex: u32, a: u32, b: u32, t: f32) -> ClipCorner {
     }
 }
 
-/// How many polygons cover each pixel.
+/// Counts the polygons that cover each pixel.
 pub(crate) fn covered(frame: &Frame) -> Picture<u32> {
     let mut counts = Picture::new(frame.width(), frame.height(), 0);
     let mut scanline = Scanline::new(frame);

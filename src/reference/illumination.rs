@@ -19,7 +19,7 @@ fn toward(place: Place<[f32; 3]>, from: DVec3) -> (DVec3, f64) {
     }
 }
 
-/// What is left of a light at the distance `r`:
+/// Returns the strength of a light at the distance `r`:
 /// ```text
 /// 1 / (1 + k r²)      (CS171 2, Attenuation)        1 / r²,  1 / r      (L5, Light Falloff)
 /// ```
@@ -80,7 +80,7 @@ pub(crate) fn sum(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
     intensity
 }
 
-/// The same clamped to 0..=1, once, at the end.
+/// Returns the sum clamped to 0..=1, once, at the end.
 pub(crate) fn illuminate(lighting: &Lighting, n: DVec3, p: DVec3) -> DVec3 {
     sum(lighting, n, p).clamp(DVec3::ZERO, DVec3::ONE)
 }

@@ -4,8 +4,8 @@
 //! integers, places on edges and spans come from exact fractions, and every pixel is computed from closed forms with no
 //! memory of its neighbours.
 //!
-//! * `coverage`: which pixels a polygon covers, and where in the polygon they lie
-//! * `visibility`: which polygon is seen at each pixel
+//! * `coverage`: the pixels of a polygon, and their coordinates in it
+//! * `visibility`: the polygon seen at each pixel
 //! * `attributes`: colours and normals at vertices, and between them
 //! * `illumination`: L21 2.1
 //!
@@ -30,7 +30,7 @@ use crate::picture::{LinearPicture, Picture, Picture8};
 use attributes::VertexAttributes;
 use coverage::Scanline;
 
-/// What varies over a polygon, and how.
+/// A closed form of shading: the attributes that vary over a polygon, and their interpolation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
     /// One colour a polygon, lit by its own normal (L21 2). Light and eye at positions are seen from the mean of its corners.
@@ -40,8 +40,8 @@ pub enum Model {
     /// Colours: each vertex is lit by its own normal and clamped to 0..=1; then colours are interpolated linearly
     /// (L21 3).
     Gouraud,
-    /// Colours, not clamped at the vertices, but at each pixel: what is left when diffuse and specular light are
-    /// interpolated apart and summed.
+    /// Colours, not clamped at the vertices, but at each pixel: the closed form of diffuse and specular light that
+    /// are interpolated apart and summed.
     GouraudSeparate,
     /// Normals, linearly and not normalised on the edges; normalised and lit at each pixel (L21 4.1). Where the
     /// interpolated normal vanishes it has no direction, and only ambient light is left.
@@ -71,7 +71,7 @@ impl Model {
         Model::Slerp,
     ];
 
-    /// What it is called on the command line and in data.
+    /// Returns its name on the command line and in data.
     pub fn name(self) -> &'static str {
         match self {
             Model::Flat => "flat",
@@ -85,7 +85,7 @@ impl Model {
     }
 }
 
-/// A picture of the reference, and what it knows of each pixel.
+/// A picture of the reference, with polygon and depth of each sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferencePicture {
     /// Linear red, green, blue in 0..=1; alpha is 1 where a polygon is seen. Elsewhere the background, with alpha 0. Of a
@@ -100,19 +100,19 @@ pub struct ReferencePicture {
 }
 
 impl ReferencePicture {
-    /// The picture in single precision.
+    /// Returns the picture in single precision.
     pub fn to_linear(&self) -> LinearPicture {
         self.picture.map(|texel| texel.map(|c| c as f32))
     }
 
-    /// The picture in eight bits: round(255 c), with no transfer function.
+    /// Returns the picture in eight bits: round(255 c), with no transfer function.
     pub fn to_picture8(&self) -> Picture8 {
         self.picture
             .map(|texel| texel.map(|c| libm::round(255.0 * c) as u8))
     }
 }
 
-/// The mean of each `side` × `side` texels, alpha too: a texel that nothing covers has the background's colour.
+/// Returns the mean of each `side` × `side` texels, alpha too: a texel that nothing covers has the background's colour.
 fn filtered(samples: &Picture<[f64; 4]>, side: usize) -> Picture<[f64; 4]> {
     let mut picture = Picture::new(samples.width() / side, samples.height() / side, [0.0; 4]);
     for y in 0..picture.height() {
@@ -128,12 +128,12 @@ fn filtered(samples: &Picture<[f64; 4]>, side: usize) -> Picture<[f64; 4]> {
     picture
 }
 
-/// The picture of `frame` under `model`.
+/// Renders `frame` under `model`.
 pub fn render(frame: &Frame, model: Model) -> ReferencePicture {
     shade(frame, &visibility(frame), model)
 }
 
-/// The picture of `frame` under `model` where `visibility` is known: several models share one.
+/// Shades `frame` under `model`, given its `visibility`, which several models share.
 ///
 /// `visibility` must be that of `frame`; where it names what `frame` does not have, the background is left.
 pub fn shade(frame: &Frame, visibility: &Visibility, model: Model) -> ReferencePicture {

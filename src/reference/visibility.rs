@@ -1,19 +1,19 @@
-//! Which polygon is seen at each pixel.
+//! Visibility: the polygon that is seen at each pixel.
 
-use super::coverage::{Scanline, Weights, bounding_box};
+use super::coverage::{Scanline, VertexWeights, bounding_box};
 use crate::frame::{DepthRange, Frame};
 use crate::picture::Picture;
 use crate::scene::{Clipping, DepthBuffer, DepthSource, HiddenSurfaces};
 
-/// What is seen at each sample of a frame, whatever its shading: at each pixel, but where it has several.
+/// The polygon seen at each sample of a frame, whatever its shading: at each pixel, unless it has several samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visibility {
-    /// The polygon seen: its place in [`Frame::polygons`], [`Visibility::NONE`] where there is none.
+    /// The index of the polygon seen in [`Frame::polygons`], [`Visibility::NONE`] where there is none.
     pub polygons: Picture<u32>,
-    /// Its depth as it is compared, 0 at the near plane, 1 at the far plane; infinite where there is none.
+    /// The depth of that polygon as it is compared, 0 at the near plane, 1 at the far plane; infinite where there is none.
     pub depth: Picture<f64>,
-    /// How much farther the next polygon behind it is: where this is within the rounding of depths, other arithmetic may
-    /// see the other polygon. Infinite where no other covers the pixel, and where there is no depth test to decide.
+    /// The distance to the next polygon behind it: where it is within the rounding of depths, other arithmetic may see the
+    /// other polygon. Infinite where no other covers the pixel, and where there is no depth test to decide.
     pub depth_gap: Picture<f64>,
 }
 
@@ -21,7 +21,7 @@ impl Visibility {
     /// The number of no polygon.
     pub const NONE: u32 = u32::MAX;
 
-    /// One more polygon, `depth` away, covers the pixel (`x`, `y`).
+    /// Adds a polygon, `depth` away, that covers the pixel (`x`, `y`).
     fn add(&mut self, (x, y): (usize, usize), polygon: u32, depth: f64, depth_test: bool) {
         let seen = &mut self.depth.row_mut(y)[x];
         let is_visible = !depth_test || depth < *seen;
@@ -41,7 +41,7 @@ impl Visibility {
     }
 }
 
-/// How a frame with a depth buffer fills it; the default one without.
+/// Returns the depth buffer of a frame; the default one if it has none.
 fn buffer(frame: &Frame) -> DepthBuffer {
     match frame.hidden_surfaces() {
         HiddenSurfaces::ZBuffer(buffer) => buffer,
@@ -49,8 +49,8 @@ fn buffer(frame: &Frame) -> DepthBuffer {
     }
 }
 
-/// The depth of a sample that is made of a polygon's corners in these shares.
-fn depth(frame: &Frame, weights: &Weights) -> f64 {
+/// Returns the depth of a sample that is made of a polygon's corners in these shares.
+fn depth(frame: &Frame, weights: &VertexWeights) -> f64 {
     let vertex = |v: usize| &frame.vertices()[v];
     let interpolated = || weights.sum(|v| f64::from(vertex(v).depth));
     match (buffer(frame).source, frame.depth_range()) {
@@ -68,7 +68,7 @@ fn depth(frame: &Frame, weights: &Weights) -> f64 {
     }
 }
 
-/// What the depth buffer keeps of `depth`: all of it, or the nearest of 2ᵇ levels.
+/// Rounds `depth` as the depth buffer stores it: not at all, or to the nearest of 2ᵇ levels.
 fn kept(frame: &Frame, depth: f64) -> f64 {
     match buffer(frame).bits.most() {
         None => depth,
@@ -76,7 +76,7 @@ fn kept(frame: &Frame, depth: f64) -> f64 {
     }
 }
 
-/// What is seen of `frame`: of the polygons that cover a pixel centre the nearest one, of equally near ones the first; or
+/// Finds the polygon seen at each pixel centre of `frame`: the nearest one that covers it, the first of equally near ones; or
 /// without depth test the last one.
 pub fn visibility(frame: &Frame) -> Visibility {
     let (width, height) = (frame.width(), frame.height());

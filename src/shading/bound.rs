@@ -1,16 +1,16 @@
-//! How far a method may be from its closed form: counted in roundings, not guessed.
+//! Bounds of the difference between a method and its closed form: counted in roundings, not guessed.
 
 use super::lighting::highlight_gain;
-use super::spread::{Seen, Spread};
+use super::spread::Spread;
 use super::{Info, Perspective};
-use crate::frame::{Frame, Polygon};
-use crate::scene::{Interpolation, Lighting, SpecularModel};
+use crate::frame::{Frame, Polygon, ScreenVertex, SubPixel};
+use crate::scene::{Interpolation, LightTerm, Lighting, SpecularModel};
 use alloc::vec::Vec;
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
 const ROUNDING: f64 = 1.0 / (1u64 << 24) as f64;
 
-/// How many roundings of 2⁻²⁴ a method's cosines (or colours) gather.
+/// The roundings of 2⁻²⁴ that a method's cosines (or colours) gather.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Roundings {
     /// Before the first step.
@@ -18,7 +18,7 @@ pub struct Roundings {
     /// At every step along an edge or a span. Steps add the same rounded increment again and again, so their roundings
     /// do not average out: they grow with the number of steps.
     pub step: f64,
-    /// What is stepped.
+    /// The values that are stepped.
     pub of: Stepped,
 }
 
@@ -29,21 +29,21 @@ impl Roundings {
     }
 }
 
-/// What a method steps along edges and spans.
+/// The values that a method steps along edges and spans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stepped {
-    /// Colours of at most 1: what they are off by is what the picture is off by.
+    /// Colours of at most 1: the picture is off by as much as they are.
     Colours,
     /// Colours that are clamped later: off by as much as all light together is over 1.
     Sums,
-    /// Normals or cosines: the illumination model comes after, and multiplies what they are off by.
+    /// Normals or cosines: the light model comes after, and multiplies their errors.
     Cosines,
-    /// Products of two vectors that grow linearly: likewise.
+    /// Products of two vectors that grow linearly: the light model comes after, too.
     Products,
 }
 
 impl Info {
-    /// The largest difference that rounding in `f32` can make between this method's picture of `frame` and its closed
+    /// Returns the largest difference that rounding in `f32` can make between this method's picture of `frame` and its closed
     /// form ([`Info::model`]), in a linear channel of 0..=1.
     ///
     /// With s steps from a corner to a pixel, a cosine is off by `e = (start + step · s) · 2⁻²⁴`. The diffuse term passes
@@ -72,55 +72,58 @@ impl Info {
         self.bound_with(frame, &defaults)
     }
 
-    /// [`Info::bound`] for these values of the parameters.
+    /// Returns [`Info::bound`] for these values of the parameters.
     pub(super) fn bound_with(&self, frame: &Frame, parameters: &[u32]) -> f64 {
-        let steps = frame
-            .polygons()
-            .iter()
-            .map(|p| longest_walk(frame, p))
-            .max()
-            .unwrap_or(0) as f64;
+        let walks = frame.polygons().iter().map(|p| longest_walk(frame, p));
+        let steps = walks.max().unwrap_or(0) as f64;
         let spread = Spread::of(frame);
-        let (mut gain, mut allowed) = (
-            Gain {
-                cosine: 1.0,
-                sum: 1.0,
-            },
-            0.0,
-        );
-        for (lighting, seen) in frame.lightings().iter().zip(&spread.materials) {
-            let length_error = self.length_error(parameters, lighting);
+        // The factor of the light model on an error of a cosine, its largest sum, and the loss that lengths are allowed.
+        let (mut gain, mut most, mut allowed) = (1.0, 1.0, 0.0);
+        for (lighting, lights) in frame.lightings().iter().zip(&spread.materials) {
+            let highlight = highlight_gain(lighting.specular, lighting.shininess, lights.half);
+            // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
+            let falls = if lighting.is_attenuated() { 2.0 } else { 0.0 };
+            let diffuse_error = self.length_error(parameters, lighting);
+            let specular_error = match lighting.specular {
+                SpecularModel::Phong => 0.0,
+                SpecularModel::Blinn => f64::from(lighting.shininess) * diffuse_error,
+            };
             for c in 0..3 {
-                let channel = Gain::of(c, lighting, seen);
-                gain.cosine = gain.cosine.max(channel.cosine);
-                gain.sum = gain.sum.max(channel.sum);
-                allowed = f64::max(allowed, lost(length_error, c, lighting, seen));
+                let sum = |colour: fn(&LightTerm) -> [f32; 3]| -> f64 {
+                    let all = lighting.lights.iter().zip(&lights.strengths);
+                    all.map(|(light, strength)| strength * f64::from(colour(light)[c]))
+                        .sum()
+                };
+                let (diffuse, specular) = (sum(|l| l.diffuse), sum(|l| l.specular));
+                let both = diffuse + specular;
+                gain = f64::max(gain, diffuse + highlight * specular + falls * both);
+                most = f64::max(most, f64::from(lighting.ambient[c]) + both);
+                let lost = lost(diffuse_error, diffuse) + lost(specular_error, specular);
+                allowed = f64::max(allowed, lost);
             }
         }
         let Roundings { start, step, of } = self.roundings;
-        // What is rounded where the weight of perspective is largest counts for more where it is smallest.
-        let weights = match self.perspective {
-            Perspective::Free | Perspective::Divides
-                if frame.interpolation() == Interpolation::Perspective =>
-            {
+        // A rounding where the weight of perspective is largest counts for more where it is smallest.
+        let weights = match (self.perspective, frame.interpolation()) {
+            (Perspective::Free | Perspective::Divides, Interpolation::Perspective) => {
                 spread.weights
             }
             _ => 1.0,
         };
         let rounding = ROUNDING * weights;
-        // What starts a colour is lit from vectors to places, too.
+        // The first value of a colour is lit from vectors to places, too.
         let (toward, square) = (spread.vectors, spread.vectors * spread.vectors);
         let lights = frame.lightings().iter().map(|l| l.lights.len()).max();
         let faint = ROUNDING * lights.unwrap_or(0) as f64;
         let rounded = match of {
-            Stepped::Colours => rounding * (start * gain.cosine * toward + step * steps),
-            Stepped::Sums => rounding * (start * gain.cosine * toward + step * steps * gain.sum),
-            Stepped::Cosines => rounding * (start + step * steps) * gain.cosine * toward,
+            Stepped::Colours => rounding * (start * gain * toward + step * steps),
+            Stepped::Sums => rounding * (start * gain * toward + step * steps * most),
+            Stepped::Cosines => rounding * (start + step * steps) * gain * toward,
             // Squares of weighted vectors have the squares of the weights.
             Stepped::Products => {
                 // With positions three products are stepped, where there was one product and one cosine.
                 let step = if frame.is_local() { 3.0 * step } else { step };
-                rounding * weights * (start + step * steps) * gain.cosine * square
+                rounding * weights * (start + step * steps) * gain * square
             }
         };
         rounded + faint + allowed
@@ -136,59 +139,19 @@ impl Info {
     }
 }
 
-/// Returns what a channel loses by an error of lengths: see [`Info::bound`].
-fn lost(length_error: f64, channel: usize, lighting: &Lighting, seen: &Seen) -> f64 {
-    let specular_error = match lighting.specular {
-        SpecularModel::Phong => 0.0,
-        SpecularModel::Blinn => f64::from(lighting.shininess) * length_error,
-    };
-    let (mut diffuse, mut specular) = (0.0, 0.0);
-    for (light, strength) in lighting.lights.iter().zip(&seen.strengths) {
-        diffuse += strength * f64::from(light.diffuse[channel]);
-        specular += strength * f64::from(light.specular[channel]);
-    }
-    // Of what the clamp leaves of a sum of these terms.
-    let lost = |error: f64, sum: f64| sum.min(1.0) * error / (1.0 - error);
-    lost(length_error, diffuse) + lost(specular_error, specular)
+/// Returns the part of a sum of terms, clamped at 1, that is lost by a relative error of the lengths that divide them.
+fn lost(error: f64, sum: f64) -> f64 {
+    sum.min(1.0) * error / (1.0 - error)
 }
 
-/// By how much the illumination model multiplies an error of a cosine, and the most that it adds up to.
-struct Gain {
-    cosine: f64,
-    sum: f64,
-}
-
-impl Gain {
-    fn of(channel: usize, lighting: &Lighting, seen: &Seen) -> Gain {
-        let highlight = highlight_gain(lighting.specular, lighting.shininess, seen.half);
-        // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
-        let falls = if lighting.is_attenuated() { 2.0 } else { 0.0 };
-        let mut gain = Gain {
-            cosine: 0.0,
-            sum: f64::from(lighting.ambient[channel]),
-        };
-        for (light, strength) in lighting.lights.iter().zip(&seen.strengths) {
-            let diffuse = strength * f64::from(light.diffuse[channel]);
-            let specular = strength * f64::from(light.specular[channel]);
-            gain.cosine += diffuse + highlight * specular + falls * (diffuse + specular);
-            gain.sum += diffuse + specular;
-        }
-        gain
-    }
-}
-
-/// The most steps from a corner to a pixel: down the rows of the polygon and across its columns, inside the picture.
+/// Returns the most steps from a corner to a pixel: down the rows of the polygon and across its columns, inside the picture.
 fn longest_walk(frame: &Frame, polygon: &Polygon) -> usize {
-    let extent = |coordinate: fn(&crate::frame::ScreenVertex) -> crate::frame::SubPixel,
-                  limit: usize| {
-        let all = frame
-            .corners(polygon)
-            .iter()
-            .map(|&v| coordinate(&frame.vertices()[v as usize]).to_bits());
-        let (low, high) = all.fold((i32::MAX, i32::MIN), |(low, high), c| {
-            (low.min(c), high.max(c))
-        });
-        ((high - low) as usize / 256 + 1).min(limit)
+    let extent = |coordinate: fn(&ScreenVertex) -> SubPixel, limit: usize| {
+        let corners = frame.corners(polygon).iter();
+        let all = corners.map(|&v| coordinate(&frame.vertices()[v as usize]).to_bits());
+        let (low, high) = (all.clone().min(), all.max());
+        let extent = high.unwrap_or(0) - low.unwrap_or(0);
+        (extent as usize / 256 + 1).min(limit)
     };
     extent(|v| v.y, frame.height()) + extent(|v| v.x, frame.width())
 }

@@ -1,12 +1,12 @@
-//! How many operations a method takes, counted by running it on numbers that count.
+//! Operation counts: a method runs on numbers that count.
 
 use super::increments::{GreatCircle, Walk};
 use super::kernels::{clamped, ramp};
 use super::lighting::{Lit, Uniforms};
-use super::planes::{get_each, put_each, scaled};
+use super::planes::{Planes, each};
 use super::span_bench::FACE;
 use super::varying::Varying;
-use super::{LitAt, Local, Shader, SpanBench, Variant};
+use super::{LitAt, Local, Shader, Span, SpanBench, Variant};
 use crate::number::{Counted, Counter, Counts, vec3};
 use alloc::vec::Vec;
 
@@ -29,7 +29,7 @@ pub struct OperationCounts {
     pub shade: Counts,
 }
 
-/// Counts what a method does for a span whose pixels have a highlight, and for its vertices and edges.
+/// Counts the operations of a method on a span whose pixels have a highlight, and on its vertices and edges.
 pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> OperationCounts {
     let counter = Counter::default();
     let number = |x: f32| counter.number(x);
@@ -53,8 +53,8 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> Operatio
         };
         let varying = method.vertex(&lit(three(bench.points[i])), normal);
         let mut corner: Vec<Counted<'_>> = Vec::new();
-        put_each(varying, |_, value| {
-            corner.push(clamped::<M, _>(value, model.scale));
+        each(varying, |_, x| {
+            corner.push(clamped::<M, _>(*x, model.scale))
         });
         if extras.point {
             corner.extend(bench.points[i].map(number));
@@ -88,24 +88,23 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> Operatio
         let right = circle(normal(b), normal(c));
         counter.take();
         let span = circle(left.normal(), right.normal());
-        put_each(span, |_, value| start.push(value));
+        each(span, |_, value| start.push(*value));
     } else {
         let ramps = |from: &[_], to: &[_]| -> Vec<_> {
             let ends = from.iter().zip(to);
             ends.map(|(a, b)| ramp(*a, *b, t0, dt)).collect()
         };
+        let column =
+            |ramps: &[[_; 2]], i: usize| -> Vec<_> { ramps.iter().map(|r| r[i]).collect() };
         let mut left = ramps(a, c);
         counts.edge = counter.take();
         left.iter_mut().for_each(|[at, step]| *at = *at + *step);
         counts.edge_step = counter.take();
-        let [left, right] = [left, ramps(b, c)].map(|edge| -> Vec<_> {
-            counter.take();
-            edge.iter().map(|[at, _]| *at).collect()
-        });
-        let mut span = ramps(&left, &right);
+        let right = ramps(b, c);
+        counter.take();
+        let mut span = ramps(&column(&left, 0), &column(&right, 0));
         extra = span.split_off(span.len() - extras.count());
-        let (at, steps) = (span.iter().map(|s| s[0]), span.iter().map(|s| s[1]));
-        start.extend(at.chain(steps));
+        start = [column(&span, 0), column(&span, 1)].concat();
     }
     if is_polygon {
         // Nothing is interpolated.
@@ -113,22 +112,16 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> Operatio
         (counts.edge, counts.edge_step) = Default::default();
     }
     let here = lit(three(bench.points[0]));
-    let mut walk = method.walk(&here, get_each(lights.len(), |i| start[i]));
+    let span = Span::<M, _>::filled(lights.len(), start[0]);
+    let mut walk = method.walk(&here, each(span, |i, number| *number = start[i]));
     counts.span = counter.take();
 
-    let mut pixel = walk.next();
+    let pixel = walk.next();
     for [at, step] in extra {
         let _ = at + step;
     }
     counts.walk = counter.take();
-    let mut point = here.point;
-    if extras.weight {
-        let w = number(1.0) / number(1.0);
-        pixel = scaled(pixel, w);
-        if extras.point {
-            point = point * w;
-        }
-    }
+    let (pixel, point) = extras.divided(pixel, (here.point, number(1.0)));
     method.shade(&lit(point), pixel);
     counts.shade = counter.take();
     counts

@@ -2,10 +2,11 @@
 
 use super::fast_phong_rsqrt::FAST_PHONG_RSQRT;
 use super::increments::Quadratic;
+use super::lighting::toward;
 use super::planes::scaled;
-use super::{Info, Linear, Lit, PerLight, Pixel, Roundings, Seen, Shader, Span, Stepped};
+use super::{Info, Linear, Lit, PerLight, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
-use crate::reference::Model as Truth;
+use crate::reference::Model;
 
 const DUFF_PHONG: Info = Info {
     name: "duff-phong",
@@ -13,7 +14,7 @@ const DUFF_PHONG: Info = Info {
     formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = 1 / sqrt(D)\n\
               I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
     source: "Duff 1979; with positions: L.L, V.V, L.N, N.V and L.V likewise",
-    model: Truth::Phong,
+    model: Model::Phong,
     roundings: Roundings::new(6.0, 2.0, Stepped::Products),
     derivation: "J, K and the first difference of D are each rounded by half of 2^-24 at each step, the latter then added up: D \
                  is off by 3 a step and its root by half of that, 1.5, beside the 0.5 of J or K; with positions L.N is a \
@@ -32,30 +33,23 @@ pub struct DuffPhong<const L: usize, const RSQRT: bool = false>;
 
 impl<const L: usize, const RSQRT: bool> Shader for DuffPhong<L, RSQRT> {
     const INFO: Info = if RSQRT { FAST_PHONG_RSQRT } else { DUFF_PHONG };
-    type Varying<F: Num> = (PerLight<F, L>, F, Vec3<F>); // J of each light, K, N
+    type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>); // J of each light, K; N
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Quadratic<F>); // J of each light, K; D
 
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        let (j, k) = lit.products(n);
-        (j, k, n)
+        (lit.products(n), n)
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {
-        let ((j, k, n), (dj, dk, dn)) = (span.at, span.step);
-        let cosines = Linear {
-            at: (j, k),
-            step: (dj, dk),
-        };
-        (cosines, Quadratic::square(n, dn)) // 4.3
+        let (at, n) = span.at;
+        let (step, dn) = span.step;
+        (Linear { at, step }, Quadratic::square(n, dn)) // 4.3
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, (products, d): Pixel<Self, F>) -> Vec3<F> {
-        let r = if RSQRT {
-            d.rsqrt()
-        } else {
-            d.like(1.0) / d.sqrt()
-        };
+        let one = d.like(1.0);
+        let r = if RSQRT { d.rsqrt() } else { one / d.sqrt() };
         lit.shade_products(scaled(products, r))
     }
 }
@@ -89,15 +83,16 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
     #[inline(always)]
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {
         let ((n, p, w), (dn, dp, dw)) = (span.at, span.step);
-        let (v, dv) = (lit.toward_eye(p, w), lit.toward_eye(dp, dw));
+        let eye = lit.model.eye;
+        let (v, dv) = (toward(eye, p, w), toward(eye, dp, dw));
         let half = w * dw;
         let (nn, vv) = (Quadratic::square(n, dn), Quadratic::square(v, dv));
         let nv = Quadratic::product(n, dn, v, dv);
         let ww = Quadratic::new(w * w, half + half, dw * dw);
-        let none = PerLight::new(lit.stored().len(), nn);
+        let none = PerLight::new(lit.stored.len(), nn);
         let (mut ll, mut ln, mut lv) = (none, none, none);
-        for (i, light) in lit.stored().iter().enumerate() {
-            let (l, dl) = (light.toward(p, w), light.toward(dp, dw));
+        for (i, light) in lit.stored.iter().enumerate() {
+            let (l, dl) = (toward(light.place, p, w), toward(light.place, dp, dw));
             ll[i] = Quadratic::square(l, dl);
             ln[i] = Quadratic::product(l, dl, n, dn);
             lv[i] = Quadratic::product(l, dl, v, dv);
@@ -105,20 +100,17 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
         (((nn, vv), (nv, ww)), ((ll, ln), lv))
     }
     #[inline(always)]
-    fn shade<F: Num>(
-        self,
-        lit: &Lit<'_, F>,
-        (((nn, vv), (nv, ww)), ((ll, ln), lv)): Pixel<Self, F>,
-    ) -> Vec3<F> {
+    fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F> {
+        let (((nn, vv), (nv, ww)), ((ll, ln), lv)) = pixel;
         let one = nn.like(1.0);
         let (over_n, over_v) = (one / nn.sqrt(), one / vv.sqrt());
         let v_n = nv * over_n * over_v;
         let mut colour = lit.ambient();
-        for index in 0..lit.stored().len() {
+        for index in 0..lit.stored.len() {
             let over_l = one / ll[index].sqrt();
             let l_n = ln[index] * (over_n * over_l); // L·N / √(N·N L·L)
             let l_v = lv[index] * (over_v * over_l);
-            let light = Seen::from_products(lit, index, l_v, ll[index], ww);
+            let light = lit.light(index, l_v, ll[index], ww);
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n)); // 4.5
         }
         colour

@@ -2,11 +2,11 @@
 
 use super::increments::{Newton, NewtonSteps};
 use super::{
-    Auto, Info, Linear, Lit, Local, Model, Parameter, PerLight, Pixel, Roundings, Shader, Span,
-    Stepped,
+    Auto, Info, LightModel, Linear, Lit, Local, MethodParameter, PerLight, Pixel, Roundings,
+    Shader, Span, Stepped,
 };
 use crate::number::{Num, Vec3};
-use crate::reference::Model as Truth;
+use crate::reference::Model;
 use crate::scene::SpecularModel;
 
 /// Fast Phong shading as the lecture prints it, for up to `L` lights: `J = L·N` for each light, `K = V·N` and N by additions,
@@ -28,16 +28,16 @@ impl<const L: usize> Shader for FastPhong<L> {
         formula: "J_next = J + dJ;  K_next = K + dK;  N_next = N + dN;  D = N.N;  d = sqrt(D) by Newton from the \
                   previous pixel\nI = Ia ka + Ip kd J/d + Ip ks (2 J K / D - L.V)^n",
         source: "L21 4.2, 4.3, eq 4.3-4.6",
-        model: Truth::PhongConstant,
+        model: Model::PhongConstant,
         roundings: Roundings::new(4.0, 1.4, Stepped::Cosines),
         derivation: "each step rounds J and K by half of 2^-24, and the three components of N, so d = |N|, by 0.87 * 2^-24: \
                      J/d is off by 1.4, and 2 J K / D by 2 (0.5 + 0.5 + 2 * 0.87) = 5.5, which is 4 * 1.4",
         fails: "with a number of steps given: on spans of few pixels over a large angle, where the previous length is a bad \
                 first guess, and where normals cancel inside a span",
-        parameters: &[Parameter {
+        parameters: &[MethodParameter {
             name: "steps",
             meaning: "steps of Newton's method a pixel",
-            default: Parameter::AUTO,
+            default: MethodParameter::AUTO,
             least: 1,
             most: NewtonSteps::MOST,
             auto: Some(Auto {
@@ -49,29 +49,24 @@ impl<const L: usize> Shader for FastPhong<L> {
         barycentric: false,
         ..Info::OF_PIXELS
     };
-    type Varying<F: Num> = (PerLight<F, L>, F, Vec3<F>); // J of each light, K, N
+    type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>); // J of each light, K; N
     type Walk<F: Num> = (Linear<(PerLight<F, L>, F)>, Newton<F>); // J of each light, K; d, D
 
     #[inline(always)]
-    fn new(parameters: &[u32], model: &Model) -> Self {
-        let largest_error = largest_error(model.specular, model.shininess);
-        FastPhong {
-            steps: NewtonSteps::new(parameters[0], largest_error),
-        }
+    fn new(parameters: &[u32], model: &LightModel) -> Self {
+        let error = largest_error(model.specular, model.shininess);
+        let steps = NewtonSteps::new(parameters[0], error);
+        FastPhong { steps }
     }
     #[inline(always)]
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F> {
-        let (j, k) = lit.products(n);
-        (j, k, n)
+        (lit.products(n), n)
     }
     #[inline(always)]
     fn walk<F: Num>(self, _: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F> {
-        let ((j, k, n), (dj, dk, dn)) = (span.at, span.step);
-        let cosines = Linear {
-            at: (j, k),
-            step: (dj, dk),
-        };
-        (cosines, Newton::new(n, dn, &self.steps)) // 4.3, 4.4
+        let (at, n) = span.at;
+        let (step, dn) = span.step;
+        (Linear { at, step }, Newton::new(n, dn, &self.steps)) // 4.3, 4.4
     }
     #[inline(always)]
     fn shade<F: Num>(self, lit: &Lit<'_, F>, ((j, k), (d, square)): Pixel<Self, F>) -> Vec3<F> {

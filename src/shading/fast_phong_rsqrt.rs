@@ -1,7 +1,7 @@
 //! Fast Phong shading in the terms of today's hardware: the reciprocal root that processors have, D by second differences.
 
 use super::{Info, Local, Roundings, Stepped};
-use crate::reference::Model as Truth;
+use crate::reference::Model;
 
 /// Fast Phong shading for processors that have a reciprocal square root, for up to `L` lights: `J = L·N` and `K = V·N` by one
 /// addition each, `D = N·N` by two, and `r = 1/√D` by the processor's estimate and one step of Newton's, which starts from no
@@ -15,7 +15,7 @@ pub const FAST_PHONG_RSQRT: Info = Info {
     formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = rsqrt(D)\n\
               I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
     source: "L21 4.2, 4.3, with the root that processors have had since 1999 (SSE rsqrtps)",
-    model: Truth::PhongConstant,
+    model: Model::PhongConstant,
     roundings: Roundings::new(10.4, 2.0, Stepped::Products),
     derivation: "as duff-phong; the estimate of the root and its step are off by 6.4 roundings, where a root and a quotient \
                  are off by 2",

@@ -4,7 +4,7 @@ use super::{
     Constant, Info, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
 use crate::number::{Num, Vec3};
-use crate::reference::Model as Truth;
+use crate::reference::Model;
 
 /// Flat (uniform) shading: the polygon's own normal, lit once (L21 2.1).
 ///
@@ -18,7 +18,7 @@ impl Shader for Flat {
         title: "one colour a polygon, from its own normal",
         formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, N the polygon's normal by Newell's formula",
         source: "L21 2, eq 2.1 (Bouknight 1970)",
-        model: Truth::Flat,
+        model: Model::Flat,
         roundings: Roundings::new(4.0, 0.0, Stepped::Colours),
         derivation: "nothing is stepped; L.N and R.V take 8 roundings each of at most half of 2^-24",
         fails: "every polygon edge is visible, and exaggerated by the eye (Mach bands)",

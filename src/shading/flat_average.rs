@@ -2,7 +2,7 @@
 
 use super::flat::Flat;
 use super::{Info, LitAt, Roundings, Shader, Stepped};
-use crate::reference::Model as Truth;
+use crate::reference::Model;
 
 /// Flat shading as CS171 defines it: the mean of the vertex normals, at the mean of the vertex positions, lit once by the
 /// kernels of [`Flat`].
@@ -13,7 +13,7 @@ pub const FLAT_AVERAGE: Info = Info {
     title: "one colour a polygon, from the mean of its vertex normals",
     formula: "N = (N1 + ... + Nn) / |N1 + ... + Nn|;  P = (P1 + ... + Pn) / n;  I = eq 2.1 of N at P",
     source: "CS171 3, Algorithm 6",
-    model: Truth::FlatAverage,
+    model: Model::FlatAverage,
     roundings: Roundings::new(8.0, 0.0, Stepped::Colours),
     derivation: "as flat, and the mean normal takes 4 more roundings until it is a unit vector",
     fails: "as flat; where the vertex normals cancel there is no mean normal, and ambient light remains",

@@ -4,7 +4,7 @@ use super::{
     Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
 };
 use crate::number::{Num, Vec3};
-use crate::reference::Model as Truth;
+use crate::reference::Model;
 
 /// Gouraud shading whose vertex colours are not clamped: ambient and diffuse light in one colour, specular light in another,
 /// both interpolated, summed and clamped at each pixel.
@@ -21,7 +21,7 @@ impl Shader for GouraudSeparate {
         title: "vertex colours not clamped, diffuse and specular light interpolated apart",
         formula: "D_next = D + dD;  S_next = S + dS;  I = min(1, D + S), D = Ia ka + Ip kd (L.N), S = Ip ks (R.V)^n at vertices",
         source: "L21 3, eq 3.5, 3.6; OpenGL 1.2, 2.13.1 (separate specular colour)",
-        model: Truth::GouraudSeparate,
+        model: Model::GouraudSeparate,
         roundings: Roundings::new(6.0, 1.0, Stepped::Sums),
         derivation: "as Gouraud, with two colours that are stepped, added, and at most the sum of all light between them",
         fails: "as Gouraud",

@@ -1,4 +1,4 @@
-//! What is said about a method: the texts and bounds that the tool, the tests and the report share.
+//! Descriptions of methods: the texts and bounds that the tool, the tests and the report share.
 
 use super::bound::{Roundings, Stepped};
 use crate::reference::Model;
@@ -8,31 +8,31 @@ use alloc::string::{String, ToString};
 
 /// A number that a method can be given after its name, as in `fast-phong:steps=1`.
 #[derive(Clone, Copy, Debug)]
-pub struct Parameter {
-    /// Its name.
+pub struct MethodParameter {
+    /// The name.
     pub name: &'static str,
-    /// What it means.
+    /// The meaning, in a few words.
     pub meaning: &'static str,
-    /// Its value when none is given.
+    /// The value when none is given.
     pub default: u32,
     /// The smallest value allowed.
     pub least: u32,
     /// The largest value allowed.
     pub most: u32,
-    /// The choice left to the method, if it can be: written `auto`, the value [`Parameter::AUTO`].
+    /// The choice left to the method, if it can be: written `auto`, the value [`MethodParameter::AUTO`].
     pub auto: Option<Auto>,
 }
 
 /// A choice that a method makes by itself, from span to span.
 #[derive(Clone, Copy, Debug)]
 pub struct Auto {
-    /// What it takes.
+    /// The values that it takes, and when.
     pub meaning: &'static str,
     /// The largest relative error of |N| that it leaves on a material: [`Info::bound`] has room for it.
     pub length_error: fn(&Lighting) -> f32,
 }
 
-impl Parameter {
+impl MethodParameter {
     /// The value that stands for `auto`.
     pub const AUTO: u32 = 0;
 
@@ -43,8 +43,8 @@ impl Parameter {
         default: u32,
         least: u32,
         most: u32,
-    ) -> Parameter {
-        Parameter {
+    ) -> MethodParameter {
+        MethodParameter {
             name,
             meaning,
             default,
@@ -56,38 +56,34 @@ impl Parameter {
 
     /// Reads a value; `None` if it is neither in the range nor `auto` where that is allowed.
     pub fn parse(&self, text: &str) -> Option<u32> {
-        if self.auto.is_some() && text == "auto" {
-            return Some(Parameter::AUTO);
-        }
         let is_in_range = |value: &u32| (self.least..=self.most).contains(value);
-        text.parse().ok().filter(is_in_range)
+        match text {
+            "auto" if self.auto.is_some() => Some(MethodParameter::AUTO),
+            _ => text.parse().ok().filter(is_in_range),
+        }
     }
 
-    /// Writes a value as [`Parameter::parse`] reads it.
+    /// Writes a value as [`MethodParameter::parse`] reads it.
     pub fn text(&self, value: u32) -> String {
-        if self.is_auto(value) {
-            "auto".into()
-        } else {
-            value.to_string()
+        match self.is_auto(value) {
+            true => "auto".into(),
+            false => value.to_string(),
         }
     }
 
     /// Returns the values allowed, as people read them: `auto or 1..8`.
     pub fn range(&self) -> String {
-        let (least, most) = (self.least, self.most);
-        match self.auto {
-            Some(_) => format!("auto or {least}..{most}"),
-            None => format!("{least}..{most}"),
-        }
+        let auto = self.auto.map_or("", |_| "auto or ");
+        format!("{auto}{}..{}", self.least, self.most)
     }
 
     /// True if the choice is left to the method.
     pub fn is_auto(&self, value: u32) -> bool {
-        self.auto.is_some() && value == Parameter::AUTO
+        self.auto.is_some() && value == MethodParameter::AUTO
     }
 }
 
-/// What a method does when the scene asks for perspective interpolation.
+/// The answer of a method to perspective interpolation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Perspective {
     /// Nothing is interpolated.
@@ -101,7 +97,7 @@ pub enum Perspective {
 }
 
 impl Perspective {
-    /// One sentence for people.
+    /// Returns a sentence for people.
     pub fn sentence(self) -> &'static str {
         match self {
             Perspective::Unaffected => "interpolates nothing, so perspective changes nothing",
@@ -116,7 +112,7 @@ impl Perspective {
     }
 }
 
-/// What a method does where a light or the eye is at a position.
+/// The points from which a method sees lights and eye that are at positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Local {
     /// The vectors to them are constant along a polygon, as the lecture assumes (L21 1): those of its mean corner.
@@ -128,7 +124,7 @@ pub enum Local {
 }
 
 impl Local {
-    /// One sentence for people.
+    /// Returns a sentence for people.
     pub fn sentence(self) -> &'static str {
         match self {
             Local::PerPolygon => {
@@ -140,7 +136,7 @@ impl Local {
     }
 }
 
-/// Where a method evaluates the light model.
+/// The rate at which a method evaluates the light model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LitAt {
     /// Once a polygon, from its own normal.
@@ -153,32 +149,32 @@ pub enum LitAt {
     Pixel,
 }
 
-/// What is said about a method.
+/// The description of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct Info {
-    /// Its name on the command line.
+    /// The name on the command line.
     pub name: &'static str,
-    /// What it is, in one sentence.
+    /// The method in one sentence.
     pub title: &'static str,
-    /// Its formulas, as lines of text.
+    /// The formulas, as lines of text.
     pub formula: &'static str,
-    /// Where they are from.
+    /// The source of the formulas.
     pub source: &'static str,
     /// The closed form that its picture is measured against.
     pub model: Model,
-    /// How many roundings its numbers gather: [`Info::bound`] makes the largest difference to that closed form of it.
+    /// The roundings that its numbers gather. [`Info::bound`] derives the largest difference to the closed form from them.
     pub roundings: Roundings,
-    /// Why so many roundings and no more.
+    /// The reason for so many roundings and no more.
     pub derivation: &'static str,
-    /// Where its picture is bad, or its arithmetic fails.
+    /// The cases in which its picture is bad, or its arithmetic fails.
     pub fails: &'static str,
-    /// What it can be given.
-    pub parameters: &'static [Parameter],
-    /// What perspective interpolation does to it.
+    /// The parameters after the name.
+    pub parameters: &'static [MethodParameter],
+    /// The answer to perspective interpolation.
     pub perspective: Perspective,
-    /// What it does where a light or the eye is at a position.
+    /// The points from which it sees lights and eye at positions.
     pub local: Local,
-    /// Where it evaluates the light model.
+    /// The rate at which it evaluates the light model.
     pub lit_at: LitAt,
     /// True if the barycentric renderer has it: it needs a pixel without its neighbours.
     pub barycentric: bool,

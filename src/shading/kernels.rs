@@ -1,33 +1,33 @@
-//! Methods as tables of plain functions, with the loops over pixels in them: engines are compiled once and call these.
+//! Kernels: a method as a table of plain functions with the loops over pixels in them. Engines are compiled once and call these.
 
 use super::increments::{GreatCircle, Linear, Walk};
 #[cfg(feature = "simd")]
-use super::lighting::Light;
+use super::lighting::LightUniforms;
 use super::lighting::{Lit, Uniforms};
-use super::planes::{Planes, get_each, put_each, scaled};
+use super::planes::{Planes, count, each, scaled};
 use super::varying::Varying;
 use super::{LitAt, Pixel, Shader, Stepped};
 #[cfg(feature = "simd")]
-use crate::number::simd::{BLOCK, Block, Token, vectorize};
-use crate::number::{Level, Num, Vec3, vec3};
+use crate::number::simd::{Block, Token, vectorize};
+use crate::number::{BLOCK, Level, Num, Vec3, vec3};
 #[cfg(feature = "simd")]
 use fearless_simd::{SimdBase, f32x8};
 
-/// What a span of a method starts from.
+/// The state that a span of a method starts from.
 pub type Span<S, F> = <<S as Shader>::Varying<F> as Varying<F>>::Span;
 
-/// A run of pixels of one polygon on one scanline. What it starts from stands in a list of its own, `start_len` numbers a run.
+/// A run of pixels of one polygon on one scanline. Its start values stand in a list beside it, [`start_len`] numbers a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
     /// The uniforms that it is shaded with.
     pub uniforms: u32,
     /// The column of its first pixel.
     pub x: u32,
-    /// How many pixels it has.
+    /// The number of its pixels.
     pub pixels: u32,
 }
 
-/// What the house interpolates beside a method's varyings, in this order.
+/// The varyings that kernels add to those of a method, in this order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Extras {
     /// The position of the point, where lights are seen from each pixel.
@@ -37,12 +37,12 @@ pub(crate) struct Extras {
 }
 
 impl Extras {
-    /// Returns how many numbers they have.
+    /// Returns the number of their values.
     pub fn count(self) -> usize {
         3 * usize::from(self.point) + usize::from(self.weight)
     }
 
-    /// Returns position and weight from their numbers; those that there are not are `none`.
+    /// Returns position and weight from their numbers; a missing one is `none`.
     #[inline(always)]
     fn of<F: Num>(self, none: F, number: impl Fn(usize) -> F) -> (Vec3<F>, F) {
         let (mut point, mut weight) = (vec3([none; 3]), none);
@@ -54,19 +54,30 @@ impl Extras {
         }
         (point, weight)
     }
-}
 
-/// Numbers that a run starts from: its `varyings` at the first pixel, then their steps; or for great circles both unit normals,
-/// t and Δt at the first pixel, and the polygon's normal.
-pub(crate) const fn start_len(great_circle: bool, varyings: usize) -> usize {
-    if great_circle {
-        GREAT_CIRCLE
-    } else {
-        2 * varyings
+    /// Divides the varyings of a pixel and its position by the weight of perspective, if there is one.
+    #[inline(always)]
+    pub(super) fn divided<F: Num, P: Planes<F>>(
+        self,
+        pixel: P,
+        (mut point, weight): (Vec3<F>, F),
+    ) -> (P, Vec3<F>) {
+        if !self.weight {
+            return (pixel, point);
+        }
+        let w = weight.like(1.0) / weight;
+        if self.point {
+            point = point * w;
+        }
+        (scaled(pixel, w), point)
     }
 }
 
-const GREAT_CIRCLE: usize = 11;
+/// Returns the number of values that a run starts from: its `varyings` at the first pixel, then their steps; or for great circles
+/// both unit normals, t and Δt at the first pixel, and the polygon's normal.
+pub(crate) const fn start_len(great_circle: bool, varyings: usize) -> usize {
+    if great_circle { 11 } else { 2 * varyings }
+}
 
 /// The vertices whose varyings are computed together: they have the same material.
 #[derive(Clone, Copy, Debug)]
@@ -74,9 +85,9 @@ pub(crate) struct Vertices<'a> {
     pub parameters: &'a [u32],
     pub uniforms: &'a Uniforms,
     pub normals: &'a [[f32; 3]],
-    /// Positions, if anything is lit from a position.
+    /// Positions, one a normal; any vectors if nothing is lit from a position.
     pub points: &'a [[f32; 3]],
-    /// Numbers from the varyings of a vertex to those of the next.
+    /// The stride from the varyings of a vertex to those of the next, in numbers.
     pub stride: usize,
 }
 
@@ -84,24 +95,34 @@ pub(crate) struct Vertices<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pixels<'a> {
     pub parameters: &'a [u32],
-    /// By the number in [`Run::uniforms`].
+    /// The uniforms, indexed by [`Run::uniforms`].
     pub uniforms: &'a [Uniforms],
     pub extras: Extras,
-    /// Runs, whose pixels stand one after the other.
+    /// The runs, whose pixels stand one after the other.
     pub runs: &'a [Run],
-    /// What each run starts from.
+    /// The numbers that each run starts from.
     pub starts: &'a [f32],
 }
 
 impl<'a> Pixels<'a> {
-    /// Returns how many lights there are.
+    /// Returns the number of lights.
     fn lights(&self) -> usize {
         self.uniforms.first().map_or(0, |all| all.lights.len())
     }
 
-    /// Returns neighbouring runs of the same uniforms together: they share what is made of them.
-    fn by_uniforms(&self) -> impl Iterator<Item = &'a [Run]> {
-        self.runs.chunk_by(|a, b| a.uniforms == b.uniforms)
+    /// Returns neighbouring runs of the same uniforms together, each with the `len` numbers that it starts from.
+    fn by_uniforms(
+        &self,
+        len: usize,
+    ) -> impl Iterator<Item = (&'a Uniforms, impl Iterator<Item = (&'a Run, &'a [f32])>)> {
+        let (uniforms, mut starts) = (self.uniforms, self.starts);
+        let groups = self.runs.chunk_by(|a, b| a.uniforms == b.uniforms);
+        groups.map(move |runs| {
+            let (here, rest) = starts.split_at(runs.len() * len);
+            starts = rest;
+            let uniforms = &uniforms[runs[0].uniforms as usize];
+            (uniforms, runs.iter().zip(here.chunks_exact(len)))
+        })
     }
 }
 
@@ -110,73 +131,74 @@ type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
 /// A method compiled for one number of lights.
 #[derive(Clone, Copy)]
 pub struct Kernels {
-    /// Numbers of a varying and of a pixel, where there are so many lights.
+    /// Returns the numbers of a varying and of a pixel for so many lights.
     pub(crate) counts: fn(usize) -> [usize; 2],
     pub(crate) great_circle: bool,
     /// True if pixels are the varyings themselves.
     pub(crate) linear: bool,
     pub(crate) passes_normal: bool,
-    /// Varyings of vertices from their normals and positions, `stride` numbers apart.
+    /// Computes the varyings of vertices from normals and positions, `stride` numbers apart.
     pub(crate) vertices: VertexKernel,
-    /// The scalar pixel loop.
+    /// Shades runs: the scalar pixel loop.
     pub(crate) pixels: fn(&Pixels<'_>, &mut [[f32; 3]]),
-    /// Those of each instruction set, in the order of [`Level::ALL`](crate::number::Level::ALL) from the second on.
-    pub(crate) simd: [Option<SimdKernels>; 3],
+    /// The kernels of each instruction set.
+    pub(crate) simd: &'static [(Level, SimdKernels)],
 }
 
 /// The kernels of a method on one instruction set.
 #[derive(Clone, Copy)]
 #[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub(crate) struct SimdKernels {
-    /// Varyings of vertices, for methods that are lit there: else the scalar kernel.
+    /// Computes the varyings of vertices, for methods that are lit there; others use the scalar kernel.
     pub vertices: Option<VertexKernel>,
-    /// What walks give to the pixels of runs, for methods whose varyings are not that: for each run plane by plane, whole blocks.
+    /// Walks along runs, for methods whose walks are not linear: writes each run plane by plane, in whole blocks.
     pub walk: Option<fn(&Pixels<'_>, &mut [f32])>,
-    /// One row of the G-buffer to colours.
+    /// Shades one row of the G-buffer.
     pub shade: fn(&ShadeRow<'_>, &[f32], &mut RowColours<'_>),
 }
 
 impl Kernels {
     /// Returns the kernels of an instruction set; `None` for scalar code.
     pub(crate) fn on(&self, level: Level) -> Option<&SimdKernels> {
-        let place = Level::ALL[1..].iter().position(|other| *other == level)?;
-        self.simd[place].as_ref()
+        let found = self.simd.iter().find(|(other, _)| *other == level);
+        found.map(|(_, kernels)| kernels)
     }
 
     /// Compiles a method.
     pub const fn of<M: Shader>() -> Kernels {
-        #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-        let simd = {
-            use fearless_simd::{Avx2, Avx512};
-            let avx2 = SimdKernels::of::<M, Avx2, Avx2>();
-            let avx512 = SimdKernels::of::<M, Avx2, Avx512>();
-            [Some(avx2), Some(avx512), None]
-        };
-        #[cfg(all(feature = "simd", target_arch = "aarch64"))]
-        let simd = {
-            use fearless_simd::Neon;
-            [None, None, Some(SimdKernels::of::<M, Neon, Neon>())]
-        };
-        #[cfg(not(all(feature = "simd", any(target_arch = "x86_64", target_arch = "aarch64"))))]
-        let simd = [None; 3];
         Kernels {
             counts: |lights| {
-                [
-                    <M::Varying<f32> as Planes<f32>>::count(lights),
-                    <Pixel<M, f32> as Planes<f32>>::count(lights),
-                ]
+                let varyings = count::<M::Varying<f32>>(lights);
+                [varyings, count::<Pixel<M, f32>>(lights)]
             },
             great_circle: <M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE,
             linear: <M::Walk<f32> as Walk<f32>>::LINEAR,
             passes_normal: M::PASSES_NORMAL,
             vertices: vertices::<M>,
             pixels: pixels::<M>,
-            simd,
+            #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+            simd: const {
+                use fearless_simd::{Avx2, Avx512};
+                &[
+                    (Level::Avx2, SimdKernels::of::<M, Avx2, Avx2>()),
+                    (Level::Avx512, SimdKernels::of::<M, Avx2, Avx512>()),
+                ]
+            },
+            #[cfg(all(feature = "simd", target_arch = "aarch64"))]
+            simd: const {
+                use fearless_simd::Neon;
+                &[(Level::Neon, SimdKernels::of::<M, Neon, Neon>())]
+            },
+            #[cfg(not(all(
+                feature = "simd",
+                any(target_arch = "x86_64", target_arch = "aarch64")
+            )))]
+            simd: &[],
         }
     }
 }
 
-/// Clamps what vertices (or polygons) are coloured to 0..=`scale`, for methods that say so.
+/// Clamps a number of a vertex to 0..=`scale` if it is a colour that is not clamped later.
 #[inline(always)]
 pub(super) fn clamped<M: Shader, F: Num>(value: F, scale: f32) -> F {
     match (M::INFO.lit_at, M::INFO.roundings.of) {
@@ -191,36 +213,57 @@ fn at_most<F: Num>(value: F, most: f32) -> F {
     -(-value.max(0.0)).max(-most)
 }
 
+/// Lights vertices one at a time.
 fn vertices<M: Shader>(job: &Vertices<'_>, out: &mut [f32]) {
-    let Uniforms { model, lights } = job.uniforms;
-    let method = M::new(job.parameters, model);
-    let mut points = job.points.iter();
-    for (normal, out) in job.normals.iter().zip(out.chunks_mut(job.stride)) {
-        let point = vec3(points.next().copied().unwrap_or_default());
-        let varying = method.vertex(&Lit::new(*model, lights, point, true), vec3(*normal));
-        put_each(varying, |i, value| {
-            out[i] = clamped::<M, f32>(value, model.scale);
-        });
-    }
+    light::<M, f32>(job, out, |normals| vec3(normals[0]), |x| [x; BLOCK]);
 }
 
-/// Returns how many numbers vertices carry for a method.
+/// Lights vertices, as many at a time as a number holds: `gather` makes a vector of some, `lanes` takes a number apart.
 #[inline(always)]
-fn varyings<M: Shader>(lights: usize) -> usize {
-    <M::Varying<f32> as Planes<f32>>::count(lights)
+fn light<M: Shader, F: Num>(
+    job: &Vertices<'_>,
+    out: &mut [f32],
+    gather: impl Fn(&[[f32; 3]]) -> Vec3<F>,
+    lanes: impl Fn(F) -> [f32; BLOCK],
+) {
+    let (model, lights) = (job.uniforms.model, &job.uniforms.lights[..]);
+    let method = M::new(job.parameters, &model);
+    let points = job.points.chunks(F::WIDTH);
+    let vertices = job.normals.chunks(F::WIDTH).zip(points);
+    for ((normals, points), out) in vertices.zip(out.chunks_mut(F::WIDTH * job.stride)) {
+        let (n, point) = (gather(normals), gather(points));
+        let varying = if F::WIDTH > 1 && model.is_fast {
+            method.vertex(&Lit::new(model, lights, point, false), n)
+        } else {
+            method.vertex(&Lit::new(model, lights, point, true), n)
+        };
+        each(
+            varying,
+            #[inline(always)]
+            |i, number| {
+                let values = lanes(clamped::<M, F>(*number, model.scale));
+                for (k, value) in values[..normals.len()].iter().enumerate() {
+                    out[k * job.stride + i] = *value;
+                }
+            },
+        );
+    }
 }
 
 /// Starts a span from the numbers of a run, of which the steps follow `step` numbers after the first.
 #[inline(always)]
 fn start<M: Shader>(lights: usize, step: usize, numbers: &[f32]) -> Span<M, f32> {
+    let span = Span::<M, f32>::filled(lights, 0.0);
     if <M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE {
         let mut list = [0.0; 12];
-        put_each(circle(numbers), |i, value| list[i] = value);
-        return get_each(lights, |i| list[i % 12]);
+        each(circle(numbers), |i, number| list[i] = *number);
+        return each(span, |i, number| *number = list[i % 12]);
     }
-    let own = varyings::<M>(lights);
+    let own = count::<M::Varying<f32>>(lights);
     let (at, steps) = (&numbers[..own], &numbers[step..step + own]);
-    get_each(lights, |i| if i < own { at[i] } else { steps[i - own] })
+    each(span, |i, number| {
+        *number = if i < own { at[i] } else { steps[i - own] };
+    })
 }
 
 fn circle(numbers: &[f32]) -> GreatCircle<f32> {
@@ -230,34 +273,29 @@ fn circle(numbers: &[f32]) -> GreatCircle<f32> {
 
 /// Shades runs one pixel at a time: the lecture's loop.
 fn pixels<M: Shader>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
-    let numbers = varyings::<M>(job.lights()) + job.extras.count();
+    let numbers = count::<M::Varying<f32>>(job.lights()) + job.extras.count();
     let len = start_len(<M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE, numbers);
-    let mut starts = job.starts.chunks_exact(len);
-    for same in job.by_uniforms() {
-        let uniforms = &job.uniforms[same[0].uniforms as usize];
-        let pixels = same.iter().map(|run| run.pixels as usize).sum();
-        let (here, rest) = out.split_at_mut(pixels);
-        out = rest;
-        let runs = same.iter().zip(starts.by_ref());
-        if uniforms.model.is_general || job.extras != Extras::default() {
-            shade_runs::<M>(job, uniforms, true, runs, here);
+    for (uniforms, runs) in job.by_uniforms(len) {
+        out = if uniforms.model.is_general || job.extras != Extras::default() {
+            shade_runs::<M>(job, uniforms, true, runs, out)
         } else {
-            shade_runs::<M>(job, uniforms, false, runs, here);
-        }
+            shade_runs::<M>(job, uniforms, false, runs, out)
+        };
     }
 }
 
-/// Shades runs of the same uniforms. Without `general`, a literal, there are no extras and no general light.
+/// Shades runs of the same uniforms, and returns the pixels after them. Without `general`, a literal, there are no extras and
+/// no general light.
 #[inline(always)]
-fn shade_runs<'a, M: Shader>(
+fn shade_runs<'a, 'b, M: Shader>(
     job: &Pixels<'_>,
     Uniforms { model, lights }: &Uniforms,
     general: bool,
     runs: impl Iterator<Item = (&'a Run, &'a [f32])>,
-    mut out: &mut [[f32; 3]],
-) {
+    mut out: &'b mut [[f32; 3]],
+) -> &'b mut [[f32; 3]] {
     let (model, extras) = (*model, job.extras);
-    let own = varyings::<M>(lights.len());
+    let own = count::<M::Varying<f32>>(lights.len());
     let step = own + extras.count();
     let method = M::new(job.parameters, &model);
     let directional = Lit::new(model, lights, vec3([0.0; 3]), general);
@@ -272,43 +310,40 @@ fn shade_runs<'a, M: Shader>(
         for colour in here {
             let (mut pixel, mut lit) = (walk.next(), directional);
             if general {
-                let (mut point, weight) = Walk::<f32>::next(&mut extra);
-                if extras.weight {
-                    let w = 1.0 / weight;
-                    pixel = scaled(pixel, w);
-                    point = point * w;
-                }
+                let point;
+                (pixel, point) = extras.divided(pixel, Walk::<f32>::next(&mut extra));
                 lit = Lit::new(model, lights, point, true);
             }
             *colour = method.shade(&lit, pixel).array();
         }
     }
+    out
 }
 
-/// What a row of the G-buffer is shaded with.
+/// A row of the G-buffer to be shaded.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub(crate) struct ShadeRow<'a> {
     pub parameters: &'a [u32],
     pub uniforms: &'a Uniforms,
     pub extras: Extras,
-    /// Numbers of a pixel in the G-buffer: depth, planes, extras, and what kernels do not read.
+    /// The numbers of a pixel in the G-buffer: depth, planes, extras, and others that kernels do not read.
     pub numbers: usize,
 }
 
-/// Where the colours of a row go, a block of pixels after the other.
+/// The memory for the colours of a row, block by block.
 #[derive(Debug)]
 #[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub enum RowColours<'a> {
-    /// Bytes, and the background of those that nothing covers.
+    /// Bytes, and the background of pixels that nothing covers.
     Bytes(&'a mut [[u8; 4]], [u8; 4]),
-    /// Red, green and blue: linear, not clamped.
+    /// Red, green and blue: linear, not clamped; left as they are in blocks that nothing covers.
     Linear([&'a mut [f32]; 3]),
 }
 
 #[cfg(feature = "simd")]
 impl SimdKernels {
-    /// Compiles a method for `S`; what is not a pixel loop for `T`, which machines with `S` have too.
+    /// Compiles a method: its pixel loop for `S`, all else for `T`, which machines with `S` have too.
     const fn of<M: Shader, T: Token, S: Token>() -> SimdKernels {
         SimdKernels {
             vertices: match M::INFO.lit_at {
@@ -328,37 +363,17 @@ impl SimdKernels {
 #[cfg(feature = "simd")]
 fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
     let simd = S::get();
-    let (model, lights) = (job.uniforms.model, &job.uniforms.lights[..]);
-    let method = M::new(job.parameters, &model);
     vectorize(
         simd,
         #[inline(always)]
         || {
-            let blocks = out.chunks_mut(BLOCK * job.stride);
-            let mut points = job.points.chunks(BLOCK);
-            for (normals, out) in job.normals.chunks(BLOCK).zip(blocks) {
-                let n = transposed(simd, normals);
-                let point = match points.next() {
-                    Some(points) => transposed(simd, points),
-                    None => n,
-                };
-                let varying = if model.is_fast {
-                    method.vertex(&Lit::new(model, lights, point, false), n)
-                } else {
-                    method.vertex(&Lit::new(model, lights, point, true), n)
-                };
-                put_each(
-                    varying,
-                    #[inline(always)]
-                    |i, value| {
-                        let mut lanes = [0.0; BLOCK];
-                        Block::store(clamped::<M, _>(value, model.scale), &mut lanes);
-                        for (k, lane) in lanes[..normals.len()].iter().enumerate() {
-                            out[k * job.stride + i] = *lane;
-                        }
-                    },
-                );
-            }
+            light::<M, f32x8<S>>(
+                job,
+                out,
+                #[inline(always)]
+                |all| transposed(simd, all),
+                |x| x.into(),
+            );
         },
     );
 }
@@ -368,25 +383,19 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
 #[inline(always)]
 fn transposed<S: Token>(simd: S, all: &[[f32; 3]]) -> Vec3<f32x8<S>> {
     let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
-    let mut k = 0;
-    while k < BLOCK {
+    for k in 0..BLOCK {
         [x[k], y[k], z[k]] = all[k.min(all.len() - 1)];
-        k += 1;
     }
-    vec3([
-        f32x8::from_slice(simd, &x),
-        f32x8::from_slice(simd, &y),
-        f32x8::from_slice(simd, &z),
-    ])
+    let (x, y) = (f32x8::from_slice(simd, &x), f32x8::from_slice(simd, &y));
+    vec3([x, y, f32x8::from_slice(simd, &z)])
 }
 
 /// Walks along runs, a block at a time.
 #[cfg(feature = "simd")]
 fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
-    let simd = S::get();
-    let lights = job.lights();
-    let own = varyings::<M>(lights);
-    let planes = <Pixel<M, f32> as Planes<f32>>::count(lights);
+    let (simd, lights) = (S::get(), job.lights());
+    let own = count::<M::Varying<f32>>(lights);
+    let planes = count::<Pixel<M, f32>>(lights);
     let great_circle = <M::Varying<f32> as Varying<f32>>::GREAT_CIRCLE;
     vectorize(
         simd,
@@ -394,38 +403,36 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
         move || {
             let zero = f32x8::splat(simd, 0.0);
             let counted = f32x8::from_slice(simd, &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-            let mut starts = job.starts.chunks_exact(start_len(great_circle, own));
-            for same in job.by_uniforms() {
-                let uniforms = &job.uniforms[same[0].uniforms as usize];
+            for (uniforms, runs) in job.by_uniforms(start_len(great_circle, own)) {
                 let method = M::new(job.parameters, &uniforms.model);
                 let lit = Lit::new(uniforms.model, &uniforms.lights, vec3([zero; 3]), true);
-                for (run, numbers) in same.iter().zip(starts.by_ref()) {
+                for (run, numbers) in runs {
                     let length = (run.pixels as usize).next_multiple_of(BLOCK);
                     let (here, rest) = core::mem::take(&mut out).split_at_mut(planes * length);
                     out = rest;
-                    let span = if great_circle {
-                        let list = circle_in_blocks(simd, numbers);
-                        get_each(
-                            lights,
-                            #[inline(always)]
-                            |i| list[i % 12],
-                        )
-                    } else {
-                        get_each(
-                            lights,
-                            #[inline(always)]
-                            |i| match i < own {
-                                true => counted * numbers[own + i] + numbers[i],
-                                false => zero.like(numbers[i] * BLOCK as f32),
-                            },
-                        )
+                    let circle = match great_circle {
+                        true => circle_in_blocks(numbers),
+                        false => [0.0; 12 * BLOCK],
                     };
+                    let span = each(
+                        Span::<M, f32x8<S>>::filled(lights, zero),
+                        #[inline(always)]
+                        |i, block| {
+                            *block = match i {
+                                _ if great_circle => {
+                                    f32x8::from_slice(simd, &circle[i % 12 * BLOCK..][..BLOCK])
+                                }
+                                _ if i < own => counted * numbers[own + i] + numbers[i],
+                                _ => zero.like(numbers[i] * BLOCK as f32),
+                            };
+                        },
+                    );
                     let mut walk = method.walk(&lit, span);
                     for x in (0..length).step_by(BLOCK) {
-                        put_each(
+                        each(
                             walk.next(),
                             #[inline(always)]
-                            |i, value| Block::store(value, &mut here[i * length + x..]),
+                            |i, block| block.store_slice(&mut here[i * length + x..][..BLOCK]),
                         );
                     }
                 }
@@ -438,11 +445,11 @@ fn walk<M: Shader, S: Token>(job: &Pixels<'_>, mut out: &mut [f32]) {
 /// pixel; then steps a block long.
 #[cfg(feature = "simd")]
 #[inline(always)]
-fn circle_in_blocks<S: Token>(simd: S, numbers: &[f32]) -> [f32x8<S>; 12] {
+fn circle_in_blocks(numbers: &[f32]) -> [f32; 12 * BLOCK] {
     let mut circle = circle(numbers);
     let mut lanes = [0.0; 12 * BLOCK];
     for k in 0..BLOCK {
-        put_each(circle, |i, value| lanes[i * BLOCK + k] = value);
+        each(circle, |i, number| lanes[i * BLOCK + k] = *number);
         circle.sines.next();
     }
     // The step of a block: eight turns of the step of a pixel, as three doublings.
@@ -452,11 +459,7 @@ fn circle_in_blocks<S: Token>(simd: S, numbers: &[f32]) -> [f32x8<S>; 12] {
     }
     lanes[10 * BLOCK..][..BLOCK].fill(sin);
     lanes[11 * BLOCK..].fill(cos);
-    let mut list = [f32x8::splat(simd, 0.0); 12];
-    for (to, lanes) in list.iter_mut().zip(lanes.chunks_exact(BLOCK)) {
-        *to = f32x8::from_slice(simd, lanes);
-    }
-    list
+    lanes
 }
 
 /// Shades a row of the G-buffer. Its cells are [depth, pixel, extras], each of [`BLOCK`] values; whole [`Token::Block`]s.
@@ -466,18 +469,15 @@ fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowCo
     vectorize(
         S::get(),
         #[inline(always)]
-        || match out {
-            RowColours::Bytes(to, background)
-                if job.uniforms.model.is_fast && job.extras == Extras::default() =>
-            {
-                let out = &mut RowColours::Bytes(to, *background);
+        || {
+            let is_bytes = matches!(out, RowColours::Bytes(..));
+            let is_fast = job.uniforms.model.is_fast && job.extras == Extras::default();
+            match lights {
+                _ if !(is_bytes && is_fast) => shade_blocks::<M, S>(job, lights, true, cells, out),
                 // One light as a slice of length 1: its loop is unrolled.
-                match lights {
-                    [one] => shade_blocks::<M, S>(job, &[*one], false, cells, out),
-                    all => shade_blocks::<M, S>(job, all, false, cells, out),
-                }
+                [one] => shade_blocks::<M, S>(job, &[*one], false, cells, out),
+                all => shade_blocks::<M, S>(job, all, false, cells, out),
             }
-            _ => shade_blocks::<M, S>(job, lights, true, cells, out),
         },
     );
 }
@@ -487,7 +487,7 @@ fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowCo
 #[inline(always)]
 fn shade_blocks<M: Shader, S: Token>(
     job: &ShadeRow<'_>,
-    lights: &[Light],
+    lights: &[LightUniforms],
     general: bool,
     row: &[f32],
     out: &mut RowColours<'_>,
@@ -496,46 +496,36 @@ fn shade_blocks<M: Shader, S: Token>(
     let method = M::new(job.parameters, &model);
     let stride = BLOCK * job.numbers;
     let second = (S::Block::CELLS - 1) * stride;
-    let own = BLOCK * (1 + <Pixel<M, f32> as Planes<f32>>::count(lights.len()));
-    let len = if general {
-        own + BLOCK * extras.count()
-    } else {
-        own
-    };
+    let own = BLOCK * (1 + count::<Pixel<M, f32>>(lights.len()));
+    let len = own + BLOCK * extras.count() * usize::from(general);
     let mut first = 0;
     for pair in row.chunks_exact(S::Block::CELLS * stride) {
         let here = first..first + S::Block::WIDTH;
         first = here.end;
         let cells = [&pair[..len], &pair[second..second + len]];
         let depth = S::Block::load(simd, cells, 0);
-        let mut colour = [depth.like(0.0); 3];
-        if depth.any_drawn() {
-            let mut pixel: Pixel<M, S::Block> = get_each(
-                lights.len(),
-                #[inline(always)]
-                |i| S::Block::load(simd, cells, BLOCK * (1 + i)),
-            );
-            let mut point = vec3([depth; 3]);
-            if general {
-                let weight;
-                (point, weight) = extras.of(
-                    depth,
-                    #[inline(always)]
-                    |i| S::Block::load(simd, cells, own + BLOCK * i),
-                );
-                if extras.weight {
-                    let w = weight.like(1.0) / weight;
-                    pixel = scaled(pixel, w);
-                    point = point * w;
-                }
+        if !(-depth).any_over(f32::NEG_INFINITY) {
+            if let RowColours::Bytes(to, background) = out {
+                to[here].fill(*background);
             }
-            colour = method
-                .shade(&Lit::new(model, lights, point, general), pixel)
-                .array();
-        } else if let RowColours::Bytes(to, background) = out {
-            to[here].fill(*background);
             continue;
         }
+        let mut pixel = each(
+            Pixel::<M, S::Block>::filled(lights.len(), depth),
+            #[inline(always)]
+            |i, number| *number = S::Block::load(simd, cells, BLOCK * (1 + i)),
+        );
+        let mut point = vec3([depth; 3]);
+        if general {
+            let extra = extras.of(
+                depth,
+                #[inline(always)]
+                |i| S::Block::load(simd, cells, own + BLOCK * i),
+            );
+            (pixel, point) = extras.divided(pixel, extra);
+        }
+        let lit = Lit::new(model, lights, point, general);
+        let mut colour = method.shade(&lit, pixel).array();
         match out {
             RowColours::Bytes(to, background) => {
                 if general {
@@ -546,9 +536,9 @@ fn shade_blocks<M: Shader, S: Token>(
                 S::Block::pack(colour, depth, *background, &mut to[here]);
             }
             RowColours::Linear([r, g, b]) => {
-                colour[0].store(&mut r[here.clone()]);
-                colour[1].store(&mut g[here.clone()]);
-                colour[2].store(&mut b[here]);
+                colour[0].store_slice(&mut r[here.clone()]);
+                colour[1].store_slice(&mut g[here.clone()]);
+                colour[2].store_slice(&mut b[here]);
             }
         }
     }

@@ -5,12 +5,11 @@
 //! R = 2 (L·N) N − L
 //! ```
 //!
-//! [`Uniforms`] are made once a material, [`Lit`] is what one point (or a block of points) sees of them. The power of
-//! the highlight is `Exponent::of`, for every method. What the lecture leaves
-//! open is settled here, for every method:
+//! [`Uniforms`] are made once a material; [`Lit`] is one point (or a block of points) that sees them. The power of
+//! the highlight is `Exponent::of`, for every method. Questions that the lecture leaves open are settled here, for every method:
 //! - `L·N` and `R·V` are clamped at 0 *before* the power (an even power of a negative number would light the far side);
 //! - there is no specular light where `L·N ≤ 0`, unless the scene asks for one of the other two forms of [`SpecularGate`];
-//! - highlights below 2⁻²⁴ are none (`Model::faint`): they would change nothing, and their powers run through subnormal
+//! - highlights below 2⁻²⁴ are none (`LightModel::faint`): they would change nothing, and their powers run through subnormal
 //!   numbers, which cost some processors 150 cycles each;
 //! - all lights are summed, then the sum is clamped to 0..=1 once;
 //! - with [`SpecularModel::Blinn`] the cosine is `N·H`, `H = (L + V) / |L + V|` (CS171 2); where light and eye are opposite, H has
@@ -27,29 +26,28 @@ use alloc::vec::Vec;
 /// Squared distances below this count as this: a light in the surface itself has no direction and no finite `1/r²`.
 const LEAST_SQUARE: f32 = 1e-30;
 
-/// What rounding a colour of ½ or more changes: half a unit in the last place, 2⁻²⁴.
+/// The largest rounding of a colour of ½ or more: half a unit in the last place, 2⁻²⁴.
 const FAINT: f32 = 1.0 / (1 << 24) as f32;
 
 /// The light on one material, as kernels read it: plain numbers, made once a material.
 #[derive(Clone, Debug)]
 pub struct Uniforms {
-    /// What is the same for all lights.
-    pub model: Model,
+    /// The part that all lights share.
+    pub model: LightModel,
     /// The lights.
-    pub lights: Vec<Light>,
+    pub lights: Vec<LightUniforms>,
 }
 
-/// What is the same for all lights of a material. Pixel loops copy it: what is behind a reference is loaded again after every
-/// store.
+/// The uniforms of a material that all its lights share. Pixel loops copy them: behind a reference they would be loaded again
+/// after every store.
 #[derive(Clone, Copy, Debug)]
-pub struct Model {
-    /// What all colours are multiplied by: 255 where they become bytes, else 1.
+pub struct LightModel {
+    /// The factor in all colours: 255 where they become bytes, else 1.
     pub scale: f32,
     ambient: Vec3<f32>,
     /// The unit vector toward the eye, or its position.
-    eye: Vec3<f32>,
-    eye_is_near: bool,
-    /// Which cosine is raised to the exponent.
+    pub(super) eye: Place<Vec3<f32>>,
+    /// The cosine that is raised to the exponent.
     pub specular: SpecularModel,
     gate: SpecularGate,
     /// The exponent n, as a number and as it is computed.
@@ -65,10 +63,9 @@ pub struct Model {
 
 /// A light on a material.
 #[derive(Clone, Copy, Debug)]
-pub struct Light {
+pub struct LightUniforms {
     /// The unit vector toward it, or its position.
-    to: Vec3<f32>,
-    is_near: bool,
+    pub(super) place: Place<Vec3<f32>>,
     falloff: Falloff,
     diffuse: Vec3<f32>,
     specular: Vec3<f32>,
@@ -80,29 +77,19 @@ pub struct Light {
 impl Uniforms {
     /// Prepares the light on a material, with colours multiplied by `scale`.
     pub fn new(lighting: &Lighting, scale: f32) -> Uniforms {
-        let direction = |place| match place {
-            Place::Infinite(v) | Place::Local(v) => vec3(v),
-        };
-        let eye = direction(lighting.view);
-        let lights = lighting.lights.iter().map(|light| {
-            let to = direction(light.place);
-            let l_v = to.dot(eye);
-            Light {
-                to,
-                is_near: light.place.is_local(),
-                falloff: light.falloff,
-                diffuse: vec3(light.diffuse) * scale,
-                specular: vec3(light.specular) * scale,
-                l_v,
-                half: over_sum(l_v),
-            }
+        let lights = lighting.lights.iter().map(|light| LightUniforms {
+            place: light.place.map(vec3),
+            falloff: light.falloff,
+            diffuse: vec3(light.diffuse) * scale,
+            specular: vec3(light.specular) * scale,
+            l_v: 0.0,
+            half: 0.0,
         });
-        let lights: Vec<Light> = lights.collect();
-        let model = Model {
+        let lights: Vec<LightUniforms> = lights.collect();
+        let model = LightModel {
             scale,
             ambient: vec3(lighting.ambient) * scale,
-            eye,
-            eye_is_near: lighting.view.is_local(),
+            eye: lighting.view.map(vec3),
             specular: lighting.specular,
             gate: lighting.gate,
             shininess: lighting.shininess,
@@ -111,48 +98,41 @@ impl Uniforms {
             is_general: true,
             is_fast: false,
         };
-        Uniforms::classified(model, lights)
+        Uniforms::derived(model, lights)
     }
 
-    /// Returns the same light as directional lights: as `point` sees it. What the lecture assumes along a polygon (L21 1).
+    /// Returns the same light as directional lights: as `point` sees it. The lecture assumes so along a polygon (L21 1).
     pub fn seen_from(&self, point: [f32; 3]) -> Uniforms {
         let lit = Lit::new(self.model, &self.lights, vec3(point), true);
         let lights = lit.lights().map(|seen| {
             let strength = seen.strength.unwrap_or(1.0);
-            Light {
-                to: seen.to,
-                is_near: false,
+            LightUniforms {
+                place: Place::Infinite(seen.to),
                 diffuse: seen.light.diffuse * strength,
                 specular: seen.light.specular * strength,
-                l_v: seen.l_v,
-                half: seen.half,
                 ..*seen.light
             }
         });
-        let model = Model {
-            eye: lit.view,
-            eye_is_near: false,
-            ..self.model
-        };
-        Uniforms::classified(model, lights.collect())
+        let eye = Place::Infinite(lit.view);
+        Uniforms::derived(LightModel { eye, ..self.model }, lights.collect())
     }
 
-    /// Makes uniforms whose model says what loops may rely on.
-    fn classified(model: Model, lights: Vec<Light>) -> Uniforms {
-        let is_general = model.eye_is_near
-            || lights.iter().any(|light| light.is_near)
+    /// Fills in all that follows from the places and colours of the lights: cosines between light and eye, and the path that
+    /// loops may take.
+    fn derived(mut model: LightModel, mut lights: Vec<LightUniforms>) -> Uniforms {
+        let mut most = magnitude(model.ambient);
+        for light in &mut lights {
+            light.l_v = vector(light.place).dot(vector(model.eye));
+            light.half = over_sum(light.l_v);
+            most += magnitude(light.diffuse) + magnitude(light.specular);
+        }
+        model.is_general = model.eye.is_local()
+            || lights.iter().any(|light| light.place.is_local())
             || model.specular != SpecularModel::Phong
             || model.gate != SpecularGate::Gated
             || model.exponent == Exponent::Whole(0);
-        let most = lights.iter().fold(magnitude(model.ambient), |sum, light| {
-            sum + magnitude(light.diffuse) + magnitude(light.specular)
-        });
         let is_few_squarings = matches!(model.exponent, Exponent::Squarings(_));
-        let model = Model {
-            is_general,
-            is_fast: !is_general && is_few_squarings && most < MOST_LEVELS,
-            ..model
-        };
+        model.is_fast = !model.is_general && is_few_squarings && most < MOST_LEVELS;
         Uniforms { model, lights }
     }
 }
@@ -165,21 +145,8 @@ fn magnitude(v: Vec3<f32>) -> f32 {
 /// Levels that are stored without a clamp are below this: an `i32` holds them.
 const MOST_LEVELS: f32 = 1_073_741_824.0;
 
-impl Light {
-    /// Returns the vector from a point toward the light, not normalised; both multiplied by `weight`, as under perspective.
-    #[inline(always)]
-    pub fn toward<F: Num>(&self, point: Vec3<F>, weight: F) -> Vec3<F> {
-        toward(self.to, self.is_near, point, weight)
-    }
-
-    #[inline(always)]
-    fn strength<F: Num>(&self, square: F, unit: F) -> Option<F> {
-        strength(self.is_near, self.falloff, square, unit)
-    }
-}
-
-/// Returns how strong a light is at the squared distance `square`; `None` is full strength. `unit` is 1, or what squared
-/// distances are multiplied by.
+/// Returns how strong a light is at the squared distance `square`; `None` is full strength. `unit` is 1, or the factor in
+/// all squared distances.
 #[inline(always)]
 pub(super) fn strength<F: Num>(is_near: bool, falloff: Falloff, square: F, unit: F) -> Option<F> {
     let square = square.max(LEAST_SQUARE);
@@ -192,10 +159,19 @@ pub(super) fn strength<F: Num>(is_near: bool, falloff: Falloff, square: F, unit:
     }
 }
 
+/// Returns a direction or a position as the vector that it is.
 #[inline(always)]
-fn toward<F: Num>(to: Vec3<f32>, is_near: bool, point: Vec3<F>, weight: F) -> Vec3<F> {
-    let to = to.like(weight) * weight;
-    if is_near { to - point } else { to }
+fn vector(place: Place<Vec3<f32>>) -> Vec3<f32> {
+    match place {
+        Place::Infinite(v) | Place::Local(v) => v,
+    }
+}
+
+/// Returns the vector from `point` toward a place, not normalised; both multiplied by `weight`, as under perspective.
+#[inline(always)]
+pub(super) fn toward<F: Num>(place: Place<Vec3<f32>>, point: Vec3<F>, weight: F) -> Vec3<F> {
+    let to = vector(place).like(weight) * weight;
+    if place.is_local() { to - point } else { to }
 }
 
 /// Returns 1 / |L + V| from L·V of unit vectors, as |L + V|² = 2 + 2 L·V; 0 where light and eye are opposite.
@@ -207,13 +183,14 @@ fn over_sum<F: Num>(l_v: F) -> F {
 
 /// Returns the cosine up to which no light has a highlight over 2⁻²⁴, t = (2⁻²⁴ / k)^(1/n), with k the strongest highlight at
 /// its light's greatest strength. No power over t is subnormal. To the power 0 every cosine is 1.
-fn faint(shininess: f32, scale: f32, lights: &[Light]) -> f32 {
+fn faint(shininess: f32, scale: f32, lights: &[LightUniforms]) -> f32 {
     if shininess == 0.0 {
         return f32::NEG_INFINITY;
     }
-    let strongest = lights
-        .iter()
-        .map(|light| magnitude(light.specular) * light.strength(0.0, 1.0).unwrap_or(1.0));
+    let strongest = lights.iter().map(|light| {
+        let nearest = strength(light.place.is_local(), light.falloff, 0.0, 1.0);
+        magnitude(light.specular) * nearest.unwrap_or(1.0)
+    });
     let faint = FAINT * scale;
     let power = faint / strongest.fold(faint, f32::max);
     libm::powf(power.max(LEAST_POWER), 1.0 / shininess)
@@ -223,7 +200,7 @@ fn faint(shininess: f32, scale: f32, lights: &[Light]) -> f32 {
 /// out is then over 2⁻²⁴ at distances of 10⁻¹⁵ or so.
 const LEAST_POWER: f32 = 2.0 * f32::MIN_POSITIVE;
 
-/// By how much the highlight multiplies an error of a cosine between unit vectors, for `shininess` n; `half` is |L + V|.
+/// Returns the factor of the highlight on an error of a cosine between unit vectors, for `shininess` n; `half` is |L + V|.
 ///
 /// `R·V = 2 (L·N)(N·V) − L·V` is off by up to four times as much; of `N·H = (L·N + V·N) / h` the sum is off by twice that and
 /// h by e/h, so that it is off by `2 e/h + e/h²`. The power multiplies by n.
@@ -235,13 +212,14 @@ pub(super) fn highlight_gain(specular: SpecularModel, shininess: f32, half: f64)
     cosine * f64::from(shininess.max(1.0))
 }
 
-/// What a point (or a block of points) sees of the lights on a material.
+/// The lights on a material as a point (or a block of points) sees them.
 #[derive(Clone, Copy, Debug)]
 pub struct Lit<'a, F> {
-    /// What is the same for all lights.
-    pub model: Model,
-    all: &'a [Light],
-    /// Where the point is, if anything is at a position.
+    /// The uniforms that all lights share.
+    pub model: LightModel,
+    /// The lights as they are stored.
+    pub(super) stored: &'a [LightUniforms],
+    /// The position of the point, if anything is at a position.
     pub point: Vec3<F>,
     /// The unit vector V toward the eye.
     pub view: Vec3<F>,
@@ -260,45 +238,49 @@ pub struct Seen<'a, F> {
     /// 1 / |L + V|, where highlights are N·H.
     pub half: F,
     strength: Option<F>,
-    light: &'a Light,
+    light: &'a LightUniforms,
 }
 
 impl<'a, F: Num> Lit<'a, F> {
-    /// Makes what `point` sees. `general` is a literal at each of the calls: loops without it decide nothing, and serve materials
-    /// whose model is not general.
+    /// Prepares the view from `point`. `general` is a literal at each of the calls: loops without it decide nothing, and serve
+    /// materials whose model is not general.
     #[inline(always)]
-    pub fn new(model: Model, lights: &'a [Light], point: Vec3<F>, general: bool) -> Self {
-        let mut view = model.eye.like(point.x);
-        if general && model.eye_is_near {
+    pub fn new(model: LightModel, all: &'a [LightUniforms], point: Vec3<F>, general: bool) -> Self {
+        let mut view = vector(model.eye).like(point.x);
+        if general && model.eye.is_local() {
             view = (view - point).unit();
         }
         Lit {
             model,
-            all: lights,
+            stored: all,
             point,
             view,
             general,
         }
     }
 
-    /// Returns the lights as they are stored.
-    #[inline(always)]
-    pub fn stored(&self) -> &'a [Light] {
-        self.all
-    }
-
-    /// Returns the vector from `point` toward the eye, not normalised; both multiplied by `weight`.
-    #[inline(always)]
-    pub fn toward_eye(&self, point: Vec3<F>, weight: F) -> Vec3<F> {
-        toward(self.model.eye, self.model.eye_is_near, point, weight)
-    }
-
     /// Returns the lights as the point sees them.
     #[inline(always)]
     pub fn lights(&self) -> Lights<'a, F> {
-        Lights {
-            lit: *self,
-            next: 0,
+        Lights(*self, 0)
+    }
+
+    /// Returns a light seen along unit vectors whose L·V is `l_v`, from the squared distance `square`; both squared distances and
+    /// `unit` are multiplied by the same.
+    #[inline(always)]
+    pub fn light(&self, index: usize, l_v: F, square: F, unit: F) -> Seen<'a, F> {
+        let light = &self.stored[index];
+        Seen {
+            index,
+            to: self.view,
+            l_v,
+            half: if self.is_halfway() {
+                over_sum(l_v)
+            } else {
+                l_v
+            },
+            strength: strength(light.place.is_local(), light.falloff, square, unit),
+            light,
         }
     }
 
@@ -309,7 +291,7 @@ impl<'a, F: Num> Lit<'a, F> {
     /// ```
     #[inline(always)]
     pub fn products<const L: usize>(&self, n: Vec3<F>) -> (PerLight<F, L>, F) {
-        let mut j = PerLight::new(self.all.len(), n.x);
+        let mut j = PerLight::new(self.stored.len(), n.x);
         for light in self.lights() {
             j[light.index] = n.dot(light.to); // J = L · N
         }
@@ -338,7 +320,7 @@ impl<'a, F: Num> Lit<'a, F> {
         }
     }
 
-    /// Returns the same with R built as the lecture prints it.
+    /// Returns the cosine of [`Lit::highlight`] with R built as the lecture prints it.
     #[inline(always)]
     pub fn reflection(&self, light: &Seen<'a, F>, n: Vec3<F>, l_n: F) -> F {
         if self.is_halfway() {
@@ -390,7 +372,7 @@ impl<'a, F: Num> Lit<'a, F> {
         colour
     }
 
-    /// Returns the same in two parts: ambient and diffuse light, and highlights.
+    /// Returns the colour of [`Lit::shade`] in two parts: ambient and diffuse light, and highlights.
     #[inline(always)]
     pub fn shade_apart(&self, n: Vec3<F>) -> (Vec3<F>, Vec3<F>) {
         let (mut dull, mut bright) = (self.ambient(), vec3([self.point.x.like(0.0); 3]));
@@ -410,34 +392,25 @@ impl<'a, F: Num> Lit<'a, F> {
     /// as most of a surface has none and highlights are half of the work. `diffuse` is L·N, 0 or more.
     #[inline(always)]
     fn power(&self, light: &Seen<'a, F>, diffuse: F, cosine: F) -> Option<F> {
-        let Model {
-            gate,
-            faint,
-            exponent,
-            ..
-        } = self.model;
+        let LightModel { gate, exponent, .. } = self.model;
         let gated = !self.general || gate == SpecularGate::Gated;
-        let cosine = if gated {
-            cosine.gate(diffuse, 0.0)
-        } else {
-            cosine
+        let cosine = match gated {
+            true => cosine.gate(diffuse, 0.0),
+            false => cosine,
         };
-        if !cosine.any_over(faint) {
+        if !cosine.any_over(self.model.faint) {
             return None;
         }
         // The pixels of a block do not depend on one another: faint ones are none here too.
-        let bright = if F::WIDTH == 1 {
-            cosine
-        } else {
-            cosine.gate(cosine, faint)
+        let bright = match F::WIDTH {
+            1 => cosine,
+            _ => cosine.gate(cosine, self.model.faint),
         };
-        if !self.general && F::WIDTH > 1 {
-            let Exponent::Squarings(times) = exponent else {
-                return None; // the fast path has no other
-            };
-            return Some(squared_up_to_7(bright, times));
-        }
-        let mut power = exponent.of(bright);
+        let mut power = match exponent {
+            Exponent::Squarings(times) => squared_up_to_7(bright, times),
+            _ if !self.general && F::WIDTH > 1 => return None, // the fast path has no other
+            _ => exponent.of(bright),
+        };
         if self.general {
             if gated && exponent == Exponent::Whole(0) {
                 power = power.gate(diffuse, 0.0); // 0⁰ is 1, behind the surface too
@@ -459,63 +432,39 @@ impl<F: Num> Seen<'_, F> {
             None => x,
         }
     }
-
-    /// Returns a light seen along unit vectors whose L·V is `l_v`, from the squared distance `square`; both squared distances and
-    /// `unit` are multiplied by the same.
-    #[inline(always)]
-    pub fn from_products<'a>(
-        lit: &Lit<'a, F>,
-        index: usize,
-        l_v: F,
-        square: F,
-        unit: F,
-    ) -> Seen<'a, F> {
-        let light = &lit.all[index];
-        Seen {
-            index,
-            to: lit.view,
-            l_v,
-            half: if lit.is_halfway() { over_sum(l_v) } else { l_v },
-            strength: light.strength(square, unit),
-            light,
-        }
-    }
 }
 
-/// The lights that a point sees, one by one.
+/// The lights that a point sees, one by one: the point, and the number of the next light.
 #[derive(Debug)]
-pub struct Lights<'a, F> {
-    lit: Lit<'a, F>,
-    next: usize,
-}
+pub struct Lights<'a, F>(Lit<'a, F>, usize);
 
 impl<'a, F: Num> Iterator for Lights<'a, F> {
     type Item = Seen<'a, F>;
 
     #[inline(always)]
     fn next(&mut self) -> Option<Seen<'a, F>> {
-        let (lit, index) = (&self.lit, self.next);
-        if index >= lit.all.len() {
+        let Lights(lit, index) = *self;
+        if index >= lit.stored.len() {
             return None;
         }
-        self.next += 1;
-        let light = &lit.all[index];
-        let like = lit.point.x;
+        self.1 += 1;
+        let light = &lit.stored[index];
+        let (is_near, one) = (light.place.is_local(), lit.point.x.like(1.0));
         let mut seen = Seen {
             index,
-            to: light.to.like(like),
-            l_v: like.like(light.l_v),
-            half: like.like(light.half),
+            to: vector(light.place).like(one),
+            l_v: one.like(light.l_v),
+            half: one.like(light.half),
             strength: None,
             light,
         };
-        if lit.general && (light.is_near || lit.model.eye_is_near) {
-            if light.is_near {
-                let to = seen.to - lit.point;
-                let square = to.dot(to);
-                seen.to = to * (like.like(1.0) / square.sqrt());
-                seen.strength = light.strength(square, like.like(1.0));
-            }
+        if lit.general && is_near {
+            let to = seen.to - lit.point;
+            let square = to.dot(to);
+            seen.to = to * (one / square.sqrt());
+            seen.strength = strength(is_near, light.falloff, square, one);
+        }
+        if lit.general && (is_near || lit.model.eye.is_local()) {
             seen.l_v = seen.to.dot(lit.view);
             if lit.is_halfway() {
                 seen.half = over_sum(seen.l_v);
@@ -553,26 +502,24 @@ impl Exponent {
     /// none is faster by a cheaper one.
     #[inline(always)]
     pub fn of<F: Num>(self, base: F) -> F {
-        let mut n = match self {
+        let n = match self {
             Exponent::Squarings(times) => return squared_up_to_7(base, times),
             Exponent::Whole(0) => return base.like(1.0),
             Exponent::Whole(n) => n,
             Exponent::Fractional(n) => return base.powf(n),
         };
-        let zeros = n.trailing_zeros();
-        let mut square = squared_up_to_7(base, zeros % 8);
-        for _ in 0..zeros / 8 * 8 {
+        let (mut square, mut left) = (base, n);
+        while left & 1 == 0 {
             square = square * square;
+            left >>= 1;
         }
         let mut power = square;
-        n >>= zeros;
-        n >>= 1;
-        while n != 0 {
+        while left > 1 {
             square = square * square;
-            if n & 1 == 1 {
+            left >>= 1;
+            if left & 1 == 1 {
                 power = power * square;
             }
-            n >>= 1;
         }
         power
     }

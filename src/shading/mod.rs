@@ -1,8 +1,8 @@
 //! Shading methods: one trait, one table, one file a method.
 //!
 //! A method says what a vertex carries ([`Shader::vertex`]), how it is stepped along a span ([`Shader::walk`]) and how a pixel is
-//! shaded ([`Shader::shade`]), once, for every arithmetic backend. Everything else is the house's: where lights are, perspective,
-//! clamping, storing, loops.
+//! shaded ([`Shader::shade`]), once, for every arithmetic backend. Kernels and engines do all else: positions of lights,
+//! perspective, clamping, storing, loops.
 //!
 //! ```text
 //! vertex ──► Varying ──► edges, spans ──► Walk ──► Pixel (G-buffer entry) ──► shade ──► colour
@@ -11,8 +11,8 @@
 //!
 //! **All memory of the previous pixel is in the walk.** So an engine may step one row and shade another time, in blocks of 16, or
 //! on another thread, and no method changes. [`Kernels`] is a method compiled: a table of plain functions, which engines
-//! call once a row, a batch of runs or a range of vertices. [`METHODS`] lists all methods: what is in it is rendered, compared,
-//! timed, counted, tested and drawn.
+//! call once a row, a batch of runs or a range of vertices. [`METHODS`] lists all methods: each is rendered, compared, timed,
+//! counted, tested and drawn.
 //!
 //! Start with `gouraud.rs`, then `fast_phong.rs`, then [`lighting`], which holds all of equation 2.1.
 
@@ -51,12 +51,12 @@ use flat_average::FLAT_AVERAGE;
 use gouraud::Gouraud;
 use gouraud_separate::GouraudSeparate;
 pub use increments::{Constant, Linear, Walk};
-pub use info::{Auto, Info, LitAt, Local, Parameter, Perspective};
+pub use info::{Auto, Info, LitAt, Local, MethodParameter, Perspective};
 pub(crate) use kernels::{Extras, Pixels, Vertices, ramp};
 pub use kernels::{Kernels, Run, Span};
 #[cfg(feature = "simd")]
 pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, start_len};
-pub use lighting::{Lit, Model, Seen};
+pub use lighting::{LightModel, Lit, Seen};
 use naive_phong::NaivePhong;
 use phong_rsqrt::PhongRsqrt;
 pub use planes::{PerLight, Planes};
@@ -75,21 +75,21 @@ use crate::number::{Num, Vec3};
 ///
 /// Fields are parameters; a method without any derives `Default` and leaves `new` out. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
 pub trait Shader: Copy + Default + 'static {
-    /// What is said about the method.
+    /// The description of the method.
     const INFO: Info;
     /// True if `vertex` returns the normal unchanged: engines then read the frame's normals and skip the vertex pass.
     const PASSES_NORMAL: bool = false;
-    /// What vertices carry and spans interpolate: numbers, vectors and tuples of them, or a [`UnitNormal`].
+    /// The varyings of a vertex, which spans interpolate: numbers, vectors and tuples of them, or a [`UnitNormal`].
     type Varying<F: Num>: Varying<F>;
-    /// What is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is what a pixel is shaded from.
+    /// The state that is stepped along a span: [`Linear`] if nothing is recurrent. Its [`Walk::Pixel`] is the input of `shade`.
     type Walk<F: Num>: Walk<F>;
 
     /// Makes the method for `parameters`, in the order of [`Info::parameters`], on a material.
     #[inline(always)]
-    fn new(_parameters: &[u32], _model: &Model) -> Self {
+    fn new(_parameters: &[u32], _model: &LightModel) -> Self {
         Self::default()
     }
-    /// Returns what a vertex with the unit normal `n` carries; once a polygon for methods that are lit there.
+    /// Returns the varyings of a vertex with the unit normal `n`; once a polygon for methods that are lit there.
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F>;
     /// Starts the walk along a span.
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F>;
@@ -97,5 +97,5 @@ pub trait Shader: Copy + Default + 'static {
     fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F>;
 }
 
-/// What a pixel is shaded from: an entry of the G-buffer.
+/// The input of a pixel to shading: an entry of the G-buffer.
 pub type Pixel<S, F> = <<S as Shader>::Walk<F> as Walk<F>>::Pixel;

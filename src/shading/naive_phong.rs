@@ -2,7 +2,7 @@
 
 use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
-use crate::reference::Model as Truth;
+use crate::reference::Model;
 
 /// Naive Phong shading: N by three additions a pixel, then a root, a division and eq 2.1 (L21 4.1–4.2).
 ///
@@ -20,7 +20,7 @@ impl Shader for NaivePhong {
         title: "normals, interpolated and renormalised at every pixel",
         formula: "N_next = N + dN;  N_unit = N / |N|;  R = 2 (L.N_unit) N_unit - L;  eq 2.1 at every pixel",
         source: "L21 4.1, eq 4.1, 4.2 (Phong 1975)",
-        model: Truth::Phong,
+        model: Model::Phong,
         roundings: Roundings::new(4.0, 0.9, Stepped::Cosines),
         derivation: "each step rounds the three components of N by half of 2^-24, which is a vector of length 0.87 * 2^-24; what \
                      lies along N is lost when N is normalised",

@@ -1,14 +1,14 @@
-//! Phong shading from normals with scalars: what suits processors that shade a block of pixels at a time, row by row.
+//! Phong shading from normals with scalars, for processors that shade a block of pixels at a time, row by row.
 
 use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
-use crate::reference::Model as Truth;
+use crate::reference::Model;
 
 /// Naive Phong shading without its vectors: N by three additions a pixel, then `J = L·N`, `K = V·N`, `D = N·N` and the
 /// processor's reciprocal root `r = 1/√D`, of which the cosines are `J r` and `2 (J r) (K r) − L·V` (L21 4.3, 4.6).
 ///
-/// It steps three numbers for any number of lights, where fast Phong steps one a light, one for K and two for D: where what is
-/// stepped is kept in memory until a row is shaded, that is less to keep, and products are cheaper than memory.
+/// It steps three numbers for any number of lights, where fast Phong steps one a light, one for K and two for D. Varyings stay
+/// in memory until a row is shaded: three of them need less, and products are cheaper than memory.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PhongRsqrt;
 
@@ -18,7 +18,7 @@ impl Shader for PhongRsqrt {
         title: "normals interpolated; J = L.N, K = V.N, D = N.N and the hardware's reciprocal root at every pixel",
         formula: "N_next = N + dN;  J = L.N;  K = V.N;  r = rsqrt(N.N);  I = Ia ka + Ip kd J r + Ip ks (2 (J r) (K r) - L.V)^n",
         source: "L21 4.1-4.3, eq 4.5, with the root that processors have had since 1999 (SSE rsqrtps)",
-        model: Truth::Phong,
+        model: Model::Phong,
         roundings: Roundings::new(10.0, 0.9, Stepped::Cosines),
         derivation: "as naive-phong; J, K and D take 5 roundings each, and the estimate of the root is off by 2^-22, which is 4 more",
         fails: "as naive-phong",

@@ -5,7 +5,7 @@ use super::{
     Info, Lit, Local, PerLight, Perspective, Pixel, Roundings, Shader, Span, Stepped, UnitNormal,
 };
 use crate::number::{Num, Vec3};
-use crate::reference::Model as Truth;
+use crate::reference::Model;
 
 /// Slerp Phong shading, scalar form, for up to `L` lights: unit normals walk great circles along the edges; along a span only
 /// `J = L·N` and `K = V·N` are formed, from sines stepped by (4.9)–(4.12). No root and no division a pixel.
@@ -19,7 +19,7 @@ impl<const L: usize> Shader for SlerpPhong<L> {
         formula: "J(t) = sin((1-t)phi)/sin(phi) L.N1 + sin(t phi)/sin(phi) L.N2, K likewise; sines by eq 4.9-4.12\n\
                   I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
         source: "L21 4.4, eq 4.7-4.12, summary c",
-        model: Truth::Slerp,
+        model: Model::Slerp,
         roundings: Roundings::new(4.0, 2.0, Stepped::Cosines),
         derivation: "each step turns a vector of length 1 by two products and a sum in each component, 1.5 * 2^-24 in all, with a \
                      rotation whose entries are rounded by half of 2^-24",

@@ -1,4 +1,4 @@
-//! One span on its own: what operations are counted on, and kernels timed on.
+//! A single span: the subject on which operations are counted and kernels timed.
 
 use super::lighting::Uniforms;
 use super::{Extras, Local, OperationCounts, Variant};
@@ -31,7 +31,7 @@ impl SpanBench {
         SpanBench::lit(degrees, if lights <= 1 { 1 } else { 4 }, None, false)
     }
 
-    /// Makes the same span with one light (`lights` ≤ 1) or two, and the eye, at positions a few of its lengths away; lights grow
+    /// Makes a span with one light (`lights` ≤ 1) or two, and the eye, at positions a few of its lengths away; lights grow
     /// weaker by `falloff`, and varyings are linear on the screen or, with one light, in space.
     pub fn local(
         degrees: f32,
@@ -86,7 +86,7 @@ impl SpanBench {
         self.lighting.is_local()
     }
 
-    /// Returns what the house interpolates for a method.
+    /// Returns the varyings that kernels add to those of a method.
     pub(crate) fn extras(&self, variant: &Variant) -> Extras {
         let entry = variant.entry();
         entry.extras(self.is_near(), self.perspective)
@@ -94,14 +94,15 @@ impl SpanBench {
 }
 
 impl Variant {
-    /// Returns how many operations of each kind the method takes with one light (`lights` ≤ 1) or four, counted by running it on
+    /// Returns the operations of each kind that the method takes with one light (`lights` ≤ 1) or four, counted by running it on
     /// numbers that count.
     pub fn operations(&self, lights: usize) -> OperationCounts {
         self.operations_on(&SpanBench::new(20.0, lights))
     }
 
-    /// Returns how many operations of each kind the method takes on a span.
+    /// Returns the operations of each kind that the method takes on a span.
     pub fn operations_on(&self, bench: &SpanBench) -> OperationCounts {
-        self.entry().count(bench, self)
+        let count = self.entry().count[usize::from(bench.is_near())];
+        count(bench, self)
     }
 }

@@ -1,14 +1,15 @@
-//! How much the vectors toward lights and eye vary over the polygons of a frame: what bounds of rounding errors need.
+//! Spreads: how much the vectors toward lights and eye vary over the polygons of a frame. Bounds of rounding errors need them.
 
 use super::lighting::strength;
 use crate::frame::{Frame, Polygon};
-use crate::scene::{LightTerm, Lighting, Place};
+use crate::scene::{Lighting, Place};
+use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// How unequal vectors toward places are.
+/// The inequality of the vectors toward lights and eye.
 ///
-/// A polygon, whatever of it is seen, lies in the smallest ball around the middle of its corners that holds them. From
+/// A polygon, clipped or not, lies in the smallest ball around the middle of its corners that holds them. From
 /// points of a ball of radius ρ at the distance r a place is between r − ρ and r + ρ away, in directions within
 /// sin⁻¹(ρ/r) of that from its middle. Nor is a place nearer than the least of its distances from the planes through the
 /// corners that are parallel to the polygon, if all are on one side of it: a linear function has its least value at a
@@ -19,53 +20,41 @@ pub(super) struct Spread {
     /// The largest weight of perspective over the smallest in one polygon.
     pub weights: f64,
     /// The lights as each material sees them.
-    pub materials: Vec<Seen>,
+    pub materials: Vec<SeenLights>,
 }
 
 /// The lights as the polygons of a material see them.
-pub(super) struct Seen {
+pub(super) struct SeenLights {
     /// The greatest strength of each light.
     pub strengths: Vec<f64>,
     /// The least |L + V| of unit vectors, over 0.
     pub half: f64,
 }
 
-impl Seen {
-    /// Makes what directional lights look like, and positional ones before any polygon is there to see them.
-    fn new(lighting: &Lighting) -> Seen {
-        let strength = |light: &LightTerm| if light.place.is_local() { 0.0 } else { 1.0 };
-        let mut half: f64 = 2.0;
-        if let Place::Infinite(view) = lighting.view {
-            for light in &lighting.lights {
-                if let Place::Infinite(direction) = light.place {
-                    half = half.min((wide(direction) + wide(view)).length());
-                }
-            }
-        }
-        Seen {
-            strengths: lighting.lights.iter().map(strength).collect(),
-            half,
-        }
-    }
-}
-
 impl Spread {
     pub fn of(frame: &Frame) -> Spread {
+        let unseen = |lighting: &Lighting| SeenLights {
+            strengths: vec![0.0; lighting.lights.len()],
+            half: 2.0,
+        };
         let mut spread = Spread {
             vectors: 1.0,
             weights: 1.0,
-            materials: frame.lightings().iter().map(Seen::new).collect(),
+            materials: frame.lightings().iter().map(unseen).collect(),
         };
-        let is_local = frame.is_local();
         for polygon in frame.polygons() {
             let corners = frame.corners(polygon).iter();
             let weights = corners.map(|&v| f64::from(frame.vertices()[v as usize].inv_w));
             let (least, most) = range(weights);
             spread.weights = f64::max(spread.weights, most / least);
-            if is_local {
-                let lighting = &frame.lightings()[polygon.material as usize];
-                spread.add(polygon, lighting, &Ball::around(frame, polygon));
+            if frame.is_local() {
+                spread.add(frame, polygon.material, &Ball::around(frame, polygon));
             }
+        }
+        if !frame.is_local() {
+            // All points see the same.
+            (0..frame.lightings().len() as u32)
+                .for_each(|material| spread.add(frame, material, &Ball::default()));
         }
         for seen in &mut spread.materials {
             // Below this the bound is over 1 whatever the light: no bound at all.
@@ -74,22 +63,22 @@ impl Spread {
         spread
     }
 
-    fn add(&mut self, polygon: &Polygon, lighting: &Lighting, ball: &Ball) {
-        let seen = &mut self.materials[polygon.material as usize];
+    /// Adds the points of a ball on a material.
+    fn add(&mut self, frame: &Frame, material: u32, ball: &Ball) {
+        let lighting = &frame.lightings()[material as usize];
+        let seen = &mut self.materials[material as usize];
         let view = ball.sees(lighting.view);
         self.vectors = self.vectors.max(view.spread);
         for (light, greatest) in lighting.lights.iter().zip(&mut seen.strengths) {
-            let sight = ball.sees(light.place);
-            self.vectors = self.vectors.max(sight.spread);
-            let square = (sight.nearest * sight.nearest) as f32;
+            let to = ball.sees(light.place);
+            self.vectors = self.vectors.max(to.spread);
+            let square = (to.nearest * to.nearest) as f32;
             let strength = strength(light.place.is_local(), light.falloff, square, 1.0);
             *greatest = greatest.max(strength.map_or(1.0, f64::from));
             // |l + v| = 2 cos(θ/2) for unit vectors at the angle θ.
-            let between = libm::acos(sight.direction.dot(view.direction).clamp(-1.0, 1.0))
-                + sight.angle
-                + view.angle;
-            let half = 2.0 * libm::cos(between.min(core::f64::consts::PI) / 2.0);
-            seen.half = seen.half.min(half);
+            let angle = libm::acos(to.direction.dot(view.direction).clamp(-1.0, 1.0));
+            let widest = (angle + to.angle + view.angle).min(core::f64::consts::PI);
+            seen.half = seen.half.min(2.0 * libm::cos(widest / 2.0));
         }
     }
 }
@@ -106,6 +95,7 @@ fn wide(v: [f32; 3]) -> DVec3 {
 }
 
 /// A ball that holds a polygon, and its corners.
+#[derive(Default)]
 struct Ball {
     corners: Vec<DVec3>,
     normal: DVec3,
@@ -116,42 +106,41 @@ struct Ball {
 }
 
 /// A place as the points of a ball see it.
-struct Sight {
+struct SeenPlace {
     spread: f64,
     nearest: f64,
-    /// From the middle of the ball.
+    /// The direction from the middle of the ball.
     direction: DVec3,
-    /// By how much directions from other points differ at most.
+    /// The largest angle to it from the direction of another point.
     angle: f64,
 }
 
 impl Ball {
     fn around(frame: &Frame, polygon: &Polygon) -> Ball {
         let mut ends: Vec<u32> = frame.corners(polygon).to_vec();
-        // What clipping made lies between its ends, which lie between theirs.
-        while let Some(i) = ends.iter().position(|&v| clip_corner(frame, v).is_some()) {
-            if let Some((a, b)) = clip_corner(frame, ends[i]) {
-                ends[i] = a;
-                ends.push(b);
+        // A corner that clipping made lies between its ends, which lie between theirs.
+        while let Some(i) = ends.iter().position(|&v| frame.clip_corner(v).is_some()) {
+            if let Some(corner) = frame.clip_corner(ends[i]) {
+                ends[i] = corner.a;
+                ends.push(corner.b);
             }
         }
         let corners: Vec<DVec3> = ends.iter().map(|&v| wide(frame.position(v))).collect();
         let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
         let most = |of: &dyn Fn(DVec3) -> f64| corners.iter().map(|p| of(*p)).fold(0.0, f64::max);
-        let (radius, reach) = (most(&|p| p.distance(middle)), most(&|p| p.length()));
         Ball {
             normal: wide(frame.polygon_normal(polygon)).normalize_or_zero(),
             middle,
-            radius,
-            reach,
+            radius: most(&|p| p.distance(middle)),
+            reach: most(&|p| p.length()),
             corners,
         }
     }
 
-    fn sees(&self, place: Place<[f32; 3]>) -> Sight {
+    fn sees(&self, place: Place<[f32; 3]>) -> SeenPlace {
         let position = match place {
             Place::Infinite(direction) => {
-                return Sight {
+                return SeenPlace {
                     spread: 1.0,
                     nearest: f64::INFINITY,
                     direction: wide(direction),
@@ -167,26 +156,15 @@ impl Ball {
         let (low, high) = range(corners.map(|p| (position - p).dot(self.normal)));
         let nearest = (far - self.radius).max(low).max(-high).max(1e-15);
         let longest = (far + self.radius).max(position.length() + self.reach);
-        // From inside the ball it is seen in any direction.
-        let angle = if far > self.radius {
-            libm::asin(self.radius / far)
-        } else {
-            core::f64::consts::PI
-        };
-        Sight {
+        SeenPlace {
             spread: longest / nearest,
             nearest,
             direction: toward.normalize_or_zero(),
-            angle,
+            // From inside the ball it is seen in any direction.
+            angle: match far > self.radius {
+                true => libm::asin(self.radius / far),
+                false => core::f64::consts::PI,
+            },
         }
     }
-}
-
-/// The ends of the edge on which clipping made a vertex.
-fn clip_corner(frame: &Frame, vertex: u32) -> Option<(u32, u32)> {
-    let all = frame.clip_corners();
-    let place = all
-        .binary_search_by_key(&vertex, |corner| corner.vertex)
-        .ok()?;
-    Some((all[place].a, all[place].b))
 }

@@ -36,15 +36,15 @@ pub static METHODS: &[Entry] = &[
 /// Kernels for 1 light, up to 4, up to 8 and up to 64.
 type ByLights = [&'static Kernels; 4];
 
-/// A row of the method table: what is said about a method, and its kernels.
+/// A row of the method table: the description of a method, and its kernels.
 #[derive(Clone, Copy)]
 pub struct Entry {
-    /// What is said about it.
+    /// The description of the method.
     pub info: &'static Info,
     directional: ByLights,
     near: ByLights,
-    /// What counts the operations, and with a light or the eye at a position.
-    count: [Count; 2],
+    /// The functions that count operations: without a light or the eye at a position, and with one.
+    pub(super) count: [Count; 2],
 }
 
 type Count = fn(&SpanBench, &Variant) -> OperationCounts;
@@ -95,13 +95,8 @@ impl Entry {
         METHODS.iter().find(|entry| entry.info.name == name)
     }
 
-    /// Returns the method with its default parameters.
-    pub fn variant(&'static self) -> Variant {
-        Variant::new(self)
-    }
-
-    /// Returns what the house interpolates for the method, under perspective or not, with something at a position (`near`) or
-    /// not.
+    /// Returns the varyings that kernels add to those of the method, under perspective or not, with a light or the eye at a
+    /// position (`near`) or not.
     pub(crate) fn extras(&self, near: bool, perspective: bool) -> Extras {
         let point = near && self.info.local == Local::PerPixel && self.near[0].linear;
         let divides = self.info.perspective == Perspective::Divides;
@@ -109,11 +104,6 @@ impl Entry {
             point,
             weight: perspective && (divides || point),
         }
-    }
-
-    /// Counts the operations of the method on a span.
-    pub(super) fn count(&self, bench: &SpanBench, variant: &Variant) -> OperationCounts {
-        (self.count[usize::from(bench.is_near())])(bench, variant)
     }
 
     /// Returns the kernels for so many lights, some at positions (`near`) or none.
@@ -140,7 +130,7 @@ mod tests {
             kernels.extend(entry.count.map(|count| count as usize));
             for table in [entry.directional, entry.near].as_flattened() {
                 kernels.extend([table.vertices as usize, table.pixels as usize]);
-                for simd in table.simd.iter().flatten() {
+                for (_, simd) in table.simd {
                     kernels.insert(simd.shade as usize);
                     kernels.extend(simd.vertices.map(|vertices| vertices as usize));
                     kernels.extend(simd.walk.map(|walk| walk as usize));

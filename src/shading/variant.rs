@@ -1,6 +1,6 @@
 //! A method as a user names it.
 
-use super::{Entry, Info, METHODS, Parameter};
+use super::{Entry, Info, METHODS, MethodParameter};
 use crate::frame::Frame;
 use crate::number::suggest::nearest;
 use alloc::format;
@@ -15,16 +15,19 @@ pub struct Variant {
     parameters: Vec<u32>,
 }
 
-impl Variant {
-    pub(super) fn new(entry: &'static Entry) -> Variant {
-        let defaults = entry.info.parameters.iter().map(|p| p.default);
+impl Entry {
+    /// Returns the method with its default parameters.
+    pub fn variant(&'static self) -> Variant {
+        let defaults = self.info.parameters.iter().map(|p| p.default);
         Variant {
-            entry,
+            entry: self,
             parameters: defaults.collect(),
         }
     }
+}
 
-    /// The variant that `text` names: `NAME` or `NAME:key=value`, further parameters after further colons.
+impl Variant {
+    /// Returns the variant that `text` names: `NAME` or `NAME:key=value`, further parameters after further colons.
     ///
     /// # Errors
     /// [`MethodError`] when there is no such method or parameter, or the value is outside its range.
@@ -45,27 +48,24 @@ impl Variant {
         Ok(variant)
     }
 
-    /// Its row of the method table.
+    /// Returns its row of the method table.
     pub fn entry(&self) -> &'static Entry {
         self.entry
     }
 
-    /// What is said about its method.
+    /// Returns the description of its method.
     pub fn info(&self) -> &'static Info {
         self.entry.info
     }
 
-    /// The values of its parameters, in the order of [`Info::parameters`].
+    /// Returns the values of its parameters, in the order of [`Info::parameters`].
     pub fn parameters(&self) -> &[u32] {
         &self.parameters
     }
 
     /// True if all parameters have their default values.
     pub fn is_default(&self) -> bool {
-        self.parameters
-            .iter()
-            .zip(self.info().parameters)
-            .all(|(value, p)| *value == p.default)
+        self.parameters == self.entry.variant().parameters
     }
 
     /// Returns [`Info::bound`] with these values of the parameters.
@@ -75,7 +75,7 @@ impl Variant {
 }
 
 impl fmt::Display for Variant {
-    /// The name, and those parameters that differ from their defaults.
+    /// Writes the name, and those parameters that differ from their defaults.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.info().name)?;
         for (value, parameter) in self.parameters.iter().zip(self.info().parameters) {
@@ -87,7 +87,7 @@ impl fmt::Display for Variant {
     }
 }
 
-/// Why a text names no variant, as people read it.
+/// The reason why a text names no variant, as a sentence.
 #[derive(Clone, Debug)]
 pub struct MethodError(String);
 
@@ -112,7 +112,7 @@ impl MethodError {
         })
     }
 
-    fn value(parameter: &Parameter, value: &str) -> MethodError {
+    fn value(parameter: &MethodParameter, value: &str) -> MethodError {
         let (name, least, most) = (parameter.name, parameter.least, parameter.most);
         let auto = parameter.auto.map_or("", |_| "`auto` or ");
         MethodError(format!(

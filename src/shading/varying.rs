@@ -1,12 +1,12 @@
-//! Varyings: what vertices carry and spans interpolate.
+//! Varyings: values of a vertex that spans interpolate.
 
 use super::increments::{GreatCircle, Linear, Sines};
 use super::planes::{Planes, planes};
 use crate::number::{Num, Vec3};
 
-/// What a vertex carries, and what interpolation makes of it along a span.
+/// A value of a vertex, and its interpolation along a span.
 pub trait Varying<F: Num>: Planes<F> {
-    /// What a span starts from: [`Linear`], or [`GreatCircle`] for unit normals.
+    /// The start of a span: [`Linear`], or [`GreatCircle`] for unit normals.
     type Span: Planes<F>;
     /// True if edges and spans are great circles.
     const GREAT_CIRCLE: bool = false;
@@ -16,7 +16,7 @@ pub trait Varying<F: Num>: Planes<F> {
 #[derive(Clone, Copy, Debug)]
 pub struct UnitNormal<F>(pub Vec3<F>);
 
-planes!([V: Planes] Linear<V>, { at: V, step: V }, |at, step| Linear { at, step });
+planes!([V] Linear<V>, { at: V, step: V }, |at, step| Linear { at, step });
 planes!([] UnitNormal<F>, { 0: Vec3<F> }, UnitNormal);
 planes!(
     [] GreatCircle<F>,
@@ -49,22 +49,24 @@ impl<F: Num, A: Planes<F>, B: Planes<F>, C: Planes<F>> Varying<F> for (A, B, C) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shading::planes::{PerLight, get_each, put_each, sum};
+    use crate::shading::planes::{PerLight, count, each};
     use alloc::vec::Vec;
 
     /// Puts a value and takes it back, where there are `lights` lights; returns its numbers.
     fn put_and_taken<P: Planes<f32>>(lights: usize, value: P) -> Vec<f32> {
         let all = |value: P| {
             let mut all = Vec::new();
-            put_each(value, |_, x| all.push(x));
+            each(value, |_, x: &mut f32| all.push(*x));
             all
         };
         let numbers = all(value);
-        assert_eq!(P::count(lights), numbers.len());
-        let back: P = get_each(lights, |i| numbers[i]);
+        assert_eq!(count::<P>(lights), numbers.len());
+        let back = each(P::filled(lights, 0.0), |i, x| *x = numbers[i]);
         assert_eq!(all(back), numbers);
         let twice: Vec<f32> = numbers.iter().map(|x| x + x).collect();
-        assert_eq!(all(sum(value, back)), twice);
+        let mut sum = value;
+        sum.zip(back, |a, b| a + b);
+        assert_eq!(all(sum), twice);
         numbers
     }
 

@@ -57,7 +57,7 @@ use crate::frame::{Frame, FrameStats};
 use crate::picture::{Encoding, LinearPicture, Picture8};
 use crate::raster::{Renderer, coverage};
 use crate::scene::Interpolation;
-use crate::shading::{METHODS, Parameter, Variant};
+use crate::shading::{METHODS, MethodParameter, Variant};
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -232,7 +232,7 @@ fn variant_members<S: Serializer>(variant: &Variant, to: S) -> Result<S::Ok, S::
 }
 
 /// Returns the value of a parameter of a method: a number, or `"auto"`.
-pub fn parameter_json(parameter: &Parameter, value: u32) -> Value {
+pub fn parameter_json(parameter: &MethodParameter, value: u32) -> Value {
     match parameter.is_auto(value) {
         true => "auto".into(),
         false => value.into(),

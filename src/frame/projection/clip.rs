@@ -12,9 +12,9 @@ pub(crate) struct Plane {
     pub in_front: bool,
 }
 
-/// A corner on its way through the planes: where it is, and the number of the vertex whose attributes it has.
+/// A corner on its way through the planes: its position, and the number of the vertex whose attributes it has.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Corner {
+pub(crate) struct HomogeneousCorner {
     pub position: DVec4,
     pub vertex: u32,
 }
@@ -22,19 +22,19 @@ pub(crate) struct Corner {
 /// A corner that a plane makes on the way from `a` to `b`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cut {
-    pub a: Corner,
-    pub b: Corner,
-    /// How far from `a` to `b` in clip space, which is linear in space.
+    pub a: HomogeneousCorner,
+    pub b: HomogeneousCorner,
+    /// The parameter from `a` to `b` in clip space, which is linear in space.
     pub t: f64,
     pub position: DVec4,
 }
 
 impl Cut {
-    /// Where the edge between two corners meets the plane.
+    /// Intersects the edge between two corners with the plane.
     ///
     /// The ends are put in a canonical order first, so that the two polygons at an edge, which go along it in opposite
     /// directions, get the same corner to the last bit.
-    fn new(plane: &Plane, p: Corner, q: Corner) -> Self {
+    fn new(plane: &Plane, p: HomogeneousCorner, q: HomogeneousCorner) -> Self {
         let (a, b) = if canonical(p.position, q.position) == Ordering::Greater {
             (q, p)
         } else {
@@ -50,7 +50,7 @@ impl Cut {
         }
     }
 
-    /// The same place as a parameter that is linear on the screen; both ends must be in front of the eye.
+    /// Returns the parameter of the cut on the screen; both ends must be in front of the eye.
     pub fn t_on_screen(&self) -> f64 {
         let (wa, wb) = (self.a.position.w, self.b.position.w);
         (self.t * wb / ((1.0 - self.t) * wa + self.t * wb)).clamp(0.0, 1.0)
@@ -65,16 +65,16 @@ fn canonical(p: DVec4, q: DVec4) -> Ordering {
         .unwrap_or(Ordering::Equal)
 }
 
-/// What of `polygon` is inside `plane`: no piece, one, or several where a concave polygon is cut apart.
+/// Clips `polygon` to the inside of `plane`: gives no piece, one, or several if a concave polygon is cut apart.
 ///
 /// `vertex` gives each new corner a number. The new corners lie on one line; from left to right along it they are pairs
 /// of ends of the new edges. Joining them in that order, rather than in the order of the polygon, leaves no edges that
 /// run back along the plane and no bridges between pieces.
 pub(crate) fn clip(
-    polygon: &[Corner],
+    polygon: &[HomogeneousCorner],
     plane: &Plane,
     mut vertex: impl FnMut(&Cut) -> u32,
-    mut piece: impl FnMut(&[Corner]),
+    mut piece: impl FnMut(&[HomogeneousCorner]),
 ) {
     let inside: Vec<bool> = polygon
         .iter()
@@ -88,12 +88,12 @@ pub(crate) fn clip(
     };
     // Runs of inside corners, each with its two cuts; starting from an outside corner none is split in two.
     let count = polygon.len();
-    let mut runs: Vec<Vec<Corner>> = Vec::new();
+    let mut runs: Vec<Vec<HomogeneousCorner>> = Vec::new();
     for step in 0..count {
         let (i, j) = ((outside + step) % count, (outside + step + 1) % count);
         if inside[i] != inside[j] {
             let cut = Cut::new(plane, polygon[i], polygon[j]);
-            let corner = Corner {
+            let corner = HomogeneousCorner {
                 position: cut.position,
                 vertex: vertex(&cut),
             };
@@ -113,7 +113,7 @@ pub(crate) fn clip(
 }
 
 /// Joins runs of corners into closed pieces along the cutting line.
-fn join(runs: Vec<Vec<Corner>>, piece: &mut impl FnMut(&[Corner])) {
+fn join(runs: Vec<Vec<HomogeneousCorner>>, piece: &mut impl FnMut(&[HomogeneousCorner])) {
     if let [run] = &runs[..] {
         return piece(run);
     }
@@ -152,7 +152,7 @@ fn join(runs: Vec<Vec<Corner>>, piece: &mut impl FnMut(&[Corner])) {
     }
 }
 
-/// A position after the division by w, or its direction where w is 0.
+/// Divides a position by w, or returns its direction where w is 0.
 fn flat(p: DVec4) -> glam::DVec3 {
     if p.w.abs() > f64::MIN_POSITIVE {
         p.truncate() / p.w
@@ -161,8 +161,8 @@ fn flat(p: DVec4) -> glam::DVec3 {
     }
 }
 
-/// The direction of the cutting line: from one end to the one farthest from it.
-fn line_direction(runs: &[Vec<Corner>]) -> glam::DVec3 {
+/// Returns the direction of the cutting line: from one end to the one farthest from it.
+fn line_direction(runs: &[Vec<HomogeneousCorner>]) -> glam::DVec3 {
     let origin = flat(runs[0][0].position);
     let ends = runs.iter().flat_map(|run| [run[0], run[run.len() - 1]]);
     let differences = ends.map(|end| flat(end.position) - origin);
@@ -188,7 +188,7 @@ mod tests {
         while cuts < 1000 {
             let mut corner = |vertex| {
                 let mut number = || f64::from(random.signed()) * 7.3;
-                Corner {
+                HomogeneousCorner {
                     position: DVec4::new(number(), number(), number(), number()),
                     vertex,
                 }

@@ -1,6 +1,6 @@
-//! Polygons that reach beyond a plane: what of them is inside.
+//! Polygons that reach beyond a plane are cut: the pieces inside are added to the frame.
 
-use super::clip::{Corner, Cut, Plane, clip};
+use super::clip::{Cut, HomogeneousCorner, Plane, clip};
 use super::polygons::{Piece, PolygonTable};
 use super::side::{Side, eye_side};
 use super::view::View;
@@ -11,7 +11,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::DMat4;
 
-/// Cuts polygons, and gives the frame what is left of them.
+/// A cutter of polygons, which adds the pieces to the frame.
 pub(super) struct Cutting<'a> {
     pub view: &'a View<'a>,
     pub table: &'a PolygonTable,
@@ -20,7 +20,7 @@ pub(super) struct Cutting<'a> {
 }
 
 impl Cutting<'_> {
-    /// Adds what of a polygon is inside all planes.
+    /// Adds the pieces of a polygon that are inside all planes.
     pub fn polygon(&mut self, polygon: usize) {
         let geometry = self.frame.geometry.clone();
         let (first, count) = self.table.corners(polygon);
@@ -48,7 +48,7 @@ impl Cutting<'_> {
         };
         let ends = corners.iter().map(clip_position).zip(&whole);
         let mut pieces = vec![
-            ends.map(|(position, &vertex)| Corner { position, vertex })
+            ends.map(|(position, &vertex)| HomogeneousCorner { position, vertex })
                 .collect::<Vec<_>>(),
         ];
         for plane in self.view.planes {
@@ -83,7 +83,7 @@ impl Cutting<'_> {
         !culled && area != 0
     }
 
-    fn piece(&mut self, polygon: usize, side: Side, whole: &[u32], corners: &[Corner]) {
+    fn piece(&mut self, polygon: usize, side: Side, whole: &[u32], corners: &[HomogeneousCorner]) {
         let mean = self.frame.mean_of(whole);
         let frame = &mut *self.frame;
         let first = (frame.geometry.corners.len() + frame.cut_corners.len()) as u32;
@@ -100,7 +100,7 @@ impl Cutting<'_> {
         });
     }
 
-    /// The vertex where a plane cuts an edge: its attributes lie between those of the edge's ends.
+    /// Makes the vertex where a plane cuts an edge: its attributes lie between those of the edge's ends.
     fn vertex(&mut self, cut: &Cut, plane: &Plane, edge: &EdgeOf) -> u32 {
         let number = self.frame.vertices.len() as u32;
         self.frame.vertices.push(self.view.vertex(cut.position));
@@ -120,7 +120,7 @@ impl Cutting<'_> {
     }
 }
 
-/// What a vertex on an edge has from the edge's polygon.
+/// The attributes that a vertex on an edge takes from the edge's polygon.
 struct EdgeOf {
     material: u32,
     face: [f32; 3],

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 impl Scene {
-    /// The lights, their positions as seen from the eye, as [`Frame::position`] gives those of vertices.
+    /// Returns the lights, with positions relative to the eye as [`Frame::position`] gives those of vertices.
     fn lights_from_eye(&self) -> Vec<Light> {
         let from_eye = |light: &Light| match light.place {
             Place::Infinite(_) => *light,
@@ -18,7 +18,7 @@ impl Scene {
         self.lights.iter().map(from_eye).collect()
     }
 
-    /// What falls on each of `materials`.
+    /// Computes the light on each of `materials`.
     pub(super) fn light(&self, materials: &[Material], lightings: &mut Vec<Lighting>) {
         let (lights, view) = (self.lights_from_eye(), self.camera.view());
         lightings.clear();
@@ -29,7 +29,7 @@ impl Scene {
         );
     }
 
-    /// What falls on `material`; `lights` as [`Scene::lights_from_eye`] gives them.
+    /// Returns the light on `material`; `lights` as [`Scene::lights_from_eye`] gives them.
     fn lighting(&self, material: &Material, lights: &[Light], view: DVec3) -> Lighting {
         let far = Lighting::new(material, self.ambient, lights, view);
         Lighting {

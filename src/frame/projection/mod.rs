@@ -29,7 +29,7 @@ use prepare::Preparation;
 use view::{Codes, View};
 
 impl Scene {
-    /// The scene as its camera sees it: projected polygons and the light on them.
+    /// Projects the scene: returns its polygons as the camera sees them, and the light on them.
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;
@@ -46,7 +46,7 @@ impl Scene {
         self.prepare()?.frame()
     }
 
-    /// The scene with everything done that does not depend on the camera: for drawing it more than once.
+    /// Does everything that does not depend on the camera, once, for drawing the scene more than once.
     ///
     /// ```
     /// use fastphong::mesh::builtin::builtin;
@@ -74,7 +74,7 @@ impl Scene {
             table,
             materials,
         } = Preparation::new(self)?;
-        // What is left of the scene are its settings.
+        // Only the settings of the scene are left.
         let settings = Scene {
             objects: Vec::new(),
             lights: self.lights.clone(),
@@ -111,14 +111,14 @@ pub(crate) struct Scratch {
 }
 
 impl Clone for Scratch {
-    /// Nothing of it is needed.
+    /// Returns empty memory: nothing of this one is needed.
     fn clone(&self) -> Self {
         Scratch::default()
     }
 }
 
 impl PreparedScene {
-    /// The camera of the next frame.
+    /// Returns the camera of the next frame.
     pub fn camera(&self) -> &Camera {
         &self.settings.camera
     }
@@ -138,7 +138,7 @@ impl PreparedScene {
         self.settings.lights = lights;
     }
 
-    /// A new frame: the scene as its camera sees it.
+    /// Returns a new frame: the scene as its camera sees it.
     ///
     /// # Errors
     /// [`FrameError`] as [`Scene::frame`].
@@ -208,7 +208,7 @@ impl PreparedScene {
         Ok(())
     }
 
-    /// Gives the frame all that is not geometry, and empties what is filled polygon by polygon.
+    /// Copies all settings into the frame, and empties the lists that are filled polygon by polygon.
     fn settings(&self, frame: &mut Frame, view: &View<'_>) {
         let scene = &self.settings;
         (frame.width, frame.height, frame.samples) = (view.width, view.height, scene.samples);
@@ -226,7 +226,7 @@ impl PreparedScene {
         frame.cut_corners.clear();
     }
 
-    /// Places all vertices; whether any is beyond a plane.
+    /// Projects all vertices; returns true if any is beyond a plane.
     fn vertices(
         &self,
         frame: &mut Frame,

@@ -13,20 +13,20 @@ const WORDS: usize = 32;
 /// Polygons that one thread takes at a time: one a bit.
 pub(super) const CHUNK: usize = 64 * WORDS;
 
-/// All polygons of a scene: where their corners are, and what else is known before any camera.
+/// All polygons of a scene: their corners, materials and normals, known before any camera.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PolygonTable {
     pub count: usize,
-    /// Where the corners of each polygon begin and, last, where those of the last one end; empty where all are triangles.
+    /// The index of the first corner of each polygon and, last, the end of all corners; empty if all are triangles.
     pub starts: Vec<u32>,
     /// The lighting of each polygon; empty where all have the first.
     pub materials: Vec<u32>,
-    /// One bit a polygon: whether it has a normal. Without one it is never drawn.
+    /// One bit a polygon: 1 if it has a normal. Without one it is never drawn.
     pub has_normal: Vec<u64>,
 }
 
 impl PolygonTable {
-    /// Where the corners of a polygon begin, and how many there are.
+    /// Returns the index of the first corner of a polygon, and their number.
     #[inline(always)]
     pub fn corners(&self, polygon: usize) -> (u32, u32) {
         match self.starts.get(polygon..polygon + 2) {
@@ -41,9 +41,9 @@ impl PolygonTable {
     }
 }
 
-/// What is found out of 64 polygons that follow one another: a bit each.
+/// The visibility of 64 polygons that follow one another: a bit each.
 #[derive(Clone, Copy, Debug, Default)]
-struct Word {
+struct VisibilityWord {
     /// It is drawn as it is.
     drawn: u64,
     /// It is lit from behind.
@@ -52,12 +52,12 @@ struct Word {
     cut: u64,
 }
 
-/// What is found out of [`CHUNK`] polygons that follow one another.
+/// The visibility of [`CHUNK`] polygons that follow one another.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Chunk {
-    words: [Word; WORDS],
+    words: [VisibilityWord; WORDS],
     stats: FrameStats,
-    /// How many polygons of the frame stand before those of this chunk, pieces included.
+    /// The number of polygons of the frame before this chunk, pieces included.
     before: usize,
     /// The first piece that belongs to this chunk or a later one.
     first_piece: usize,
@@ -72,7 +72,7 @@ pub(super) struct Piece {
     pub is_back: bool,
 }
 
-/// What decides whether a polygon is seen.
+/// The scene as culling reads it: corner lists, vertices on the screen, planes that they are beyond.
 pub(super) struct Sight<'a> {
     pub scene: &'a Scene,
     pub table: &'a PolygonTable,
@@ -84,7 +84,7 @@ pub(super) struct Sight<'a> {
 }
 
 impl Sight<'_> {
-    /// Finds out which polygons are seen.
+    /// Culls all polygons, on several threads.
     pub fn find(&self, chunks: &mut Vec<Chunk>) {
         chunks.resize(self.table.count.div_ceil(CHUNK), Chunk::default());
         for_each_chunk(&mut chunks[..], 1, &|number, chunk: &mut [Chunk]| {
@@ -96,7 +96,7 @@ impl Sight<'_> {
         });
     }
 
-    /// Finds out of the polygons of chunk `number`.
+    /// Culls the polygons of chunk `number`.
     #[inline(always)]
     fn chunk(&self, number: usize, chunk: &mut Chunk) {
         let end = self.table.count.min((number + 1) * CHUNK);
@@ -108,7 +108,7 @@ impl Sight<'_> {
         }
     }
 
-    /// Finds out of up to 64 polygons from `first` on.
+    /// Culls up to 64 polygons from `first` on.
     #[inline(always)]
     fn word(
         &self,
@@ -116,7 +116,7 @@ impl Sight<'_> {
         count: usize,
         places: &mut Places,
         stats: &mut FrameStats,
-    ) -> Word {
+    ) -> VisibilityWord {
         let all = u64::MAX >> (64 - count);
         let (clockwise, counter_clockwise) = if self.table.starts.is_empty() {
             winding::of_triangles(self.triangles(first, count), self.vertices, places)
@@ -155,17 +155,17 @@ impl Sight<'_> {
         stats.zero_area += number(whole & !(clockwise | counter_clockwise));
         // y points downward on the picture: what runs clockwise there has an area over 0, and is seen from behind.
         let back = if self.scene.two_sided { clockwise } else { 0 };
-        Word {
+        VisibilityWord {
             drawn: whole & (clockwise | counter_clockwise) & !culled,
             back,
             cut,
         }
     }
 
-    /// Which of some polygons are outside the view, and which have a corner beyond a plane.
+    /// Returns a bit for each polygon that is outside the view, and for each that has a corner beyond a plane.
     #[inline(always)]
     fn beyond(&self, codes: &[Codes], first: usize, count: usize) -> (u64, u64) {
-        // What all corners of each polygon are beyond, and what any is.
+        // The planes that all corners of each polygon are beyond, and those that any is.
         let (mut all, mut any) = ([0; 64], [0; 64]);
         if self.table.starts.is_empty() {
             for (k, triangle) in self.triangles(first, count.min(64)).iter().enumerate() {
@@ -190,7 +190,7 @@ impl Sight<'_> {
         (winding::bits(&outside), winding::bits(&beyond))
     }
 
-    /// The corners of some polygons, where all are triangles.
+    /// Returns the corners of some polygons, where all are triangles.
     #[inline(always)]
     fn triangles(&self, first: usize, count: usize) -> &[[u32; 3]] {
         self.corners[3 * first..3 * (first + count)].as_chunks().0
@@ -214,7 +214,7 @@ pub(super) fn for_each_cut(chunks: &[Chunk], mut visit: impl FnMut(usize)) {
     }
 }
 
-/// Adds up what was counted, and gives each chunk its place in the frame: how many polygons that is.
+/// Adds up the counts, and gives each chunk its place in the frame. Returns the number of polygons.
 pub(super) fn add_up(chunks: &mut [Chunk], pieces: &[Piece], stats: &mut FrameStats) -> usize {
     let (mut total, mut piece) = (0, 0);
     for (number, chunk) in chunks.iter_mut().enumerate() {
@@ -243,10 +243,10 @@ pub(super) fn add_up(chunks: &mut [Chunk], pieces: &[Piece], stats: &mut FrameSt
     total
 }
 
-/// Polygons of a frame that are to be written, and the chunks that they come from.
+/// A writer of the polygons of a frame, from the chunks that they come from.
 pub(super) struct Filling<'a> {
     pub table: &'a PolygonTable,
-    /// How many corners the lists have before those of the second side begin.
+    /// The number of corners before those of the second side.
     pub corner_count: u32,
     pub pieces: &'a [Piece],
 }
@@ -293,7 +293,7 @@ impl Filling<'_> {
 
     /// Writes the polygons of a word of which none is cut.
     #[inline(always)]
-    fn fill_whole(&self, first: usize, word: &Word, out: &mut [Polygon]) {
+    fn fill_whole(&self, first: usize, word: &VisibilityWord, out: &mut [Polygon]) {
         let mut left = word.drawn;
         for place in out {
             let bit = left.trailing_zeros();
@@ -307,7 +307,7 @@ impl Filling<'_> {
     fn fill_cut<'o>(
         &self,
         first: usize,
-        word: &Word,
+        word: &VisibilityWord,
         pieces: &mut core::slice::Iter<'_, Piece>,
         out: &'o mut [Polygon],
     ) -> &'o mut [Polygon] {
@@ -381,7 +381,7 @@ fn fill_plain(first: usize, drawn: u64, out: &mut [Polygon]) {
     }
 }
 
-/// The normal of a polygon, as the frame numbers it.
+/// Returns the number of the normal of a polygon in the frame.
 #[inline(always)]
 fn face(source: u32, is_back: bool) -> u32 {
     source | if is_back { Polygon::FLIPPED } else { 0 }

@@ -1,4 +1,4 @@
-//! What of a scene does not depend on the camera, laid out for drawing: distinct vertices, corner lists, normals.
+//! Preparation of a scene: all that does not depend on the camera, as distinct vertices, corner lists and normals.
 
 use super::polygons::PolygonTable;
 use crate::frame::{FrameError, Geometry, Models, PlacedModel, Polygon};
@@ -16,7 +16,7 @@ const NO_VERTEX: u32 = u32::MAX;
 /// Elements that one thread takes at a time.
 const CHUNK: usize = 4096;
 
-/// What is collected object after object.
+/// The geometry collected object after object.
 #[derive(Default)]
 pub(super) struct Preparation {
     pub geometry: Geometry,
@@ -125,7 +125,7 @@ impl Preparation {
         });
     }
 
-    /// Unit normals of polygons in the world; zero where there is none.
+    /// Adds the unit normals of polygons in the world; zero for a polygon that has none.
     fn faces(&mut self, source: &Source<'_>, normals: &[DVec3]) {
         let first = self.geometry.faces.len();
         self.geometry.faces.resize(first + normals.len(), [0.0; 3]);
@@ -143,7 +143,7 @@ impl Preparation {
         });
     }
 
-    /// Each position is a vertex, as it has one normal and one material.
+    /// Adds a vertex for each position, as each has one normal and one material.
     fn vertices_by_position(&mut self, source: &Source<'_>, values: &[Vec3], normal_of: &[u32]) {
         let mesh = source.mesh;
         let geometry = &mut self.geometry;
@@ -183,7 +183,7 @@ impl Preparation {
         }
     }
 
-    /// A vertex for each position, normal and material that come together at a corner.
+    /// Adds a vertex for each position, normal and material that come together at a corner.
     fn vertices_by_corner(&mut self, source: &Source<'_>, normals: CornerNormals) {
         let mesh = source.mesh;
         let normals = normals.by_corner(mesh);
@@ -257,7 +257,7 @@ impl Preparation {
 }
 
 impl Source<'_> {
-    /// The lighting of a polygon.
+    /// Returns the lighting of a polygon.
     fn material(&self, polygon: usize) -> u32 {
         let own = self
             .mesh
@@ -271,7 +271,7 @@ impl Source<'_> {
             || (1..self.mesh.polygon_count()).all(|p| self.material(p) == self.material(0))
     }
 
-    /// A vertex normal in the world.
+    /// Returns a vertex normal in the world.
     fn normal(&self, normal: Vec3) -> [f32; 3] {
         let direction = self.normal_matrix * normal.as_dvec3();
         direction.normalize_or(DVec3::Z).as_vec3().to_array()
@@ -286,7 +286,7 @@ impl Models {
     }
 }
 
-/// Where the corners of each polygon begin, and where those of the last one end.
+/// Returns the index of the first corner of each polygon and, last, of the end of all corners.
 fn starts<'a>(meshes: impl Iterator<Item = &'a PolygonMesh>, polygons: usize) -> Vec<u32> {
     let mut starts = Vec::with_capacity(polygons + 1);
     let mut first = 0;

@@ -2,17 +2,17 @@
 
 use glam::{DVec3, DVec4};
 
-/// The side by which a polygon is lit: by two-sided lighting, that from which it is seen.
+/// A side of a polygon, by which it is lit: under two-sided lighting the side that the eye sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
-    /// That to which its normals point.
+    /// The side to which its normals point.
     Front,
     /// The other one: normals are negated.
     Back,
 }
 
 impl Side {
-    /// Makes of a normal the one that light meets on this side.
+    /// Turns a normal to this side.
     pub fn turn(self, normal: &mut [f32; 3]) {
         if self == Side::Back {
             *normal = normal.map(|n| -n);
@@ -20,8 +20,8 @@ impl Side {
     }
 }
 
-/// On which side of a polygon the eye is, in front of it or behind: over 0 where its corners run counter-clockwise for the
-/// eye, wherever it is cut. Exact up to rounding for flat polygons, a compromise of the corners for others.
+/// Tells on which side of a polygon the eye is: over 0 if its corners run counter-clockwise for the eye, wherever it is
+/// cut, below 0 if clockwise. Exact up to rounding for flat polygons, a compromise of the corners for others.
 pub(super) fn eye_side(corners: impl Iterator<Item = DVec4> + Clone) -> f64 {
     // Without z, clip space is space seen from the eye, up to scales of its axes: Newell's normal against a corner.
     let flat = |clip: DVec4| DVec3::new(clip.x, clip.y, clip.w);

@@ -13,7 +13,7 @@ const BLOCK: usize = 32;
 /// Vertices that one thread takes at a time.
 const CHUNK: usize = 64 * BLOCK;
 
-/// Adding it to a number of magnitude below 2⁵¹ rounds that to an integer, halves to even as `rint` does, and leaves the
+/// A number that rounds by addition: a number of magnitude below 2⁵¹ becomes an integer, halves to even as `rint` does, and leaves the
 /// integer in the lowest bits.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
@@ -59,8 +59,8 @@ pub(super) fn place(
     }
 }
 
-/// Numbers of one coordinate of the vertices of a block.
-type Lanes = [f64; BLOCK];
+/// One coordinate of the vertices of a block.
+type Coordinate = [f64; BLOCK];
 
 /// The way of one object's vertices onto the picture.
 struct Placing<'a> {
@@ -107,7 +107,7 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// Places vertices from `first` on; whether any is beyond a plane, or the number of one that is nowhere.
+    /// Places vertices from `first` on. Returns true if any is beyond a plane, or the number of one that is nowhere.
     #[inline(always)]
     fn vertices(
         &self,
@@ -181,9 +181,9 @@ impl<'a> Placing<'a> {
         Ok(is_any_beyond)
     }
 
-    /// One coordinate in clip space, in the order of additions of a product of matrix and vector.
+    /// Returns one coordinate in clip space, in the order of additions of a product of matrix and vector.
     #[inline(always)]
-    fn row(&self, row: usize, x: &Lanes, y: &Lanes, z: &Lanes) -> Lanes {
+    fn row(&self, row: usize, x: &Coordinate, y: &Coordinate, z: &Coordinate) -> Coordinate {
         let matrix = self.matrix.row(row);
         let mut clip = [0.0; BLOCK];
         for i in 0..BLOCK {
@@ -195,7 +195,14 @@ impl<'a> Placing<'a> {
     /// True if all are between the near and the far plane, and x and y within `reach` times w: finite then, and inside
     /// every plane that is as far out or farther.
     #[inline(always)]
-    fn all_inside(&self, reach: [f64; 2], x: &Lanes, y: &Lanes, z: &Lanes, w: &Lanes) -> bool {
+    fn all_inside(
+        &self,
+        reach: [f64; 2],
+        x: &Coordinate,
+        y: &Coordinate,
+        z: &Coordinate,
+        w: &Coordinate,
+    ) -> bool {
         let mut inside = true;
         for i in 0..BLOCK {
             // As the planes compute it: the sign of a difference is exact.
@@ -207,14 +214,14 @@ impl<'a> Placing<'a> {
         inside
     }
 
-    /// What [`View::vertex`] gives for vertices inside all planes, to the bit. Orthographic ones have w = 1.
+    /// Computes the vertices that [`View::vertex`] gives inside all planes, to the bit. Orthographic ones have w = 1.
     #[inline(always)]
     fn on_picture<const PERSPECTIVE: bool>(
         &self,
-        x: &Lanes,
-        y: &Lanes,
-        z: &Lanes,
-        w: &Lanes,
+        x: &Coordinate,
+        y: &Coordinate,
+        z: &Coordinate,
+        w: &Coordinate,
         out: &mut [ScreenVertex; BLOCK],
     ) {
         let mut weights = [1.0; BLOCK];
@@ -234,21 +241,21 @@ impl<'a> Placing<'a> {
     }
 }
 
-/// Divided by w, where that is not 1.
+/// Divides by w, unless it is 1.
 #[inline(always)]
 fn over<const PERSPECTIVE: bool>(c: f64, w: f64) -> f64 {
     if PERSPECTIVE { c / w } else { c }
 }
 
-/// To the nearest 1/256 pixel.
+/// Rounds to the nearest 1/256 pixel.
 #[inline(always)]
 fn nearest(pixels: f64) -> SubPixel {
     SubPixel::from_bits((pixels * 256.0 + ROUNDING).to_bits() as i32)
 }
 
-/// The sides of the view that vertices between near and far plane are beyond, as [`View::codes`] has them.
+/// Computes the sides of the view that vertices between near and far plane are beyond, as [`View::codes`] has them.
 #[inline(always)]
-fn sides(x: &Lanes, y: &Lanes, w: &Lanes, codes: &mut [Codes; BLOCK]) {
+fn sides(x: &Coordinate, y: &Coordinate, w: &Coordinate, codes: &mut [Codes; BLOCK]) {
     for i in 0..BLOCK {
         let (left, right) = (Codes::from(x[i] < -w[i]), Codes::from(x[i] > w[i]));
         let (bottom, top) = (Codes::from(y[i] < -w[i]), Codes::from(y[i] > w[i]));
@@ -256,9 +263,9 @@ fn sides(x: &Lanes, y: &Lanes, w: &Lanes, codes: &mut [Codes; BLOCK]) {
     }
 }
 
-/// A block's numbers; where there are fewer, the last one fills it.
+/// Loads a block of numbers; if there are fewer, the last one fills it.
 #[inline(always)]
-fn lanes(all: &[f32], from: usize, count: usize) -> Lanes {
+fn lanes(all: &[f32], from: usize, count: usize) -> Coordinate {
     let of_block = &all[from..from + count];
     let mut lanes = [0.0; BLOCK];
     match of_block.first_chunk::<BLOCK>() {

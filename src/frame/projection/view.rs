@@ -1,4 +1,4 @@
-//! What a camera makes of a position: clip space, the planes that it is beyond, its place on the picture.
+//! The view: from a position in the world to clip space, to the planes that it is beyond, to pixel coordinates.
 
 use super::clip::Plane;
 use crate::frame::{Frame, FrameError, ScreenVertex, SubPixel};
@@ -16,7 +16,7 @@ pub(super) const BEYOND_PLANES: Codes = 0xFF00;
 
 /// A camera and a picture, and the numbers that follow from them.
 pub(super) struct View<'a> {
-    /// The settings; its objects are not looked at.
+    /// The settings; objects are ignored.
     pub scene: &'a Scene,
     /// Samples a row, and rows of them: what coordinates count.
     pub width: u32,
@@ -87,7 +87,7 @@ impl<'a> View<'a> {
         })
     }
 
-    /// The planes that a position is beyond.
+    /// Returns the planes that a position is beyond.
     pub fn codes(&self, clip: DVec4) -> Codes {
         if self.scene.clipping == Clipping::NdcCube {
             return self.codes_unclipped(clip);
@@ -97,7 +97,7 @@ impl<'a> View<'a> {
         bits(&[x < -w, x > w, y < -w, y > w, z < 0.0, z > w]) | bits(&beyond_planes) << 8
     }
 
-    /// The vertex at a position. Where it has no place on the picture, only its attributes matter.
+    /// Returns the vertex at a position. If it has no pixel coordinates, only its attributes matter.
     pub fn vertex(&self, clip: DVec4) -> ScreenVertex {
         let on_picture = match self.scene.clipping {
             // Cuts are rounded, and may lie beyond the plane that made them.
@@ -136,7 +136,7 @@ impl<'a> View<'a> {
         inside(v.x) && inside(v.y) && v.depth.is_finite() && weighs
     }
 
-    /// 1/w, scaled to 1 at the near plane.
+    /// Returns 1/w, scaled to 1 at the near plane.
     fn weight(&self, w: f64) -> f32 {
         match self.scene.camera.projection {
             Projection::Orthographic { .. } => 1.0,
@@ -144,7 +144,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Column and row, to the nearest 1/256 pixel.
+    /// Returns column and row, to the nearest 1/256 pixel.
     pub fn snap(&self, clip: DVec4) -> [SubPixel; 2] {
         let column = (clip.x / clip.w * 0.5 + 0.5) * f64::from(self.width);
         let row = (0.5 - clip.y / clip.w * 0.5) * f64::from(self.height);
@@ -154,13 +154,13 @@ impl<'a> View<'a> {
     }
 }
 
-/// How far the guard band reaches in x/w or y/w, along a side of the picture of `side` samples: on the picture one longest
-/// side beyond its edges.
+/// Returns the reach of the guard band in x/w or y/w, along a side of the picture of `side` samples: on the picture one
+/// longest side beyond its edges.
 pub(super) fn reach(side: u32) -> f64 {
     1.0 + 2.0 * f64::from(Scene::MAX_SIDE) / f64::from(side)
 }
 
-/// One bit each, the first the lowest.
+/// Packs flags into bits, the first the lowest.
 pub(super) fn bits(beyond: &[bool]) -> Codes {
     beyond
         .iter()

@@ -1,4 +1,4 @@
-//! Which way polygons run on the picture, 64 of them at a time.
+//! Winding: the orientation of polygons on the picture, 64 of them at a time.
 //!
 //! In loops of their own: first all places are read, which need not wait for one another; then all areas are computed, several
 //! at once. Areas are exact: coordinates are within ±2²³, their differences within ±2²⁴, and areas of triangles and
@@ -6,7 +6,7 @@
 
 use crate::frame::{ScreenVertex, SubPixel};
 
-/// This many polygons are looked at together: one a bit.
+/// The polygons of a batch: one a bit.
 const MOST: usize = 64;
 
 /// Places of up to four corners of polygons: see [`ScreenVertex::place`].
@@ -15,7 +15,8 @@ pub(super) type Places = [[u64; MOST]; 4];
 /// Memory for places.
 pub(super) const NO_PLACES: Places = [[0; MOST]; 4];
 
-/// Which of up to 64 triangles run clockwise on the picture, and which counter-clockwise: a bit each, the first the lowest.
+/// Returns the triangles, of up to 64, that run clockwise on the picture, and those that run counter-clockwise: a bit each, the
+/// first the lowest.
 /// Bits past the last triangle mean nothing.
 #[inline(always)]
 pub(super) fn of_triangles(
@@ -34,7 +35,7 @@ pub(super) fn of_triangles(
     signs([a, b], [a, c])
 }
 
-/// Likewise of `count` polygons of any shape: their corner lists by number.
+/// Does the same for `count` polygons of any shape: their corner lists by number.
 #[inline(always)]
 pub(super) fn of_polygons<'a>(
     count: usize,
@@ -67,7 +68,7 @@ pub(super) fn of_polygons<'a>(
     signs([a, c], [b, d])
 }
 
-/// Twice the area of a polygon of any shape.
+/// Returns twice the area of a polygon of any shape.
 #[inline(never)]
 fn area(corners: &[u32], vertices: &[ScreenVertex]) -> i128 {
     doubled_area(
@@ -77,7 +78,7 @@ fn area(corners: &[u32], vertices: &[ScreenVertex]) -> i128 {
     )
 }
 
-/// Twice the signed area on the picture in sub-pixels: y points downward, so counter-clockwise polygons have a negative
+/// Returns twice the signed area on the picture in sub-pixels: y points downward, so counter-clockwise polygons have a negative
 /// one. Products have at most 2⁴⁷; 2²⁷ corners of them need more than 64 bits.
 pub(super) fn doubled_area(corners: impl Iterator<Item = [SubPixel; 2]> + Clone) -> i128 {
     let following = corners.clone().skip(1).chain(corners.clone().take(1));
@@ -88,7 +89,7 @@ pub(super) fn doubled_area(corners: impl Iterator<Item = [SubPixel; 2]> + Clone)
         .sum()
 }
 
-/// Where the cross product of two vectors, each from one place to another, is over 0, and where it is below.
+/// Returns bits for the cross products of two vectors that are over 0, and for those below 0.
 #[inline(always)]
 fn signs(u: [&[u64; MOST]; 2], v: [&[u64; MOST]; 2]) -> (u64, u64) {
     let (mut above, mut below) = (0, 0);
@@ -103,7 +104,7 @@ fn signs(u: [&[u64; MOST]; 2], v: [&[u64; MOST]; 2]) -> (u64, u64) {
     (above, below)
 }
 
-/// From one place to another: to the right and downward.
+/// Returns the vector from one place to another: to the right and downward.
 #[inline(always)]
 fn difference(from: u64, to: u64) -> [i64; 2] {
     // As lower halves of 64-bit differences: these are what a vector multiplies, without unpacking.
@@ -111,7 +112,7 @@ fn difference(from: u64, to: u64) -> [i64; 2] {
     [i64::from(x as i32), i64::from(y as i32)]
 }
 
-/// One bit each of 64 flags, 0 or 1, the first the lowest.
+/// Packs 64 flags, 0 or 1, into bits, the first the lowest.
 #[inline(always)]
 pub(super) fn bits(flags: &[u8; MOST]) -> u64 {
     let mut all = 0;

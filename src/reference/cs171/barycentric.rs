@@ -12,7 +12,7 @@ use glam::DVec2;
 /// The three weights α, β, γ of a point: it is α a + β b + γ c.
 pub type Weights = [f64; 3];
 
-/// Zero on the line through i and j, and proportional to the distance from it:
+/// Returns a number that is zero on the line through i and j, and proportional to the distance from it:
 /// ```text
 /// f_ij(x, y) = (y_i − y_j) x + (x_j − x_i) y + x_i y_j − x_j y_i      (CS171 1)
 /// ```
@@ -21,7 +21,7 @@ pub fn f(i: DVec2, j: DVec2, p: DVec2) -> f64 {
     (i.y - j.y) * p.x + (j.x - i.x) * p.y + i.x * j.y - j.x * i.y // f_ij
 }
 
-/// The weights by three calls of [`f`]:
+/// Returns the weights by three calls of [`f`]:
 /// ```text
 /// α = f_bc(p) / f_bc(a)      β = f_ac(p) / f_ac(b)      γ = f_ab(p) / f_ab(c)      (CS171 1)
 /// ```
@@ -34,14 +34,14 @@ pub fn weights([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     ]
 }
 
-/// γ as CS171 prints it, `f_ab(p) / f_ac(p)`: the quotient of two distances from p, which is no weight. As f_ac(b) is
+/// Returns γ as CS171 prints it, `f_ab(p) / f_ac(p)`: the quotient of two distances from p, which is no weight. As f_ac(b) is
 /// −f_ab(c) it is −γ/β, below 0 all over the inside, so that only the edge ab would be filled. At c, where γ is 1, it
 /// divides by zero. It is here to be looked at, and nothing else calls it.
 pub fn printed_gamma([a, b, c]: [DVec2; 3], p: DVec2) -> f64 {
     f(a, b, p) / f(a, c, p)
 }
 
-/// The weights as the solution of the system of two equations that defines them:
+/// Returns the weights as the solution of the system of two equations that defines them:
 /// ```text
 /// [ x_b − x_a   x_c − x_a ] [ β ]   [ x_p − x_a ]
 /// [ y_b − y_a   y_c − y_a ] [ γ ] = [ y_p − y_a ],      α = 1 − β − γ      (CS171 1)
@@ -55,7 +55,7 @@ pub fn weights_of_system([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     [1.0 - beta - gamma, beta, gamma] // α = 1 − β − γ
 }
 
-/// The line equation of L5: proportional to the distance from the line through `from` and `to`, with its sign.
+/// Evaluates the line equation of L5: proportional to the distance from the line through `from` and `to`, with its sign.
 /// ```text
 /// L_PQ(x, y) = −(x − x_P)(y_Q − y_P) + (y − y_P)(x_Q − x_P)      (L5, Computing Barycentric Coordinates)
 /// ```
@@ -64,7 +64,7 @@ pub fn line(from: DVec2, to: DVec2, p: DVec2) -> f64 {
     -(p.x - from.x) * (to.y - from.y) + (p.y - from.y) * (to.x - from.x) // L_PQ
 }
 
-/// The weights as proportional distances:
+/// Returns the weights as proportional distances:
 /// ```text
 /// α = L_BC(x, y) / L_BC(x_A, y_A),   β = L_CA(x, y) / L_CA(x_B, y_B),   γ = 1 − α − β      (L5)
 /// ```
@@ -74,7 +74,7 @@ pub fn weights_of_distances([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     [alpha, beta, 1.0 - alpha - beta]
 }
 
-/// The signed area of a triangle: half of a cross product, positive where it runs counter-clockwise with y upward.
+/// Returns the signed area of a triangle: half of a cross product, positive where it runs counter-clockwise with y upward.
 /// ```text
 /// A_abc = ½ (x_a y_b + x_b y_c + x_c y_a − x_a y_c − x_b y_a − x_c y_b)      (CS171 1)
 /// ```
@@ -82,7 +82,7 @@ pub fn signed_area([a, b, c]: [DVec2; 3]) -> f64 {
     0.5 * (b - a).perp_dot(c - a) // A_abc
 }
 
-/// The weights as proportional areas, A_a / A and so on, where A_a is the area of the triangle that has p in the place of
+/// Returns the weights as proportional areas, A_a / A and so on, where A_a is the area of the triangle that has p in the place of
 /// a (CS171 1, Figure 3). The areas have signs, so that it holds outside of the triangle too.
 pub fn weights_of_areas([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     let whole = signed_area([a, b, c]);
@@ -93,7 +93,7 @@ pub fn weights_of_areas([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     ]
 }
 
-/// The "weights" as L5 prints them, of areas without a sign:
+/// Returns the "weights" as L5 prints them, of areas without a sign:
 /// ```text
 /// α = A_A / (A_A + A_B + A_C),      A_A = ½ ‖PB × PC‖      (L5, Proportional Areas)
 /// ```
@@ -104,7 +104,7 @@ pub fn unsigned_weights([a, b, c]: [DVec2; 3], p: DVec2) -> Weights {
     areas.map(|area| area / (areas[0] + areas[1] + areas[2]))
 }
 
-/// The two weights on a line: to each end the distance from the *other* one.
+/// Returns the two weights on a line: for each end the distance from the *other* one.
 /// ```text
 /// v = (x_2 − x) / (x_2 − x_1) v_1 + (x − x_1) / (x_2 − x_1) v_2      (CS171 1, Figure 2)
 /// ```
@@ -112,7 +112,7 @@ pub fn weights_on_line(x1: f64, x2: f64, x: f64) -> [f64; 2] {
     [(x2 - x) / (x2 - x1), (x - x1) / (x2 - x1)]
 }
 
-/// The point halfway to being all three corners: where all weights are ⅓ (L5, Center of mass).
+/// Returns the point at which all weights are ⅓ (L5, Center of mass).
 pub fn centre_of_mass([a, b, c]: [DVec2; 3]) -> DVec2 {
     (a + b + c) / 3.0
 }

@@ -3,7 +3,7 @@
 use crate::scene::{Falloff, Lighting, Place, SpecularGate, SpecularModel};
 use glam::DVec3;
 
-/// The colour of the point `p` with the normal `n` (CS171 2, Algorithm 3, with its Attenuation):
+/// Returns the colour of the point `p` with the normal `n` (CS171 2, Algorithm 3, with its Attenuation):
 /// ```text
 /// c = min(1, c_a + c_d Σ l_c max(0, n · l) + c_s Σ l_c max(0, n · (e + l) / |e + l|)^p),    l_c ∝ 1 / (1 + k d²)
 /// ```
@@ -52,8 +52,8 @@ pub fn lighting(p: DVec3, n: DVec3, light: &Lighting) -> DVec3 {
     sum.min(DVec3::ONE) // cwise_min
 }
 
-/// What is left of a light at the distance d (CS171 2, Attenuation; the other two are L5's). Distances below 1e-15 count
-/// as that.
+/// Returns the strength of a light at the distance d (CS171 2, Attenuation; the other two are L5's). Distances below 1e-15
+/// count as that.
 fn attenuation(falloff: Falloff, d: f64) -> f64 {
     let d = d.max(1e-15);
     match falloff {

@@ -47,7 +47,7 @@ pub use shading::{flat_shading, full_shading, gouraud_shading, phong_shading, re
 use crate::picture::Picture;
 use glam::DVec3;
 
-/// To whom pixels whose centres lie on an edge belong.
+/// A rule for pixels whose centres lie on an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Inside {
     /// To every triangle that has the edge: α, β, γ ∈ [0, 1], as in the algorithms. Shared edges are drawn twice.
@@ -57,7 +57,7 @@ pub enum Inside {
     Open,
 }
 
-/// Which of two points at the same depth is seen.
+/// A rule for two points at the same depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ties {
     /// The later one: `!(NDC.z > buffer(x, y))`, as in Algorithm 8.
@@ -67,7 +67,7 @@ pub enum Ties {
     Earlier,
 }
 
-/// How the text is read where it can be read in two ways.
+/// A reading of the text where it can be read in two ways.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading {
     /// Pixels on edges.
@@ -81,7 +81,7 @@ pub struct Reading {
 }
 
 impl Default for Reading {
-    /// The algorithms' lines, with unit normals.
+    /// Reads the algorithms' lines, with unit normals.
     fn default() -> Self {
         Reading {
             inside: Inside::Closed,
@@ -92,7 +92,7 @@ impl Default for Reading {
     }
 }
 
-/// What is interpolated.
+/// The values that are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shading {
     /// Nothing: one colour a triangle, of the average corner (Algorithm 6).
@@ -105,12 +105,12 @@ pub enum Shading {
 
 /// A corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Corner {
-    /// v: its place in the space where lights and eye are.
+pub struct TriangleCorner {
+    /// v: the position in the space where lights and eye are.
     pub world: DVec3,
-    /// n: its unit normal there.
+    /// n: the unit normal there.
     pub normal: DVec3,
-    /// Its normalised device coordinates: x to the right, y upward, z from near to far; what is seen is in −1..=1.
+    /// The normalised device coordinates: x to the right, y upward, z from near to far; visible ones are in −1..=1.
     pub ndc: DVec3,
     /// The reciprocal of its depth in any unit, over 0, for perspective interpolation; the same at all corners for
     /// interpolation on the screen, as printed.
@@ -119,29 +119,29 @@ pub struct Corner {
 
 /// The raster grid, and the buffer grid of Algorithm 8.
 #[derive(Clone, Debug)]
-pub struct Grid {
+pub struct PixelGrid {
     /// Red, green, blue in 0..=1; alpha is 1 where a triangle was drawn.
     pub colours: Picture<[f64; 4]>,
     /// The NDC depth of what was drawn; the largest double where nothing was.
     pub buffer: Picture<f64>,
 }
 
-impl Grid {
-    /// A grid of `width` × `height` pixels of this colour, on which nothing was drawn.
-    pub fn new(width: usize, height: usize, background: DVec3) -> Grid {
+impl PixelGrid {
+    /// Makes a grid of `width` × `height` pixels of this colour, on which nothing was drawn.
+    pub fn new(width: usize, height: usize, background: DVec3) -> PixelGrid {
         let [r, g, b] = background.to_array();
-        Grid {
+        PixelGrid {
             colours: Picture::new(width, height, [r, g, b, 0.0]),
             buffer: Picture::new(width, height, f64::MAX),
         }
     }
 
-    /// Columns and rows.
+    /// Returns columns and rows.
     pub fn size(&self) -> [usize; 2] {
         [self.colours.width(), self.colours.height()]
     }
 
-    /// The mean of each `side` × `side` samples, alpha too; 0 counts as 1, and samples beyond the last whole square are
+    /// Returns the mean of each `side` × `side` samples, alpha too; 0 counts as 1, and samples beyond the last whole square are
     /// left out.
     pub fn filtered(&self, side: usize) -> Picture<[f64; 4]> {
         let side = side.max(1);
@@ -156,7 +156,7 @@ impl Grid {
         picture
     }
 
-    /// Fill(x, y, grid, color).
+    /// Fills a pixel: Fill(x, y, grid, color).
     fn fill(&mut self, x: usize, y: usize, colour: DVec3) {
         self.colours.row_mut(y)[x] = [colour.x, colour.y, colour.z, 1.0];
     }

@@ -1,11 +1,11 @@
-//! Algorithms 1, 2, 5 and 8: which pixels a triangle fills.
+//! Algorithms 1, 2, 5 and 8: the pixels that a triangle fills.
 
 use super::barycentric::{Weights, f, weights};
-use super::{Corner, Grid, Inside, Reading, Ties};
+use super::{Inside, PixelGrid, Reading, Ties, TriangleCorner};
 use crate::frame::perspective::weights_in_space;
 use glam::{DMat4, DVec2, DVec3};
 
-/// World_To_NDC: `matrix` is that of the camera to clip space with depths in 0..=w, as
+/// Maps a point from the world to NDC (World_To_NDC): `matrix` is that of the camera to clip space with depths in 0..=w, as
 /// [`Camera::clip_matrix`](crate::scene::Camera::clip_matrix) has it.
 ///
 /// A point behind the eye has a w below 0: the division turns it over to the other side of the picture, and a triangle
@@ -16,7 +16,7 @@ pub fn world_to_ndc(matrix: &DMat4, v: DVec3) -> DVec3 {
     DVec3::new(clip.x, clip.y, 2.0 * clip.z - clip.w) / clip.w
 }
 
-/// NDC_To_Screen: columns to the right and rows downward, in pixels, to the nearest 1/256 pixel as in a frame, so that what
+/// Maps NDC to the screen (NDC_To_Screen): columns to the right and rows downward, in pixels, to the nearest 1/256 pixel as in a frame, so that what
 /// is summed of them is exact ([`super::barycentric`]).
 pub fn ndc_to_screen(ndc: DVec3, [width, height]: [usize; 2]) -> DVec2 {
     let nearest = |pixels: f64| libm::rint(pixels * 256.0) / 256.0;
@@ -27,7 +27,7 @@ pub fn ndc_to_screen(ndc: DVec3, [width, height]: [usize; 2]) -> DVec2 {
     )
 }
 
-/// Algorithm 1: calls `fill` for every pixel of a grid of this size, columns and rows, whose centre is in the triangle, with
+/// Calls `fill` (Algorithm 1) for every pixel of a grid of this size, columns and rows, whose centre is in the triangle, with
 /// the weights of that centre.
 ///
 /// Places are in pixels, x to the right and y downward.
@@ -57,7 +57,7 @@ pub fn raster_triangle(
     }
 }
 
-/// The pixels of a row of so many whose centres are in `min..=max`. The text goes on beyond the grid's rim, and would fill
+/// Returns the pixels of a row of so many whose centres are in `min..=max`. The text goes on beyond the grid's rim, and would fill
 /// there.
 fn centres(min: f64, max: f64, count: usize) -> core::ops::Range<usize> {
     let first = libm::ceil(min - 0.5).max(0.0);
@@ -65,19 +65,19 @@ fn centres(min: f64, max: f64, count: usize) -> core::ops::Range<usize> {
     (first as usize).min(end as usize)..end as usize
 }
 
-/// Algorithm 2: fills a triangle with the colours between those of its corners. Places as in [`raster_triangle`].
+/// Fills a triangle (Algorithm 2) with the colours between those of its corners. Places as in [`raster_triangle`].
 pub fn raster_colored_triangle(
     places: [DVec2; 3],
     colours: [DVec3; 3],
     inside: Inside,
-    grid: &mut Grid,
+    grid: &mut PixelGrid,
 ) {
     raster_triangle(places, grid.size(), inside, |x, y, weights| {
         grid.fill(x, y, blend(weights, colours))
     });
 }
 
-/// α v_a + β v_b + γ v_c.
+/// Returns α v_a + β v_b + γ v_c.
 pub(super) fn blend([alpha, beta, gamma]: Weights, [a, b, c]: [DVec3; 3]) -> DVec3 {
     alpha * a + beta * b + gamma * c
 }
@@ -87,23 +87,23 @@ fn is_in_cube(ndc: DVec3) -> bool {
     ndc.abs().max_element() <= 1.0
 }
 
-/// Algorithm 5: fills what of a triangle lies in the cube with the colours between those of its corners.
+/// Fills the part of a triangle that lies in the cube (Algorithm 5) with the colours between those of its corners.
 ///
 /// Algorithm 4 calls it with its corners a, b, c; what it needs of them is NDC and colours.
 pub fn raster_colored_ndc_triangle(
-    corners: &[Corner; 3],
+    corners: &[TriangleCorner; 3],
     colours: [DVec3; 3],
     reading: Reading,
-    grid: &mut Grid,
+    grid: &mut PixelGrid,
 ) {
     raster_ndc_triangle(corners, reading, grid, |weights| blend(weights, colours));
 }
 
-/// Algorithm 5 with any colour of the three weights: the loop of Algorithms 6 and 7 too.
+/// Runs Algorithm 5 with any colour of the three weights: the loop of Algorithms 6 and 7 too.
 pub(super) fn raster_ndc_triangle(
-    corners: &[Corner; 3],
+    corners: &[TriangleCorner; 3],
     reading: Reading,
-    grid: &mut Grid,
+    grid: &mut PixelGrid,
     colour: impl Fn(Weights) -> DVec3,
 ) {
     let places = corners.map(|corner| ndc_to_screen(corner.ndc, grid.size()));
@@ -121,11 +121,11 @@ pub(super) fn raster_ndc_triangle(
     });
 }
 
-/// Algorithm 8 with any colour of the three weights: the loop of Algorithm 5 with back faces culled and a depth buffer.
+/// Runs Algorithm 8 with any colour of the three weights: the loop of Algorithm 5 with back faces culled and a depth buffer.
 pub(super) fn raster_visible_triangle(
-    corners: &[Corner; 3],
+    corners: &[TriangleCorner; 3],
     reading: Reading,
-    grid: &mut Grid,
+    grid: &mut PixelGrid,
     colour: impl Fn(Weights) -> DVec3,
 ) {
     let ndc = corners.map(|corner| corner.ndc);

@@ -1,39 +1,55 @@
-//! Algorithms 4, 6, 7 and 8: what colour pixels get; and a frame drawn by them.
+//! Algorithms 4, 6, 7 and 8: the colours of pixels; and a frame drawn by them.
 
 use super::barycentric::Weights;
 use super::rasterize::{blend, raster_ndc_triangle, raster_visible_triangle};
-use super::{Corner, Grid, Reading, Shading, lighting, raster_colored_ndc_triangle};
+use super::{PixelGrid, Reading, Shading, TriangleCorner, lighting, raster_colored_ndc_triangle};
 use crate::frame::{Frame, ScreenVertex};
 use crate::scene::{Interpolation, Lighting};
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// Algorithm 4: the corners are lit, and Algorithm 5 fills what is between them.
-pub fn gouraud_shading(corners: &[Corner; 3], light: &Lighting, reading: Reading, grid: &mut Grid) {
+/// Lights the corners and lets Algorithm 5 fill the triangle (Algorithm 4).
+pub fn gouraud_shading(
+    corners: &[TriangleCorner; 3],
+    light: &Lighting,
+    reading: Reading,
+    grid: &mut PixelGrid,
+) {
     let colours = corners.map(|corner| lighting(corner.world, corner.normal, light));
     raster_colored_ndc_triangle(corners, colours, reading, grid);
 }
 
-/// Algorithm 6: the average corner is lit, and its colour fills the triangle.
-pub fn flat_shading(corners: &[Corner; 3], light: &Lighting, reading: Reading, grid: &mut Grid) {
+/// Lights the average corner and fills the triangle with its colour (Algorithm 6).
+pub fn flat_shading(
+    corners: &[TriangleCorner; 3],
+    light: &Lighting,
+    reading: Reading,
+    grid: &mut PixelGrid,
+) {
     let colour = flat_colour(average(corners), light, reading);
     raster_ndc_triangle(corners, reading, grid, |_| colour);
 }
 
-/// Algorithm 7: every pixel is lit, at the place and with the normal between those of the corners.
-pub fn phong_shading(corners: &[Corner; 3], light: &Lighting, reading: Reading, grid: &mut Grid) {
+/// Lights every pixel, with position and normal between those of the corners (Algorithm 7).
+pub fn phong_shading(
+    corners: &[TriangleCorner; 3],
+    light: &Lighting,
+    reading: Reading,
+    grid: &mut PixelGrid,
+) {
     raster_ndc_triangle(corners, reading, grid, |weights| {
         phong_colour(corners, weights, light, reading)
     });
 }
 
-/// Algorithm 8, which stands for Gouraud shading, and the same for the other two: a depth buffer, and back faces left out.
+/// Draws with a depth buffer, and without back faces: Algorithm 8, which stands for Gouraud shading, and the same for the
+/// other two.
 pub fn full_shading(
     shading: Shading,
-    corners: &[Corner; 3],
+    corners: &[TriangleCorner; 3],
     light: &Lighting,
     reading: Reading,
-    grid: &mut Grid,
+    grid: &mut PixelGrid,
 ) {
     match shading {
         Shading::Flat => {
@@ -52,8 +68,8 @@ pub fn full_shading(
     }
 }
 
-/// The average position and the average normal.
-fn average(corners: &[Corner; 3]) -> [DVec3; 2] {
+/// Returns the average position and the average normal.
+fn average(corners: &[TriangleCorner; 3]) -> [DVec3; 2] {
     let [a, b, c] = corners;
     [
         (a.world + b.world + c.world) / 3.0,
@@ -61,7 +77,7 @@ fn average(corners: &[Corner; 3]) -> [DVec3; 2] {
     ]
 }
 
-/// `n`, made a unit vector if the reading asks for it.
+/// Returns `n`, made a unit vector if the reading asks for it.
 fn read(n: DVec3, reading: Reading) -> DVec3 {
     if reading.normalise {
         n.normalize_or_zero()
@@ -75,7 +91,7 @@ fn flat_colour([v_avg, n_avg]: [DVec3; 2], light: &Lighting, reading: Reading) -
 }
 
 fn phong_colour(
-    corners: &[Corner; 3],
+    corners: &[TriangleCorner; 3],
     weights: Weights,
     light: &Lighting,
     reading: Reading,
@@ -85,13 +101,13 @@ fn phong_colour(
     lighting(v, read(n, reading), light)
 }
 
-/// The triangles of `frame` by Algorithm 8; without a depth test by Algorithms 4 to 7, in drawing order.
+/// Draws the triangles of `frame` by Algorithm 8; without a depth test by Algorithms 4 to 7, in drawing order.
 ///
 /// Polygons of more than three corners are passed over: [`triangulated`](crate::frame::triangulate::triangulated) cuts them. The
 /// average corner is that of the scene's polygon ([`Frame::mean`]). A corner that clipping made is not lit, but lies
 /// between two that are. A point on the near or far plane itself may be lost to rounding, as the cube is closed and tested
-/// in `f64`. Of a frame with several samples a pixel the grid is one of samples: [`Grid::filtered`].
-pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Grid {
+/// in `f64`. Of a frame with several samples a pixel the grid is one of samples: [`PixelGrid::filtered`].
+pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> PixelGrid {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let corners = corners(frame);
     let light = |number: u32| &frame.lightings()[frame.material(number) as usize];
@@ -109,7 +125,7 @@ pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Grid {
             colours[cut.vertex as usize] = a.lerp(b, f64::from(cut.t));
         }
     }
-    let mut grid = Grid::new(frame.width(), frame.height(), wide(frame.background()));
+    let mut grid = PixelGrid::new(frame.width(), frame.height(), wide(frame.background()));
     for polygon in frame.polygons() {
         let &[a, b, c] = frame.corners(polygon) else {
             continue;
@@ -135,11 +151,11 @@ pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Grid {
     grid
 }
 
-/// The vertices of a frame as corners: NDC from places and depths, world coordinates from the eye.
-fn corners(frame: &Frame) -> Vec<Corner> {
+/// Returns the vertices of a frame as corners: NDC from places and depths, world coordinates from the eye.
+fn corners(frame: &Frame) -> Vec<TriangleCorner> {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let size = [frame.width() as f64, frame.height() as f64];
-    let corner = |(number, v): (u32, &ScreenVertex)| Corner {
+    let corner = |(number, v): (u32, &ScreenVertex)| TriangleCorner {
         world: wide(frame.position(number)),
         normal: wide(frame.normal(number)),
         ndc: DVec3::new(
@@ -152,7 +168,7 @@ fn corners(frame: &Frame) -> Vec<Corner> {
             Interpolation::Perspective => f64::from(v.inv_w),
         },
     };
-    let mut all: Vec<Corner> = (0..).zip(frame.vertices()).map(corner).collect();
+    let mut all: Vec<TriangleCorner> = (0..).zip(frame.vertices()).map(corner).collect();
     for cut in frame.clip_corners() {
         let (a, b, t) = (all[cut.a as usize], all[cut.b as usize], f64::from(cut.t));
         let vertex = &mut all[cut.vertex as usize];

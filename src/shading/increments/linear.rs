@@ -2,7 +2,7 @@
 
 use super::Walk;
 use crate::number::Num;
-use crate::shading::planes::{Planes, sum};
+use crate::shading::planes::Planes;
 
 /// A varying that is interpolated linearly: its value here, and its growth in a step.
 ///
@@ -16,7 +16,7 @@ use crate::shading::planes::{Planes, sum};
 pub struct Linear<V> {
     /// The value here.
     pub at: V,
-    /// Its growth in a step.
+    /// The growth in a step.
     pub step: V,
 }
 
@@ -27,7 +27,7 @@ impl<F: Num, V: Planes<F>> Walk<F> for Linear<V> {
     #[inline(always)]
     fn next(&mut self) -> V {
         let here = self.at;
-        self.at = sum(here, self.step); // 3.6, 4.2
+        self.at.zip(self.step, |at, step| at + step); // 3.6, 4.2
         here
     }
 }

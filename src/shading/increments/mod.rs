@@ -18,7 +18,7 @@ use crate::shading::planes::{PerLight, Planes};
 
 /// Running state along a span: all memory of the previous pixel.
 pub trait Walk<F: Num>: Copy {
-    /// What a pixel is shaded from: an entry of the G-buffer.
+    /// The input of a pixel to shading: an entry of the G-buffer.
     type Pixel: Planes<F>;
     /// True if the pixel is the interpolated varying itself: the row engine then interpolates it over triangles.
     const LINEAR: bool = false;

@@ -3,7 +3,7 @@
 use super::{Linear, Walk};
 use crate::number::{Num, Vec3};
 
-/// How many steps of Newton's method a pixel takes.
+/// The number of steps of Newton's method a pixel takes, or a rule to choose it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NewtonSteps {
     /// 0 (`auto`) takes as few as suffice.
@@ -15,7 +15,7 @@ pub struct NewtonSteps {
 impl NewtonSteps {
     /// The most steps that can be asked for.
     pub const MOST: u32 = 8;
-    /// Where so many do not suffice, `auto` takes true roots: three cost as much.
+    /// The most steps that `auto` takes before it takes true roots: three steps cost as much as a root.
     pub const MOST_OF_AUTO: u32 = 3;
     /// The largest relative error of a length: of a diffuse cosine it is a quarter of a grey level.
     pub const LARGEST_ERROR: f32 = 1e-3;

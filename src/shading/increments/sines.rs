@@ -37,21 +37,13 @@ impl<R: Real> Sines<R> {
     }
 }
 
-impl<F: Num> Sines<F> {
-    /// Returns (sin((1−t)φ), sin(tφ)) here.
-    #[inline(always)]
-    pub fn weights(&self) -> (F, F) {
-        (self.rest.0, self.t.0)
-    }
-}
-
 impl<F: Num> Walk<F> for Sines<F> {
     /// (sin((1−t)φ), sin(tφ))
     type Pixel = (F, F);
 
     #[inline(always)]
     fn next(&mut self) -> (F, F) {
-        let here = self.weights();
+        let here = (self.rest.0, self.t.0);
         let ((sin_t, cos_t), (sin_rest, cos_rest)) = (self.t, self.rest);
         let (sin_step, cos_step) = self.step;
         self.t.0 = sin_t * cos_step + cos_t * sin_step; // 4.9
@@ -118,16 +110,14 @@ impl<F: Num, V: Planes<F>> GreatCircle<F, V> {
     /// Returns the unit normal here.
     #[inline(always)]
     pub fn normal(&self) -> V {
-        self.weighted(self.sines.weights())
+        self.weighted((self.sines.rest.0, self.sines.t.0))
     }
 
     #[inline(always)]
     fn weighted(&self, (from, to): (F, F)) -> V {
-        self.from.zip(
-            self.to,
-            #[inline(always)]
-            |a, b| a * from + b * to, // 4.8
-        )
+        let mut normal = self.from;
+        normal.zip(self.to, |a, b| a * from + b * to); // 4.8
+        normal
     }
 }
 

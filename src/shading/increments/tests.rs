@@ -104,7 +104,7 @@ fn quadratic_follows_the_parabola() {
     );
 }
 
-/// What the documentation of [`Quadratic`] says of its drift: at most 3 k 2⁻²⁴ of its largest value, on normals that turn
+/// The drift of [`Quadratic`] is as documented: at most 3 k 2⁻²⁴ of its largest value, on normals that turn
 /// by up to 150 degrees, beside the roundings of its start.
 #[test]
 fn quadratic_drifts_by_three_roundings_a_step() {

@@ -165,7 +165,7 @@ fn shining(colour: f32, shininess: f32, falloff: Falloff) -> Lighting {
 }
 
 /// Cosines of 0..=1, nearly 1 many of them, and those around the one at which highlights begin.
-fn cosines(model: &Model) -> Vec<f32> {
+fn cosines(model: &LightModel) -> Vec<f32> {
     let near_one = (0..2000).map(|i| 1.0 - f32::powf(2.0, -12.0 * i as f32 / 1000.0));
     let even = (0..=4000).map(|i| i as f32 / 4000.0);
     let t = model.faint;
@@ -222,7 +222,7 @@ fn no_power_is_subnormal() {
     }
 }
 
-/// What is left out of a highlight is at most 2⁻²⁴; what is over that is not left out. Both but for rounding: of 1/n by
+/// Highlights of at most 2⁻²⁴ are left out, stronger ones are not. Both but for rounding: of 1/n by
 /// 2⁻²⁴ of its value, which the power multiplies by ln(k / 2⁻²⁴), below 86 here; of t by 2⁻²³, and its power by n times as
 /// much.
 #[test]
@@ -365,7 +365,7 @@ fn other_models_do_not_take_the_fast_path() {
     assert!(!is_fast(&|l| l.lights[0].diffuse[0] = f32::INFINITY));
 }
 
-/// What lies beside a pixel decides what is computed, not what comes out: tiles are drawn into memory that others have used.
+/// The neighbours of a pixel decide which operations run, not their result: tiles are drawn into memory that others have used.
 #[cfg(feature = "simd")]
 #[test]
 fn pixels_do_not_depend_on_their_neighbours() {
