@@ -6,7 +6,7 @@ use super::talk::to_stdout;
 use super::{Failure, Outcome};
 use fastphong::compare::metrics::{METRICS, MetricInfo};
 use fastphong::lectures::{FIGURES, Figure};
-use fastphong::mesh::builtin::{BUILTINS, Builtin, Kind, Parameter};
+use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
 use fastphong::scene::input::{SCENES, ShippedScene};
 use fastphong::shading::{Info, METHODS, Roundings, Stepped};
@@ -165,12 +165,12 @@ pub fn value_json(parameter: &fastphong::shading::Parameter, value: u32) -> Valu
 }
 
 /// Returns the default as it is written; `polygons` has none, as it stands for others.
-fn default_text(parameter: &Parameter) -> Option<Value> {
+fn default_text(parameter: &ShapeParameter) -> Option<Value> {
     match parameter.kind {
         _ if parameter.default < parameter.min => None,
-        Kind::Bool => Some(json!(parameter.default != 0.0)),
-        Kind::Integer => Some(json!(parameter.default as i64)),
-        Kind::Real => Some(json!(parameter.default)),
+        ParameterKind::Bool => Some(json!(parameter.default != 0.0)),
+        ParameterKind::Integer => Some(json!(parameter.default as i64)),
+        ParameterKind::Real => Some(json!(parameter.default)),
     }
 }
 
@@ -182,7 +182,7 @@ fn meshes() -> String {
         let rows = shape.all_parameters().map(|p| {
             let default = default_text(p).map_or(String::new(), |value| format!("default {value}"));
             let range = match p.kind {
-                Kind::Bool => "true, false".to_owned(),
+                ParameterKind::Bool => "true, false".to_owned(),
                 _ => format!("{} to {}", p.min, p.max),
             };
             [format!("    {}", p.name), range, default, p.doc.to_owned()]
@@ -193,7 +193,7 @@ fn meshes() -> String {
 }
 
 fn mesh_json(shape: &Builtin) -> Value {
-    let parameter = |p: &Parameter| {
+    let parameter = |p: &ShapeParameter| {
         json!({
             "name": p.name, "kind": word(p.kind), "default": default_text(p),
             "min": p.min, "max": p.max, "meaning": p.doc,

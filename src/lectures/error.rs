@@ -4,7 +4,7 @@ use crate::compare::metrics::SizeMismatch;
 use crate::frame::FrameError;
 use crate::mesh::MeshError;
 use crate::mesh::builtin::BuiltinError;
-use crate::scene::input::InputError;
+use crate::scene::file::diagnostics::SceneError;
 use crate::shading::MethodError;
 
 /// Why a figure could not be made: the room it is drawn from refused.
@@ -16,7 +16,7 @@ pub enum FigureError {
     /// A mesh is not one.
     Mesh(#[from] MeshError),
     /// A shipped scene is not one.
-    Scene(#[from] InputError),
+    Scene(#[from] SceneError),
     /// A frame is not one.
     Frame(#[from] FrameError),
     /// A method has no such name or parameter.

@@ -99,6 +99,16 @@ impl PolygonMesh {
             .filter(|&m| m < self.materials.len())
     }
 
+    /// Gives `default` to the polygons without a material.
+    #[cfg(feature = "io")]
+    pub(crate) fn set_default_material(&mut self, default: Material) {
+        let number = self.materials.len() as u32;
+        self.materials.push(default);
+        self.polygon_materials.resize(self.ends.len(), number);
+        let materials = self.polygon_materials.iter_mut();
+        materials.for_each(|material| *material = number.min(*material));
+    }
+
     /// Smallest and largest coordinates over all positions that polygons use; `None` without polygons.
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         let mut used = self.corners.iter().map(|&c| self.positions[c as usize]);

@@ -35,6 +35,7 @@ impl WrittenCorner {
 }
 
 /// The positions or the normals of a file, as far as it was read.
+#[derive(Default)]
 pub(super) struct Entries {
     what: &'static str,
     /// The number of entries so far.
@@ -46,11 +47,9 @@ pub(super) struct Entries {
 impl Entries {
     /// Starts without entries; `what` is one of them in an error.
     pub(super) fn new(what: &'static str) -> Self {
-        let ahead = Vec::new();
         Entries {
             what,
-            count: 0,
-            ahead,
+            ..Entries::default()
         }
     }
 

@@ -15,7 +15,7 @@ use std::string::String;
 use std::vec::Vec;
 
 /// The largest mesh that is read: [`PolygonMesh`](crate::mesh::PolygonMesh)'s limits except in tests.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct MeshLimits {
     pub polygons: usize,
     pub corners: usize,
@@ -59,6 +59,7 @@ struct Occurrences {
 }
 
 /// The text for the parser, and all that the parser does not see.
+#[derive(Default)]
 pub(super) struct Prescan {
     /// The text for the parser.
     pub text: Vec<u8>,
@@ -98,21 +99,10 @@ pub(super) fn prescan(
 ) -> Result<Prescan, (Option<usize>, ObjProblem)> {
     let mut scan = Prescan {
         text: Vec::with_capacity(text.len()),
-        polygons: 0,
-        corners: 0,
-        material_runs: Vec::new(),
-        libraries: Vec::new(),
         limits,
         positions: Entries::new("position"),
         normals: Entries::new("normal"),
-        texture_coordinates: 0,
-        corners_with_normal: 0,
-        colours: 0,
-        writes_colours: false,
-        smoothing: None,
-        first_smoothing: None,
-        unknown_word: String::new(),
-        oddities: BTreeMap::new(),
+        ..Prescan::default()
     };
     let mut corners = Vec::new();
     for (line, statement) in Statements::new(text) {
@@ -201,8 +191,13 @@ impl Prescan {
             "mtllib" => self.libraries.push((line, rest.into())),
             "s" => self.smoothing = Some(smoothing_group(without_comment(rest).trim())),
             "p" | "l" => self.note(line, Oddity::PointOrLine),
-            _ if word.is_empty() || word.starts_with('#') || GROUPING.contains(&word) => {}
-            _ if FREE_FORM.contains(&word) => self.note(line, Oddity::FreeForm),
+            // Names, groups, textures, levels of detail, display: nothing that shows in a picture of polygons.
+            "o" | "g" | "mg" | "usemap" | "maplib" | "bevel" | "c_interp" | "d_interp" | "lod"
+            | "shadow_obj" | "trace_obj" | "ctech" | "stech" | "call" => {}
+            "vp" | "cstype" | "deg" | "bmat" | "step" | "curv" | "curv2" | "surf" | "parm"
+            | "trim" | "hole" | "scrv" | "sp" | "end" | "con" | "bsp" | "bzp" | "cdc" | "cdp"
+            | "res" | "csh" | "fm" => self.note(line, Oddity::FreeForm),
+            _ if word.is_empty() || word.starts_with('#') => {}
             _ => {
                 if !self.has(Oddity::Unknown) {
                     self.unknown_word = quote(word);
@@ -353,27 +348,3 @@ fn push_decimal(text: &mut Vec<u8>, separator: &[u8], number: usize) {
     text.extend_from_slice(separator);
     write!(text, "{number}").expect("memory takes every byte");
 }
-
-/// Statements that change nothing in a picture of polygons: names, groups, textures, levels of detail, display.
-const GROUPING: [&str; 14] = [
-    "o",
-    "g",
-    "mg",
-    "usemap",
-    "maplib",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "shadow_obj",
-    "trace_obj",
-    "ctech",
-    "stech",
-    "call",
-];
-
-/// Statements of free-form curves and surfaces.
-const FREE_FORM: [&str; 22] = [
-    "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
-    "sp", "end", "con", "bsp", "bzp", "cdc", "cdp", "res", "csh", "fm",
-];

@@ -17,7 +17,7 @@ pub enum Topology {
 
 /// A grid of cells over a surface: quads, or two triangles each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grid {
+pub struct ParameterGrid {
     /// How its edges are joined.
     pub topology: Topology,
     /// Cells along the first parameter; 3 at least where columns are joined, else 1.
@@ -28,7 +28,7 @@ pub struct Grid {
     pub triangles: bool,
 }
 
-impl Grid {
+impl ParameterGrid {
     /// The grid, with resolutions that are too low raised to the least that the topology allows.
     pub fn new(topology: Topology, columns: usize, rows: usize, triangles: bool) -> Self {
         let (least_columns, least_rows) = match topology {
@@ -36,7 +36,7 @@ impl Grid {
             Topology::Ball => (3, 2),
             Topology::Tube => (3, 3),
         };
-        Grid {
+        ParameterGrid {
             topology,
             columns: columns.max(least_columns),
             rows: rows.max(least_rows),

@@ -17,7 +17,7 @@ pub(in crate::mesh) mod teapot_data;
 mod torus;
 
 pub use flat::{comb, figure5, letters, polygon, star, triangle};
-pub use grid::{Grid, Topology};
+pub use grid::{ParameterGrid, Topology};
 pub use sheet::{Terrain, corrugated, terrain};
 pub use solid::{cube, gear, prism};
 pub use sphere::{bumpy, sphere};

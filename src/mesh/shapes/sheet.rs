@@ -1,6 +1,6 @@
 //! Open surfaces over a square: corrugated sheet and terrain.
 
-use super::grid::{Grid, Topology};
+use super::grid::{ParameterGrid, Topology};
 use super::noise::fractal_noise;
 use crate::mesh::{MeshError, PolygonMesh};
 use core::f64::consts::PI;
@@ -24,7 +24,7 @@ pub fn corrugated(
     rows: usize,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Sheet, segments, rows, triangles);
+    let grid = ParameterGrid::new(Topology::Sheet, segments, rows, triangles);
     grid.mesh(|column, row| {
         let (x, y) = (across(column, grid.columns), across(row, grid.rows));
         let phase = PI * waves * x;
@@ -59,7 +59,7 @@ pub fn terrain(
     rows: usize,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Sheet, columns, rows, triangles);
+    let grid = ParameterGrid::new(Topology::Sheet, columns, rows, triangles);
     grid.mesh(|column, row| {
         // Rows run away from the viewer, so that east × north is up.
         let (x, z) = (across(column, grid.columns), -across(row, grid.rows));

@@ -1,6 +1,6 @@
 //! The unit sphere, smooth and bumpy, by longitude and latitude.
 
-use super::grid::{Grid, Topology};
+use super::grid::{ParameterGrid, Topology};
 use super::{turn, turns};
 use crate::mesh::{MeshError, PolygonMesh};
 use glam::DVec3;
@@ -62,7 +62,7 @@ fn over_directions(
     triangles: bool,
     surface: impl Fn(DVec3) -> (DVec3, DVec3),
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Ball, segments, rings, triangles);
+    let grid = ParameterGrid::new(Topology::Ball, segments, rings, triangles);
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }

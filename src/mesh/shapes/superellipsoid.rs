@@ -1,6 +1,6 @@
 //! Superellipsoids: from a rounded box over the sphere to a rounded double pyramid.
 
-use super::grid::{Grid, Topology};
+use super::grid::{ParameterGrid, Topology};
 use super::{turn, turns};
 use crate::mesh::{MeshError, PolygonMesh};
 use glam::DVec3;
@@ -48,7 +48,7 @@ pub fn superellipsoid(
     rings: usize,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Ball, segments, rings, triangles);
+    let grid = ParameterGrid::new(Topology::Ball, segments, rings, triangles);
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }

@@ -1,6 +1,6 @@
 //! The torus, and tubes along knots on it.
 
-use super::grid::{Grid, Topology};
+use super::grid::{ParameterGrid, Topology};
 use super::{turn, turns};
 use crate::mesh::{MeshError, PolygonMesh};
 use alloc::vec::Vec;
@@ -19,7 +19,7 @@ pub fn torus(
     sides: usize,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Tube, segments, sides, triangles);
+    let grid = ParameterGrid::new(Topology::Tube, segments, sides, triangles);
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }
@@ -55,7 +55,7 @@ pub fn knot(
     radius: f64,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Tube, segments, sides, triangles);
+    let grid = ParameterGrid::new(Topology::Tube, segments, sides, triangles);
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }
