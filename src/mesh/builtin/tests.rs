@@ -429,7 +429,7 @@ fn the_table_is_sound() {
                 shape.name,
                 parameter.name
             );
-            // What is written as default is read as default.
+            // The written default is read as the default.
             let text = match parameter.kind {
                 ParameterKind::Bool => (parameter.default != 0.0).to_string(),
                 _ => parameter.default.to_string(),

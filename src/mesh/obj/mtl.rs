@@ -16,7 +16,7 @@ use std::{format, io};
 /// So many warnings of one file are shown one by one.
 const WARNINGS_SHOWN: usize = 8;
 
-// What the MTL format gives a material that does not say: Ka and Kd as in J. Burkardt's description of the format
+// The MTL format's defaults: Ka and Kd as in J. Burkardt's description of the format
 // (people.sc.fsu.edu/~jburkardt/data/mtl/mtl.html).
 const AMBIENT: Rgb = [0.2; 3];
 const DIFFUSE: Rgb = [0.8; 3];

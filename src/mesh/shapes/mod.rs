@@ -28,7 +28,7 @@ pub use torus::{knot, torus};
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
-/// Sine and cosine of `k / n` of a full turn, exact at quarter turns and symmetric between them.
+/// Returns sine and cosine of `k / n` of a full turn, exact at quarter turns and symmetric between them.
 fn turn(k: usize, n: usize) -> (f64, f64) {
     // 4k/n quarter turns: the whole ones, and the rest in n-ths of a quarter.
     let quarters = 4 * (k % n) as u64;
@@ -51,7 +51,7 @@ fn turn(k: usize, n: usize) -> (f64, f64) {
     }
 }
 
-/// All `n` of [`turn`].
+/// Returns all `n` of [`turn`].
 fn turns(n: usize) -> Vec<(f64, f64)> {
     (0..n).map(|k| turn(k, n)).collect()
 }

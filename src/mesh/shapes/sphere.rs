@@ -5,7 +5,7 @@ use super::{turn, turns};
 use crate::mesh::{MeshError, PolygonMesh};
 use glam::DVec3;
 
-/// The unit sphere: `segments` meridians, `rings` bands of latitude, poles on the y axis.
+/// Makes the unit sphere: `segments` meridians, `rings` bands of latitude, poles on the y axis.
 ///
 /// The bands at the poles are triangles, all other polygons quads (or two triangles each).
 ///
@@ -17,7 +17,7 @@ pub fn sphere(segments: usize, rings: usize, triangles: bool) -> Result<PolygonM
     })
 }
 
-/// The unit sphere with bumps: radius `1 + amplitude · sin(f x) sin(f y) sin(f z)` in direction (x, y, z), `f` being
+/// Makes the unit sphere with bumps: radius `1 + amplitude · sin(f x) sin(f y) sin(f z)` in direction (x, y, z), `f` being
 /// the `frequency`.
 ///
 /// The radius is a smooth function of the direction, at the poles too. Star-convex for any amplitude below 1.

@@ -15,7 +15,7 @@ struct EllipsePoint {
 }
 
 impl EllipsePoint {
-    /// The point in direction (x, y): directions a constant angle apart sample flat sides and round edges alike, unlike
+    /// Returns the point in direction (x, y): directions a constant angle apart sample flat sides and round edges alike, unlike
     /// Barr's cosⁿ, which crowds the edges.
     fn new(exponent: f64, (x, y): (f64, f64)) -> Self {
         let power = 2.0 / exponent;
@@ -34,7 +34,7 @@ impl EllipsePoint {
     }
 }
 
-/// The superellipsoid (|x|^(2/e2) + |z|^(2/e2))^(e2/e1) + |y|^(2/e1) = 1: half width 1 along each axis.
+/// Makes the superellipsoid (|x|^(2/e2) + |z|^(2/e2))^(e2/e1) + |y|^(2/e1) = 1: half width 1 along each axis.
 ///
 /// `e1` shapes it along y, `e2` around y; 1 is round, toward 0 it becomes a box, toward 2 it becomes pointed. Both are
 /// kept within 0.05 and 1.95. Barr, *Superquadrics and angle-preserving transformations*, IEEE CG&A 1 (1981).

@@ -142,18 +142,18 @@ pub static SCENE: &[Key] = &[
     key("specular_gate", GATE),
     // The polygons that are left out. Default: `back`.
     key("cull", CULLING),
-    // What hides a polygon. Default: `z-buffer`.
+    // The search for hidden surfaces. Default: `z-buffer`.
     key(
         "visibility",
         ValueKind::Word(&["z-buffer", "painter", "draw-order"]),
     ),
     // Bits of the depth buffer: 16, 24 or 32 (default).
     key("depth_bits", ValueKind::Whole),
-    // Where depth comes from. Default: `interpolated`.
+    // The source of depth. Default: `interpolated`.
     key("depth", DEPTH),
     // By what the painter sorts. Default: `mean`.
     key("painter_key", PAINTER_KEY),
-    // What keeps polygons within the view: `planes` (default) or CS171's test of each pixel.
+    // The limits of the view: `planes` (default) or CS171's test of each pixel.
     key("clipping", CLIPPING),
     // True if polygons seen from behind are lit with negated normals. Default: false.
     key("two_sided", ValueKind::Switch),
@@ -163,7 +163,7 @@ pub static SCENE: &[Key] = &[
     key("material", ValueKind::Table(MATERIAL)),
     // Default: one white light from the upper right; `light = []` means ambient light only.
     key("light", ValueKind::Tables(LIGHT)),
-    // What is drawn, in this order; at least one.
+    // The objects, in the order of drawing; at least one.
     key("object", ValueKind::Tables(OBJECT)),
 ];
 
@@ -181,7 +181,7 @@ const IMAGE: &[Key] = &[
     key("samples", ValueKind::Whole),
 ];
 
-/// `[camera]`: where the scene is seen from.
+/// `[camera]`: the place and direction from which the scene is seen.
 ///
 /// With `eye` and without `fit` the camera stands where it is told to. Otherwise it is fitted: it looks at the middle of
 /// the bounding box of all objects, from a direction that `direction`, `azimuth` and `elevation`, or `eye` and `target`
@@ -248,7 +248,7 @@ const OBJECT: &[Key] = &[
     key("scale", ValueKind::OneOrThree),
     // A rotation, or a list of them, of which the first is done first.
     key("rotate", ValueKind::Turns),
-    // Where the origin of the mesh comes to lie.
+    // The place of the mesh's origin.
     key("translate", ValueKind::Triple),
     // Instead of the three above: three rows of four numbers, the last of each being the translation.
     key("matrix", ValueKind::Matrix),

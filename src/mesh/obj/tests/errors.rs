@@ -1,4 +1,4 @@
-//! What is no mesh: each with its line, and with what was expected.
+//! Files that are no mesh: each error with its line, and with what was expected.
 
 use super::*;
 use crate::mesh::obj::prescan::MeshLimits;
@@ -21,7 +21,7 @@ fn assert_error(text: impl AsRef<[u8]>, line: usize, message: &str) {
     assert_eq!(error.to_string(), format!("{place}{message}"));
 }
 
-/// The same after five points, so that the first line of `text` is line 6.
+/// Checks the error that `text` gives after five points, so that the first line of `text` is line 6.
 #[track_caller]
 fn assert_error_after_points(text: &str, line: usize, message: &str) {
     assert_error(format!("{POINTS}{text}"), line, message);
