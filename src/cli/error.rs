@@ -1,7 +1,6 @@
 //! The ways in which a sub-command ends.
 
 use fastphong::scene::file::diagnostics::SceneError;
-use fastphong::scene::input::InputError;
 use std::error::Error;
 
 /// The result of a sub-command that did its work.
@@ -26,15 +25,10 @@ impl<E: Into<Box<dyn Error + Send + Sync>>> From<E> for CliError {
 impl CliError {
     /// Returns the error as text that starts with `error: ` and ends a line. Errors of inputs show themselves.
     pub fn render(&self, colour: bool) -> String {
-        let (input, scene) = (
-            self.0.downcast_ref::<InputError>(),
-            self.0.downcast_ref::<SceneError>(),
-        );
-        let text = match (input, scene) {
-            (Some(error), _) => error.render(colour),
-            (_, Some(error)) => error.render(colour),
-            _ if colour => format!("\x1b[1;31merror\x1b[0m: {}", self.0),
-            _ => format!("error: {}", self.0),
+        let text = match self.0.downcast_ref::<SceneError>() {
+            Some(error) => error.render(colour),
+            None if colour => format!("\x1b[1;31merror\x1b[0m: {}", self.0),
+            None => format!("error: {}", self.0),
         };
         format!("{}\n", text.trim_end_matches('\n'))
     }

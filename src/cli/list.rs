@@ -8,7 +8,7 @@ use fastphong::compare::comparison::parameter_json;
 use fastphong::compare::metrics::METRICS;
 use fastphong::compare::table::aligned;
 use fastphong::lectures::FIGURES;
-use fastphong::mesh::builtin::{BUILTINS, Builtin, Kind, Parameter};
+use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
 use fastphong::scene::input::SCENES;
 use fastphong::shading::{Info, METHODS, Roundings, Stepped};
@@ -182,12 +182,12 @@ pub fn method_json(info: &Info) -> Value {
 }
 
 /// Returns the default of a mesh's parameter; `polygons` has none, as it stands for others.
-fn default_json(parameter: &Parameter) -> Option<Value> {
+fn default_json(parameter: &ShapeParameter) -> Option<Value> {
     match parameter.kind {
         _ if parameter.default < parameter.min => None,
-        Kind::Bool => Some(json!(parameter.default != 0.0)),
-        Kind::Integer => Some(json!(parameter.default as i64)),
-        Kind::Real => Some(json!(parameter.default)),
+        ParameterKind::Bool => Some(json!(parameter.default != 0.0)),
+        ParameterKind::Integer => Some(json!(parameter.default as i64)),
+        ParameterKind::Real => Some(json!(parameter.default)),
     }
 }
 
@@ -195,7 +195,7 @@ fn mesh_text(shape: &Builtin) -> String {
     let rows = shape.all_parameters().map(|p| {
         let default = default_json(p).map_or(String::new(), |value| format!("default {value}"));
         let range = match p.kind {
-            Kind::Bool => "true, false".to_owned(),
+            ParameterKind::Bool => "true, false".to_owned(),
             _ => format!("{} to {}", p.min, p.max),
         };
         [format!("    {}", p.name), range, default, p.doc.to_owned()]
@@ -205,7 +205,7 @@ fn mesh_text(shape: &Builtin) -> String {
 }
 
 fn mesh_json(shape: &Builtin) -> Value {
-    let parameter = |p: &Parameter| {
+    let parameter = |p: &ShapeParameter| {
         json!({
             "name": p.name, "kind": word(p.kind), "default": default_json(p),
             "min": p.min, "max": p.max, "meaning": p.doc,

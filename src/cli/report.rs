@@ -17,7 +17,7 @@ use fastphong::report::{Document, Report, ScenePictures, utc_date};
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
-use fastphong::scene::file::value::{Data, Table};
+use fastphong::scene::file::value::{Data, SceneTable};
 use fastphong::scene::input;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -198,7 +198,7 @@ impl ReportArgs {
         let part = (0..2).map(|i| SHOWN[i] as f64 / size[i].max(1) as f64);
         let part = part.fold(1.0, f64::min);
         if part < 1.0 {
-            let mut over = Table::default();
+            let mut over = SceneTable::default();
             let image = over.table_mut("image");
             for (key, side) in ["width", "height"].into_iter().zip(size) {
                 let side = ((side as f64 * part).round() as i64).max(1);

@@ -8,8 +8,8 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::file::schema::{self, Kind};
-use fastphong::scene::file::value::{Data, Table};
+use fastphong::scene::file::schema::{self, ValueKind};
+use fastphong::scene::file::value::{Data, SceneTable};
 use fastphong::scene::input;
 
 /// A flag that gives values to keys of a scene file.
@@ -112,7 +112,7 @@ impl Flag {
     fn arg(&'static self) -> Arg {
         let is_switch = self.value_name.is_empty();
         let parser: ValueParser = match schema::kind(self.keys[0]) {
-            Some(Kind::Word(words)) if self.name != "normals" => {
+            Some(ValueKind::Word(words)) if self.name != "normals" => {
                 let setting = |word| vec![(self.keys[0], Data::Text(word))];
                 PossibleValuesParser::new(words).map(setting).into()
             }
@@ -166,18 +166,22 @@ impl Flag {
 fn data(key: &str, text: &str) -> Result<Data, &'static str> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
     match (schema::kind(key), &numbers.unwrap_or_default()[..]) {
-        (Some(Kind::Switch), _) => Ok(Data::Switch(true)),
-        (Some(Kind::Tables(_)), _) => Ok(Data::Tables(Vec::new())),
-        (Some(Kind::Word(words)), _) if words.contains(&text) => Ok(Data::Text(text.to_owned())),
-        (Some(Kind::Triple | Kind::OneOrThree), &[x, y, z]) => Ok(Data::Triple([x, y, z])),
-        (Some(Kind::Triple), _) => Err("expected three numbers x,y,z"),
-        (Some(Kind::OneOrThree), &[all]) => Ok(Data::Triple([all; 3])),
-        (Some(Kind::OneOrThree), _) => Err("expected one number, or three r,g,b"),
-        (Some(Kind::Whole), _) => {
+        (Some(ValueKind::Switch), _) => Ok(Data::Switch(true)),
+        (Some(ValueKind::Tables(_)), _) => Ok(Data::Tables(Vec::new())),
+        (Some(ValueKind::Word(words)), _) if words.contains(&text) => {
+            Ok(Data::Text(text.to_owned()))
+        }
+        (Some(ValueKind::Triple | ValueKind::OneOrThree), &[x, y, z]) => {
+            Ok(Data::Triple([x, y, z]))
+        }
+        (Some(ValueKind::Triple), _) => Err("expected three numbers x,y,z"),
+        (Some(ValueKind::OneOrThree), &[all]) => Ok(Data::Triple([all; 3])),
+        (Some(ValueKind::OneOrThree), _) => Err("expected one number, or three r,g,b"),
+        (Some(ValueKind::Whole), _) => {
             let whole = text.trim().parse().map(Data::Whole);
             whole.map_err(|_| "expected a whole number")
         }
-        (Some(Kind::Number), &[number]) => Ok(Data::Number(number)),
+        (Some(ValueKind::Number), &[number]) => Ok(Data::Number(number)),
         _ => Err("expected a number"),
     }
 }
@@ -200,9 +204,9 @@ fn light(key: &'static str, text: &str) -> Option<Vec<Setting>> {
 /// The changes that flags ask for, as a scene file says them.
 #[derive(Clone, Debug, Default)]
 pub struct SceneFlags {
-    over: Table,
+    over: SceneTable,
     /// The keys that every object gets, whatever the scene file says of it.
-    every_object: Table,
+    every_object: SceneTable,
 }
 
 impl clap::Args for SceneFlags {
@@ -219,13 +223,13 @@ impl clap::FromArgMatches for SceneFlags {
     /// Collects the values of all flags that are given.
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let mut flags = SceneFlags::default();
-        let mut lights: Vec<Table> = Vec::new();
+        let mut lights: Vec<SceneTable> = Vec::new();
         for flag in FLAGS {
             let origin = Origin::Flag(format!("--{}", flag.name));
             let given = matches.get_many::<Vec<Setting>>(flag.name);
             for settings in given.into_iter().flatten() {
                 if matches!(flag.name, "light" | "light-at") {
-                    lights.push(Table::default());
+                    lights.push(SceneTable::default());
                 }
                 for (path, data) in settings.clone() {
                     let origin = origin.clone();
@@ -235,7 +239,7 @@ impl clap::FromArgMatches for SceneFlags {
                             lights.last_mut().expect("a light").set(key, data, origin);
                         }
                         Some(("light", key)) => {
-                            let is_near = |light: &&mut Table| light.get("position").is_some();
+                            let is_near = |light: &&mut SceneTable| light.get("position").is_some();
                             for light in lights.iter_mut().filter(is_near) {
                                 light.set(key, data.clone(), origin.clone());
                             }

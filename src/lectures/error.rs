@@ -4,7 +4,7 @@ use crate::compare::metrics::SizeMismatch;
 use crate::frame::FrameError;
 use crate::mesh::MeshError;
 use crate::mesh::builtin::BuiltinError;
-use crate::scene::input::InputError;
+use crate::scene::file::diagnostics::SceneError;
 use crate::shading::MethodError;
 
 /// The result of a part of a figure.
@@ -19,7 +19,7 @@ pub enum FigureError {
     /// A mesh is not one.
     Mesh(#[from] MeshError),
     /// A shipped scene is not one.
-    Scene(#[from] InputError),
+    Scene(#[from] SceneError),
     /// A frame is not one.
     Frame(#[from] FrameError),
     /// A method has no such name or parameter.

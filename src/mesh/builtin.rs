@@ -1,29 +1,28 @@
 //! Built-in meshes by name: `sphere`, `torus?segments=200&sides=80`, `teapot?polygons=100000`.
 
-mod error;
 mod table;
 #[cfg(test)]
 mod tests;
 
-pub use error::BuiltinError;
 pub use table::BUILTINS;
 
 use super::{MeshError, PolygonMesh};
 use crate::number::suggest::nearest;
-use alloc::string::ToString;
+use alloc::format;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
 
 /// A shape that is made by formula.
 #[derive(Debug)]
 pub struct Builtin {
-    /// Its name.
+    /// The name.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// A description in one line.
     pub doc: &'static str,
-    /// What can be set. Shapes with a [`Builtin::resolution`] also take [`POLYGONS`].
-    pub parameters: &'static [Parameter],
-    /// Which parameters [`POLYGONS`] sets, if the shape takes it.
+    /// The parameters. Shapes with a [`Builtin::resolution`] also take [`POLYGONS`].
+    pub parameters: &'static [ShapeParameter],
+    /// The parameters that [`POLYGONS`] sets, if the shape takes it.
     pub resolution: Option<Resolution>,
     polygon_count: fn(&Values) -> u64,
     build: fn(&Values) -> Result<PolygonMesh, MeshError>,
@@ -32,26 +31,26 @@ pub struct Builtin {
 /// The name of the parameter that asks for a number of polygons: the resolution nearest to it is chosen.
 pub const POLYGONS: &str = "polygons";
 
-/// Something that can be set about a shape.
+/// A parameter of a shape.
 #[derive(Clone, Copy, Debug)]
-pub struct Parameter {
-    /// Its name.
+pub struct ShapeParameter {
+    /// The name.
     pub name: &'static str,
-    /// What kind of value it has.
-    pub kind: Kind,
-    /// Its value when it is not set; 0 and 1 stand for false and true.
+    /// The kind of its value.
+    pub kind: ParameterKind,
+    /// The value when it is not set; 0 and 1 stand for false and true.
     pub default: f64,
     /// The least value.
     pub min: f64,
     /// The largest value.
     pub max: f64,
-    /// What it is, in a few words.
+    /// A description in a few words.
     pub doc: &'static str,
 }
 
-/// What kind of value a parameter has.
+/// A kind of value that a parameter has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ParameterKind {
     /// A whole number; underscores may stand between digits.
     Integer,
     /// A number.
@@ -60,39 +59,29 @@ pub enum Kind {
     Bool,
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for ParameterKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Kind::Integer => "a whole number",
-            Kind::Real => "a number",
-            Kind::Bool => "true or false",
+            ParameterKind::Integer => "a whole number",
+            ParameterKind::Real => "a number",
+            ParameterKind::Bool => "true or false",
         })
     }
 }
 
 /// The parameters that decide how many polygons a shape has.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Resolution {
-    /// One, for both directions.
-    Single(&'static str),
-    /// One for each direction; the number of polygons is in proportion to the columns.
-    Grid {
-        /// The parameter for the rows.
-        rows: &'static str,
-        /// The parameter for the columns.
-        columns: &'static str,
-        /// How many columns there should be for each row.
-        ratio: f64,
-    },
+pub struct Resolution {
+    /// The parameter for the rows, or for both directions.
+    pub rows: &'static str,
+    /// The parameter for the columns, to which the number of polygons is in proportion, and their number for each row.
+    pub columns: Option<(&'static str, f64)>,
 }
 
 impl Resolution {
     fn parameters(&self) -> impl Iterator<Item = &'static str> + use<> {
-        let (first, second) = match *self {
-            Resolution::Single(name) => (name, None),
-            Resolution::Grid { rows, columns, .. } => (rows, Some(columns)),
-        };
-        core::iter::once(first).chain(second)
+        let columns = self.columns.map(|(columns, _)| columns);
+        core::iter::once(self.rows).chain(columns)
     }
 }
 
@@ -111,7 +100,7 @@ impl Values {
         }
     }
 
-    /// Where parameter `name` stands. Names come from the shape's own table entry, or were found in it before.
+    /// Returns the index of parameter `name`. Names come from the shape's own table entry, or were found in it before.
     fn index(&self, name: &str) -> usize {
         let index = self.shape.parameters.iter().position(|p| p.name == name);
         index.expect("a shape reads its own parameters")
@@ -132,7 +121,7 @@ impl Values {
     /// Sets a whole number, kept within its range.
     fn set_within(&mut self, name: &str, value: u64) {
         let index = self.index(name);
-        let Parameter { min, max, .. } = self.shape.parameters[index];
+        let ShapeParameter { min, max, .. } = self.shape.parameters[index];
         self.numbers[index] = (value as f64).clamp(min, max);
     }
 
@@ -141,7 +130,19 @@ impl Values {
     }
 }
 
-/// The built-in mesh for `NAME` or `NAME?key=value&key=value`, as [`BUILTINS`] lists them.
+/// A built-in mesh that cannot be made; `Display` says why in one sentence.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuiltinError(String);
+
+impl fmt::Display for BuiltinError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl core::error::Error for BuiltinError {}
+
+/// Makes the built-in mesh for `NAME` or `NAME?key=value&key=value`, as [`BUILTINS`] lists them.
 ///
 /// Everything is checked before memory is taken.
 ///
@@ -149,37 +150,35 @@ impl Values {
 /// [`BuiltinError`] when the shape or a parameter is not known, a value is not of its kind or out of its range, or the
 /// mesh would be over the limits of [`PolygonMesh`].
 pub fn builtin(spec: &str) -> Result<PolygonMesh, BuiltinError> {
-    let values = parse(spec)?;
-    let count = values.polygon_count();
-    if count > PolygonMesh::MAX_POLYGONS as u64 {
-        return Err(BuiltinError::TooManyPolygons { count });
+    let values = parse(spec).map_err(BuiltinError)?;
+    let (count, most) = (values.polygon_count(), PolygonMesh::MAX_POLYGONS);
+    if count > most as u64 {
+        return Err(BuiltinError(format!(
+            "the mesh would have {count} polygons, over the limit of {most}"
+        )));
     }
-    (values.shape.build)(&values).map_err(BuiltinError::Mesh)
+    (values.shape.build)(&values).map_err(|error| BuiltinError(error.to_string()))
 }
 
-fn parse(spec: &str) -> Result<Values, BuiltinError> {
+/// Reads a shape and its parameters, and checks all of them.
+fn parse(spec: &str) -> Result<Values, String> {
     let (name, settings) = spec.split_once('?').unwrap_or((spec, ""));
-    let Some(shape) = BUILTINS.iter().find(|b| b.name == name) else {
-        let suggestion = nearest(name, BUILTINS.iter().map(|b| b.name));
-        return Err(BuiltinError::UnknownShape {
-            name: name.to_string(),
-            suggestion,
-        });
-    };
+    let shape = BUILTINS.iter().find(|shape| shape.name == name);
+    let shape = shape.ok_or_else(|| {
+        let names: Vec<_> = BUILTINS.iter().map(|shape| shape.name).collect();
+        let (hint, names) = (did_you_mean(name, &names), names.join(", "));
+        format!("no built-in mesh is named `{name}`{hint} (there are {names})")
+    })?;
     let mut values = Values::new(shape);
     let mut set: Vec<&'static str> = Vec::new();
     let mut polygons = None;
     for setting in settings.split('&').filter(|s| !s.is_empty()) {
-        let Some((key, value)) = setting.split_once('=') else {
-            return Err(BuiltinError::NoValue {
-                found: setting.to_string(),
-            });
-        };
+        let setting = setting.split_once('=').ok_or(setting);
+        let (key, value) =
+            setting.map_err(|found| format!("`{found}` should be written as key=value"))?;
         let parameter = find_parameter(shape, key)?;
         if set.contains(&parameter.name) {
-            return Err(BuiltinError::Repeated {
-                key: parameter.name,
-            });
+            return Err(format!("`{key}` is set twice"));
         }
         set.push(parameter.name);
         let number = parameter.parse(value)?;
@@ -192,23 +191,33 @@ fn parse(spec: &str) -> Result<Values, BuiltinError> {
     }
     if let (Some(target), Some(resolution)) = (polygons, shape.resolution) {
         if let Some(key) = resolution.parameters().find(|key| set.contains(key)) {
-            return Err(BuiltinError::Conflict { key });
+            return Err(format!(
+                "`{POLYGONS}` chooses `{key}` itself; give one or the other"
+            ));
         }
         choose_resolution(&mut values, resolution, target);
     }
     if shape.name == "knot" {
         let factor = common_factor(values.integer("p"), values.integer("q"));
         if factor != 1 {
-            return Err(BuiltinError::NoKnot { factor });
+            return Err(format!(
+                "`p` and `q` of a knot have no common factor, but these have {factor}"
+            ));
         }
     }
     Ok(values)
 }
 
+/// Returns the question for the one of `names` that `name` may stand for, if there is one.
+fn did_you_mean(name: &str, names: &[&'static str]) -> String {
+    let meant = nearest(name, names.iter().copied());
+    meant.map_or(String::new(), |meant| format!("; did you mean `{meant}`?"))
+}
+
 /// The parameter that asks for a number of polygons.
-const POLYGONS_PARAMETER: Parameter = Parameter {
+const POLYGONS_PARAMETER: ShapeParameter = ShapeParameter {
     name: POLYGONS,
-    kind: Kind::Integer,
+    kind: ParameterKind::Integer,
     default: 0.0,
     min: 1.0,
     max: PolygonMesh::MAX_POLYGONS as f64,
@@ -216,52 +225,50 @@ const POLYGONS_PARAMETER: Parameter = Parameter {
 };
 
 impl Builtin {
-    /// All parameters that can be set, [`POLYGONS`] last if the shape takes it.
-    pub fn all_parameters(&self) -> impl Iterator<Item = &'static Parameter> {
+    /// Returns all parameters that can be set, [`POLYGONS`] last if the shape takes it.
+    pub fn all_parameters(&self) -> impl Iterator<Item = &'static ShapeParameter> {
         let polygons = self.resolution.map(|_| &POLYGONS_PARAMETER);
         self.parameters.iter().chain(polygons)
     }
 }
 
-fn find_parameter(shape: &'static Builtin, key: &str) -> Result<&'static Parameter, BuiltinError> {
-    shape
-        .all_parameters()
-        .find(|p| p.name == key)
-        .ok_or_else(|| {
-            let valid: Vec<_> = shape.all_parameters().map(|p| p.name).collect();
-            let suggestion = nearest(key, valid.iter().copied());
-            BuiltinError::UnknownKey {
-                shape: shape.name,
-                key: key.to_string(),
-                valid,
-                suggestion,
-            }
-        })
+fn find_parameter(shape: &'static Builtin, key: &str) -> Result<&'static ShapeParameter, String> {
+    let found = shape.all_parameters().find(|p| p.name == key);
+    found.ok_or_else(|| {
+        let names: Vec<_> = shape.all_parameters().map(|p| p.name).collect();
+        let hint = did_you_mean(key, &names);
+        let names = match names.len() {
+            0 => "none".to_string(),
+            _ => names.join(", "),
+        };
+        let shape = shape.name;
+        format!("`{shape}` has no parameter `{key}`{hint} (it has {names})")
+    })
 }
 
-impl Parameter {
-    fn parse(&self, text: &str) -> Result<f64, BuiltinError> {
+impl ShapeParameter {
+    /// Reads a value of the parameter's kind and range.
+    fn parse(&self, text: &str) -> Result<f64, String> {
         let number = match self.kind {
             // Through i128, so that a number with too many digits for its range is told so.
-            Kind::Integer => text.replace('_', "").parse::<i128>().ok().map(|n| n as f64),
-            Kind::Real => text.parse().ok().filter(|n: &f64| !n.is_nan()),
-            Kind::Bool => text.parse().ok().map(|b: bool| b as u8 as f64),
+            ParameterKind::Integer => text.replace('_', "").parse::<i128>().ok().map(|n| n as f64),
+            ParameterKind::Real => text.parse().ok().filter(|n: &f64| !n.is_nan()),
+            ParameterKind::Bool => text.parse().ok().map(|b: bool| b as u8 as f64),
         };
-        let value = || text.to_string();
-        let number = number.ok_or_else(|| BuiltinError::NotA {
-            kind: self.kind,
-            key: self.name,
-            value: value(),
-        })?;
-        if number < self.min || number > self.max {
-            return Err(BuiltinError::OutOfRange {
-                key: self.name,
-                value: value(),
-                min: self.min,
-                max: self.max,
-            });
+        let ShapeParameter {
+            name,
+            kind,
+            min,
+            max,
+            ..
+        } = self;
+        let number = number.ok_or_else(|| format!("`{name}` is {kind}, not `{text}`"))?;
+        match (min..=max).contains(&&number) {
+            true => Ok(number),
+            false => Err(format!(
+                "`{name}` goes from {min} to {max}, which `{text}` is outside of"
+            )),
         }
-        Ok(number)
     }
 }
 
@@ -274,14 +281,7 @@ fn common_factor(a: usize, b: usize) -> usize {
 /// With rows and columns, rows up to a tenth away from the shape's own ratio are tried, each with the number of columns
 /// that fits it best.
 fn choose_resolution(values: &mut Values, resolution: Resolution, target: u64) {
-    let (rows, columns) = match resolution {
-        Resolution::Single(rows) => (rows, None),
-        Resolution::Grid {
-            rows,
-            columns,
-            ratio,
-        } => (rows, Some((columns, ratio))),
-    };
+    let Resolution { rows, columns } = resolution;
     let range = values.shape.parameters[values.index(rows)];
     let at = |n: u64| {
         let mut values = values.clone();
@@ -301,11 +301,7 @@ fn choose_resolution(values: &mut Values, resolution: Resolution, target: u64) {
             high = middle
         }
     }
-    let reach = if columns.is_some() {
-        (low / 10).clamp(1, 1000)
-    } else {
-        1
-    };
+    let reach = columns.map_or(1, |_| (low / 10).clamp(1, 1000));
     let candidates = (low.saturating_sub(reach)..=low + reach).map(|n| {
         let mut candidate = at(n);
         if let Some((columns, _)) = columns {

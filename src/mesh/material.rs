@@ -16,7 +16,7 @@ pub struct Material {
 }
 
 impl Default for Material {
-    /// A warm, slightly glossy surface: the one that a mesh without a material gets.
+    /// Returns a warm, slightly glossy surface: the one that a mesh without a material gets.
     fn default() -> Self {
         Material {
             ambient: [0.08, 0.07, 0.06],

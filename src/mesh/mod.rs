@@ -45,53 +45,53 @@ impl PolygonMesh {
     /// The most corners, all polygons together: 128 million.
     pub const MAX_CORNERS: usize = 1 << 27;
 
-    /// Positions in model space.
+    /// Returns the positions in model space.
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
     }
 
-    /// How many polygons there are.
+    /// Returns the number of polygons.
     pub fn polygon_count(&self) -> usize {
         self.ends.len()
     }
 
-    /// All corners, polygon after polygon: each an index into [`PolygonMesh::positions`].
+    /// Returns all corners, polygon after polygon: each an index into [`PolygonMesh::positions`].
     pub fn corners(&self) -> &[u32] {
         &self.corners
     }
 
-    /// Where the corners of polygon `p` stand in [`PolygonMesh::corners`].
+    /// Returns the range of [`PolygonMesh::corners`] that polygon `p` has.
     pub fn corner_range(&self, p: usize) -> core::ops::Range<usize> {
         let start = if p == 0 { 0 } else { self.ends[p - 1] as usize };
         start..self.ends[p] as usize
     }
 
-    /// The corners of polygon `p`: indices into [`PolygonMesh::positions`], counter-clockwise seen from outside.
+    /// Returns the corners of polygon `p`: indices into [`PolygonMesh::positions`], counter-clockwise seen from outside.
     pub fn polygon(&self, p: usize) -> &[u32] {
         &self.corners[self.corner_range(p)]
     }
 
-    /// All polygons in order.
+    /// Returns all polygons in order.
     pub fn polygons(&self) -> impl ExactSizeIterator<Item = &[u32]> {
         (0..self.polygon_count()).map(|p| self.polygon(p))
     }
 
-    /// The normals that came with the mesh, if any did.
+    /// Returns the normals that came with the mesh, if any did.
     pub fn given_normals(&self) -> Option<&GivenNormals> {
         self.given_normals.as_ref()
     }
 
-    /// The colour of each position, linear red, green, blue; empty where the mesh has no colours.
+    /// Returns the colour of each position, linear red, green, blue; empty where the mesh has no colours.
     pub fn colours(&self) -> &[Vec3] {
         &self.colours
     }
 
-    /// The materials that polygons refer to; may be empty.
+    /// Returns the materials that polygons refer to; may be empty.
     pub fn materials(&self) -> &[Material] {
         &self.materials
     }
 
-    /// The material of polygon `p`: an index into [`PolygonMesh::materials`], `None` for the default material.
+    /// Returns the material of polygon `p`: an index into [`PolygonMesh::materials`], `None` for the default material.
     pub fn polygon_material(&self, p: usize) -> Option<usize> {
         self.polygon_materials
             .get(p)
@@ -99,7 +99,17 @@ impl PolygonMesh {
             .filter(|&m| m < self.materials.len())
     }
 
-    /// Smallest and largest coordinates over all positions that polygons use; `None` without polygons.
+    /// Gives `default` to the polygons without a material.
+    #[cfg(feature = "io")]
+    pub(crate) fn set_default_material(&mut self, default: Material) {
+        let number = self.materials.len() as u32;
+        self.materials.push(default);
+        self.polygon_materials.resize(self.ends.len(), number);
+        let materials = self.polygon_materials.iter_mut();
+        materials.for_each(|material| *material = number.min(*material));
+    }
+
+    /// Returns the smallest and largest coordinates over all positions that polygons use; `None` without polygons.
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         let mut used = self.corners.iter().map(|&c| self.positions[c as usize]);
         let first = used.next()?;
@@ -107,12 +117,12 @@ impl PolygonMesh {
     }
 }
 
-/// Why a mesh could not be made.
+/// A mesh that could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshError {
     /// A position, normal or colour holds a NaN or an infinity.
     NotFinite {
-        /// Its number, counted from 0.
+        /// The number of the vector, counted from 0.
         index: usize,
     },
     /// A polygon names a position, normal or material that does not exist.
@@ -129,18 +139,18 @@ pub enum MeshError {
     },
     /// The colours are not one a position.
     ColourCount {
-        /// How many there are.
+        /// The number found.
         found: usize,
-        /// How many there should be.
+        /// The number expected.
         expected: usize,
     },
     /// More polygons than [`PolygonMesh::MAX_POLYGONS`] or more corners than [`PolygonMesh::MAX_CORNERS`].
     TooLarge,
     /// The normals are not one a position, or their corner indices not one a corner.
     NormalCount {
-        /// How many there are.
+        /// The number found.
         found: usize,
-        /// How many there should be.
+        /// The number expected.
         expected: usize,
     },
 }
@@ -231,7 +241,7 @@ impl MeshBuilder {
         self
     }
 
-    /// The mesh.
+    /// Checks and returns the mesh.
     ///
     /// # Errors
     /// [`MeshError`] when a vector is not finite, an index does not exist, a polygon has fewer than three corners, or

@@ -5,7 +5,7 @@ use crate::number::parallel::collect;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
-/// The normal of a polygon by Newell's formula, taken about its first corner, in `f64`.
+/// Returns the normal of a polygon by Newell's formula, taken about its first corner, in `f64`.
 ///
 /// ```text
 /// N = Σ (P_k − P_0) × (P_{k+1} − P_0)      (L21 1.1),   |N| = 2 · area
@@ -31,7 +31,7 @@ pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
     normal
 }
 
-/// The normal of polygon `p` by Newell's formula: twice its area long, zero when the polygon has no normal.
+/// Returns the normal of polygon `p` by Newell's formula: twice its area long, zero when the polygon has no normal.
 ///
 /// A polygon has a normal if rounding its corners to `f32` cannot have made it. Moving each corner by at most `δ` (half
 /// an `f32` step of the largest coordinate, for each axis) changes (L21 1.1) by `Σ δ_k × (P_{k+1} − P_{k−1})` to first
@@ -46,7 +46,7 @@ pub fn newell(corners: impl IntoIterator<Item = DVec3>) -> DVec3 {
 pub fn polygon_normal(mesh: &PolygonMesh, p: usize) -> DVec3 {
     let corners = mesh.polygon(p);
     match <&[u32; 3]>::try_from(corners) {
-        // The same text with a known number of corners, which the compiler unrolls.
+        // With a known number of corners the compiler unrolls the loop.
         Ok(triangle) => normal_of(mesh.positions(), triangle),
         Err(_) => normal_of(mesh.positions(), corners),
     }
@@ -64,12 +64,12 @@ fn normal_of(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     }
 }
 
-/// The normals of all polygons of a mesh, as [`polygon_normal`] gives them.
+/// Returns the normals of all polygons of a mesh, as [`polygon_normal`] gives them.
 pub fn polygon_normals(mesh: &PolygonMesh) -> Vec<DVec3> {
     collect(mesh.polygon_count(), 4096, |p| polygon_normal(mesh, p))
 }
 
-/// The unit vector along `normal`, or `None` for zero (or a vector that is not finite).
+/// Returns the unit vector along `normal`, or `None` for zero (or a vector that is not finite).
 ///
 /// Cross products of `f32` vectors, and of their differences, are between 1e-90 and 1e77 long, so that the square
 /// neither underflows nor overflows.
@@ -78,7 +78,7 @@ pub fn unit_normal(normal: DVec3) -> Option<DVec3> {
     (square > 0.0 && square < f64::INFINITY).then(|| normal / libm::sqrt(square))
 }
 
-/// How far rounding every corner to `f32` can have moved the sum of Newell's formula, along each axis.
+/// Bounds the error along each axis of Newell's sum that comes from rounding every corner to `f32`.
 #[inline(always)]
 fn input_rounding(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     let corner = |k: usize| positions[corners[k] as usize];
@@ -106,7 +106,7 @@ fn input_rounding(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     )
 }
 
-/// Half the distance between neighbouring `f32` numbers around `x`: the most that rounding to nearest moves it.
+/// Returns half the distance between neighbouring `f32` numbers around `x`: the most that rounding to nearest moves it.
 fn half_step(x: f32) -> f64 {
     const EXPONENT: u32 = 0x7f80_0000;
     const HALF_STEP_OF_ONE: f64 = 1.0 / (1u32 << 24) as f64;

@@ -9,7 +9,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
-/// Where vertex normals come from.
+/// The source of vertex normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum NormalSource {
     /// The normalised sum of the unit normals of all polygons around a position (L21 3.1).
@@ -33,7 +33,7 @@ pub struct VertexNormals {
 /// The normal of a corner that no polygon gives one: toward the viewer of a mesh that was not turned.
 const NO_NORMAL: DVec3 = DVec3::Z;
 
-/// The unit normals at all corners of `mesh`, in `f64` and rounded once.
+/// Returns the unit normals at all corners of `mesh`, in `f64` and rounded once.
 ///
 /// Positions that coincide exactly are one vertex, whatever their indices. A polygon counts once at a vertex, even if it
 /// passes it twice; a polygon without a normal does not count. Where the sum vanishes (a sheet with both its sides), each
@@ -45,7 +45,7 @@ pub fn vertex_normals(mesh: &PolygonMesh, source: NormalSource) -> VertexNormals
     corner_normals(mesh, source, None).by_corner(mesh)
 }
 
-/// The unit normals at all corners of a mesh, said as shortly as they can be.
+/// Returns the unit normals at all corners of a mesh, said as shortly as they can be.
 pub(crate) enum CornerNormals {
     /// All corners at a position have the same one.
     ByPosition {
@@ -59,7 +59,7 @@ pub(crate) enum CornerNormals {
 }
 
 impl CornerNormals {
-    /// Corner by corner.
+    /// Returns the normals corner by corner.
     pub fn by_corner(self, mesh: &PolygonMesh) -> VertexNormals {
         match self {
             CornerNormals::ByCorner(normals) => normals,
@@ -71,7 +71,7 @@ impl CornerNormals {
     }
 }
 
-/// What each corner has when each position has what `positions` says.
+/// Returns the entry of `positions` that each corner of `mesh` uses.
 fn corners_of(mesh: &PolygonMesh, positions: &[u32]) -> Vec<u32> {
     mesh.corners()
         .iter()
@@ -79,7 +79,7 @@ fn corners_of(mesh: &PolygonMesh, positions: &[u32]) -> Vec<u32> {
         .collect()
 }
 
-/// What [`vertex_normals`] gives, where the normals of all polygons may be known already.
+/// Computes [`vertex_normals`], from the normals of all polygons where these are known already.
 pub(crate) fn corner_normals(
     mesh: &PolygonMesh,
     source: NormalSource,
@@ -104,7 +104,7 @@ pub(crate) fn corner_normals(
     }
 }
 
-/// The direction of a sum of `count` unit normals; `None` where the sum vanishes.
+/// Returns the direction of a sum of `count` unit normals; `None` where the sum vanishes.
 ///
 /// A unit normal is off by at most 4ε (two roundings of its components, the root and the division) and each addition by
 /// at most ε times the partial sum, so a sum that vanishes exactly stays below `count · (4 + count) · ε`.
@@ -122,7 +122,7 @@ fn averaged(mesh: &PolygonMesh, polygons: &[DVec3]) -> CornerNormals {
             .unwrap_or(NO_NORMAL)
             .as_vec3()
     }); // 3.1
-    // Where nothing was added every corner is one of a polygon without a normal, which has none of its own to take.
+    // A vertex without any summand has only corners of polygons without a normal, which have none of their own to take.
     let vanishes = |sum: &Sum| sum.count > 0 && direction(sum.normal, sum.count).is_none();
     let vanishes = collect(count, 4096, |v| vanishes(&sums[v]));
     drop(sums);

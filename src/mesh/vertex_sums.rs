@@ -7,17 +7,17 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// What the polygons around a vertex add up to.
+/// The sum of the unit normals of the polygons around a vertex.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sum {
     pub normal: DVec3,
-    /// How many there are.
+    /// The number of summands.
     pub count: u32,
-    /// The one that was added last, counted from 1.
+    /// The polygon that was added last, counted from 1.
     latest: u32,
 }
 
-/// The sums of unit normals at all vertices; each in the order of the polygons, on however many threads.
+/// Returns the sums of unit normals at all vertices; each in the order of the polygons, on however many threads.
 pub(super) fn sums(
     mesh: &PolygonMesh,
     polygons: &[DVec3],

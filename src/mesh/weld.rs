@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::Vec3;
 
-/// For each position the number of its first equal among the different ones, and how many different ones there are.
+/// Returns for each position the number of its first equal among the different ones, and the number of different ones.
 ///
 /// Positions are equal when their coordinates are, so that −0 is 0. Numbers go by first occurrence. Takes a hash table's
 /// time, and `n log n` comparisons where positions were chosen to collide in it.
@@ -12,7 +12,7 @@ pub fn weld(positions: &[Vec3]) -> (Vec<u32>, usize) {
     by_hash(positions).unwrap_or_else(|| by_sorting(positions))
 }
 
-/// Equal exactly when the positions are: adding 0.0 turns −0.0 into 0.0.
+/// Returns bits that are equal exactly when the positions are: adding 0.0 turns −0.0 into 0.0.
 fn key(p: &Vec3) -> [u32; 3] {
     [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits())
 }
@@ -50,14 +50,14 @@ fn by_hash(positions: &[Vec3]) -> Option<(Vec<u32>, usize)> {
     Some((number, count))
 }
 
-/// The highest bits depend on all bits of all three.
+/// Hashes three words: the highest bits depend on all bits of all of them.
 fn hash([x, y, z]: [u32; 3]) -> u64 {
     const ODD: [u64; 2] = [0x9E37_79B9_7F4A_7C15, 0xD6E8_FEB8_6659_FD93];
     let first = ((u64::from(x) << 32) | u64::from(y)).wrapping_mul(ODD[0]);
     ((first ^ (first >> 32)).wrapping_add(u64::from(z))).wrapping_mul(ODD[1])
 }
 
-/// The same by sorting, 16 bytes a position.
+/// Welds by sorting, 16 bytes a position.
 fn by_sorting(positions: &[Vec3]) -> (Vec<u32>, usize) {
     let mut sorted: Vec<[u32; 4]> = Vec::with_capacity(positions.len());
     sorted.extend(positions.iter().enumerate().map(|(i, p)| {

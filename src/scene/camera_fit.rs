@@ -200,7 +200,7 @@ mod tests {
                 ] {
                     let mut points = box_corners();
                     if !every_corner {
-                        // The same box without the symmetry in which a wrong sign of the depth would not show.
+                        // Without the box's symmetry, in which a wrong sign of the depth would not show.
                         points = [0, 3, 5, 6].map(|i| points[i]).to_vec();
                     }
                     let fit = Fit {

@@ -14,7 +14,7 @@
 //! let file = fastphong::scene::input::load("football")?;
 //! let resolved = fastphong::scene::input::resolve(&file)?;
 //! assert_eq!(resolved.scene.objects.len(), 2);
-//! # Ok::<(), fastphong::scene::input::InputError>(())
+//! # Ok::<(), fastphong::scene::file::diagnostics::SceneError>(())
 //! ```
 
 use super::file::SceneFile;
@@ -91,62 +91,34 @@ fn shipped_file(name: &str) -> Option<&'static [u8]> {
         .map(|(_, bytes)| *bytes)
 }
 
-/// Why an input gives no scene.
-#[derive(Clone, Debug, thiserror::Error)]
-pub enum InputError {
-    /// There is no such input, or the mesh that it names cannot be used: file, line, what was expected.
-    #[error("{0}")]
-    Message(String),
-    /// The scene file cannot be read, or a value of it or of a flag is wrong.
-    #[error("{}{}{}", .0.message(), if .0.expected().is_empty() { "" } else { ": " }, .0.expected())]
-    Scene(SceneError),
-}
-
-impl InputError {
-    /// Returns the error as text that starts with `error: `, with terminal colours or without.
-    pub fn render(&self, colour: bool) -> String {
-        match self {
-            InputError::Scene(error) => error.render(colour),
-            InputError::Message(text) if colour => format!("\x1b[1;31merror\x1b[0m: {text}"),
-            InputError::Message(text) => format!("error: {text}"),
-        }
-    }
-}
-
-impl From<SceneError> for InputError {
-    fn from(error: SceneError) -> Self {
-        InputError::Scene(error)
-    }
-}
-
 /// Reads the scene that `input` names; its meshes are not loaded yet.
 ///
 /// # Errors
-/// [`InputError`] when there is no such thing, or the scene file is not one.
-pub fn load(input: &str) -> Result<SceneFile, InputError> {
+/// [`SceneError`] when there is no such thing, or the scene file is not one.
+pub fn load(input: &str) -> Result<SceneFile, SceneError> {
     let path = Path::new(input);
     if input.starts_with(BUILTIN) || input.starts_with(SHIPPED) {
         return Ok(SceneFile::for_mesh(input.to_owned()));
     }
     if let Some(scene) = ShippedScene::named(input) {
-        return Ok(scene.load()?);
+        return scene.load();
     }
     if !has_known_ending(path) || !path.exists() {
         return Err(unknown(input, path));
     }
     if has_ending(path, "toml") {
-        Ok(SceneFile::load(path)?)
+        SceneFile::load(path)
     } else {
         Ok(SceneFile::for_mesh(input.to_owned()))
     }
 }
 
 /// Makes the error for what is not there, or is there and of no kind that is known.
-fn unknown(input: &str, path: &Path) -> InputError {
+fn unknown(input: &str, path: &Path) -> SceneError {
     if path.exists() {
         let expected = "expected a scene file that ends in .toml or a mesh file that ends in .obj";
         let problem = "neither a scene nor a mesh file by its ending";
-        return InputError::Message(format!("{input}: {problem}: {expected}"));
+        return SceneError::new(Origin::Program, format!("{input}: {problem}"), expected);
     }
     let scenes = || SCENES.iter().map(|scene| scene.name);
     // Who writes `scenes/teapto.toml` means `teapot`, and who writes `sphere` the built-in mesh.
@@ -165,7 +137,7 @@ fn unknown(input: &str, path: &Path) -> InputError {
         ),
     };
     let problem = "is neither a file nor a shipped scene";
-    InputError::Message(format!("`{input}` {problem}{hint}"))
+    SceneError::new(Origin::Program, format!("`{input}` {problem}{hint}"), "")
 }
 
 fn is_builtin(name: &str) -> bool {
@@ -184,25 +156,9 @@ fn has_ending(path: &Path, ending: &str) -> bool {
 /// Returns the scene that `file` describes, with its meshes, and what is odd about it.
 ///
 /// # Errors
-/// [`InputError`] when a value is out of its range or a mesh cannot be used.
-pub fn resolve(file: &SceneFile) -> Result<Resolved, InputError> {
-    let mut refused = None;
-    let resolved = file.resolve(|mesh, folder| {
-        load_mesh(mesh, folder)
-            .inspect_err(|reason| refused = Some((mesh.to_owned(), reason.clone())))
-    });
-    resolved.map_err(|error| match refused {
-        // A mesh that the input itself named needs no line of a scene file, and no key.
-        Some((mesh, reason)) if !is_named_in_file(file, &mesh) => InputError::Message(reason),
-        _ => InputError::Scene(error),
-    })
-}
-
-fn is_named_in_file(file: &SceneFile, mesh: &str) -> bool {
-    file.table().tables("object").iter().any(|object| {
-        let is_in_file = |value: &Value| matches!(value.origin, Origin::File(_));
-        object.text("mesh") == Some(mesh) && object.get("mesh").is_some_and(is_in_file)
-    })
+/// [`SceneError`] when a value is out of its range or a mesh cannot be used.
+pub fn resolve(file: &SceneFile) -> Result<Resolved, SceneError> {
+    file.resolve(load_mesh)
 }
 
 /// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
@@ -379,7 +335,7 @@ mod tests {
             error.render(false)
         );
         assert!(
-            error.to_string().contains("did you mean `builtin:sphere`?"),
+            error.expected().contains("did you mean `builtin:sphere`?"),
             "{error}"
         );
     }

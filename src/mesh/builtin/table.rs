@@ -1,27 +1,10 @@
 //! The table of built-in shapes: everything about them is read from here.
 
-use super::{Builtin, Kind, Parameter, Resolution, Values};
-use crate::mesh::shapes::{self, Grid, Terrain, Topology};
+use super::{Builtin, ParameterKind, Resolution, ShapeParameter, Values};
+use crate::mesh::shapes::{self, ParameterGrid, Terrain, Topology};
 
 /// The most cells along one direction; the polygon limit of a mesh is reached before in all but thin shapes.
 const MOST: f64 = (1 << 20) as f64;
-
-const fn integer(
-    name: &'static str,
-    default: u32,
-    min: u32,
-    max: f64,
-    doc: &'static str,
-) -> Parameter {
-    Parameter {
-        name,
-        kind: Kind::Integer,
-        default: default as f64,
-        min: min as f64,
-        max,
-        doc,
-    }
-}
 
 const fn real(
     name: &'static str,
@@ -29,10 +12,10 @@ const fn real(
     min: f64,
     max: f64,
     doc: &'static str,
-) -> Parameter {
-    Parameter {
+) -> ShapeParameter {
+    ShapeParameter {
         name,
-        kind: Kind::Real,
+        kind: ParameterKind::Real,
         default,
         min,
         max,
@@ -40,26 +23,34 @@ const fn real(
     }
 }
 
-const fn switch(name: &'static str, default: bool, doc: &'static str) -> Parameter {
-    Parameter {
-        name,
-        kind: Kind::Bool,
-        default: default as u8 as f64,
-        min: 0.0,
-        max: 1.0,
-        doc,
+const fn integer(
+    name: &'static str,
+    default: u32,
+    min: u32,
+    max: f64,
+    doc: &'static str,
+) -> ShapeParameter {
+    ShapeParameter {
+        kind: ParameterKind::Integer,
+        ..real(name, default as f64, min as f64, max, doc)
     }
 }
 
-const TRIANGLES: Parameter = switch("triangles", false, "split quads into two triangles");
-const SEGMENTS: Parameter = integer("segments", 64, 3, MOST, "cells around");
-const RINGS: Parameter = integer("rings", 32, 2, MOST, "bands from pole to pole");
-const BALL: Resolution = Resolution::Grid {
+const fn switch(name: &'static str, default: bool, doc: &'static str) -> ShapeParameter {
+    ShapeParameter {
+        kind: ParameterKind::Bool,
+        ..real(name, default as u8 as f64, 0.0, 1.0, doc)
+    }
+}
+
+const TRIANGLES: ShapeParameter = switch("triangles", false, "split quads into two triangles");
+const SEGMENTS: ShapeParameter = integer("segments", 64, 3, MOST, "cells around");
+const RINGS: ShapeParameter = integer("rings", 32, 2, MOST, "bands from pole to pole");
+const BALL: Resolution = Resolution {
     rows: "rings",
-    columns: "segments",
-    ratio: 2.0,
+    columns: Some(("segments", 2.0)),
 };
-const INNER: Parameter = real(
+const INNER: ShapeParameter = real(
     "inner",
     0.4,
     0.05,
@@ -67,8 +58,9 @@ const INNER: Parameter = real(
     "radius of the corners between the points",
 );
 
+/// Returns the number of polygons of a grid with these parameters for its columns and rows.
 fn grid(values: &Values, topology: Topology, columns: &str, rows: &str) -> u64 {
-    Grid::new(
+    ParameterGrid::new(
         topology,
         values.integer(columns),
         values.integer(rows),
@@ -179,10 +171,9 @@ pub const BUILTINS: &[Builtin] = &[
             integer("sides", 32, 3, MOST, "cells around the tube"),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Grid {
+        resolution: Some(Resolution {
             rows: "sides",
-            columns: "segments",
-            ratio: 2.0,
+            columns: Some(("segments", 2.0)),
         }),
         polygon_count: tube,
         build: |v| {
@@ -207,10 +198,9 @@ pub const BUILTINS: &[Builtin] = &[
             integer("sides", 24, 3, MOST, "cells around the tube"),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Grid {
+        resolution: Some(Resolution {
             rows: "sides",
-            columns: "segments",
-            ratio: 16.0,
+            columns: Some(("segments", 16.0)),
         }),
         polygon_count: tube,
         build: |v| {
@@ -237,7 +227,10 @@ pub const BUILTINS: &[Builtin] = &[
             ),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Single("res")),
+        resolution: Some(Resolution {
+            rows: "res",
+            columns: None,
+        }),
         polygon_count: |v| {
             shapes::teapot_polygons(v.integer("res"), v.switch("bottom"), v.switch("triangles"))
         },
@@ -253,10 +246,9 @@ pub const BUILTINS: &[Builtin] = &[
             integer("rows", 16, 1, MOST, "cells along the waves"),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Grid {
+        resolution: Some(Resolution {
             rows: "rows",
-            columns: "segments",
-            ratio: 3.0,
+            columns: Some(("segments", 3.0)),
         }),
         polygon_count: |v| grid(v, Topology::Sheet, "segments", "rows"),
         build: |v| {
@@ -294,10 +286,9 @@ pub const BUILTINS: &[Builtin] = &[
             integer("rows", 128, 1, MOST, "cells from front to back"),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Grid {
+        resolution: Some(Resolution {
             rows: "rows",
-            columns: "segments",
-            ratio: 1.0,
+            columns: Some(("segments", 1.0)),
         }),
         polygon_count: |v| grid(v, Topology::Sheet, "segments", "rows"),
         build: |v| {
@@ -322,7 +313,10 @@ pub const BUILTINS: &[Builtin] = &[
             integer("res", 1, 1, 2048.0, "cells along each edge"),
             TRIANGLES,
         ],
-        resolution: Some(Resolution::Single("res")),
+        resolution: Some(Resolution {
+            rows: "res",
+            columns: None,
+        }),
         polygon_count: |v| {
             let res = v.integer("res") as u64;
             6 * res * res * (1 + v.switch("triangles") as u64)

@@ -1,10 +1,13 @@
-//! Corners of faces: `v`, `v/vt`, `v//vn` and `v/vt/vn`, and what their indices name.
+//! Corners of faces: `v`, `v/vt`, `v//vn` and `v/vt/vn`, and the positions and normals that their indices name.
 
 use super::error::{ObjProblem, quote};
 use std::vec::Vec;
 
-/// A corner as resolved: position and, if given, normal, both counted from 0.
-pub(super) type Corner = (usize, Option<usize>);
+/// A corner with absolute indices, counted from 0.
+pub(super) struct ObjCorner {
+    pub position: usize,
+    pub normal: Option<usize>,
+}
 
 /// A corner as it stands in the file: indices counted from 1, or backwards from -1.
 pub(super) struct WrittenCorner {
@@ -14,94 +17,67 @@ pub(super) struct WrittenCorner {
 }
 
 impl WrittenCorner {
+    /// Reads a word of an `f` statement.
     pub(super) fn read(word: &str) -> Result<Self, ObjProblem> {
-        let bad = || ObjProblem::BadCorner { found: quote(word) };
-        let (position, rest) = leading_integer(word.as_bytes()).ok_or_else(bad)?;
-        let (texture, rest) = slash_integer(rest).ok_or_else(bad)?;
-        let (normal, rest) = slash_integer(rest).ok_or_else(bad)?;
-        if rest.is_empty() {
-            Ok(WrittenCorner {
-                position,
-                texture,
-                normal,
-            })
-        } else {
-            Err(bad())
-        }
-    }
-}
-
-/// The integer at the start of `bytes`, and what follows it; `None` when there is none or it does not fit.
-fn leading_integer(bytes: &[u8]) -> Option<(i64, &[u8])> {
-    let (negative, digits) = match bytes {
-        [b'-', rest @ ..] => (true, rest),
-        [b'+', rest @ ..] => (false, rest),
-        _ => (false, bytes),
-    };
-    let end = digits
-        .iter()
-        .position(|byte| !byte.is_ascii_digit())
-        .unwrap_or(digits.len());
-    if end == 0 {
-        return None;
-    }
-    // Summed downwards: the smallest integer has no positive counterpart.
-    let sum = digits[..end].iter().try_fold(0_i64, |n, &digit| {
-        n.checked_mul(10)?.checked_sub(i64::from(digit - b'0'))
-    })?;
-    let number = if negative { sum } else { sum.checked_neg()? };
-    Some((number, &digits[end..]))
-}
-
-/// The integer after a `/`, if there is one, and what follows; `None` when something else stands there.
-fn slash_integer(bytes: &[u8]) -> Option<(Option<i64>, &[u8])> {
-    match bytes {
-        [] => Some((None, bytes)),
-        [b'/'] => Some((None, &[])),
-        [b'/', b'/', ..] => Some((None, &bytes[1..])),
-        [b'/', rest @ ..] => leading_integer(rest).map(|(number, rest)| (Some(number), rest)),
-        _ => None,
-    }
-}
-
-/// The entry, counted from 0, that `index` names among `count` so far.
-///
-/// A positive index may be ahead of what it names: that is noted in `ahead` and checked at the end of the file.
-pub(super) fn resolve(
-    what: &'static str,
-    index: i64,
-    count: usize,
-    line: usize,
-    ahead: &mut Vec<(usize, usize)>,
-) -> Result<usize, ObjProblem> {
-    let error = || ObjProblem::IndexOutOfRange { what, index, count };
-    if index <= 0 {
-        let back = usize::try_from(index.unsigned_abs()).map_err(|_| error())?;
-        return if back == 0 || back > count {
-            Err(error())
-        } else {
-            Ok(count - back)
+        let bad = || ObjProblem::BadCorner(quote(word));
+        let index = |part: Option<&str>| match part {
+            None | Some("") => Ok(None),
+            Some(part) => part.parse().map(Some).map_err(|_| bad()),
         };
+        let mut parts = word.split('/');
+        let corner = WrittenCorner {
+            position: index(parts.next())?.ok_or_else(bad)?,
+            texture: index(parts.next())?,
+            normal: index(parts.next())?,
+        };
+        parts.next().map_or(Ok(corner), |_| Err(bad()))
     }
-    let entry = usize::try_from(index - 1).map_err(|_| error())?;
-    if entry >= count && ahead.last().is_none_or(|&(_, largest)| entry > largest) {
-        ahead.push((line, entry));
-    }
-    Ok(entry)
 }
 
-/// Appends `number` in decimal. Faster than `write!`, and there are as many numbers as corners.
-pub(super) fn push_decimal(text: &mut Vec<u8>, mut number: usize) {
-    // 20 digits hold every 64-bit number.
-    let mut digits = [0_u8; 20];
-    let mut start = digits.len();
-    loop {
-        start -= 1;
-        digits[start] = b'0' + (number % 10) as u8;
-        number /= 10;
-        if number == 0 {
-            break;
+/// The positions or the normals of a file, as far as it was read.
+#[derive(Default)]
+pub(super) struct Entries {
+    what: &'static str,
+    /// The number of entries so far.
+    pub count: usize,
+    /// Lines that name an entry not read yet, each farther ahead than those before it.
+    ahead: Vec<(usize, usize)>,
+}
+
+impl Entries {
+    /// Starts without entries; `what` is one of them in an error.
+    pub(super) fn new(what: &'static str) -> Self {
+        Entries {
+            what,
+            ..Entries::default()
         }
     }
-    text.extend_from_slice(&digits[start..]);
+
+    /// Returns the entry, counted from 0, that `index` names.
+    ///
+    /// A positive index may be ahead of its entry: [`Entries::missing`] tells at the end of the file.
+    pub(super) fn resolve(&mut self, line: usize, index: i64) -> Result<usize, ObjProblem> {
+        let entry = match usize::try_from(index.unsigned_abs()) {
+            Ok(number @ 1..) if index > 0 => Some(number - 1),
+            Ok(back @ 1..) => self.count.checked_sub(back),
+            _ => None,
+        };
+        let entry = entry.ok_or_else(|| self.out_of_range(index))?;
+        if entry >= self.count && self.ahead.last().is_none_or(|&(_, most)| entry > most) {
+            self.ahead.push((line, entry));
+        }
+        Ok(entry)
+    }
+
+    /// Returns the first line that names an entry past the last one, with the error about it.
+    pub(super) fn missing(&self) -> Option<(usize, ObjProblem)> {
+        let mut ahead = self.ahead.iter();
+        let &(line, entry) = ahead.find(|&&(_, entry)| entry >= self.count)?;
+        Some((line, self.out_of_range(entry as i64 + 1)))
+    }
+
+    fn out_of_range(&self, index: i64) -> ObjProblem {
+        let (what, count) = (self.what, self.count);
+        ObjProblem::IndexOutOfRange { what, index, count }
+    }
 }

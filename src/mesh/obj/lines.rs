@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::string::String;
 
-/// The text of a file: UTF-8 without its mark, else Latin-1, which no byte sequence fails.
+/// Returns the text of a file: UTF-8 without its mark, else Latin-1, which no byte sequence fails.
 ///
 /// Latin-1 and not replacement characters: two names that differ stay different, and are found in the other file.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
@@ -14,18 +14,7 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// The number, counted from 1, of the first line with a byte that text does not have (a NUL), if there is one.
-pub(super) fn binary_line(bytes: &[u8]) -> Option<usize> {
-    // Nearly no file has one, and `contains` looks at several bytes at a time.
-    let at = if bytes.contains(&0) {
-        bytes.iter().position(|&byte| byte == 0)?
-    } else {
-        return None;
-    };
-    Some(1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count())
-}
-
-/// `line` up to its comment, if it has one.
+/// Returns `line` up to its comment, if it has one.
 pub(super) fn without_comment(line: &str) -> &str {
     line.find('#').map_or(line, |at| &line[..at])
 }
@@ -56,16 +45,13 @@ impl<'a> Statements<'a> {
     fn physical_line(&mut self) -> Option<&'a str> {
         let rest = self.rest?;
         self.line += 1;
-        let (line, rest) = match rest.split_once(self.separator) {
-            Some((line, rest)) => (line, Some(rest)),
-            None => (rest, None),
-        };
-        self.rest = rest;
-        Some(line)
+        let split = rest.split_once(self.separator);
+        self.rest = split.map(|(_, rest)| rest);
+        Some(split.map_or(rest, |(line, _)| line))
     }
 }
 
-/// The part before a `\` at the end of a line, if the line goes on in the next one.
+/// Returns the part before a `\` at the end of a line, if the line goes on in the next one.
 fn continued(line: &str) -> Option<&str> {
     without_comment(line).trim_end().strip_suffix('\\')
 }
@@ -99,19 +85,15 @@ impl<'a> Iterator for Statements<'a> {
     }
 }
 
-/// The first word of a statement and the rest, both without white space around them.
+/// Returns the first word of a statement and the rest, both without white space around them.
 pub(super) fn keyword(statement: &str) -> (&str, &str) {
     let statement = statement.trim();
-    match statement
-        .bytes()
-        .position(|byte| byte.is_ascii_whitespace())
-    {
-        Some(at) => (&statement[..at], statement[at..].trim_start()),
-        None => (statement, ""),
-    }
+    let end = statement.find(|c: char| c.is_ascii_whitespace());
+    let (word, rest) = statement.split_at(end.unwrap_or(statement.len()));
+    (word, rest.trim_start())
 }
 
-/// Where a statement's name may end: the whole rest first, then up to a comment.
+/// Returns the names that the rest of a statement may be: the whole of it first, then the part up to a comment.
 ///
 /// `usemtl red # the lid` and the name `Material #25` are both met in real files; what exists decides.
 pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {

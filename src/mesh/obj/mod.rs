@@ -22,8 +22,7 @@ pub use error::{ObjError, ObjProblem};
 use super::{GivenNormals, Material, MeshBuilder, PolygonMesh};
 use glam::{DVec3, Vec3};
 use mtl::Library;
-use prescan::{Limits, Prescan};
-use std::borrow::ToOwned;
+use prescan::{MeshLimits, Prescan};
 use std::collections::HashMap;
 use std::path::Path;
 use std::string::{String, ToString};
@@ -47,17 +46,21 @@ pub struct LoadedObj {
 /// [`ObjError`] with the line where there is one: the file cannot be read, is not OBJ text, has no polygons, holds numbers that are
 /// not finite or indices that do not exist, or is larger than a [`PolygonMesh`] may be.
 pub fn load_obj(path: &Path) -> Result<LoadedObj, ObjError> {
-    let failed = |problem| ObjError::new(path, None, problem);
+    let failed = |problem| ObjError {
+        path: path.into(),
+        line: None,
+        problem,
+    };
     if path.is_dir() {
         return Err(failed(ObjProblem::Directory));
     }
-    let bytes =
-        fs::read(path).map_err(|error| failed(ObjProblem::Unreadable(error.to_string())))?;
+    let unreadable = |error: io::Error| failed(ObjProblem::Unreadable(error.to_string()));
+    let bytes = fs::read(path).map_err(unreadable)?;
     let directory = path.parent().unwrap_or(Path::new(""));
     parse_obj(path, &bytes, |library| read_library(directory, library))
 }
 
-/// The bytes of the material library `name`, looked for from `directory`, and last by its bare file name there.
+/// Reads the material library `name`, looked for from `directory`, and last by its bare file name there.
 fn read_library(directory: &Path, name: &str) -> io::Result<Vec<u8>> {
     // A device or a pipe might never end.
     let read = |file: &Path| {
@@ -87,7 +90,7 @@ pub fn parse_obj(
     bytes: &[u8],
     load_mtl: impl FnMut(&str) -> io::Result<Vec<u8>>,
 ) -> Result<LoadedObj, ObjError> {
-    let limits = Limits {
+    let limits = MeshLimits {
         polygons: PolygonMesh::MAX_POLYGONS,
         corners: PolygonMesh::MAX_CORNERS,
     };
@@ -98,19 +101,23 @@ fn parse_limited(
     path: &Path,
     bytes: &[u8],
     mut load_mtl: impl FnMut(&str) -> io::Result<Vec<u8>>,
-    limits: Limits,
+    limits: MeshLimits,
 ) -> Result<LoadedObj, ObjError> {
-    if let Some(line) = lines::binary_line(bytes) {
-        return Err(ObjError::new(path, Some(line), ObjProblem::NotText));
-    }
+    let failed = |line, problem| ObjError {
+        path: path.into(),
+        line,
+        problem,
+    };
     let text = lines::decode(bytes);
-    if text.trim().is_empty() {
-        return Err(ObjError::new(path, None, ObjProblem::Empty));
+    if let Some(at) = text.find('\0') {
+        let line = text[..at].matches('\n').count() + 1;
+        return Err(failed(Some(line), ObjProblem::NotText));
     }
-    let scan = prescan::prescan(&text, limits)
-        .map_err(|(line, problem)| ObjError::new(path, line, problem))?;
-    let parsed =
-        parser::parse(&scan).map_err(|why| ObjError::new(path, None, ObjProblem::Parser(why)))?;
+    if text.trim().is_empty() {
+        return Err(failed(None, ObjProblem::Empty));
+    }
+    let scan = prescan::prescan(&text, limits).map_err(|(line, problem)| failed(line, problem))?;
+    let parsed = parser::parse(&scan).map_err(|why| failed(None, ObjProblem::Parser(why)))?;
     let mut warnings = scan.warnings();
 
     let mut builder = MeshBuilder::new(vectors(&parsed.positions));
@@ -122,17 +129,14 @@ fn parse_limited(
         rest = others;
     }
     if scan.has_normals() {
-        let values: Vec<Vec3> = vectors(&parsed.normals)
-            .into_iter()
-            .map(unit_or_zero)
-            .collect();
+        let normals = vectors(&parsed.normals).into_iter();
+        let values: Vec<Vec3> = normals.map(unit_or_zero).collect();
         let zeros = values.iter().filter(|&&n| n == Vec3::ZERO).count();
+        let have = match zeros {
+            1 => "normal of the file has",
+            _ => "normals of the file have",
+        };
         if zeros > 0 {
-            let have = if zeros == 1 {
-                "normal of the file has"
-            } else {
-                "normals of the file have"
-            };
             warnings.push(format!(
                 "{zeros} {have} length zero: averaged ones are used there"
             ));
@@ -145,22 +149,22 @@ fn parse_limited(
     if scan.has_colours() {
         builder.colours(vectors(&parsed.vertex_color));
     }
-    if !scan.material_names.is_empty() {
-        let libraries = Libraries::load(&scan, &mut load_mtl, &mut warnings);
-        let (materials, of_polygons) = assign_materials(&scan, &libraries, &mut warnings);
+    if scan.material_runs.iter().any(|(_, name)| name.is_some()) {
+        let library = Library::load(&scan.libraries, &mut load_mtl, &mut warnings);
+        let (materials, of_polygons) = assign_materials(&scan, &library, &mut warnings);
         builder.materials(materials, of_polygons);
     }
-    let mesh = builder
-        .finish()
-        .map_err(|error| ObjError::new(path, None, ObjProblem::Mesh(error)))?;
+    let mesh = builder.finish();
+    let mesh = mesh.map_err(|error| failed(None, ObjProblem::Mesh(error)))?;
     Ok(LoadedObj { mesh, warnings })
 }
 
+/// Returns the vectors whose coordinates stand one after the other in `flat`.
 fn vectors(flat: &[f32]) -> Vec<Vec3> {
     flat.chunks_exact(3).map(Vec3::from_slice).collect()
 }
 
-/// `normal` with length one, or zero when it has no direction.
+/// Returns `normal` with length one, or zero when it has no direction.
 fn unit_or_zero(normal: Vec3) -> Vec3 {
     // In f64 the squares of f32 numbers neither overflow nor, unless the normal is zero, vanish.
     let wide = DVec3::new(normal.x.into(), normal.y.into(), normal.z.into());
@@ -172,152 +176,53 @@ fn unit_or_zero(normal: Vec3) -> Vec3 {
     }
 }
 
-/// The materials of every `mtllib`.
-struct Libraries {
-    library: Library,
-    /// Which names were asked for, and whether there was such a library.
-    tried: HashMap<String, bool>,
-    /// Why libraries could not be had, until it is told.
-    failures: HashMap<String, io::Error>,
-    /// True if every library could be had.
-    complete: bool,
-}
-
-impl Libraries {
-    fn load(
-        scan: &Prescan,
-        load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
-        warnings: &mut Vec<String>,
-    ) -> Libraries {
-        let mut libraries = Libraries {
-            library: Library::default(),
-            tried: HashMap::new(),
-            failures: HashMap::new(),
-            complete: true,
-        };
-        for (line, rest) in &scan.libraries {
-            if lines::name_candidates(rest).any(|name| libraries.add(name, load_mtl, warnings)) {
-                continue;
-            }
-            for name in library_names(lines::without_comment(rest)) {
-                if libraries.add(&name, load_mtl, warnings) {
-                    continue;
-                }
-                libraries.complete = false;
-                if let Some(error) = libraries.failures.remove(&name) {
-                    let name = error::quote(&name);
-                    warnings.push(format!(
-                        "material library `{name}` (line {line}) cannot be read: {error}"
-                    ));
-                }
-            }
-        }
-        libraries
-    }
-
-    /// Adds the library `name`, unless it was added before; false when there is none.
-    fn add(
-        &mut self,
-        name: &str,
-        load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
-        warnings: &mut Vec<String>,
-    ) -> bool {
-        if let Some(&found) = self.tried.get(name) {
-            return found;
-        }
-        let loaded = load_mtl(name);
-        self.tried.insert(name.to_owned(), loaded.is_ok());
-        match loaded {
-            Ok(bytes) => {
-                self.library.add(name, &bytes, warnings);
-                true
-            }
-            Err(error) => {
-                self.failures.insert(name.to_owned(), error);
-                false
-            }
-        }
-    }
-}
-
-/// The file names in an `mtllib` line that is not one file name: each ends with `.mtl`, as names may hold spaces.
-fn library_names(rest: &str) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    let mut open = false;
-    for word in rest.split_whitespace() {
-        match names.last_mut() {
-            Some(name) if open => {
-                name.push(' ');
-                name.push_str(word);
-            }
-            _ => names.push(word.to_owned()),
-        }
-        open = !word
-            .trim_end_matches('"')
-            .to_ascii_lowercase()
-            .ends_with(".mtl");
-    }
-    names
-        .iter()
-        .map(|name| name.trim_matches('"').to_owned())
-        .collect()
-}
-
-/// The materials that polygons use, and for each polygon the one it has.
+/// Returns the materials that polygons use, and for each polygon the index of its own, `u32::MAX` for none.
 fn assign_materials(
     scan: &Prescan,
-    libraries: &Libraries,
+    library: &Library,
     warnings: &mut Vec<String>,
 ) -> (Vec<Material>, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let mut materials = Vec::new();
     let mut unknown = Vec::new();
-    // For each name: not asked for yet, or the material it stands for.
-    let mut numbers: Vec<Option<u32>> = vec![None; scan.material_names.len()];
+    let mut numbers = HashMap::new();
     let mut of_polygons = vec![NONE; scan.polygons];
-    for (run, &(start, name)) in scan.material_runs.iter().enumerate() {
-        let end = scan
-            .material_runs
-            .get(run + 1)
-            .map_or(scan.polygons, |&(next, _)| next);
-        let Some(name) = name.filter(|_| start < end) else {
+    let starts = scan.material_runs.iter().map(|(start, _)| *start);
+    let ends = starts.skip(1).chain([scan.polygons]);
+    for ((start, name), end) in scan.material_runs.iter().zip(ends) {
+        let Some(name) = name.as_ref().filter(|_| *start < end) else {
             continue;
         };
-        let number = *numbers[name].get_or_insert_with(|| {
-            match libraries.library.find(&scan.material_names[name]) {
+        let number = *numbers
+            .entry(name)
+            .or_insert_with(|| match library.find(name) {
                 Some(material) => {
                     materials.push(material);
                     materials.len() as u32 - 1
                 }
                 None => {
-                    unknown.push(format!("`{}`", error::quote(&scan.material_names[name])));
+                    unknown.push(format!("`{}`", error::quote(name)));
                     NONE
                 }
-            }
-        });
-        of_polygons[start..end].fill(number);
+            });
+        of_polygons[*start..end].fill(number);
     }
     // One missing library explains all names that are missing.
-    if libraries.complete && !unknown.is_empty() {
+    if library.is_complete && !unknown.is_empty() {
         warnings.push(format!(
             "no material library defines {}: the default material is used",
             list(&unknown)
         ));
     }
-    if materials.is_empty() {
-        (materials, Vec::new())
-    } else {
-        (materials, of_polygons)
-    }
+    (materials, of_polygons)
 }
 
-/// `a`, `b` and 7 more: at most five names.
+/// Returns `a`, `b` and 7 more: at most five names.
 fn list(names: &[String]) -> String {
-    const SHOWN: usize = 5;
-    let shown = names[..names.len().min(SHOWN)].join(", ");
-    if names.len() > SHOWN {
-        format!("{shown} and {} more", names.len() - SHOWN)
-    } else {
-        shown
-    }
+    let (shown, others) = names.split_at(names.len().min(5));
+    let more = match others.len() {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    shown.join(", ") + &more
 }

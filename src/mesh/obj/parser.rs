@@ -14,7 +14,7 @@ pub(super) fn guarded<T>(parse: impl FnOnce() -> Result<T, tobj::LoadError>) -> 
     }
 }
 
-/// The one model in the text of `scan`, polygons with all their sides, positions and normals with indices of their own.
+/// Parses the one model in the text of `scan`: polygons with all their sides, positions and normals with indices of their own.
 pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
     let options = tobj::LoadOptions {
         single_index: false,
@@ -33,19 +33,15 @@ pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
         mesh.face_arities.resize(scan.polygons, 3);
     }
     let corners: usize = mesh.face_arities.iter().map(|&n| n as usize).sum();
-    let normals_fit = !scan.has_normals() || mesh.normal_indices.len() == corners;
-    let colours_fit = !scan.has_colours() || mesh.vertex_color.len() == mesh.positions.len();
-    if mesh.face_arities.len() != scan.polygons
-        || corners != scan.corners
-        || mesh.indices.len() != corners
-        || !normals_fit
-        || !colours_fit
-    {
+    let found = (mesh.face_arities.len(), corners);
+    let fits = found == (scan.polygons, scan.corners)
+        && mesh.indices.len() == corners
+        && (!scan.has_normals() || mesh.normal_indices.len() == corners)
+        && (!scan.has_colours() || mesh.vertex_color.len() == mesh.positions.len());
+    if !fits {
         return Err(format!(
             "{} polygons with {corners} corners where {} with {} were given",
-            mesh.face_arities.len(),
-            scan.polygons,
-            scan.corners
+            found.0, scan.polygons, scan.corners
         ));
     }
     Ok(mesh)

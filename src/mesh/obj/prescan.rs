@@ -5,234 +5,217 @@
 //! that is out of range, and starts again with other vertices at each `g`. So it is given positions, normals and faces only,
 //! with absolute indices, as one group; groups, materials and smoothing are followed here.
 
-use super::corner::{Corner, WrittenCorner, push_decimal, resolve};
+use super::corner::{Entries, ObjCorner, WrittenCorner};
 use super::error::{ObjProblem, quote};
 use super::lines::{Statements, is_plain_number, keyword, without_comment};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::format;
+use std::io::Write;
 use std::string::String;
 use std::vec::Vec;
 
-/// How large a mesh may become; the true limits except in tests.
-#[derive(Clone, Copy)]
-pub(super) struct Limits {
+/// The largest mesh that is read: [`PolygonMesh`](crate::mesh::PolygonMesh)'s limits except in tests.
+#[derive(Clone, Copy, Default)]
+pub(super) struct MeshLimits {
     pub polygons: usize,
     pub corners: usize,
 }
 
-/// Something that is passed over with one warning: how often, and where first.
-#[derive(Default)]
-pub(super) struct Tally {
-    pub count: usize,
-    pub line: usize,
+/// A thing that is passed over, or read in another way than it may be meant: one warning, however often it occurs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
+enum Oddity {
+    #[error("points and lines are not drawn")]
+    PointOrLine,
+    #[error("free-form curves and surfaces are not read, only polygons")]
+    FreeForm,
+    #[error("is no OBJ statement and is passed over")]
+    Unknown,
+    #[error("a face of fewer than three different corners is left out")]
+    SmallFace,
+    #[error("a corner that repeats the one before it is left out")]
+    RepeatedCorner,
+    #[error("the weight w of a position is ignored")]
+    Weight,
+    #[error("a position has no colour: the colours of the others are not used")]
+    NoColour,
+    #[error(
+        "the colour of a position is not within 0 to 1: what is shown is clamped at each pixel"
+    )]
+    ColourOutOfRange,
+    #[error("a texture coordinate that does not exist is ignored, as all of them are")]
+    NoTextureCoordinate,
+    #[error("a face has corners without a normal: averaged normals are used for the whole mesh")]
+    NoNormal,
+    #[error(
+        "smoothing groups are ignored, normals are averaged over all polygons: a crease angle keeps edges sharp"
+    )]
+    SmoothingGroups,
 }
 
-impl Tally {
-    fn add(&mut self, line: usize) {
-        if self.count == 0 {
-            self.line = line;
-        }
-        self.count += 1;
-    }
-
-    /// The warning, if there was anything: `(4 times, first in line 12)` follows `what`.
-    fn warn(&self, what: &str, warnings: &mut Vec<String>) {
-        match self.count {
-            0 => {}
-            1 => warnings.push(format!("{what} (line {})", self.line)),
-            n => warnings.push(format!("{what} ({n} times, first in line {})", self.line)),
-        }
-    }
+/// The occurrences of an [`Oddity`].
+struct Occurrences {
+    count: usize,
+    first_line: usize,
 }
 
-/// What the pass found.
+/// The text for the parser, and all that the parser does not see.
 #[derive(Default)]
 pub(super) struct Prescan {
     /// The text for the parser.
     pub text: Vec<u8>,
-    /// How many polygons it holds.
+    /// The number of polygons in it.
     pub polygons: usize,
-    /// How many corners they have together.
+    /// The number of corners of all of them.
     pub corners: usize,
-    /// The names of `usemtl`, each once.
-    pub material_names: Vec<String>,
-    /// Which of the names holds from which polygon on; `None` for none.
-    pub material_runs: Vec<(usize, Option<usize>)>,
-    /// What follows each `mtllib`, with its line.
+    /// Each `usemtl`: the first polygon that it holds for, and the name; `None` for none.
+    pub material_runs: Vec<(usize, Option<String>)>,
+    /// The rest of each `mtllib`, with its line.
     pub libraries: Vec<(usize, String)>,
-    material_numbers: HashMap<String, usize>,
-    corners_with_normal: usize,
-    faces_without_normal: Tally,
-    positions: usize,
-    normals: usize,
+    limits: MeshLimits,
+    positions: Entries,
+    normals: Entries,
     texture_coordinates: usize,
-    /// Indices past the positions (first) or normals (second) so far, each larger than those before it.
-    ahead: [Vec<(usize, usize)>; 2],
-    smoothing: Smoothing,
-    points_or_lines: Tally,
-    free_form: Tally,
-    unknown: Tally,
+    corners_with_normal: usize,
+    /// The number of positions with a colour.
+    colours: usize,
+    /// True if the first position has a colour: the parser is then given one with each, white where there is none.
+    writes_colours: bool,
+    /// The smoothing group that holds now: `None` before any `s`, 0 for `s off`.
+    smoothing: Option<u64>,
+    /// The smoothing group of the first face.
+    first_smoothing: Option<Option<u64>>,
+    /// The first word that is no statement.
     unknown_word: String,
-    small_faces: Tally,
-    repeated_corners: Tally,
-    weights: Tally,
-    colours: Colours,
-    lost_texture_indices: Tally,
+    oddities: BTreeMap<Oddity, Occurrences>,
 }
-
-/// Which positions have a colour.
-#[derive(Default)]
-struct Colours {
-    /// True if the first one has: then the parser is given a colour with each, white where there is none.
-    written: bool,
-    /// Positions with a colour.
-    count: usize,
-    /// Positions without one.
-    missing: Tally,
-    /// Colours over 1 or below 0.
-    out_of_range: Tally,
-}
-
-/// Which smoothing groups the faces are in.
-#[derive(Default)]
-struct Smoothing {
-    /// The group that holds now: `None` before any `s`, 0 for `s off`.
-    current: Option<u64>,
-    /// The group of the first face.
-    first: Option<Option<u64>>,
-    /// Faces of another group than the first, or of none by `s off`.
-    edges: Tally,
-}
-
-/// Where and what: an error without its path.
-type Failure = (Option<usize>, ObjProblem);
 
 /// Reads all of `text`.
 ///
 /// # Errors
-/// The first line that is wrong, and how.
-pub(super) fn prescan(text: &str, limits: Limits) -> Result<Prescan, Failure> {
+/// The first line that is wrong, or `None` for the file as a whole, and the problem.
+pub(super) fn prescan(
+    text: &str,
+    limits: MeshLimits,
+) -> Result<Prescan, (Option<usize>, ObjProblem)> {
     let mut scan = Prescan {
         text: Vec::with_capacity(text.len()),
+        limits,
+        positions: Entries::new("position"),
+        normals: Entries::new("normal"),
         ..Prescan::default()
     };
     let mut corners = Vec::new();
     for (line, statement) in Statements::new(text) {
-        scan.statement(line, &statement, &mut corners, limits)
+        scan.statement(line, &statement, &mut corners)
             .map_err(|problem| (Some(line), problem))?;
     }
-    scan.check_ahead()?;
-    if scan.polygons == 0 {
-        return Err((
-            None,
-            ObjProblem::NoPolygons {
-                points_or_lines: scan.points_or_lines.count > 0,
-            },
-        ));
+    let missing = [scan.positions.missing(), scan.normals.missing()];
+    if let Some((line, problem)) = missing.into_iter().flatten().min_by_key(|(line, _)| *line) {
+        return Err((Some(line), problem));
     }
-    Ok(scan)
+    match scan.polygons {
+        0 if scan.has(Oddity::PointOrLine) => Err((None, ObjProblem::OnlyPointsOrLines)),
+        0 => Err((None, ObjProblem::NoPolygons)),
+        _ => Ok(scan),
+    }
 }
 
 impl Prescan {
     /// True if every corner has a normal: only then the normals of the file are used.
     pub(super) fn has_normals(&self) -> bool {
-        self.corners_with_normal > 0 && self.faces_without_normal.count == 0
+        self.corners_with_normal > 0 && !self.has(Oddity::NoNormal)
     }
 
     /// True if every position has a colour: only then the colours of the file are used.
     pub(super) fn has_colours(&self) -> bool {
-        self.colours.count > 0 && self.colours.missing.count == 0
+        self.colours > 0 && !self.has(Oddity::NoColour)
     }
 
-    /// What was passed over or read in another way than it may be meant.
+    /// Returns a line for each kind of thing that was passed over or read in another way than it may be meant.
     pub(super) fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        let w = &mut warnings;
-        self.points_or_lines
-            .warn("points and lines are not drawn", w);
-        self.free_form.warn(
-            "free-form curves and surfaces are not read, only polygons",
-            w,
-        );
-        self.unknown.warn(
-            &format!(
-                "`{}` is no OBJ statement and is passed over",
-                self.unknown_word
-            ),
-            w,
-        );
-        self.small_faces.warn(
-            "a face of fewer than three different corners is left out",
-            w,
-        );
-        self.repeated_corners
-            .warn("a corner that repeats the one before it is left out", w);
-        self.weights
-            .warn("the weight w of a position is ignored", w);
-        if self.colours.count > 0 {
-            self.colours.missing.warn(
-                "a position has no colour: the colours of the others are not used",
-                w,
-            );
-        }
-        if self.has_colours() {
-            self.colours
-                .out_of_range
-                .warn("the colour of a position is not within 0 to 1: what is shown is clamped at each pixel", w);
-        }
-        self.lost_texture_indices.warn(
-            "a texture coordinate that does not exist is ignored, as all of them are",
-            w,
-        );
-        if self.corners_with_normal > 0 {
-            let what =
-                "a face has corners without a normal: averaged normals are used for the whole mesh";
-            self.faces_without_normal.warn(what, w);
-        }
-        if !self.has_normals() {
-            let what = "smoothing groups are ignored, normals are averaged over all polygons: a crease angle keeps edges sharp";
-            self.smoothing.edges.warn(what, w);
-        }
-        warnings
+        let matters = |oddity: &Oddity| match oddity {
+            Oddity::NoColour => self.colours > 0,
+            Oddity::ColourOutOfRange => self.has_colours(),
+            Oddity::NoNormal => self.corners_with_normal > 0,
+            Oddity::SmoothingGroups => !self.has_normals(),
+            _ => true,
+        };
+        let oddities = self.oddities.iter().filter(|(oddity, _)| matters(oddity));
+        oddities
+            .map(|(oddity, &Occurrences { count, first_line })| {
+                let subject = match oddity {
+                    Oddity::Unknown => format!("`{}` ", self.unknown_word),
+                    _ => String::new(),
+                };
+                match count {
+                    1 => format!("{subject}{oddity} (line {first_line})"),
+                    n => format!("{subject}{oddity} ({n} times, first in line {first_line})"),
+                }
+            })
+            .collect()
+    }
+
+    fn has(&self, oddity: Oddity) -> bool {
+        self.oddities.contains_key(&oddity)
+    }
+
+    fn note(&mut self, line: usize, oddity: Oddity) {
+        let occurrences = self.oddities.entry(oddity).or_insert(Occurrences {
+            count: 0,
+            first_line: line,
+        });
+        occurrences.count += 1;
     }
 
     fn statement(
         &mut self,
         line: usize,
         statement: &str,
-        corners: &mut Vec<Corner>,
-        limits: Limits,
+        corners: &mut Vec<ObjCorner>,
     ) -> Result<(), ObjProblem> {
         let (word, rest) = keyword(statement);
         match word {
-            "v" => self.vector("v", line, rest)?,
-            "vn" => self.vector("vn", line, rest)?,
+            "v" => self.position(line, rest)?,
+            "vn" => {
+                self.vector("vn", rest)?;
+                self.text.push(b'\n');
+                self.normals.count += 1;
+            }
             "vt" => self.texture_coordinates += 1,
-            // `fo` is what version 2 of the format called a face.
-            "f" | "fo" => self.face(line, rest, corners, limits)?,
-            "usemtl" => self.use_material(rest),
+            // Version 2 of the format called a face `fo`.
+            "f" | "fo" => self.face(line, rest, corners)?,
+            "usemtl" => {
+                let name = (!rest.is_empty()).then(|| rest.into());
+                self.material_runs.push((self.polygons, name));
+            }
             "mtllib" => self.libraries.push((line, rest.into())),
-            "s" => self.smoothing.current = Some(smoothing_group(without_comment(rest).trim())),
-            "p" | "l" => self.points_or_lines.add(line),
-            _ if word.is_empty() || word.starts_with('#') || GROUPING.contains(&word) => {}
-            _ if FREE_FORM.contains(&word) => self.free_form.add(line),
+            "s" => self.smoothing = Some(smoothing_group(without_comment(rest).trim())),
+            "p" | "l" => self.note(line, Oddity::PointOrLine),
+            // Names, groups, textures, levels of detail, display: nothing that shows in a picture of polygons.
+            "o" | "g" | "mg" | "usemap" | "maplib" | "bevel" | "c_interp" | "d_interp" | "lod"
+            | "shadow_obj" | "trace_obj" | "ctech" | "stech" | "call" => {}
+            "vp" | "cstype" | "deg" | "bmat" | "step" | "curv" | "curv2" | "surf" | "parm"
+            | "trim" | "hole" | "scrv" | "sp" | "end" | "con" | "bsp" | "bzp" | "cdc" | "cdp"
+            | "res" | "csh" | "fm" => self.note(line, Oddity::FreeForm),
+            _ if word.is_empty() || word.starts_with('#') => {}
             _ => {
-                if self.unknown.count == 0 {
+                if !self.has(Oddity::Unknown) {
                     self.unknown_word = quote(word);
                 }
-                self.unknown.add(line);
+                self.note(line, Oddity::Unknown);
             }
         }
         Ok(())
     }
 
-    /// A position or a normal: three finite numbers; a position may have a colour, three more. What else follows (a weight)
-    /// is checked and dropped.
-    fn vector(&mut self, keyword: &'static str, line: usize, rest: &str) -> Result<(), ObjProblem> {
-        let bad = |word: &str| ObjProblem::BadNumber {
-            keyword,
-            found: quote(word),
-        };
+    /// Reads a vector: three finite numbers, which are written for the parser, and others after them, which are checked.
+    ///
+    /// Returns the fourth to sixth number, 0 where there are fewer, and the number of all.
+    fn vector(
+        &mut self,
+        keyword: &'static str,
+        rest: &str,
+    ) -> Result<([f32; 3], usize), ObjProblem> {
         let mut found = 0;
         let mut more = [0.0; 3];
         self.text.extend_from_slice(keyword.as_bytes());
@@ -246,214 +229,122 @@ impl Prescan {
                     continue;
                 }
             }
-            let number: f32 = word.parse().map_err(|_| bad(word))?;
-            if !number.is_finite() {
-                return Err(bad(word));
-            }
+            let number = word.parse().ok().filter(|number: &f32| number.is_finite());
+            let number = number.ok_or_else(|| ObjProblem::BadNumber {
+                keyword,
+                found: quote(word),
+            })?;
             if (4..=6).contains(&found) {
                 more[found - 4] = number;
             }
         }
-        if found < 3 {
-            return Err(ObjProblem::TooFewNumbers { keyword, found });
+        match found {
+            3.. => Ok((more, found)),
+            _ => Err(ObjProblem::TooFewNumbers { keyword, found }),
         }
-        if keyword == "vn" {
-            self.text.push(b'\n');
-            self.normals += 1;
-            return Ok(());
-        }
-        self.colour(line, (found == 6).then_some(more));
-        self.text.push(b'\n');
-        self.positions += 1;
-        if found == 4 && more[0] != 1.0 {
-            self.weights.add(line);
-        }
-        Ok(())
     }
 
-    /// The colour of the position that was just read, if it has one.
-    fn colour(&mut self, line: usize, colour: Option<[f32; 3]>) {
-        let colours = &mut self.colours;
-        colours.written |= self.positions == 0 && colour.is_some();
-        match colour {
-            Some(colour) => {
-                colours.count += 1;
-                if !colour.iter().all(|c| (0.0..=1.0).contains(c)) {
-                    colours.out_of_range.add(line);
-                }
-            }
-            None => colours.missing.add(line),
+    /// Reads a position: three numbers, with a colour (three more) or a weight (one more), which is dropped.
+    fn position(&mut self, line: usize, rest: &str) -> Result<(), ObjProblem> {
+        let (more, found) = self.vector("v", rest)?;
+        if found == 4 && more[0] != 1.0 {
+            self.note(line, Oddity::Weight);
         }
-        if colours.written {
-            let [r, g, b] = colour.unwrap_or([1.0; 3]);
+        if found != 6 {
+            self.note(line, Oddity::NoColour);
+        } else {
+            self.writes_colours |= self.positions.count == 0;
+            self.colours += 1;
+            if !more.iter().all(|channel| (0.0..=1.0).contains(channel)) {
+                self.note(line, Oddity::ColourOutOfRange);
+            }
+        }
+        if self.writes_colours {
+            let [r, g, b] = if found == 6 { more } else { [1.0; 3] };
             self.text
                 .extend_from_slice(format!(" {r} {g} {b}").as_bytes());
         }
+        self.text.push(b'\n');
+        self.positions.count += 1;
+        Ok(())
     }
 
     fn face(
         &mut self,
         line: usize,
         rest: &str,
-        corners: &mut Vec<Corner>,
-        limits: Limits,
+        corners: &mut Vec<ObjCorner>,
     ) -> Result<(), ObjProblem> {
         corners.clear();
-        let mut repeats = false;
         for word in without_comment(rest).split_ascii_whitespace() {
-            let corner = self.corner(line, word)?;
-            if corners
-                .last()
-                .is_some_and(|last: &Corner| last.0 == corner.0)
-            {
-                repeats = true;
-            } else {
-                corners.push(corner);
-            }
+            corners.push(self.corner(line, word)?);
         }
-        while corners.len() > 1 && corners[0].0 == corners[corners.len() - 1].0 {
+        let written = corners.len();
+        corners.dedup_by_key(|corner| corner.position);
+        while corners.len() > 1 && corners[0].position == corners[corners.len() - 1].position {
             corners.pop();
-            repeats = true;
         }
         if corners.len() < 3 {
-            self.small_faces.add(line);
+            self.note(line, Oddity::SmallFace);
             return Ok(());
         }
-        if repeats {
-            self.repeated_corners.add(line);
+        if corners.len() < written {
+            self.note(line, Oddity::RepeatedCorner);
         }
-        if self.polygons == limits.polygons {
+        if self.polygons == self.limits.polygons {
             return Err(ObjProblem::TooManyPolygons);
         }
-        if corners.len() > limits.corners - self.corners {
+        if corners.len() > self.limits.corners - self.corners {
             return Err(ObjProblem::TooManyCorners);
         }
         self.polygons += 1;
         self.corners += corners.len();
-        self.smoothing.face(line);
+        let first = *self.first_smoothing.get_or_insert(self.smoothing);
+        if self.smoothing != first || self.smoothing == Some(0) {
+            self.note(line, Oddity::SmoothingGroups);
+        }
         self.write_face(line, corners);
         Ok(())
     }
 
-    fn write_face(&mut self, line: usize, corners: &[Corner]) {
+    fn write_face(&mut self, line: usize, corners: &[ObjCorner]) {
         self.text.push(b'f');
-        for &(position, normal) in corners {
-            self.text.push(b' ');
-            push_decimal(&mut self.text, position + 1);
-            if let Some(normal) = normal {
-                self.text.extend_from_slice(b"//");
-                push_decimal(&mut self.text, normal + 1);
+        for corner in corners {
+            push_decimal(&mut self.text, b" ", corner.position + 1);
+            if let Some(normal) = corner.normal {
+                push_decimal(&mut self.text, b"//", normal + 1);
                 self.corners_with_normal += 1;
             }
         }
         self.text.push(b'\n');
-        if corners.iter().any(|(_, normal)| normal.is_none()) {
-            self.faces_without_normal.add(line);
+        if corners.iter().any(|corner| corner.normal.is_none()) {
+            self.note(line, Oddity::NoNormal);
         }
     }
 
-    fn corner(&mut self, line: usize, word: &str) -> Result<Corner, ObjProblem> {
+    fn corner(&mut self, line: usize, word: &str) -> Result<ObjCorner, ObjProblem> {
         let written = WrittenCorner::read(word)?;
         if let Some(index) = written.texture
             && (index == 0 || index.unsigned_abs() > self.texture_coordinates as u64)
         {
-            self.lost_texture_indices.add(line);
+            self.note(line, Oddity::NoTextureCoordinate);
         }
-        let position = resolve(
-            "position",
-            written.position,
-            self.positions,
-            line,
-            &mut self.ahead[0],
-        )?;
+        let position = self.positions.resolve(line, written.position)?;
         let normal = match written.normal {
-            Some(index) => Some(resolve(
-                "normal",
-                index,
-                self.normals,
-                line,
-                &mut self.ahead[1],
-            )?),
+            Some(index) => Some(self.normals.resolve(line, index)?),
             None => None,
         };
-        Ok((position, normal))
-    }
-
-    /// The indices that were past the end when they were met: a later line may have brought what they name.
-    fn check_ahead(&self) -> Result<(), Failure> {
-        let missing = |which: usize, what: &'static str, count: usize| {
-            let &(line, index) = self.ahead[which]
-                .iter()
-                .find(|&&(_, index)| index >= count)?;
-            Some((
-                line,
-                ObjProblem::IndexOutOfRange {
-                    what,
-                    index: index as i64 + 1,
-                    count,
-                },
-            ))
-        };
-        let position = missing(0, "position", self.positions);
-        let normal = missing(1, "normal", self.normals);
-        match position
-            .into_iter()
-            .chain(normal)
-            .min_by_key(|&(line, _)| line)
-        {
-            Some((line, problem)) => Err((Some(line), problem)),
-            None => Ok(()),
-        }
-    }
-
-    fn use_material(&mut self, name: &str) {
-        let next = self.material_numbers.len();
-        let current = (!name.is_empty()).then(|| match self.material_numbers.get(name) {
-            Some(&known) => known,
-            None => {
-                self.material_numbers.insert(name.into(), next);
-                self.material_names.push(name.into());
-                next
-            }
-        });
-        self.material_runs.push((self.polygons, current));
+        Ok(ObjCorner { position, normal })
     }
 }
 
-impl Smoothing {
-    fn face(&mut self, line: usize) {
-        let first = *self.first.get_or_insert(self.current);
-        if self.current != first || self.current == Some(0) {
-            self.edges.add(line);
-        }
-    }
-}
-
-/// The number of a smoothing group: 0 for `off`, and for what is no number.
+/// Returns the number of a smoothing group: 0 for `off`, and for a word that is no number.
 fn smoothing_group(word: &str) -> u64 {
     word.parse().unwrap_or(if word == "on" { 1 } else { 0 })
 }
 
-/// Statements that change nothing in a picture of polygons: names, groups, textures, levels of detail, display.
-const GROUPING: [&str; 14] = [
-    "o",
-    "g",
-    "mg",
-    "usemap",
-    "maplib",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "shadow_obj",
-    "trace_obj",
-    "ctech",
-    "stech",
-    "call",
-];
-
-/// Statements of free-form curves and surfaces.
-const FREE_FORM: [&str; 22] = [
-    "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
-    "sp", "end", "con", "bsp", "bzp", "cdc", "cdp", "res", "csh", "fm",
-];
+/// Appends a separator and `number` in decimal.
+fn push_decimal(text: &mut Vec<u8>, separator: &[u8], number: usize) {
+    text.extend_from_slice(separator);
+    write!(text, "{number}").expect("memory takes every byte");
+}

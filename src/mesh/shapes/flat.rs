@@ -6,13 +6,13 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec2, DVec3, Vec3};
 
-/// The point at `k / n` of a turn, counter-clockwise from the top, on the circle of radius `radius`.
+/// Returns the point at `k / n` of a turn, counter-clockwise from the top, on the circle of radius `radius`.
 fn around(radius: f64, k: usize, n: usize) -> DVec2 {
     let (sin, cos) = turn(k, n);
     radius * DVec2::new(-sin, cos)
 }
 
-/// The corners of a star with `points` points on the unit circle, and as many corners between them at radius `inner`.
+/// Returns the corners of a star with `points` points on the unit circle, and as many corners between them at radius `inner`.
 pub(super) fn star_outline(points: usize, inner: f64) -> Vec<DVec2> {
     let n = 2 * points.max(2);
     (0..n)
@@ -20,7 +20,7 @@ pub(super) fn star_outline(points: usize, inner: f64) -> Vec<DVec2> {
         .collect()
 }
 
-/// One polygon for each outline; outlines share no corners.
+/// Makes one polygon for each outline; outlines share no corners.
 fn flat(outlines: &[Vec<DVec2>]) -> Result<PolygonMesh, MeshError> {
     let corners: usize = outlines.iter().map(Vec::len).sum();
     if corners > PolygonMesh::MAX_CORNERS {
@@ -43,7 +43,7 @@ fn flat(outlines: &[Vec<DVec2>]) -> Result<PolygonMesh, MeshError> {
     builder.finish()
 }
 
-/// One equilateral triangle in the unit circle, a corner at the top.
+/// Makes one equilateral triangle in the unit circle, a corner at the top.
 ///
 /// # Errors
 /// None in practice: three corners are always a mesh.
@@ -51,7 +51,7 @@ pub fn triangle() -> Result<PolygonMesh, MeshError> {
     polygon(3)
 }
 
-/// One regular polygon of `sides` sides in the unit circle, a corner at the top.
+/// Makes one regular polygon of `sides` sides in the unit circle, a corner at the top.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`].
@@ -60,7 +60,7 @@ pub fn polygon(sides: usize) -> Result<PolygonMesh, MeshError> {
     flat(&[(0..n).map(|k| around(1.0, k, n)).collect()])
 }
 
-/// One star-shaped polygon: `points` points on the unit circle, the corners between them at radius `inner`.
+/// Makes one star-shaped polygon: `points` points on the unit circle, the corners between them at radius `inner`.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if `inner` is not finite.
@@ -68,7 +68,7 @@ pub fn star(points: usize, inner: f64) -> Result<PolygonMesh, MeshError> {
     flat(&[star_outline(points, inner)])
 }
 
-/// One comb-shaped polygon of 4 `teeth` sides, 2 wide and 1 high: a scan line crosses it up to 2 `teeth` times.
+/// Makes one comb-shaped polygon of 4 `teeth` sides, 2 wide and 1 high: a scan line crosses it up to 2 `teeth` times.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`].
@@ -159,7 +159,7 @@ const SHINE: [&[[i8; 2]]; 5] = [
     ],
 ];
 
-/// The word SHINE in block letters: five concave polygons of 10 or 12 sides, 2 wide and 0.5 high.
+/// Makes the word SHINE in block letters: five concave polygons of 10 or 12 sides, 2 wide and 0.5 high.
 ///
 /// # Errors
 /// None in practice: the letters are always a mesh.
@@ -177,7 +177,7 @@ pub fn letters() -> Result<PolygonMesh, MeshError> {
     flat(&outlines)
 }
 
-/// The square of Figure 5 (L21 3), turned counter-clockwise by `angle` degrees: a quad with its normals given, whose
+/// Makes the square of Figure 5 (L21 3), turned counter-clockwise by `angle` degrees: a quad with its normals given, whose
 /// shading by scan lines depends on how it is turned.
 ///
 /// The square stands on a corner, and has corners at distance 1. Three corners have the normal (0, 0, 1), and the lowest

@@ -4,7 +4,7 @@ use crate::mesh::{GivenNormals, MeshBuilder, MeshError, PolygonMesh};
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
-/// How the edges of a parameter grid are joined.
+/// The joining of the edges of a parameter grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Topology {
     /// Not at all: four open edges.
@@ -17,8 +17,8 @@ pub enum Topology {
 
 /// A grid of cells over a surface: quads, or two triangles each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grid {
-    /// How its edges are joined.
+pub struct ParameterGrid {
+    /// The joining of its edges.
     pub topology: Topology,
     /// Cells along the first parameter; 3 at least where columns are joined, else 1.
     pub columns: usize,
@@ -28,15 +28,15 @@ pub struct Grid {
     pub triangles: bool,
 }
 
-impl Grid {
-    /// The grid, with resolutions that are too low raised to the least that the topology allows.
+impl ParameterGrid {
+    /// Makes the grid, with resolutions that are too low raised to the least that the topology allows.
     pub fn new(topology: Topology, columns: usize, rows: usize, triangles: bool) -> Self {
         let (least_columns, least_rows) = match topology {
             Topology::Sheet => (1, 1),
             Topology::Ball => (3, 2),
             Topology::Tube => (3, 3),
         };
-        Grid {
+        ParameterGrid {
             topology,
             columns: columns.max(least_columns),
             rows: rows.max(least_rows),
@@ -44,7 +44,7 @@ impl Grid {
         }
     }
 
-    /// How many polygons the mesh has; `u64::MAX` where that overflows.
+    /// Returns the number of polygons of the mesh; `u64::MAX` where that overflows.
     pub fn polygon_count(&self) -> u64 {
         let (columns, rows) = (self.columns as u64, self.rows as u64);
         match (self.topology, self.triangles) {
@@ -54,7 +54,7 @@ impl Grid {
         }
     }
 
-    /// The mesh of the surface whose point and unit normal at `(column, row)` is `surface(column, row)`.
+    /// Makes the mesh of the surface whose point and unit normal at `(column, row)` is `surface(column, row)`.
     ///
     /// Polygons are counter-clockwise seen from the side of ∂column × ∂row. `surface` is asked for each position once,
     /// row after row, at a pole for column 0.
@@ -105,7 +105,7 @@ impl Grid {
         self.topology == Topology::Ball && (row == 0 || row == self.rows)
     }
 
-    /// The index of the position at `(column, row)`, with both wrapped where the grid is joined.
+    /// Returns the index of the position at `(column, row)`, with both wrapped where the grid is joined.
     fn index(&self, column: usize, row: usize) -> u32 {
         let wrapped = if column == self.columns { 0 } else { column };
         let index = match self.topology {

@@ -17,7 +17,7 @@ pub(in crate::mesh) mod teapot_data;
 mod torus;
 
 pub use flat::{comb, figure5, letters, polygon, star, triangle};
-pub use grid::{Grid, Topology};
+pub use grid::{ParameterGrid, Topology};
 pub use sheet::{Terrain, corrugated, terrain};
 pub use solid::{cube, gear, prism};
 pub use sphere::{bumpy, sphere};
@@ -28,7 +28,7 @@ pub use torus::{knot, torus};
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
-/// Sine and cosine of `k / n` of a full turn, exact at quarter turns and symmetric between them.
+/// Returns sine and cosine of `k / n` of a full turn, exact at quarter turns and symmetric between them.
 fn turn(k: usize, n: usize) -> (f64, f64) {
     // 4k/n quarter turns: the whole ones, and the rest in n-ths of a quarter.
     let quarters = 4 * (k % n) as u64;
@@ -51,7 +51,7 @@ fn turn(k: usize, n: usize) -> (f64, f64) {
     }
 }
 
-/// All `n` of [`turn`].
+/// Returns all `n` of [`turn`].
 fn turns(n: usize) -> Vec<(f64, f64)> {
     (0..n).map(|k| turn(k, n)).collect()
 }

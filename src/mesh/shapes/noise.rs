@@ -34,7 +34,7 @@ pub(super) fn gradient_noise(p: DVec2, seed: u64) -> (f64, DVec2) {
     (value, gradient)
 }
 
-/// The sum of `octaves` of [`gradient_noise`], each of twice the frequency and half the height of the one before.
+/// Returns the sum of `octaves` of [`gradient_noise`], each of twice the frequency and half the height of the one before.
 pub(super) fn fractal_noise(p: DVec2, octaves: usize, seed: u64) -> (f64, DVec2) {
     let (mut value, mut gradient) = (0.0, DVec2::ZERO);
     let (mut frequency, mut height) = (1.0, 1.0);
@@ -48,14 +48,14 @@ pub(super) fn fractal_noise(p: DVec2, octaves: usize, seed: u64) -> (f64, DVec2)
     (value, gradient)
 }
 
-/// A vector with components in −1..1 for each point of the lattice.
+/// Returns a vector with components in −1..1 for each point of the lattice.
 fn lattice_gradient(i: f64, j: f64, seed: u64) -> DVec2 {
     let bits = hash(hash(hash(seed) ^ i as i64 as u64) ^ j as i64 as u64);
     let component = |bits: u64| bits as u32 as f64 / (1u64 << 31) as f64 - 1.0;
     DVec2::new(component(bits), component(bits >> 32))
 }
 
-/// The output function of SplitMix64: Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014.
+/// Applies the output function of SplitMix64: Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014.
 fn hash(x: u64) -> u64 {
     let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

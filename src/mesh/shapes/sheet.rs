@@ -1,6 +1,6 @@
 //! Open surfaces over a square: corrugated sheet and terrain.
 
-use super::grid::{Grid, Topology};
+use super::grid::{ParameterGrid, Topology};
 use super::noise::fractal_noise;
 use crate::mesh::{MeshError, PolygonMesh};
 use core::f64::consts::PI;
@@ -11,7 +11,7 @@ fn across(k: usize, n: usize) -> f64 {
     (2.0 * k as f64 - n as f64) / n as f64
 }
 
-/// A sheet over the square −1..=1, facing +z: `z = amplitude · sin(π waves x)`, so that `waves` whole waves run across.
+/// Makes a sheet over the square −1..=1, facing +z: `z = amplitude · sin(π waves x)`, so that `waves` whole waves run across.
 ///
 /// Its inflections are what linear interpolation of normals hides: between equal normals it shades flat.
 ///
@@ -24,7 +24,7 @@ pub fn corrugated(
     rows: usize,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Sheet, segments, rows, triangles);
+    let grid = ParameterGrid::new(Topology::Sheet, segments, rows, triangles);
     grid.mesh(|column, row| {
         let (x, y) = (across(column, grid.columns), across(row, grid.rows));
         let phase = PI * waves * x;
@@ -36,20 +36,20 @@ pub fn corrugated(
     })
 }
 
-/// What a terrain looks like.
+/// A terrain of noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terrain {
     /// Height of the largest hills.
     pub amplitude: f64,
-    /// How many of the largest hills stand along a side.
+    /// The number of the largest hills along a side.
     pub frequency: f64,
-    /// How often smaller hills, half as wide and half as high, are added.
+    /// The sizes of hills, each half as wide and half as high as the one before.
     pub octaves: usize,
-    /// Which terrain.
+    /// The number that picks one of many such terrains.
     pub seed: u64,
 }
 
-/// Hills over the square −1..=1 of x and z, y upward: the same for the same numbers, on every platform.
+/// Makes hills over the square −1..=1 of x and z, y upward: the same for the same numbers, on every platform.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a parameter is not finite.
@@ -59,7 +59,7 @@ pub fn terrain(
     rows: usize,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Sheet, columns, rows, triangles);
+    let grid = ParameterGrid::new(Topology::Sheet, columns, rows, triangles);
     grid.mesh(|column, row| {
         // Rows run away from the viewer, so that east × north is up.
         let (x, z) = (across(column, grid.columns), -across(row, grid.rows));

@@ -8,7 +8,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec2, DVec3, Vec3};
 
-/// The cube from −1 to 1, `res` × `res` quads a face (or twice as many triangles), with its faces' normals given.
+/// Makes the cube from −1 to 1, `res` × `res` quads a face (or twice as many triangles), with its faces' normals given.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`].
@@ -64,7 +64,7 @@ pub fn cube(res: usize, triangles: bool) -> Result<PolygonMesh, MeshError> {
     builder.finish()
 }
 
-/// A prism over a star: two concave caps of 2 `points` sides, at z = ±`depth` / 2, and a quad on each side.
+/// Makes a prism over a star: two concave caps of 2 `points` sides, at z = ±`depth` / 2, and a quad on each side.
 ///
 /// # Errors
 /// [`MeshError::TooLarge`]; [`MeshError::NotFinite`] if a size is not finite.
@@ -72,7 +72,7 @@ pub fn prism(points: usize, inner: f64, depth: f64) -> Result<PolygonMesh, MeshE
     extrude(&star_outline(points, inner), depth)
 }
 
-/// A gear in the unit circle: two concave caps of 4 `teeth` sides, at z = ±`depth` / 2, and a quad on each side.
+/// Makes a gear in the unit circle: two concave caps of 4 `teeth` sides, at z = ±`depth` / 2, and a quad on each side.
 ///
 /// Teeth and gaps are as wide as their flanks; gaps lie at radius `inner`.
 ///
@@ -88,7 +88,7 @@ pub fn gear(teeth: usize, inner: f64, depth: f64) -> Result<PolygonMesh, MeshErr
     extrude(&(0..n).map(corner).collect::<Vec<_>>(), depth)
 }
 
-/// The solid between two copies of a counter-clockwise outline at z = ±`depth` / 2, with its faces' normals given.
+/// Makes the solid between two copies of a counter-clockwise outline at z = ±`depth` / 2, with its faces' normals given.
 fn extrude(outline: &[DVec2], depth: f64) -> Result<PolygonMesh, MeshError> {
     let n = outline.len();
     let (polygons, corners) = (n + 2, 6 * n);

@@ -1,11 +1,11 @@
 //! The unit sphere, smooth and bumpy, by longitude and latitude.
 
-use super::grid::{Grid, Topology};
+use super::grid::{ParameterGrid, Topology};
 use super::{turn, turns};
 use crate::mesh::{MeshError, PolygonMesh};
 use glam::DVec3;
 
-/// The unit sphere: `segments` meridians, `rings` bands of latitude, poles on the y axis.
+/// Makes the unit sphere: `segments` meridians, `rings` bands of latitude, poles on the y axis.
 ///
 /// The bands at the poles are triangles, all other polygons quads (or two triangles each).
 ///
@@ -17,7 +17,7 @@ pub fn sphere(segments: usize, rings: usize, triangles: bool) -> Result<PolygonM
     })
 }
 
-/// The unit sphere with bumps: radius `1 + amplitude · sin(f x) sin(f y) sin(f z)` in direction (x, y, z), `f` being
+/// Makes the unit sphere with bumps: radius `1 + amplitude · sin(f x) sin(f y) sin(f z)` in direction (x, y, z), `f` being
 /// the `frequency`.
 ///
 /// The radius is a smooth function of the direction, at the poles too. Star-convex for any amplitude below 1.
@@ -62,7 +62,7 @@ fn over_directions(
     triangles: bool,
     surface: impl Fn(DVec3) -> (DVec3, DVec3),
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Ball, segments, rings, triangles);
+    let grid = ParameterGrid::new(Topology::Ball, segments, rings, triangles);
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }

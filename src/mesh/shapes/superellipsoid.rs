@@ -1,6 +1,6 @@
 //! Superellipsoids: from a rounded box over the sphere to a rounded double pyramid.
 
-use super::grid::{Grid, Topology};
+use super::grid::{ParameterGrid, Topology};
 use super::{turn, turns};
 use crate::mesh::{MeshError, PolygonMesh};
 use glam::DVec3;
@@ -15,7 +15,7 @@ struct EllipsePoint {
 }
 
 impl EllipsePoint {
-    /// The point in direction (x, y): directions a constant angle apart sample flat sides and round edges alike, unlike
+    /// Returns the point in direction (x, y): directions a constant angle apart sample flat sides and round edges alike, unlike
     /// Barr's cosⁿ, which crowds the edges.
     fn new(exponent: f64, (x, y): (f64, f64)) -> Self {
         let power = 2.0 / exponent;
@@ -34,7 +34,7 @@ impl EllipsePoint {
     }
 }
 
-/// The superellipsoid (|x|^(2/e2) + |z|^(2/e2))^(e2/e1) + |y|^(2/e1) = 1: half width 1 along each axis.
+/// Makes the superellipsoid (|x|^(2/e2) + |z|^(2/e2))^(e2/e1) + |y|^(2/e1) = 1: half width 1 along each axis.
 ///
 /// `e1` shapes it along y, `e2` around y; 1 is round, toward 0 it becomes a box, toward 2 it becomes pointed. Both are
 /// kept within 0.05 and 1.95. Barr, *Superquadrics and angle-preserving transformations*, IEEE CG&A 1 (1981).
@@ -48,7 +48,7 @@ pub fn superellipsoid(
     rings: usize,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Ball, segments, rings, triangles);
+    let grid = ParameterGrid::new(Topology::Ball, segments, rings, triangles);
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }

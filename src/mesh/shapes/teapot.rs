@@ -7,7 +7,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
-/// How many polygons [`teapot`] makes for these parameters; `u64::MAX` where that overflows.
+/// Returns the number of polygons that [`teapot`] makes for these parameters; `u64::MAX` where that overflows.
 pub fn teapot_polygons(res: usize, bottom: bool, triangles: bool) -> u64 {
     let (res, patches) = (res.max(1) as u64, patches(bottom).len() as u64);
     let cells = res.saturating_mul(res).saturating_mul(patches);
@@ -21,7 +21,7 @@ pub fn teapot_polygons(res: usize, bottom: bool, triangles: bool) -> u64 {
     }
 }
 
-/// The Utah teapot: y upward, the spout toward +x, the body 2 wide around the y axis, its height centred on the origin.
+/// Makes the Utah teapot: y upward, the spout toward +x, the body 2 wide around the y axis, its height centred on the origin.
 ///
 /// Each of the 32 patches (28 without the `bottom`, which the original of 1975 did not have) becomes `res` × `res`
 /// quads, or twice as many triangles; the cells at the knob's top and the bottom's middle are triangles. Patches share
@@ -111,7 +111,7 @@ fn patches_with_pole(bottom: bool) -> usize {
     patches(bottom).iter().filter(|p| has_pole(p)).count()
 }
 
-/// One value for all equal normals at a position: patches that meet smoothly share it, at a crease each has its own.
+/// Gives one value to all equal normals at a position: patches that meet smoothly share it, at a crease each has its own.
 ///
 /// Returns the values, and for each entry of `number` its value.
 fn share_normals(number: &[u32], count: usize, directions: &[DVec3]) -> (Vec<Vec3>, Vec<u32>) {
@@ -168,13 +168,13 @@ impl Patch {
         }
     }
 
-    /// The point and the outward unit normal at `i / n`, `j / n`.
+    /// Returns the point and the outward unit normal at `i / n`, `j / n`.
     fn at(&self, i: usize, j: usize, n: usize) -> (DVec3, DVec3) {
         let (u, v) = (Bernstein::at(i, n), Bernstein::at(j, n));
         let points = self.points.map(|row| v.point(row));
         let slopes = self.points.map(|row| v.slope(row));
         if self.pole && i == 0 {
-            // Where a row is one point ∂P/∂v vanishes; next to it, it is u ∂²P/∂u∂v: the limit of the normal.
+            // ∂P/∂v vanishes in a row that is one point; next to it, it is u ∂²P/∂u∂v: the limit of the normal.
             return (
                 self.points[0][0],
                 u.slope(slopes).cross(u.slope(points)).normalize(),
@@ -195,7 +195,7 @@ struct Bernstein {
 }
 
 impl Bernstein {
-    /// At `k / n`. Run through from the other end, `n − k`, the same weights come in reverse, bit for bit: an edge that
+    /// Returns the weights at `k / n`. Run through from the other end, `n − k`, the same weights come in reverse, bit for bit: an edge that
     /// two patches share in opposite directions has the same points in both.
     fn at(k: usize, n: usize) -> Self {
         let (t, s) = (k as f64 / n as f64, (n - k) as f64 / n as f64);
@@ -210,13 +210,13 @@ impl Bernstein {
         }
     }
 
-    /// The curve's point; both ends and both middles are added first, so that the order of points does not matter.
+    /// Returns the curve's point; both ends and both middles are added first, so that the order of points does not matter.
     fn point(&self, p: [DVec3; 4]) -> DVec3 {
         let [a, b, c, d] = self.cubic;
         weigh(p[0], a, p[3], d) + weigh(p[1], b, p[2], c)
     }
 
-    /// The curve's derivative, without its factor 3: only directions are asked for.
+    /// Returns the curve's derivative, without its factor 3: only directions are asked for.
     fn slope(&self, p: [DVec3; 4]) -> DVec3 {
         let [a, b, c] = self.quadratic;
         weigh(p[1] - p[0], a, p[3] - p[2], c) + (p[2] - p[1]) * b

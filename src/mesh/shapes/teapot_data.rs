@@ -7,7 +7,7 @@
 //! has 16 entries more: 12 of them repeat points of the body's foot for the bottom, and 4, around the top of the knob,
 //! belong to no patch.
 
-/// How many of the last patches are the bottom.
+/// The number of patches, the last ones, that are the bottom.
 pub(in crate::mesh) const BOTTOM_PATCHES: usize = 4;
 
 /// Control points: x toward the spout, z upward.

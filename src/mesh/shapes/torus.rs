@@ -1,12 +1,12 @@
 //! The torus, and tubes along knots on it.
 
-use super::grid::{Grid, Topology};
+use super::grid::{ParameterGrid, Topology};
 use super::{turn, turns};
 use crate::mesh::{MeshError, PolygonMesh};
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// The torus around the z axis: a circle of radius `major`, with a tube of radius `minor` around it.
+/// Makes the torus around the z axis: a circle of radius `major`, with a tube of radius `minor` around it.
 ///
 /// `segments` cells along the circle, `sides` around the tube.
 ///
@@ -19,7 +19,7 @@ pub fn torus(
     sides: usize,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Tube, segments, sides, triangles);
+    let grid = ParameterGrid::new(Topology::Tube, segments, sides, triangles);
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }
@@ -38,7 +38,7 @@ pub fn torus(
 const KNOT_MAJOR: f64 = 1.0;
 const KNOT_MINOR: f64 = 0.4;
 
-/// A tube of radius `radius` along the torus knot that goes `p` times around the axis while it goes `q` times around
+/// Makes a tube of radius `radius` along the torus knot that goes `p` times around the axis while it goes `q` times around
 /// the tube of a torus of radii 1 and 0.4.
 ///
 /// The tube's cross section is turned by the normal of that torus, which comes back to itself after one round: the seam
@@ -55,7 +55,7 @@ pub fn knot(
     radius: f64,
     triangles: bool,
 ) -> Result<PolygonMesh, MeshError> {
-    let grid = Grid::new(Topology::Tube, segments, sides, triangles);
+    let grid = ParameterGrid::new(Topology::Tube, segments, sides, triangles);
     if grid.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
         return Err(MeshError::TooLarge);
     }
@@ -71,7 +71,7 @@ pub fn knot(
     })
 }
 
-/// The knot's point at `k / n` of its length in parameter, the normal of its torus there, and that normal × tangent.
+/// Returns the knot's point at `k / n` of its length in parameter, the normal of its torus there, and that normal × tangent.
 fn knot_frame(p: usize, q: usize, k: usize, n: usize) -> [DVec3; 3] {
     let at = |times: usize| turn((k as u64 * times as u64 % n as u64) as usize, n);
     let ((sin_p, cos_p), (sin_q, cos_q)) = (at(p), at(q));

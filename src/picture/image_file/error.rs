@@ -1,6 +1,5 @@
 //! Why a picture file could not be read or written.
 
-use std::borrow::ToOwned;
 use std::io;
 use std::path::PathBuf;
 use std::string::String;
@@ -69,20 +68,34 @@ pub enum DecodeError {
 
 impl DecodeError {
     /// Makes the error for a broken file.
-    pub(super) fn malformed(format: Format, problem: &str) -> DecodeError {
-        let problem = problem.to_owned();
+    pub(super) fn malformed(format: Format, problem: impl Into<String>) -> DecodeError {
+        let problem = problem.into();
         DecodeError::Malformed { format, problem }
     }
 }
 
-/// A picture that does not fit into a file: it has no pixels, or more than the format can count.
+/// A picture that does not fit into a file: it has no pixels, or a side longer than the formats can state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "a picture of {width}×{height} pixels does not fit: expected 1 to 2147483647 pixels a side"
+    "a picture of {width}×{height} pixels does not fit: expected 1 to {MAX_SIDE} pixels a side"
 )]
 pub struct EncodeError {
     /// The width in pixels.
     pub width: usize,
     /// The height in pixels.
     pub height: usize,
+}
+
+/// Longest side that is written: PNG states no longer ones (ISO/IEC 15948, 7.1), readers of the others are not bound to.
+const MAX_SIDE: usize = (1 << 31) - 1;
+
+impl EncodeError {
+    /// Returns the error about a picture of this size, if there is one.
+    pub(super) fn check(width: usize, height: usize) -> Result<(), EncodeError> {
+        let fits = |side| (1..=MAX_SIDE).contains(&side);
+        match fits(width) && fits(height) {
+            true => Ok(()),
+            false => Err(EncodeError { width, height }),
+        }
+    }
 }

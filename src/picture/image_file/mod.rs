@@ -253,7 +253,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
         file.by_ref()
             .take(png::SIGNATURE.len() as u64)
             .read_to_end(&mut bytes)?;
-        // What does not begin like a picture is told by its beginning, and need not be read to its end.
+        // The beginning of a file tells that it is no picture: the rest need not be read.
         if announced(&bytes).is_some() {
             file.read_to_end(&mut bytes)?;
         }

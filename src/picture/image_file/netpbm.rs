@@ -2,14 +2,19 @@
 
 use std::cmp::Ordering;
 use std::io::{self, Write};
+use std::string::String;
 use std::vec::Vec;
-use std::{format, str, vec};
+use std::{format, str};
 
 use super::{DecodeError, EncodeError, Format, checked_size};
 use crate::picture::{LinearPicture, Picture8};
 
-/// Longest side that is written; readers are not bound to accept more.
-const MAX_SIDE: usize = (1 << 31) - 1;
+/// Texels that are converted at a time.
+const RUN: usize = 1 << 10;
+
+/// Bytes that are written at a time: enough for the cost of a call not to show, few enough to stay in a cache, and whole
+/// pages of the file.
+const PIECE: usize = 1 << 17;
 
 /// Writes a binary PPM file (P6, 255 levels): red, green, blue as they are stored; alpha is dropped.
 pub(super) fn write_ppm(picture: &Picture8, out: impl Write) -> io::Result<()> {
@@ -24,7 +29,7 @@ pub(super) fn write_ppm(picture: &Picture8, out: impl Write) -> io::Result<()> {
 pub struct PpmWriter<W> {
     pieces: Pieces<W>,
     /// Pixels that are still to come.
-    missing: u64,
+    missing: usize,
 }
 
 impl<W: Write> PpmWriter<W> {
@@ -33,11 +38,9 @@ impl<W: Write> PpmWriter<W> {
     /// # Errors
     /// If there are no pixels, or a side is longer than 2³¹ − 1.
     pub fn new(out: W, width: usize, height: usize) -> Result<Self, EncodeError> {
-        check_size(width, height)?;
-        let pieces = Pieces::new(out, &format!("P6\n{width} {height}\n255\n"));
         Ok(PpmWriter {
-            pieces,
-            missing: width as u64 * height as u64,
+            pieces: Pieces::new(out, "P6", [width, height], "255")?,
+            missing: width * height,
         })
     }
 
@@ -47,11 +50,14 @@ impl<W: Write> PpmWriter<W> {
     /// If they cannot be written, or are more than the file has pixels.
     pub fn texels(&mut self, texels: &[[u8; 4]]) -> io::Result<()> {
         let problem = "there are more texels than pixels of the picture";
-        let missing = self.missing.checked_sub(texels.len() as u64);
+        let missing = self.missing.checked_sub(texels.len());
         self.missing =
             missing.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, problem))?;
+        let mut bytes = [0; 3 * RUN];
         for texels in texels.chunks(RUN) {
-            without_alpha(texels, self.pieces.room(3 * texels.len())?);
+            let bytes = &mut bytes[..3 * texels.len()];
+            without_alpha(texels, bytes);
+            self.pieces.write(bytes)?;
         }
         Ok(())
     }
@@ -74,19 +80,50 @@ impl<W: Write> PpmWriter<W> {
 /// Writes a PFM file: red, green, blue as little-endian floats, the bottom row first; alpha is dropped.
 pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<()> {
     let (width, height) = (picture.width(), picture.height());
-    check_size(width, height).map_err(io::Error::other)?;
     // The sign of the scale tells the order of bytes: negative is little-endian.
-    let mut pieces = Pieces::new(out, &format!("PF\n{width} {height}\n-1.0\n"));
+    let pieces = Pieces::new(out, "PF", [width, height], "-1.0");
+    let mut pieces = pieces.map_err(io::Error::other)?;
+    let mut bytes = [[[0; 4]; 3]; RUN];
     for y in (0..height).rev() {
         for texels in picture.row(y).chunks(RUN) {
-            let samples = pieces.room(12 * texels.len())?.as_chunks_mut::<4>().0;
-            let samples = samples.as_chunks_mut::<3>().0;
-            for (samples, &[r, g, b, _]) in samples.iter_mut().zip(texels) {
-                *samples = [r, g, b].map(f32::to_le_bytes);
+            for (bytes, &[r, g, b, _]) in bytes.iter_mut().zip(texels) {
+                *bytes = [r, g, b].map(f32::to_le_bytes);
             }
+            let samples = bytes[..texels.len()].as_flattened().as_flattened();
+            pieces.write(samples)?;
         }
     }
     pieces.finish()
+}
+
+/// The bytes of a file on their way out.
+#[derive(Debug)]
+struct Pieces<W> {
+    out: W,
+    bytes: Vec<u8>,
+}
+
+impl<W: Write> Pieces<W> {
+    /// Begins with a header: the format's first word, the size and the range of the samples.
+    fn new(out: W, word: &str, size: [usize; 2], range: &str) -> Result<Self, EncodeError> {
+        let [width, height] = size;
+        EncodeError::check(width, height)?;
+        let bytes = format!("{word}\n{width} {height}\n{range}\n").into();
+        Ok(Pieces { out, bytes })
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.bytes.extend_from_slice(bytes);
+        if self.bytes.len() >= PIECE {
+            self.out.write_all(&self.bytes[..PIECE])?;
+            self.bytes.drain(..PIECE);
+        }
+        Ok(())
+    }
+
+    fn finish(mut self) -> io::Result<()> {
+        self.out.write_all(&self.bytes)
+    }
 }
 
 /// Writes the colours of `texels`, three bytes each, into `bytes`.
@@ -104,59 +141,6 @@ fn without_alpha(texels: &[[u8; 4]], bytes: &mut [u8]) {
     }
 }
 
-/// Texels that are converted at a time.
-const RUN: usize = 1 << 10;
-
-/// Bytes that are written at a time: enough for the cost of a call not to show, few enough to stay in a cache, and whole
-/// pages of the file.
-const PIECE: usize = 1 << 17;
-
-/// The bytes of a file on their way out.
-#[derive(Debug)]
-struct Pieces<W> {
-    out: W,
-    /// Room for a piece and a run of texels.
-    bytes: Vec<u8>,
-    filled: usize,
-}
-
-impl<W: Write> Pieces<W> {
-    fn new(out: W, header: &str) -> Self {
-        let mut bytes = vec![0; PIECE + 12 * RUN];
-        bytes[..header.len()].copy_from_slice(header.as_bytes());
-        Pieces {
-            out,
-            bytes,
-            filled: header.len(),
-        }
-    }
-
-    /// Returns the next `count` bytes, at most those of a run, to be filled.
-    fn room(&mut self, count: usize) -> io::Result<&mut [u8]> {
-        if self.filled >= PIECE {
-            self.out.write_all(&self.bytes[..PIECE])?;
-            self.bytes.copy_within(PIECE..self.filled, 0);
-            self.filled -= PIECE;
-        }
-        self.filled += count;
-        Ok(&mut self.bytes[self.filled - count..self.filled])
-    }
-
-    fn finish(mut self) -> io::Result<()> {
-        self.out.write_all(&self.bytes[..self.filled])
-    }
-}
-
-/// True if both sides can be written down.
-fn check_size(width: usize, height: usize) -> Result<(), EncodeError> {
-    let fits = |side| (1..=MAX_SIDE).contains(&side);
-    if fits(width) && fits(height) {
-        Ok(())
-    } else {
-        Err(EncodeError { width, height })
-    }
-}
-
 /// Reads the picture in a binary PPM file (P6); samples of another range than 255 are scaled to it and rounded.
 pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
     let mut header = Header {
@@ -166,28 +150,25 @@ pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
     let [width, height] = header.size()?;
     let range: u32 = header.number("the largest sample")?;
     if !(1..=65_535).contains(&range) {
-        return Err(header.broken(&format!(
-            "the largest sample is {range}: expected 1 to 65535"
-        )));
+        let problem = format!("the largest sample is {range}: expected 1 to 65535");
+        return Err(header.broken(problem));
     }
     let sample_bytes = if range < 256 { 1 } else { 2 };
     let samples = header.samples(width * height * 3 * sample_bytes)?;
-    let level = |sample: &[u8]| {
-        let value = sample
-            .iter()
-            .fold(0, |value, &byte| value << 8 | u32::from(byte));
-        if value > range {
-            return Err(header.broken(&format!(
-                "a sample is {value}: expected at most {range}, as its header says"
-            )));
-        }
-        Ok(((510 * value + range) / (2 * range)) as u8)
-    };
+    let mut samples = samples.chunks_exact(sample_bytes).map(|sample| {
+        let value = |value, &byte| value << 8 | u32::from(byte);
+        sample.iter().fold(0, value)
+    });
+    if let Some(value) = samples.clone().find(|value| *value > range) {
+        return Err(header.broken(format!(
+            "a sample is {value}: expected at most {range}, as its header says"
+        )));
+    }
+    let level = |value: u32| ((510 * value + range) / (2 * range)) as u8;
     let mut picture = Picture8::new(width, height, [255; 4]);
-    let samples = samples.chunks_exact(3 * sample_bytes);
-    for (texel, samples) in picture.texels_mut().iter_mut().zip(samples) {
-        for (channel, sample) in texel.iter_mut().zip(samples.chunks_exact(sample_bytes)) {
-            *channel = level(sample)?;
+    for texel in picture.texels_mut() {
+        for (channel, value) in texel[..3].iter_mut().zip(&mut samples) {
+            *channel = level(value);
         }
     }
     Ok(picture)
@@ -245,7 +226,7 @@ impl<'a> Header<'a> {
         number.ok_or_else(|| {
             // Only the start of it: what is not a header can be a word of any length.
             let found = word[..word.len().min(20)].escape_ascii();
-            self.broken(&format!("{what} is \"{found}\": expected a number"))
+            self.broken(format!("{what} is \"{found}\": expected a number"))
         })
     }
 
@@ -276,10 +257,10 @@ impl<'a> Header<'a> {
             Ordering::Greater => "it goes on after its last pixel",
         };
         let problem = format!("{problem}: expected {expected} bytes of samples, found {found}");
-        Err(self.broken(&problem))
+        Err(self.broken(problem))
     }
 
-    fn broken(&self, problem: &str) -> DecodeError {
+    fn broken(&self, problem: impl Into<String>) -> DecodeError {
         DecodeError::malformed(self.format, problem)
     }
 }

@@ -392,7 +392,7 @@ fn png_palettes_are_looked_up() {
         [[40, 50, 60, 255], [10, 20, 30, 255]]
     );
 
-    // The same header with 100,000 pixels a side must be refused before anything is allocated.
+    // A header with 100,000 pixels a side must be refused before anything is allocated.
     let huge = [
         png::SIGNATURE.to_vec(),
         chunk(

@@ -1,8 +1,8 @@
 //! Ranges of the values of a scene: the one place that decides, for files and flags alike.
 
 use super::diagnostics::{Origin, SceneError, SourceText};
-use super::schema::Word;
-use super::value::{Data, Table, Value};
+use super::schema::ChoiceWord;
+use super::value::{Data, SceneTable};
 use crate::picture::Rgb;
 use crate::scene::of_mesh::unit;
 use crate::scene::{MAX_COORDINATE, Scene};
@@ -17,7 +17,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy)]
 pub(super) struct Section<'a> {
     /// The table.
-    pub table: &'a Table,
+    pub table: &'a SceneTable,
     /// The name of it in errors; empty for the scene.
     pub name: &'static str,
     /// The file, if there is one.
@@ -25,7 +25,7 @@ pub(super) struct Section<'a> {
 }
 
 /// A table that is not given.
-static NONE: Table = Table {
+static NONE: SceneTable = SceneTable {
     entries: BTreeMap::new(),
     origin: Origin::Program,
 };
@@ -61,15 +61,16 @@ impl<'a> Section<'a> {
         }
     }
 
-    fn origin(&self, key: &str) -> &'a Origin {
-        let value = self.table.get(key);
-        value.map_or(&self.table.origin, |value| &value.origin)
+    fn data(&self, key: &str) -> Option<&'a Data> {
+        self.table.get(key).map(|value| &value.data)
     }
 
     /// Makes an error about the value of `key`.
     pub fn error(&self, key: &str, problem: &str, expected: impl Into<String>) -> SceneError {
         let title = format!("`{}` {problem}", self.name(key));
-        SceneError::new(self.origin(key).clone(), title, expected).within(self.source)
+        let value = self.table.get(key);
+        let origin = value.map_or(&self.table.origin, |value| &value.origin);
+        SceneError::new(origin.clone(), title, expected).within(self.source)
     }
 
     /// Makes an error about the table.
@@ -90,14 +91,24 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// Returns the first of `keys`, names with spaces between them, that is given.
+    fn given<'k>(&self, keys: &'k str) -> Option<&'k str> {
+        keys.split(' ').find(|key| self.has(key))
+    }
+
+    /// Refuses one of `keys` beside one of `others`, both names with spaces between them; `why` says what is expected.
+    pub fn exclude(&self, keys: &str, others: &str, why: &str) -> Result<(), SceneError> {
+        match (self.given(keys), self.given(others)) {
+            (Some(key), Some(other)) => Err(self.conflict(key, other, why)),
+            _ => Ok(()),
+        }
+    }
+
     /// Makes the error for two keys that exclude each other.
     pub fn conflict(&self, key: &str, other: &str, why: &str) -> SceneError {
         let problem = format!("and `{}` exclude each other", self.name(other));
-        self.pointing_at(
-            other,
-            "the other one is here",
-            self.error(key, &problem, why),
-        )
+        let error = self.error(key, &problem, why);
+        self.pointing_at(other, "the other one is here", error)
     }
 
     /// Returns a number for which `is_valid` holds; NaN and infinities are refused first.
@@ -107,14 +118,13 @@ impl<'a> Section<'a> {
         is_valid: impl Fn(f64) -> bool,
         expected: &str,
     ) -> Result<Option<f64>, SceneError> {
-        match self.table.get(key).map(|value| &value.data) {
-            // A number that is finite in 64 bits need not be so in the 32 bits of the pixel loops.
-            Some(Data::Number(value)) if !((*value as f32).is_finite() && is_valid(*value)) => {
-                let problem = format!("is {value}");
-                Err(self.error(key, &problem, format!("expected {expected}")))
-            }
-            Some(Data::Number(value)) => Ok(Some(*value)),
-            _ => Ok(None),
+        let Some(&Data::Number(value)) = self.data(key) else {
+            return Ok(None);
+        };
+        // A number that is finite in 64 bits need not be so in the 32 bits of the pixel loops.
+        match (value as f32).is_finite() && is_valid(value) {
+            true => Ok(Some(value)),
+            false => Err(self.error(key, &format!("is {value}"), format!("expected {expected}"))),
         }
     }
 
@@ -141,61 +151,56 @@ impl<'a> Section<'a> {
         Ok(degrees.map(f64::to_radians))
     }
 
-    /// Returns three numbers as they are given.
-    pub fn triple(&self, key: &str) -> Option<DVec3> {
-        match self.table.get(key)?.data {
-            Data::Triple(values) => Some(DVec3::from_array(values)),
-            _ => None,
-        }
+    /// Returns three numbers for each of which `is_valid` holds; an error calls the first that is wrong by its name.
+    fn three(
+        &self,
+        key: &str,
+        names: [&str; 3],
+        is_valid: impl Fn(f64) -> bool,
+        expected: String,
+    ) -> Result<Option<DVec3>, SceneError> {
+        let values = self.table.triple(key);
+        let numbers = names
+            .into_iter()
+            .zip(values.into_iter().flat_map(|v| v.to_array()));
+        let Some((name, wrong)) = numbers.into_iter().find(|(_, v)| !is_valid(*v)) else {
+            return Ok(values);
+        };
+        let is_one = values.is_some_and(|v| v.to_array().map(f64::to_bits) == [wrong.to_bits(); 3]);
+        let problem = match is_one {
+            true => format!("is {wrong}"),
+            false => format!("has {name} = {wrong}"),
+        };
+        Err(self.error(key, &problem, expected))
     }
 
     /// Returns a point: three numbers within the range of coordinates.
     pub fn point(&self, key: &str) -> Result<Option<DVec3>, SceneError> {
-        let Some(point) = self.triple(key) else {
-            return Ok(None);
-        };
-        for (axis, value) in ["x", "y", "z"].into_iter().zip(point.to_array()) {
-            if !is_coordinate(value) {
-                let problem = format!("has {axis} = {value}");
-                return Err(self.error(key, &problem, format!("expected {COORDINATES}")));
-            }
-        }
-        Ok(Some(point))
+        let expected = format!("expected {COORDINATES}");
+        self.three(key, ["x", "y", "z"], is_coordinate, expected)
     }
 
     /// Returns a direction as a unit vector.
     pub fn direction(&self, key: &str) -> Result<Option<DVec3>, SceneError> {
-        match self.triple(key) {
+        let (problem, expected) = match self.table.triple(key) {
             Some(vector) if !vector.is_finite() => {
-                Err(self.error(key, "is not finite", "expected three finite numbers"))
+                ("is not finite", "expected three finite numbers")
             }
-            Some(vector) if vector == DVec3::ZERO => {
-                let expected = "expected a direction: not all numbers 0";
-                Err(self.error(key, "has no length", expected))
-            }
-            vector => Ok(vector.map(unit)),
-        }
+            Some(DVec3::ZERO) => ("has no length", "expected a direction: not all numbers 0"),
+            vector => return Ok(vector.map(unit)),
+        };
+        Err(self.error(key, problem, expected))
     }
 
     /// Returns a colour or a coefficient of each channel: 0 or more, and at most `most`.
     pub fn channels(&self, key: &str, most: f64) -> Result<Option<Rgb>, SceneError> {
-        let Some(values) = self.triple(key).map(|values| values.to_array()) else {
-            return Ok(None);
-        };
-        let is_wrong = |v: f64| !((v as f32).is_finite() && (0.0..=most).contains(&v));
-        let Some(wrong) = values.iter().position(|&value| is_wrong(value)) else {
-            return Ok(Some(values.map(|value| value as f32)));
-        };
-        let value = values[wrong];
-        let problem = match values.map(|v| v == value || v.is_nan() && value.is_nan()) {
-            [true, true, true] => format!("is {value}"),
-            _ => format!("has {} = {value}", ["red", "green", "blue"][wrong]),
-        };
+        let is_valid = |v: f64| (v as f32).is_finite() && (0.0..=most).contains(&v);
         let expected = match most.is_finite() {
             true => format!("expected 0 to {most}"),
             false => "expected 0 or more".to_owned(),
         };
-        Err(self.error(key, &problem, expected))
+        let channels = self.three(key, ["red", "green", "blue"], is_valid, expected)?;
+        Ok(channels.map(|values| values.as_vec3().to_array()))
     }
 
     /// Returns a whole number for which `is_valid` holds.
@@ -205,11 +210,7 @@ impl<'a> Section<'a> {
         is_valid: impl Fn(u32) -> bool,
         expected: &str,
     ) -> Result<Option<u32>, SceneError> {
-        let Some(&Value {
-            data: Data::Whole(value),
-            ..
-        }) = self.table.get(key)
-        else {
+        let Some(&Data::Whole(value)) = self.data(key) else {
             return Ok(None);
         };
         let valid = u32::try_from(value).ok().filter(|&value| is_valid(value));
@@ -225,19 +226,18 @@ impl<'a> Section<'a> {
     }
 
     /// Returns a choice, if it is given.
-    pub fn choice<T: Word>(&self, key: &str) -> Option<T> {
+    pub fn choice<T: ChoiceWord>(&self, key: &str) -> Option<T> {
         self.table.text(key).and_then(T::from_word)
     }
 
     /// Returns a choice, its default if none is given.
-    pub fn word<T: Word>(&self, key: &str) -> T {
+    pub fn word<T: ChoiceWord>(&self, key: &str) -> T {
         self.choice(key).unwrap_or_default()
     }
 
     /// True if a switch is given and on.
     pub fn is_on(&self, key: &str) -> bool {
-        let value = self.table.get(key);
-        value.is_some_and(|value| value.data == Data::Switch(true))
+        self.data(key) == Some(&Data::Switch(true))
     }
 }
 

@@ -33,9 +33,9 @@ pub struct SourceText {
     pub text: String,
 }
 
-/// Why a scene cannot be read or drawn.
+/// A scene that cannot be read or drawn.
 ///
-/// `Display` shows file, line, a caret and what was expected, without colours.
+/// `Display` is one line with file, line and what was expected; [`SceneError::render`] shows the text of the file, too.
 #[derive(Clone, Debug)]
 pub struct SceneError(Box<Diagnostic>);
 
@@ -52,7 +52,7 @@ struct Diagnostic {
 
 impl SceneError {
     /// Makes an error at `origin`: `title` says what is wrong, `expected` what should be there (may be empty).
-    pub(super) fn new(
+    pub(in crate::scene) fn new(
         origin: Origin,
         title: impl Into<String>,
         expected: impl Into<String>,
@@ -128,15 +128,20 @@ impl SceneError {
         Some(start..text.ceil_char_boundary(span.end).max(start))
     }
 
+    /// Returns the problem, and the values that were expected where there are some.
+    fn sentence(&self) -> String {
+        let gap = if self.0.expected.is_empty() { "" } else { ": " };
+        format!("{}{gap}{}", self.0.title, self.0.expected)
+    }
+
     /// Returns the error as text, with terminal colours or without.
     pub fn render(&self, colour: bool) -> String {
         let error = &*self.0;
         let span = self.span();
-        let title = match (&span, &*error.expected) {
-            (Some(_), _) | (None, "") => error.title.clone(),
-            (None, expected) => format!("{}: {expected}", error.title),
+        let title = match span {
+            Some(_) => normalize_untrusted_str(&error.title),
+            None => normalize_untrusted_str(&self.sentence()),
         };
-        let title = normalize_untrusted_str(&title);
         let mut group = Group::with_title(Level::ERROR.primary_title(title));
         if let Some(source) = &error.source {
             let path = source.path.display().to_string();
@@ -183,7 +188,14 @@ impl SceneError {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.render(false))
+        if let Some(source) = &self.0.source {
+            write!(f, "{}:", source.path.display())?;
+            match self.line_and_column() {
+                Some((line, column)) => write!(f, "{line}:{column}: ")?,
+                None => write!(f, " ")?,
+            }
+        }
+        f.write_str(&self.sentence())
     }
 }
 

@@ -9,14 +9,10 @@ use std::format;
 
 /// Returns the light that a table describes, light number `number` of the scene, from 1.
 pub(super) fn light(section: &Section, number: usize) -> Result<Light, SceneError> {
-    let place = match (section.has("direction"), section.has("position")) {
-        (true, true) => {
-            let why = "expected one of them: a light is at infinity or at a place";
-            return Err(section.conflict("position", "direction", why));
-        }
-        (true, false) => section.direction("direction")?.map(Place::Infinite),
-        (false, _) => section.point("position")?.map(Place::Local),
-    };
+    let why = "expected one of them: a light is at infinity or at a place";
+    section.exclude("position", "direction", why)?;
+    let direction = section.direction("direction")?.map(Place::Infinite);
+    let place = direction.or(section.point("position")?.map(Place::Local));
     let nowhere = || {
         let problem = format!("light number {number} has neither `direction` nor `position`");
         section.table_error(&problem, "expected one of them in every [[light]]")
@@ -28,6 +24,7 @@ pub(super) fn light(section: &Section, number: usize) -> Result<Light, SceneErro
     })
 }
 
+/// Returns the colour times the intensity.
 fn colour(section: &Section) -> Result<Rgb, SceneError> {
     let colour = section.channels("colour", f64::INFINITY)?;
     let intensity = section.not_negative("intensity")?.unwrap_or(1.0);
@@ -42,18 +39,15 @@ fn colour(section: &Section) -> Result<Rgb, SceneError> {
 
 /// Returns the falloff, which only a light at a position has.
 fn falloff(section: &Section) -> Result<Falloff, SceneError> {
-    let mut given = ["attenuation", "falloff"]
-        .into_iter()
-        .filter(|key| section.has(key));
-    if let (Some(key), true) = (given.next(), section.has("direction")) {
-        let expected = "expected it beside `position`: a light at infinity has no distance";
-        let problem = "is given for a light with a `direction`";
-        return Err(section.error(key, problem, expected));
+    for key in ["attenuation", "falloff"] {
+        if section.has(key) && section.has("direction") {
+            let expected = "expected it beside `position`: a light at infinity has no distance";
+            let problem = "is given for a light with a `direction`";
+            return Err(section.error(key, problem, expected));
+        }
     }
-    if given.next().is_some() {
-        let why = "expected one of them: `attenuation` is a falloff too";
-        return Err(section.conflict("attenuation", "falloff", why));
-    }
+    let why = "expected one of them: `attenuation` is a falloff too";
+    section.exclude("attenuation", "falloff", why)?;
     Ok(match section.not_negative("attenuation")? {
         Some(k) => Falloff::Attenuation(k as f32),
         None => section.word("falloff"),
@@ -62,7 +56,7 @@ fn falloff(section: &Section) -> Result<Falloff, SceneError> {
 
 /// Checks that the light stands at none of `points`, where the direction toward it is undefined.
 pub(super) fn check_distance(section: &Section, points: &[DVec3]) -> Result<(), SceneError> {
-    let Some(light) = section.triple("position") else {
+    let Some(light) = section.table.triple("position") else {
         return Ok(());
     };
     // Closer than the rounding of positions in `f32` is the same place.

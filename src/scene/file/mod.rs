@@ -17,17 +17,18 @@ mod visibility;
 use super::Scene;
 use crate::mesh::Material;
 use diagnostics::{Origin, SceneError, SourceText};
+use glam::DVec3;
 use schema::SCENE;
 use std::format;
 use std::path::Path;
 use std::string::{String, ToString};
 use std::sync::Arc;
-use value::{Data, Table, Value};
+use value::{Data, SceneTable, Value};
 
 /// A scene as it is written. Two scene files are equal when they say the same, wherever it stands.
 #[derive(Clone, Debug, Default)]
 pub struct SceneFile {
-    table: Table,
+    table: SceneTable,
     source: Option<Arc<SourceText>>,
 }
 
@@ -48,7 +49,7 @@ impl SceneFile {
         let path = path.as_ref().into();
         let source = Some(Arc::new(SourceText { path, text }));
         let text = source.as_ref().map_or("", |source| &source.text);
-        match Table::parse(text, &Origin::File) {
+        match SceneTable::parse(text) {
             Ok(table) => Ok(SceneFile { table, source }),
             Err(error) => Err(error.within(&source)),
         }
@@ -91,9 +92,8 @@ impl SceneFile {
              light = {{ direction = {light:?} }}\n\
              object = {{ mesh = '' }}\n"
         );
-        let table = Table::parse(&text, &|_| Origin::Program);
         let mut file = SceneFile {
-            table: table.expect("a scene in which all is right"),
+            table: SceneTable::parse(&text).expect("a scene in which all is right"),
             source: None,
         };
         // Set apart, as the name may hold quotes.
@@ -114,7 +114,7 @@ impl SceneFile {
     }
 
     /// Returns all that is given.
-    pub fn table(&self) -> &Table {
+    pub fn table(&self) -> &SceneTable {
         &self.table
     }
 
@@ -135,13 +135,9 @@ impl SceneFile {
     }
 
     /// Returns the objects, to be changed.
-    pub fn objects_mut(&mut self) -> &mut [Table] {
-        match self
-            .table
-            .entries
-            .get_mut("object")
-            .map(|value| &mut value.data)
-        {
+    pub fn objects_mut(&mut self) -> &mut [SceneTable] {
+        let objects = self.table.entries.get_mut("object");
+        match objects.map(|value| &mut value.data) {
             Some(Data::Tables(objects)) => objects,
             _ => &mut [],
         }
@@ -151,23 +147,16 @@ impl SceneFile {
     ///
     /// In the camera, keys that exclude each other replace each other. Near and far planes that were meant for the camera
     /// below are dropped when its place changes.
-    pub fn overlay(&mut self, over: Table) {
-        if let (
-            Some(over),
-            Some(Value {
-                data: Data::Table(below),
-                ..
-            }),
-        ) = (over.table("camera"), self.table.entries.get_mut("camera"))
-        {
-            make_way(below, over);
+    pub fn overlay(&mut self, over: SceneTable) {
+        if let Some(camera) = over.table("camera") {
+            make_way(self.table.table_mut("camera"), camera);
         }
         self.table.overlay(over);
     }
 }
 
 /// Removes from the camera `below` what `over` excludes or makes meaningless.
-fn make_way(below: &mut Table, over: &Table) {
+fn make_way(below: &mut SceneTable, over: &SceneTable) {
     /// If one of the first keys is given, the others are dropped.
     const DROPPED: [(&str, &str); 6] = [
         ("half_height fovy", "half_height fovy"),
@@ -183,20 +172,13 @@ fn make_way(below: &mut Table, over: &Table) {
     // `half_height` replaces `fit`; where an eye was given only for its direction, that direction is all that stays of it.
     if over.get("half_height").is_some()
         && below.entries.remove("fit").is_some()
-        && let Some(Value {
-            data: Data::Triple(eye),
-            origin,
-        }) = below.entries.remove("eye")
+        && let Some(eye) = below.triple("eye")
     {
-        let target = match below.entries.remove("target") {
-            Some(Value {
-                data: Data::Triple(target),
-                ..
-            }) => target,
-            _ => [0.0; 3],
-        };
-        let direction = std::array::from_fn(|axis| eye[axis] - target[axis]);
-        below.set("direction", Data::Triple(direction), origin);
+        let direction = eye - below.triple("target").unwrap_or(DVec3::ZERO);
+        below.entries.remove("target");
+        if let Some(Value { origin, .. }) = below.entries.remove("eye") {
+            below.set("direction", Data::Triple(direction.to_array()), origin);
+        }
     }
     for (given, dropped) in DROPPED {
         if given.split(' ').any(|key| over.get(key).is_some()) {

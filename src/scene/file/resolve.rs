@@ -4,15 +4,16 @@ use super::SceneFile;
 use super::check::{COORDINATES, Section, is_coordinate, is_position};
 use super::diagnostics::{Origin, SceneError};
 use super::lights::{check_distance, light};
-use super::value::{Data, Table};
+use super::value::{Data, SceneTable};
 use super::viewpoint::Viewpoint;
 use super::visibility::{clipping, hidden_surfaces, samples};
 use crate::mesh::vertex_normals::NormalSource;
-use crate::mesh::{Material, MeshBuilder, PolygonMesh};
+use crate::mesh::{Material, PolygonMesh};
 use crate::scene::of_mesh::unit;
 use crate::scene::{Light, MAX_COORDINATE, Object, Scene};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::format;
 use std::path::{Path, PathBuf};
 use std::string::String;
@@ -57,14 +58,14 @@ impl SceneFile {
         let background = image.channels("background", 1.0)?.unwrap_or([0.0; 3]);
         let ambient = file.channels("ambient", f64::INFINITY)?;
         let lights = lights(&file)?;
-        let viewpoint = Viewpoint::new(file.section("camera", "camera"))?;
+        let aspect = f64::from(width) / f64::from(height);
+        let viewpoint = Viewpoint::new(file.section("camera", "camera"), aspect)?;
         let samples = samples(&image, [width, height])?;
         let clipping = clipping(&file)?;
         let hidden_surfaces = hidden_surfaces(&file, &mut warnings)?;
         let objects = self.objects(&file, load_mesh, &mut warnings)?;
         let points: Vec<DVec3> = objects.iter().flat_map(world_points).collect();
-        let aspect = f64::from(width) / f64::from(height);
-        let camera = viewpoint.camera(points.iter().copied(), aspect, &mut warnings)?;
+        let camera = viewpoint.camera(points.iter().copied(), &mut warnings)?;
         file.sections("light", "light")
             .try_for_each(|light| check_distance(&light, &points))?;
         let specular = file.word("specular");
@@ -107,43 +108,36 @@ impl SceneFile {
         }
         // All that can be checked without a mesh is, before the first one costs time.
         let placed = file.sections("object", "object").map(|section| {
-            let own = section.has("material").then(|| {
-                let own = section.section("material", "object.material");
-                material(&own, &default)
-            });
-            Ok((
-                section,
-                placement(&section)?,
-                normals(&section)?,
-                own.transpose()?,
-            ))
+            let own = section.section("material", "object.material");
+            let own = match section.has("material") {
+                true => Some(material(&own, &default)?),
+                false => None,
+            };
+            Ok((section, placement(&section)?, normals(&section)?, own))
         });
         let placed = placed.collect::<Result<Vec<_>, _>>()?;
         let mut meshes: BTreeMap<(PathBuf, &str), Arc<PolygonMesh>> = BTreeMap::new();
         let mut objects = Vec::with_capacity(placed.len());
         for (section, transform, normals, own) in placed {
             let spec = section.table.text("mesh").unwrap_or_default();
-            let folder = self.mesh_folder(section.table);
-            let mesh = match meshes.get(&(folder.clone(), spec)) {
-                Some(mesh) => mesh.clone(),
-                None => {
-                    let (mesh, found_odd) = load_mesh(spec, &folder)
-                        .map_err(|reason| mesh_error(&section, spec, &reason))?;
-                    warnings.extend(found_odd);
-                    meshes.insert((folder, spec), mesh.clone());
-                    mesh
+            let mesh = match meshes.entry((self.mesh_folder(section.table), spec)) {
+                Entry::Occupied(known) => known.get().clone(),
+                Entry::Vacant(new) => {
+                    let loaded = load_mesh(spec, &new.key().0);
+                    let (mesh, odd) = loaded.map_err(|why| mesh_error(&section, spec, &why))?;
+                    warnings.extend(odd);
+                    new.insert(mesh).clone()
                 }
             };
-            let (mesh, material) = match own {
-                Some(own) => (mesh, Some(own)),
-                None if mesh.materials().is_empty() => (mesh, Some(default)),
-                None if given.table.entries.is_empty() => (mesh, None),
-                None => (with_default_material(mesh, default), None),
+            let own = own.or(mesh.materials().is_empty().then_some(default));
+            let mesh = match own.is_some() || given.table.entries.is_empty() {
+                true => mesh,
+                false => with_default_material(mesh, default),
             };
             let object = Object {
                 mesh,
                 transform,
-                material,
+                material: own,
                 normals,
             };
             if !world_points(&object).all(is_position) {
@@ -157,7 +151,7 @@ impl SceneFile {
     }
 
     /// Returns the folder to which the mesh of `object` is relative.
-    fn mesh_folder(&self, object: &Table) -> PathBuf {
+    fn mesh_folder(&self, object: &SceneTable) -> PathBuf {
         let origin = object.get("mesh").map(|mesh| &mesh.origin);
         match (origin, self.path().and_then(Path::parent)) {
             (Some(Origin::File(_)), Some(folder)) => folder.into(),
@@ -185,6 +179,11 @@ fn lights(file: &Section) -> Result<Vec<Light>, SceneError> {
 
 /// Makes the error for a mesh that could not be loaded; the caret stands under its name.
 fn mesh_error(object: &Section, mesh: &str, reason: &str) -> SceneError {
+    let origin = object.table.get("mesh").map(|value| &value.origin);
+    if !matches!(origin, Some(Origin::File(_))) {
+        // The input itself names the mesh: no line of a scene file, and no key.
+        return SceneError::new(Origin::Program, reason, "");
+    }
     let problem = format!("`{mesh}` cannot be used");
     match reason.contains('\n') {
         false => object.error("mesh", &problem, reason),
@@ -204,11 +203,10 @@ fn material(section: &Section, default: &Material) -> Result<Material, SceneErro
     })
 }
 
+/// Returns the source of the vertex normals.
 fn normals(object: &Section) -> Result<NormalSource, SceneError> {
-    if object.has("crease") && object.has("normals") {
-        let why = "expected one of them: `crease` averages up to an angle";
-        return Err(object.conflict("crease", "normals", why));
-    }
+    let why = "expected one of them: `crease` averages up to an angle";
+    object.exclude("crease", "normals", why)?;
     let is_crease = |v| (0.0..=180.0).contains(&v);
     let crease = object.number("crease", is_crease, "degrees between 0 and 180")?;
     Ok(crease.map_or_else(|| object.word("normals"), NormalSource::Crease))
@@ -219,7 +217,7 @@ fn placement(object: &Section) -> Result<DAffine3, SceneError> {
     if let Some(Data::Matrix(rows)) = object.table.get("matrix").map(|value| &value.data) {
         return from_matrix(object, rows);
     }
-    let scale = object.triple("scale").unwrap_or(DVec3::ONE);
+    let scale = object.table.triple("scale").unwrap_or(DVec3::ONE);
     let sizes = 1.0 / MAX_COORDINATE..=MAX_COORDINATE;
     let is_wrong = |factor: &f64| !sizes.contains(&factor.abs());
     if let Some(factor) = scale.to_array().into_iter().find(is_wrong) {
@@ -229,8 +227,8 @@ fn placement(object: &Section) -> Result<DAffine3, SceneError> {
     }
     let mut rotation = DQuat::IDENTITY;
     for turn in object.sections("rotate", "object.rotate") {
-        if let (Some(axis), Some(angle)) = (turn.direction("axis")?, turn.angle("angle", 36_000.0)?)
-        {
+        let (axis, angle) = (turn.direction("axis")?, turn.angle("angle", 36_000.0)?);
+        if let (Some(axis), Some(angle)) = (axis, angle) {
             rotation = DQuat::from_axis_angle(axis, angle) * rotation;
         }
     }
@@ -244,11 +242,8 @@ fn placement(object: &Section) -> Result<DAffine3, SceneError> {
 
 /// Returns the transform that is given by a matrix.
 fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, SceneError> {
-    let others = ["scale", "rotate", "translate"];
-    if let Some(key) = others.into_iter().find(|key| object.has(key)) {
-        let why = "expected `matrix`, or `scale`, `rotate` and `translate`";
-        return Err(object.conflict("matrix", key, why));
-    }
+    let why = "expected `matrix`, or `scale`, `rotate` and `translate`";
+    object.exclude("matrix", "scale rotate translate", why)?;
     if let Some(value) = rows.iter().flatten().find(|v| !is_coordinate(**v)) {
         let problem = format!("has the entry {value}");
         return Err(object.error("matrix", &problem, format!("expected {COORDINATES}")));
@@ -268,28 +263,11 @@ fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, Scene
 }
 
 /// Returns the mesh with `default` as the material of each polygon that had none.
-fn with_default_material(mesh: Arc<PolygonMesh>, default: Material) -> Arc<PolygonMesh> {
-    if (0..mesh.polygon_count()).all(|polygon| mesh.polygon_material(polygon).is_some()) {
-        return mesh;
+fn with_default_material(mut mesh: Arc<PolygonMesh>, default: Material) -> Arc<PolygonMesh> {
+    if (0..mesh.polygon_count()).any(|polygon| mesh.polygon_material(polygon).is_none()) {
+        Arc::make_mut(&mut mesh).set_default_material(default);
     }
-    let mut materials = mesh.materials().to_vec();
-    let own = materials.len();
-    materials.push(default);
-    let of_polygons = (0..mesh.polygon_count())
-        .map(|p| mesh.polygon_material(p).unwrap_or(own) as u32)
-        .collect();
-    let mut builder = MeshBuilder::new(mesh.positions().to_vec());
-    builder.reserve(mesh.polygon_count(), mesh.corners().len());
-    for polygon in mesh.polygons() {
-        builder.polygon(polygon);
-    }
-    if let Some(normals) = mesh.given_normals() {
-        builder.normals(normals.clone());
-    }
-    builder.colours(mesh.colours().to_vec());
-    builder.materials(materials, of_polygons);
-    // Everything but the materials was checked when the mesh was made; were it refused, its own materials would stand.
-    builder.finish().map_or(mesh, Arc::new)
+    mesh
 }
 
 /// Returns the positions in world space that the polygons of `object` use, each once.

@@ -7,6 +7,8 @@ use crate::picture::Encoding;
 use crate::scene::{
     Clipping, Culling, DepthSource, Falloff, Interpolation, PainterKey, SpecularGate, SpecularModel,
 };
+use std::format;
+use std::string::String;
 
 /// A key and what may stand on the right of its equals sign.
 #[derive(Clone, Copy, Debug)]
@@ -14,14 +16,14 @@ pub struct Key {
     /// The name.
     pub name: &'static str,
     /// The kind of its value.
-    pub kind: Kind,
+    pub kind: ValueKind,
     /// True if the table makes no sense without it.
     pub needed: bool,
 }
 
 /// A kind of value.
 #[derive(Clone, Copy, Debug)]
-pub enum Kind {
+pub enum ValueKind {
     /// Text in quotes.
     Text,
     /// True or false.
@@ -46,24 +48,47 @@ pub enum Kind {
     Turns,
 }
 
-const fn key(name: &'static str, kind: Kind) -> Key {
-    Key {
-        name,
-        kind,
-        needed: false,
+impl ValueKind {
+    /// Returns the keys of the table, or of each of the tables, that such a value is.
+    pub fn keys(self) -> &'static [Key] {
+        match self {
+            ValueKind::Table(keys) | ValueKind::Tables(keys) => keys,
+            ValueKind::Turns => TURN,
+            _ => &[],
+        }
+    }
+
+    /// Returns such a value in words, as an error asks for it.
+    pub(super) fn expected(self) -> String {
+        match self {
+            ValueKind::Text => "text in quotes",
+            ValueKind::Switch => "true or false",
+            ValueKind::Whole => "a whole number",
+            ValueKind::Number => "a number",
+            ValueKind::Triple => "three numbers [x, y, z]",
+            ValueKind::OneOrThree => "one number or three in brackets",
+            ValueKind::Matrix => "three rows of four numbers",
+            ValueKind::Word(words) => return format!("\"{}\"", words.join("\" or \"")),
+            ValueKind::Table(_) => "a table",
+            ValueKind::Tables(_) => "a list of tables",
+            ValueKind::Turns => "{ axis = [x, y, z], angle = degrees } or a list of those",
+        }
+        .into()
     }
 }
 
-const fn needed(name: &'static str, kind: Kind) -> Key {
-    Key {
-        name,
-        kind,
-        needed: true,
-    }
+const fn key(name: &'static str, kind: ValueKind) -> Key {
+    let needed = false;
+    Key { name, kind, needed }
+}
+
+const fn needed(name: &'static str, kind: ValueKind) -> Key {
+    let needed = true;
+    Key { name, kind, needed }
 }
 
 /// An enum whose values are written as words.
-pub(super) trait Word: Default {
+pub(super) trait ChoiceWord: Default {
     /// Returns the value that `word` stands for, if it is one of the words.
     fn from_word(word: &str) -> Option<Self>;
 }
@@ -71,8 +96,8 @@ pub(super) trait Word: Default {
 /// Declares the words of each enum, in the order in which messages and help texts list them.
 macro_rules! words {
     ($($name:ident: $type:ty { $($word:literal => $meaning:expr),* })*) => {$(
-        const $name: Kind = Kind::Word(&[$($word),*]);
-        impl Word for $type {
+        const $name: ValueKind = ValueKind::Word(&[$($word),*]);
+        impl ChoiceWord for $type {
             fn from_word(word: &str) -> Option<Self> {
                 match word {
                     $($word => Some($meaning),)*
@@ -99,15 +124,15 @@ words! {
 /// The keys outside of all tables, and the tables.
 pub static SCENE: &[Key] = &[
     // A name for captions.
-    key("title", Kind::Text),
+    key("title", ValueKind::Text),
     // For captions: what there is to see.
-    key("description", Kind::Text),
+    key("description", ValueKind::Text),
     // Ambient intensity `I_a`, 0 or more. Default: 1.
-    key("ambient", Kind::OneOrThree),
+    key("ambient", ValueKind::OneOrThree),
     // `screen` is the lecture's and the default.
     key("interpolation", INTERPOLATION),
     // The eye for the highlights: at infinity along the line of sight (the lecture's, default), or where the camera is.
-    key("viewer", Kind::Word(&["infinite", "local"])),
+    key("viewer", ValueKind::Word(&["infinite", "local"])),
     // The cosine of the highlights: R·V (the lecture's, default) or N·H.
     key("specular", SPECULAR),
     // The cosine that `shininess` is meant for: where it is not that of `specular`, exponents are converted, four times as
@@ -117,96 +142,96 @@ pub static SCENE: &[Key] = &[
     key("specular_gate", GATE),
     // The polygons that are left out. Default: `back`.
     key("cull", CULLING),
-    // What hides a polygon. Default: `z-buffer`.
+    // The search for hidden surfaces. Default: `z-buffer`.
     key(
         "visibility",
-        Kind::Word(&["z-buffer", "painter", "draw-order"]),
+        ValueKind::Word(&["z-buffer", "painter", "draw-order"]),
     ),
     // Bits of the depth buffer: 16, 24 or 32 (default).
-    key("depth_bits", Kind::Whole),
-    // Where depth comes from. Default: `interpolated`.
+    key("depth_bits", ValueKind::Whole),
+    // The source of depth. Default: `interpolated`.
     key("depth", DEPTH),
     // By what the painter sorts. Default: `mean`.
     key("painter_key", PAINTER_KEY),
-    // What keeps polygons within the view: `planes` (default) or CS171's test of each pixel.
+    // The limits of the view: `planes` (default) or CS171's test of each pixel.
     key("clipping", CLIPPING),
     // True if polygons seen from behind are lit with negated normals. Default: false.
-    key("two_sided", Kind::Switch),
-    key("image", Kind::Table(IMAGE)),
-    key("camera", Kind::Table(CAMERA)),
+    key("two_sided", ValueKind::Switch),
+    key("image", ValueKind::Table(IMAGE)),
+    key("camera", ValueKind::Table(CAMERA)),
     // The material of all that has none of its own.
-    key("material", Kind::Table(MATERIAL)),
+    key("material", ValueKind::Table(MATERIAL)),
     // Default: one white light from the upper right; `light = []` means ambient light only.
-    key("light", Kind::Tables(LIGHT)),
-    // What is drawn, in this order; at least one.
-    key("object", Kind::Tables(OBJECT)),
+    key("light", ValueKind::Tables(LIGHT)),
+    // The objects, in the order of drawing; at least one.
+    key("object", ValueKind::Tables(OBJECT)),
 ];
 
 /// `[image]`: size and encoding of the picture.
 const IMAGE: &[Key] = &[
     // Pixels a row, 1 to 16,384. Default: 640.
-    key("width", Kind::Whole),
+    key("width", ValueKind::Whole),
     // Rows, 1 to 16,384. Default: 480.
-    key("height", Kind::Whole),
+    key("height", ValueKind::Whole),
     // Colour where nothing is drawn, 0 to 1. Default: 0.
-    key("background", Kind::OneOrThree),
+    key("background", ValueKind::OneOrThree),
     // The storage of values in eight bits. Default: `linear`.
     key("encoding", ENCODING),
     // Samples a pixel along each side: 1 (default), 2, 4 or 8.
-    key("samples", Kind::Whole),
+    key("samples", ValueKind::Whole),
 ];
 
-/// `[camera]`: where the scene is seen from.
+/// `[camera]`: the place and direction from which the scene is seen.
 ///
 /// With `eye` and without `fit` the camera stands where it is told to. Otherwise it is fitted: it looks at the middle of
 /// the bounding box of all objects, from a direction that `direction`, `azimuth` and `elevation`, or `eye` and `target`
 /// give, and the objects fill the part `fit` of the frame.
 const CAMERA: &[Key] = &[
     // Position of the eye.
-    key("eye", Kind::Triple),
+    key("eye", ValueKind::Triple),
     // The point in the middle of the picture. Default: the origin.
-    key("target", Kind::Triple),
+    key("target", ValueKind::Triple),
     // The direction that is upward in the picture. Default: y, or away from the viewer in a view along y.
-    key("up", Kind::Triple),
+    key("up", ValueKind::Triple),
     // Orthographic: half of the height that is seen. Default: such that the objects fill 0.8 of the frame.
-    key("half_height", Kind::Number),
+    key("half_height", ValueKind::Number),
     // Perspective: the vertical field of view in degrees, over 0 and under 180.
-    key("fovy", Kind::Number),
+    key("fovy", ValueKind::Number),
     // Distance of the near plane along the line of sight. Default: before the objects by 5 % of their depth.
-    key("near", Kind::Number),
+    key("near", ValueKind::Number),
     // Distance of the far plane. Default: behind the objects by 5 % of their depth.
-    key("far", Kind::Number),
+    key("far", ValueKind::Number),
     // The part of the frame that the objects fill, 0.001 to 100. Default, without `eye`: 0.8.
-    key("fit", Kind::Number),
+    key("fit", ValueKind::Number),
     // From the objects toward the eye. Default: a three-quarter view, (0.5, 0.3, 1).
-    key("direction", Kind::Triple),
+    key("direction", ValueKind::Triple),
     // Instead of `direction`: degrees around the y axis, from z toward x. Default: 0.
-    key("azimuth", Kind::Number),
+    key("azimuth", ValueKind::Number),
     // Instead of `direction`: degrees above the horizon, −90 to 90. Default: 0.
-    key("elevation", Kind::Number),
+    key("elevation", ValueKind::Number),
 ];
 
 /// `[material]`, or `material` of an object: the coefficients of L21 2.1, 0 or more.
 const MATERIAL: &[Key] = &[
-    key("ka", Kind::OneOrThree),
-    key("kd", Kind::OneOrThree),
-    key("ks", Kind::OneOrThree),
+    key("ka", ValueKind::OneOrThree),
+    key("kd", ValueKind::OneOrThree),
+    key("ks", ValueKind::OneOrThree),
     // The exponent `n`.
-    key("shininess", Kind::Number),
+    key("shininess", ValueKind::Number),
 ];
 
 /// `[[light]]`: a light at infinity (`direction`) or at a place (`position`).
 const LIGHT: &[Key] = &[
     // Toward the light, in world space; any length but 0.
-    key("direction", Kind::Triple),
+    key("direction", ValueKind::Triple),
     // Instead of `direction`: where the light is, in world space; not at a vertex.
-    key("position", Kind::Triple),
+    key("position", ValueKind::Triple),
     // Intensity of each channel, 0 or more. Default: 1.
-    key("colour", Kind::OneOrThree),
+    key("colour", ValueKind::OneOrThree),
     // A factor on the colour, 0 or more. Default: 1.
-    key("intensity", Kind::Number),
+    key("intensity", ValueKind::Number),
     // With `position`: k of the attenuation 1 / (1 + k d²), 0 or more (CS171 2). Default: none.
-    key("attenuation", Kind::Number),
+    key("attenuation", ValueKind::Number),
     // Instead of `attenuation`: 1/r² or 1/r (L5). Default: `none`.
     key("falloff", FALLOFF),
 ];
@@ -214,39 +239,36 @@ const LIGHT: &[Key] = &[
 /// `[[object]]`: a mesh somewhere in the world. It is scaled, then rotated, then translated.
 const OBJECT: &[Key] = &[
     // An OBJ file (relative to the scene file), or `builtin:NAME`, or `builtin:NAME?key=value&key=value`.
-    needed("mesh", Kind::Text),
+    needed("mesh", ValueKind::Text),
     // Vertex normals: averaged (default: L21 3.1, whatever the mesh brings) or those of the mesh, where it has some.
     key("normals", NORMALS),
     // Instead of `normals`: average over polygons whose normals differ by at most so many degrees, 0 to 180.
-    key("crease", Kind::Number),
+    key("crease", ValueKind::Number),
     // Factors, none of them 0; a negative one mirrors.
-    key("scale", Kind::OneOrThree),
+    key("scale", ValueKind::OneOrThree),
     // A rotation, or a list of them, of which the first is done first.
-    key("rotate", Kind::Turns),
-    // Where the origin of the mesh comes to lie.
-    key("translate", Kind::Triple),
+    key("rotate", ValueKind::Turns),
+    // The place of the mesh's origin.
+    key("translate", ValueKind::Triple),
     // Instead of the three above: three rows of four numbers, the last of each being the translation.
-    key("matrix", Kind::Matrix),
+    key("matrix", ValueKind::Matrix),
     // Replaces the materials of the mesh; keys that are absent here are those of `[material]`.
-    key("material", Kind::Table(MATERIAL)),
+    key("material", ValueKind::Table(MATERIAL)),
 ];
 
 /// One rotation, counter-clockwise for who looks against the axis.
-pub(super) const TURN: &[Key] = &[
+const TURN: &[Key] = &[
     // The axis through the origin; any length but 0.
-    needed("axis", Kind::Triple),
+    needed("axis", ValueKind::Triple),
     // The angle in degrees.
-    needed("angle", Kind::Number),
+    needed("angle", ValueKind::Number),
 ];
 
 /// Returns the kind of the value at `path`, such as `camera.fovy`, if there is such a key.
-pub fn kind(path: &str) -> Option<Kind> {
+pub fn kind(path: &str) -> Option<ValueKind> {
     let find = |keys: &'static [Key], name: &str| keys.iter().find(|key| key.name == name);
     match path.split_once('.') {
         None => find(SCENE, path).map(|key| key.kind),
-        Some((table, name)) => match find(SCENE, table)?.kind {
-            Kind::Table(keys) | Kind::Tables(keys) => find(keys, name).map(|key| key.kind),
-            _ => None,
-        },
+        Some((table, name)) => find(find(SCENE, table)?.kind.keys(), name).map(|key| key.kind),
     }
 }

@@ -1,12 +1,12 @@
 //! Values of a scene file, and where each one was given: read from TOML by the list of keys, and written again.
 
 use super::diagnostics::{Origin, SceneError};
-use super::schema::{Key, Kind, SCENE, TURN};
+use super::schema::{Key, SCENE, ValueKind};
 use crate::number::suggest;
-use std::borrow::ToOwned;
+use glam::DVec3;
+use std::borrow::{Cow, ToOwned};
 use std::collections::BTreeMap;
 use std::format;
-use std::ops::Range;
 use std::string::String;
 use std::vec::Vec;
 use toml::Spanned;
@@ -38,14 +38,14 @@ pub enum Data {
     /// Three rows of four numbers.
     Matrix([[f64; 4]; 3]),
     /// A table.
-    Table(Table),
+    Table(SceneTable),
     /// A list of tables.
-    Tables(Vec<Table>),
+    Tables(Vec<SceneTable>),
 }
 
 /// A table: values by their keys.
 #[derive(Clone, Debug, Default)]
-pub struct Table {
+pub struct SceneTable {
     /// The values.
     pub entries: BTreeMap<&'static str, Value>,
     /// The place of its header.
@@ -58,24 +58,20 @@ impl PartialEq for Value {
     }
 }
 
-impl PartialEq for Table {
+impl PartialEq for SceneTable {
     fn eq(&self, other: &Self) -> bool {
         self.entries == other.entries
     }
 }
 
-/// Turns the place of a value in TOML text into its origin.
-type Place<'a> = &'a dyn Fn(Range<usize>) -> Origin;
-
-impl Table {
+impl SceneTable {
     /// Reads a scene from TOML text.
     ///
     /// # Errors
     /// If the text is not TOML, a key or word is unknown, or a value is of the wrong kind.
-    pub fn parse(text: &str, place: Place) -> Result<Table, SceneError> {
+    pub fn parse(text: &str) -> Result<SceneTable, SceneError> {
         let table = DeTable::parse(text).map_err(|error| SceneError::from_toml(&error))?;
-        let span = table.span();
-        let mut scene = read_table(table.get_ref(), place(span), SCENE, place)?;
+        let mut scene = read_table(table.get_ref(), Origin::File(table.span()), SCENE)?;
         // An empty table says as much as none.
         scene.entries.retain(|_, value| match &value.data {
             Data::Table(table) => !table.entries.is_empty(),
@@ -102,8 +98,16 @@ impl Table {
         }
     }
 
+    /// Returns the three numbers of `key`, if they are given.
+    pub fn triple(&self, key: &str) -> Option<DVec3> {
+        match self.get(key)?.data {
+            Data::Triple(values) => Some(DVec3::from_array(values)),
+            _ => None,
+        }
+    }
+
     /// Returns the table called `key`, if it is given.
-    pub fn table(&self, key: &str) -> Option<&Table> {
+    pub fn table(&self, key: &str) -> Option<&SceneTable> {
         match &self.get(key)?.data {
             Data::Table(table) => Some(table),
             _ => None,
@@ -111,9 +115,9 @@ impl Table {
     }
 
     /// Returns the table called `key`, made if it is not given.
-    pub fn table_mut(&mut self, key: &'static str) -> &mut Table {
+    pub fn table_mut(&mut self, key: &'static str) -> &mut SceneTable {
         let value = self.entries.entry(key).or_insert_with(|| Value {
-            data: Data::Table(Table::default()),
+            data: Data::Table(SceneTable::default()),
             origin: Origin::Program,
         });
         match &mut value.data {
@@ -123,7 +127,7 @@ impl Table {
     }
 
     /// Returns the tables called `key`; none if they are not given.
-    pub fn tables(&self, key: &str) -> &[Table] {
+    pub fn tables(&self, key: &str) -> &[SceneTable] {
         match self.get(key).map(|value| &value.data) {
             Some(Data::Tables(tables)) => tables,
             _ => &[],
@@ -131,7 +135,7 @@ impl Table {
     }
 
     /// Replaces what `over` gives: key by key within tables, lists as a whole.
-    pub fn overlay(&mut self, over: Table) {
+    pub fn overlay(&mut self, over: SceneTable) {
         for (key, value) in over.entries {
             match value.data {
                 Data::Table(over) if self.table(key).is_some() => self.table_mut(key).overlay(over),
@@ -152,16 +156,16 @@ impl Table {
         }
         for (key, data) in keys.iter().filter_map(given) {
             let path = format!("{path}{}", key.name);
-            let mut write = |header: String, table: &Table, keys| {
+            let mut write = |header: String, table: &SceneTable| {
                 let gap = if out.is_empty() { "" } else { "\n" };
                 *out += &format!("{gap}{header}\n");
-                table.write(keys, &format!("{path}."), out);
+                table.write(key.kind.keys(), &format!("{path}."), out);
             };
             match (data, key.kind) {
-                (Data::Table(table), Kind::Table(keys)) => write(format!("[{path}]"), table, keys),
-                (Data::Tables(tables), Kind::Tables(keys)) => tables
+                (Data::Table(table), _) => write(format!("[{path}]"), table),
+                (Data::Tables(tables), ValueKind::Tables(_)) => tables
                     .iter()
-                    .for_each(|table| write(format!("[[{path}]]"), table, keys)),
+                    .for_each(|table| write(format!("[[{path}]]"), table)),
                 _ => {}
             }
         }
@@ -169,23 +173,23 @@ impl Table {
 }
 
 /// Returns a value as it is written on the right of an equals sign; `None` for tables under headers.
-fn inline(data: &Data, kind: Kind) -> Option<String> {
+fn inline(data: &Data, kind: ValueKind) -> Option<String> {
     Some(match (data, kind) {
         (Data::Text(text), _) => text.to_toml_value(),
         (Data::Switch(value), _) => value.to_toml_value(),
         (Data::Whole(value), _) => value.to_toml_value(),
         (Data::Number(value), _) => value.to_toml_value(),
         // By their bits: 0 and −0 are kept apart.
-        (Data::Triple([r, g, b]), Kind::OneOrThree)
+        (Data::Triple([r, g, b]), ValueKind::OneOrThree)
             if [g, b].map(|v| v.to_bits()) == [r.to_bits(); 2] =>
         {
             r.to_toml_value()
         }
         (Data::Triple(values), _) => values.to_toml_value(),
         (Data::Matrix(rows), _) => rows.to_toml_value(),
-        (Data::Tables(turns), Kind::Turns) => {
-            let turn = |turn: &Table| {
-                let keys = TURN.iter().filter_map(|key| {
+        (Data::Tables(turns), ValueKind::Turns) => {
+            let turn = |turn: &SceneTable| {
+                let keys = kind.keys().iter().filter_map(|key| {
                     let text = inline(&turn.get(key.name)?.data, key.kind)?;
                     Some(format!("{} = {text}", key.name))
                 });
@@ -206,16 +210,15 @@ fn read_table(
     table: &DeTable,
     origin: Origin,
     keys: &'static [Key],
-    place: Place,
-) -> Result<Table, SceneError> {
+) -> Result<SceneTable, SceneError> {
     let mut entries = BTreeMap::new();
     for (name, value) in table {
         let known = keys.iter().find(|key| key.name == name.get_ref());
         let key = known.ok_or_else(|| {
-            let names = keys.iter().map(|key| key.name);
-            unknown("key", name.get_ref(), names, place(name.span()))
+            let names: Vec<_> = keys.iter().map(|key| key.name).collect();
+            unknown("key", name, &names)
         })?;
-        let (data, origin) = (read(value, key.kind, place)?, place(value.span()));
+        let (data, origin) = (read(value, key.kind)?, Origin::File(value.span()));
         entries.insert(key.name, Value { data, origin });
     }
     let missing = |key: &&Key| key.needed && !entries.contains_key(key.name);
@@ -223,104 +226,97 @@ fn read_table(
         let title = format!("the key `{}` is missing", key.name);
         return Err(SceneError::new(origin, title, "in this table"));
     }
-    Ok(Table { entries, origin })
+    Ok(SceneTable { entries, origin })
 }
 
 /// Reads a value of the kind that its key asks for.
-fn read(value: &Spanned<DeValue>, kind: Kind, place: Place) -> Result<Data, SceneError> {
-    let table = |value: &Spanned<DeValue>, keys| match value.get_ref() {
-        DeValue::Table(table) => read_table(table, place(value.span()), keys, place),
-        _ => Err(wrong(value, "a table", place)),
-    };
-    let tables = |keys, expected| match value.get_ref() {
-        DeValue::Array(items) => items.iter().map(|item| table(item, keys)).collect(),
-        DeValue::Table(_) => table(value, keys).map(|table| [table].into()),
-        _ => Err(wrong(value, expected, place)),
+fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
+    let table = |value: &Spanned<DeValue>| match value.get_ref() {
+        DeValue::Table(table) => read_table(table, Origin::File(value.span()), kind.keys()),
+        _ => Err(wrong(value, ValueKind::Table(&[]))),
     };
     match (kind, value.get_ref()) {
-        (Kind::Text, DeValue::String(text)) => Ok(Data::Text(text.clone().into_owned())),
-        (Kind::Text, _) => Err(wrong(value, "text in quotes", place)),
-        (Kind::Switch, DeValue::Boolean(switch)) => Ok(Data::Switch(*switch)),
-        (Kind::Switch, _) => Err(wrong(value, "true or false", place)),
-        (Kind::Whole, other) => whole(other)
-            .map(Data::Whole)
-            .ok_or_else(|| wrong(value, "a whole number", place)),
-        (Kind::Number, _) => number(value, place).map(Data::Number),
-        (Kind::OneOrThree, DeValue::Integer(_) | DeValue::Float(_)) => {
-            Ok(Data::Triple([number(value, place)?; 3]))
+        (ValueKind::Text, DeValue::String(text)) => Ok(Data::Text(text.clone().into_owned())),
+        (ValueKind::Word(words), DeValue::String(word)) => match words.contains(&&**word) {
+            true => Ok(Data::Text(word.clone().into_owned())),
+            false => Err(unknown(
+                "word",
+                &Spanned::new(value.span(), word.clone()),
+                words,
+            )),
+        },
+        (ValueKind::Switch, DeValue::Boolean(switch)) => Ok(Data::Switch(*switch)),
+        (ValueKind::Whole, _) => {
+            let whole = whole(value.get_ref()).map(Data::Whole);
+            whole.ok_or_else(|| wrong(value, kind))
         }
-        (Kind::OneOrThree, _) => {
-            list(value, "one number or three in brackets", place, number).map(Data::Triple)
+        (ValueKind::Number, _) => number(value).map(Data::Number),
+        (ValueKind::OneOrThree, DeValue::Integer(_) | DeValue::Float(_)) => {
+            Ok(Data::Triple([number(value)?; 3]))
         }
-        (Kind::Triple, _) => {
-            list(value, "three numbers [x, y, z]", place, number).map(Data::Triple)
+        (ValueKind::OneOrThree | ValueKind::Triple, DeValue::Array(items)) => {
+            list(value, items, &kind.expected(), number).map(Data::Triple)
         }
-        (Kind::Matrix, _) => {
-            let row = |row: &Spanned<DeValue>, place: Place| {
-                list(row, "four numbers [x, y, z, offset]", place, number)
+        (ValueKind::Matrix, DeValue::Array(rows)) => {
+            const ROW: &str = "four numbers [x, y, z, offset]";
+            let row = |row: &Spanned<DeValue>| match row.get_ref() {
+                DeValue::Array(items) => list(row, items, ROW, number),
+                _ => Err(wrong_value(row, ROW)),
             };
-            list(value, "three rows of four numbers", place, row).map(Data::Matrix)
+            list(value, rows, &kind.expected(), row).map(Data::Matrix)
         }
-        (Kind::Word(words), DeValue::String(word)) if words.contains(&&**word) => {
-            Ok(Data::Text(word.clone().into_owned()))
+        (ValueKind::Table(_), _) => table(value).map(Data::Table),
+        (ValueKind::Tables(_) | ValueKind::Turns, DeValue::Array(items)) => {
+            let tables = items.iter().map(table);
+            tables.collect::<Result<_, _>>().map(Data::Tables)
         }
-        (Kind::Word(words), DeValue::String(word)) => {
-            let origin = place(value.span());
-            Err(unknown("word", word, words.iter().copied(), origin))
+        (ValueKind::Tables(_) | ValueKind::Turns, DeValue::Table(_)) => {
+            Ok(Data::Tables([table(value)?].into()))
         }
-        (Kind::Word(words), _) => Err(wrong(
-            value,
-            &format!("\"{}\"", words.join("\" or \"")),
-            place,
-        )),
-        (Kind::Table(keys), _) => table(value, keys).map(Data::Table),
-        (Kind::Tables(keys), _) => tables(keys, "a list of tables").map(Data::Tables),
-        (Kind::Turns, _) => {
-            let expected = "{ axis = [x, y, z], angle = degrees } or a list of those";
-            tables(TURN, expected).map(Data::Tables)
-        }
+        _ => Err(wrong(value, kind)),
     }
 }
 
+/// Returns a whole number, written with any radix.
 fn whole(value: &DeValue) -> Option<i64> {
     let integer = value.as_integer()?;
     i64::from_str_radix(integer.as_str(), integer.radix()).ok()
 }
 
-fn number(value: &Spanned<DeValue>, place: Place) -> Result<f64, SceneError> {
+fn number(value: &Spanned<DeValue>) -> Result<f64, SceneError> {
     let number = match value.get_ref() {
         DeValue::Float(float) => float.as_str().parse().ok(),
         other => whole(other).map(|whole| whole as f64),
     };
-    number.ok_or_else(|| wrong(value, "a number", place))
+    number.ok_or_else(|| wrong(value, ValueKind::Number))
 }
 
-/// Reads `N` values in brackets, each by `item`.
+/// Reads the `N` items of the list `value`, each by `item`.
 fn list<T, const N: usize>(
     value: &Spanned<DeValue>,
+    items: &[Spanned<DeValue>],
     expected: &str,
-    place: Place,
-    item: impl Fn(&Spanned<DeValue>, Place) -> Result<T, SceneError>,
+    item: impl Fn(&Spanned<DeValue>) -> Result<T, SceneError>,
 ) -> Result<[T; N], SceneError> {
-    let DeValue::Array(items) = value.get_ref() else {
-        return Err(wrong(value, expected, place));
-    };
-    let items: Vec<T> = items
-        .iter()
-        .map(|value| item(value, place))
-        .collect::<Result<_, _>>()?;
+    let items: Vec<T> = items.iter().map(item).collect::<Result<_, _>>()?;
     items.try_into().map_err(|items: Vec<T>| {
         let found = match items.len() {
             0 => "found an empty list".to_owned(),
             1 => "found a list of one".to_owned(),
             n => format!("found a list of {n}"),
         };
-        SceneError::new(place(value.span()), format!("expected {expected}"), found)
+        let origin = Origin::File(value.span());
+        SceneError::new(origin, format!("expected {expected}"), found)
     })
 }
 
-/// Makes the error for a value of the wrong kind.
-fn wrong(value: &Spanned<DeValue>, expected: &str, place: Place) -> SceneError {
+/// Makes the error for a value that is not of `kind`.
+fn wrong(value: &Spanned<DeValue>, kind: ValueKind) -> SceneError {
+    wrong_value(value, &kind.expected())
+}
+
+/// Makes the error for a value in place of the one that is expected.
+fn wrong_value(value: &Spanned<DeValue>, expected: &str) -> SceneError {
     let found = match value.get_ref() {
         DeValue::String(text) => format!("string {text:?}"),
         DeValue::Integer(number) => format!("integer `{number}`"),
@@ -330,24 +326,20 @@ fn wrong(value: &Spanned<DeValue>, expected: &str, place: Place) -> SceneError {
         DeValue::Array(_) => "a list".to_owned(),
         DeValue::Table(_) => "a table".to_owned(),
     };
-    let (origin, found) = (place(value.span()), format!("found {found}"));
+    let (origin, found) = (Origin::File(value.span()), format!("found {found}"));
     SceneError::new(origin, format!("expected {expected}"), found)
 }
 
 /// Makes the error for a key or a word that does not exist, with the one that may have been meant.
-fn unknown(
-    what: &str,
-    found: &str,
-    known: impl Iterator<Item = &'static str> + Clone,
-    origin: Origin,
-) -> SceneError {
-    let names: Vec<String> = known.clone().map(|name| format!("`{name}`")).collect();
+fn unknown(what: &str, found: &Spanned<Cow<str>>, known: &[&'static str]) -> SceneError {
+    let names: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
     let expected = match &names[..] {
         [one, other] => format!("expected {one} or {other}"),
         all => format!("expected one of {}", all.join(", ")),
     };
+    let (origin, found) = (Origin::File(found.span()), &**found.get_ref());
     let error = SceneError::new(origin, format!("unknown {what} `{found}`"), expected);
-    match suggest::nearest(found, known) {
+    match suggest::nearest(found, known.iter().copied()) {
         _ if found == "depth_test" => error.help("what hides a polygon is said by `visibility`"),
         Some(nearest) => error.help(format!("did you mean `{nearest}`?")),
         None => error,

@@ -15,73 +15,56 @@ const LEAST_TILT: f64 = 1e-6;
 /// A camera whose every value is valid by itself; what depends on the objects is still open.
 pub(super) struct Viewpoint<'a> {
     section: Section<'a>,
-    stand: Stand,
-    up: DVec3,
+    /// Eye and target, unless the camera is fitted around the objects.
+    fixed: Option<[DVec3; 2]>,
+    fit: Fit,
     half_height: Option<f64>,
-    fovy: Option<f64>,
     near: Option<f64>,
     far: Option<f64>,
-    fraction: f64,
-}
-
-enum Stand {
-    /// Exactly there.
-    Fixed { eye: DVec3, target: DVec3 },
-    /// Around the objects, in this direction.
-    Fitted { direction: DVec3 },
 }
 
 impl<'a> Viewpoint<'a> {
-    /// Reads `[camera]`.
-    pub fn new(section: Section<'a>) -> Result<Self, SceneError> {
+    /// Reads `[camera]`; `aspect` is the width of the picture over its height.
+    pub fn new(section: Section<'a>, aspect: f64) -> Result<Self, SceneError> {
         exclusions(&section)?;
         let half_height = section.length("half_height")?;
         let is_angle = |v| (1e-3..=179.999).contains(&v);
         let expected = "degrees over 0 and under 180 (0.001 to 179.999)";
         let fovy = section.number("fovy", is_angle, expected)?;
         let is_part = |v| (1e-3..=100.0).contains(&v);
-        let fit = section.number("fit", is_part, "a part of the frame, 0.001 to 100")?;
+        let fraction = section.number("fit", is_part, "a part of the frame, 0.001 to 100")?;
         let (near, far) = planes(&section)?;
-        let stand = stand(&section)?;
-        let toward_eye = match stand {
-            Stand::Fixed { eye, target } => (eye - target).normalize(),
-            Stand::Fitted { direction } => direction,
+        let (fixed, direction) = stand(&section)?;
+        let fit = Fit {
+            direction,
+            up: up(&section, direction)?,
+            fraction: fraction.unwrap_or(Scene::DEFAULT_FIT),
+            fovy,
+            aspect,
         };
         Ok(Viewpoint {
             section,
-            stand,
-            up: up(&section, toward_eye)?,
+            fixed,
+            fit,
             half_height,
-            fovy,
             near,
             far,
-            fraction: fit.unwrap_or(Scene::DEFAULT_FIT),
         })
     }
 
-    /// Returns the camera, now that it is known what it looks at.
+    /// Returns the camera for objects at `points`.
     pub fn camera(
         &self,
         points: impl Iterator<Item = DVec3> + Clone,
-        aspect: f64,
         warnings: &mut Vec<String>,
     ) -> Result<Camera, SceneError> {
-        let mut camera = match self.stand {
-            Stand::Fixed { eye, target } => self.fixed(eye, target, points, aspect, warnings),
-            Stand::Fitted { direction } => {
-                let fit = Fit {
-                    direction,
-                    up: self.up,
-                    fraction: self.fraction,
-                    fovy: self.fovy,
-                    aspect,
-                };
-                Camera::fit(points, &fit).ok_or_else(|| {
-                    let expected = "nothing to fit the camera to";
-                    self.section
-                        .scene_error("the objects have no polygons", expected)
-                })?
-            }
+        let mut camera = match self.fixed {
+            Some([eye, target]) => self.fixed(eye, target, points, warnings),
+            None => Camera::fit(points, &self.fit).ok_or_else(|| {
+                let expected = "nothing to fit the camera to";
+                let problem = "the objects have no polygons";
+                self.section.scene_error(problem, expected)
+            })?,
         };
         if let Some(half_height) = self.half_height {
             camera.projection = Projection::Orthographic { half_height };
@@ -109,25 +92,29 @@ impl<'a> Viewpoint<'a> {
         eye: DVec3,
         target: DVec3,
         points: impl Iterator<Item = DVec3> + Clone,
-        aspect: f64,
         warnings: &mut Vec<String>,
     ) -> Camera {
-        let projection = match self.fovy {
-            Some(fovy) => Projection::Perspective { fovy },
-            None => Projection::Orthographic { half_height: 1.0 },
-        };
+        let Fit {
+            up,
+            fraction,
+            fovy,
+            aspect,
+            ..
+        } = self.fit;
         let mut camera = Camera {
             eye,
             target,
-            up: self.up,
-            projection,
+            up,
+            projection: Projection::Orthographic { half_height: 1.0 },
             near: 1.0,
             far: 2.0,
         };
-        if self.fovy.is_none() && self.half_height.is_none() {
-            let half_height = camera.half_height_around(points.clone(), self.fraction, aspect);
-            camera.projection = Projection::Orthographic { half_height };
-        }
+        camera.projection = match fovy {
+            Some(fovy) => Projection::Perspective { fovy },
+            None => Projection::Orthographic {
+                half_height: camera.half_height_around(points.clone(), fraction, aspect),
+            },
+        };
         match camera.depth_range(points) {
             Some(range) => (camera.near, camera.far) = range,
             None => warnings.push("nothing lies before the eye".into()),
@@ -136,36 +123,40 @@ impl<'a> Viewpoint<'a> {
     }
 }
 
+/// Keys that exclude those beside them, and what is expected.
+const EXCLUSIVE: [(&str, &str, &str); 4] = [
+    (
+        "fovy",
+        "half_height",
+        "expected one of them: `half_height` is orthographic, `fovy` is perspective",
+    ),
+    (
+        "fit",
+        "half_height",
+        "expected one of them: `fit` finds the half height",
+    ),
+    (
+        "direction azimuth elevation",
+        "eye target",
+        "expected a place (`eye`, `target`) or a direction, not both",
+    ),
+    (
+        "azimuth elevation",
+        "direction",
+        "expected `direction`, or `azimuth` and `elevation`",
+    ),
+];
+
 /// Refuses keys that exclude or need each other.
 fn exclusions(section: &Section) -> Result<(), SceneError> {
-    let two_projections =
-        "expected one of them: `half_height` is orthographic, `fovy` is perspective";
-    let two_sizes = "expected one of them: `fit` finds the half height";
-    for (key, why) in [("fovy", two_projections), ("fit", two_sizes)] {
-        if section.has("half_height") && section.has(key) {
-            return Err(section.conflict(key, "half_height", why));
-        }
+    for (keys, others, why) in EXCLUSIVE {
+        section.exclude(keys, others, why)?;
     }
-    let given = |keys: &[&'static str]| keys.iter().copied().find(|key| section.has(key));
-    let turn = given(&["direction", "azimuth", "elevation"]);
-    match (turn, given(&["eye", "target"])) {
-        (Some(turn), Some(place)) => {
-            let why = "expected a place (`eye`, `target`) or a direction, not both";
-            Err(section.conflict(turn, place, why))
-        }
-        (None, Some("target")) => {
-            let expected = "a fitted camera looks at the middle of the objects";
-            Err(section.error("target", "needs `eye`", expected))
-        }
-        (Some("direction"), _) => match given(&["azimuth", "elevation"]) {
-            Some(other) => {
-                let why = "expected `direction`, or `azimuth` and `elevation`";
-                Err(section.conflict(other, "direction", why))
-            }
-            None => Ok(()),
-        },
-        _ => Ok(()),
+    if section.has("target") && !section.has("eye") {
+        let expected = "a fitted camera looks at the middle of the objects";
+        return Err(section.error("target", "needs `eye`", expected));
     }
+    Ok(())
 }
 
 /// Returns the near and far distances that are given.
@@ -187,8 +178,8 @@ fn planes(section: &Section) -> Result<(Option<f64>, Option<f64>), SceneError> {
     }
 }
 
-/// Returns the place of the camera, or the direction from which it is fitted.
-fn stand(section: &Section) -> Result<Stand, SceneError> {
+/// Returns eye and target, unless the camera is fitted, and the direction toward the eye.
+fn stand(section: &Section) -> Result<(Option<[DVec3; 2]>, DVec3), SceneError> {
     if let Some(eye) = section.point("eye")? {
         let target = section.point("target")?.unwrap_or(DVec3::ZERO);
         if eye == target {
@@ -199,23 +190,18 @@ fn stand(section: &Section) -> Result<Stand, SceneError> {
                 false => error.help("without `target` the camera looks at the origin"),
             });
         }
-        return Ok(match section.has("fit") {
-            true => Stand::Fitted {
-                direction: unit(eye - target),
-            },
-            false => Stand::Fixed { eye, target },
-        });
+        let fixed = (!section.has("fit")).then_some([eye, target]);
+        return Ok((fixed, unit(eye - target)));
     }
-    let direction = if section.has("azimuth") || section.has("elevation") {
-        let elevation = section.angle("elevation", 90.0)?.unwrap_or(0.0);
+    if section.has("azimuth") || section.has("elevation") {
         let (sin_a, cos_a) = libm::sincos(azimuth(section)?);
+        let elevation = section.angle("elevation", 90.0)?.unwrap_or(0.0);
         let (sin_e, cos_e) = libm::sincos(elevation);
-        DVec3::new(cos_e * sin_a, sin_e, cos_e * cos_a)
-    } else {
-        let usual = || unit(DVec3::from_array(Scene::DEFAULT_DIRECTION));
-        section.direction("direction")?.unwrap_or_else(usual)
-    };
-    Ok(Stand::Fitted { direction })
+        return Ok((None, DVec3::new(cos_e * sin_a, sin_e, cos_e * cos_a)));
+    }
+    let usual = || unit(DVec3::from_array(Scene::DEFAULT_DIRECTION));
+    let direction = section.direction("direction")?;
+    Ok((None, direction.unwrap_or_else(usual)))
 }
 
 /// Returns the azimuth in radians; 0 when it is not given.

@@ -9,17 +9,13 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// Returns how hidden surfaces are found. A key that means nothing under the way chosen is worth a warning.
+/// Returns the search for hidden surfaces. A key that means nothing under the way chosen is worth a warning.
 pub(super) fn hidden_surfaces(
     scene: &Section,
     warnings: &mut Vec<String>,
 ) -> Result<HiddenSurfaces, SceneError> {
-    let bits = scene.whole(
-        "depth_bits",
-        |bits| [16, 24, 32].contains(&bits),
-        "16, 24 or 32",
-    )?;
-    let bits = match bits {
+    let is_known = |bits| [16, 24, 32].contains(&bits);
+    let bits = match scene.whole("depth_bits", is_known, "16, 24 or 32")? {
         Some(16) => DepthBits::Sixteen,
         Some(24) => DepthBits::TwentyFour,
         _ => DepthBits::ThirtyTwo,
@@ -32,9 +28,8 @@ pub(super) fn hidden_surfaces(
     ] {
         if scene.has(key) && choice != needs {
             let name = scene.name(key);
-            warnings.push(format!(
-                "`{name}` means nothing without visibility = \"{needs}\""
-            ));
+            let warning = format!("`{name}` means nothing without visibility = \"{needs}\"");
+            warnings.push(warning);
         }
     }
     if scene.is_on("two_sided") && scene.word::<Culling>("cull") == Culling::Back {

@@ -1,7 +1,7 @@
-//! What is no mesh: each with its line, and with what was expected.
+//! Files that are no mesh: each error with its line, and with what was expected.
 
 use super::*;
-use crate::mesh::obj::prescan::Limits;
+use crate::mesh::obj::prescan::MeshLimits;
 use crate::mesh::obj::{ObjProblem, load_obj, parse_limited};
 use std::error::Error;
 use std::path::Path;
@@ -11,8 +11,8 @@ use std::string::ToString;
 #[track_caller]
 fn assert_error(text: impl AsRef<[u8]>, line: usize, message: &str) {
     let error = parse(text).unwrap_err();
-    assert_eq!(error.line(), (line > 0).then_some(line), "{error}");
-    assert_eq!(error.path(), Path::new("t.obj"));
+    assert_eq!(error.line, (line > 0).then_some(line), "{error}");
+    assert_eq!(error.path, Path::new("t.obj"));
     let place = if line > 0 {
         format!("t.obj:{line}: ")
     } else {
@@ -21,7 +21,7 @@ fn assert_error(text: impl AsRef<[u8]>, line: usize, message: &str) {
     assert_eq!(error.to_string(), format!("{place}{message}"));
 }
 
-/// The same after five points, so that the first line of `text` is line 6.
+/// Checks the error that `text` gives after five points, so that the first line of `text` is line 6.
 #[track_caller]
 fn assert_error_after_points(text: &str, line: usize, message: &str) {
     assert_error(format!("{POINTS}{text}"), line, message);
@@ -39,7 +39,7 @@ fn files_that_are_not_there_or_no_files() {
     assert!(missing.source().is_none());
     let directory = Path::new(env!("CARGO_MANIFEST_DIR"));
     let error = load_obj(directory).unwrap_err();
-    assert_eq!(error.problem(), &ObjProblem::Directory);
+    assert_eq!(error.problem, ObjProblem::Directory);
     assert_eq!(
         error.to_string(),
         format!(
@@ -225,14 +225,14 @@ fn limits() {
             Path::new("t.obj"),
             text.as_bytes(),
             none,
-            Limits { polygons, corners },
+            MeshLimits { polygons, corners },
         )
     };
     assert!(load(3, 10).is_ok());
     let error = load(2, 10).unwrap_err();
     assert_eq!(
-        (error.line(), error.problem()),
-        (Some(8), &ObjProblem::TooManyPolygons)
+        (error.line, error.problem.clone()),
+        (Some(8), ObjProblem::TooManyPolygons)
     );
     assert_eq!(
         error.to_string(),
@@ -240,8 +240,8 @@ fn limits() {
     );
     let error = load(3, 6).unwrap_err();
     assert_eq!(
-        (error.line(), error.problem()),
-        (Some(7), &ObjProblem::TooManyCorners)
+        (error.line, error.problem.clone()),
+        (Some(7), ObjProblem::TooManyCorners)
     );
     assert_eq!(
         error.to_string(),

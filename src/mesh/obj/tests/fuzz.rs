@@ -12,7 +12,7 @@ const OBJ: &[&str] = &[
 ];
 const MTL: &str = "newmtl red\nKa 0.1\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\nillum 2\nmap_Kd a b.png\n\n\
                    newmtl blue # sky\nKd spectral f.rfl\nKs xyz 1 1 1\nNi 1.5\nTr 0\nd -halo 0.5\nillum 1\n";
-/// What is put in, besides single bytes: the tokens that readers of OBJ files stumble over.
+/// The tokens that readers of OBJ files stumble over; they are put in, besides single bytes.
 const TOKENS: &[&str] = &[
     "\n",
     "\\\n",

@@ -1,4 +1,4 @@
-//! What the parser does to legal and illegal files was tried on `tobj` 4.0.5; each case that goes wrong has a test here.
+//! Legal and illegal files on which the parser, `tobj` 4.0.5, goes wrong: a test for each case.
 
 mod errors;
 mod fuzz;

@@ -3,7 +3,7 @@ use super::{cubes, with_object};
 use crate::scene::Scene;
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
-use crate::scene::file::value::{Data, Table};
+use crate::scene::file::value::{Data, SceneTable};
 use std::format;
 use std::string::String;
 use std::vec;
@@ -373,7 +373,7 @@ fn scenes_as_a_whole() {
     let error = error("title = \"nothing\"\n");
     assert_eq!(error.line_and_column(), None);
     assert_eq!(
-        format!("{error}"),
+        error.render(false),
         "error: the scene has no objects: expected at least one [[object]]\n--> scene.toml\n = help: for example: [[object]] with mesh = \"builtin:sphere\""
     );
     let light = |i: usize| {
@@ -400,7 +400,7 @@ fn meshes_that_cannot_be_loaded() {
         .resolve(|_, _| Err("no such file".into()))
         .expect_err("no mesh");
     assert_eq!(
-        format!("{error}"),
+        error.render(false),
         r#"error: `object.mesh` `vase.obj` cannot be used
  --> scene.toml:2:8
   |
@@ -411,7 +411,7 @@ fn meshes_that_cannot_be_loaded() {
         .resolve(|_, _| Err("line 3:\n  v 1 2".into()))
         .expect_err("no mesh");
     assert_eq!(
-        format!("{error}"),
+        error.render(false),
         r#"error: `object.mesh` `vase.obj` cannot be used
  --> scene.toml:2:8
   |
@@ -428,7 +428,7 @@ fn meshes_that_cannot_be_loaded() {
 fn the_text_of_an_error() {
     let conflict = error("[camera]\nhalf_height = 1\nfovy = 30\n");
     assert_eq!(
-        format!("{conflict}"),
+        conflict.render(false),
         "\
 error: `camera.fovy` and `camera.half_height` exclude each other
  --> scene.toml:3:8
@@ -440,7 +440,7 @@ error: `camera.fovy` and `camera.half_height` exclude each other
     );
     let misspelt = error("cull = \"bakc\"\r\n");
     assert_eq!(
-        format!("{misspelt}"),
+        misspelt.render(false),
         "\
 error: unknown word `bakc`
  --> scene.toml:1:8
@@ -460,26 +460,26 @@ fn values_from_flags() {
     let file =
         SceneFile::parse(&with_object("[camera]\nhalf_height = 2\n"), "scene.toml").expect("valid");
     let flag = |name: &str| Origin::Flag(name.into());
-    let mut over = Table::default();
+    let mut over = SceneTable::default();
     let camera = over.table_mut("camera");
     camera.set("half_height", Data::Number(-1.0), flag("--half-height"));
     let mut flagged = file.clone();
     flagged.overlay(over);
     let error = flagged.resolve(cubes).expect_err("negative");
     assert_eq!(
-        format!("{error}"),
+        error.render(false),
         "error: `--half-height` is -1: expected a number over 0 (1e-15 to 1e15)"
     );
     assert_eq!(error.line_and_column(), None);
-    let mut light = Table::default();
+    let mut light = SceneTable::default();
     light.set("direction", Data::Triple([0.0; 3]), flag("--light"));
-    let mut over = Table::default();
+    let mut over = SceneTable::default();
     over.set("light", Data::Tables(vec![light]), Origin::Program);
     let mut flagged = file.clone();
     flagged.overlay(over);
     let error = flagged.resolve(cubes).expect_err("no length");
     assert_eq!(
-        format!("{error}"),
+        error.render(false),
         "error: `--light` has no length: expected a direction: not all numbers 0"
     );
     // Not by `overlay`, in which `fit` takes the place of `half_height`.
@@ -488,7 +488,8 @@ fn values_from_flags() {
     camera.set("fit", Data::Number(0.5), flag("--fit"));
     let error = flagged.resolve(cubes).expect_err("both");
     assert!(
-        format!("{error}")
+        error
+            .render(false)
             .starts_with("error: `--fit` and `camera.half_height` exclude each other"),
         "{error}"
     );

@@ -31,7 +31,7 @@ pub(super) fn check(marked: &str, message: &str, expected: &str, hint: Option<&s
         (message, expected, hint, Some((line, column))),
         "in\n{marked}\n{error}"
     );
-    let shown = format!("{error}");
+    let shown = error.render(false);
     assert!(shown.starts_with(&format!("error: {message}\n")), "{shown}");
     assert!(
         shown.contains(&format!("--> scene.toml:{line}:{column}\n")),

@@ -4,7 +4,7 @@ use super::expect::{check, error};
 use super::{cubes, with_object};
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
-use crate::scene::file::value::{Data, Table};
+use crate::scene::file::value::{Data, SceneTable};
 use std::format;
 use std::vec;
 
@@ -131,7 +131,7 @@ fn a_light_is_somewhere() {
         None,
     );
     let mut by_program = SceneFile::default();
-    let lights = Data::Tables(vec![Table::default()]);
+    let lights = Data::Tables(vec![SceneTable::default()]);
     by_program.table.set("light", lights, Origin::Program);
     let error = by_program
         .resolve(cubes)
@@ -234,7 +234,7 @@ fn words_that_do_not_exist() {
 #[test]
 fn lights_from_flags() {
     let refused = |keys: &[(&'static str, Data, &str)]| {
-        let mut light = Table::default();
+        let mut light = SceneTable::default();
         for (key, data, flag) in keys {
             light.set(key, data.clone(), Origin::Flag((*flag).into()));
         }
@@ -243,7 +243,7 @@ fn lights_from_flags() {
         file.table.set("light", lights, Origin::Program);
         let error = file.resolve(cubes).expect_err("refused");
         assert_eq!(error.line_and_column(), None);
-        format!("{error}")
+        error.render(false)
     };
     let at = |place: [f64; 3]| ("position", Data::Triple(place), "--light-at");
     assert!(

@@ -191,7 +191,7 @@ fn sphere() -> PolygonMesh {
     }
     positions.push(Vec3::NEG_Z);
     let mut mesh = MeshBuilder::new(positions.clone());
-    // Which polygons use the positions is of no matter to a fit.
+    // A fit does not depend on the polygons that use the positions.
     for i in 2..positions.len() as u32 {
         mesh.polygon(&[i - 2, i - 1, i]);
     }
@@ -439,7 +439,7 @@ fn materials() {
             (first, second),
             "{scene} {own}"
         );
-        // What is not about materials stays.
+        // Settings other than materials stay.
         assert_eq!(
             (object.mesh.positions(), object.mesh.corners()),
             (cube().positions(), cube().corners())
@@ -523,7 +523,7 @@ fn flags_over_a_file() {
         SceneFile::parse(&with_object(merged), "c").expect("valid")
     );
 
-    // What both give is that of the flags; flags that say nothing change nothing.
+    // Flags win over the file; flags that say nothing change nothing.
     let all = |n: u32, cull: &str, space: &str, encoding: &str| {
         let material = format!("ka = {n}\nkd = {n}\nks = {n}\nshininess = {n}");
         format!(

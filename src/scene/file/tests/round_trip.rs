@@ -1,7 +1,7 @@
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
-use crate::scene::file::schema::{Key, Kind, SCENE, TURN};
-use crate::scene::file::value::{Data, Table};
+use crate::scene::file::schema::{Key, SCENE, ValueKind};
+use crate::scene::file::value::{Data, SceneTable};
 use std::format;
 use std::string::String;
 use std::vec::Vec;
@@ -45,19 +45,21 @@ impl Random {
     }
 
     /// A value of a kind.
-    fn data(&mut self, kind: Kind) -> Data {
+    fn data(&mut self, kind: ValueKind) -> Data {
         match kind {
-            Kind::Text => Data::Text(self.text()),
-            Kind::Switch => Data::Switch(self.choice(&[true, false])),
-            Kind::Whole => Data::Whole(self.next() as i64),
-            Kind::Number => Data::Number(self.number()),
-            Kind::OneOrThree if self.next().is_multiple_of(2) => Data::Triple([self.number(); 3]),
-            Kind::Triple | Kind::OneOrThree => Data::Triple(self.triple()),
-            Kind::Matrix => Data::Matrix([0; 3].map(|_| [0; 4].map(|_| self.number()))),
-            Kind::Word(words) => Data::Text(self.choice(words).into()),
-            Kind::Table(keys) => Data::Table(self.table(keys)),
-            Kind::Tables(keys) => self.tables(keys),
-            Kind::Turns => self.tables(TURN),
+            ValueKind::Text => Data::Text(self.text()),
+            ValueKind::Switch => Data::Switch(self.choice(&[true, false])),
+            ValueKind::Whole => Data::Whole(self.next() as i64),
+            ValueKind::Number => Data::Number(self.number()),
+            ValueKind::OneOrThree if self.next().is_multiple_of(2) => {
+                Data::Triple([self.number(); 3])
+            }
+            ValueKind::Triple | ValueKind::OneOrThree => Data::Triple(self.triple()),
+            ValueKind::Matrix => Data::Matrix([0; 3].map(|_| [0; 4].map(|_| self.number()))),
+            ValueKind::Word(words) => Data::Text(self.choice(words).into()),
+            ValueKind::Table(keys) => Data::Table(self.table(keys)),
+            ValueKind::Tables(keys) => self.tables(keys),
+            ValueKind::Turns => self.tables(ValueKind::Turns.keys()),
         }
     }
 
@@ -67,8 +69,8 @@ impl Random {
     }
 
     /// A table with each of its keys in half of all cases.
-    fn table(&mut self, keys: &[Key]) -> Table {
-        let mut table = Table::default();
+    fn table(&mut self, keys: &[Key]) -> SceneTable {
+        let mut table = SceneTable::default();
         for key in keys {
             if key.needed || self.next().is_multiple_of(2) {
                 table.set(key.name, self.data(key.kind), Origin::Program);
