@@ -1,5 +1,6 @@
 //! From a frame to a picture, by a method and an engine.
 
+use super::auto::AUTO;
 use super::engines::{ENGINES, Engine, Simd, cs171_shading};
 use super::talk::{Talk, counted, grouped};
 use super::{Failure, aov::Aov};
@@ -45,9 +46,12 @@ pub fn method(text: &str) -> Result<Method, String> {
     }
     let is_method = METHODS.iter().any(|entry| entry.info.name == name);
     let means_method = nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some();
-    if !is_method && !means_method && nearest(name, [REFERENCE]).is_some() {
+    if !is_method
+        && !means_method
+        && let Some(near) = nearest(name, [REFERENCE, AUTO])
+    {
         let problem = format!("unknown method `{name}`");
-        return Err(format!("{problem}: did you mean `{REFERENCE}`?"));
+        return Err(format!("{problem}: did you mean `{near}`?"));
     }
     let variant = Variant::parse(text).map_err(|error| error.to_string());
     variant.map(Method::Variant)
@@ -161,6 +165,14 @@ impl Drawing {
                 variant.render_rows(&self.frame, *renderer, take)
             }
             _ => take(self.picture(false).to_stored().texels()),
+        }
+    }
+
+    /// Returns the name of the method, or of the quantity that is shown instead of colours.
+    pub fn name(&self) -> String {
+        match &self.content {
+            Content::Shaded(method, ..) => method.to_string(),
+            Content::Aov(aov, _) => aov.name(),
         }
     }
 

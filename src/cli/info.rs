@@ -7,8 +7,10 @@ use super::table::{columns, wrapped};
 use super::talk::{Talk, grouped, json_to_stdout, to_stdout};
 use super::{Failure, Outcome};
 use fastphong::mesh::vertex_normals::NormalSource;
+use fastphong::raster::Renderer;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{Object, Projection, Scene, input};
+use fastphong::shading::Variant;
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -54,11 +56,15 @@ impl Info {
                 facts: facts(object),
             })
             .collect();
-        let chosen = choices(&scene.frame()?);
+        let frame = scene.frame()?;
+        let chosen = choices(&frame);
+        let method = Variant::auto(&frame, Renderer::fastest());
         let input = &self.input;
         match self.json {
-            true => json_to_stdout(&scene_json(input, &file, scene, &objects, &chosen)),
-            false => to_stdout(scene_text(input, &file, scene, &objects, &chosen).as_bytes()),
+            true => json_to_stdout(&scene_json(input, &file, scene, &objects, &chosen, &method)),
+            false => {
+                to_stdout(scene_text(input, &file, scene, &objects, &chosen, &method).as_bytes())
+            }
         }?;
         Ok(Outcome::Done)
     }
@@ -75,6 +81,7 @@ fn scene_text(
     scene: &Scene,
     objects: &[Described],
     chosen: &[Choice],
+    (method, why): &(Variant, &str),
 ) -> String {
     let mut text = match file.title() {
         Some(title) => format!("{input}: {title}\n"),
@@ -96,6 +103,7 @@ fn scene_text(
         row("camera", format!("at {eye}, toward {target}; {projection}")),
         row("lights", scene.lights.len().to_string()),
         row("objects", format!("{count}, {polygons} polygons in all")),
+        row("method", format!("{method} by auto: {why}")),
     ];
     for (number, choice) in chosen.iter().enumerate() {
         rows.push(row(if number == 0 { "auto" } else { "" }, choice.text()));
@@ -188,6 +196,7 @@ fn scene_json(
     scene: &Scene,
     objects: &[Described],
     chosen: &[Choice],
+    (method, why): &(Variant, &str),
 ) -> Value {
     let camera = &scene.camera;
     let (half_height, fovy) = match camera.projection {
@@ -206,6 +215,7 @@ fn scene_json(
             "half_height": half_height, "fovy": fovy, "near": camera.near, "far": camera.far,
         },
         "lights": scene.lights.len(),
+        "method": { "name": method.to_string(), "reason": why },
         "auto": chosen.iter().map(Choice::json).collect::<Vec<_>>(),
         "objects": objects.iter().map(object_json).collect::<Vec<_>>(),
     })

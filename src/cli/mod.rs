@@ -4,6 +4,7 @@
 //! Results go to standard output, talk to standard error.
 
 mod aov;
+mod auto;
 mod bench;
 mod chosen;
 mod compare;

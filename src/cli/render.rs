@@ -1,7 +1,8 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::Aov;
-use super::drawing::{self, Content, Drawing, Method};
+use super::auto::{AUTO, AskedMethod, asked_method};
+use super::drawing::{Content, Drawing};
 use super::engines::{self, Engine, Simd, ThreadFlags, renderer};
 use super::output::{self, Output};
 use super::progress::Progress;
@@ -29,10 +30,11 @@ pub struct Render {
     /// Format of the picture, whatever the file is called [default: by its ending, png on standard output]
     #[arg(long, value_name = "png|ppm|pfm", value_parser = output::format, requires = "output")]
     format: Option<Format>,
-    /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `reference` is the
-    /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
-    #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
-    method: Method,
+    /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `auto` is naive Phong's
+    /// picture in the least time: `fastphong info` says by which method. `reference` is the closed form in f64,
+    /// `reference:model=flat|gouraud|phong|slerp`
+    #[arg(short, long, default_value = AUTO, value_parser = asked_method)]
+    method: AskedMethod,
     /// Engine that finds the pixels: `span`, the lecture's way, one pixel at a time (also called `scanline`); `row`, SIMD; `auto`,
     /// `row` where it can draw the frame; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with `:normals=unit|as-printed`. See `fastphong
     /// list engines`
@@ -87,7 +89,7 @@ impl Render {
             },
             _ => |text| to_stdout(text.as_bytes()),
         };
-        let content = self.content()?;
+        let renderer = self.renderer()?;
         let mut file = self.scene.load(&self.input)?;
         let progress = Progress::watched(talk);
         progress.at(0.0, "loading");
@@ -127,6 +129,7 @@ impl Render {
         }
         progress.at(0.5, "shading");
         let drawing = progress.aside(|| {
+            let content = self.content(&frame, renderer, talk);
             let drawing = Drawing::new(frame, content, talk)?;
             drawing.tell(self.threads.threads, talk);
             Ok::<_, Failure>(drawing)
@@ -186,30 +189,29 @@ impl Render {
             output.write(&picture)?;
         }
         if let Some(path) = &output.path {
-            let ([width, height], path, what) = (drawing.size(), path.display(), self.what());
+            let ([width, height], path, what) = (drawing.size(), path.display(), drawing.name());
             progress.aside(|| talk.note(&format!("{path}: {width}x{height}, {what}")));
         }
         Ok(())
     }
 
-    fn content(&self) -> Result<Content, Failure> {
-        if let Some(aov) = self.aov {
-            return Ok(Content::Aov(aov, self.square));
-        }
-        let renderer = match self.engine {
+    fn renderer(&self) -> Result<Renderer, Failure> {
+        Ok(match self.engine {
             Engine::Scanlines(engine) => renderer(engine, Some(self.simd), Renderer::fastest())?,
             Engine::Barycentric(_) | Engine::Cs171 { .. } => Renderer::LECTURE,
-        };
-        let method = self.method.clone();
-        Ok(Content::Shaded(method, self.engine, self.simd, renderer))
+        })
     }
 
-    fn what(&self) -> String {
-        use clap::ValueEnum;
-        match self.aov.and_then(|aov| aov.to_possible_value()) {
-            Some(aov) => aov.get_name().to_owned(),
-            None => self.method.to_string(),
+    /// Returns what to draw of `frame`; tells the curious which method `auto` takes.
+    fn content(&self, frame: &Frame, renderer: Renderer, talk: Talk) -> Content {
+        if let Some(aov) = self.aov {
+            return Content::Aov(aov, self.square);
         }
+        let (method, why) = self.method.choose(frame, self.engine, renderer);
+        if let Some(why) = why {
+            talk.detail(&format!("method {method}, by {AUTO}: {why}"));
+        }
+        Content::Shaded(method, self.engine, self.simd, renderer)
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod aov;
 mod bench;
+mod defaults;
 mod diff;
 mod engines;
 mod figure;
