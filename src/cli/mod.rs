@@ -14,6 +14,7 @@ mod engines;
 mod explain;
 mod failure;
 mod figure;
+mod first_steps;
 mod frame_times;
 mod info;
 mod list;
@@ -31,6 +32,7 @@ pub mod talk;
 mod values;
 
 pub use failure::{Failure, Outcome};
+pub use first_steps::FIRST_STEPS;
 use talk::Talk;
 
 /// Every way of making Phong shading fast: run it, time it, look at it, trust it.

@@ -55,3 +55,23 @@ fn auto_is_the_default_method_and_says_what_it_takes() {
         .run("render teapot -m atuo -o out.png")
         .refused(&["did you mean `auto`?"]);
 }
+
+/// Without arguments: five commands that work, then where help is. Exit code 2, as for all wrong usage.
+#[test]
+fn without_arguments_there_are_five_things_to_try() {
+    let folder = Folder::new();
+    let ended = folder.run("");
+    assert_eq!((ended.code, &*ended.out), (Some(2), ""));
+    let said = ended.says("fastphong --help").err;
+    let commands: Vec<&str> = said
+        .lines()
+        .filter_map(|line| line.strip_prefix("  fastphong ")?.split("  ").next())
+        .collect();
+    assert_eq!(commands.len(), 5, "{said}");
+    // The last one takes a minute.
+    for command in &commands[..4] {
+        folder.run(command).done();
+    }
+    assert_eq!(folder.names(), ["fast.png", "teapot.png"]);
+    assert!(said.lines().all(|line| line.len() <= 100), "{said}");
+}
