@@ -9,9 +9,9 @@ use super::corner::{Corner, WrittenCorner, push_decimal, resolve};
 use super::error::{ObjProblem, quote};
 use super::lines::{Statements, is_plain_number, keyword, without_comment};
 use std::collections::HashMap;
-use std::format;
 use std::string::String;
 use std::vec::Vec;
+use std::{format, vec};
 
 /// How large a mesh may become; the true limits except in tests.
 #[derive(Clone, Copy)]
@@ -78,6 +78,9 @@ pub(super) struct Prescan {
     weights: Tally,
     colours: Colours,
     lost_texture_indices: Tally,
+    /// Corners with a normal before the file has any, and the first of them that counts backwards.
+    early_normals: Tally,
+    early_backwards: Option<(usize, i64)>,
 }
 
 /// Which positions have a colour.
@@ -136,7 +139,7 @@ pub(super) fn prescan(text: &str, limits: Limits) -> Result<Prescan, Failure> {
 impl Prescan {
     /// True if every corner has a normal: only then the normals of the file are used.
     pub(super) fn has_normals(&self) -> bool {
-        self.corners_with_normal > 0 && self.faces_without_normal.count == 0
+        self.normals > 0 && self.corners_with_normal > 0 && self.faces_without_normal.count == 0
     }
 
     /// True if every position has a colour: only then the colours of the file are used.
@@ -180,11 +183,21 @@ impl Prescan {
                 .out_of_range
                 .warn("the colour of a position is not within 0 to 1: what is shown is clamped at each pixel", w);
         }
-        self.lost_texture_indices.warn(
-            "a texture coordinate that does not exist is ignored, as all of them are",
-            w,
-        );
-        if self.corners_with_normal > 0 {
+        let no_coordinates = self.texture_coordinates == 0 && self.lost_texture_indices.count > 0;
+        if self.normals == 0 && self.early_normals.count > 0 {
+            let what = match no_coordinates {
+                true => "normals and texture coordinates",
+                false => "normals",
+            };
+            let what =
+                format!("a face names {what}, of which the file has none: normals are averaged");
+            self.early_normals.warn(&what, w);
+        }
+        if self.normals > 0 || self.early_normals.count == 0 || !no_coordinates {
+            let what = "a texture coordinate that does not exist is ignored, as all of them are";
+            self.lost_texture_indices.warn(what, w);
+        }
+        if self.normals > 0 && self.corners_with_normal > 0 {
             let what =
                 "a face has corners without a normal: averaged normals are used for the whole mesh";
             self.faces_without_normal.warn(what, w);
@@ -366,7 +379,14 @@ impl Prescan {
             line,
             &mut self.ahead[0],
         )?;
+        if self.normals == 0 && written.normal.is_some_and(|index| index != 0) {
+            self.early_normals.add(line);
+        }
         let normal = match written.normal {
+            Some(index) if index < 0 && self.normals == 0 => {
+                self.early_backwards.get_or_insert((line, index));
+                None
+            }
             Some(index) => Some(resolve(
                 "normal",
                 index,
@@ -379,26 +399,25 @@ impl Prescan {
         Ok((position, normal))
     }
 
-    /// The indices that were past the end when they were met: a later line may have brought what they name.
+    /// The indices that were past the end when they were met: a later line may have brought what they name. A file that has no
+    /// normals at all may name them.
     fn check_ahead(&self) -> Result<(), Failure> {
+        let error =
+            |line, what, index, count| (line, ObjProblem::IndexOutOfRange { what, index, count });
         let missing = |which: usize, what: &'static str, count: usize| {
-            let &(line, index) = self.ahead[which]
-                .iter()
-                .find(|&&(_, index)| index >= count)?;
-            Some((
-                line,
-                ObjProblem::IndexOutOfRange {
-                    what,
-                    index: index as i64 + 1,
-                    count,
-                },
-            ))
+            let mut ahead = self.ahead[which].iter();
+            let &(line, index) = ahead.find(|&&(_, index)| index >= count)?;
+            Some(error(line, what, index as i64 + 1, count))
         };
-        let position = missing(0, "position", self.positions);
-        let normal = missing(1, "normal", self.normals);
-        match position
+        let mut missing_all = vec![missing(0, "position", self.positions)];
+        if self.normals > 0 {
+            missing_all.push(missing(1, "normal", self.normals));
+            let backwards = self.early_backwards;
+            missing_all.push(backwards.map(|(line, index)| error(line, "normal", index, 0)));
+        }
+        match missing_all
             .into_iter()
-            .chain(normal)
+            .flatten()
             .min_by_key(|&(line, _)| line)
         {
             Some((line, problem)) => Err((Some(line), problem)),
