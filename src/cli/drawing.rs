@@ -9,7 +9,7 @@ use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
 use fastphong::number::suggest::nearest;
 use fastphong::picture::encoding::store;
-use fastphong::picture::image_file::FilePicture;
+use fastphong::picture::image_file::{FilePicture, FileTexels};
 use fastphong::picture::{Encoding, Picture, Picture8};
 use fastphong::raster::{Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
@@ -80,6 +80,8 @@ pub enum Content {
 pub struct Drawing {
     frame: Frame,
     content: Content,
+    /// True if alpha is full everywhere, whatever is covered.
+    pub opaque: bool,
 }
 
 impl Drawing {
@@ -89,7 +91,11 @@ impl Drawing {
     /// When the engine does not have the method or the instruction set.
     pub fn new(frame: Frame, content: Content, talk: Talk) -> Result<Drawing, Failure> {
         let Content::Shaded(method, engine, simd, _) = &content else {
-            return Ok(Drawing { frame, content });
+            return Ok(Drawing {
+                frame,
+                content,
+                opaque: false,
+            });
         };
         let (name, title) = match (engine, method) {
             (Engine::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
@@ -100,7 +106,18 @@ impl Drawing {
             }
             (Engine::Scanlines(None), Method::Reference(_)) => {
                 pixel_by_pixel("the reference", *simd)?;
-                return Ok(Drawing { frame, content });
+                return Ok(Drawing {
+                    frame,
+                    content,
+                    opaque: false,
+                });
+            }
+            _ => {
+                return Ok(Drawing {
+                    frame,
+                    content,
+                    opaque: false,
+                });
             }
             _ => return Ok(Drawing { frame, content }),
         };
@@ -114,6 +131,7 @@ impl Drawing {
         pixel_by_pixel(title, *simd)?;
         Ok(Drawing {
             frame: in_triangles(frame, title, talk),
+            opaque: false,
             content,
         })
     }
@@ -197,6 +215,19 @@ impl Drawing {
                     Engine::Barycentric(edges) => barycentric(frame, variant, *edges, linear),
                     Engine::Cs171 { normalise } => {
                         // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
+        let mut picture = self.drawn(linear);
+        if self.opaque
+            && let FileTexels::Stored(stored) = &mut picture.texels
+        {
+            stored
+                .texels_mut()
+                .iter_mut()
+                .for_each(|texel| texel[3] = 255);
+        }
+        picture
+    }
+
+    fn drawn(&self, linear: bool) -> FilePicture {
                         let shading = cs171_shading(variant.info()).unwrap_or(Shading::Phong);
                         let reading = Reading {
                             normalise: *normalise,

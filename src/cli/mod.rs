@@ -29,6 +29,7 @@ mod scene_flags;
 mod studies;
 mod table;
 pub mod talk;
+mod studio;
 mod values;
 
 pub use failure::{Failure, Outcome};

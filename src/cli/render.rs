@@ -90,11 +90,18 @@ impl Render {
             _ => |text| to_stdout(text.as_bytes()),
         };
         let renderer = self.renderer()?;
-        let mut file = self.scene.load(&self.input)?;
+        let shows = self.aov.is_none();
+        let mut file = match shows {
+            true => self.scene.load_to_show(&self.input)?,
+            false => self.scene.load(&self.input)?,
+        };
         let progress = Progress::watched(talk);
         progress.at(0.0, "loading");
         let started = Instant::now();
-        let mut resolved = input::resolve(&file)?;
+        let mut resolved = match shows {
+            true => self.scene.resolve_to_show(&mut file)?,
+            false => input::resolve(&file)?,
+        };
         if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
             // Depths, normals and polygon numbers have no mean that means anything.
             progress.aside(|| talk.note("--aov shows single samples: one a pixel, in its middle"));
@@ -130,7 +137,9 @@ impl Render {
         progress.at(0.5, "shading");
         let drawing = progress.aside(|| {
             let content = self.content(&frame, renderer, talk);
-            let drawing = Drawing::new(frame, content, talk)?;
+            let mut drawing = Drawing::new(frame, content, talk)?;
+            let image = file.table().table("image");
+            drawing.opaque = image.and_then(|image| image.text("alpha")) == Some("opaque");
             drawing.tell(self.threads.threads, talk);
             Ok::<_, Failure>(drawing)
         })?;

@@ -18,7 +18,6 @@ use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, Table};
-use fastphong::scene::input;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Instant, SystemTime};
@@ -123,7 +122,7 @@ impl Report {
         let start = Instant::now();
         let names = named_or_shipped(&self.inputs);
         // What can fail at once does so before the first minute is spent.
-        let load = |name: &&str| self.scene.load(name).map(|file| self.shown(file));
+        let load = |name: &&str| self.scene.load_to_show(name).map(|file| self.shown(file));
         let files = names
             .iter()
             .map(load)
@@ -183,7 +182,7 @@ impl Report {
 
     /// Makes the picture of a scene no larger than the page shows it, unless flags say otherwise.
     fn shown(&self, mut file: SceneFile) -> SceneFile {
-        if self.full || self.scene.has_size() {
+        if self.full || self.scene.gives(Some("image"), "width") {
             return file;
         }
         let image = file.table().table("image");
@@ -241,7 +240,7 @@ impl Report {
         progress: &Progress,
         talk: Talk,
     ) -> Result<Drawn, Failure> {
-        let resolved = input::resolve(file)?;
+        let resolved = self.scene.resolve_to_show(&mut file.clone())?;
         progress.aside(|| self.scene.warn(&resolved, talk));
         let frame = resolved.scene.frame()?;
         drop(resolved);

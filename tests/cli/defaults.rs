@@ -36,7 +36,10 @@ fn auto_is_the_default_method_and_says_what_it_takes() {
         take("", "phong-rsqrt");
     }
     take("--simd scalar", "naive-phong");
-    take("--simd scalar --light 1,1,1", "phong-rsqrt");
+    take(
+        "--simd scalar --light 1,1,1 --viewer infinite",
+        "phong-rsqrt",
+    );
     take("--engine cs171", "naive-phong");
     let quiet = folder.run(&format!("{scene} -o out.png")).done();
     assert!(!quiet.err.contains("auto"), "{}", quiet.err);

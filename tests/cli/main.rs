@@ -14,6 +14,8 @@ mod reference;
 mod render;
 mod report;
 mod tables;
+mod shell;
+mod studio;
 
 use fastphong::picture::Picture8;
 use std::path::{Path, PathBuf};
@@ -217,5 +219,5 @@ fn covered(picture: &Picture8) -> usize {
         .count()
 }
 
-/// A small sphere: pictures that are drawn in no time.
-const SPHERE: &str = "builtin:sphere?rings=6&segments=8 --size 64x48";
+/// A scene of a small sphere, 64 × 48: pictures that are drawn in no time.
+const SPHERE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cli/sphere.toml");
