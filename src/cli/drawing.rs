@@ -11,7 +11,7 @@ use fastphong::number::suggest::nearest;
 use fastphong::picture::encoding::store;
 use fastphong::picture::image_file::{FilePicture, FileTexels};
 use fastphong::picture::{Encoding, Picture, Picture8};
-use fastphong::raster::{Edges, Renderer};
+use fastphong::raster::{self, Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
 use fastphong::shading::{METHODS, Variant};
@@ -119,7 +119,6 @@ impl Drawing {
                     opaque: false,
                 });
             }
-            _ => return Ok(Drawing { frame, content }),
         };
         let engine = ENGINES.iter().filter(|engine| engine.name == name);
         let has: Vec<&str> = engine.flat_map(|engine| engine.methods()).collect();
@@ -131,8 +130,8 @@ impl Drawing {
         pixel_by_pixel(title, *simd)?;
         Ok(Drawing {
             frame: in_triangles(frame, title, talk),
-            opaque: false,
             content,
+            opaque: false,
         })
     }
 
@@ -194,6 +193,21 @@ impl Drawing {
         }
     }
 
+    /// Returns the name of the engine that draws.
+    pub fn engine(&self) -> &'static str {
+        match &self.content {
+            Content::Aov(..) => raster::Engine::Span.name(),
+            Content::Shaded(Method::Reference(_), ..) => REFERENCE,
+            Content::Shaded(_, Engine::Barycentric(_), ..) => "barycentric",
+            Content::Shaded(_, Engine::Cs171 { .. }, ..) => "cs171",
+            Content::Shaded(Method::Variant(variant), Engine::Scanlines(_), _, renderer) => variant
+                .plan(&self.frame, *renderer)
+                .renderer
+                .engine()
+                .name(),
+        }
+    }
+
     /// Returns width and height of the picture in pixels.
     pub fn size(&self) -> [usize; 2] {
         [self.frame.picture_width(), self.frame.picture_height()]
@@ -201,6 +215,19 @@ impl Drawing {
 
     /// Draws the picture: floats if `linear`, else as it is stored in 8 bits.
     pub fn picture(&self, linear: bool) -> FilePicture {
+        let mut picture = self.drawn(linear);
+        if self.opaque
+            && let FileTexels::Stored(stored) = &mut picture.texels
+        {
+            stored
+                .texels_mut()
+                .iter_mut()
+                .for_each(|texel| texel[3] = 255);
+        }
+        picture
+    }
+
+    fn drawn(&self, linear: bool) -> FilePicture {
         let frame = &self.frame;
         match (&self.content, linear) {
             (Content::Aov(aov, square), true) => FilePicture::linear(aov.linear(frame, *square)),
@@ -215,19 +242,6 @@ impl Drawing {
                     Engine::Barycentric(edges) => barycentric(frame, variant, *edges, linear),
                     Engine::Cs171 { normalise } => {
                         // `Drawing::new` asked whether CS171 has the method. Which sides are left out, the frame has decided.
-        let mut picture = self.drawn(linear);
-        if self.opaque
-            && let FileTexels::Stored(stored) = &mut picture.texels
-        {
-            stored
-                .texels_mut()
-                .iter_mut()
-                .for_each(|texel| texel[3] = 255);
-        }
-        picture
-    }
-
-    fn drawn(&self, linear: bool) -> FilePicture {
                         let shading = cs171_shading(variant.info()).unwrap_or(Shading::Phong);
                         let reading = Reading {
                             normalise: *normalise,

@@ -20,6 +20,7 @@ mod info;
 mod list;
 mod measured;
 mod mesh_facts;
+mod name_template;
 mod output;
 mod progress;
 mod reference_check;

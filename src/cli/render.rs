@@ -4,6 +4,7 @@ use super::aov::Aov;
 use super::auto::{AUTO, AskedMethod, asked_method};
 use super::drawing::{Content, Drawing};
 use super::engines::{self, Engine, Simd, ThreadFlags, renderer};
+use super::name_template::{named, scene_name};
 use super::output::{self, Output};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
@@ -24,7 +25,8 @@ use std::time::Instant;
 pub struct Render {
     /// A scene file, a mesh file, builtin:NAME?key=value, or the name of a shipped scene
     input: String,
-    /// Destination of the picture: .png, .ppm or .pfm (linear floats); `-` is standard output
+    /// Destination of the picture: .png, .ppm or .pfm (linear floats); `-` is standard output. `{scene}`, `{method}`, `{engine}`,
+    /// `{width}` and `{height}` stand for those of the picture
     #[arg(short, long, value_name = "FILE", required_unless_present_any = ["print_scene", "reference", "stats"])]
     output: Option<PathBuf>,
     /// Format of the picture, whatever the file is called [default: by its ending, png on standard output]
@@ -80,7 +82,7 @@ impl Render {
 
     /// Loads, draws, writes and compares.
     fn draw(&self, talk: Talk) -> Result<Outcome, Failure> {
-        let output = self.checked_output()?;
+        let mut output = self.output()?;
         // A picture on standard output leaves no room there for words.
         let say: fn(&str) -> Result<(), Failure> = match &output {
             Some(Output { path: None, .. }) => |text| {
@@ -143,7 +145,8 @@ impl Render {
             drawing.tell(self.threads.threads, talk);
             Ok::<_, Failure>(drawing)
         })?;
-        if let Some(output) = &output {
+        if let Some(output) = &mut output {
+            self.name(output, &drawing)?;
             self.write(&drawing, output, &progress, talk)?;
         }
         let Some(reference) = &self.reference else {
@@ -159,21 +162,33 @@ impl Render {
         Ok(outcome)
     }
 
-    /// Returns the destination of the picture, if that is not the place of its reference.
-    fn checked_output(&self) -> Result<Option<Output>, Failure> {
-        let output = self.output.as_deref();
-        let output = output.map(|path| Output::new(path, self.format));
-        let output = output.transpose()?;
-        let Some(reference) = &self.reference else {
-            return Ok(output);
+    /// Returns the destination of the picture.
+    fn output(&self) -> Result<Option<Output>, Failure> {
+        if let Some(reference) = &self.reference {
+            Format::of_path(reference)?;
+        }
+        let Some(path) = &self.output else {
+            return Ok(None);
         };
-        Format::of_path(reference)?;
-        match output.as_ref().and_then(|output| output.path.as_deref()) {
-            Some(path) if same_file(path, reference) => {
+        // Wrong placeholders are said before anything is drawn.
+        named(path, Default::default())?;
+        Output::new(path, self.format).map(Some)
+    }
+
+    /// Puts the facts of the picture into its name; refuses to write over its reference.
+    fn name(&self, output: &mut Output, drawing: &Drawing) -> Result<(), Failure> {
+        let Some(path) = &mut output.path else {
+            return Ok(());
+        };
+        let [width, height] = drawing.size().map(|side| side.to_string());
+        let (scene, method) = (scene_name(&self.input), drawing.name());
+        *path = named(path, [scene, &method, drawing.engine(), &width, &height])?;
+        match &self.reference {
+            Some(reference) if same_file(path, reference) => {
                 let problem = format!("is the reference itself, {}", reference.display());
                 Err(format!("`--output` {problem}: expected another file").into())
             }
-            _ => Ok(output),
+            _ => Ok(()),
         }
     }
 

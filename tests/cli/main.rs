@@ -9,6 +9,7 @@ mod engines;
 mod figure;
 mod flags;
 mod input;
+mod name_template;
 mod output;
 mod reference;
 mod render;
