@@ -27,6 +27,7 @@ mod reference_check;
 mod render;
 mod report;
 mod scene_flags;
+mod shell;
 mod studies;
 mod table;
 pub mod talk;
@@ -66,6 +67,9 @@ enum Command {
     Compare(compare::Compare),
     Bench(bench::Bench),
 }
+    Completions(shell::Completions),
+    #[command(name = "man")]
+    Manual(shell::Manual),
 
 impl Cli {
     /// Does what was asked for.
@@ -91,5 +95,7 @@ impl Command {
             Command::Compare(command) => command.run(talk),
             Command::Bench(command) => command.run(talk),
         }
+            Command::Completions(command) => command.run(),
+            Command::Manual(command) => command.run(),
     }
 }
