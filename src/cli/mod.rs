@@ -29,10 +29,11 @@ mod report;
 mod scene_flags;
 mod shell;
 mod studies;
+mod studio;
 mod table;
 pub mod talk;
-mod studio;
 mod values;
+mod watch;
 
 pub use failure::{Failure, Outcome};
 pub use first_steps::FIRST_STEPS;
@@ -66,10 +67,10 @@ enum Command {
     Info(info::Info),
     Compare(compare::Compare),
     Bench(bench::Bench),
-}
     Completions(shell::Completions),
     #[command(name = "man")]
     Manual(shell::Manual),
+}
 
 impl Cli {
     /// Does what was asked for.
@@ -94,8 +95,8 @@ impl Command {
             Command::Info(command) => command.run(talk),
             Command::Compare(command) => command.run(talk),
             Command::Bench(command) => command.run(talk),
-        }
             Command::Completions(command) => command.run(),
             Command::Manual(command) => command.run(),
+        }
     }
 }

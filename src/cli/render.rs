@@ -11,6 +11,7 @@ use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
 use super::table::columns;
 use super::talk::{Talk, counted, grouped, to_stderr, to_stdout};
+use super::watch::watch;
 use super::{Failure, Outcome, values};
 use fastphong::frame::{Frame, FrameStats};
 use fastphong::picture::image_file::Format;
@@ -69,6 +70,9 @@ pub struct Render {
     /// differs by 255
     #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = values::grey_levels, allow_hyphen_values = true, requires = "reference", visible_alias = "ref-threshold")]
     reference_threshold: f64,
+    /// Draw again whenever a file of the scene changes, until Ctrl-C
+    #[arg(long)]
+    watch: bool,
     #[command(flatten)]
     scene: SceneFlags,
 }
@@ -77,7 +81,11 @@ impl Render {
     /// Draws, compares and prints, as asked for.
     pub fn run(&self, talk: &Talk) -> Result<Outcome, Failure> {
         let talk = *talk;
-        self.threads.install(|| self.draw(talk))?
+        let draw = || self.threads.install(|| self.draw(talk))?;
+        match self.watch {
+            true => watch(&self.input, talk, draw),
+            false => draw(),
+        }
     }
 
     /// Loads, draws, writes and compares.

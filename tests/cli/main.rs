@@ -14,9 +14,10 @@ mod output;
 mod reference;
 mod render;
 mod report;
-mod tables;
 mod shell;
 mod studio;
+mod tables;
+mod watch;
 
 use fastphong::picture::Picture8;
 use std::path::{Path, PathBuf};
