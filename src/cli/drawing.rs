@@ -90,12 +90,15 @@ impl Drawing {
     /// # Errors
     /// When the engine does not have the method or the instruction set.
     pub fn new(frame: Frame, content: Content, talk: Talk) -> Result<Drawing, Failure> {
-        let Content::Shaded(method, engine, simd, _) = &content else {
-            return Ok(Drawing {
+        let drawn = |frame, content| {
+            Ok(Drawing {
                 frame,
                 content,
                 opaque: false,
-            });
+            })
+        };
+        let Content::Shaded(method, engine, simd, _) = &content else {
+            return drawn(frame, content);
         };
         let (name, title) = match (engine, method) {
             (Engine::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
@@ -106,19 +109,9 @@ impl Drawing {
             }
             (Engine::Scanlines(None), Method::Reference(_)) => {
                 pixel_by_pixel("the reference", *simd)?;
-                return Ok(Drawing {
-                    frame,
-                    content,
-                    opaque: false,
-                });
+                return drawn(frame, content);
             }
-            _ => {
-                return Ok(Drawing {
-                    frame,
-                    content,
-                    opaque: false,
-                });
-            }
+            _ => return drawn(frame, content),
         };
         let engine = ENGINES.iter().filter(|engine| engine.name == name);
         let has: Vec<&str> = engine.flat_map(|engine| engine.methods()).collect();
@@ -128,11 +121,7 @@ impl Drawing {
             return Err(format!("{problem}: expected one of {}", has.join(", ")).into());
         }
         pixel_by_pixel(title, *simd)?;
-        Ok(Drawing {
-            frame: in_triangles(frame, title, talk),
-            content,
-            opaque: false,
-        })
+        drawn(in_triangles(frame, title, talk), content)
     }
 
     /// Says what draws the picture: in full to the curious, and to all where it is not what they asked for.
