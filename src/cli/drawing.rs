@@ -2,6 +2,7 @@
 
 use super::engines::{ENGINES, EngineFlag, Simd, cs171_shading};
 use super::log::Log;
+use super::method_flag::AUTO;
 use super::text::{counted, grouped};
 use super::{CliError, aov::Aov};
 use fastphong::compare::comparison::DrawnBy;
@@ -10,9 +11,9 @@ use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
 use fastphong::number::suggest::nearest;
 use fastphong::picture::encoding::store;
-use fastphong::picture::image_file::FilePicture;
+use fastphong::picture::image_file::{FilePicture, FileTexels};
 use fastphong::picture::{Encoding, Picture, Picture8};
-use fastphong::raster::{Edges, Renderer};
+use fastphong::raster::{self, Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
 use fastphong::shading::{METHODS, Variant};
@@ -47,14 +48,14 @@ pub fn method(text: &str) -> Result<Method, String> {
     let means_method = nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some();
     let error = match Variant::parse(text) {
         Ok(variant) => return Ok(Method::Variant(variant)),
-        Err(_) if !means_method && nearest(name, [REFERENCE]).is_some() => {
-            return Err(format!(
-                "unknown method `{name}`: did you mean `{REFERENCE}`?"
-            ));
-        }
-        Err(error) => error,
+        Err(error) => error.to_string(),
     };
-    Err(error.to_string())
+    match nearest(name, [REFERENCE, AUTO]) {
+        Some(near) if !means_method => {
+            Err(format!("unknown method `{name}`: did you mean `{near}`?"))
+        }
+        _ => Err(error),
+    }
 }
 
 impl fmt::Display for Method {
@@ -80,6 +81,8 @@ pub enum PictureContent {
 pub struct RenderJob {
     frame: Frame,
     content: PictureContent,
+    /// True if alpha is full everywhere, whatever is covered.
+    pub opaque: bool,
 }
 
 impl RenderJob {
@@ -88,8 +91,15 @@ impl RenderJob {
     /// # Errors
     /// When the engine does not have the method or the instruction set.
     pub fn new(frame: Frame, content: PictureContent, log: Log) -> Result<RenderJob, CliError> {
+        let job = |frame, content| {
+            Ok(RenderJob {
+                frame,
+                content,
+                opaque: false,
+            })
+        };
         let PictureContent::Shaded(method, engine, simd, _) = &content else {
-            return Ok(RenderJob { frame, content });
+            return job(frame, content);
         };
         let (name, title) = match (engine, method) {
             (EngineFlag::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
@@ -100,9 +110,9 @@ impl RenderJob {
             }
             (EngineFlag::Scanlines(None), Method::Reference(_)) => {
                 refuse_simd("the reference", *simd)?;
-                return Ok(RenderJob { frame, content });
+                return job(frame, content);
             }
-            _ => return Ok(RenderJob { frame, content }),
+            _ => return job(frame, content),
         };
         let engine = ENGINES.iter().filter(|engine| engine.name == name);
         let has: Vec<&str> = engine.flat_map(|engine| engine.methods()).collect();
@@ -113,7 +123,7 @@ impl RenderJob {
         }
         refuse_simd(title, *simd)?;
         let frame = in_triangles(frame, title, log);
-        Ok(RenderJob { frame, content })
+        job(frame, content)
     }
 
     /// Logs which loops draw the picture: as a note where they are not those that were asked for.
@@ -171,6 +181,34 @@ impl RenderJob {
         }
     }
 
+    /// Returns the name of the method, or of the quantity that is shown instead of colours.
+    pub fn name(&self) -> String {
+        match &self.content {
+            PictureContent::Shaded(method, ..) => method.to_string(),
+            PictureContent::Aov(aov, _) => aov.name(),
+        }
+    }
+
+    /// Returns the name of the engine that draws.
+    pub fn engine(&self) -> &'static str {
+        match &self.content {
+            PictureContent::Aov(..) => raster::Engine::Span.name(),
+            PictureContent::Shaded(Method::Reference(_), ..) => REFERENCE,
+            PictureContent::Shaded(_, EngineFlag::Barycentric(_), ..) => "barycentric",
+            PictureContent::Shaded(_, EngineFlag::Cs171 { .. }, ..) => "cs171",
+            PictureContent::Shaded(
+                Method::Variant(variant),
+                EngineFlag::Scanlines(_),
+                _,
+                renderer,
+            ) => variant
+                .plan(&self.frame, *renderer)
+                .renderer
+                .engine()
+                .name(),
+        }
+    }
+
     /// Returns width and height of the picture in pixels.
     pub fn size(&self) -> [usize; 2] {
         [self.frame.picture_width(), self.frame.picture_height()]
@@ -178,6 +216,19 @@ impl RenderJob {
 
     /// Draws the picture: floats if `linear`, else as stored in 8 bits.
     pub fn picture(&self, linear: bool) -> FilePicture {
+        let mut picture = self.drawn(linear);
+        if self.opaque
+            && let FileTexels::Stored(stored) = &mut picture.texels
+        {
+            stored
+                .texels_mut()
+                .iter_mut()
+                .for_each(|texel| texel[3] = 255);
+        }
+        picture
+    }
+
+    fn drawn(&self, linear: bool) -> FilePicture {
         let frame = &self.frame;
         let (variant, engine, renderer) = match &self.content {
             PictureContent::Aov(aov, square) if linear => {

@@ -8,8 +8,10 @@ use super::text::{grouped, wrapped};
 use super::{CliError, Outcome};
 use fastphong::compare::table::aligned;
 use fastphong::mesh::vertex_normals::NormalSource;
+use fastphong::raster::Renderer;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{Object, Projection, Scene, input};
+use fastphong::shading::Variant;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -56,10 +58,15 @@ impl InfoArgs {
         };
         let objects = scene.objects.iter().zip(file.meshes());
         let objects: Vec<ObjectFacts> = objects.map(&mut object).collect();
-        let choices = auto_choices(&scene.frame()?);
+        let frame = scene.frame()?;
+        let choices = auto_choices(&frame);
+        let method = Variant::auto(&frame, Renderer::fastest());
         match self.json {
-            true => json_to_stdout(&self.scene_json(&file, scene, &objects, &choices)),
-            false => to_stdout(self.scene_text(&file, scene, &objects, &choices).as_bytes()),
+            true => json_to_stdout(&self.scene_json(&file, scene, &objects, &choices, &method)),
+            false => to_stdout(
+                self.scene_text(&file, scene, &objects, &choices, &method)
+                    .as_bytes(),
+            ),
         }?;
         Ok(Outcome::Done)
     }
@@ -71,6 +78,7 @@ impl InfoArgs {
         scene: &Scene,
         objects: &[ObjectFacts],
         choices: &[AutoChoice],
+        (method, why): &(Variant, &str),
     ) -> Value {
         let camera = &scene.camera;
         let (half_height, fovy) = match camera.projection {
@@ -89,6 +97,7 @@ impl InfoArgs {
                 "half_height": half_height, "fovy": fovy, "near": camera.near, "far": camera.far,
             },
             "lights": scene.lights.len(),
+            "method": { "name": method.to_string(), "reason": why },
             "auto": choices,
             "objects": objects,
         })
@@ -101,6 +110,7 @@ impl InfoArgs {
         scene: &Scene,
         objects: &[ObjectFacts],
         choices: &[AutoChoice],
+        (method, why): &(Variant, &str),
     ) -> String {
         let title = file
             .title()
@@ -123,6 +133,7 @@ impl InfoArgs {
                 "objects",
                 format!("{}, {polygons} polygons in all", objects.len()),
             ),
+            row("method", format!("{method} by auto: {why}")),
         ];
         let names = ["auto"].into_iter().chain(std::iter::repeat(""));
         rows.extend(

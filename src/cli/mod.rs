@@ -14,22 +14,29 @@ mod error;
 mod experiments;
 mod explain;
 mod figure;
+mod first_steps;
 mod frame_times;
 mod info;
 mod list;
 pub mod log;
 mod measured;
 mod mesh_facts;
+mod method_flag;
+mod name_template;
 mod output;
 mod progress;
 mod reference_check;
 mod render;
 mod report;
 mod scene_flags;
+mod shell;
+mod studio;
 mod text;
 mod values;
+mod watch;
 
 pub use error::{CliError, Outcome};
+pub use first_steps::FIRST_STEPS;
 use log::Log;
 
 /// Phong shading on a scanline rasterizer: eleven methods to run, time, look at and check against an f64 reference.
@@ -60,6 +67,8 @@ enum Command {
     Info(info::InfoArgs),
     Compare(compare::CompareArgs),
     Bench(bench::BenchArgs),
+    Completions(shell::CompletionsArgs),
+    Man(shell::ManArgs),
 }
 
 impl Cli {
@@ -79,6 +88,8 @@ impl Cli {
             Command::Info(command) => command.run(log),
             Command::Compare(command) => command.run(log),
             Command::Bench(command) => command.run(log),
+            Command::Completions(command) => command.run(),
+            Command::Man(command) => command.run(),
         }
     }
 }

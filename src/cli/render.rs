@@ -1,14 +1,17 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::Aov;
-use super::drawing::{self, Method, PictureContent, RenderJob};
+use super::drawing::{PictureContent, RenderJob};
 use super::engines::{self, EngineFlag, ScanlineEngine, Simd, ThreadFlags, renderer};
 use super::log::{Log, to_stderr, to_stdout};
+use super::method_flag::{AUTO, AskedMethod, asked_method};
+use super::name_template::{named, scene_name};
 use super::output::{self, Output};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
 use super::text::{counted, grouped};
+use super::watch::watch;
 use super::{CliError, Outcome, values};
 use fastphong::compare::table::aligned;
 use fastphong::frame::{Frame, FrameStats};
@@ -24,16 +27,18 @@ use std::time::Instant;
 pub struct RenderArgs {
     /// Scene file, mesh file, builtin:NAME?key=value, or name of a shipped scene
     input: String,
-    /// Picture file: .png, .ppm or .pfm (linear floats); `-` is standard output
+    /// Picture file: .png, .ppm or .pfm (linear floats); `-` is standard output. `{scene}`, `{method}`, `{engine}`, `{width}` and
+    /// `{height}` stand for those of the picture
     #[arg(short, long, value_name = "FILE", required_unless_present_any = ["print_scene", "reference", "stats"])]
     output: Option<PathBuf>,
     /// Format of the picture, regardless of the file's ending [default: by the ending, png on standard output]
     #[arg(long, value_name = "png|ppm|pfm", value_parser = output::format, requires = "output")]
     format: Option<Format>,
-    /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `reference` is the
-    /// closed form in f64, `reference:model=flat|gouraud|phong|slerp`
-    #[arg(short, long, default_value = "fast-phong", value_parser = drawing::method)]
-    method: Method,
+    /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `auto` draws naive Phong's
+    /// picture in the least time: `fastphong info` says by which method. `reference` is the closed form in f64,
+    /// `reference:model=flat|gouraud|phong|slerp`
+    #[arg(short, long, default_value = AUTO, value_parser = asked_method)]
+    method: AskedMethod,
     /// Engine that finds the pixels: `span` (or `scanline`), as in the lecture, one pixel at a time; `row`, SIMD; `auto`, `row`
     /// where it can draw the frame; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with
     /// `:normals=unit|as-printed`. See `fastphong list engines`
@@ -65,6 +70,9 @@ pub struct RenderArgs {
     /// differs by 255
     #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = values::grey_levels, allow_hyphen_values = true, requires = "reference", visible_alias = "ref-threshold")]
     reference_threshold: f64,
+    /// Draw again whenever a file of the scene changes, until Ctrl-C
+    #[arg(long)]
+    watch: bool,
     #[command(flatten)]
     scene: SceneFlags,
 }
@@ -72,12 +80,16 @@ pub struct RenderArgs {
 impl RenderArgs {
     /// Draws, compares and prints, as asked for.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
-        self.threads.install(|| self.draw(log))?
+        let draw = || self.threads.install(|| self.draw(log))?;
+        match self.watch {
+            true => watch(&self.input, log, draw),
+            false => draw(),
+        }
     }
 
     /// Loads, draws, writes and compares.
     fn draw(&self, log: Log) -> Result<Outcome, CliError> {
-        let output = self.checked_output()?;
+        let mut output = self.output()?;
         // Text goes to standard error where the picture goes to standard output.
         let print: fn(&str) -> Result<(), CliError> = match &output {
             Some(Output { path: None, .. }) => |text| {
@@ -86,12 +98,19 @@ impl RenderArgs {
             },
             _ => |text| to_stdout(text.as_bytes()),
         };
-        let shown = self.shown()?;
-        let mut file = self.scene.load(&self.input)?;
+        let renderer = self.renderer()?;
+        let shows = self.aov.is_none();
+        let mut file = match shows {
+            true => self.scene.load_to_show(&self.input)?,
+            false => self.scene.load(&self.input)?,
+        };
         let progress = Progress::watched(log);
         progress.at(0.0, "loading");
         let started = Instant::now();
-        let mut resolved = input::resolve(&file)?;
+        let mut resolved = match shows {
+            true => self.scene.resolve_to_show(&mut file)?,
+            false => input::resolve(&file)?,
+        };
         if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
             // The mean of depths, normals or polygon numbers has no meaning.
             progress.aside(|| log.note("--aov shows single samples: one a pixel, in its middle"));
@@ -128,9 +147,16 @@ impl RenderArgs {
             });
         }
         progress.at(0.5, "shading");
-        let job = progress.aside(|| RenderJob::new(frame, shown, log))?;
-        progress.aside(|| job.log(self.threads.threads, log));
-        if let Some(output) = &output {
+        let job = progress.aside(|| {
+            let content = self.content(&frame, renderer, log);
+            let mut job = RenderJob::new(frame, content, log)?;
+            let image = file.table().table("image");
+            job.opaque = image.and_then(|image| image.text("alpha")) == Some("opaque");
+            job.log(self.threads.threads, log);
+            Ok::<_, CliError>(job)
+        })?;
+        if let Some(output) = &mut output {
+            self.name(output, &job)?;
             self.write(&job, output, &progress, log)?;
         }
         let Some(reference) = &self.reference else {
@@ -146,21 +172,33 @@ impl RenderArgs {
         Ok(outcome)
     }
 
-    /// Returns the destination of the picture, which must not be its reference.
-    fn checked_output(&self) -> Result<Option<Output>, CliError> {
-        let output = self.output.as_deref();
-        let output = output.map(|path| Output::new(path, self.format));
-        let output = output.transpose()?;
-        let Some(reference) = &self.reference else {
-            return Ok(output);
+    /// Returns the destination of the picture.
+    fn output(&self) -> Result<Option<Output>, CliError> {
+        if let Some(reference) = &self.reference {
+            Format::of_path(reference)?;
+        }
+        let Some(path) = &self.output else {
+            return Ok(None);
         };
-        Format::of_path(reference)?;
-        match output.as_ref().and_then(|output| output.path.as_deref()) {
-            Some(path) if same_file(path, reference) => {
+        // Wrong placeholders are said before anything is drawn.
+        named(path, Default::default())?;
+        Output::new(path, self.format).map(Some)
+    }
+
+    /// Puts the facts of the picture into its name; refuses to write over its reference.
+    fn name(&self, output: &mut Output, job: &RenderJob) -> Result<(), CliError> {
+        let Some(path) = &mut output.path else {
+            return Ok(());
+        };
+        let [width, height] = job.size().map(|side| side.to_string());
+        let (scene, method) = (scene_name(&self.input), job.name());
+        *path = named(path, [scene, &method, job.engine(), &width, &height])?;
+        match &self.reference {
+            Some(reference) if same_file(path, reference) => {
                 let problem = format!("is the reference itself, {}", reference.display());
                 Err(format!("`--output` {problem}: expected another file").into())
             }
-            _ => Ok(output),
+            _ => Ok(()),
         }
     }
 
@@ -185,34 +223,32 @@ impl RenderArgs {
             output.write(&picture)?;
         }
         if let Some(path) = &output.path {
-            let ([width, height], path, shown) = (job.size(), path.display(), self.shown_name());
+            let ([width, height], path, shown) = (job.size(), path.display(), job.name());
             progress.aside(|| log.note(&format!("{path}: {width}x{height}, {shown}")));
         }
         Ok(())
     }
 
-    fn shown(&self) -> Result<PictureContent, CliError> {
-        if let Some(aov) = self.aov {
-            return Ok(PictureContent::Aov(aov, self.square));
-        }
-        let renderer = match self.engine {
+    fn renderer(&self) -> Result<Renderer, CliError> {
+        Ok(match self.engine {
             EngineFlag::Scanlines(engine) => {
                 let engine = Some(ScanlineEngine(engine));
                 renderer(engine, Some(self.simd), Renderer::fastest())?
             }
             EngineFlag::Barycentric(_) | EngineFlag::Cs171 { .. } => Renderer::LECTURE,
-        };
-        let (method, engine) = (self.method.clone(), self.engine);
-        Ok(PictureContent::Shaded(method, engine, self.simd, renderer))
+        })
     }
 
-    /// Returns the method or the other quantity that the picture shows.
-    fn shown_name(&self) -> String {
-        use clap::ValueEnum;
-        match self.aov.and_then(|aov| aov.to_possible_value()) {
-            Some(aov) => aov.get_name().to_owned(),
-            None => self.method.to_string(),
+    /// Returns what to draw of `frame`; logs which method `auto` takes.
+    fn content(&self, frame: &Frame, renderer: Renderer, log: Log) -> PictureContent {
+        if let Some(aov) = self.aov {
+            return PictureContent::Aov(aov, self.square);
         }
+        let (method, why) = self.method.choose(frame, self.engine, renderer);
+        if let Some(why) = why {
+            log.detail(&format!("method {method}, by {AUTO}: {why}"));
+        }
+        PictureContent::Shaded(method, self.engine, self.simd, renderer)
     }
 }
 

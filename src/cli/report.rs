@@ -182,7 +182,7 @@ impl ReportArgs {
 
     /// Makes the picture of a scene no larger than the page shows it, unless flags say otherwise.
     fn shown(&self, mut file: SceneFile) -> SceneFile {
-        if self.full || self.scene.has_size() {
+        if self.full || self.scene.gives(Some("image"), "width") {
             return file;
         }
         let image = file.table().table("image");

@@ -273,7 +273,11 @@ impl SceneFlags {
     /// # Errors
     /// When there is no such input.
     pub fn load(&self, input: &str) -> Result<SceneFile, CliError> {
-        let mut file = input::load(input)?;
+        Ok(self.over(input::load(input)?))
+    }
+
+    /// Returns `file` with the changes of the flags.
+    pub fn over(&self, mut file: SceneFile) -> SceneFile {
         file.overlay(self.over.clone());
         for object in file.objects_mut() {
             let normals = ["normals", "crease"];
@@ -285,13 +289,13 @@ impl SceneFlags {
             }
             object.overlay(self.every_object.clone());
         }
-        Ok(file)
+        file
     }
 
-    /// True if a flag gives the size of the picture.
-    pub fn has_size(&self) -> bool {
-        let image = self.over.table("image");
-        image.is_some_and(|image| image.get("width").is_some())
+    /// True if a flag gives `key` of the scene, or of the table `table` of it.
+    pub fn gives(&self, table: Option<&str>, key: &str) -> bool {
+        let table = table.map_or(Some(&self.over), |table| self.over.table(table));
+        table.is_some_and(|table| table.get(key).is_some())
     }
 
     /// Says what is odd about a scene.

@@ -14,6 +14,7 @@
 //! Start with `spans/mod.rs`; `render.rs` says which engine draws, `setup.rs` what is computed before the first scanline.
 
 mod aov;
+mod auto;
 #[cfg(feature = "simd")]
 mod bands;
 mod barycentric;

@@ -174,7 +174,7 @@ fn frame_times_are_a_line_a_method() {
     let folder = Folder::new();
     let flags = "--frame-times --frames 3 --warmup 1 --threads 2 --json times.json";
     let ended = folder
-        .run(&format!("bench {SPHERE} builtin:cube {flags}"))
+        .run(&format!("bench {SPHERE} builtin:cube --size 64x48 {flags}"))
         .done();
     let text = String::from_utf8(folder.read("times.json")).unwrap();
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();

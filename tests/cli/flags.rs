@@ -98,10 +98,10 @@ fn view_zero_is_from_z_and_azimuth_turns_toward_x() {
     ] {
         let up = if view == "0,90" { " --up 0,0,-1" } else { "" };
         let turned = rendered(&format!(
-            "builtin:gear --size 64x48 --fit 0.7 --view {view}"
+            "builtin:gear --alpha coverage --samples 1 --size 64x48 --fit 0.7 --view {view}"
         ));
         let placed = rendered(&format!(
-            "builtin:gear --size 64x48 --fit 0.7 --eye {eye}{up}"
+            "builtin:gear --alpha coverage --samples 1 --size 64x48 --fit 0.7 --eye {eye}{up}"
         ));
         // The two directions differ by the rounding of a sine: places on the picture do so by less than 1/256 pixel,
         // which may move a pixel of the rim.

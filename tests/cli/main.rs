@@ -3,16 +3,21 @@
 
 mod aov;
 mod bench;
+mod defaults;
 mod diff;
 mod engines;
 mod figure;
 mod flags;
 mod input;
+mod name_template;
 mod output;
 mod reference;
 mod render;
 mod report;
+mod shell;
+mod studio;
 mod tables;
+mod watch;
 
 use fastphong::picture::Picture8;
 use std::path::{Path, PathBuf};
@@ -216,5 +221,5 @@ fn covered(picture: &Picture8) -> usize {
         .count()
 }
 
-/// A small sphere: pictures that are drawn in no time.
-const SPHERE: &str = "builtin:sphere?rings=6&segments=8 --size 64x48";
+/// A scene of a small sphere, 64 × 48: pictures that are drawn in no time.
+const SPHERE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cli/sphere.toml");

@@ -41,7 +41,9 @@ fn a_picture_already_there_stays_when_something_fails_and_is_replaced_when_nothi
     folder.write("out.png", "old");
     folder.run("render taepot -o out.png").refused(&["teapot"]);
     folder
-        .run(&format!("render {SPHERE} --engine barycentric -o out.png"))
+        .run(&format!(
+            "render {SPHERE} -m fast-phong --engine barycentric -o out.png"
+        ))
         .refused(&["barycentric"]);
     assert_eq!(folder.read("out.png"), b"old");
     folder.run(&format!("render {SPHERE} -o out.png")).done();

@@ -3,6 +3,7 @@
 mod accuracy;
 mod agreement;
 mod attributes;
+mod auto;
 mod clipping;
 mod counts;
 mod coverage;

@@ -44,6 +44,10 @@ enum Oddity {
     ColourOutOfRange,
     #[error("a texture coordinate that does not exist is ignored, as all of them are")]
     NoTextureCoordinate,
+    #[error(
+        "a face names normals or texture coordinates, of which the file has none: normals are averaged"
+    )]
+    UndeclaredNormal,
     #[error("a face has corners without a normal: averaged normals are used for the whole mesh")]
     NoNormal,
     #[error(
@@ -75,6 +79,8 @@ pub(super) struct Prescan {
     positions: Entries,
     normals: Entries,
     texture_coordinates: usize,
+    /// The first line that counts normals backwards before there is one, and its index.
+    early_normal: Option<(usize, i64)>,
     corners_with_normal: usize,
     /// The number of positions with a colour.
     colours: usize,
@@ -109,7 +115,24 @@ pub(super) fn prescan(
         scan.statement(line, &statement, &mut corners)
             .map_err(|problem| (Some(line), problem))?;
     }
-    let missing = [scan.positions.missing(), scan.normals.missing()];
+    // As for other loaders, a file without any normal may name them.
+    let undeclared = scan.normals.count == 0;
+    let early = scan.early_normal.map(|(line, index)| {
+        let what = "normal";
+        (
+            line,
+            ObjProblem::IndexOutOfRange {
+                what,
+                index,
+                count: 0,
+            },
+        )
+    });
+    let missing = [
+        scan.positions.missing(),
+        scan.normals.missing().filter(|_| !undeclared),
+        early.filter(|_| !undeclared),
+    ];
     if let Some((line, problem)) = missing.into_iter().flatten().min_by_key(|(line, _)| *line) {
         return Err((Some(line), problem));
     }
@@ -123,7 +146,7 @@ pub(super) fn prescan(
 impl Prescan {
     /// True if every corner has a normal: only then the normals of the file are used.
     pub(super) fn has_normals(&self) -> bool {
-        self.corners_with_normal > 0 && !self.has(Oddity::NoNormal)
+        self.normals.count > 0 && self.corners_with_normal > 0 && !self.has(Oddity::NoNormal)
     }
 
     /// True if every position has a colour: only then the colours of the file are used.
@@ -136,7 +159,12 @@ impl Prescan {
         let matters = |oddity: &Oddity| match oddity {
             Oddity::NoColour => self.colours > 0,
             Oddity::ColourOutOfRange => self.has_colours(),
-            Oddity::NoNormal => self.corners_with_normal > 0,
+            Oddity::UndeclaredNormal => self.normals.count == 0,
+            Oddity::NoTextureCoordinate => {
+                let is_told = self.normals.count == 0 && self.has(Oddity::UndeclaredNormal);
+                self.texture_coordinates > 0 || !is_told
+            }
+            Oddity::NoNormal => self.normals.count > 0 && self.corners_with_normal > 0,
             Oddity::SmoothingGroups => !self.has_normals(),
             _ => true,
         };
@@ -330,7 +358,14 @@ impl Prescan {
             self.note(line, Oddity::NoTextureCoordinate);
         }
         let position = self.positions.resolve(line, written.position)?;
+        if self.normals.count == 0 && written.normal.is_some_and(|index| index != 0) {
+            self.note(line, Oddity::UndeclaredNormal);
+        }
         let normal = match written.normal {
+            Some(index @ ..0) if self.normals.count == 0 => {
+                self.early_normal.get_or_insert((line, index));
+                None
+            }
             Some(index) => Some(self.normals.resolve(line, index)?),
             None => None,
         };

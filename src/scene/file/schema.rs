@@ -175,6 +175,8 @@ const IMAGE: &[Key] = &[
     key("height", ValueKind::Whole),
     // Colour where nothing is drawn, 0 to 1. Default: 0.
     key("background", ValueKind::OneOrThree),
+    // Alpha of a PNG file: the covered share of each pixel (default), or `opaque` everywhere.
+    key("alpha", ValueKind::Word(&["coverage", "opaque"])),
     // The storage of values in eight bits. Default: `linear`.
     key("encoding", ENCODING),
     // Samples a pixel along each side: 1 (default), 2, 4 or 8.

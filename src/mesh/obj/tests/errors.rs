@@ -187,8 +187,17 @@ fn indices() {
         7,
         "normal index -5 is out of range: expected -1 to -1 at this line",
     );
-    let none = "normal index 1 is out of range: expected a normal to be given first, there is none";
-    assert_error_after_points("f 1//1 2//1 3//1\n", 6, none);
+    // Normals that come later do not help who counts backwards, nor who counts too far; 0 names none in any file.
+    let none =
+        "normal index -1 is out of range: expected a normal to be given first, there is none";
+    assert_error_after_points("f 1//-1 2//1 3//1\nvn 0 0 1\n", 6, none);
+    assert_error_after_points(
+        "f 1//1 2//2 3//1\nvn 0 0 1\n",
+        6,
+        "normal index 2 is out of range: expected 1 to 1",
+    );
+    let zero = "normal index 0: expected 1 or more (or -1 and below, counted backwards)";
+    assert_error_after_points("f 1//0 2//1 3//1\n", 6, zero);
 }
 
 #[test]

@@ -177,6 +177,39 @@ fn normals_of_a_part_of_the_corners_are_not_used() {
     assert!(unused.mesh.given_normals().is_none() && unused.warnings.is_empty());
 }
 
+/// As other loaders do: faces may name normals and texture coordinates that the file does not have at all.
+#[test]
+fn normals_of_a_file_without_any_are_averaged() {
+    for (faces, told) in [
+        (
+            "f 1//1 2//2 3//9\nf 1 3 4\n",
+            "a face names normals or texture coordinates, of which",
+        ),
+        (
+            "f 1//-1 2//-2 3//-1\n",
+            "a face names normals or texture coordinates, of which",
+        ),
+        (
+            "f 1/1/1 2/2/2 3/3/3\n",
+            "a face names normals or texture coordinates, of which",
+        ),
+        (
+            "f 1/1/-1 2/2/1 3/3/3\n",
+            "a face names normals or texture coordinates, of which",
+        ),
+    ] {
+        let loaded = after_points(faces);
+        assert_eq!(polygons(&loaded)[0], [0, 1, 2], "{faces:?}");
+        assert!(loaded.mesh.given_normals().is_none(), "{faces:?}");
+        let warning = warning(&loaded);
+        assert!(warning.starts_with(told), "{warning}");
+        assert!(
+            warning.ends_with("the file has none: normals are averaged (3 times, first in line 6)"),
+            "{warning}"
+        );
+    }
+}
+
 #[test]
 fn smoothing_groups_that_would_show_are_told() {
     let told = |text: &str| {

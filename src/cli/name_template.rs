@@ -1,0 +1,45 @@
+//! Placeholders in the name of a picture: `-o "{scene}_{method}.png"`.
+
+use super::CliError;
+use std::path::{Path, PathBuf};
+
+/// What a name may say about its picture.
+pub const PLACEHOLDERS: [&str; 5] = ["scene", "method", "engine", "width", "height"];
+
+/// Returns `path` with each `{placeholder}` replaced by the value that stands in its place in [`PLACEHOLDERS`]. Characters that
+/// a file name had better not hold become `-`.
+///
+/// # Errors
+/// When there is no such placeholder.
+pub fn named(path: &Path, values: [&str; PLACEHOLDERS.len()]) -> Result<PathBuf, CliError> {
+    // Names that are not text hold no placeholders.
+    let Some(text) = path.to_str() else {
+        return Ok(path.to_owned());
+    };
+    let mut parts = text.split('{');
+    let mut name = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let Some((placeholder, rest)) = part.split_once('}') else {
+            name = name + "{" + part;
+            continue;
+        };
+        let place = PLACEHOLDERS.iter().position(|known| *known == placeholder);
+        let Some(place) = place else {
+            let known = PLACEHOLDERS.map(|known| format!("{{{known}}}")).join(", ");
+            let problem = format!("`--output` names `{{{placeholder}}}`, which is no placeholder");
+            return Err(format!("{problem}: expected one of {known}").into());
+        };
+        name += &values[place].replace(|c: char| !c.is_alphanumeric() && !"-_.".contains(c), "-");
+        name += rest;
+    }
+    Ok(name.into())
+}
+
+/// Returns the name of what `input` shows: of a file its name without ending.
+pub fn scene_name(input: &str) -> &str {
+    let stem = Path::new(input).file_stem().and_then(|stem| stem.to_str());
+    match stem {
+        Some(stem) if !input.starts_with("builtin:") => stem,
+        _ => input,
+    }
+}

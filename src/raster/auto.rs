@@ -1,0 +1,45 @@
+//! The method that draws naive Phong's picture in the least time.
+
+use super::engine::{Engine, Renderer};
+use crate::frame::Frame;
+use crate::shading::Variant;
+
+impl Variant {
+    /// Chooses the method that draws naive Phong's picture of `frame` fastest by `renderer`, and says why.
+    ///
+    /// The rule has no clock in it: it takes the method that was fastest in the report of every shipped scene
+    /// (`report/README.md`) among those that interpolate normals and light each pixel from them, as naive Phong does, so that
+    /// no picture is more than one grey level of 255 away from naive Phong's. Methods that step cosines or `N·N` along a span
+    /// are left out: Duff's is up to 1.5 times as fast in spans of many pixels, but [`Variant::bound`] promises no such level.
+    ///
+    /// ```
+    /// use fastphong::mesh::builtin::builtin;
+    /// use fastphong::raster::Renderer;
+    /// use fastphong::scene::Scene;
+    /// use fastphong::shading::Variant;
+    ///
+    /// let frame = Scene::of_mesh(builtin("sphere")?).frame()?;
+    /// let (method, why) = Variant::auto(&frame, Renderer::fastest());
+    /// println!("{method}: {why}");
+    /// let picture = method.render(&frame);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn auto(frame: &Frame, renderer: Renderer) -> (Variant, &'static str) {
+        let named = |name| Variant::parse(name).expect("a method of the table");
+        let rsqrt = named("phong-rsqrt");
+        match rsqrt.plan(frame, renderer).renderer.engine() {
+            Engine::Span if frame.is_local() => (
+                named("naive-phong"),
+                "under lights or an eye at positions nothing as exact is faster one pixel at a time",
+            ),
+            Engine::Span => (
+                rsqrt,
+                "naive Phong's picture in less time, one pixel at a time",
+            ),
+            Engine::Row => (
+                rsqrt,
+                "naive Phong's picture in the least time of the row engine",
+            ),
+        }
+    }
+}

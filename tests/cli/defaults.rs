@@ -1,0 +1,80 @@
+//! What the tool does where nothing is asked for.
+
+use super::Folder;
+use fastphong::number::Level;
+
+/// Without `--method` naive Phong's picture is drawn, which fast Phong's is not under lights at positions; who wants to know
+/// is told by which method and why.
+#[test]
+fn auto_is_the_default_method_and_says_what_it_takes() {
+    let folder = Folder::new();
+    let scene = "render two-lights --size 160x120";
+    folder
+        .run(&format!("{scene} -m naive-phong -o naive.png"))
+        .done();
+    let like_naive = |flags: &str| folder.run(&format!("{scene} {flags} --reference naive.png"));
+    for flags in [
+        "",
+        "-m auto",
+        "--simd scalar",
+        "--engine cs171",
+        "--engine barycentric",
+    ] {
+        let flags = format!("{flags} --reference-threshold 1");
+        like_naive(&flags).done();
+    }
+    like_naive("-m fast-phong --reference-threshold 1").differs();
+    let take = |flags: &str, method: &str| {
+        let picture = folder
+            .run(&format!("{scene} {flags} -o out.png --verbose"))
+            .done();
+        picture
+            .says(&format!("method {method}, by auto: "))
+            .says(&format!("out.png: 160x120, {method}\n"));
+    };
+    if Level::best() != Level::Scalar {
+        take("", "phong-rsqrt");
+    }
+    take("--simd scalar", "naive-phong");
+    take(
+        "--simd scalar --light 1,1,1 --viewer infinite",
+        "phong-rsqrt",
+    );
+    take("--engine cs171", "naive-phong");
+    let quiet = folder.run(&format!("{scene} -o out.png")).done();
+    assert!(!quiet.err.contains("auto"), "{}", quiet.err);
+    let named = folder
+        .run(&format!("{scene} -m gouraud -o out.png --verbose"))
+        .done();
+    assert!(!named.err.contains("auto"), "{}", named.err);
+
+    folder
+        .run("info teapot")
+        .done()
+        .prints("phong-rsqrt by auto: ");
+    let json = folder.run("info teapot --json").done().json();
+    assert_eq!(json["method"]["name"], "phong-rsqrt");
+    folder
+        .run("render teapot -m atuo -o out.png")
+        .refused(&["did you mean `auto`?"]);
+}
+
+/// Without arguments: five commands that work, then where help is. Exit code 2, as for all wrong usage.
+#[test]
+fn without_arguments_there_are_five_things_to_try() {
+    let folder = Folder::new();
+    let ended = folder.run("");
+    assert_eq!((ended.code, &*ended.out), (Some(2), ""));
+    let said = ended.says("fastphong --help").err;
+    let commands: Vec<&str> = said
+        .lines()
+        .filter_map(|line| line.strip_prefix("  fastphong ")?.split("  ").next())
+        .collect();
+    assert_eq!(commands.len(), 5, "{said}");
+    // The last one takes a minute.
+    for command in &commands[..4] {
+        folder.run(command).done();
+    }
+    assert_eq!(folder.names(), ["fast.png", "teapot.png"]);
+    assert!(said.lines().all(|line| line.len() <= 100), "{said}");
+}
