@@ -89,7 +89,7 @@ impl InfoArgs {
                 "half_height": half_height, "fovy": fovy, "near": camera.near, "far": camera.far,
             },
             "lights": scene.lights.len(),
-            "auto": choices,
+            "auto": choices.iter().map(AutoChoice::json).collect::<Vec<_>>(),
             "objects": objects,
         })
     }
@@ -129,7 +129,7 @@ impl InfoArgs {
             choices
                 .iter()
                 .zip(names)
-                .map(|(choice, name)| row(name, choice.to_string())),
+                .map(|(choice, name)| row(name, choice.text())),
         );
         let mut text = format!(
             "{}{title}\n{description}{}",

@@ -233,7 +233,7 @@ fn own_closed_form_is_that_of_the_model() {
 
 #[test]
 fn the_bound_of_a_row_is_that_of_the_frame_it_is_drawn_from() {
-    let frame = frame_of("sphere?rings=6&segments=12");
+    let frame = frame_of("prism");
     let comparison = errors_only(&frame, &all());
     let cut = triangulated(&frame).frame;
     let mut differing = 0;
