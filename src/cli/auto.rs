@@ -1,15 +1,13 @@
 //! The engine and the instruction set that `auto` chooses for a scene.
 
 use fastphong::frame::Frame;
-use fastphong::raster::Renderer;
+use fastphong::raster::{Plan, Renderer};
 use fastphong::shading::METHODS;
+use serde_json::{Value, json};
 
 /// One choice, and the methods that it is made for.
-#[derive(serde::Serialize)]
 pub struct AutoChoice {
-    engine: &'static str,
-    level: &'static str,
-    reason: Option<&'static str>,
+    plan: Plan,
     methods: Vec<&'static str>,
 }
 
@@ -18,40 +16,28 @@ pub fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
     let mut choices: Vec<AutoChoice> = Vec::new();
     for entry in METHODS {
         let plan = entry.variant().plan(frame, Renderer::fastest());
-        let choice = AutoChoice {
-            engine: plan.renderer.engine().name(),
-            level: plan.renderer.level().name(),
-            reason: plan.reason,
-            methods: vec![entry.info.name],
-        };
-        match choices
-            .iter_mut()
-            .find(|other| other.head() == choice.head())
-        {
-            Some(other) => other.methods.extend(choice.methods),
-            None => choices.push(choice),
+        let methods = vec![entry.info.name];
+        match choices.iter_mut().find(|choice| choice.plan == plan) {
+            Some(choice) => choice.methods.extend(methods),
+            None => choices.push(AutoChoice { plan, methods }),
         }
     }
     choices
 }
 
 impl AutoChoice {
-    fn head(&self) -> (&str, &str, Option<&str>) {
-        (self.engine, self.level, self.reason)
+    /// Writes the choice in words.
+    pub fn text(&self) -> String {
+        let Plan { renderer, reason } = self.plan;
+        let (engine, level) = (renderer.engine(), renderer.level());
+        let reason = reason.map_or(String::new(), |reason| format!(" ({reason})"));
+        format!("{engine}, {level}: {}{reason}", self.methods.join(", "))
     }
-}
 
-impl std::fmt::Display for AutoChoice {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let reason = self
-            .reason
-            .map_or(String::new(), |reason| format!(" ({reason})"));
-        write!(
-            f,
-            "{}, {}: {}{reason}",
-            self.engine,
-            self.level,
-            self.methods.join(", ")
-        )
+    /// Returns the choice as data.
+    pub fn json(&self) -> Value {
+        let Plan { renderer, reason } = self.plan;
+        let (engine, level) = (renderer.engine().name(), renderer.level().name());
+        json!({ "engine": engine, "level": level, "reason": reason, "methods": self.methods })
     }
 }

@@ -98,7 +98,7 @@ impl InfoArgs {
             },
             "lights": scene.lights.len(),
             "method": { "name": method.to_string(), "reason": why },
-            "auto": choices,
+            "auto": choices.iter().map(AutoChoice::json).collect::<Vec<_>>(),
             "objects": objects,
         })
     }
@@ -140,7 +140,7 @@ impl InfoArgs {
             choices
                 .iter()
                 .zip(names)
-                .map(|(choice, name)| row(name, choice.to_string())),
+                .map(|(choice, name)| row(name, choice.text())),
         );
         let mut text = format!(
             "{}{title}\n{description}{}",

@@ -273,13 +273,18 @@ fn check(value: &Value, example: &Value, place: &str) -> Result<(), String> {
     }
 }
 
-/// Adds the fields that older documents lack: all was drawn in the lecture's own form before there were other engines.
+/// Adds the fields that older documents and those of benchmarks lack: all was drawn in the lecture's own form before there
+/// were other engines.
 fn complete(document: &mut Value) {
     let lecture = json!({ "engine": "span", "level": "scalar", "threads": 1 });
     let mut names = Vec::new();
     for comparison in document["comparisons"].as_array_mut().into_iter().flatten() {
         if comparison["renderer"].is_null() {
             comparison["renderer"] = lecture.clone();
+        }
+        for field in ["title", "description"] {
+            let text = self::text(comparison, &format!("/{field}")).to_string();
+            comparison[field] = text.into();
         }
         for rows in ["rows", "barycentric"] {
             for row in comparison[rows].as_array_mut().into_iter().flatten() {
@@ -292,6 +297,7 @@ fn complete(document: &mut Value) {
             }
         }
     }
+    document["baseline"] = BASELINE.into();
     if list(document, "/methods").is_empty() {
         document["methods"] = json!(described(names.into_iter()));
     }

@@ -74,7 +74,14 @@ impl<'a> References<'a> {
             Model::Phong => None,
             model => Some(self.closed_forms.difference(model, &linear, &self.scanline)),
         };
-        self.row(variant, drawn_by, (picture, linear), &self.scanline, own)
+        let bound = variant.bound(self.frame);
+        self.row(
+            variant,
+            drawn_by,
+            (picture, linear),
+            &self.scanline,
+            (own, bound),
+        )
     }
 
     /// Draws a variant by the barycentric renderer and compares it; `None` if that does not have the method.
@@ -84,7 +91,8 @@ impl<'a> References<'a> {
         let forms = self.on_triangles.as_ref().unwrap_or(&self.closed_forms);
         let own = forms.difference(variant.info().model, &linear, &self.barycentric);
         let (by, shown) = (DrawnBy::BARYCENTRIC, self.origins(&self.barycentric));
-        Some(self.row(variant, by, (picture, linear), &shown, Some(own)))
+        let own = (Some(own), variant.bound(&self.cut.frame));
+        Some(self.row(variant, by, (picture, linear), &shown, own))
     }
 
     /// Compares the Phong reference of the triangles with that of the polygons; `None` if these are triangles already.
@@ -112,10 +120,10 @@ impl<'a> References<'a> {
         drawn_by: DrawnBy,
         (picture, linear): (Picture8, LinearPicture),
         shown: &Picture<u32>,
-        own: Option<Difference>,
+        (own, bound): (Option<Difference>, f64),
     ) -> MethodRow {
         let error = self.closed_forms.difference(Model::Phong, &linear, shown);
-        let (own, bound) = (own.unwrap_or(error), variant.bound(self.frame));
+        let own = own.unwrap_or(error);
         MethodRow {
             variant: variant.clone(),
             drawn_by,

@@ -110,7 +110,7 @@ fn head(c: &Comparison) -> String {
     let polygons = count(c.polygons, "polygon");
     let mut text = format!("{}: {}×{}, {polygons}", c.name, c.width, c.height);
     if c.triangles != c.polygons {
-        text += &format!(" worth {}", count(c.triangles, "triangle"));
+        text += &format!(" ({})", count(c.triangles, "triangle"));
     }
     let share = 100.0 * c.covered_pixels as f64 / (c.width * c.height) as f64;
     let covered = count(c.covered_pixels, "pixel");
@@ -123,9 +123,13 @@ fn head(c: &Comparison) -> String {
     for line in drawn_by(c) {
         text += &format!("drawn by {line}\n");
     }
-    if c.not_simple > 0 {
-        let crossing = count(c.not_simple, "polygon");
-        text += &format!("{crossing} crossing themselves: not drawn by the barycentric renderer\n");
+    let crossing = match c.not_simple {
+        0 => String::new(),
+        1 => "1 polygon that crosses itself is".to_string(),
+        n => format!("{n} polygons that cross themselves are"),
+    };
+    if !crossing.is_empty() {
+        text += &format!("{crossing} not drawn by the barycentric renderer\n");
     }
     text += "errors against the f64 Phong reference, in grey levels (1/255) of linear light before rounding\n";
     if c.all_rows().any(|row| row.speed.is_some()) {

@@ -232,6 +232,22 @@ fn own_closed_form_is_that_of_the_model() {
 }
 
 #[test]
+fn the_bound_of_a_row_is_that_of_the_frame_it_is_drawn_from() {
+    let frame = frame_of("prism");
+    let comparison = errors_only(&frame, &all());
+    let cut = triangulated(&frame).frame;
+    let mut differing = 0;
+    for row in &comparison.barycentric {
+        assert_eq!(row.bound, row.variant.bound(&cut), "{}", row.name());
+        differing += usize::from(row.bound != row.variant.bound(&frame));
+    }
+    assert!(differing > 0, "triangles have bounds of their own");
+    for row in &comparison.rows {
+        assert_eq!(row.bound, row.variant.bound(&frame), "{}", row.name());
+    }
+}
+
+#[test]
 fn a_comparison_without_times_is_the_same_at_every_run() {
     let frame = frame_of("sphere?rings=6&segments=12");
     let json = || serde_json::to_string(&errors_only(&frame, &all())).unwrap();

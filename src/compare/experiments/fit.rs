@@ -14,11 +14,7 @@ pub struct Observation<const N: usize> {
 impl<const N: usize> Observation<N> {
     /// Returns the sum of `costs` here.
     fn explained(&self, costs: &[f64; N]) -> f64 {
-        self.counts
-            .iter()
-            .zip(costs)
-            .map(|(count, cost)| count * cost)
-            .sum()
+        dot(&self.counts, costs)
     }
 }
 
@@ -107,10 +103,9 @@ fn solve<const N: usize>(observations: &[Observation<N>], subset: u32) -> Option
         for later in columns[k + 1..].iter_mut().chain([&mut right]) {
             let part = dot(&unit, later);
             row.push(part);
-            later
-                .iter_mut()
-                .zip(&unit)
-                .for_each(|(x, u)| *x -= part * u);
+            for (x, u) in later.iter_mut().zip(&unit) {
+                *x -= part * u;
+            }
         }
         triangle.push(row);
     }

@@ -47,7 +47,7 @@ pub fn difference_map<A: Texel, B: Texel>(
 ///
 /// The darkest orange or blue is the smallest difference, the lightest one of `scale` grey levels. Black: equal in
 /// luminance; [`BEYOND`], [`BEYOND_DARKER`]: too bright or too dark by more than `scale`; [`COVERAGE`]: covered by one
-/// picture only. What is not finite is [`BEYOND`]. Every difference is beyond a scale that is zero, negative or NaN.
+/// picture only. A pixel that is not finite is [`BEYOND`]. Every difference is beyond a scale that is zero, negative or NaN.
 ///
 /// # Errors
 /// If the sizes differ.
@@ -71,16 +71,12 @@ fn paint<A: Texel, B: Texel>(
 ) -> Result<Picture8, SizeMismatch> {
     SizeMismatch::check(reference, actual)?;
     let mut map = Picture8::new(reference.width(), reference.height(), EQUAL);
-    for (out, (r, a)) in map
-        .texels_mut()
-        .iter_mut()
-        .zip(reference.texels().iter().zip(actual.texels()))
-    {
+    let pairs = reference.texels().iter().zip(actual.texels());
+    for (out, (r, a)) in map.texels_mut().iter_mut().zip(pairs) {
         let (r, a) = (r.levels(), a.levels());
-        *out = if r.alpha() == a.alpha() {
-            colour(r, a)
-        } else {
-            COVERAGE
+        *out = match r.alpha() == a.alpha() {
+            true => colour(r, a),
+            false => COVERAGE,
         };
     }
     Ok(map)
@@ -103,10 +99,9 @@ fn signed_colour(error: f64, scale: f64) -> [u8; 4] {
     if error == 0.0 {
         return EQUAL;
     }
-    let ([from, to], beyond) = if error > 0.0 {
-        (BRIGHTER, BEYOND)
-    } else {
-        (DARKER, BEYOND_DARKER)
+    let ([from, to], beyond) = match error > 0.0 {
+        true => (BRIGHTER, BEYOND),
+        false => (DARKER, BEYOND_DARKER),
     };
     if error.abs() <= scale {
         let share = error.abs() / scale;

@@ -94,10 +94,9 @@ pub struct Difference {
 impl Difference {
     /// Returns the share of the compared pixels that `count` pixels are, in 0..=1; 0 if none was compared.
     pub fn share(&self, count: usize) -> f64 {
-        if self.compared == 0 {
-            0.0
-        } else {
-            count as f64 / self.compared as f64
+        match self.compared {
+            0 => 0.0,
+            compared => count as f64 / compared as f64,
         }
     }
 }
@@ -120,10 +119,9 @@ impl SizeMismatch {
             reference: [reference.width(), reference.height()],
             actual: [actual.width(), actual.height()],
         };
-        if sizes.reference == sizes.actual {
-            Ok(())
-        } else {
-            Err(sizes)
+        match sizes.reference == sizes.actual {
+            true => Ok(()),
+            false => Err(sizes),
         }
     }
 }

@@ -47,11 +47,10 @@ pub(super) fn mean_ssim(reference: &[f64], actual: &[f64], width: usize) -> Opti
     let mut moments = vec![0.0; MOMENTS * places];
     let mut products: [Vec<f64>; MOMENTS] = core::array::from_fn(|_| vec![0.0; width]);
     let mut sum = 0.0;
-    for (y, (x_row, y_row)) in reference
+    let rows = reference
         .chunks_exact(width)
-        .zip(actual.chunks_exact(width))
-        .enumerate()
-    {
+        .zip(actual.chunks_exact(width));
+    for (y, (x_row, y_row)) in rows.enumerate() {
         multiply(x_row, y_row, &mut products);
         let slot = &mut filtered[y % WINDOW * MOMENTS * places..][..MOMENTS * places];
         for (product, out) in products.iter().zip(slot.chunks_exact_mut(places)) {
@@ -59,11 +58,8 @@ pub(super) fn mean_ssim(reference: &[f64], actual: &[f64], width: usize) -> Opti
         }
         if y + 1 >= WINDOW {
             // y + 1 is the slot of the oldest row.
-            weigh(
-                &weights,
-                |k| &filtered[(y + 1 + k) % WINDOW * MOMENTS * places..],
-                &mut moments,
-            );
+            let row = |k| &filtered[(y + 1 + k) % WINDOW * MOMENTS * places..];
+            weigh(&weights, row, &mut moments);
             sum += row_sum(&moments, places);
         }
     }

@@ -56,12 +56,8 @@ pub fn time_interleaved(
 ) -> Vec<Timing> {
     let start = Instant::now();
     // 584 years of nanoseconds fit.
-    run(
-        candidates,
-        limits,
-        || start.elapsed().as_nanos() as u64,
-        progress,
-    )
+    let now = || start.elapsed().as_nanos() as u64;
+    run(candidates, limits, now, progress)
 }
 
 /// Runs [`time_interleaved`] by any clock that counts nanoseconds.
@@ -94,11 +90,7 @@ fn run(
     let mut spent = 0.0;
     for round in 0..most {
         let part = (spent / budget).max(round as f64 / most as f64);
-        progress(if part.is_finite() {
-            part.min(1.0) as f32
-        } else {
-            1.0
-        });
+        progress(part.min(1.0) as f32);
         if round >= TimeLimits::LEAST_ROUNDS && spent >= budget {
             break;
         }
@@ -109,25 +101,18 @@ fn run(
         }
     }
     progress(1.0);
-    let timings = samples.into_iter().zip(calls);
+    let timing = |(samples, calls)| Timing::of(samples, calls as u32);
+    let timings = samples.into_iter().zip(calls).map(timing);
     timings
-        .map(|(samples, calls)| {
-            Timing::of(samples, calls as u32).expect("finite times of five rounds")
-        })
-        .collect()
+        .collect::<Option<_>>()
+        .expect("finite times of five rounds")
 }
 
 /// Returns the order of the candidates in a round: turned by one more place each pair of rounds, and reversed in the second.
 fn order(candidates: usize, round: usize) -> impl Iterator<Item = usize> {
-    let turn = round / 2;
-    (0..candidates).map(move |i| {
-        (if round.is_multiple_of(2) {
-            i
-        } else {
-            candidates - 1 - i
-        } + turn)
-            % candidates
-    })
+    let (turn, is_forth) = (round / 2, round.is_multiple_of(2));
+    let place = move |i| if is_forth { i } else { candidates - 1 - i };
+    (0..candidates).map(move |i| (place(i) + turn) % candidates)
 }
 
 #[cfg(test)]
