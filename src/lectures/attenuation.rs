@@ -1,4 +1,5 @@
-//! Falloffs over the distance, and floors that they light (CS171 2, Attenuation; L5, Light falloff).
+//! Falloffs over the distance, and floors that they light (CS171 2, Attenuation; L5, Light
+//! falloff).
 
 use super::{
     DULL, Figure, FigureContent, Plot, Result, Series, draw, log, scene, share, stored, written,

@@ -1,4 +1,5 @@
-//! Barycentric coordinates: the triangle from red to blue, the weights as colours, and two misprints drawn.
+//! Barycentric coordinates: the triangle from red to blue, the weights as colours, and two
+//! misprints drawn.
 
 use super::{Figure, FigureContent, Result, largest, percent, stored};
 use crate::picture::{LinearPicture, Picture};

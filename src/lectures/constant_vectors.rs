@@ -1,4 +1,5 @@
-//! L and V constant along each polygon, as the lecture assumes, against those of each pixel (L21 1; Duff 1979).
+//! L and V constant along each polygon, as the lecture assumes, against those of each pixel (L21 1;
+//! Duff 1979).
 
 use super::{
     Figure, FigureContent, Plot, Result, Series, draw_each, grey, levels, log, max_and_rms, scene,

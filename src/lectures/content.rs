@@ -1,11 +1,8 @@
 //! The data of a finished figure: texts, pictures, curves, tables and findings, without any layout.
 
 use crate::picture::Picture8;
-use alloc::{
-    format,
-    string::{String, ToString},
-    vec::Vec,
-};
+use alloc::string::{String, ToString};
+use alloc::{format, vec::Vec};
 use serde::{Serialize, Serializer};
 
 /// A finished figure.
@@ -70,7 +67,7 @@ impl FigureContent {
         says: impl Into<String>,
     ) {
         let agreement = Agreement::if_holds(so);
-        self.found(key, label, (value.into(), unit), agreement, said(so, says));
+        self.found(key, label, (value, unit, so), agreement, says);
     }
 
     /// Adds a value with its unit. It contradicts the lecture if `so`, and confirms it otherwise.
@@ -82,53 +79,38 @@ impl FigureContent {
         says: impl Into<String>,
     ) {
         let agreement = Agreement::if_holds(!so);
-        self.found(key, label, (value.into(), unit), agreement, said(so, says));
+        self.found(key, label, (value, unit, so), agreement, says);
     }
 
-    /// Adds a value with its unit that the lecture does not mention. The sentence is true if `so`.
+    /// Adds a value with its unit that the lecture does not mention.
     pub fn adds(
         &mut self,
         key: impl Into<String>,
         label: impl Into<String>,
-        (value, unit, so): (impl Into<f64>, &str, bool),
+        value: (impl Into<f64>, &str, bool),
         says: impl Into<String>,
     ) {
-        self.found(
-            key,
-            label,
-            (value.into(), unit),
-            Agreement::Adds,
-            said(so, says),
-        );
+        self.found(key, label, value, Agreement::Adds, says);
     }
 
-    /// Adds a value whose agreement and sentence the caller has chosen.
+    /// Adds a value with its unit. The verdict is the sentence `says`, marked as false unless `so`.
     pub fn found(
         &mut self,
         key: impl Into<String>,
         label: impl Into<String>,
-        (value, unit): (f64, &str),
+        (value, unit, so): (impl Into<f64>, &str, bool),
         agreement: Agreement,
-        verdict: impl Into<String>,
+        says: impl Into<String>,
     ) {
+        let marked = if so { "" } else { "This does not hold: " };
         self.findings.push(Finding {
             key: key.into(),
             label: label.into(),
-            value,
+            value: value.into(),
             unit: unit.into(),
             agreement,
-            verdict: verdict.into(),
+            verdict: format!("{marked}{}", says.into()),
         });
-    }
-}
-
-/// Returns the sentence, marked as false unless `so`.
-fn said(so: bool, says: impl Into<String>) -> String {
-    let says = says.into();
-    if so {
-        says
-    } else {
-        format!("This does not hold: {says}")
     }
 }
 
@@ -237,12 +219,14 @@ impl Plot {
 pub struct Series {
     /// The name of the curve.
     pub label: String,
-    /// The points, in the order in which they are joined; the page leaves out those that are not finite.
+    /// The points, in the order in which they are joined; the page leaves out those that are not
+    /// finite.
     #[serde(serialize_with = "five_digits")]
     pub points: Vec<(f64, f64)>,
 }
 
-/// Writes points with five significant digits, which no chart can show; `null` for a value that is not finite.
+/// Writes points with five significant digits, which no chart can show; `null` for a value that is
+/// not finite.
 fn five_digits<S: Serializer>(points: &[(f64, f64)], to: S) -> Result<S::Ok, S::Error> {
     let short = |value: f64| format!("{value:.4e}").parse::<f64>().unwrap_or(value);
     let points = points.iter().map(|(x, y)| (short(*x), short(*y)));
@@ -281,7 +265,8 @@ pub enum Agreement {
 }
 
 impl Agreement {
-    /// Returns [`Agreement::Confirms`] if the lecture's statement `holds`, else [`Agreement::Contradicts`].
+    /// Returns [`Agreement::Confirms`] if the lecture's statement `holds`, else
+    /// [`Agreement::Contradicts`].
     pub fn if_holds(holds: bool) -> Agreement {
         if holds {
             Agreement::Confirms

@@ -1,5 +1,5 @@
-//! CS171's red sphere under two coloured lights, by its three algorithms; the highlight that Algorithm 7 loses as it is
-//! printed; and the test against the NDC cube, which is not clipping.
+//! CS171's red sphere under two coloured lights, by its three algorithms; the highlight that
+//! Algorithm 7 loses as it is printed; and the test against the NDC cube, which is not clipping.
 
 use super::{Figure, FigureContent, Result, bare, fitted, largest, written};
 use crate::frame::Frame;
@@ -115,7 +115,8 @@ fn highlights(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Draws a floor under the eye, from in front of it to `behind`: with the cube alone, as printed, and clipped.
+/// Draws a floor under the eye, from in front of it to `behind`: with the cube alone, as printed,
+/// and clipped.
 fn floors(behind: f64) -> Result<[F64Picture; 2]> {
     let camera = Camera {
         eye: DVec3::ZERO,
@@ -182,7 +183,8 @@ fn cube(content: &mut FigureContent) -> Result {
         ],
     );
     let differing = only(&near, &near_clipped) + only(&near_clipped, &near);
-    // Clipping makes corners, which are snapped to 1/256 pixel: a pixel of the rim may fall to either side.
+    // Clipping makes corners, which are snapped to 1/256 pixel: a pixel of the rim may fall to
+    // either side.
     content.confirms(
         "cube-in-front",
         "pixels in which the cube's test and clipping differ, all corners in front of the eye",

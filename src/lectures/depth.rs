@@ -88,7 +88,8 @@ fn ways(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Returns depth over distance: `z ↦ (f + n)/(f − n) + (1/z) 2fn/(f − n)`, from −1 to 1 (L5, z negative).
+/// Returns depth over distance: `z ↦ (f + n)/(f − n) + (1/z) 2fn/(f − n)`, from −1 to 1 (L5, z
+/// negative).
 fn lecture_depth(distance: f64, near: f64, far: f64) -> f64 {
     let z = -distance;
     (far + near) / (far - near) + 2.0 * far * near / (far - near) / z
@@ -134,7 +135,7 @@ fn curve(content: &mut FigureContent) -> Result {
     content.found(
         "preserved",
         "distance of half-way to the far plane from half-way in depth, of 2",
-        (moved, ""),
+        (moved, "", true),
         Agreement::if_holds(moved < 1e-3),
         match (moved < 1e-3, is_ordered) {
             (true, _) => "Depth is preserved.",

@@ -1,14 +1,16 @@
-//! Duff's surprise: a joint of two polygons where Phong shading has a stronger Mach band than Gouraud shading.
+//! Duff's surprise: a joint of two polygons where Phong shading has a stronger Mach band than
+//! Gouraud shading.
 //!
-//! T. Duff, *Smoothly shaded renderings of polyhedral objects on raster displays*, SIGGRAPH 1979, says that there are
-//! surfaces for which this is so. The example and its closed form are derived here.
+//! T. Duff, *Smoothly shaded renderings of polyhedral objects on raster displays*, SIGGRAPH 1979,
+//! says that there are surfaces for which this is so. The example and its closed form are derived
+//! here.
 
 use super::{
     DULL, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw_each, frame, jump,
     linear, profile, stored, toward, written,
 };
 use crate::picture::LinearPicture;
-use alloc::{format, vec::Vec};
+use alloc::format;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "duff",
@@ -21,6 +23,8 @@ pub(super) static FIGURE: Figure = Figure {
 const PIXELS: f64 = 2.0;
 /// Width and height of the pictures.
 const SIZE: [u32; 2] = [240, 24];
+/// The row whose intensities are compared.
+const MIDDLE: usize = 12;
 /// The column where both facets meet.
 const JOINT: f64 = 190.0;
 /// The angles of the left and of the right facet, in degrees.
@@ -31,7 +35,8 @@ const METHODS: [&str; 3] = ["gouraud", "naive-phong", "slerp-phong"];
 /// The names of the methods in sentences.
 const NAMES: [&str; 3] = ["Gouraud", "naive Phong", "slerp Phong"];
 
-/// Draws two facets of one circle that meet at an angle of 0, left and right of it, each as wide as its arc.
+/// Draws two facets of one circle that meet at an angle of 0, left and right of it, each as wide as
+/// its arc.
 fn circle([left, right]: [f64; 2]) -> Result<[LinearPicture; 3]> {
     let facet = |angles: [f64; 2]| {
         let columns = angles.map(|degrees| JOINT + PIXELS * degrees);
@@ -41,8 +46,9 @@ fn circle([left, right]: [f64; 2]) -> Result<[LinearPicture; 3]> {
     draw_each(&frame(SIZE, DULL, toward(LIGHT), &facets)?, METHODS)
 }
 
-/// Returns the jump of the slope of naive Phong shading at the joint in grey levels a pixel. Linear normals turn at the
-/// rate sin φ / length at both ends of a facet, and the intensity is the cosine of the angle to the light:
+/// Returns the jump of the slope of naive Phong shading at the joint in grey levels a pixel. Linear
+/// normals turn at the rate sin φ / length at both ends of a facet, and the intensity is the cosine
+/// of the angle to the light:
 ///
 /// ```text
 /// 255 sin θ (sin φ₂ / l₂ − sin φ₁ / l₁)
@@ -52,13 +58,9 @@ fn closed_form([left, right]: [f64; 2]) -> f64 {
     255.0 * libm::sin(LIGHT.to_radians()) * (rate(right) - rate(left))
 }
 
-fn scan_line(picture: &LinearPicture) -> Vec<f64> {
-    profile(picture, 12)
-}
-
 /// Returns the jump of the slope at the joint, by each method.
 fn slope_jumps(angles: [f64; 2]) -> Result<[f64; 3]> {
-    Ok(circle(angles)?.map(|picture| jump(&scan_line(&picture), JOINT).slope))
+    Ok(circle(angles)?.map(|picture| jump(&profile(&picture, MIDDLE), JOINT).slope))
 }
 
 fn curves(content: &mut FigureContent) -> Result {
@@ -76,7 +78,7 @@ fn curves(content: &mut FigureContent) -> Result {
     );
     let seen = (JOINT - PIXELS * left) as usize..(JOINT + PIXELS * right) as usize;
     let curve = |(name, picture): (&str, &LinearPicture)| {
-        let line = scan_line(picture);
+        let line = profile(picture, MIDDLE);
         Series::new(name, seen.clone().map(|i| (i as f64 + 0.5, line[i])))
     };
     content.plot(

@@ -1,4 +1,5 @@
-//! The exercises of Lecture 21: a table of sines read between its lines, and e^t by one multiplication a pixel.
+//! The exercises of Lecture 21: a table of sines read between its lines, and e^t by one
+//! multiplication a pixel.
 
 use super::{
     DULL, Figure, FigureContent, Plot, Result, ScreenCorner, ScreenPolygon, Series, draw, frame,
@@ -23,7 +24,8 @@ const TABLE: [f64; 2] = [0.40674, 0.42262];
 
 /// Exercise 1: Gouraud shading reads between the lines of a table.
 fn sine(content: &mut FigureContent) -> Result {
-    // From the centre of pixel 0 to that of pixel 10: pixel 3 is 0.3 of the way. L · N is the normal's z.
+    // From the centre of pixel 0 to that of pixel 10: pixel 3 is 0.3 of the way. L · N is the
+    // normal's z.
     let normals = TABLE.map(|z| DVec3::new(libm::sqrt(1.0 - z * z), 0.0, z));
     let strip = ScreenPolygon::strip([0.5, 10.5], 4.0, normals);
     let picture = draw(&frame([11, 4], DULL, DVec3::Z, &[strip])?, "gouraud")?;
@@ -133,7 +135,8 @@ fn exponential(content: &mut FigureContent) -> Result {
 /// Fog lets through e^-`DENSITY` of the light from a surface at depth 1.
 const DENSITY: f64 = 2.5;
 
-/// Draws exponential fog over a tilted plane: depth is linear on the screen, so that the exponential can be stepped.
+/// Draws exponential fog over a tilted plane: depth is linear on the screen, so that the
+/// exponential can be stepped.
 fn fog(content: &mut FigureContent) -> Result {
     // A plane: depth is a linear function of the position.
     let corner = |[x, y]: [f64; 2]| ScreenCorner {

@@ -1,4 +1,5 @@
-//! The exponent of the highlight: cosine powers, spheres for k_s and p, and N·H against R·V (L5; CS171 2, Figure 7).
+//! The exponent of the highlight: cosine powers, spheres for k_s and p, and N·H against R·V (L5;
+//! CS171 2, Figure 7).
 
 use super::{
     Figure, FigureContent, Plot, Result, Series, draw, grey, linear, scene, share, stored, written,
@@ -84,23 +85,22 @@ fn grid(content: &mut FigureContent) -> Result {
     content.pictures(EXPONENTS.len(), "A sphere with a highlight", panels);
     let strongest = &bright[2 * EXPONENTS.len()..];
     let (matte, shiny) = (strongest[0], strongest[3]);
+    let (low, high) = (EXPONENTS[0], EXPONENTS[3]);
     content.contradicts(
         "shiny",
-        format!(
-            "share of the sphere in the highlight, p = {} over p = {}",
-            EXPONENTS[0], EXPONENTS[3]
-        ),
+        format!("share of the sphere in the highlight, p = {low} over p = {high}"),
         (matte / shiny.max(1e-4), "", matte >= shiny),
         "Very shiny surfaces have a large p, as Figure 7 of CS171 shows: its text says close to 1.",
     );
     Ok(())
 }
 
-/// Measures the half width of the highlight alone, in degrees of the surface, on the middle row of a sphere lit from
-/// the eye. Returns the curve as well.
+/// Measures the half width of the highlight alone, in degrees of the surface, on the middle row of
+/// a sphere lit from the eye. Returns the curve as well.
 fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f64)>)> {
     const SIDE: u32 = 481;
-    // Three rows of the picture of full height: the middle one passes through the middle of the sphere.
+    // Three rows of the picture of full height: the middle one passes through the middle of the
+    // sphere.
     let half_height = 3.0 * HALF_HEIGHT / f64::from(SIDE);
     let material = grey(0.0, 0.0, 1.0, exponent);
     let spec = "sphere?rings=96&segments=192";

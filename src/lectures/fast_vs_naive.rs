@@ -27,8 +27,8 @@ const MESHES: [&str; 6] = [
 /// Grey levels at the yellow end of the difference map.
 const MAP_SCALE: f32 = 8.0;
 
-/// Compares naive Phong on every mesh with fast Phong, with one step and with the fewest that suffice on each span, which
-/// is the default.
+/// Compares naive Phong on every mesh with fast Phong, with one step and with the fewest that
+/// suffice on each span, which is the default.
 fn meshes(content: &mut FigureContent) -> Result {
     let (mut rows, mut fewest, mut by_one) = (Vec::new(), 0.0f64, Vec::new());
     for mesh in MESHES {

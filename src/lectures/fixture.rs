@@ -1,7 +1,7 @@
 //! Frames and scenes that figures draw, and the call that draws them.
 //!
-//! [`frame`] takes polygons in screen space with given normals; [`scene`] puts one mesh before a camera that looks
-//! along -z; [`shipped`] loads a scene of the repository.
+//! [`frame`] takes polygons in screen space with given normals; [`scene`] puts one mesh before a
+//! camera that looks along -z; [`shipped`] loads a scene of the repository.
 
 use super::Result;
 use crate::frame::{Frame, FrameBuilder, SubPixel, Vertex};
@@ -40,9 +40,9 @@ impl ScreenCorner {
 /// A polygon in screen space.
 #[derive(Clone, Debug)]
 pub(super) struct ScreenPolygon {
-    /// Its corners in order.
+    /// The corners in order.
     pub corners: Vec<ScreenCorner>,
-    /// Its unit normal, for flat shading.
+    /// The unit normal of the polygon, for flat shading.
     pub normal: DVec3,
 }
 
@@ -81,7 +81,8 @@ impl ScreenPolygon {
     }
 }
 
-/// Makes a frame of `polygons` of one material under one white light, drawn in this order and all visible.
+/// Makes a frame of `polygons` of one material under one white light, drawn in this order and all
+/// visible.
 ///
 /// # Errors
 /// If a coordinate is beyond the guard band, or the size is not allowed.
@@ -101,7 +102,8 @@ pub(super) fn frame(
     Ok(builder.finish()?)
 }
 
-/// Returns a material that reflects all channels alike: `k_a`, `k_d`, `k_s` and the exponent (L21 2.1).
+/// Returns a material that reflects all channels alike: `k_a`, `k_d`, `k_s` and the exponent (L21
+/// 2.1).
 pub(super) const fn grey(ambient: f32, diffuse: f32, specular: f32, shininess: f32) -> Material {
     Material {
         ambient: [ambient; 3],
@@ -125,8 +127,8 @@ pub(super) fn ends(degrees: f64) -> [DVec3; 2] {
     [toward(-degrees / 2.0), toward(degrees / 2.0)]
 }
 
-/// Puts a built-in mesh around the origin, seen from +z, under one white light. `half_height` of space is visible above the
-/// middle.
+/// Puts a built-in mesh around the origin, seen from +z, under one white light. `half_height` of
+/// space is visible above the middle.
 ///
 /// # Errors
 /// If there is no such mesh.
@@ -161,8 +163,8 @@ pub(super) fn fitted(mesh: &str, [width, height]: [u32; 2]) -> Result<Scene> {
     Ok(scene)
 }
 
-/// Puts a mesh of these corners and polygons before a camera, which sees it from both sides. There is no light but ambient
-/// light.
+/// Puts a mesh of these corners and polygons before a camera, which sees it from both sides. There
+/// is no light but ambient light.
 ///
 /// # Errors
 /// If a polygon names a corner that does not exist.
@@ -211,10 +213,8 @@ pub(super) fn draw_each<const N: usize>(
     frame: &Frame,
     methods: [&str; N],
 ) -> Result<[LinearPicture; N]> {
-    let variants: Vec<Variant> = methods
-        .iter()
-        .map(|method| Variant::parse(method))
-        .collect::<Result<_, _>>()?;
+    let variants = methods.iter().map(|method| Variant::parse(method));
+    let variants = variants.collect::<Result<Vec<_>, _>>()?;
     Ok(core::array::from_fn(|i| variants[i].render_linear(frame)))
 }
 

@@ -112,13 +112,11 @@ fn numbers(content: &mut FigureContent, errors: &[Vec<Difference>]) {
             }
         }
     }
+    let (many, few) = (polygons[LAST], polygons[1]);
     let (fine_faces, coarse_pixels) = (errors[0][LAST].rms, errors[2][1].rms);
     content.adds(
         "trade",
-        format!(
-            "faces of {} polygons by pixels of {}: ratio of RMS errors",
-            polygons[LAST], polygons[1]
-        ),
+        format!("faces of {many} polygons by pixels of {few}: ratio of RMS errors"),
         (fine_faces / coarse_pixels, "", fine_faces <= coarse_pixels),
         "Many faces make up for a low shading frequency.",
     );

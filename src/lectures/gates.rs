@@ -30,8 +30,8 @@ fn torus(material: Material, gate: SpecularGate) -> Result<LinearPicture> {
     draw(&scene.frame()?, "duff-phong")
 }
 
-/// Returns the largest step between covered neighbours in a row, in levels, beyond the step of the other picture there.
-/// So edges of the outline, which both pictures have, do not count.
+/// Returns the largest step between covered neighbours in a row, in levels, beyond the step of the
+/// other picture there. So edges of the outline, which both pictures have, do not count.
 fn largest_step(picture: &LinearPicture, other: &LinearPicture) -> f64 {
     let mut largest: f64 = 0.0;
     for y in 0..picture.height() {

@@ -1,4 +1,5 @@
-//! Ambient, diffuse and specular light apart and summed (L5, L21 2.1), and Lambert's law on a cube that turns.
+//! Ambient, diffuse and specular light apart and summed (L5, L21 2.1), and Lambert's law on a cube
+//! that turns.
 
 use super::{
     DULL, Figure, FigureContent, Plot, Result, Series, draw, grey, largest, levels, linear, scene,
@@ -87,10 +88,12 @@ fn diffuse_series(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Makes the cube of the lecture, turned clockwise by `degrees` around the z axis, under light from above.
+/// Makes the cube of the lecture, turned clockwise by `degrees` around the z axis, under light from
+/// above.
 fn turned(degrees: f64) -> Result<Frame> {
     let mut cube = scene("cube", DULL, DVec3::Y, 2.4, SIZE)?;
-    // From the right and from above, so that the top is seen at every angle, and on grey, so that unlit faces are.
+    // From the right and from above, so that the top is seen at every angle, and on grey, so that
+    // unlit faces are.
     cube.camera.eye = DVec3::new(2.8, 2.2, 3.4);
     cube.background = [0.3; 3];
     cube.objects[0].normals = NormalSource::Crease(30.0);
@@ -111,15 +114,14 @@ fn top(frame: &Frame, picture: &LinearPicture, degrees: f64) -> Option<f64> {
     Some(f64::from(picture.texels()[pixel][0]))
 }
 
-/// Turns a cube under light from above (L5: "top face of 60° rotated cube intercepts half the light").
+/// Turns a cube under light from above (L5: "top face of 60° rotated cube intercepts half the
+/// light").
 fn cube(content: &mut FigureContent) -> Result {
     let (mut measured, mut panels) = (Vec::new(), Vec::new());
     for degrees in [0.0, 15.0, 30.0, 45.0, 60.0, 75.0] {
         let frame = turned(degrees)?;
         let picture = draw(&frame, "flat")?;
-        if let Some(light) = top(&frame, &picture, degrees) {
-            measured.push((degrees, light));
-        }
+        measured.extend(top(&frame, &picture, degrees).map(|light| (degrees, light)));
         if degrees == 0.0 || degrees == 60.0 {
             panels.push((format!("turned by {degrees}°"), stored(&picture)));
         }

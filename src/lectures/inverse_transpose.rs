@@ -1,4 +1,5 @@
-//! Normals under a transform that stretches: by the matrix of the points, and by its inverse transpose (CS171 2, Figure 4).
+//! Normals under a transform that stretches: by the matrix of the points, and by its inverse
+//! transpose (CS171 2, Figure 4).
 
 use super::{
     Figure, FigureContent, Plot, Result, Series, angle, draw, grey, largest, levels, linear, scene,
@@ -68,7 +69,8 @@ fn ellipse(content: &mut FigureContent) -> Result {
 
 const SPHERE: &str = "sphere?rings=32&segments=64";
 
-/// Makes a mesh of the ellipsoid itself. Its given normals are stretched like its points, which the notes warn of.
+/// Makes a mesh of the ellipsoid itself. Its given normals are stretched like its points, which the
+/// notes warn of.
 fn stretched() -> Result<PolygonMesh> {
     let sphere = builtin(SPHERE)?;
     let across = DVec3::new(STRETCH, 1.0, 1.0);
@@ -77,7 +79,8 @@ fn stretched() -> Result<PolygonMesh> {
     sphere.polygons().for_each(|polygon| {
         mesh.polygon(polygon);
     });
-    // The normal of a unit sphere is its position, so that the stretched normal is the stretched position.
+    // The normal of a unit sphere is its position, so that the stretched normal is the stretched
+    // position.
     mesh.normals(GivenNormals {
         values: stretched.map(|n| n.normalize().as_vec3()).collect(),
         corners: None,
@@ -101,7 +104,8 @@ fn lit(mesh: PolygonMesh, normals: NormalSource, transform: DAffine3) -> Result<
 fn ellipsoid(content: &mut FigureContent) -> Result {
     let by_scale = DAffine3::from_scale(DVec3::new(STRETCH, 1.0, 1.0));
     let right = lit(builtin(SPHERE)?, NormalSource::Given, by_scale)?;
-    // Averages are taken before the transform: of the stretched polygons only where the mesh itself is stretched.
+    // Averages are taken before the transform: of the stretched polygons only where the mesh itself
+    // is stretched.
     let polygons = lit(stretched()?, NormalSource::Averaged, DAffine3::IDENTITY)?;
     let wrong = lit(stretched()?, NormalSource::Given, DAffine3::IDENTITY)?;
     content.text(

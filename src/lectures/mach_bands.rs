@@ -28,7 +28,8 @@ fn column(degrees: f64) -> f64 {
     f64::from(SIZE[0]) / 2.0 + RADIUS * libm::sin(degrees.to_radians())
 }
 
-/// Makes an upright cylinder seen from the side, whose facets meet at these angles, with its own normals at the edges.
+/// Makes an upright cylinder seen from the side, whose facets meet at these angles, with its own
+/// normals at the edges.
 fn cylinder(angles: &[f64]) -> Result<Frame> {
     let facet = |pair: &[f64]| {
         let sides = [pair[0], pair[1]];
@@ -139,7 +140,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
         content.found(
             format!("slope-{name}"),
             format!("{name}: largest jump of the slope"),
-            (slope, "grey levels a pixel"),
+            (slope, "grey levels a pixel", true),
             if is_flat {
                 Agreement::Adds
             } else {

@@ -1,4 +1,5 @@
-//! Numbers that figures take from pictures: differences, shares, angles, and jumps along a scan line.
+//! Numbers that figures take from pictures: differences, shares, angles, and jumps along a scan
+//! line.
 
 use super::content::written;
 use crate::compare::metrics::Difference;
@@ -9,7 +10,8 @@ use glam::DVec3;
 /// Pixels between the three of each side that a slope is taken from.
 const APART: usize = 2;
 
-/// Returns the largest of `values`, or 0 if none is larger. Values that are not numbers are left out.
+/// Returns the largest of `values`, or 0 if none is larger. Values that are not numbers are left
+/// out.
 pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, f64::max)
 }
@@ -76,8 +78,9 @@ pub(super) struct Jump {
     pub slope: f64,
 }
 
-/// Returns the jump of `profile` at the column `edge`, in pixels from the left side of the first one. Each side is the
-/// parabola through three pixels, so that it needs five pixels without another edge.
+/// Returns the jump of `profile` at the column `edge`, in pixels from the left side of the first
+/// one. Each side is the parabola through three pixels, so that it needs five pixels without
+/// another edge.
 pub(super) fn jump(profile: &[f64], edge: f64) -> Jump {
     // The first pixel whose centre is not to the left of the edge.
     let first = libm::ceil(edge - 0.5) as usize;

@@ -1,11 +1,13 @@
-//! Figures and claims of the lectures, drawn anew by the engines, with the measured number beside each.
+//! Figures and claims of the lectures, drawn anew by the engines, with the measured number beside
+//! each.
 //!
-//! A figure is one file and one line of [`FIGURES`]. It draws with the public parts of the crate and gives data: texts,
-//! pictures, curves, tables and [`Finding`]s. [`crate::report`] lays them out. A finding is a key, a label, a value, a
-//! unit, a verdict and one sentence; the value decides whether the sentence holds.
+//! A figure is one file and one line of [`FIGURES`]. It draws with the public parts of the crate
+//! and gives data: texts, pictures, curves, tables and [`Finding`]s. [`crate::report`] lays them
+//! out. A finding is a key, a label, a value, a unit, a verdict and one sentence; the value decides
+//! whether the sentence holds.
 //!
-//! Start with `exercises.rs`, then `content.rs` (the data), `fixture.rs` (what figures draw) and `measure.rs` (numbers taken
-//! from pictures).
+//! Start with `exercises.rs`, then `content.rs` (the data), `fixture.rs` (what figures draw) and
+//! `measure.rs` (numbers taken from pictures).
 //!
 //! ```
 //! use fastphong::lectures::Figure;
@@ -93,8 +95,8 @@ pub struct Figure {
     pub name: &'static str,
     /// The heading.
     pub title: &'static str,
-    /// The place in the lectures: `L21` is *Lecture 21: Shading*, `L5` *Lecture 5: Shading*, `CS171` the notes to
-    /// Caltech's second assignment.
+    /// The place in the lectures: `L21` is *Lecture 21: Shading*, `L5` *Lecture 5: Shading*,
+    /// `CS171` the notes to Caltech's second assignment.
     pub lecture: &'static str,
     /// The functions that draw and measure it, each a part of the content.
     #[serde(skip)]

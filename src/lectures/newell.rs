@@ -16,21 +16,13 @@ pub(super) static FIGURE: Figure = Figure {
     parts: &[pictures, errors],
 };
 
-/// A polygon in its plane, counter-clockwise.
-struct Example {
-    key: &'static str,
-    what: &'static str,
-    corners: Vec<DVec2>,
-}
+/// The key and the name of a polygon, and its corners in its plane, counter-clockwise.
+type Example = (&'static str, &'static str, Vec<DVec2>);
 
-impl Example {
-    /// Returns the corners in space, rounded as a mesh stores them.
-    fn in_space(&self) -> Vec<Vec3> {
-        let corners = self.corners.iter();
-        corners
-            .map(|c| (tilt() * c.extend(0.0)).as_vec3())
-            .collect()
-    }
+/// Returns the corners in space, rounded as a mesh stores them.
+fn in_space(corners: &[DVec2]) -> Vec<Vec3> {
+    let placed = corners.iter().map(|c| tilt() * c.extend(0.0));
+    placed.map(|c| c.as_vec3()).collect()
 }
 
 /// Returns the regular hexagon of radius 1.
@@ -40,7 +32,8 @@ fn hexagon() -> Vec<DVec2> {
         .collect()
 }
 
-/// Returns a hexagon with one more corner between the first two: at this part of their edge, and so far outside of it.
+/// Returns a hexagon with one more corner between the first two: at this part of their edge, and so
+/// far outside of it.
 fn with_corner(part: f64, outside: f64) -> Vec<DVec2> {
     let mut corners = hexagon();
     let edge = corners[1] - corners[0];
@@ -51,23 +44,19 @@ fn with_corner(part: f64, outside: f64) -> Vec<DVec2> {
 
 /// Returns a regular polygon, three cases that the lecture names, and one that it does not.
 fn examples() -> [Example; 5] {
-    let beside_edge = |outside| with_corner(0.5, outside);
+    let beside = |outside| with_corner(0.5, outside);
     let reflex = [(-1.0, -0.8), (0.0, -0.2), (1.0, -0.8), (0.0, 1.0)].map(DVec2::from);
     [
         ("hexagon", "regular hexagon", hexagon()),
         ("short", "an edge of 10⁻⁶", with_corner(1e-6, 2e-7)),
-        ("collinear", "three collinear vertices", beside_edge(0.0)),
-        (
-            "nearly",
-            "three nearly collinear vertices",
-            beside_edge(1e-7),
-        ),
+        ("collinear", "three collinear vertices", beside(0.0)),
+        ("nearly", "three nearly collinear vertices", beside(1e-7)),
         ("reflex", "a reflex corner", reflex.into()),
     ]
-    .map(|(key, what, corners)| Example { key, what, corners })
 }
 
-/// Returns the tilt of all polygons, toward +z with x and y of their own, so that no coordinate is a round number.
+/// Returns the tilt of all polygons, toward +z with x and y of their own, so that no coordinate is
+/// a round number.
 fn tilt() -> DQuat {
     DQuat::from_rotation_arc(DVec3::Z, DVec3::new(0.31, 0.47, 0.83).normalize())
 }
@@ -117,17 +106,15 @@ fn pictures(content: &mut FigureContent) -> Result {
          is taken at its worst corner: a file may name any corner first. Newell's formula sums \
          over all.",
     );
-    let names = examples().map(|example| example.what).join(", ");
+    let names = examples().map(|(_, what, _)| what).join(", ");
+    let edges = format!("lit by the normal from two edges, at its worst corner: {names}");
     content.pictures(
         1,
         "Five polygons of one plane",
         [
+            (&edges[..], stored(&lit_by(worst)?)),
             (
-                format!("lit by the normal from two edges, at its worst corner: {names}"),
-                stored(&lit_by(worst)?),
-            ),
-            (
-                "lit by the normal of Newell\u{2019}s formula".into(),
+                "lit by the normal of Newell\u{2019}s formula",
                 stored(&lit_by(by_newell)?),
             ),
         ],
@@ -138,8 +125,9 @@ fn pictures(content: &mut FigureContent) -> Result {
 /// Measures the angles from the true normal, and the area.
 fn errors(content: &mut FigureContent) -> Result {
     let (mut rows, mut most, mut area) = (Vec::new(), 0.0f64, 0.0f64);
-    for example in &examples() {
-        let corners = example.in_space();
+    for (key, what, corners) in examples() {
+        let twice = twice_the_area(&corners);
+        let corners = in_space(&corners);
         let (edges, sum) = (by_two_edges(&corners), by_newell(&corners));
         let errors = [edges[0], edges[edges.len() - 1], sum].map(error);
         let [best, worst, newell] = errors.map(|error| {
@@ -149,15 +137,12 @@ fn errors(content: &mut FigureContent) -> Result {
                 "no direction".into()
             }
         });
-        let twice = twice_the_area(&example.corners);
         area = area.max((sum.length() / twice - 1.0).abs());
         most = most.max(errors[2].min(180.0));
-        rows.push(format!(
-            "{} | {best} | {worst} | {newell} | {:.7} | {twice:.7}",
-            example.what,
-            sum.length()
-        ));
-        failure(content, example, errors[1]);
+        let length = sum.length();
+        let cells = format!("{best} | {worst} | {newell} | {length:.7} | {twice:.7}");
+        rows.push(format!("{what} | {cells}"));
+        failure(content, key, what, errors[1]);
     }
     content.table(
         "polygon | two edges: best corner | worst corner | Newell | |N| | 2 Area",
@@ -179,19 +164,18 @@ fn errors(content: &mut FigureContent) -> Result {
 }
 
 /// Concludes from the error of two edges at the worst corner.
-fn failure(content: &mut FigureContent, example: &Example, error: f64) {
+fn failure(content: &mut FigureContent, key: &str, what: &str, error: f64) {
     let fails = error > 1.0;
-    let agreement = match example.key {
+    let agreement = match key {
         "hexagon" => Agreement::if_holds(!fails),
         "reflex" => Agreement::Adds,
         _ => Agreement::if_holds(fails),
     };
-    let what = example.what;
     content.found(
-        example.key,
+        key,
         format!("two edges at the worst corner, {what}: error (180 if there is no direction)"),
         // Without a direction any may be taken: the opposite one at worst.
-        (error.min(180.0), "degrees"),
+        (error.min(180.0), "degrees", true),
         agreement,
         match error {
             f64::INFINITY => "The two edges have no normal: their cross product is zero.",
@@ -206,14 +190,14 @@ fn failure(content: &mut FigureContent, example: &Example, error: f64) {
 
 /// Draws all polygons side by side, lit by a normal of their corners.
 fn lit_by(normal: fn(&[Vec3]) -> DVec3) -> Result<LinearPicture> {
-    let polygon = |(i, example): (usize, &Example)| {
+    let polygon = |(i, (_, _, corners)): (usize, &Example)| {
         let middle = DVec2::new(24.0 + 48.0 * i as f64, 24.0);
         let corner =
             |c: &DVec2| ScreenCorner::new([middle.x + 21.0 * c.x, middle.y - 21.0 * c.y], DVec3::Z);
         ScreenPolygon {
-            corners: example.corners.iter().map(corner).collect(),
+            corners: corners.iter().map(corner).collect(),
             // No direction: no light but the ambient one.
-            normal: normal(&example.in_space())
+            normal: normal(&in_space(corners))
                 .try_normalize()
                 .unwrap_or(DVec3::ZERO),
         }

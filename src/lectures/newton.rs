@@ -1,4 +1,5 @@
-//! Newton's method along a span: the error after so many steps a pixel, and where the method breaks (L21 4.2).
+//! Newton's method along a span: the error after so many steps a pixel, and where the method breaks
+//! (L21 4.2).
 
 use super::{
     DULL, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw, ends, frame, largest,
@@ -24,8 +25,8 @@ const STEPS: [u32; 3] = [1, 2, 3];
 /// Half a grey level of 255, which rounding the picture hides.
 const INVISIBLE: f64 = 0.5 / 255.0;
 
-/// Returns the relative errors of d over a span of [`PIXELS`] pixels whose end normals are `degrees` apart: the walk of the
-/// method itself, against the root in `f64`.
+/// Returns the relative errors of d over a span of [`PIXELS`] pixels whose end normals are
+/// `degrees` apart: the walk of the method itself, against the root in `f64`.
 fn errors(degrees: f64, steps: u32) -> Vec<f64> {
     let [from, to] = ends(degrees);
     let step = (to - from) / PIXELS as f64;
@@ -57,17 +58,10 @@ fn curves(content: &mut FigureContent) -> Result {
          the d of the previous one; the first pixel has a true root. The method's own walk in f32, \
          over spans of {PIXELS} pixels, is compared with the root in f64.",
     ));
-    let over_angles = |steps| {
-        Series::sampled(plural(steps), angles(), |degrees| {
-            largest_error(degrees, steps)
-        })
-    };
+    let over_angles = |steps| Series::sampled(plural(steps), angles(), |d| largest_error(d, steps));
     content.plot(Plot::new(
         "Largest relative error of d over the angle of a span",
-        [
-            linear("angle between the end normals, degrees"),
-            log("relative error of d"),
-        ],
+        [linear("angle of the span, degrees"), log("relative error")],
         STEPS.map(over_angles),
         "Each step squares the error and halves it, until rounding is left (about 10⁻⁷).",
     ));
@@ -98,18 +92,16 @@ fn numbers(content: &mut FigureContent) -> Result {
         "A true root, rounded.",
     );
     for steps in STEPS {
-        let error = largest_error(60.0, steps);
+        let (name, error) = (plural(steps), largest_error(60.0, steps));
         content.confirms(
             format!("error-{steps}"),
-            format!(
-                "span of 60°, {}: largest relative error of d",
-                plural(steps)
-            ),
+            format!("span of 60°, {name}: largest relative error of d"),
             (error, "", error < INVISIBLE),
             "A few iterations are enough: rounding to grey levels hides the error.",
         );
     }
-    // One step from the previous pixel's d, off by e, leaves e² / (2 (1 + e)); here from the walk of one step.
+    // One step from the previous pixel's d, off by e, leaves e² / (2 (1 + e)); here from the walk
+    // of one step.
     let walked = errors(60.0, 1);
     let (sin, cos) = libm::sincos(30.0_f64.to_radians());
     let length = |k: usize| {
@@ -127,14 +119,12 @@ fn numbers(content: &mut FigureContent) -> Result {
         "The error is as theory says, rounding aside.",
     );
     for steps in STEPS {
+        let name = plural(steps);
         let is_good = |degrees: &f64| largest_error(*degrees, steps) < INVISIBLE;
         let degrees = angles().take_while(is_good).last().unwrap_or(0.0);
         content.adds(
             format!("limit-{steps}"),
-            format!(
-                "{}: largest angle over {PIXELS} pixels without a visible error",
-                plural(steps)
-            ),
+            format!("{name}: largest angle over {PIXELS} pixels without a visible error"),
             (degrees, "degrees", true),
             format!(
                 "That is {}° a pixel; in steps of 5°, half a grey level counts as visible.",
@@ -145,7 +135,8 @@ fn numbers(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Draws normals that nearly cancel: the length falls to almost nothing and grows again within a pixel or two.
+/// Draws normals that nearly cancel: the length falls to almost nothing and grows again within a
+/// pixel or two.
 fn opposed(content: &mut FigureContent) -> Result {
     const DEGREES: f64 = 179.9;
     let strip = ScreenPolygon::strip([0.0, 31.0], 6.0, ends(DEGREES));

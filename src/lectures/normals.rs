@@ -1,4 +1,5 @@
-//! Averaged vertex normals against those of the surface, and the length of interpolated ones (L5; L21 3.1).
+//! Averaged vertex normals against those of the surface, and the length of interpolated ones (L5;
+//! L21 3.1).
 
 use super::{
     DULL, Figure, FigureContent, Plot, Result, Series, angle, covered_by_both, draw_each, ends,
@@ -21,8 +22,8 @@ pub(super) static FIGURE: Figure = Figure {
     parts: &[sources, lengths, darkened],
 };
 
-/// Returns the number of polygons of a mesh, and the angles between its averaged and its given normals, in degrees, over
-/// all corners.
+/// Returns the number of polygons of a mesh, and the angles between its averaged and its given
+/// normals, in degrees, over all corners.
 fn angles(spec: &str) -> Result<(usize, Vec<f64>)> {
     let by = |source: NormalSource| -> Result<Frame> {
         let mut scene = Scene::of_mesh(builtin(spec)?);
@@ -38,7 +39,8 @@ fn angles(spec: &str) -> Result<(usize, Vec<f64>)> {
     Ok((builtin(spec)?.polygon_count(), angles.collect()))
 }
 
-/// Compares averaged normals with given ones (L5: "best to get vertex normals from the underlying geometry").
+/// Compares averaged normals with given ones (L5: "best to get vertex normals from the underlying
+/// geometry").
 fn sources(content: &mut FigureContent) -> Result {
     let (mut rows, mut curves, mut means) = (Vec::new(), Vec::new(), Vec::new());
     let spheres = [6, 12, 24].map(|n| format!("sphere?rings={n}&segments={}", 2 * n));
@@ -97,7 +99,8 @@ fn sources(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Measures the length of interpolated normals (L5: "Problem: length of vectors?"), as Duff's forward differences step it.
+/// Measures the length of interpolated normals (L5: "Problem: length of vectors?"), as Duff's
+/// forward differences step it.
 fn lengths(content: &mut FigureContent) -> Result {
     const PIXELS: usize = 64;
     let mut worst: f64 = 0.0;
@@ -122,7 +125,8 @@ fn lengths(content: &mut FigureContent) -> Result {
         )
         .marked([0.5]),
     );
-    // 32 steps of D by three half units of 2⁻²⁴ each, and a root of at least a half: see `Quadratic`.
+    // 32 steps of D by three half units of 2⁻²⁴ each, and a root of at least a half: see
+    // `Quadratic`.
     content.adds(
         "half-way",
         "length half-way between two normals, largest distance from cos(φ/2)",
@@ -132,7 +136,8 @@ fn lengths(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Shades by normals that are not normalised: by Gouraud's method on a dull surface, as L·N is linear in N.
+/// Shades by normals that are not normalised: by Gouraud's method on a dull surface, as L·N is
+/// linear in N.
 fn darkened(content: &mut FigureContent) -> Result {
     let light = DVec3::new(-0.3, 0.4, 0.9);
     let dull = scene("sphere?rings=6&segments=8", DULL, light, 1.1, [112, 112])?;
@@ -149,7 +154,8 @@ fn darkened(content: &mut FigureContent) -> Result {
             ("normalised", stored(&unit)),
         ],
     );
-    // Where the light is in front of all corners of a polygon no clamp interferes; elsewhere Gouraud's clamp brightens.
+    // Where the light is in front of all corners of a polygon no clamp interferes; elsewhere
+    // Gouraud's clamp brightens.
     let lit = covered_by_both(&shortened, &unit).filter(|(_, unit)| unit[0] > 0.5);
     let lost = largest(lit.map(|(shortened, unit)| f64::from(1.0 - shortened[0] / unit[0])));
     content.confirms(

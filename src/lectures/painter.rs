@@ -8,7 +8,7 @@ use alloc::{format, vec::Vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "painter",
-    title: "The painter's algorithm, the ring that it cannot draw, and polygons that cut each other",
+    title: "The painter's algorithm: rings, and polygons that cut each other",
     lecture: "L5, Painter's Algorithm, Z-Buffer",
     parts: &[ring, cutting, order],
 };
@@ -27,19 +27,20 @@ const ORDERS: [[usize; 3]; 6] = [
 ];
 
 /// A scene of three objects, drawn by the depth buffer.
-struct Subject {
+struct ThreeObjects {
     scene: Scene,
     by_depth: LinearPicture,
 }
 
-impl Subject {
-    fn new(name: &str) -> Result<Subject> {
+impl ThreeObjects {
+    fn new(name: &str) -> Result<ThreeObjects> {
         let scene = shipped(name, SIZE)?;
         let by_depth = drawn(&scene, depth_buffer())?;
-        Ok(Subject { scene, by_depth })
+        Ok(ThreeObjects { scene, by_depth })
     }
 
-    /// Shows the scene by depth buffer and by painter, side by side. Returns the pixels that differ.
+    /// Shows the scene by depth buffer and by painter, side by side. Returns the pixels that
+    /// differ.
     fn by_both(&self, content: &mut FigureContent, what: &str) -> Result<usize> {
         let by_painter = drawn(&self.scene, HiddenSurfaces::Painter(PainterKey::Mean))?;
         content.pictures(
@@ -84,7 +85,7 @@ fn ring(content: &mut FigureContent) -> Result {
          depth buffer decides at each pixel. Both draw a ring of triangles, and polygons that cut \
          each other.",
     );
-    let ring = Subject::new("cyclic-triangles")?;
+    let ring = ThreeObjects::new("cyclic-triangles")?;
     let wrong = ring.by_both(content, "three triangles in a ring")?;
     content.confirms(
         "ring-wrong",
@@ -115,7 +116,7 @@ fn ring(content: &mut FigureContent) -> Result {
 }
 
 fn cutting(content: &mut FigureContent) -> Result {
-    let cutting = Subject::new("interpenetration")?;
+    let cutting = ThreeObjects::new("interpenetration")?;
     let wrong = cutting.by_both(content, "polygons that cut each other")?;
     content.confirms(
         "cutting-wrong",
@@ -136,7 +137,7 @@ fn cutting(content: &mut FigureContent) -> Result {
 fn order(content: &mut FigureContent) -> Result {
     let mut most = 0;
     for name in ["cyclic-triangles", "interpenetration"] {
-        let orders = Subject::new(name)?.by_orders(depth_buffer())?;
+        let orders = ThreeObjects::new(name)?.by_orders(depth_buffer())?;
         most = most.max(orders.into_iter().max().unwrap_or(0));
     }
     content.confirms(

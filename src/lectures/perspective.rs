@@ -1,4 +1,5 @@
-//! Perspective: Lecture 5's checkerboard wrong and right, the weight that makes it right, and the depth of a point.
+//! Perspective: Lecture 5's checkerboard wrong and right, the weight that makes it right, and the
+//! depth of a point.
 
 use super::{
     Figure, FigureContent, Plot, Result, Series, bare, largest, linear, percent, stored, written,
@@ -115,7 +116,8 @@ const ENDS: [f64; 2] = [1.0, 4.0];
 /// Pixels between them.
 const STRIP: usize = 128;
 
-/// Draws a strip from A, on its left, to B: the red of A is 1, that of B 0, so that red is the weight of A.
+/// Draws a strip from A, on its left, to B: the red of A is 1, that of B 0, so that red is the
+/// weight of A.
 fn strip() -> Result<LinearPicture> {
     let mut builder = FrameBuilder::new(STRIP as u32, 1);
     builder.interpolation(Interpolation::Perspective);
@@ -136,7 +138,8 @@ fn strip() -> Result<LinearPicture> {
     Ok(vertex_colours(&builder.finish()?))
 }
 
-/// Compares the weight of A along an edge in the engine with the corrected and with the printed formula.
+/// Compares the weight of A along an edge in the engine with the corrected and with the printed
+/// formula.
 fn weight(content: &mut FigureContent) -> Result {
     let [z_a, z_b] = ENDS;
     let drawn = strip()?;

@@ -25,11 +25,21 @@ const SPAN: usize = 64;
 /// Pixels of the long span.
 const LONG: usize = 1024;
 
-/// Makes a strip of [`SPAN`] pixels between normals so many degrees apart, lit from the upper right.
+/// Makes a strip of [`SPAN`] pixels between normals so many degrees apart, lit from the upper
+/// right.
 fn strip(degrees: f64) -> Result<Frame> {
     let strip = ScreenPolygon::strip([0.0, SPAN as f64], 4.0, ends(degrees));
     let light = DVec3::new(0.3, 0.4, 0.8);
     frame([SPAN as u32, 4], grey(0.1, 0.5, 0.4, 20.0), light, &[strip])
+}
+
+/// Returns the angles from each vector to the next, in degrees.
+fn turns(vectors: Vec<DVec3>) -> Vec<f64> {
+    let units: Vec<_> = vectors.iter().map(|v| v.normalize()).collect();
+    units
+        .windows(2)
+        .map(|pair| angle(pair[1], pair[0]))
+        .collect()
 }
 
 /// Measures degrees a pixel of the two ways to interpolate.
@@ -49,22 +59,12 @@ fn speed(content: &mut FigureContent) -> Result {
         let (s_from, s_to) = circle.sines.next();
         f64::from(s_from) * from + f64::from(s_to) * to
     });
-    let turns = |vectors: Vec<DVec3>| -> Vec<f64> {
-        let pairs = vectors.windows(2);
-        pairs
-            .map(|pair| angle(pair[1].normalize(), pair[0].normalize()))
-            .collect()
-    };
-    let [lerp, slerp] = [
-        turns(linear_normals.collect()),
-        turns(great_circle.collect()),
-    ];
+    let [lerp, slerp] = [linear_normals.collect(), great_circle.collect()].map(turns);
     let curve = |name: &str, turns: &[f64]| {
         Series::new(name, (1..).map(f64::from).zip(turns.iter().copied()))
     };
     content.text(format!(
-        "The turn of the unit normal a pixel, between normals {DEGREES}° apart, over {SPAN} \
-         pixels.",
+        "The turn a pixel of the unit normal, {SPAN} pixels between normals {DEGREES}° apart.",
     ));
     content.plot(Plot::new(
         "Speed of the normal along a span",
@@ -120,7 +120,8 @@ fn operations(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Walks J = L · N along a great circle by three recurrences in `f32`: the errors against the sines themselves in `f64`.
+/// Walks J = L · N along a great circle by three recurrences in `f32`: the errors against the sines
+/// themselves in `f64`.
 fn recurrences(degrees: f64) -> [Vec<f64>; 3] {
     let phi = degrees.to_radians();
     let delta = phi / LONG as f64;
@@ -157,48 +158,36 @@ fn recurrences(degrees: f64) -> [Vec<f64>; 3] {
 
 fn drift(content: &mut FigureContent) -> Result {
     const DEGREES: f64 = 30.0;
-    const NAMES: [[&str; 3]; 3] = [
-        [
-            "goldman",
-            "rotation (4.9)–(4.12)",
-            "The walk of slerp Phong",
-        ],
-        [
-            "chebyshev",
-            "2 cos δ F_k − F_(k−1)",
-            "Chebyshev\u{2019}s recurrence as it is",
-        ],
-        [
-            "difference",
-            "F += dF; dF −= α F",
-            "Its difference form, α = 4 sin²(δ/2)",
-        ],
+    const NAMES: [(&str, &str); 3] = [
+        ("goldman", "rotation (4.9)–(4.12), of slerp Phong"),
+        ("chebyshev", "Chebyshev: 2 cos δ F_k − F_(k−1)"),
+        ("difference", "difference form: F += dF; dF −= α F"),
     ];
     let all = recurrences(DEGREES);
     content.plot(Plot::new(
         "Error of J along a long span, by recurrence, in f32",
         [linear("pixel"), log("error of J = L · N")],
-        NAMES.iter().zip(&all).map(|([_, name, _], errors)| {
+        NAMES.iter().zip(&all).map(|((_, name), errors)| {
             let shown = (8..LONG).step_by(8);
             Series::new(*name, shown.map(|k| (k as f64, errors[k].max(1e-9))))
         }),
         format!(
             "{DEGREES}° over {LONG} pixels, against the cosine in f64. Chebyshev's recurrence \
-             subtracts nearly equal numbers: a rounding changes the angle of all later steps."
+             subtracts nearly equal numbers: a rounding changes the angle of all later steps. In \
+             its difference form α is 4 sin²(δ/2)."
         ),
     ));
-    for ([key, name, meaning], errors) in NAMES.into_iter().zip(all) {
+    for ((key, name), errors) in NAMES.into_iter().zip(all) {
         let most = largest(errors);
-        let visible = if most > 0.5 / 255.0 {
-            "a visible error"
-        } else {
-            "not visible"
+        let verdict = match most > 0.5 / 255.0 {
+            true => "A visible error.",
+            false => "Not visible.",
         };
         content.adds(
             format!("drift-{key}"),
             format!("{name}: largest error over {LONG} pixels"),
             (most, "", true),
-            format!("{meaning}: {visible}."),
+            verdict,
         );
     }
     Ok(())
@@ -214,8 +203,8 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
         let exact = reference::render(&frame, Model::Slerp).picture;
         let pairs = drawn.texels().iter().zip(exact.texels());
         // A pixel that is not a number counts as wrong by white.
-        let off = pairs.map(|(a, b)| (255.0 * (f64::from(a[0]) - b[0]).abs()).min(255.0));
-        let off = largest(off);
+        let levels = |a: f32, b: f64| (255.0 * (f64::from(a) - b).abs()).min(255.0);
+        let off = largest(pairs.map(|(a, b)| levels(a[0], b[0])));
         worst = worst.max(off);
         let printed = printed_angle(ends(degrees));
         let error = if degrees > 0.0 {
@@ -231,10 +220,8 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
         } else {
             ["not a number".into(), "not a number".into()]
         };
-        rows.push(format!(
-            "{degrees}° | {digits} | {percent} | {}",
-            written(off)
-        ));
+        let off = written(off);
+        rows.push(format!("{degrees}° | {digits} | {percent} | {off}"));
     }
     content.text(
         "The lecture divides by sin φ and takes φ from the inverse cosine. In f32 the cosine of a \
@@ -243,7 +230,7 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
          above 179°.",
     );
     content.table(
-        "angle of the span | φ as printed, in f32, degrees | its error, % | slerp Phong, off by levels",
+        "angle of the span | φ as printed, in f32, degrees | error, % | slerp Phong, levels off",
         rows,
     );
     content.contradicts(

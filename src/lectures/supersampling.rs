@@ -1,4 +1,5 @@
-//! Supersampling with a depth buffer: occlusion at each sample, and the edge that its filter gives (L5).
+//! Supersampling with a depth buffer: occlusion at each sample, and the edge that its filter gives
+//! (L5).
 
 use super::{
     Figure, FigureContent, Plot, Result, ScreenCorner, ScreenPolygon, Series, draw, log, shipped,
@@ -27,7 +28,8 @@ const SIZE: [u32; 2] = [24, 18];
 const TRIANGLE: [[f64; 2]; 3] = [[3.2, 1.3], [21.7, 8.1], [6.4, 16.6]];
 const PLANE: [[f64; 2]; 4] = [[-1.0, -1.0], [25.0, -1.0], [25.0, 19.0], [-1.0, 19.0]];
 
-/// Makes a frame of polygons, each of one colour, depth and corners in pixels, with so many samples a pixel.
+/// Makes a frame of polygons, each of one colour, depth and corners in pixels, with so many samples
+/// a pixel.
 fn frame(size: [u32; 2], samples: u32, polygons: &[([f32; 3], f64, &[[f64; 2]])]) -> Result<Frame> {
     let [width, height] = size.map(|side| side * samples);
     let mut builder = FrameBuilder::new(width, height);
@@ -110,7 +112,8 @@ fn cutting(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Returns the part of the unit square at (`x`, `y`) that lies in the triangle: cut by its three edges, then measured.
+/// Returns the part of the unit square at (`x`, `y`) that lies in the triangle: cut by its three
+/// edges, then measured.
 fn share([x, y]: [f64; 2]) -> f64 {
     let mut shape = Vec::from([[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]]);
     for i in 0..3 {
@@ -135,7 +138,8 @@ fn share([x, y]: [f64; 2]) -> f64 {
     0.5 * edges.map(|(p, q)| p[0] * q[1] - q[0] * p[1]).sum::<f64>()
 }
 
-/// Returns the RMS error of the triangle's share of the pixels that its edges cross: 1 less red is the share of green.
+/// Returns the RMS error of the triangle's share of the pixels that its edges cross: 1 less red is
+/// the share of green.
 fn share_error(picture: &LinearPicture) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for y in 0..picture.height() {
