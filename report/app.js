@@ -16,7 +16,7 @@ function fill(el, markup) {
 	el.innerHTML = markup;
 	if (key != null) $(`[data-key="${CSS.escape(key)}"]`, el)?.focus({ preventScroll: true });
 }
-/* Calls `choose` with the key of the button, mark or row that pointer or keyboard chooses. */
+/* Calls `choose` with the key of the button, mark or row that is chosen. */
 function onChoose(el, choose) {
 	el.onclick = e => {
 		const chosen = e.target.closest("[data-key]");
@@ -80,6 +80,7 @@ function save(name, content, type) {
 const TIMES = "\u2009×";
 const clamp = (v, low, high) => Math.max(low, Math.min(high, v));
 const by = f => (a, b) => f(a) - f(b);
+const grouped = n => n.toLocaleString("en");
 const sum = list => list.reduce((x, y) => x + y, 0);
 const mean = list => Math.exp(sum(list.map(Math.log)) / list.length); // geometric
 /* A number with `digits` significant digits, never in scientific notation. */
@@ -87,11 +88,10 @@ function num(v, digits = 3) {
 	if (v == null || !isFinite(v)) return "–";
 	const size = Math.abs(v);
 	if (size === 0) return "0";
-	if (size >= 1000) return Math.round(v).toLocaleString("en");
+	if (size >= 1000) return grouped(Math.round(v));
 	if (size < .001) return "<\u20090.001";
 	return v.toFixed(clamp(digits - 1 - Math.floor(Math.log10(size)), 0, 4));
 }
-const grouped = n => n.toLocaleString("en");
 const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
 const ratioText = q => q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
 const csvCell = c => /[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : c ?? "";
@@ -255,7 +255,7 @@ function crop(canvas, s, m, worst, w, h) {
 const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
 const KEYS = {
 	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "=": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
-	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.step(-1, e), arrowright: (v, e) => v.step(1, e),
+	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.slides && v.move(v.split - (e.shiftKey ? .1 : .02)), arrowright: (v, e) => v.slides && v.move(v.split + (e.shiftKey ? .1 : .02)),
 };
 for (const key in MODES) KEYS[key] = v => v.set({ mode: MODES[key] });
 /* Compares the pictures of methods `a` and `b` on a scene; tells `change` of changes and `probe` of the pixel looked at. */
@@ -377,11 +377,6 @@ class Viewer {
 		this.split = clamp(split, 0, 1);
 		this.draw();
 	}
-	/* Moves the divider by a key; false if there is none. */
-	step(direction, e) {
-		if (!this.slides) return false;
-		this.move(this.split + direction * (e.shiftKey ? .1 : .02));
-	}
 	/* A point of the window on the stage: in its pane, and as a part of its width. */
 	local({ clientX, clientY }) {
 		const box = this.stage.getBoundingClientRect(), view = this.view(), x = clientX - box.left;
@@ -497,9 +492,11 @@ class Viewer {
 
 /* ---------- charts */
 const round = v => Math.round(v * 10) / 10;
-const widthOf = el => Math.round(el.clientWidth);
+/* The size of type; charts are drawn smaller by it, and scaled. */
+const zoomOf = () => parseFloat(getComputedStyle(ROOT).fontSize) / 16;
+const widthOf = el => Math.round(el.clientWidth / zoomOf());
 /* A picture of charts: a group of controls if its marks can be chosen, else an image. */
-const svg = (w, h, label, body, controls) => html`<svg viewBox="0 0 ${w} ${h}" width="${w}" height="${h}" role="${controls ? "group" : "img"}" aria-label="${label}">${body}</svg>`;
+const svg = (w, h, label, body, controls) => html`<svg viewBox="0 0 ${w} ${h}" role="${controls ? "group" : "img"}" aria-label="${label}">${body}</svg>`;
 const text = (x, y, t, kind = "") => html`<text x="${round(x)}" y="${round(y)}" class="${kind}">${t}</text>`;
 const line = (x1, y1, x2, y2, kind = "grid") => html`<line x1="${round(x1)}" y1="${round(y1)}" x2="${round(x2)}" y2="${round(y2)}" class="${kind}"/>`;
 const curve = (points, kind = "") => html`<path class="curve ${kind}" d="M${points.map(p => p.map(round).join(" ")).join("L")}"/>`;
@@ -523,7 +520,7 @@ function linearTicks({ low, high, from, to }, gap) {
 }
 function logTicks(at, gap) {
 	const first = Math.floor(Math.log10(at.low)), powers = Array.from({ length: Math.ceil(Math.log10(at.high)) - first + 1 }, (_, i) => first + i);
-	const round = [1, 3, 2, 5, 1.5, 7, 4, 2.5].flatMap(digit => powers.map(e => +(digit * 10 ** e).toPrecision(3))).filter(t => t >= at.low * .999 && t <= at.high * 1.001);
+	const round = [1, 3, 2, 5, 1.5, 7].flatMap(digit => powers.map(e => +(digit * 10 ** e).toPrecision(3))).filter(t => t >= at.low * .999 && t <= at.high * 1.001);
 	return round.reduce((kept, t) => kept.every(k => Math.abs(at(k) - at(t)) >= gap) ? [...kept, t] : kept, []);
 }
 function tickText(v) {
@@ -579,7 +576,7 @@ let basis = MANY ? "all" : "scene";
 function pareto(v) {
 	const el = $("#pareto"), s = v.scene, all = basis === "all";
 	write({ "pareto-sub": all ? `Worst error in ${SCENES.length} scenes, geometric mean of times.` : `${s.title}, ${s.w} × ${s.h}.` });
-	const W = widthOf(el), H = Math.max(340, el.clientHeight || 460), l = 46, r = W - 14, t = 24, b = H - 48;
+	const W = widthOf(el), H = Math.max(340, el.clientHeight / zoomOf()), l = 46, r = W - 14, t = 24, b = H - 48;
 	if (!W) return;
 	const points = IDS.filter(m => all ? M[m].max != null : s.rows[m]).map(m => {
 		const { max, speed } = M[m], q = s.rows[m];
@@ -587,13 +584,12 @@ function pareto(v) {
 	});
 	const timed = points.every(p => p.time);
 	if (!timed) points.forEach((p, i) => { p.time = i + 1; });
-	const times = points.map(p => p.time), [fastest, slowest] = [Math.min(...times), Math.max(...times)], wide = slowest / fastest > 6, pad = (slowest - fastest) * .2 || slowest * .2;
-	const x = options.cols ? scale(true, fastest / 1.25, slowest * 1.35, l, r) : scale(false, Math.max(fastest / 5, fastest - pad), slowest + pad, l, r);
+	const times = points.map(p => p.time), x = scale(true, Math.min(...times) / 1.15, Math.max(...times) * 1.2, l, r);
 	const y = scale(true, clamp(Math.min(...points.map(p => p.error / 2.2)), .0005, .3), Math.max(2, ...points.map(p => p.error * 1.6)), b, t);
 	for (const p of points) [p.x, p.y] = [x(p.time), y(Math.max(p.error, y.low * 1.1))];
 	const one = clamp(y(1), t, b), base = points.find(p => p.m === BASE), shown = [];
-	shown.push(html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`, axisY(y, l, r, y.ticks(60)));
-	if (timed) shown.push(axisX(x, b, x.ticks(50)));
+	shown.push(html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`, axisY(y, l, r, y.ticks(60).filter(e => Math.log10(e) % 1 === 0)));
+	if (timed) shown.push(axisX(x, b, x.ticks(40)));
 	shown.push(text((l + r) / 2, H - 8, timed ? `← faster   ·   ${all ? "time as a multiple of naive Phong’s" : "ms a frame"}` : "no times were taken", "axis mid"), text(l - 38, t - 9, `${all ? "worst error in any scene" : "max error"}, grey levels`, "axis"));
 	if (base && timed) shown.push(line(base.x, t, base.x, b, "dots"));
 	// The line goes down at each method that is more exact than all faster ones.
@@ -604,7 +600,10 @@ function pareto(v) {
 		steps.push([p.x, last?.[1] ?? t], [p.x, p.y]);
 		p.front = true;
 	}
-	if (steps.length) shown.push(curve([...steps, [r, steps[steps.length - 1][1]]], "front"));
+	if (steps.length) {
+		steps.push([r, steps[steps.length - 1][1]]);
+		shown.push(curve(steps, "front"));
+	}
 	const same = "below one grey level: the same picture", taken = [l, one + 3, l + textWidth(same), one + 20];
 	if (b - one > 24) shown.push(text(l + 8, one + 16, same, "tick halo washed"));
 	for (const p of points) {
@@ -612,7 +611,7 @@ function pareto(v) {
 		p.value = p.ratio && (left || right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
 		Object.assign(p, { priority: 3 * left + 2 * right + !!p.front + MARKED.has(p.m), w: textWidth(nameOf(p.m) + "  " + p.value, true) + 6, left, right });
 	}
-	place(points, [l + 2, t, r, b - 1], [taken, ...steps.slice(1).map(([px, py], i) => [Math.min(px, steps[i][0]) - 2, Math.min(py, steps[i][1]) - 2, px + 2, Math.max(py, steps[i][1]) + 2])]);
+	place(points, [l + 2, t, r, b - 1], [taken, ...steps.slice(1).map(([px, py], i) => [steps[i][0] - 2, steps[i][1] - 2, px + 2, py + 2])]);
 	for (const { label, x, y } of points) if (label?.ring) shown.push(line(x, y, clamp(x, label.q[0], label.q[2]), label.y, "leader"));
 	for (const p of points) {
 		const tip = `${nameOf(p.m)}: error ${num(p.error)} levels${timed ? `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}` : ""}`, faint = points.length > 14 && !p.priority;
@@ -730,7 +729,6 @@ function startScenes(s) {
 	onChoose($("#table"), chooseInTable);
 }
 function scenes([id], query) {
-	if (!SCENES.length) return go("lectures");
 	const s = S[id] ?? v2?.scene ?? SCENES[0], rail = $("#rail");
 	if (!v2) startScenes(s);
 	if (v2.scene !== s) Object.assign(v2, { pin: null, hover: null, z: 1, cx: .5, cy: .5 });
@@ -762,8 +760,7 @@ function sceneFacts(s) {
 let probing = 0;
 /* Shows every method at the pixel under the pointer, else at the held one, else at the worst of the left. */
 async function probe(v) {
-	const s = v.scene, turn = ++probing, of = v.a === "reference" ? v.b : v.a, resting = !v.hover && !v.pin && s.rows[of]?.worst, pixel = v.hover ?? v.pin ?? (resting || null);
-	v.rest = resting || null;
+	const s = v.scene, turn = ++probing, of = v.a === "reference" ? v.b : v.a, rest = v.rest = !v.hover && !v.pin && s.rows[of]?.worst || null, pixel = v.hover ?? v.pin ?? rest;
 	if (!s.drawn) return;
 	const list = ["reference", ...s.list], at = pixel && pixel[1] * s.w + pixel[0], found = pixel && await Promise.all(list.map(async m => {
 		const [{ px }, map] = await Promise.all([picture(s, m), errors(s, m)]);
@@ -776,7 +773,7 @@ async function probe(v) {
 		if (!pixel || m === "reference") return pixel && [...colour].join(" ");
 		return error ? error.toFixed(error % 1 ? 1 : 0) : "·";
 	};
-	write({ "probe-where": pixel ? `${pixel.join(", ")}${resting ? ` · worst of ${nameOf(of)}` : v.pin && !v.hover ? " · held" : ""}` : "point at the picture" });
+	write({ "probe-where": pixel ? `${pixel.join(", ")}${rest ? ` · worst of ${nameOf(of)}` : v.pin && !v.hover ? " · held" : ""}` : "point at the picture" });
 	fill($("#probe-list"), html`${shown.map(m => html`<li><button data-key="${m}" class="${m === v.a ? "a" : m === v.b ? "b" : ""}"><kbd>${keyOf(m) ?? "·"}</kbd>${mark(m)}<span class="name">${nameOf(m)}</span><i style="background:rgb(${here[m]?.colour ?? ""})"></i><span class="value ${here[m]?.error > 1 ? "bad" : ""}">${value(m)}</span></button></li>`)}${shown.length < list.length && html`<li><button data-fold="methods">All ${list.length - 1} methods</button></li>`}`);
 	if (!pixel) return;
 	const pen = $("#probe canvas").getContext("2d"), images = await Promise.all([picture(s, v.a), picture(s, v.b)]);
@@ -823,16 +820,15 @@ function sceneTable() {
 	const value = q => sort.key === "name" ? IDS.indexOf(q.variant) : q[sort.key]?.median ?? q[sort.key] ?? (sort.key === "psnr" ? 1e9 : -1);
 	const rows = Object.values(v2.scene.rows).filter(q => options.bary || !q.bary).sort(by(q => (sort.up ? 1 : -1) * value(q))), [shown, more] = folded(rows, 15, "rows");
 	const ratios = rows.map(q => q.ratio).filter(Boolean), slowest = Math.max(...rows.map(q => q.ms ?? 0)), width = options.cols ? 104 : 170;
-	const x = scale(true, Math.min(.77, ...ratios.map(r => r.low * .96)), Math.max(1.3, ...ratios.map(r => r.high * 1.04)), 5, width - 6), length = e => 100 * clamp(Math.log(e / .001) / Math.log(255 / .001), 0, 1);
-	const cells = {
-		max: (e, q) => bar(num(e), length(e), hue(q.variant)),
-		rms: (e, q) => bar(num(e), length(e), hue(q.variant)),
+	const x = scale(true, Math.min(.77, ...ratios.map(r => r.low * .96)), Math.max(1.3, ...ratios.map(r => r.high * 1.04)), 5, width - 6);
+	const level = (e, q) => bar(num(e), 100 * clamp(Math.log(e / .001) / Math.log(255 / .001), 0, 1), hue(q.variant)), cells = {
+		max: level, rms: level,
 		ms: (ms, q) => ms ? bar(num(ms), ms / slowest * 100, hue(q.variant)) : "–",
 		own: (e, q) => q.within ? num(e) : html`<span title="more than rounding explains">! ${num(e)}</span>`,
 		over1: grouped, other: grouped, barycentric: ratioText,
 		psnr: v => v?.toFixed(1) ?? "∞",
 		ssim: v => v?.toFixed(4) ?? "–",
-		ratio: (r, q) => r ? html`<span class="speed" style="color:${hue(q.variant)}"><svg width="${width}" height="18" aria-hidden="true">${line(x(1), 0, x(1), 18)}${line(x(r.low), 9, x(r.high), 9, "whisker")}${shape(q.variant, x(r.median), 9, 4.4)}</svg><span class="${r.tie ? "" : r.median > 1 ? "good" : "bad"}" title="${r.low.toFixed(2)}–${r.high.toFixed(2)}">${ratioText(r)}</span></span>` : "–",
+		ratio: (r, q) => r ? html`<span class="speed"><svg style="color:${hue(q.variant)}" width="${width}" height="18" aria-hidden="true">${line(x(1), 0, x(1), 18)}${line(x(r.low), 9, x(r.high), 9, "whisker")}${shape(q.variant, x(r.median), 9, 4.4)}</svg><span class="${r.tie ? "" : r.median > 1 ? "good" : "bad"}" title="${r.low.toFixed(2)}–${r.high.toFixed(2)}">${ratioText(r)}</span></span>` : "–",
 	};
 	const columns = COLUMNS.filter(([, , always]) => options.cols || always), all = [["name", "method"], ...columns], arrow = key => sort.key === key && (sort.up ? " ↑" : " ↓");
 	const name = q => html`<button class="name" data-key="row ${q.variant}">${mark(q.variant)}${nameOf(q.variant)}${q.bary && html` <small>barycentric</small>`}</button>`;
@@ -961,14 +957,14 @@ const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
 /* The fastest method of a corner that draws naive Phong's picture. */
 const fastest = c => STUDY.methods.filter(m => m.levels_off <= 1 && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
 /* Methods as lines from place to place; a place has a name, a note and values [v, low, high]. */
-function slopes(id, label, list, panes, nameOf, digits, gap = 20) {
+function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 	const el = $(id), W = widthOf(el), part = (W + 20) / panes.length, l = 40, r = part - (part < 300 ? 122 : 190), t = 44, b = Math.max(430, t + list.length * 16.5), shown = [];
 	if (!W || !list.length) return;
 	panes.forEach((places, k) => {
 		const all = list.flatMap(m => places.map(p => p.values(m)[0])), x = scale(false, 0, places.length - 1, k * part + l + 20, k * part + r), y = scale(true, Math.min(...all) * .9, Math.max(...all) * 1.1, b, t);
 		shown.push(axisY(y, k * part + l, k * part + r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]));
 		shown.push(curves(x, y, list.map(m => ({
-			method: m.method, name: nameOf(m.method), value: num(places[places.length - 1].values(m)[0], digits), bold: MARKED.has(m.method), kind: MARKED.has(m.method) ? "" : "thin", href: `#methods/${m.method}`,
+			method: m.method, name: nameOf(m.method), value: format(places[places.length - 1].values(m)[0]), bold: MARKED.has(m.method), kind: MARKED.has(m.method) ? "" : "thin", href: `#methods/${m.method}`,
 			tip: `${nameOf(m.method)}: ${places.map(p => `${p.name} ${p.note} ${num(p.values(m)[0])}`).join(", ")}`, points: places.map((p, i) => [i, ...p.values(m)]),
 		})), { gap: 15.5, out: 22 }));
 	});
@@ -977,14 +973,14 @@ function slopes(id, label, list, panes, nameOf, digits, gap = 20) {
 function corners(mode) {
 	cornerMode = mode;
 	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]), list = studied();
-	slopes("#corners", "Speed of methods in kernels and frames, scalar and SIMD", list.filter(m => oneLight.every(c => ratioIn(m, c))), [oneLight.map(c => ({ name: c.work, note: levelName(c), values: values(c) }))], nameOf, 3);
+	slopes("#corners", "Speed of methods in kernels and frames, scalar and SIMD", list.filter(m => oneLight.every(c => ratioIn(m, c))), [oneLight.map(c => ({ name: c.work, note: levelName(c), values: values(c) }))], nameOf, v => v.toFixed(2));
 	const kernels = [true, false].map(scalar => CORNERS.filter(c => c.work === "kernel" && c.scalar === scalar)).filter(pair => pair.length > 1);
-	slopes("#lights", "Nanoseconds a pixel with one and four lights", list.slice(0, 14), kernels.map(pair => pair.map(c => ({ name: levelName(c), note: plural(c.lights, "light"), values: m => ["median_ns", "p25_ns", "p75_ns"].map(k => m.corners[c.i].timing[k] / STUDY.span) }))), shortName, 2, 40);
+	slopes("#lights", "Nanoseconds a pixel with one and four lights", list.slice(0, 14), kernels.map(pair => pair.map(c => ({ name: levelName(c), note: plural(c.lights, "light"), values: m => ["median_ns", "p25_ns", "p75_ns"].map(k => m.corners[c.i].timing[k] / STUDY.span) }))), shortName, v => num(v, 2), 40);
 }
 const curveName = c => c.engine === "span" ? "lecture’s form" : nameOf(c.method), curveHue = c => c.engine === "span" ? "var(--ink3)" : hue(c.method);
 /* Times of whole frames against a count of the measured points. */
 function grow(id, keep, count, label) {
-	const el = $(id), W = widthOf(el), { points, curves: all } = D.scaling, chosen = points.map((p, i) => ({ ...p, i, n: count(p) })).filter(keep).sort(by(p => p.n));
+	const el = $(id), W = widthOf(el), { points, curves: all } = D.scaling, chosen = points.map((p, i) => ({ ...p, i, n: count(p) })).filter(p => !p.away && keep(p)).sort(by(p => p.n));
 	if (!W || chosen.length < 2) return;
 	const series = all.map(c => ({
 		method: c.method, name: curveName(c), colour: curveHue(c), kind: c.engine === "span" ? "dash1" : "", tip: curveName(c), points: chosen.filter(p => c.times[p.i]).map(p => [p.n, c.times[p.i].min_ns / 1e6]),
@@ -1028,8 +1024,8 @@ function speed() {
 	}
 	const growth = D.scaling;
 	if (growth) {
-		grow("#grow-triangles", p => !p.away && p.size.join() === growth.at.join(), p => p.triangles, `triangles, at ${growth.at.join(" × ")}`);
-		grow("#grow-pixels", p => !p.away && p.asked === growth.of, p => p.pixels, `covered pixels, about ${grouped(growth.of)} triangles`);
+		grow("#grow-triangles", p => p.size.join() === growth.at.join(), p => p.triangles, `triangles, at ${growth.at.join(" × ")}`);
+		grow("#grow-pixels", p => p.asked === growth.of, p => p.pixels, `covered pixels, about ${grouped(growth.of)} triangles`);
 		costs();
 	}
 	if (DOCS.length > 1) beside();
@@ -1051,8 +1047,8 @@ const PLOT_HUES = ["--base", "--h3", "--h2", "--h4", "--h1", "--h5"];
 function plot(p, W, H) {
 	const small = H < 150, series = p.series.map((s, i) => ({ ...keyed(s, i), points: s.points.filter(q => q.every(v => v != null && isFinite(v))) })), [l, r, t, b] = small ? [4, W - 4, 6, H - 6] : [52, W - 12, 22, H - 42];
 	const axis = (values, [, kind], from, to) => {
-		const log = kind === "log", list = values.filter(v => isFinite(v) && (!log || v > 0)), [low, high] = list.length ? [Math.min(...list), Math.max(...list)] : [1, 2];
-		return low < high ? scale(log, low, high, from, to) : log ? scale(log, low / 2, low * 2, from, to) : scale(log, low - .5, low + .5, from, to);
+		const log = kind === "log", list = values.filter(v => isFinite(v) && (!log || v > 0)), low = Math.min(...list), high = Math.max(...list);
+		return low < high ? scale(log, low, high, from, to) : scale(log, low / 2 || -.5, low * 2 || .5, from, to);
 	};
 	const points = series.flatMap(s => s.points), x = axis([...points.map(q => q[0]), ...p.marks], p.x, l, r), y = axis(points.map(q => q[1]), p.y, b, t), at = ([u, v]) => [x(clamp(u, x.low, x.high)), y(clamp(v, y.low, y.high))];
 	const axes = small ? [] : [axisY(y, l, r, y.ticks(32)), axisX(x, b, x.ticks(60)), text((l + r) / 2, H - 6, p.x[0], "axis mid"), text(2, 12, p.y[0], "axis")];
@@ -1136,7 +1132,7 @@ function fromRoute(query, v) {
 		const pin = [clamp(whole("x"), 0, s.w - 1), clamp(whole("y"), 0, s.h - 1)];
 		Object.assign(state, { pin, z: clamp(+given.zoom || 1, 1, 32), cx: (pin[0] + .5) / s.w, cy: (pin[1] + .5) / s.h });
 	}
-	if (v.row && given.row) state.line = clamp(whole("row") ?? 0, 0, s.h - 1);
+	if (v.row && given.row) state.line = whole("row") ?? 0;
 	return state;
 }
 /* Keeps the address in step with a viewer, so that a link shows what its sender saw. */
@@ -1151,7 +1147,7 @@ function remember(v) {
 }
 function route(e) {
 	clearTimeout(timers.remember);
-	const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?"), [asked, ...parts] = path.split("/").map(decodeURIComponent), name = VIEWS[asked] ? asked : "overview", changed = name !== view;
+	const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?"), [asked, ...parts] = path.split("/").map(decodeURIComponent), name = VIEWS[asked] && FILLED[asked] ? asked : FILLED.overview ? "overview" : "lectures", changed = name !== view;
 	view = name;
 	restoring = true;
 	$$(".view").forEach(s => s.classList.toggle("on", s.id === name));
@@ -1194,17 +1190,16 @@ $$(".answer .m").forEach(a => a.style.setProperty("--c", hue(a.dataset.m)));
 /* Parts of the page that have something to show. */
 const FILLED = {
 	scenes: SCENES.length, methods: IDS.length, lectures: FIGURES.length, findings: FINDINGS.length, overview: SCENES.length || FIGURES.length > 1, speed: STUDY || D.scaling || DOCS.length > 1, study: STUDY, growth: D.scaling,
-	beside: DOCS.length > 1, many: MANY, strip: MANY && chosen(1).length, timed: TIMED, untimed: !TIMED, more: TIMED && MANY, numbers: !PICTURES, debug: D.machine.profile !== "release",
+	beside: DOCS.length > 1, many: MANY, strip: MANY && chosen(1).length, timed: TIMED, untimed: !TIMED, measured: true, numbers: !PICTURES, debug: D.machine.profile !== "release",
 	srgb: SCENES.some(s => s.encoding === "srgb"), depth: ROWS.some(q => q.other),
 };
 $$("[data-if]").forEach(el => { el.hidden = !FILLED[el.dataset.if]; });
 addEventListener("beforeprint", () => {
 	$$(".view").forEach(s => s.classList.add("on"));
-	for (const name in VIEWS) if (FILLED[name] ?? true) VIEWS[name]([], new URLSearchParams());
+	for (const name in VIEWS) if (FILLED[name]) VIEWS[name]([], new URLSearchParams());
 });
 addEventListener("afterprint", () => {
 	view = "";
 	route();
 });
-if (!SCENES.length && FIGURES.length === 1 && !location.hash) history.replaceState(null, "", "#lectures/" + FIGURES[0].name);
 route();
