@@ -95,7 +95,7 @@ function num(v, digits = 3) {
 const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
 const ratioText = q => q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
 const csvCell = c => /[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : c ?? "";
-/* A file of comma-separated values: a line an object, the names of its fields on top. */
+/* Comma-separated values: a line an object, the names of its fields on top. */
 const csv = list => [Object.keys(list[0]), ...list.map(Object.values)].map(row => row.map(csvCell).join(",") + "\r\n").join("");
 const memory = new Map();
 /* Keeps what `make` makes, and forgets what was not used for long. */
@@ -784,7 +784,7 @@ async function probe(v) {
 		pen.strokeRect(72 * n + 30.5, 30.5, 9, 9);
 	});
 }
-/* Opens the plot of a row, or closes it. */
+/* Opens or closes the plot of a row. */
 function toggleRow(v) { showRow(v, v.line == null ? (v.pin ?? v.rest ?? [0, v.scene.h >> 1])[1] : null); }
 function showRow(v, y) {
 	v.line = y;
@@ -1074,7 +1074,7 @@ function drawPlots(f) { $$("[data-plot]").forEach(el => {
 	const { plot: p } = f.blocks[el.dataset.plot];
 	el.innerHTML = html`${plot(p, widthOf(el) || 460, 300)}${legend(p.series)}`;
 });  }
-/* The picture of a figure in the gallery: its first pictures, or its first plot if it has none. */
+/* A figure in the gallery: its first pictures, or its first plot. */
 function preview(f) {
 	const first = f.blocks.find(b => b.plot)?.plot, shown = f.blocks.flatMap(b => b.pictures?.shown ?? []), files = figurePictures(f).slice(0, 3);
 	return files.length ? files.map((src, i) => html`<img src="${src}" alt="${shown[i].alt}">`) : first && plot(first, 260, 112);

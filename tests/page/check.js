@@ -65,7 +65,7 @@
     check(`${where}: one first heading`, headings[0] === 1 && headings.filter(h => h === 1).length === 1);
     check(`${where}: no heading skips a level: ${headings}`, headings.every((h, i) => !i || h <= headings[i - 1] + 1));
     const named = el => (el.getAttribute("aria-label") ?? document.getElementById(el.getAttribute("aria-labelledby"))?.textContent ?? el.getAttribute("title") ?? el.getAttribute("alt") ?? (el.labels?.[0] ?? el).textContent ?? "").trim();
-    for (const el of document.querySelectorAll("button, a, select, img, [role]")) if (seen(el) && !el.closest("[aria-hidden=true]")) check(`${where}: no name for ${el.outerHTML.slice(0, 80)}`, named(el) || el.getAttribute("alt") === "");
+    for (const el of document.querySelectorAll("button, a, select, img, [role]")) if (seen(el) && !el.closest("[aria-hidden=true]")) check(`${where}: no name for ${el.outerHTML.slice(0, 80)}`, /[\p{L}\d]/u.test(named(el)) || el.getAttribute("alt") === "");
     for (const el of document.querySelectorAll("canvas, svg")) if (seen(el)) check(`${where}: neither named nor hidden: ${el.outerHTML.slice(0, 80)}`, el.closest("[aria-hidden=true]") || named(el));
     const controls = [...document.querySelectorAll("button, a[href], select, summary, [tabindex], .hit")].filter(el => seen(el) && el.tabIndex >= 0);
     for (const el of controls) {
