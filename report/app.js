@@ -1,1156 +1,1205 @@
 "use strict";
-/* The report's page: draws one JSON document (#fastphong-data) and its pictures. No library, nothing is loaded. */
+/* Draws the report's page from one JSON document (#fastphong-data) and its packed pictures. No library; nothing is loaded. */
 
-/* ---------- small tools */
-const $ = (s, r = document) => r.querySelector(s), $$ = (s, r = document) => [...r.querySelectorAll(s)];
-const clamp = (v, a, b) => Math.max(a, Math.min(b, v));
-const esc = s => String(s).replace(/[&<>"']/g, c => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" })[c]);
-const sum = a => a.reduce((x, y) => x + y, 0);
-const geo = a => Math.exp(sum(a.map(Math.log)) / a.length);
-const by = f => (a, b) => f(a) - f(b);
-const X = "\u2009×", TINY = 1e-4;
-/* A number with `digits` significant digits, never in scientific notation. */
-function num(v, digits = 3) {
- if (v == null || !isFinite(v)) return "–";
- const size = Math.abs(v);
- if (size === 0) return "0";
- if (size >= 1000) return Math.round(v).toLocaleString("en");
- if (size < .001) return "<\u20090.001";
- return v.toFixed(clamp(digits - 1 - Math.floor(Math.log10(size)), 0, 4));
+/* ---------- markup */
+const ROOT = document.documentElement;
+const $ = (selector, root = document) => root.querySelector(selector);
+const $$ = (selector, root = document) => [...root.querySelectorAll(selector)];
+const ENTITIES = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" };
+class Markup extends String {}
+const put = v => v instanceof Markup ? v : Array.isArray(v) ? v.map(put).join("") : v == null || v === false ? "" : String(v).replace(/[&<>"']/g, c => ENTITIES[c]);
+/* Tags a template of HTML or SVG: escapes the values, unless they are markup, and joins lists. */
+const html = (texts, ...values) => new Markup(texts.reduce((all, text, i) => all + put(values[i - 1]) + text));
+/* Puts markup into an element, and gives the focus back to the control that had it. */
+function fill(el, markup) {
+	const key = el.contains(document.activeElement) ? document.activeElement.dataset.key : null;
+	el.innerHTML = markup;
+	if (key != null) $(`[data-key="${CSS.escape(key)}"]`, el)?.focus({ preventScroll: true });
 }
-const grouped = n => n.toLocaleString("en"), plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
-const memory = new Map();
-/* Keeps what `make` makes; forgets what was not used for long. */
-function memo(key, make) {
- const kept = memory.get(key) ?? make();
- memory.delete(key);
- memory.set(key, kept);
- if (memory.size > 220) memory.delete(memory.keys().next().value);
- return kept;
+/* Calls `choose` with the key of the button, mark or row that is chosen. */
+function onChoose(el, choose) {
+	el.onclick = e => {
+		const chosen = e.target.closest("[data-key]");
+		if (chosen) choose(chosen.dataset.key, e);
+	};
+	el.onkeydown = e => {
+		if (!e.target.matches("g") || e.key !== "Enter" && e.key !== " ") return;
+		e.preventDefault();
+		choose(e.target.dataset.key, e);
+	};
+}
+const unfolded = new Set();
+/* The first ones of a long list, and the button that shows the others too. */
+function folded(list, most, what) {
+	const all = unfolded.has(what) || list.length < 1.2 * most;
+	return [all ? list : list.slice(0, most), !all && html`<button class="fold" data-fold="${what}">All ${list.length} ${what}</button>`];
+}
+addEventListener("click", e => {
+	const what = e.target.dataset?.fold;
+	if (!what) return;
+	unfolded.add(what);
+	route();
+});
+/* Wires buttons of which one is pressed; returns the function that marks the pressed one. */
+function segments(el, pressed, choose) {
+	const update = () => $$("button", el).forEach(b => { b.ariaPressed = b.dataset.key === pressed(); });
+	onChoose(el, key => {
+		choose(key);
+		update();
+	});
+	update();
+	return update;
+}
+/* Writes texts into elements, by their ids. */
+function write(texts) { for (const id in texts) $("#" + id).textContent = texts[id]; }
+/* A table: heads, and rows of cells of which the first names the row. */
+const table = (heads, rows, kind = "") => html`<table class="data ${kind}"><thead><tr>${heads.map(h => html`<th scope="col">${h}</th>`)}</tr></thead><tbody>${rows.map(([name, ...cells]) => html`<tr><th scope="row">${name}</th>${cells.map(c => html`<td>${c}</td>`)}</tr>`)}</tbody></table>`;
+const scrolling = (label, body) => html`<div class="scroll" tabindex="0" role="region" aria-label="${label}">${body}</div>`;
+/* A number with a bar beside it. */
+const bar = (value, percent, colour) => html`<span class="bar"><span>${value}</span><i><b style="width:${percent}%;background:${colour}"></b></i></span>`;
+const timers = {};
+/* Does something after some milliseconds, unless it is asked for again before. */
+function delay(what, ms, action) {
+	clearTimeout(timers[what]);
+	timers[what] = setTimeout(action, ms);
 }
 function toast(text) {
- const e = $("#toast");
- e.textContent = text;
- e.classList.add("on");
- clearTimeout(toast.timer);
- toast.timer = setTimeout(() => e.classList.remove("on"), 1800);
+	write({ toast: text });
+	$("#toast").classList.add("on");
+	delay("toast", 1800, () => $("#toast").classList.remove("on"));
 }
-/* A row of buttons of which one is pressed. */
-function segments(el, items, get, set) {
- const draw = () => { el.innerHTML = items.map(([k, l]) => `<button data-k="${esc(k)}" aria-pressed="${get() === k}">${esc(l)}</button>`).join(""); };
- el.onclick = e => { const b = e.target.closest("button"); if (b) { set(b.dataset.k); draw(); } };
- draw();
- return draw;
+function save(name, content, type) {
+	const a = document.createElement("a");
+	a.download = name;
+	a.href = URL.createObjectURL(new Blob([content], { type }));
+	a.click();
+	setTimeout(() => URL.revokeObjectURL(a.href), 1e4);
 }
-function save(name, text, type) {
- const a = document.createElement("a");
- a.download = name;
- a.href = URL.createObjectURL(new Blob([text], { type }));
- a.click();
- setTimeout(() => URL.revokeObjectURL(a.href), 1e4);
+
+/* ---------- numbers */
+const TIMES = "\u2009×";
+const clamp = (v, low, high) => Math.max(low, Math.min(high, v));
+const by = f => (a, b) => f(a) - f(b);
+const grouped = n => n.toLocaleString("en");
+const sum = list => list.reduce((x, y) => x + y, 0);
+const mean = list => Math.exp(sum(list.map(Math.log)) / list.length); // geometric
+/* A number with `digits` significant digits, never in scientific notation. */
+function num(v, digits = 3) {
+	if (v == null || !isFinite(v)) return "–";
+	const size = Math.abs(v);
+	if (size === 0) return "0";
+	if (size >= 1000) return grouped(Math.round(v));
+	if (size < .001) return "<\u20090.001";
+	return v.toFixed(clamp(digits - 1 - Math.floor(Math.log10(size)), 0, 4));
 }
-const csv = rows => rows.map(r => r.map(c => /[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : c ?? "").join(",") + "\r\n").join("");
+const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
+const ratioText = q => q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
+const csvCell = c => /[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : c ?? "";
+/* Comma-separated values: a line an object, the names of its fields on top. */
+const csv = list => [Object.keys(list[0]), ...list.map(Object.values)].map(row => row.map(csvCell).join(",") + "\r\n").join("");
+const memory = new Map();
+/* Keeps what `make` makes, and forgets what was not used for long. */
+function memo(key, make) {
+	const kept = memory.get(key) ?? make();
+	memory.delete(key);
+	memory.set(key, kept);
+	if (memory.size > 220) memory.delete(memory.keys().next().value);
+	return kept;
+}
 
 /* ---------- data */
-const D = JSON.parse($("#fastphong-data").textContent), BASE = D.baseline || "naive-phong", BARY = "barycentric";
-const DOCS = [D, ...(D.beside || [])];
-const slugs = new Set();
-const SCENES = (D.comparisons || []).map((c, number) => {
- const plain = c.name.replace(/[^A-Za-z0-9]+/g, "-").replace(/^-|-$/g, "") || "scene";
- let id = plain;
- for (let n = 2; slugs.has(id); n++) id = `${plain}-${n}`;
- slugs.add(id);
- const rows = {};
- for (const r of c.rows.concat(c.barycentric)) rows[(r.engine === BARY ? "bary:" : "") + r.variant] = flat(r);
- return { ...c, id, number, rows, list: c.rows.map(r => r.variant), title: c.title || c.name, w: c.width, h: c.height };
-});
-/* The numbers of a row: errors in grey levels, times in ms, ratios as [median, low, high, tie]. */
-function flat(r) {
- const e = r.error, s = r.speed, ratio = q => q && [q.median, q.low, q.high, q.tie];
- return {
-  variant: r.variant, bary: r.engine === BARY, max: e.max * 255, rms: e.rms * 255, p99: e.p99 * 255, own: r.own.max * 255, explained: r.within_bound,
-  over1: e.over_one_level, psnr: e.psnr, ssim: e.ssim, worst: e.worst, other: r.other_polygon, ms: s && s.timing.median_ns / 1e6, p25: s && s.timing.p25_ns / 1e6,
-  p75: s && s.timing.p75_ns / 1e6, rounds: s && s.timing.rounds, ns: s && s.ns_per_covered_pixel, ratio: s && ratio(s.ratio_to_naive), barycentric: s && ratio(s.ratio_to_barycentric),
- };
+const D = JSON.parse($("#fastphong-data").textContent), DOCS = [D, ...(D.beside ?? [])];
+const BASE = D.baseline ?? "naive-phong", BARY = "barycentric";
+/* A row of a comparison: errors in grey levels, times in ms. */
+function rowOf(scene, { variant, engine, error, own, speed, within_bound: within, other_polygon: other }) {
+	const time = key => speed && speed.timing[key] / 1e6;
+	return {
+		scene, variant, engine, bary: engine === BARY, within, other, max: error.max * 255, rms: error.rms * 255, p99: error.p99 * 255, own: own.max * 255,
+		over1: error.over_one_level, psnr: error.psnr, ssim: error.ssim, worst: error.worst, ms: time("median_ns"), p25: time("p25_ns"), p75: time("p75_ns"),
+		rounds: speed?.timing.rounds, ns: speed?.ns_per_covered_pixel, ratio: speed?.ratio_to_naive, barycentric: speed?.ratio_to_barycentric,
+	};
 }
-const S = Object.fromEntries(SCENES.map(s => [s.id, s])), IDS = (D.methods || []).map(m => m.name), M = Object.fromEntries((D.methods || []).map(m => [m.name, m]));
-const TIMED = SCENES.some(s => Object.values(s.rows).some(q => q.ratio)), MANY = SCENES.length > 1;
-const hasPictures = s => !!$(`#pictures-${s.number}`), PICTURES = SCENES.some(hasPictures);
-if (!PICTURES) document.documentElement.classList.add("nopictures");
+const S = {};
+const SCENES = (D.comparisons ?? []).map((c, number) => {
+	const plain = c.name.replace(/[^A-Za-z0-9]+/g, "-").replace(/^-|-$/g, ""), id = plain && !S[plain] ? plain : `scene-${number + 1}`;
+	const rows = Object.fromEntries([...c.rows, ...c.barycentric].map(r => [(r.engine === BARY ? "bary:" : "") + r.variant, rowOf(c.name, r)]));
+	return S[id] = { ...c, id, number, rows, list: c.rows.map(r => r.variant), title: c.title || c.name, w: c.width, h: c.height, drawn: !!$(`#pictures-${number}`) };
+});
+const ROWS = SCENES.flatMap(s => Object.values(s.rows));
+const METHODS = D.methods ?? [], IDS = METHODS.map(m => m.name), M = Object.fromEntries(METHODS.map(m => [m.name, m]));
+const TIMED = ROWS.some(q => q.ratio), MANY = SCENES.length > 1;
+const FIGURES = D.figures ?? [], FINDINGS = FIGURES.flatMap(f => f.findings.map(x => ({ ...x, figure: f })));
+const STUDY = D.speedups;
+const PICTURES = SCENES.some(s => s.drawn);
+ROOT.classList.toggle("nopictures", !PICTURES);
+
 /* Each family of methods has a hue and a shape, each member a filling; naive Phong is ink. */
-const HUES = 11, SHAPES = ["square", "up", "circle", "plus", "down", "hexagon", "star", "pentagon"];
-const FAMILIES = [...new Set(D.methods?.map(m => m.family))].filter(f => f !== M[BASE]?.family);
-for (const m of D.methods || []) {
- const f = FAMILIES.indexOf(m.family), members = D.methods.filter(o => o.family === m.family);
- m.hue = f < 0 ? "var(--base)" : `var(--h${f % HUES})`;
- m.shape = f < 0 ? "diamond" : SHAPES[f % SHAPES.length];
- m.filling = members.indexOf(m) % 3;
- m.head = members[0] === m;
+const HUES = 11, FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
+const SHAPES = ["square", "up", "circle", "plus", "down", "hexagon", "star", "pentagon"];
+for (const m of METHODS) {
+	const family = FAMILIES.indexOf(m.family), members = METHODS.filter(o => o.family === m.family);
+	m.hue = family < 0 ? "var(--base)" : `var(--h${family % HUES})`;
+	m.shape = family < 0 ? "diamond" : SHAPES[family % SHAPES.length];
+	m.filling = members.indexOf(m) % 3;
+	m.head = members[0] === m;
+	// Over all scenes: the worst error, and the geometric mean of speeds.
+	const drawn = SCENES.filter(s => s.rows[m.name]), ratios = drawn.map(s => s.rows[m.name].ratio?.median).filter(Boolean);
+	m.scene = [...drawn].sort(by(s => -s.rows[m.name].max))[0];
+	m.worst = m.scene?.rows[m.name];
+	m.max = m.worst?.max;
+	m.speed = ratios.length && ratios.length === drawn.length ? mean(ratios) : null;
 }
-/* What a method comes to over all scenes: the worst error, the geometric mean of speeds. */
-for (const m of D.methods || []) {
- const rows = SCENES.map(s => [s, s.rows[m.name]]).filter(q => q[1]);
- const worst = rows.reduce((a, q) => !a || q[1].max > a[1].max ? q : a, null);
- m.max = worst ? worst[1].max : null;
- m.worst = worst && { scene: worst[0], q: worst[1] };
- const ratios = rows.map(q => q[1].ratio?.[0]).filter(Boolean);
- m.speed = ratios.length && ratios.length === rows.length ? geo(ratios) : null;
-}
-/* Keys 1 to 9: a family's first member each, then the most exact of the others; in the order of the table. */
-[...(D.methods || [])].sort(by(m => (m.head ? 0 : 1e6) + (m.head ? IDS.indexOf(m.name) : m.max ?? 0))).slice(0, 9)
- .sort(by(m => IDS.indexOf(m.name))).forEach((m, i) => { m.key = String(i + 1); });
-const nm = m => m === "reference" ? "reference" : M[m]?.label ?? m, hue = m => m === "reference" ? "var(--ink3)" : M[m]?.hue ?? "var(--ink3)";
-const BEST = $(".answer .m")?.dataset.m ?? IDS[IDS.length - 1];
-const MARKED = new Set([BASE, BEST, ...$$(".answer .m").map(a => a.dataset.m)]);
+/* Keys 1 to 9: the first member of each family, then the most exact of the others; in the order of the list. */
+const order = m => IDS.indexOf(m.name);
+[...METHODS].sort(by(m => m.head ? order(m) : 1e6 + (m.max ?? 0))).slice(0, 9).sort(by(order)).forEach((m, i) => { m.key = String(i + 1); });
+const nameOf = m => M[m]?.label ?? m, shortName = m => nameOf(m).replace(" Phong", ""), hue = m => M[m]?.hue ?? "var(--ink3)";
+const keyOf = m => m === "reference" ? "0" : M[m].key;
+const NAMED = $$(".answer .m").map(a => a.dataset.m), BEST = NAMED[0] ?? IDS[IDS.length - 1], MARKED = new Set([BASE, BEST, ...NAMED]);
+/* Methods shown where there is room for few: those that the answer names, then the fastest. */
+const chosen = n => IDS.filter(m => m !== BASE && M[m].speed).sort(by(m => -M[m].speed)).sort(by(m => Math.max(1, M[m].max))).sort(by(m => !MARKED.has(m))).slice(0, n);
 
-/* ---------- marks */
-const POLY = n => Array.from({ length: n }, (_, i) => [Math.sin(i * 2 * Math.PI / n) * 1.12, -Math.cos(i * 2 * Math.PI / n) * 1.12]);
-const OUTLINES = {
- square: [[-.86, -.86], [.86, -.86], [.86, .86], [-.86, .86]], up: [[0, -1.1], [1.05, .8], [-1.05, .8]], down: [[0, 1.1], [1.05, -.8], [-1.05, -.8]],
- diamond: [[0, -1.25], [1.1, 0], [0, 1.25], [-1.1, 0]], hexagon: POLY(6), pentagon: POLY(5),
- star: POLY(10).map(([x, y], i) => i % 2 ? [x * .5, y * .5] : [x * 1.15, y * 1.15]),
- plus: [[-.4, -1.1], [.4, -1.1], [.4, -.4], [1.1, -.4], [1.1, .4], [.4, .4], [.4, 1.1], [-.4, 1.1], [-.4, .4], [-1.1, .4], [-1.1, -.4], [-.4, -.4]],
-};
-function shape(m, x, y, r = 5.5) {
- const o = M[m] || { shape: "circle", filling: 1 }, c = hue(m), hollow = o.filling > 0;
- const paint = hollow ? `fill="var(--card)" stroke="${c}" stroke-width="2"` : `fill="${c}" stroke="var(--card)" stroke-width="1"`;
- const dot = o.filling > 1 ? `<circle cx="${x}" cy="${y}" r="${r * .34}" fill="${c}"/>` : "";
- if (o.shape === "circle") return `<circle cx="${x}" cy="${y}" r="${r * .95}" ${paint}/>${dot}`;
- return `<path d="M${OUTLINES[o.shape].map(([u, v]) => (x + u * r).toFixed(1) + " " + (y + v * r).toFixed(1)).join("L")}Z" ${paint} stroke-linejoin="round"/>${dot}`;
+/* A method's mark around a point of an SVG. */
+function shape(m, x, y, size = 5) {
+	const { shape = "circle", filling = 1 } = M[m] ?? {};
+	return html`<use href="#mark-${shape}" class="mark fill${filling}" style="color:${hue(m)}" transform="translate(${round(x)} ${round(y)}) scale(${size})"/>`;
 }
-const mark = m => `<svg width="13" height="13" viewBox="-7 -7 14 14" aria-hidden="true">${shape(m, 0, 0, 5)}</svg>`;
-const tw = (() => {
- const c = document.createElement("canvas").getContext("2d");
- let family;
- return (t, bold) => { family ??= getComputedStyle(document.body).fontFamily; c.font = (bold ? "650 " : "") + "12.5px " + family; return c.measureText(t).width; };
-})();
+const mark = m => html`<svg width="13" height="13" viewBox="-7 -7 14 14" aria-hidden="true">${shape(m, 0, 0)}</svg>`;
 
-/* ---------- pictures: filtered planes, deflated; each adds to the one most like it */
-const pictureData = s => memo("json" + s.id, () => JSON.parse($(`#pictures-${s.number}`).textContent));
-async function unpack(text, w, h, count) {
- const binary = atob(text), bytes = new Uint8Array(binary.length);
- for (let i = 0; i < bytes.length; i++) bytes[i] = binary.charCodeAt(i);
- const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
- const rows = new Uint8Array(await new Response(stream).arrayBuffer()), planes = [];
- let at = 0;
- for (let p = 0; p < count; p++) {
-  const out = new Uint8Array(w * h);
-  for (let y = 0; y < h; y++) {
-   const filter = rows[at++], here = y * w, above = here - w;
-   for (let x = 0; x < w; x++, at++) {
-    const left = x ? out[here + x - 1] : 0, up = y ? out[above + x] : 0;
-    let guess = 0;
-    if (filter === 1) guess = left;
-    else if (filter === 2) guess = up;
-    else if (filter === 3) guess = left + up >> 1;
-    else if (filter === 4) {
-     const corner = x && y ? out[above + x - 1] : 0, g = left + up - corner, a = Math.abs(g - left), b = Math.abs(g - up), c = Math.abs(g - corner);
-     guess = a <= b && a <= c ? left : b <= c ? up : corner;
-    }
-    out[here + x] = rows[at] + guess;
-   }
-  }
-  planes.push(out);
- }
- return planes;
+/* ---------- pictures: planes with the row filters of PNG, deflated; each adds to the one most like it */
+const pictureData = s => memo(`json ${s.id}`, () => JSON.parse($(`#pictures-${s.number}`).textContent));
+/* Predicts a byte from its neighbours (PNG specification 9). */
+function predict(filter, left, up, corner) {
+	if (filter === 0) return 0;
+	if (filter === 1) return left;
+	if (filter === 2) return up;
+	if (filter === 3) return left + up >> 1;
+	const a = Math.abs(up - corner), b = Math.abs(left - corner), c = Math.abs(left + up - 2 * corner);
+	return a <= b && a <= c ? left : b <= c ? up : corner;
 }
-const plus = (a, b) => a.map((p, i) => { const o = new Uint8Array(p.length), q = b[i]; for (let k = 0; k < o.length; k++) o[k] = p[k] + q[k]; return o; });
-const stored = (s, m) => pictureData(s).rows[m];
+async function unpack(text, { w, h }, count) {
+	const packed = Uint8Array.from(atob(text), c => c.charCodeAt(0));
+	const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+	const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+	let next = 0;
+	return Array.from({ length: count }, () => {
+		const plane = new Uint8Array(w * h);
+		for (let y = 0, i = 0; y < h; y++) {
+			const filter = bytes[next++];
+			for (let x = 0; x < w; x++, i++) plane[i] = bytes[next++] + predict(filter, x ? plane[i - 1] : 0, y ? plane[i - w] : 0, x && y ? plane[i - w - 1] : 0);
+		}
+		return plane;
+	});
+}
+const added = (base, more) => base.map((plane, p) => plane.map((v, i) => v + more[p][i]));
 const planes = (s, m) => memo(`planes ${s.id} ${m}`, async () => {
- if (m === "reference") return unpack(pictureData(s).reference, s.w, s.h, 3);
- const e = stored(s, m), base = await planes(s, e.on ?? "reference");
- return e.add ? plus(base, await unpack(e.add, s.w, s.h, 3)) : base;
+	const data = pictureData(s);
+	if (m === "reference") return unpack(data.reference, s, 3);
+	const { on = "reference", add } = data.rows[m], base = await planes(s, on);
+	return add ? added(base, await unpack(add, s, 3)) : base;
 });
-/* Error of each pixel as it is stored: 0 up to 1/64 level, then some steps an octave. */
-const codes = (s, m) => memo(`codes ${s.id} ${m}`, async () => {
- if (m === "reference") return new Uint8Array(s.w * s.h);
- const e = stored(s, m), base = e.map_on ? await codes(s, e.map_on) : new Uint8Array(s.w * s.h);
- return e.map ? plus([base], await unpack(e.map, s.w, s.h, 1))[0] : base;
-});
-const levels = s => memo(`levels ${s.id}`, () => Float32Array.from({ length: 256 }, (_, c) => c ? 2 ** ((c - 1) / pictureData(s).steps) / 64 : 0));
-function canvasOf(s, fill) {
- const c = document.createElement("canvas"), d = new Uint8ClampedArray(s.w * s.h * 4);
- [c.width, c.height] = [s.w, s.h];
- fill(d);
- c.getContext("2d").putImageData(new ImageData(d, s.w, s.h), 0, 0);
- return c;
+/* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green and red of a pixel. */
+function canvasOf(s, word) {
+	const canvas = document.createElement("canvas"), image = new ImageData(s.w, s.h), words = new Uint32Array(image.data.buffer);
+	[canvas.width, canvas.height] = [s.w, s.h];
+	for (let i = 0; i < words.length; i++) words[i] = word(i);
+	canvas.getContext("2d").putImageData(image, 0, 0);
+	return { canvas, px: image.data };
 }
-/* `px` holds the stored grey levels; the canvas shows linear ones as sRGB only where the scene is stored as such. */
+/* The picture as it is stored: grey levels, linear or sRGB as the scene says. */
 const picture = (s, m) => memo(`picture ${s.id} ${m}`, async () => {
- const [g, r, b] = await planes(s, m), px = new Uint8ClampedArray(s.w * s.h * 4);
- for (let i = 0, j = 0; i < g.length; i++, j += 4) { px[j] = r[i] + g[i] & 255; px[j + 1] = g[i]; px[j + 2] = b[i] + g[i] & 255; px[j + 3] = 255; }
- return { px, canvas: canvasOf(s, d => d.set(px)) };
+	const [green, red, blue] = await planes(s, m);
+	return canvasOf(s, i => 255 << 24 | (blue[i] + green[i] & 255) << 16 | green[i] << 8 | red[i] + green[i] & 255);
 });
-const STOPS = [[0, 0, 4], [28, 16, 68], [79, 18, 123], [129, 37, 129], [181, 54, 122], [229, 80, 100], [251, 135, 97], [254, 194, 135], [252, 253, 191]];
-const HEAT = Array.from({ length: 256 }, (_, i) => { const f = i / 255 * (STOPS.length - 1), k = Math.min(STOPS.length - 2, f | 0); return STOPS[k].map((a, j) => Math.round(a + (STOPS[k + 1][j] - a) * (f - k))); });
-const LOW = -6, HIGH = Math.log2(255);
-/* Position of an error on the scale of a map: logarithmic for `top` 0, else linear up to `top`. */
-const heat = (e, top) => top ? Math.min(1, e / top) : e <= 1 / 64 ? 0 : clamp((Math.log2(e) - LOW) / (HIGH - LOW), 0, 1);
-const errorCanvas = (s, m, top) => memo(`map ${s.id} ${m} ${top}`, async () => {
- const map = await codes(s, m), colours = Array.from(levels(s), e => HEAT[Math.round(heat(e, top) * 255)]);
- return canvasOf(s, d => { for (let i = 0, j = 0; i < map.length; i++, j += 4) { const c = colours[map[i]]; d[j] = c[0]; d[j + 1] = c[1]; d[j + 2] = c[2]; d[j + 3] = 255; } });
+const fromSrgb = c => c <= .04045 ? c / 12.92 : ((c + .055) / 1.055) ** 2.4;
+/* Error of each pixel: the largest difference of its channels from the reference's, in linear grey levels. */
+const errors = (s, m) => memo(`errors ${s.id} ${m}`, async () => {
+	const [{ px: here }, { px: there }] = await Promise.all([picture(s, m), picture(s, "reference")]);
+	const grey = Float32Array.from({ length: 256 }, (_, c) => s.encoding === "srgb" ? 255 * fromSrgb(c / 255) : c), apart = i => Math.abs(grey[here[i]] - grey[there[i]]);
+	return new Float32Array(s.w * s.h).map((_, i) => Math.max(apart(4 * i), apart(4 * i + 1), apart(4 * i + 2)));
 });
-/* Draws the reference, small, as soon as there is time. */
+/* Colours of the error map, and the place of an error on its scale: logarithmic for `top` 0, else linear up to `top`. */
+const STOPS = ["#000004", "#1c1044", "#4f127b", "#812581", "#b5367a", "#e55064", "#fb8761", "#fec287", "#fcfdbf"];
+const HEAT = (() => {
+	const pen = document.createElement("canvas").getContext("2d"), ramp = pen.createLinearGradient(0, 0, 256, 0);
+	STOPS.forEach((colour, i) => ramp.addColorStop(i / (STOPS.length - 1), colour));
+	pen.fillStyle = ramp;
+	pen.fillRect(0, 0, 256, 1);
+	return new Uint32Array(pen.getImageData(0, 0, 256, 1).data.buffer);
+})();
+const heat = (error, top) => top ? Math.min(1, error / top) : Math.log2(1 + error) / 8;
+const errorMap = (s, m, top) => memo(`map ${s.id} ${m} ${top}`, async () => {
+	const map = await errors(s, m);
+	return canvasOf(s, i => HEAT[Math.round(heat(map[i], top) * 255)]);
+});
 let queue = Promise.resolve();
-const thumb = (canvas, s) => {
- [canvas.width, canvas.height] = [112, 84];
- if (!hasPictures(s)) return;
- queue = queue.then(() => new Promise(r => setTimeout(r, 8))).then(() => picture(s, "reference")).then(p => {
-  const x = canvas.getContext("2d"), k = Math.min(112 / s.w, 84 / s.h);
-  x.imageSmoothingQuality = "high";
-  x.drawImage(p.canvas, (112 - s.w * k) / 2, (84 - s.h * k) / 2, s.w * k, s.h * k);
- }).catch(() => {});
-};
+/* Does something that can wait behind all else that can. */
+const later = what => { queue = queue.then(() => new Promise(done => setTimeout(done, 8))).then(what).catch(() => {}); };
+/* Draws the part x, y, w, h of a picture into a canvas of some size. */
+async function drawPart(canvas, s, m, part, size, smooth) {
+	const { canvas: image } = await picture(s, m);
+	[canvas.width, canvas.height] = size;
+	const pen = canvas.getContext("2d");
+	pen.imageSmoothingEnabled = smooth;
+	pen.imageSmoothingQuality = "high";
+	pen.drawImage(image, ...part, 0, 0, ...size);
+}
+const thumb = (canvas, s) => { if (s.drawn) later(() => drawPart(canvas, s, "reference", [0, 0, s.w, s.h], [112, 112 * s.h / s.w], true)); };
+/* Draws a part of a picture around a pixel, its pixels as squares. */
+function crop(canvas, s, m, worst, w, h) {
+	[w, h] = [Math.min(w, s.w), Math.min(h, s.h)];
+	const [cx, cy] = worst ?? [s.w / 2, s.h / 2], x = Math.round(clamp(cx - w / 2, 0, s.w - w)), y = Math.round(clamp(cy - h / 2, 0, s.h - h));
+	later(() => drawPart(canvas, s, m, [x, y, w, h], [w * 2, h * 2], false));
+}
 
 /* ---------- the viewer */
-const MODES = [["slide", "Slider"], ["flip", "Flip"], ["side", "Side by side"], ["error", "Error map"]];
+const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
+const KEYS = {
+	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "=": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
+	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.slides && v.move(v.split - (e.shiftKey ? .1 : .02)), arrowright: (v, e) => v.slides && v.move(v.split + (e.shiftKey ? .1 : .02)),
+};
+for (const key in MODES) KEYS[key] = v => v.set({ mode: MODES[key] });
+/* Compares the pictures of methods `a` and `b` on a scene; tells `change` of changes and `probe` of the pixel looked at. */
 class Viewer {
- constructor(root, o) {
-  Object.assign(this, { root, mode: "slide", split: .5, z: 1, cx: .5, cy: .5, top: 0, side: "a", turn: 0 }, o);
-  root.tabIndex = -1;
-  root.innerHTML = `<div class="vbar"><label class="vsel"><span class="k">Left</span><span class="mk"></span><select class="sa" aria-label="Left picture"></select></label><label class="vsel"><span class="k">Right</span><span class="mk"></span><select class="sb" aria-label="Right picture"></select></label><span class="sp"></span><div class="seg" role="group" aria-label="How to compare"></div></div>
-<div class="stage"><canvas role="img"></canvas><div class="tag a"></div><div class="tag b"></div><div class="divider" role="slider" tabindex="0" aria-label="Divider" aria-valuemin="0" aria-valuemax="100"><i></i></div></div>
-<div class="vfoot"><div class="scn"></div><div class="scale" hidden><span>error, levels</span><div class="sc"><canvas width="256" height="1" aria-hidden="true"></canvas></div><div class="vsel"><select class="top" aria-label="Scale of the error map"><option value="0">log</option><option value="1">0–1</option><option value="10">0–10</option><option value="100">0–100</option></select></div></div><span class="sp"></span><div class="zoom"><button data-z="-" aria-label="Zoom out">−</button><button data-z="0" aria-label="Whole picture">Fit</button><button data-z="+" aria-label="Zoom in">+</button></div><button class="worst" title="Go to the worst pixel (W)">Worst pixel</button>${o.row ? '<button class="row" title="Intensity along the row (R)">Row</button>' : ""}<button class="save" title="Save this view as PNG">PNG</button></div>`;
-  [this.canvas, this.stage, this.divider] = ["canvas", ".stage", ".divider"].map(q => $(q, root));
-  this.drawModes = segments($(".vbar .seg", root), MODES, () => this.mode, k => this.set({ mode: k }));
-  $(".sa", root).onchange = e => this.set({ a: e.target.value });
-  $(".sb", root).onchange = e => this.set({ b: e.target.value });
-  $(".top", root).onchange = e => this.set({ top: +e.target.value });
-  $(".zoom", root).onclick = e => { const k = e.target.dataset.z; if (k) this.zoom({ "+": 2, "-": .5, 0: 0 }[k]); };
-  $(".worst", root).onclick = () => this.worst();
-  $(".save", root).onclick = () => this.save();
-  if (o.row) $(".row", root).onclick = () => o.row(this);
-  this.pointer();
-  new ResizeObserver(() => this.draw()).observe(this.stage);
-  this.divider.onkeydown = e => { const d = (e.shiftKey ? .1 : .02) * ({ ArrowLeft: -1, ArrowRight: 1 }[e.key] || 0); if (d) { e.preventDefault(); e.stopPropagation(); this.move(this.split + d); } };
-  if (o.choices) {
-   const c = $(".scn", root);
-   c.innerHTML = o.choices.map(s => `<button data-s="${s.id}" title="${esc(s.title)}" aria-label="${esc(s.title)}"><canvas></canvas></button>`).join("");
-   $$("button", c).forEach(b => setTimeout(() => thumb($("canvas", b), S[b.dataset.s]), 300));
-   c.onclick = e => { const b = e.target.closest("button"); if (b) this.set({ scene: S[b.dataset.s], pin: null }); };
-  }
- }
- /* Changes scene, pictures or mode, and shows them as soon as they are unpacked. */
- async set(o) {
-  Object.assign(this, o);
-  const s = this.scene, r = this.root, known = m => m === "reference" || s.list.includes(m) ? m : null;
-  this.a = known(this.a) ?? s.list[0];
-  this.b = known(this.b) ?? "reference";
-  const list = m => [["reference", "reference"], ...s.list.map(i => [i, nm(i)])].map(([v, l]) => `<option value="${esc(v)}"${v === m ? " selected" : ""}>${esc(l)}</option>`).join("");
-  $(".sa", r).innerHTML = list(this.a);
-  $(".sb", r).innerHTML = list(this.b);
-  $$(".vbar .mk", r).forEach((e, i) => { e.innerHTML = mark(i ? this.b : this.a); });
-  this.drawModes();
-  $$(".scn button", r).forEach(x => x.setAttribute("aria-pressed", x.dataset.s === s.id));
-  this.stage.style.aspectRatio = `${s.w}/${s.h}`;
-  const error = this.mode === "error";
-  $(".scale", r).hidden = !error;
-  $(".scn", r).hidden = error;
-  if (error) this.scaleBar();
-  if (!("side" in o) && ("mode" in o || "a" in o)) this.side = "a";
-  this.change?.(this, o);
-  if (!hasPictures(s)) { this.A = this.B = null; return; }
-  const turn = ++this.turn;
-  try {
-   const of = m => error ? errorCanvas(s, m, this.top) : picture(s, m).then(p => p.canvas);
-   const [A, B] = await Promise.all([of(this.a), of(error && this.b === "reference" ? this.a : this.b)]);
-   if (turn !== this.turn) return;
-   [this.A, this.B] = [A, B];
-   this.draw();
-   r.dataset.shown = `${s.id}|${this.a}|${this.b}|${this.mode}`;
-  } catch (e) { this.stage.insertAdjacentHTML("beforeend", '<p class="missing">This browser cannot unpack pictures: it has no DecompressionStream.</p>'); }
- }
- single() { return this.mode === "flip" || this.mode === "error" && this.b === "reference"; }
- /* What of the picture is seen, in one pane: scale, corner, size. */
- view() {
-  const w = this.stage.clientWidth / (this.mode === "side" ? 2 : 1), h = this.stage.clientHeight, { w: iw, h: ih } = this.scene;
-  const k = Math.min(w / iw, h / ih) * this.z, vw = w / k, vh = h / k, fit = (c, i, v) => v >= i ? (i - v) / 2 : clamp(c * i - v / 2, 0, i - v);
-  return { k, x: fit(this.cx, iw, vw), y: fit(this.cy, ih, vh), w, h, iw, ih };
- }
- draw() {
-  if (!this.A) return;
-  const v = this.view(), r = devicePixelRatio || 1, c = this.canvas, two = this.mode === "side";
-  if (!v.w) return;
-  c.width = v.w * r * (two ? 2 : 1);
-  c.height = v.h * r;
-  const x = c.getContext("2d");
-  x.scale(r, r);
-  x.imageSmoothingEnabled = v.k * r < 2.01 && this.z === 1;
-  x.imageSmoothingQuality = "high";
-  const one = this.single(), at = this.split * v.w;
-  const pane = (image, from, to, shift = 0) => { x.save(); x.beginPath(); x.rect(from, 0, to - from, v.h); x.clip(); x.drawImage(image, shift - v.x * v.k, -v.y * v.k, v.iw * v.k, v.ih * v.k); x.restore(); };
-  if (one) pane(this.side === "a" || this.mode === "error" ? this.A : this.B, 0, v.w);
-  else if (two) { pane(this.A, 0, v.w - 1); pane(this.B, v.w + 1, 2 * v.w, v.w); }
-  else { pane(this.A, 0, at); pane(this.B, at, v.w); }
-  const p = this.hover || this.pin || this.rest;
-  if (p) for (const shift of two ? [0, v.w] : [0]) {
-   const px = (p[0] - v.x) * v.k + shift, py = (p[1] - v.y) * v.k, s = Math.max(v.k, 9), o = (s - v.k) / 2;
-   for (const [width, style] of [[3, "#000a"], [1.4, "#fff"]]) { x.lineWidth = width; x.strokeStyle = style; x.strokeRect(px - o, py - o, s, s); }
-  }
-  if (this.line != null) { x.fillStyle = "#fff8"; x.fillRect(0, (this.line + .5 - v.y) * v.k - .5, v.w * 2, 1); }
-  const slides = !one && !two, d = this.divider;
-  d.style.display = slides ? "" : "none";
-  d.style.left = this.split * 100 + "%";
-  d.setAttribute("aria-valuenow", Math.round(this.split * 100));
-  this.stage.dataset.mode = this.mode;
-  this.stage.toggleAttribute("data-single", one);
-  this.stage.classList.toggle("zoomed", this.z > 1);
-  const error = this.mode === "error", q = m => this.scene.rows[m];
-  const text = m => m === "reference" ? "<b>reference</b><span>f64, closed form</span>" : `<b>${esc(nm(m))}${error ? " · error" : ""}</b><span>max ${num(q(m).max)} levels${q(m).ms ? ` · ${num(q(m).ms)} ms` : ""}</span>`;
-  const [ta, tb] = [".tag.a", ".tag.b"].map(t => $(t, this.root));
-  ta.innerHTML = text(one && !error && this.side === "b" ? this.b : this.a);
-  tb.innerHTML = text(this.b);
-  ta.style.opacity = one || two || this.split > .16 ? 1 : 0;
-  tb.style.opacity = !one && (two || this.split < .84) ? 1 : 0;
-  c.setAttribute("aria-label", `${this.scene.title}: ${nm(this.a)}${one ? "" : ` left, ${nm(this.b)} right`}${error ? ", error map" : ""}`);
- }
- scaleBar() {
-  const c = $(".scale canvas", this.root), x = c.getContext("2d"), sc = $(".sc", this.root);
-  HEAT.forEach((h, i) => { x.fillStyle = `rgb(${h})`; x.fillRect(i, 0, 1, 1); });
-  $$("span", sc).forEach(e => e.remove());
-  for (const t of this.top ? [0, .5, 1].map(u => u * this.top) : [1 / 64, .1, 1, 10, 100]) {
-   const e = document.createElement("span"), at = heat(t, this.top);
-   e.textContent = t === 1 / 64 ? "1/64" : t;
-   e.style.left = at * 100 + "%";
-   e.style.transform = at === 0 ? "none" : at === 1 ? "translateX(-100%)" : "";
-   sc.append(e);
-  }
- }
- /* Zooms by a factor (0: whole picture) around a point of the stage. */
- zoom(f, ax, ay) {
-  const v = this.view();
-  if (f === 0) { this.z = 1; this.cx = this.cy = .5; this.moved(); return; }
-  const z = clamp(this.z * f, 1, 32);
-  if (ax == null) [ax, ay] = this.pin ? [(this.pin[0] + .5 - v.x) * v.k, (this.pin[1] + .5 - v.y) * v.k] : [v.w / 2, v.h / 2];
-  const k = v.k / this.z * z, ix = v.x + ax / v.k, iy = v.y + ay / v.k;
-  this.cx = (ix - ax / k + v.w / k / 2) / v.iw;
-  this.cy = (iy - ay / k + v.h / k / 2) / v.ih;
-  this.z = z;
-  this.moved();
- }
- moved() { this.draw(); this.change?.(this, { view: 1 }); }
- move(split) { this.split = clamp(split, 0, 1); this.draw(); }
- local(e) { const b = this.stage.getBoundingClientRect(), v = this.view(), x = e.clientX - b.left; return { x: this.mode === "side" ? x % v.w : x, y: e.clientY - b.top, wide: b.width, v }; }
- at(e) { const { x, y, v } = this.local(e), p = [Math.floor(v.x + x / v.k), Math.floor(v.y + y / v.k)]; return p[0] >= 0 && p[1] >= 0 && p[0] < v.iw && p[1] < v.ih ? p : null; }
- hold(p) { this.pin = p; this.probe?.(this); this.draw(); this.change?.(this, { pin: 1 }); }
- pointer() {
-  const s = this.stage, fingers = new Map(), apart = () => { const [p, q] = [...fingers.values()]; return Math.hypot(p.clientX - q.clientX, p.clientY - q.clientY); };
-  let g = null;
-  s.onpointerdown = e => {
-   if (e.button) return;
-   fingers.set(e.pointerId, e);
-   const { x, wide } = this.local(e), slides = !this.single() && this.mode !== "side", near = Math.abs(x / wide - this.split) * wide < 24;
-   g = { x: e.clientX, y: e.clientY, cx: this.cx, cy: this.cy, far: 0, kind: slides && (near || this.z === 1) ? "split" : "pan" };
-   s.setPointerCapture(e.pointerId);
-   if (fingers.size === 2) g = { kind: "pinch", d: apart(), z: this.z, far: 99 };
-  };
-  s.onpointermove = e => {
-   if (fingers.has(e.pointerId)) fingers.set(e.pointerId, e);
-   if (g?.kind === "pinch" && fingers.size === 2) {
-    const b = s.getBoundingClientRect(), [p, q] = [...fingers.values()];
-    this.zoom(g.z * apart() / g.d / this.z, (p.clientX + q.clientX) / 2 - b.left, (p.clientY + q.clientY) / 2 - b.top);
-    return;
-   }
-   if (g) {
-    const { x, wide, v } = this.local(e);
-    g.far = Math.max(g.far, Math.hypot(e.clientX - g.x, e.clientY - g.y));
-    if (g.kind === "split" && g.far > 2) this.move(x / wide);
-    else if (g.kind === "pan" && this.z > 1) { this.cx = g.cx - (e.clientX - g.x) / v.k / v.iw; this.cy = g.cy - (e.clientY - g.y) / v.k / v.ih; this.draw(); }
-   }
-   if (this.probe && (!g || g.kind !== "split" || g.far < 3)) { this.hover = this.at(e); this.probe(this); this.draw(); }
-  };
-  s.onpointerup = e => {
-   fingers.delete(e.pointerId);
-   if (g && g.far < 4) {
-    if (this.probe) { const p = this.at(e); this.hold(this.pin && p && Math.hypot(p[0] - this.pin[0], p[1] - this.pin[1]) < 4 ? null : p); }
-    else if (this.mode === "flip") this.flip();
-    else if (!this.single() && this.mode !== "side") { const { x, wide } = this.local(e); this.move(x / wide); }
-   } else if (g?.kind === "pan" || g?.kind === "pinch") this.moved();
-   g = null;
-  };
-  s.onpointercancel = e => { fingers.delete(e.pointerId); g = null; };
-  s.onpointerleave = () => { if (!g && this.probe) { this.hover = null; this.probe(this); this.draw(); } };
-  s.addEventListener("wheel", e => { if (!e.ctrlKey && !e.metaKey) return; e.preventDefault(); const { x, y } = this.local(e); this.zoom(2 ** (-e.deltaY / 120), x, y); }, { passive: false });
-  s.ondblclick = e => { if (e.target.closest(".divider")) return; const { x, y } = this.local(e); this.zoom(e.shiftKey ? .25 : 4, x, y); };
- }
- flip() { if (this.mode !== "flip") return this.set({ mode: "flip", side: "b" }); this.side = this.side === "a" ? "b" : "a"; this.draw(); }
- show(m, right) {
-  if (!this.scene.list.includes(m) && m !== "reference") return;
-  if (right) return this.set({ b: m });
-  return this.set(this.mode === "flip" && m === this.b ? { side: "b" } : { a: m });
- }
- worst() {
-  const m = this.a === "reference" ? this.b : this.a, q = this.scene.rows[m];
-  if (!q?.worst) return toast("No pixel differs");
-  Object.assign(this, { z: 12, cx: (q.worst[0] + .5) / this.scene.w, cy: (q.worst[1] + .5) / this.scene.h, hover: null });
-  this.hold(q.worst.slice());
-  toast(`${nm(m)}: worst pixel ${q.worst.join(", ")} — ${num(q.max)} levels`);
- }
- save() { const a = document.createElement("a"); a.download = `${this.scene.id}-${this.a}-${this.b}-${this.mode}.png`.replace(/[^\w.-]/g, "_"); a.href = this.canvas.toDataURL(); a.click(); }
- /* True if the key was one of the viewer's. */
- key(e) {
-  const digit = /^Digit(\d)$/.exec(e.code || ""), set = mode => { this.set({ mode }); return true; };
-  if (digit) { const m = digit[1] === "0" ? "reference" : IDS.find(i => M[i].key === digit[1]); if (m) this.show(m, e.shiftKey); return true; }
-  switch (e.key.toLowerCase()) {
-   case " ": this.flip(); return true;
-   case "s": return set("slide");
-   case "f": return set("flip");
-   case "d": return set("side");
-   case "e": return set("error");
-   case "x": this.set({ a: this.b, b: this.a }); return true;
-   case "+": case "=": this.zoom(2); return true;
-   case "-": this.zoom(.5); return true;
-   case "z": this.zoom(0); return true;
-   case "w": this.worst(); return true;
-   case "r": this.row?.(this); return true;
-   case "p": this.hold(this.pin ? null : this.hover ?? this.rest); return true;
-   case "arrowleft": case "arrowright":
-    if (this.single() || this.mode === "side") return false;
-    this.move(this.split + (e.key === "ArrowLeft" ? -1 : 1) * (e.shiftKey ? .1 : .02));
-    return true;
-  }
-  return false;
- }
+	constructor(root, options) {
+		Object.assign(this, { root, mode: "slide", split: .5, z: 1, cx: .5, cy: .5, top: 0, side: "a", turn: 0 }, options);
+		root.tabIndex = -1;
+		root.append($("#viewer-parts").content.cloneNode(true));
+		[this.canvas, this.stage, this.divider] = [".stage canvas", ".stage", ".divider"].map(part => $(part, root));
+		this.markMode = segments($(".seg", root), () => this.mode, mode => this.set({ mode }));
+		root.onchange = ({ target }) => this.set({ [target.name]: target.value });
+		onChoose($(".vfoot", root), (key, e) => KEYS[key] ? KEYS[key](this, e) : this.set({ scene: S[key], pin: null }));
+		$(".row", root).hidden = !this.row;
+		if (this.choices) {
+			$(".choices", root).innerHTML = html`${this.choices.map(s => html`<button data-key="${s.id}" title="${s.title}" aria-label="${s.title}"><canvas aria-hidden="true"></canvas></button>`)}`;
+			setTimeout(() => $$(".choices button", root).forEach(b => thumb($("canvas", b), S[b.dataset.key])), 300);
+		}
+		this.listen();
+		new ResizeObserver(() => this.draw()).observe(this.stage);
+	}
+	/* Changes scene, pictures or mode, and shows them as soon as they are unpacked. */
+	async set(change) {
+		Object.assign(this, change);
+		const { root, scene: s } = this, error = this.mode === "error", known = (m, otherwise) => m === "reference" || s.list.includes(m) ? m : otherwise;
+		this.top = Number(this.top);
+		this.a = known(this.a, s.list[0]);
+		this.b = known(this.b, "reference");
+		for (const name of ["a", "b"]) {
+			const select = $(`[name=${name}]`, root);
+			select.innerHTML = html`${["reference", ...s.list].map(i => html`<option value="${i}">${nameOf(i)}</option>`)}`;
+			select.value = this[name];
+			select.previousElementSibling.innerHTML = mark(this[name]);
+		}
+		this.markMode();
+		$$(".choices button", root).forEach(b => { b.ariaPressed = b.dataset.key === s.id; });
+		this.stage.style.aspectRatio = `${s.w}/${s.h}`;
+		root.dataset.mode = this.mode;
+		if (error) this.drawScale();
+		if (!("side" in change) && ("mode" in change || "a" in change)) this.side = "a";
+		this.change?.(this, change);
+		this.A = this.B = null;
+		if (!s.drawn) return;
+		const turn = ++this.turn, image = m => error ? errorMap(s, m, this.top) : picture(s, m);
+		try {
+			const [A, B] = await Promise.all([image(this.a), image(error && this.b === "reference" ? this.a : this.b)]);
+			if (turn !== this.turn) return;
+			[this.A, this.B] = [A.canvas, B.canvas];
+			this.draw();
+			root.dataset.shown = [s.id, this.a, this.b, this.mode].join("|");
+		} catch {
+			$(".missing", root).hidden = false;
+		}
+	}
+	get single() { return this.mode === "flip" || this.mode === "error" && this.b === "reference"; }
+	get slides() { return !this.single && this.mode !== "side"; }
+	/* The part of the picture that a pane shows: scale, corner, size. */
+	view() {
+		const w = this.stage.clientWidth / (this.mode === "side" ? 2 : 1), h = this.stage.clientHeight, { w: iw, h: ih } = this.scene;
+		const k = Math.min(w / iw, h / ih) * this.z, corner = (centre, size, seen) => seen >= size ? (size - seen) / 2 : clamp(centre * size - seen / 2, 0, size - seen);
+		return { k, x: corner(this.cx, iw, w / k), y: corner(this.cy, ih, h / k), w, h, iw, ih };
+	}
+	draw() {
+		const view = this.view(), { k, w, h } = view;
+		if (!this.A || !w) return;
+		const ratio = devicePixelRatio || 1, canvas = this.canvas, pen = canvas.getContext("2d"), side = this.mode === "side", error = this.mode === "error", panes = side ? 2 : 1;
+		[canvas.width, canvas.height] = [w * ratio * panes, h * ratio];
+		pen.scale(ratio, ratio);
+		pen.imageSmoothingEnabled = k * ratio < 2.01 && this.z === 1;
+		pen.imageSmoothingQuality = "high";
+		const pane = (image, from, to, left = 0) => pen.drawImage(image, view.x + (from - left) / k, view.y, (to - from) / k, h / k, from, 0, to - from, h);
+		const second = this.side === "b" && !error, from = side ? w + 1 : this.split * w;
+		pane(this.single && second ? this.B : this.A, 0, this.single ? w : side ? w - 1 : from);
+		if (!this.single) pane(this.B, from, w * panes, side ? w : 0);
+		const pixel = this.hover ?? this.pin ?? this.rest;
+		for (let n = 0; pixel && n < panes; n++) {
+			const size = Math.max(k, 9), [x, y] = [(pixel[0] - view.x) * k + n * w, (pixel[1] - view.y) * k].map(v => v - (size - k) / 2);
+			for (const [width, colour] of [[3, "#000a"], [1.4, "#fff"]]) {
+				[pen.lineWidth, pen.strokeStyle] = [width, colour];
+				pen.strokeRect(x, y, size, size);
+			}
+		}
+		if (this.line != null) {
+			pen.fillStyle = "#fff8";
+			pen.fillRect(0, (this.line + .5 - view.y) * k - .5, w * panes, 1);
+		}
+		this.divider.hidden = !this.slides;
+		this.divider.style.left = this.split * 100 + "%";
+		this.divider.ariaValueNow = Math.round(this.split * 100);
+		this.stage.classList.toggle("slides", this.slides);
+		this.stage.classList.toggle("zoomed", this.z > 1);
+		const label = (part, m, shown) => {
+			const el = $(part, this.root), q = this.scene.rows[m];
+			el.innerHTML = html`<b>${nameOf(m)}${error && " · error"}</b>${q ? `max ${num(q.max)} levels${q.ms ? ` · ${num(q.ms)} ms` : ""}` : "f64, closed form"}`;
+			el.classList.toggle("faint", !shown);
+		};
+		label(".tag.a", this.single && second ? this.b : this.a, !this.slides || this.split > .16);
+		label(".tag.b", this.b, side || this.slides && this.split < .84);
+		canvas.ariaLabel = `${this.scene.title}: ${nameOf(this.a)}${this.single ? "" : ` left, ${nameOf(this.b)} right`}${error ? ", error map" : ""}`;
+	}
+	drawScale() {
+		const bar = $(".heat", this.root), ticks = this.top ? [0, this.top / 2, this.top] : [0, 1, 3, 10, 30, 100, 255];
+		bar.style.background = `linear-gradient(90deg, ${STOPS})`;
+		bar.innerHTML = html`${ticks.map(t => html`<span style="left:${heat(t, this.top) * 100}%">${t}</span>`)}`;
+	}
+	/* Zooms by a factor, 0 for the whole picture, around a point of the stage. */
+	zoom(factor, x, y) {
+		const view = this.view(), z = clamp(this.z * factor, 1, 32), k = view.k / this.z * z;
+		if (x == null) [x, y] = this.pin ? [(this.pin[0] + .5 - view.x) * view.k, (this.pin[1] + .5 - view.y) * view.k] : [view.w / 2, view.h / 2];
+		this.cx = factor ? (view.x + x / view.k + (view.w / 2 - x) / k) / view.iw : .5;
+		this.cy = factor ? (view.y + y / view.k + (view.h / 2 - y) / k) / view.ih : .5;
+		this.z = z;
+		this.moved();
+	}
+	moved() {
+		this.draw();
+		this.change?.(this, { view: true });
+	}
+	move(split) {
+		this.split = clamp(split, 0, 1);
+		this.draw();
+	}
+	/* A point of the window on the stage: in its pane, and as a part of its width. */
+	local({ clientX, clientY }) {
+		const box = this.stage.getBoundingClientRect(), view = this.view(), x = clientX - box.left;
+		return { x: this.mode === "side" ? x % view.w : x, y: clientY - box.top, part: x / box.width, view };
+	}
+	pixelAt(e) {
+		const { x, y, view } = this.local(e), pixel = [Math.floor(view.x + x / view.k), Math.floor(view.y + y / view.k)];
+		return pixel.every((v, i) => v >= 0 && v < [view.iw, view.ih][i]) ? pixel : null;
+	}
+	look(pixel) {
+		this.hover = pixel;
+		this.probe(this);
+		this.draw();
+	}
+	hold(pixel) {
+		this.pin = pixel;
+		this.probe?.(this);
+		this.draw();
+		this.change?.(this, { pin: true });
+	}
+	/* One finger or the mouse moves the divider, or the picture when it is zoomed; two fingers zoom. */
+	listen() {
+		const stage = this.stage, fingers = new Map();
+		const pair = () => {
+			const [p, q] = [...fingers.values()];
+			return { apart: Math.hypot(p.clientX - q.clientX, p.clientY - q.clientY), clientX: (p.clientX + q.clientX) / 2, clientY: (p.clientY + q.clientY) / 2 };
+		};
+		let gesture = null;
+		stage.onpointerdown = e => {
+			if (e.button) return;
+			fingers.set(e.pointerId, e);
+			stage.setPointerCapture(e.pointerId);
+			const { part } = this.local(e), near = Math.abs(part - this.split) * stage.clientWidth < 24;
+			gesture = { kind: this.slides && (near || this.z === 1) ? "split" : "pan", from: e, cx: this.cx, cy: this.cy, far: 0 };
+			if (fingers.size === 2) gesture = { kind: "pinch", apart: pair().apart, z: this.z, far: 99 };
+		};
+		stage.onpointermove = e => {
+			if (fingers.has(e.pointerId)) fingers.set(e.pointerId, e);
+			const { part, view } = this.local(e), kind = gesture?.kind;
+			if (kind === "pinch") {
+				if (fingers.size < 2) return;
+				const { apart, ...middle } = pair(), { x, y } = this.local(middle);
+				return this.zoom(gesture.z * apart / gesture.apart / this.z, x, y);
+			}
+			if (gesture) {
+				const [dx, dy] = [e.clientX - gesture.from.clientX, e.clientY - gesture.from.clientY];
+				gesture.far = Math.max(gesture.far, Math.hypot(dx, dy));
+				if (kind === "split" && gesture.far > 2) this.move(part);
+				if (kind === "pan" && this.z > 1) {
+					[this.cx, this.cy] = [gesture.cx - dx / view.k / view.iw, gesture.cy - dy / view.k / view.ih];
+					this.draw();
+				}
+			}
+			if (this.probe && (kind !== "split" || gesture.far < 3)) this.look(this.pixelAt(e));
+		};
+		stage.onpointerup = e => {
+			fingers.delete(e.pointerId);
+			if (gesture?.far < 4) this.tap(e);
+			else if (gesture && gesture.kind !== "split") this.moved();
+			gesture = null;
+		};
+		stage.onpointercancel = e => {
+			fingers.delete(e.pointerId);
+			gesture = null;
+		};
+		stage.onpointerleave = () => { if (!gesture && this.probe) this.look(null); };
+		stage.addEventListener("wheel", e => {
+			if (!e.ctrlKey && !e.metaKey) return;
+			e.preventDefault();
+			const { x, y } = this.local(e);
+			this.zoom(2 ** (-e.deltaY / 120), x, y);
+		}, { passive: false });
+		stage.ondblclick = e => {
+			const { x, y } = this.local(e);
+			if (!e.target.closest(".divider")) this.zoom(e.shiftKey ? .25 : 4, x, y);
+		};
+	}
+	/* Holds the pixel, or lets it go; without a probe, flips or moves the divider. */
+	tap(e) {
+		if (this.probe) {
+			const pixel = this.pixelAt(e), again = this.pin && pixel && Math.hypot(pixel[0] - this.pin[0], pixel[1] - this.pin[1]) < 4;
+			this.hold(again ? null : pixel);
+		} else if (this.mode === "flip") this.flip();
+		else if (this.slides) this.move(this.local(e).part);
+	}
+	flip() {
+		if (this.mode !== "flip") return this.set({ mode: "flip", side: "b" });
+		this.side = this.side === "a" ? "b" : "a";
+		this.draw();
+	}
+	/* Shows a method on the left or the right; when flipping, turns to the right one. */
+	show(m, right) {
+		if (!this.scene.list.includes(m) && m !== "reference") return;
+		this.set(right ? { b: m } : this.mode === "flip" && m === this.b ? { side: "b" } : { a: m });
+	}
+	worst() {
+		const m = this.a === "reference" ? this.b : this.a, q = this.scene.rows[m], { w, h } = this.scene;
+		if (!q?.worst) return toast("No pixel differs");
+		Object.assign(this, { z: 12, cx: (q.worst[0] + .5) / w, cy: (q.worst[1] + .5) / h, hover: null });
+		this.hold([...q.worst]);
+		toast(`${nameOf(m)}: worst pixel ${q.worst.join(", ")}, ${num(q.max)} levels`);
+	}
+	save() { this.canvas.toBlob(png => save(`${this.scene.id}-${this.a}-${this.b}-${this.mode}.png`.replace(/[^\w.-]/g, "_"), png, "image/png")); }
+	/* True if the key was one of the viewer's. */
+	key(e) {
+		const digit = /^Digit(\d)$/.exec(e.code)?.[1], action = KEYS[e.key.toLowerCase()];
+		if (!digit) return !!action && action(this, e) !== false;
+		const m = ["reference", ...IDS].find(i => keyOf(i) === digit);
+		if (m) this.show(m, e.shiftKey);
+		return true;
+	}
 }
 
 /* ---------- charts */
-const SVG = (w, h, body, label) => `<svg viewBox="0 0 ${w} ${h}" width="${w}" height="${h}" role="img" aria-label="${esc(label)}">${body}</svg>`;
-const lin = (a, b, c, d) => v => c + (v - a) / (b - a || 1) * (d - c), logs = (a, b, c, d) => { const f = lin(Math.log(a), Math.log(b), c, d); return v => f(Math.log(v)); };
-const text = (x, y, t, o = "") => `<text x="${x.toFixed?.(1) ?? x}" y="${y.toFixed?.(1) ?? y}" ${o}>${t}</text>`, MID = 'text-anchor="middle"', END = 'text-anchor="end"';
-const line = (x1, y1, x2, y2, o = 'class="gr"') => `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" ${o}/>`;
-/* Ticks of a logarithmic axis: as many as fit. */
-function logTicks(a, b, room) {
- for (const steps of [[1, 2, 5], [1, 3], [1]]) {
-  const t = [];
-  for (let e = Math.floor(Math.log10(a)); e <= Math.log10(b); e++) for (const s of steps) { const v = s * 10 ** e; if (v >= a * .999 && v <= b * 1.001) t.push(+v.toPrecision(3)); }
-  if (t.length <= room && t.length > 1) return t;
- }
- const t = [], d = Math.log10(b / a), step = Math.max(1, Math.ceil(d / room));
- for (let e = Math.ceil(Math.log10(a) - 1e-9); e <= Math.log10(b) + 1e-9; e += step) t.push(+(10 ** e).toPrecision(3));
- return t.length > 1 ? t : [a, b].map(v => +v.toPrecision(2));
+const round = v => Math.round(v * 10) / 10;
+/* The size of type; charts are drawn smaller by it, and scaled. */
+const zoomOf = () => parseFloat(getComputedStyle(ROOT).fontSize) / 16;
+const widthOf = el => Math.round(el.clientWidth / zoomOf());
+/* A picture of charts: a group of controls if its marks can be chosen, else an image. */
+const svg = (w, h, label, body, controls) => html`<svg viewBox="0 0 ${w} ${h}" role="${controls ? "group" : "img"}" aria-label="${label}">${body}</svg>`;
+const text = (x, y, t, kind = "") => html`<text x="${round(x)}" y="${round(y)}" class="${kind}">${t}</text>`;
+const line = (x1, y1, x2, y2, kind = "grid") => html`<line x1="${round(x1)}" y1="${round(y1)}" x2="${round(x2)}" y2="${round(y2)}" class="${kind}"/>`;
+const curve = (points, kind = "") => html`<path class="curve ${kind}" d="M${points.map(p => p.map(round).join(" ")).join("L")}"/>`;
+/* The width of a text in a chart. */
+const textWidth = (() => {
+	const pen = document.createElement("canvas").getContext("2d");
+	return (t, bold) => {
+		pen.font = `${bold ? 650 : 400} 12.5px ${textWidth.family ??= getComputedStyle(document.body).fontFamily}`;
+		return pen.measureText(t).width;
+	};
+})();
+/* The scale of an axis: from values `low` to `high` to pixels `from` to `to`. */
+function scale(log, low, high, from, to) {
+	const f = log ? Math.log : v => v, k = (to - from) / (f(high) - f(low) || 1), at = v => from + (f(v) - f(low)) * k;
+	return Object.assign(at, { low, high, from, to, ticks: gap => (log ? logTicks : linearTicks)(at, gap) });
 }
-function linTicks(a, b, room) {
- const raw = (b - a) / room, p = 10 ** Math.floor(Math.log10(raw)), step = [1, 2, 5, 10].map(s => s * p).find(s => s >= raw), t = [];
- for (let v = Math.ceil(a / step) * step; v <= b + step * 1e-6; v += step) t.push(+v.toPrecision(6));
- return t;
+/* Round numbers on a scale, at least `gap` pixels apart; powers of ten before others where it is logarithmic. */
+function linearTicks({ low, high, from, to }, gap) {
+	const rough = (high - low) / Math.abs(to - from) * gap, power = 10 ** Math.floor(Math.log10(rough)), step = [1, 2, 5, 10].map(s => s * power).find(s => s >= rough), first = Math.ceil(low / step);
+	return Array.from({ length: Math.floor(high / step + 1e-6) - first + 1 }, (_, i) => +((first + i) * step).toPrecision(6));
 }
-const tickText = v => v === 0 ? "0" : Math.abs(v) >= 1e6 ? +(v / 1e6).toPrecision(2) + " M" : Math.abs(v) >= 1e4 ? +(v / 1e3).toPrecision(3) + " k" : Math.abs(v) < 1e-3 ? `10<tspan dy="-4" font-size="9">${Math.round(Math.log10(Math.abs(v)))}</tspan>` : String(+v.toPrecision(3));
-/* Positions at least `gap` apart, near those wished for, within limits. */
-function spread(ys, gap, low = -1e9, high = 1e9) {
- const o = ys.map((y, i) => ({ y, i })).sort(by(p => p.y));
- if (high - low < gap * (o.length - 1)) gap = (high - low) / Math.max(1, o.length - 1);
- let at = low;
- for (const p of o) { p.y = Math.max(p.y, at); at = p.y + gap; }
- at = high;
- for (const p of o.reverse()) { p.y = Math.min(p.y, at); at = p.y - gap; }
- const r = [];
- o.forEach(p => { r[p.i] = p.y; });
- return r;
+function logTicks(at, gap) {
+	const first = Math.floor(Math.log10(at.low)), powers = Array.from({ length: Math.ceil(Math.log10(at.high)) - first + 1 }, (_, i) => first + i);
+	const round = [1, 3, 2, 5, 1.5, 7].flatMap(digit => powers.map(e => +(digit * 10 ** e).toPrecision(3))).filter(t => t >= at.low * .999 && t <= at.high * 1.001);
+	return round.reduce((kept, t) => kept.every(k => Math.abs(at(k) - at(t)) >= gap) ? [...kept, t] : kept, []);
 }
-/* Places labels of points greedily: none overlaps another label or a mark; a label without room is left out (`L` null). */
-function place(points, box, bars = []) {
- const done = [], marks = points.map(p => [p.x - 7, p.y - 7, p.x + 7, p.y + 7]);
- const over = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
- for (const p of [...points].sort((a, b) => (b.pri || 0) - (a.pri || 0) || a.y - b.y)) {
-  let best = null;
-  for (let ring = 0; ring < 7; ring++) for (let a = 0; a < (ring ? 16 : 4); a++) {
-   const t = ring ? a * Math.PI / 8 : a * Math.PI / 2, r = 11 + ring * 13, cx = p.x + Math.cos(t) * (r + (Math.abs(Math.cos(t)) > .3 ? p.w / 2 - 2 : 0)), cy = p.y + Math.sin(t) * (r + 2);
-   const q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
-   if (q[0] < box[0] || q[1] < box[1] || q[2] > box[2] || q[3] > box[3] || done.some(d => over(q, d) > 0)) continue;
-   let cost = ring * 26 + (a === 0 ? 0 : a === 2 && !ring ? 3 : 5);
-   marks.forEach((d, i) => { if (points[i] !== p) cost += over(q, d) * 5; });
-   for (const d of bars) cost += over(q, d) * 1.6;
-   if (!best || cost < best.cost) best = { cost, q, cy, ring };
-  }
-  p.L = best && (best.cost < 420 || p.pri) ? best : null;
-  if (p.L) done.push(p.L.q);
- }
+function tickText(v) {
+	const size = Math.abs(v);
+	if (size && size < 1e-3) return html`10<tspan dy="-4" font-size="9">${Math.round(Math.log10(size))}</tspan>`;
+	return size >= 1e6 ? +(v / 1e6).toPrecision(2) + " M" : size >= 1e4 ? +(v / 1e3).toPrecision(3) + " k" : String(+v.toPrecision(3));
 }
-const bind = (el, f) => { el.onclick = el.onkeydown = e => { const h = e.target.closest(".hit"); if (h && (e.type !== "keydown" || e.key === "Enter" || e.key === " ")) { e.preventDefault(); f(h.dataset, e); } }; };
+/* Numbers of the axis on the left, with lines to `right`, and of the one below. */
+const axisY = (y, left, right, ticks, unit = "") => ticks.map(t => [line(left, y(t), right, y(t)), text(left - 6, y(t) + 4, [tickText(t), unit], "tick end")]);
+const axisX = (x, bottom, ticks) => ticks.map(t => text(x(t), bottom + 17, tickText(t), "tick mid"));
+/* Positions near those wished for, at least `gap` apart if there is room. */
+function spread(wished, gap, low, high) {
+	const list = wished.map((y, i) => ({ y, i })).sort(by(p => p.y)), room = (high - low) / Math.max(1, list.length - 1);
+	gap = Math.min(gap, room);
+	list.reduce((least, p) => (p.y = Math.max(p.y, least)) + gap, low);
+	list.reduceRight((most, p) => (p.y = Math.min(p.y, most)) - gap, high);
+	return list.sort(by(p => p.i)).map(p => p.y);
+}
+/* Curves over one another: marks and whiskers at their points, names at their right ends, none over another.
+   A series has points [x, y, low, high], a method or colour, a name, and may have a value behind it, a link and a tip. */
+function curves(x, y, series, { gap = 16, out = 9 } = {}) {
+	const end = s => s.points[s.points.length - 1], labels = spread(series.map(s => y(end(s)[1])), gap, y.to, y.from);
+	return series.map((s, n) => {
+		const [ex, ey] = end(s), at = x(ex) + out, far = Math.abs(labels[n] - y(ey)) > 3 && out > 12;
+		const body = html`<title>${s.tip}</title>${curve(s.points.map(p => [x(p[0]), y(p[1])]), s.kind)}
+${s.points.map(([px, py, low, high]) => [low && line(x(px), y(low), x(px), y(high), "whisker"), s.method && shape(s.method, x(px), y(py), 4.8)])}
+${far && line(x(ex) + 7, y(ey), at - 3, labels[n], "leader")}${text(at, labels[n] + 4, [s.name, s.value && html`<tspan dx="5" class="value">${s.value}</tspan>`], `label halo ${s.bold ? "bold" : ""}`)}`;
+		const colour = `color:${s.colour ?? hue(s.method)}`;
+		return s.href ? html`<a class="hit" href="${s.href}" aria-label="${s.tip}" style="${colour}">${body}</a>` : html`<g style="${colour}">${body}</g>`;
+	});
+}
+/* Places labels of points: none overlaps another label or a mark; one without room is left out (`label` null). */
+function place(points, box, bars) {
+	const done = [], overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
+	for (const p of [...points].sort((a, b) => b.priority - a.priority || a.y - b.y)) {
+		let best = null;
+		for (let ring = 0; ring < 7; ring++) for (let turn = 0; turn < 16; turn += ring ? 1 : 4) {
+			const angle = turn * Math.PI / 8, r = 11 + ring * 13, cos = Math.cos(angle);
+			const cx = p.x + cos * (r + (Math.abs(cos) > .3 ? p.w / 2 - 2 : 0)), cy = p.y + Math.sin(angle) * (r + 2), q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
+			if (q[0] < box[0] || q[1] < box[1] || q[2] > box[2] || q[3] > box[3] || done.some(d => overlap(q, d) > 0)) continue;
+			const crossed = sum(points.map(o => o === p ? 0 : 5 * overlap(q, [o.x - 7, o.y - 7, o.x + 7, o.y + 7]))) + sum(bars.map(d => 1.6 * overlap(q, d)));
+			const cost = ring * 26 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
+			if (!best || cost < best.cost) best = { cost, x: q[0], y: cy, ring, q };
+		}
+		p.label = best && (best.cost < 420 || p.priority) ? best : null;
+		if (p.label) done.push(best.q);
+	}
+}
 
-/* ---------- overview: error against time */
+/* ---------- overview */
 let basis = MANY ? "all" : "scene";
+/* Error against time: a mark for every method, and the line of those that nothing beats. */
 function pareto(v) {
- const el = $("#pareto"), s = v.scene, all = basis === "all";
- $("#pareto-sub").textContent = all ? `All ${SCENES.length} scenes: worst error anywhere, geometric mean of times. The line is what nothing beats.` : `${s.title}, ${s.w} × ${s.h}. The line is what nothing beats; choose a mark to see its picture.`;
- const W = Math.round(el.clientWidth), H = Math.max(340, Math.round(el.clientHeight) || 460), l = 46, r = 14, t = 24, b = 48;
- if (!W) return;
- const points = IDS.flatMap(m => {
-  const q = s.rows[m];
-  if (all) return M[m].max == null ? [] : [{ m, t: M[m].speed && 1 / M[m].speed, e: M[m].max, R: M[m].speed }];
-  return q ? [{ m, t: q.ms, e: q.max, R: q.ratio?.[0], lo: q.p25, hi: q.p75 }] : [];
- }), timed = points.every(p => p.t);
- if (!timed) points.forEach((p, i) => { p.t = i + 1; });
- const floor = clamp(Math.min(...points.map(p => p.e / 2.2)), .0005, .3), top = Math.max(2, ...points.map(p => p.e * 1.6)), ts = points.map(p => p.t), t0 = Math.min(...ts), t1 = Math.max(...ts);
- const wide = t1 / t0 > 6, pad = (t1 - t0) * .2 || t1 * .2, x = wide ? logs(t0 / 1.25, t1 * 1.35, l, W - r) : lin(Math.max(0, t0 - pad), t1 + pad * 1.15, l, W - r), y = logs(floor, top, H - b, t), y1 = clamp(y(1), t, H - b);
- let o = `<rect x="${l}" y="${y1}" width="${W - r - l}" height="${H - b - y1}" fill="var(--wash)"/>`;
- for (const g of [.001, .01, .1, 1, 10, 100].filter(g => g >= floor && g <= top)) o += line(l, y(g), W - r, y(g)) + text(l - 7, y(g) + 4, g, `class="t" ${END}`);
- if (timed) for (const g of wide ? logTicks(t0, t1 * 1.3, 6) : linTicks(Math.max(t0 - pad, t0 / 5), t1 + pad, 6)) o += text(x(g), H - b + 17, tickText(g), `class="t" ${MID}`) + line(x(g), H - b, x(g), H - b + 4);
- o += text((l + W - r) / 2, H - 8, timed ? `← faster   ·   ${all ? "time as a multiple of naive Phong’s" : "ms a frame"}` : "no times were taken", `class="ax" ${MID}`) + text(l - 38, t - 9, `${all ? "worst error in any scene" : "max error"}, grey levels`, 'class="ax"');
- const base = points.find(p => p.m === BASE), bars = [];
- if (base && timed) { o += line(x(base.t), t, x(base.t), H - b, 'stroke="var(--ink3)" stroke-dasharray="2 4"'); bars.push([x(base.t) - 2, t, x(base.t) + 2, H - b]); }
- let best = Infinity, d = "", last = null;
- if (timed) {
-  for (const p of [...points].sort((p, q) => p.t - q.t || p.e - q.e)) {
-   const e = Math.max(p.e, floor * 1.1);
-   if (e >= best) continue;
-   const px = x(p.t), py = y(e);
-   if (last) bars.push([last[0] + 7, last[1] - 2, px, last[1] + 2], [px - 2, Math.min(last[1], py), px + 2, Math.max(last[1], py)]);
-   d += d ? `H${px.toFixed(1)}V${py.toFixed(1)}` : `M${px.toFixed(1)} ${t}V${py.toFixed(1)}`;
-   [best, last, p.front] = [e, [px, py], true];
-  }
-  bars.push([last[0] + 7, last[1] - 2, W - r, last[1] + 2]);
-  o += `<path d="${d}H${W - r}" fill="none" stroke="var(--ink3)" stroke-width="1.25" opacity=".75"/>`;
- }
- const under = W < 460 ? "under 1 level" : "below one grey level: the same picture";
- if (H - b - y1 > 24) { o += text(l + 8, y1 + 16, under, 'class="t" style="paint-order:stroke;stroke:var(--wash);stroke-width:5px"'); bars.push([l, y1 + 3, l + tw(under), y1 + 20]); }
- const speed = p => p.R && (p.m === v.a || p.m === v.b || p.front) ? "  " + p.R.toFixed(2) + X : "";
- for (const p of points) Object.assign(p, { x: x(p.t), y: y(Math.max(p.e, floor * 1.1)), pri: (p.m === v.a ? 3 : 0) + (p.front ? 1 : 0) + (p.m === v.b ? 2 : 0) + (MARKED.has(p.m) ? 1 : 0), w: tw(nm(p.m) + speed(p), 1) + 5 });
- place(points, [l + 2, t, W - r, H - b - 1], bars);
- for (const p of points) if (p.L?.ring) o += line(p.x, p.y, clamp(p.x, p.L.q[0], p.L.q[2]), p.L.cy, 'stroke="var(--line2)"');
- for (const p of points) {
-  const on = p.m === v.a, other = p.m === v.b, label = `${nm(p.m)}: error ${num(p.e)} levels${timed ? `, ${num(p.t)} ${all ? "of naive Phong’s time" : "ms"}` : ""}`;
-  const faint = points.length > 14 && !p.front && !MARKED.has(p.m) && !on && !other;
-  o += `<g class="hit" tabindex="0" role="button" data-m="${esc(p.m)}" aria-pressed="${on}" aria-label="${esc(label)}"${faint ? ' opacity=".55"' : ""}><title>${esc(label)}</title>${p.lo ? line(x(p.lo), p.y, x(p.hi), p.y, `stroke="${hue(p.m)}" opacity=".55"`) : ""}<circle class="ring" cx="${p.x}" cy="${p.y}" r="10.5" fill="none" stroke="${on || other ? "var(--ink)" : "var(--ink3)"}" stroke-width="1.5" opacity="${on || other ? 1 : 0}"/>${shape(p.m, p.x, p.y, 5.8)}`;
-  if (p.L) o += `<rect x="${p.L.q[0]}" y="${p.L.q[1]}" width="${p.w}" height="16" fill="transparent"/>` + text(p.L.q[0] + 2, p.L.cy + 4.3, `${esc(nm(p.m))}<tspan dx="3" style="fill:var(--ink2);font-weight:450">${speed(p)}</tspan>`, `class="halo label"${on ? ' style="font-weight:650"' : ""}`);
-  o += "</g>";
- }
- el._points = points;
- el.innerHTML = SVG(W, H, o, "Error against time of every method");
+	const el = $("#pareto"), s = v.scene, all = basis === "all";
+	write({ "pareto-sub": all ? `Worst error in ${SCENES.length} scenes, geometric mean of times.` : `${s.title}, ${s.w} × ${s.h}.` });
+	const W = widthOf(el), H = Math.max(340, el.clientHeight / zoomOf()), l = 46, r = W - 14, t = 24, b = H - 48;
+	if (!W) return;
+	const points = IDS.filter(m => all ? M[m].max != null : s.rows[m]).map(m => {
+		const { max, speed } = M[m], q = s.rows[m];
+		return all ? { m, error: max, time: speed && 1 / speed, ratio: speed } : { m, error: q.max, time: q.ms, ratio: q.ratio?.median, low: q.p25, high: q.p75 };
+	});
+	const timed = points.every(p => p.time);
+	if (!timed) points.forEach((p, i) => { p.time = i + 1; });
+	const times = points.map(p => p.time), x = scale(true, Math.min(...times) / 1.15, Math.max(...times) * 1.2, l, r);
+	const y = scale(true, clamp(Math.min(...points.map(p => p.error / 2.2)), .0005, .3), Math.max(2, ...points.map(p => p.error * 1.6)), b, t);
+	for (const p of points) [p.x, p.y] = [x(p.time), y(Math.max(p.error, y.low * 1.1))];
+	const one = clamp(y(1), t, b), base = points.find(p => p.m === BASE), shown = [];
+	shown.push(html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`, axisY(y, l, r, y.ticks(60).filter(e => Math.log10(e) % 1 === 0)));
+	if (timed) shown.push(axisX(x, b, x.ticks(40)));
+	shown.push(text((l + r) / 2, H - 8, timed ? `← faster   ·   ${all ? "time as a multiple of naive Phong’s" : "ms a frame"}` : "no times were taken", "axis mid"), text(l - 38, t - 9, `${all ? "worst error in any scene" : "max error"}, grey levels`, "axis"));
+	if (base && timed) shown.push(line(base.x, t, base.x, b, "dots"));
+	// The line goes down at each method that is more exact than all faster ones.
+	const steps = [];
+	if (timed) for (const p of [...points].sort((p, q) => p.time - q.time || p.error - q.error)) {
+		const last = steps[steps.length - 1];
+		if (last && p.y <= last[1]) continue;
+		steps.push([p.x, last?.[1] ?? t], [p.x, p.y]);
+		p.front = true;
+	}
+	if (steps.length) {
+		steps.push([r, steps[steps.length - 1][1]]);
+		shown.push(curve(steps, "front"));
+	}
+	const same = "below one grey level: the same picture", taken = [l, one + 3, l + textWidth(same), one + 20];
+	if (b - one > 24) shown.push(text(l + 8, one + 16, same, "tick halo washed"));
+	for (const p of points) {
+		const left = p.m === v.a, right = p.m === v.b;
+		p.value = p.ratio && (left || right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
+		Object.assign(p, { priority: 3 * left + 2 * right + !!p.front + MARKED.has(p.m), w: textWidth(nameOf(p.m) + "  " + p.value, true) + 6, left, right });
+	}
+	place(points, [l + 2, t, r, b - 1], [taken, ...steps.slice(1).map(([px, py], i) => [steps[i][0] - 2, steps[i][1] - 2, px + 2, py + 2])]);
+	for (const { label, x, y } of points) if (label?.ring) shown.push(line(x, y, clamp(x, label.q[0], label.q[2]), label.y, "leader"));
+	for (const p of points) {
+		const tip = `${nameOf(p.m)}: error ${num(p.error)} levels${timed ? `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}` : ""}`, faint = points.length > 14 && !p.priority;
+		shown.push(html`<g class="hit ${faint ? "faint" : ""}" tabindex="0" role="button" data-key="${p.m}" aria-pressed="${p.left}" aria-label="${tip}" style="color:${hue(p.m)}"><title>${tip}</title>
+${p.low && line(x(p.low), p.y, x(p.high), p.y, "whisker")}<circle class="ring ${p.left || p.right ? "on" : ""}" cx="${p.x}" cy="${p.y}" r="10.5"/>${shape(p.m, p.x, p.y, 5.8)}
+${p.label && text(p.label.x + 2, p.label.y + 4.3, [nameOf(p.m), html`<tspan dx="4" class="value">${p.value}</tspan>`], `label halo ${p.left ? "bold" : ""}`)}</g>`);
+	}
+	fill(el, svg(W, H, "Error against time of every method", shown, true));
 }
-
-/* Which methods stand for all where there is room for few: naive Phong's rivals that the answer names, then the fastest. */
-const chosen = n => [...IDS].filter(m => m !== BASE && M[m].speed).sort((a, b) => MARKED.has(b) - MARKED.has(a) || (M[a].max > 1) - (M[b].max > 1) || (M[a].max > 1 ? M[a].max - M[b].max : M[b].speed - M[a].speed)).slice(0, n);
-let allRows = false;
-/* The scenes as a strip of marks: speeds of a few methods. */
+const short = (t, most) => t.length > most ? t.slice(0, most - 1) + "…" : t;
+/* Speeds of a few methods in each scene, as a strip of marks. */
 function strip() {
- const el = $("#strip"), W = Math.round(el.clientWidth), few = chosen(4), lead = few.find(m => m !== BEST) ?? few[0];
- if (!W || !few.length) return;
- const timed = SCENES.filter(s => few.some(m => s.rows[m]?.ratio)), value = (s, m) => s.rows[m]?.ratio?.[0];
- const sorted = [...timed].sort((a, b) => (value(b, lead) ?? 0) - (value(a, lead) ?? 0)), rows = allRows ? sorted : sorted.slice(0, 24);
- const narrow = W < 520, l = narrow ? 132 : 208, r = 14, t = 42, rh = 20.5, H = t + rows.length * rh + 26, vs = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
- const x = logs(Math.min(...vs) / 1.06, Math.max(...vs) * 1.06, l, W - r);
- let o = "", cx = narrow ? 0 : 4;
- const near = g => [1, .5, 2, .25, 4, .1, 8, 16].some(k => k !== g && k > 0 && (k === 1 || Math.abs(Math.log2(g)) % 1) && Math.abs(x(k) - x(g)) < 26);
- for (const g of [.1, .25, .5, .75, 1, 1.25, 1.5, 2, 4, 8, 16].filter(g => g > Math.min(...vs) / 1.06 && g < Math.max(...vs) * 1.06 && !near(g))) o += line(x(g), t - 6, x(g), H - 22, g === 1 ? 'stroke="var(--ink3)"' : undefined) + text(x(g), H - 7, g + (g === 1 ? X : ""), `class="t" ${MID}`);
- for (const m of few) { const name = narrow ? nm(m).replace(" Phong", "") : nm(m); o += shape(m, cx + 6, 10, 4.6) + text(cx + 16, 14, esc(name), 'style="font-size:12px"'); cx += 30 + tw(name) * .97; }
- if (x(1) - l > 60) o += text(x(1) - 8, t - 12, "slower", `class="t" ${END}`);
- if (W - r - x(1) > 150) o += text(x(1) + 8, t - 12, "faster than naive Phong", 'class="t"');
- rows.forEach((s, i) => {
-  const y = t + i * rh + rh / 2, here = few.filter(m => value(s, m)), rs = here.map(m => value(s, m)), title = narrow && s.title.length > 19 ? s.title.slice(0, 18) + "…" : s.title.length > 34 ? s.title.slice(0, 33) + "…" : s.title;
-  const tip = `${s.title}\n${here.map(m => `${nm(m)} ${value(s, m).toFixed(2)} ×`).join("\n")}`;
-  o += `<g class="hit" data-s="${s.id}" tabindex="0" role="button" aria-label="${esc(tip)}"><title>${esc(tip)}</title><rect x="0" y="${y - rh / 2}" width="${W}" height="${rh}" fill="transparent"/>${text(l - 14, y + 4, esc(title), `${END} style="font-size:12px"`)}${line(x(Math.min(...rs)), y, x(Math.max(...rs)), y, 'stroke="var(--line)" stroke-width="2"')}`;
-  for (const m of here) o += `<g opacity="${s.rows[m].max > 1 ? .38 : 1}">${shape(m, x(value(s, m)), y, 4.6)}</g>`;
-  o += "</g>";
- });
- el.innerHTML = SVG(W, H, o, `Speed of ${few.length} methods in ${rows.length} scenes`) + '<p class="sub">Pale: off by more than one grey level in that scene — another picture.</p>' + (sorted.length > rows.length ? `<button class="fold">All ${sorted.length} scenes</button>` : "");
- bind(el, d => go("scenes/" + d.s));
- $(".fold", el)?.addEventListener("click", e => { e.stopPropagation(); allRows = true; strip(); });
+	const el = $("#strip"), W = widthOf(el), few = chosen(4), lead = few.find(m => m !== BEST) ?? few[0], value = (s, m) => s.rows[m]?.ratio?.median;
+	if (!W || !few.length) return;
+	const timed = SCENES.filter(s => few.some(m => value(s, m))).sort(by(s => -(value(s, lead) ?? 0))), [rows, more] = folded(timed, 24, "scenes");
+	const narrow = W < 520, l = narrow ? 132 : 208, t = 42, high = 20.5, H = t + rows.length * high + 26, values = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
+	const x = scale(true, Math.min(...values) / 1.06, Math.max(...values) * 1.06, l, W - 14), shown = [];
+	for (const g of x.ticks(30)) shown.push(line(x(g), t - 6, x(g), H - 22, g === 1 ? "one" : "grid"), text(x(g), H - 7, g + (g === 1 ? TIMES : ""), "tick mid"));
+	few.reduce((at, m) => {
+		const name = narrow ? shortName(m) : nameOf(m);
+		shown.push(shape(m, at + 6, 10, 4.6), text(at + 16, 14, name));
+		return at + 32 + textWidth(name);
+	}, 0);
+	if (x(1) - l > 60) shown.push(text(x(1) - 8, t - 12, "slower", "tick end"));
+	if (W - 14 - x(1) > 150) shown.push(text(x(1) + 8, t - 12, "faster than naive Phong", "tick"));
+	rows.forEach((s, i) => {
+		const y = t + (i + .5) * high, here = few.filter(m => value(s, m)), at = here.map(m => x(value(s, m))), tip = `${s.title}: ${here.map(m => `${nameOf(m)} ${value(s, m).toFixed(2)} ×`).join(", ")}`;
+		shown.push(html`<a class="hit" href="#scenes/${s.id}" aria-label="${tip}"><title>${tip}</title><rect x="0" y="${y - high / 2}" width="${W}" height="${high}" fill="transparent"/>
+${text(l - 14, y + 4, short(s.title, narrow ? 19 : 34), "end")}${line(Math.min(...at), y, Math.max(...at), y, "range")}${here.map((m, n) => html`<g class="${s.rows[m].max > 1 ? "pale" : ""}">${shape(m, at[n], y, 4.6)}</g>`)}</a>`);
+	});
+	el.innerHTML = html`${svg(W, H, `Speed of ${few.length} methods in ${rows.length} scenes`, shown, true)}<p class="sub">Pale: off by more than one grey level there, another picture.</p>${more}`;
 }
-const VERDICTS = ["confirms", "adds", "contradicts"], FIGURES = D.figures || [], FINDINGS = FIGURES.flatMap(f => f.findings.map(x => ({ ...x, f })));
+const VERDICTS = { confirms: "✓", adds: "+", contradicts: "✗" };
+const counts = list => Object.keys(VERDICTS).map(k => [k, list.filter(x => x.agreement === k).length]).filter(([, n]) => n);
+const chip = (verdict, label) => html`<span class="chip ${verdict}">${VERDICTS[verdict]} ${label}</span>`;
 function waffle() {
- const n = Object.fromEntries(VERDICTS.map(k => [k, FINDINGS.filter(x => x.agreement === k).length]));
- $("#waffle-sub").textContent = `${FINDINGS.length} statements measured in ${plural(FIGURES.length, "figure")}; each square is one.`;
- $("#waffle").innerHTML = `<div class="wkey"><div class="confirms"><b>${n.confirms}</b>■ <span>as printed</span></div><div class="adds"><b>${n.adds}</b>□ <span>not said there</span></div><div class="contradicts"><b>${n.contradicts}</b>● <span>wrong, or only under conditions</span></div></div><div class="waffle" aria-hidden="true">${VERDICTS.map(k => `<i class="${k}"></i>`.repeat(n[k])).join("")}</div>`;
+	write({ "waffle-sub": `${FINDINGS.length} statements measured in ${plural(FIGURES.length, "figure")}; each square is one.`, ...Object.fromEntries(counts(FINDINGS)) });
+	$("#waffle").innerHTML = html`${counts(FINDINGS).map(([k, n]) => Array(n).fill(html`<i class="${k}"></i>`))}`;
 }
-/* Draws a part of a picture, its pixels as squares. */
-async function crop(canvas, s, m, cx, cy, w, h) {
- const p = await picture(s, m);
- [w, h] = [Math.min(w, s.w), Math.min(h, s.h)];
- const x0 = Math.round(clamp(cx - w / 2, 0, s.w - w)), y0 = Math.round(clamp(cy - h / 2, 0, s.h - h));
- [canvas.width, canvas.height] = [w * 2, h * 2];
- const x = canvas.getContext("2d");
- x.imageSmoothingEnabled = false;
- x.drawImage(p.canvas, x0, y0, w, h, 0, 0, w * 2, h * 2);
-}
-/* Where the lecture's fast method (else the least exact one that is no rival) is worst. */
+/* Shows where the lecture's fast method is worst. */
 function breakPair() {
- const m = M["fast-phong"] ? "fast-phong" : [...IDS].sort(by(i => -(M[i].max ?? 0)))[0], w = M[m]?.worst, el = $("#break");
- $("#take-break").hidden = !w || w.q.max < 1 || !hasPictures(w.scene);
- if ($("#take-break").hidden) return;
- $("#break-title").textContent = `Where ${nm(m)} breaks`;
- $("#break-sub").textContent = `${w.scene.title}: off by ${num(w.q.max)} grey levels.`;
- $("#break-link").href = `#scenes/${w.scene.id}?left=${m}&right=reference&mode=side`;
- el.innerHTML = ["reference", m].map(i => `<figure><canvas data-m="${esc(i)}" role="img" aria-label="${esc(nm(i))}"></canvas><figcaption>${esc(nm(i))}</figcaption></figure>`).join("");
- $$("canvas", el).forEach(c => crop(c, w.scene, c.dataset.m, w.q.worst?.[0] ?? 0, w.q.worst?.[1] ?? 0, w.scene.w * .6, w.scene.h * .6));
+	const m = "fast-phong", { scene: s, worst } = M[m] ?? {};
+	$("#take-break").hidden = !worst || worst.max < 1 || !s.drawn;
+	if ($("#take-break").hidden) return;
+	write({ "break-title": `Where ${nameOf(m)} breaks`, "break-sub": `${s.title}: off by ${num(worst.max)} grey levels.`, "break-a": "reference", "break-b": nameOf(m) });
+	$("#break-link").href = `#scenes/${s.id}?left=${m}&right=reference&mode=side`;
+	$$("#break canvas").forEach((c, i) => crop(c, s, ["reference", m][i], worst.worst, s.w * .6, s.h * .6));
 }
-let v1, v2, hoverTimer;
-function overview(_, q) {
- if (!SCENES.length) { $(".hero").hidden = $("#take-strip").hidden = $("#take-break").hidden = true; waffle(); return; }
- $("#take-strip").hidden = !MANY || !chosen(1).length;
- $("#take-lectures").hidden = !FINDINGS.length;
- const first = !v1;
- if (first) {
-  const apart = s => Math.max(...s.list.map(m => s.rows[m].max)), choices = [...SCENES].filter(hasPictures).sort((a, b) => apart(b) - apart(a)).slice(0, 8).sort(by(s => s.number));
-  const left = s => ["gouraud", ...[...s.list].sort(by(m => -s.rows[m].max))].find(m => s.list.includes(m));
-  v1 = new Viewer($("#v1"), { scene: SCENES[0], a: left(SCENES[0]), b: SCENES[0].list.includes(BEST) && BEST !== left(SCENES[0]) ? BEST : "reference", choices: choices.length > 1 ? choices : null, change: (v, o) => { if (!o.view) pareto(v); remember(v); } });
-  if (MANY) segments($("#pareto-basis"), [["all", `${SCENES.length} scenes`], ["scene", "This scene"]], () => basis, k => { basis = k; pareto(v1); });
-  const el = $("#pareto"), near = (e, m) => {
-   const box = $("svg", el).getBoundingClientRect(), at = e.clientX == null || e.type === "keydown" ? null : [e.clientX - box.left, e.clientY - box.top];
-   const p = at && [...el._points].sort(by(p => Math.hypot(p.x - at[0], p.y - at[1])))[0];
-   return p && Math.hypot(p.x - at[0], p.y - at[1]) < 11 ? p.m : m;
-  };
-  const keep = m => { v1.kept = m; };
-  bind(el, (d, e) => { const m = near(e, d.m); if (!e.shiftKey) keep(m); v1.show(m, e.shiftKey); });
-  el.onpointerover = e => { const h = e.target.closest(".hit"), m = h && near(e, h.dataset.m); if (h && e.pointerType === "mouse" && m !== v1.b && m !== v1.a) { clearTimeout(hoverTimer); hoverTimer = setTimeout(() => { v1.kept ??= v1.a; v1.set({ a: m }); }, 140); } };
-  el.onpointerleave = () => { clearTimeout(hoverTimer); if (v1.kept && v1.kept !== v1.a) v1.set({ a: v1.kept }); v1.kept = null; };
-  if (FINDINGS.length) waffle();
- }
- v1.set(fromRoute(q, v1));
- strip();
- if (first) setTimeout(breakPair, 350);
+let v1, v2;
+function startOverview() {
+	const change = (v, changed) => {
+		if (!changed.view) pareto(v);
+		remember(v);
+	};
+	v1 = new Viewer($("#v1"), { scene: SCENES[0], a: "gouraud", b: BEST, choices: MANY && SCENES.filter(s => s.drawn).slice(0, 8), change });
+	segments($("#pareto-basis"), () => basis, key => {
+		basis = key;
+		pareto(v1);
+	});
+	// A mark under the mouse is shown on the left until the mouse leaves; one that is chosen stays.
+	const el = $("#pareto");
+	onChoose(el, (m, e) => {
+		if (!e.shiftKey) v1.kept = m;
+		v1.show(m, e.shiftKey);
+	});
+	el.onpointerover = e => {
+		const m = e.target.closest(".hit")?.dataset.key;
+		if (!m || e.pointerType !== "mouse" || m === v1.a || m === v1.b) return;
+		delay("hover", 140, () => {
+			v1.kept ??= v1.a;
+			v1.set({ a: m });
+		});
+	};
+	el.onpointerleave = () => {
+		clearTimeout(timers.hover);
+		if (v1.kept && v1.kept !== v1.a) v1.set({ a: v1.kept });
+		v1.kept = null;
+	};
+	setTimeout(breakPair, 350);
+}
+function overview(_, query) {
+	if (FINDINGS.length) waffle();
+	if (!SCENES.length) return;
+	if (!v1) startOverview();
+	v1.set(fromRoute(query, v1));
+	strip();
 }
 
 /* ---------- scenes */
-let sort = { k: TIMED ? "ratio" : "max", d: TIMED ? -1 : 1 }, wide = false, bary = false;
-function rail() {
- const el = $("#rail");
- if (el.children.length) return;
- el.innerHTML = SCENES.map(s => `<button role="option" data-s="${s.id}" tabindex="-1"><canvas aria-hidden="true"></canvas><span>${esc(s.title)}</span></button>`).join("");
- $$("button", el).forEach(b => thumb($("canvas", b), S[b.dataset.s]));
- el.onclick = e => { const b = e.target.closest("button"); if (b) openScene(S[b.dataset.s]); };
- el.onkeydown = e => { const d = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[e.key]; if (d) { e.preventDefault(); e.stopPropagation(); step(d); } };
-}
+let sort = { key: TIMED ? "ratio" : "max", up: !TIMED }, options = { cols: false, bary: false };
 const openScene = s => go(`scenes/${s.id}?left=${v2.a}&right=${v2.b}${v2.mode === "slide" ? "" : `&mode=${v2.mode}`}`);
-const step = d => openScene(SCENES[(v2.scene.number + d + SCENES.length) % SCENES.length]);
-function scenes([id], q) {
- if (!SCENES.length) return go("lectures");
- const s = S[id] ?? v2?.scene ?? SCENES[0];
- rail();
- if (!v2) {
-  v2 = new Viewer($("#v2"), { scene: s, a: "gouraud", b: "reference", probe, row: v => toggleRow(v), change: (v, o) => { if (!o.view) { probe(v); markRows(); if (!("pin" in o)) rowPlot(v); } remember(v); } });
-  $(".scn", $("#v2")).innerHTML = '<span class="hint-keys"><kbd>1</kbd>–<kbd>9</kbd> blink&nbsp; <kbd>Space</kbd> flip&nbsp; double-click zooms</span>';
-  $("#cols").onclick = e => { wide = !wide; e.target.setAttribute("aria-pressed", wide); e.target.textContent = wide ? "Fewer columns" : "More columns"; table(); };
-  $("#bary").onclick = e => { bary = !bary; e.target.setAttribute("aria-pressed", bary); table(); };
-  $("#copy").onclick = copyMarkdown;
-  $("#rowplot-close").onclick = () => toggleRow(v2);
-  if (!hasPictures(s)) $(".scene-head").insertAdjacentHTML("beforebegin", '<p class="notice">These numbers were read from files (<code>--from</code>), which hold no pictures: the viewer, the probe and the maps need a report that draws.</p>');
- }
- if (v2.scene !== s) Object.assign(v2, { pin: null, hover: null, z: 1, cx: .5, cy: .5 });
- const n = s.stats, cut = s.triangulation, left = [["culled", "seen from the culled side"], ["outside", "outside the view"], ["zero_area", "without area"], ["unprojected", "at the plane of the eye"]].filter(([k]) => n[k]).map(([k, w]) => `${grouped(n[k])} ${w}`);
- $("#t-scenes").textContent = s.title;
- $("#scene-about").textContent = (s.description || "").replace(/\s+/g, " ");
- $("#scene-facts").textContent = `${plural(s.polygons, "polygon")} in view · ${plural(s.lights, "light")} · ${(s.covered_pixels / s.w / s.h * 100).toFixed(0)} % covered · ${s.w} × ${s.h} · ${s.interpolation === "screen" ? "linear on the screen" : "perspective-correct"} · ${s.renderer.level}, ${plural(s.renderer.threads, "thread")}${left.length ? ` · left out: ${left.join(", ")}` : ""}${cut ? ` · cut into triangles, the reference itself moves by up to ${num(cut.difference.max * 255)} levels` : ""}${s.not_simple ? ` · ${plural(s.not_simple, "polygon")} crossing themselves are not drawn by the barycentric renderer` : ""}`;
- $$("#rail button").forEach(x => {
-  const on = x.dataset.s === s.id, r = $("#rail");
-  x.setAttribute("aria-selected", on);
-  if (!on) return;
-  if (r.scrollHeight > r.clientHeight) r.scrollTop = Math.max(0, x.offsetTop - r.offsetTop - r.clientHeight / 2 + 24);
-  r.scrollLeft = Math.max(0, x.offsetLeft - r.offsetLeft - r.clientWidth / 2 + 52);
- });
- const o = { ...fromRoute(q, v2), scene: s };
- v2.set(o);
- if (o.line != null) showRow(v2, o.line);
- else if (v2.line != null && q.has("left")) showRow(v2, null);
- table();
+const stepScene = d => openScene(SCENES[(v2.scene.number + d + SCENES.length) % SCENES.length]);
+function startScenes(s) {
+	const rail = $("#rail");
+	rail.innerHTML = html`${SCENES.map(s => html`<button role="option" data-key="${s.id}"><canvas aria-hidden="true"></canvas><span>${s.title}</span></button>`)}`;
+	$$("button", rail).forEach(b => thumb($("canvas", b), S[b.dataset.key]));
+	onChoose(rail, id => openScene(S[id]));
+	const change = (v, changed) => {
+		if (!changed.view) {
+			probe(v);
+			sceneTable();
+			if (!("pin" in changed)) rowPlot(v);
+		}
+		remember(v);
+	};
+	v2 = new Viewer($("#v2"), { scene: s, a: "gouraud", b: "reference", probe, row: toggleRow, change });
+	for (const id in options) $("#" + id).onclick = e => {
+		e.target.ariaPressed = options[id] = !options[id];
+		sceneTable();
+	};
+	$("#copy").onclick = copyMarkdown;
+	$("#rowplot-close").onclick = () => toggleRow(v2);
+	onChoose($("#probe"), (m, e) => v2.show(m, e.shiftKey));
+	onChoose($("#rowplot-chart"), (m, e) => v2.show(m, e.shiftKey));
+	onChoose($("#table"), chooseInTable);
+}
+function scenes([id], query) {
+	const s = S[id] ?? v2?.scene ?? SCENES[0], rail = $("#rail");
+	if (!v2) startScenes(s);
+	if (v2.scene !== s) Object.assign(v2, { pin: null, hover: null, z: 1, cx: .5, cy: .5 });
+	write({ "t-scenes": s.title, "scene-about": (s.description || "").replace(/\s+/g, " "), "scene-facts": sceneFacts(s).filter(Boolean).join(" · ") });
+	const held = rail.contains(document.activeElement);
+	for (const b of $$("button", rail)) {
+		const on = b.dataset.key === s.id;
+		b.ariaSelected = on;
+		b.tabIndex = on ? 0 : -1;
+		if (!on) continue;
+		if (held) b.focus({ preventScroll: true });
+		b.scrollIntoView({ block: "nearest", inline: "center" });
+	}
+	const asked = { ...fromRoute(query, v2), scene: s };
+	v2.set(asked);
+	if (asked.line != null) showRow(v2, asked.line);
+	else if (v2.line != null && query.has("left")) showRow(v2, null);
+}
+function sceneFacts(s) {
+	const cut = s.triangulation, reasons = { culled: "seen from the culled side", outside: "outside the view", zero_area: "without area", unprojected: "at the plane of the eye" };
+	const left = Object.keys(reasons).filter(k => s.stats[k]).map(k => `${grouped(s.stats[k])} ${reasons[k]}`);
+	return [
+		`${plural(s.polygons, "polygon")} in view`, plural(s.lights, "light"), `${(s.covered_pixels / s.w / s.h * 100).toFixed(0)} % covered`, `${s.w} × ${s.h}`,
+		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct", `${s.renderer.level}, ${plural(s.renderer.threads, "thread")}`,
+		left.length && `left out: ${left.join(", ")}`, cut && `in triangles, the reference moves by up to ${num(cut.difference.max * 255)} levels`,
+		s.not_simple && `${plural(s.not_simple, "polygon")} crossing themselves: not drawn by barycentric`,
+	];
 }
 let probing = 0;
-/* Colour and error of every method at the pixel under the pointer, else at the held one, else at the worst of the left. */
+/* Shows every method at the pixel under the pointer, else at the held one, else at the worst of the left. */
 async function probe(v) {
- const s = v.scene, my = ++probing, of = v.a === "reference" ? v.b : v.a, rest = !v.hover && !v.pin && s.rows[of]?.worst, p = v.hover || v.pin || rest;
- v.rest = rest || null;
- if (!hasPictures(s)) return;
- const list = ["reference", ...s.list], px = {}, er = {};
- if (p) {
-  const i = p[1] * s.w + p[0];
-  await Promise.all(list.map(async m => { const q = await picture(s, m); px[m] = [...q.px.slice(4 * i, 4 * i + 3)]; er[m] = levels(s)[(await codes(s, m))[i]]; }));
-  if (my !== probing) return;
- }
- const value = m => !p ? "" : m === "reference" ? px[m].join(" ") : er[m] === 0 ? "≤ 0.02" : er[m] >= 8 && s.encoding !== "srgb" ? Math.max(...px[m].map((c, i) => Math.abs(c - px.reference[i]))) : er[m] < 1 ? er[m].toFixed(2) : er[m] < 10 ? er[m].toFixed(1) : er[m].toFixed(0);
- const folded = list.length > 16 && !probe.open ? list.filter(m => m === "reference" || m === v.a || m === v.b || M[m].key || MARKED.has(m)) : list;
- const html = `<h2>Pixel <span>${p ? `${p[0]}, ${p[1]}${rest ? ` · worst of ${esc(nm(of))}` : v.pin && !v.hover ? " · held" : ""}` : "point at the picture"}</span></h2><canvas class="zoomed-px" width="142" height="70" role="img" aria-label="The pixel and its neighbours, left and right"></canvas><ol>${folded.map(m => `<li><button data-m="${esc(m)}" class="${m === v.a ? "a" : m === v.b ? "b" : ""}"><kbd>${m === "reference" ? 0 : M[m].key || "·"}</kbd>${mark(m)}<span class="n">${esc(nm(m))}</span><span class="sw" style="${p ? `background:rgb(${px[m]})` : ""}"></span><span class="v${p && er[m] >= 1 ? " vis" : ""}">${value(m)}</span></button></li>`).join("")}</ol>${folded.length < list.length ? `<button class="more">All ${list.length - 1} methods</button>` : ""}<p class="hint">${p ? "Error in grey levels; red is one or more. Click holds a pixel." : "Every method’s colour and error at the pixel under the pointer."}</p>`;
- const el = $("#probe");
- if (el._html !== html) {
-  el.innerHTML = el._html = html;
-  $("ol", el).onclick = e => { const b = e.target.closest("button"); if (b) v.show(b.dataset.m, e.shiftKey); };
-  $(".more", el)?.addEventListener("click", () => { probe.open = true; probe(v); });
- }
- if (!p) return;
- const c = $(".zoomed-px", el), x = c.getContext("2d"), [A, B] = [(await picture(s, v.a)).canvas, (await picture(s, v.b)).canvas];
- x.imageSmoothingEnabled = false;
- x.clearRect(0, 0, 142, 70);
- x.drawImage(A, p[0] - 3, p[1] - 3, 7, 7, 0, 0, 70, 70);
- x.drawImage(B, p[0] - 3, p[1] - 3, 7, 7, 72, 0, 70, 70);
- x.strokeStyle = "#fff";
- for (const o of [0, 72]) x.strokeRect(o + 30.5, 30.5, 9, 9);
+	const s = v.scene, turn = ++probing, of = v.a === "reference" ? v.b : v.a, rest = v.rest = !v.hover && !v.pin && s.rows[of]?.worst || null, pixel = v.hover ?? v.pin ?? rest;
+	if (!s.drawn) return;
+	const list = ["reference", ...s.list], at = pixel && pixel[1] * s.w + pixel[0], found = pixel && await Promise.all(list.map(async m => {
+		const [{ px }, map] = await Promise.all([picture(s, m), errors(s, m)]);
+		return [m, { colour: px.slice(4 * at, 4 * at + 3), error: map[at] }];
+	}));
+	if (turn !== probing) return;
+	const here = Object.fromEntries(found ?? []), shown = list.filter(m => list.length < 17 || unfolded.has("methods") || m === v.a || m === v.b || keyOf(m) || MARKED.has(m));
+	const value = m => {
+		const { colour, error } = here[m] ?? {};
+		if (!pixel || m === "reference") return pixel && [...colour].join(" ");
+		return error ? error.toFixed(error % 1 ? 1 : 0) : "·";
+	};
+	write({ "probe-where": pixel ? `${pixel.join(", ")}${rest ? ` · worst of ${nameOf(of)}` : v.pin && !v.hover ? " · held" : ""}` : "point at the picture" });
+	fill($("#probe-list"), html`${shown.map(m => html`<li><button data-key="${m}" class="${m === v.a ? "a" : m === v.b ? "b" : ""}"><kbd>${keyOf(m) ?? "·"}</kbd>${mark(m)}<span class="name">${nameOf(m)}</span><i style="background:rgb(${here[m]?.colour ?? ""})"></i><span class="value ${here[m]?.error > 1 ? "bad" : ""}">${value(m)}</span></button></li>`)}${shown.length < list.length && html`<li><button data-fold="methods">All ${list.length - 1} methods</button></li>`}`);
+	if (!pixel) return;
+	const pen = $("#probe canvas").getContext("2d"), images = await Promise.all([picture(s, v.a), picture(s, v.b)]);
+	pen.imageSmoothingEnabled = false;
+	pen.strokeStyle = "#fff";
+	images.forEach(({ canvas }, n) => {
+		pen.drawImage(canvas, pixel[0] - 3, pixel[1] - 3, 7, 7, 72 * n, 0, 70, 70);
+		pen.strokeRect(72 * n + 30.5, 30.5, 9, 9);
+	});
 }
-const toggleRow = v => showRow(v, v.line == null ? (v.pin ?? v.rest ?? [0, v.scene.h >> 1])[1] : null);
-function showRow(v, y) { v.line = y; $("#rowplot").hidden = y == null; $(".row", v.root).setAttribute("aria-pressed", y != null); v.draw(); rowPlot(v); remember(v); }
+/* Opens or closes the plot of a row. */
+function toggleRow(v) { showRow(v, v.line == null ? (v.pin ?? v.rest ?? [0, v.scene.h >> 1])[1] : null); }
+function showRow(v, y) {
+	v.line = y;
+	$("#rowplot").hidden = y == null;
+	$(".row", v.root).ariaPressed = y != null;
+	v.draw();
+	rowPlot(v);
+	remember(v);
+}
 /* Intensity of a row by each method, and its slope below. */
 async function rowPlot(v) {
- const el = $("#rowplot-chart"), s = v.scene;
- if (v.line == null || !hasPictures(s)) return;
- const y0 = v.line = clamp(v.pin ? v.pin[1] : v.line, 0, s.h - 1), list = ["reference", ...s.list], grey = {}, W = Math.round(el.clientWidth) || 700;
- await Promise.all(list.map(async m => { const { px } = await picture(s, m); grey[m] = Float32Array.from({ length: s.w }, (_, x) => { const i = 4 * (y0 * s.w + x); return .2126 * px[i] + .7152 * px[i + 1] + .0722 * px[i + 2]; }); }));
- const slope = g => g.map((_, x) => (g[Math.min(s.w - 1, x + 2)] - g[Math.max(0, x - 2)]) / 4), bold = [v.b, v.a], slopes = Object.fromEntries(list.map(m => [m, slope(grey[m])]));
- const l = 44, r = 10, H1 = 190, H2 = 120, H = H1 + H2 + 34, x = lin(0, s.w, l, W - r), range = o => [Math.min(...list.map(m => Math.min(...o[m]))), Math.max(...list.map(m => Math.max(...o[m])))];
- const [g0, g1] = range(grey), [s0, s1] = range(slopes), ya = lin(g0, g1 + 1, H1 - 6, 10), yb = lin(s0, s1 + .1, H1 + H2, H1 + 14);
- const curve = (g, y) => "M" + Array.from(g, (q, i) => x(i + .5).toFixed(1) + " " + y(q).toFixed(1)).join("L");
- let o = "";
- for (const t of linTicks(g0, g1 + 1, 4)) o += line(l, ya(t), W - r, ya(t)) + text(l - 6, ya(t) + 4, t, `class="t" ${END}`);
- for (const t of linTicks(s0, s1 + .1, 3)) o += line(l, yb(t), W - r, yb(t)) + text(l - 6, yb(t) + 4, tickText(t), `class="t" ${END}`);
- for (const t of linTicks(0, s.w, 8)) o += text(x(t), H - 18, t, `class="t" ${MID}`);
- o += text((l + W - r) / 2, H - 3, "pixel of the row", `class="ax" ${MID}`) + text(l + 4, 20, "grey level", 'class="ax halo"') + text(l + 4, H1 + 26, "slope, levels a pixel", 'class="ax halo"');
- for (const m of [...list.filter(m => !bold.includes(m)), ...bold]) { const on = bold.includes(m), c = `fill="none" stroke="${hue(m)}" stroke-width="${on ? 2 : 1}" opacity="${on ? 1 : .35}"${m === "reference" && on ? ' stroke-dasharray="5 3"' : ""}`; o += `<path d="${curve(grey[m], ya)}" ${c}/><path d="${curve(slopes[m], yb)}" ${c}/>`; }
- if (v.pin) o += line(x(v.pin[0] + .5), 8, x(v.pin[0] + .5), H1 + H2, 'stroke="var(--ink3)" stroke-dasharray="2 3"');
- $("#rowplot-title").textContent = `Row ${y0} of ${s.title}`;
- el.innerHTML = SVG(W, H, o, `Grey levels along row ${y0}, and their slope`) + `<div class="legend">${list.map(m => `<button data-m="${esc(m)}" class="${m === v.a ? "a" : m === v.b ? "b" : ""}">${mark(m)}${esc(nm(m))}</button>`).join("")}</div>`;
- $(".legend", el).onclick = e => { const b = e.target.closest("button"); if (b) v.show(b.dataset.m, e.shiftKey); };
- v.draw();
+	const el = $("#rowplot-chart"), s = v.scene;
+	if (v.line == null || !s.drawn) return;
+	const row = v.line = clamp(v.pin ? v.pin[1] : v.line, 0, s.h - 1), list = ["reference", ...s.list], pixels = await Promise.all(list.map(m => picture(s, m)));
+	const greys = pixels.map(({ px }) => Array.from({ length: s.w }, (_, x) => [.2126, .7152, .0722].reduce((grey, k, c) => grey + k * px[4 * (row * s.w + x) + c], 0)));
+	const slopes = greys.map(g => g.map((_, x) => (g[Math.min(s.w - 1, x + 2)] - g[Math.max(0, x - 2)]) / 4));
+	const bold = m => m === v.a || m === v.b, drawn = [...list].sort(by(bold));
+	const chart = (values, label, H) => plot({
+		title: `Row ${row}`, x: ["pixel of the row"], y: [label], marks: v.pin ? [v.pin[0] + .5] : [],
+		series: drawn.map(m => ({ label: nameOf(m), colour: hue(m), kind: `${bold(m) ? "" : "thin"} ${m === "reference" ? "dash1" : ""}`, points: values[list.indexOf(m)].map((g, x) => [x + .5, g]) })),
+	}, widthOf(el) || 700, H);
+	write({ "rowplot-title": `Row ${row} of ${s.title}` });
+	fill(el, html`${chart(greys, "grey level", 230)}${chart(slopes, "slope, levels a pixel", 170)}<div class="legend">${list.map(m => html`<button data-key="${m}" aria-pressed="${bold(m)}">${mark(m)}${nameOf(m)}</button>`)}</div>`);
+	v.draw();
 }
-const COLUMNS = [["max", "max error", 1], ["rms", "RMS", 1], ["p99", "99 %"], ["own", "own max"], ["over1", "pixels > 1 level"], ["other", "other polygon"], ["psnr", "PSNR, dB"], ["ssim", "SSIM"], ["ms", "ms", 1], ["ns", "ns a pixel"], ["ratio", "speed, × naive Phong", 1], ["barycentric", "× barycentric"]];
-const tableRows = () => Object.values(v2.scene.rows).filter(q => bary || !q.bary);
-const sortValue = (q, k) => k === "name" ? IDS.indexOf(q.variant) : k === "ratio" || k === "barycentric" ? q[k]?.[0] ?? 0 : q[k] ?? (k === "psnr" ? 1e9 : -1);
-const ratioText = q => q ? `${q[3] && q[1] !== q[2] ? "= " : ""}${q[0].toFixed(2)}${X}` : "–";
-function table() {
- const rows = tableRows().sort((a, b) => { const x = sortValue(a, sort.k), y = sortValue(b, sort.k); return (x < y ? -1 : x > y ? 1 : 0) * sort.d; }), columns = COLUMNS.filter(c => wide || c[2]);
- const ratios = rows.map(q => q.ratio).filter(Boolean), lo = Math.min(.8, ...ratios.map(r => r[1])), hi = Math.max(1.25, ...ratios.map(r => r[2])), sw = wide ? 104 : 170, x = logs(lo * .96, hi * 1.04, 5, sw - 6);
- const long = e => clamp((Math.log10(Math.max(e, TINY)) + 3) / (Math.log10(255) + 3), 0, 1) * 100, slowest = Math.max(...rows.map(q => q.ms ?? 0)), folded = rows.length > 18 && !table.open;
- const bar = (value, part, c) => `<td><span class="inl"><span>${value}</span><i style="--c:${c}"><b style="width:${part}%"></b></i></span></td>`;
- const cell = (q, k) => {
-  const c = hue(q.variant);
-  switch (k) {
-   case "max": case "rms": return bar(num(q[k]), long(q[k]), c);
-   case "ms": return q.ms ? bar(num(q.ms), q.ms / slowest * 100, c) : "<td>–</td>";
-   case "ratio": {
-    if (!q.ratio) return "<td>–</td>";
-    const [m, a, b, tie] = q.ratio, base = q.variant === BASE && !q.bary, tick = v => line(x(v), 5, x(v), 13, `stroke="${c}" opacity=".6"`);
-    return `<td><span class="speedcell" style="grid-template-columns:${sw}px 5.2em"><svg width="${sw}" height="18" aria-hidden="true">${line(x(1), 0, x(1), 18, 'stroke="var(--line2)"')}${line(x(a), 9, x(b), 9, `stroke="${c}" stroke-width="2" opacity=".6"`)}${tick(a)}${tick(b)}${shape(q.variant, x(m), 9, 4.4)}</svg><span class="${base || tie ? "" : m > 1 ? "faster" : "slower"}" title="95 %: ${a.toFixed(2)}–${b.toFixed(2)}">${ratioText(q.ratio)}</span></span></td>`;
-   }
-   case "barycentric": return `<td>${ratioText(q.barycentric)}</td>`;
-   case "ssim": return `<td>${q.ssim == null ? "–" : q.ssim.toFixed(4)}</td>`;
-   case "psnr": return `<td>${q.psnr == null ? "∞" : q.psnr.toFixed(1)}</td>`;
-   case "over1": case "other": return `<td>${grouped(q[k])}</td>`;
-   case "own": return `<td${q.explained ? "" : ' title="more than rounding explains"'}>${q.explained ? "" : "! "}${num(q.own)}</td>`;
-   default: return `<td>${num(q[k])}</td>`;
-  }
- };
- const head = (k, l) => `<th scope="col" aria-sort="${sort.k === k ? (sort.d > 0 ? "ascending" : "descending") : "none"}"><button data-k="${k}">${l}${sort.k === k ? (sort.d > 0 ? " ↑" : " ↓") : ""}</button></th>`;
- $("#table").innerHTML = `<table class="data"><thead><tr>${head("name", "method")}${columns.map(([k, l]) => head(k, l)).join("")}</tr></thead><tbody>${(folded ? rows.slice(0, 15) : rows).map(q => `<tr data-m="${esc(q.variant)}"${q.bary ? ' class="bary"' : ""}><th scope="row"><button class="mname">${mark(q.variant)}${esc(nm(q.variant))}${q.bary ? " <small>barycentric</small>" : ""}</button></th>${columns.map(c => cell(q, c[0])).join("")}</tr>`).join("")}</tbody></table>${folded ? `<button class="fold">All ${rows.length} rows</button>` : ""}`;
- $("#table thead").onclick = e => { const b = e.target.closest("button"); if (!b) return; const k = b.dataset.k; sort = sort.k === k ? { k, d: -sort.d } : { k, d: ["ratio", "barycentric", "psnr", "ssim"].includes(k) ? -1 : 1 }; table(); };
- $("#table tbody").onclick = e => { const t = e.target.closest("tr"); if (t) v2.show(t.dataset.m, e.shiftKey); };
- $("#table .fold")?.addEventListener("click", () => { table.open = true; table(); });
- markRows();
+/* Columns of the table: key, head, a mark for those that are always shown. */
+const COLUMNS = [
+	["max", "max error", 1], ["rms", "RMS", 1], ["p99", "99 %"], ["own", "own max"], ["over1", "pixels > 1 level"], ["other", "other polygon"], ["psnr", "PSNR, dB"], ["ssim", "SSIM"],
+	["ms", "ms", 1], ["ns", "ns a pixel"], ["ratio", "speed, × naive Phong", 1], ["barycentric", "× barycentric"],
+];
+const DESCENDING = ["ratio", "barycentric", "psnr", "ssim"];
+function sceneTable() {
+	const value = q => sort.key === "name" ? IDS.indexOf(q.variant) : q[sort.key]?.median ?? q[sort.key] ?? (sort.key === "psnr" ? 1e9 : -1);
+	const rows = Object.values(v2.scene.rows).filter(q => options.bary || !q.bary).sort(by(q => (sort.up ? 1 : -1) * value(q))), [shown, more] = folded(rows, 15, "rows");
+	const ratios = rows.map(q => q.ratio).filter(Boolean), slowest = Math.max(...rows.map(q => q.ms ?? 0)), width = options.cols ? 104 : 170;
+	const x = scale(true, Math.min(.77, ...ratios.map(r => r.low * .96)), Math.max(1.3, ...ratios.map(r => r.high * 1.04)), 5, width - 6);
+	const level = (e, q) => bar(num(e), 100 * clamp(Math.log(e / .001) / Math.log(255 / .001), 0, 1), hue(q.variant)), cells = {
+		max: level, rms: level,
+		ms: (ms, q) => ms ? bar(num(ms), ms / slowest * 100, hue(q.variant)) : "–",
+		own: (e, q) => q.within ? num(e) : html`<span title="more than rounding explains">! ${num(e)}</span>`,
+		over1: grouped, other: grouped, barycentric: ratioText,
+		psnr: v => v?.toFixed(1) ?? "∞",
+		ssim: v => v?.toFixed(4) ?? "–",
+		ratio: (r, q) => r ? html`<span class="speed"><svg style="color:${hue(q.variant)}" width="${width}" height="18" aria-hidden="true">${line(x(1), 0, x(1), 18)}${line(x(r.low), 9, x(r.high), 9, "whisker")}${shape(q.variant, x(r.median), 9, 4.4)}</svg><span class="${r.tie ? "" : r.median > 1 ? "good" : "bad"}" title="${r.low.toFixed(2)}–${r.high.toFixed(2)}">${ratioText(r)}</span></span>` : "–",
+	};
+	const columns = COLUMNS.filter(([, , always]) => options.cols || always), all = [["name", "method"], ...columns], arrow = key => sort.key === key && (sort.up ? " ↑" : " ↓");
+	const name = q => html`<button class="name" data-key="row ${q.variant}">${mark(q.variant)}${nameOf(q.variant)}${q.bary && html` <small>barycentric</small>`}</button>`;
+	fill($("#table"), html`${table(all.map(([key, label]) => html`<button data-key="${key}">${label}${arrow(key)}</button>`), shown.map(q => [name(q), ...columns.map(([key]) => (cells[key] ?? num)(q[key], q))]), "choose")}${more}`);
+	$$("#table [scope=col]").forEach((th, i) => { th.ariaSort = all[i][0] !== sort.key ? "none" : sort.up ? "ascending" : "descending"; });
+	$$("#table tbody tr").forEach((tr, i) => {
+		tr.dataset.key = "row " + shown[i].variant;
+		tr.className = `${shown[i].bary ? "bary" : ""} ${shown[i].variant === v2.a ? "sel" : ""}`;
+	});
 }
-const markRows = () => $$("#table tbody tr").forEach(t => t.classList.toggle("sel", t.dataset.m === v2?.a));
-function copyMarkdown() {
- const rows = tableRows().sort(by(q => -(q.ratio?.[0] ?? 0))), cell = t => String(t).replace(/[|\\`*_<]/g, "\\$&");
- const markdown = `| ${cell(v2.scene.title)} | max error, levels | RMS | ms | speed |\n|---|--:|--:|--:|--:|\n${rows.map(q => `| ${cell(nm(q.variant))}${q.bary ? " (barycentric)" : ""} | ${num(q.max)} | ${num(q.rms)} | ${num(q.ms)} | ${q.ratio ? `${q.ratio[0].toFixed(2)} (${q.ratio[1].toFixed(2)}–${q.ratio[2].toFixed(2)})` : "–"} |`).join("\n")}`;
- (navigator.clipboard?.writeText(markdown) ?? Promise.reject()).then(() => toast("Table copied as Markdown"), () => { save("table.md", markdown, "text/markdown"); toast("Saved: the browser does not let a file copy"); });
+function chooseInTable(key, e) {
+	if (key.startsWith("row ")) return v2.show(key.slice(4), e.shiftKey);
+	sort = { key, up: sort.key === key ? !sort.up : !DESCENDING.includes(key) };
+	sceneTable();
+}
+/* Copies the table as it is shown, with the intervals, as Markdown. */
+async function copyMarkdown() {
+	const cell = c => `${c.textContent.replace(/[|\\`*_<]/g, "\\$&")}${$("[title]", c) ? ` (${$("[title]", c).title})` : ""}`, [head, ...rows] = $$("#table tr").map(tr => `| ${[...tr.cells].map(cell).join(" | ")} |\n`);
+	const markdown = head + head.replace(/[^|\n]+/g, " --: ").replace("--:", "---") + rows.join("");
+	try {
+		await navigator.clipboard.writeText(markdown);
+		toast("Table copied as Markdown");
+	} catch {
+		save("table.md", markdown, "text/markdown");
+		toast("Saved as a file: this browser does not copy");
+	}
 }
 
 /* ---------- methods: formulas as mathematics */
-const GREEK = { phi: "φ", theta: "θ", alpha: "α", delta: "δ" }, FUNCTIONS = new Set(["sin", "cos", "sqrt", "rsqrt", "min", "max"]), VECTORS = /^[NLVRHP]$/;
-const mo = t => `<mo stretchy="false">${esc(t)}</mo>`, mrow = s => `<mrow>${s}</mrow>`, words = t => `<mtext>&nbsp;${esc(t)}&nbsp;</mtext>`;
+const GREEK = { phi: "φ", theta: "θ", alpha: "α", delta: "δ" }, FUNCTIONS = ["sin", "cos", "sqrt", "rsqrt", "min", "max"];
+const SIGNS = { ".": "·", "*": "×", "-": "−", "...": "…" };
+const operator = t => html`<mo stretchy="false">${t}</mo>`, group = parts => html`<mrow>${parts}</mrow>`;
+const isSpace = t => /^\s+$/.test(t), isWord = t => /^[A-Za-z]{3,}$/.test(t) && !FUNCTIONS.includes(t) && !GREEK[t] || ["by", "of", "at", "to", "on", "eq"].includes(t);
 /* A name: d… is a difference, trailing letters are an index, N, L, V and the like are vectors. */
 function symbol(t) {
- if (/^\d/.test(t)) return `<mn>${t}</mn>`;
- if (GREEK[t]) return `<mi>${GREEK[t]}</mi>`;
- const [, d, head, index, mark] = /^(d*)([A-Za-z])([a-z0-9]*)(?:_(\w+))?$/.exec(/^[a-z]+$/.test(t) && t[0] === "d" ? "_" : t) ?? (/^d$/.test(t) ? [0, "", "d", ""] : [0, "", t, ""]);
- const main = `${d ? `<mi mathvariant="normal">${"Δ".repeat(d.length)}</mi>` : ""}<mi${VECTORS.test(head) ? ' mathvariant="normal" class="v"' : ""}>${head}</mi>`, under = index || mark;
- return under ? `<msub>${mrow(main)}${mrow(`<mi>${esc(under)}</mi>`)}</msub>` : mrow(main);
+	if (/^\d/.test(t)) return html`<mn>${t}</mn>`;
+	if (GREEK[t]) return html`<mi>${GREEK[t]}</mi>`;
+	const difference = /^d[a-z]*$/.test(t) ? null : /^(d*)([A-Za-z])([a-z0-9]*)(?:_(\w+))?$/.exec(t), [, d, head, letters, mark] = difference ?? [t, "", t];
+	const name = html`${d && html`<mi mathvariant="normal">${"Δ".repeat(d.length)}</mi>`}${/^[NLVRHP]$/.test(head) ? html`<mi mathvariant="normal" class="vector">${head}</mi>` : html`<mi>${head}</mi>`}`, index = letters || mark;
+	return index ? html`<msub>${group(name)}${group(html`<mi>${index}</mi>`)}</msub>` : group(name);
 }
-/* Reads a formula as `fastphong explain` prints it; what is no formula stays words. */
-function formula(source) {
- return source.split(/[;\n]|,(?![^(]*\))/).map(s => s.trim()).filter(Boolean).map(part => {
-  if (!/[=^/]/.test(part)) return `<div class="words">${esc(part)}</div>`;
-  const named = /^(\w+)_next\s*=/.exec(part), tokens = (named ? part.replace(named[0], named[1] + " ←") : part).match(/[A-Za-z]+\d*(?:_[a-z]+)?|\d+(?:\.\d+)?|\.\.\.|\s+|\S/g);
-  let at = 0;
-  const isWord = t => /^[A-Za-z]{3,}$/.test(t) && !FUNCTIONS.has(t) && !GREEK[t] || ["by", "of", "at", "to", "on", "eq"].includes(t);
-  const read = close => {
-   const items = [];
-   const push = (html, o = {}) => items.push({ html, ...o });
-   while (at < tokens.length) {
-    const t = tokens[at++];
-    if (t === close) break;
-    if (/^\s+$/.test(t)) { if (items.length) items[items.length - 1].gap = true; continue; }
-    if (isWord(t)) {
-     let w = t;
-     while (at < tokens.length && (/^\s+$/.test(tokens[at]) || isWord(tokens[at]) || /^(an?|[\d.\-']+|s)$/.test(tokens[at]) || w.endsWith("eq ") || tokens[at] === "'")) w += tokens[at++];
-     push(words(w.trim()), { op: true });
-    } else if (FUNCTIONS.has(t) && tokens[at] === "(") {
-     at++;
-     const inner = mrow(read(")"));
-     push(t === "sqrt" ? `<msqrt>${inner}</msqrt>` : t === "rsqrt" ? `<mfrac><mn>1</mn><msqrt>${inner}</msqrt></mfrac>` : mrow(`<mi>${t}</mi>${mo("(")}${inner}${mo(")")}`));
-    } else if (t === "(" ) {
-     const before = items[items.length - 1], call = before && !before.op && !before.gap && before.name, inner = mrow(`${mo("(")}${read(")")}${mo(")")}`);
-     if (call) before.html = mrow(before.html + inner);
-     else push(inner);
-    } else if (t === "|") push(mrow(`${mo("|")}${read("|")}${mo("|")}`));
-    else if (t === "^") {
-     const base = items.pop();
-     while (/^\s+$/.test(tokens[at])) at++;
-     push(`<msup>${mrow(base?.html ?? "")}${symbol(tokens[at++])}</msup>`);
-    } else if (t === "/") push("/", { op: true, over: true, loose: items[items.length - 1]?.gap });
-    else if (/^[A-Za-z0-9]/.test(t)) push(symbol(t), { name: /^[A-Z]/.test(t) });
-    else push(mo({ ".": "·", "*": "×", "-": "−", "...": "…" }[t] ?? t), { op: t !== ".", dot: t === "." });
-   }
-   // Fractions: a / b with spaces takes the products on both sides, a/b without them the neighbours.
-   for (let i = items.findIndex(x => x.over); i > 0; i = items.findIndex(x => x.over)) {
-    const loose = items[i].loose, product = (k, step) => { let e = k; while (loose && items[e + step] && !items[e + step].op) e += step; return e; };
-    const a = product(i - 1, -1), b = Math.min(product(i + 1, 1), items.length - 1);
-    const join = list => mrow(list.map(x => x.html).join(""));
-    items.splice(a, b - a + 1, { html: `<mfrac>${join(items.slice(a, i))}${join(items.slice(i + 1, b + 1))}</mfrac>` });
-   }
-   return items.map(x => x.html).join("");
-  };
-  return `<div><math>${read()}</math></div>`;
- }).join("");
+/* Replaces divisions by fractions: a / b with spaces takes the products on both sides, a/b without them the neighbours. */
+function fractions(items) {
+	for (let i = items.findIndex(x => x.over); i > 0; i = items.findIndex(x => x.over)) {
+		const end = (k, step) => {
+			while (items[i].loose && items[k + step] && !items[k + step].op) k += step;
+			return k;
+		};
+		const from = end(i - 1, -1), to = Math.min(end(i + 1, 1), items.length - 1), joined = (a, b) => group(items.slice(a, b).map(x => x.html));
+		items.splice(from, to - from + 1, { html: html`<mfrac>${joined(from, i)}${joined(i + 1, to + 1)}</mfrac>` });
+	}
+	return items.map(x => x.html);
 }
-const OPERATIONS = [["additions", "+"], ["multiplications", "×"], ["comparisons", "<"], ["divisions", "÷"], ["roots", "√"], ["sines, arctangents", "∿"], ["powers", "^"]];
-const RATES = [["a span", "span"], ["an edge", "edge"], ["a scanline of an edge", "edge_step"], ["a vertex", "vertex"], ["a polygon", "polygon"]];
-const NUMBERS = ["No", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine", "Ten", "Eleven", "Twelve"];
+/* Reads tokens up to `close` as mathematics; takes them from the list. */
+function mathematics(tokens, close) {
+	const items = [], push = (html, more) => items.push({ html, ...more });
+	while (tokens.length) {
+		const t = tokens.shift(), before = items[items.length - 1];
+		if (t === close) break;
+		if (isSpace(t)) {
+			if (before) before.gap = true;
+		} else if (isWord(t)) {
+			let words = t;
+			while (tokens.length && (isSpace(tokens[0]) || isWord(tokens[0]) || /^(an?|[\d.\-']+|s)$/.test(tokens[0]) || words.endsWith("eq "))) words += tokens.shift();
+			push(html`<mtext>\u00a0${words.trim()}\u00a0</mtext>`, { op: true });
+		} else if (FUNCTIONS.includes(t) && tokens[0] === "(") {
+			tokens.shift();
+			const inner = group(mathematics(tokens, ")")), root = html`<msqrt>${inner}</msqrt>`;
+			push(t === "sqrt" ? root : t === "rsqrt" ? html`<mfrac><mn>1</mn>${root}</mfrac>` : group([html`<mi>${t}</mi>`, operator("("), inner, operator(")")]));
+		} else if (t === "(") {
+			const inner = group([operator("("), mathematics(tokens, ")"), operator(")")]);
+			if (before?.name && !before.gap) before.html = group([before.html, inner]);
+			else push(inner);
+		} else if (t === "|") push(group([operator("|"), mathematics(tokens, "|"), operator("|")]));
+		else if (t === "^") {
+			while (isSpace(tokens[0])) tokens.shift();
+			push(html`<msup>${group(items.pop()?.html)}${symbol(tokens.shift())}</msup>`);
+		} else if (t === "/") push("/", { op: true, over: true, loose: before?.gap });
+		else if (/^[A-Za-z0-9]/.test(t)) push(symbol(t), { name: /^[A-Z]/.test(t) });
+		else push(operator(SIGNS[t] ?? t), { op: t !== "." });
+	}
+	return fractions(items);
+}
+/* Sets a formula as `fastphong explain` prints it; what is no formula stays words. */
+const formula = source => source.split(/[;\n]|,(?![^(]*\))/).map(part => part.trim()).filter(Boolean).map(part => {
+	if (!/[=^/]/.test(part)) return html`<div class="words">${part}</div>`;
+	const tokens = part.replace(/^(\w+)_next\s*=/, "$1 ←").match(/[A-Za-z]+\d*(?:_[a-z]+)?|\d+(?:\.\d+)?|\.\.\.|\s+|\S/g);
+	return html`<div><math>${mathematics(tokens)}</math></div>`;
+});
+const OPERATIONS = ["additions", "multiplications", "comparisons", "divisions", "roots", "sines, arctangents", "powers"];
+const RATES = [["a pixel", o => o.walk.map((n, i) => n + o.shade[i])], ["a span", o => o.span], ["an edge", o => o.edge], ["a scanline of an edge", o => o.edge_step], ["a vertex", o => o.vertex], ["a polygon", o => o.polygon]];
+function article(m, most) {
+	const { worst, scene: s } = m, corner = CORNERS.find(c => c.work === "frame" && !c.scalar), frame = corner && ratioIn(STUDY.methods.find(q => q.method === m.name), corner);
+	const bad = worst?.max >= 1, rates = RATES.map(([label, of]) => [label, of(m.operations[0])]).filter(([, counts], i) => !i || sum(counts));
+	const stack = counts => {
+		const list = counts.map((n, i) => [n, OPERATIONS[i], Math.min(i, 5)]).filter(([n]) => n);
+		return list.length ? html`<div class="stack" style="width:${Math.max(4, sum(counts) / most * 100)}%" role="img" aria-label="${list.map(([n, what]) => `${n} ${what}`).join(", ")}">${list.map(([n, what, i]) => html`<i class="o${i}" style="flex:${n} 0 ${i > 2 ? 13 : 0}px" title="${n} ${what}">${(n / most > .035 || i > 2) && n}</i>`)}</div>` : html`<div class="hint">none</div>`;
+	};
+	const figures = [
+		m.speed && [m.speed.toFixed(2) + TIMES, `${MANY ? `${SCENES.length} scenes, ` : ""}${SCENES[0].renderer.level}`],
+		frame && [frame.median.toFixed(2) + TIMES, `whole frame, ${levelName(corner)}`], worst && [num(worst.max), "worst error, levels", bad],
+	].filter(Boolean);
+	const verdict = bad ? html`<b>Fails</b> most in <a href="#scenes/${s.id}?left=${encodeURIComponent(m.name)}&right=reference">${s.title}</a>` : html`<b>No visible failure</b> ${MANY ? `in ${SCENES.length} scenes` : "in this scene"}`;
+	return html`<article class="method" id="m-${m.name}"><div><h2>${mark(m.name)}${m.label} <code>${m.name}</code></h2><p class="idea">${m.title}</p><div class="formula">${formula(m.formula)}</div><p class="hint">${m.source} · ${m.perspective} · ${m.local}</p></div>
+<div><div class="ops">${rates.map(([label, counts]) => html`<span>${label}</span>${stack(counts)}`)}</div><div class="kpi">${figures.map(([value, label, bad]) => html`<div><b class="${bad ? "bad" : ""}">${value}</b>${label}</div>`)}</div></div>
+${s && html`<figure class="crop"><div class="pair">${["reference", m.name].map(i => html`<div><canvas data-method="${i}" role="img" aria-label="${nameOf(i)}"></canvas>${nameOf(i)}</div>`)}</div><figcaption>${verdict}. In principle: ${m.fails || "nowhere known"}.</figcaption></figure>`}</article>`;
+}
 function methods([id]) {
- const el = $("#methodlist"), many = D.methods?.length > 14;
- if (!el.children.length) {
-  $("#t-methods").textContent = `${NUMBERS[IDS.length] ?? IDS.length} ${IDS.length === 1 ? "way" : "ways"} to one equation`;
-  $("#light").innerHTML = formula("I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n");
-  const pixel = m => m.operations[0].walk.map((v, i) => v + m.operations[0].shade[i]), all = D.methods.flatMap(m => [pixel(m), ...RATES.map(r => m.operations[0][r[1]])].map(sum)), most = Math.max(...all);
-  const stack = o => sum(o) ? `<div class="stack" style="width:${Math.max(4, sum(o) / most * 100)}%" role="img" aria-label="${o.map((v, i) => v ? `${v} ${OPERATIONS[i][0]}` : "").filter(Boolean).join(", ")}">${o.map((v, i) => v ? `<i class="o${Math.min(i, 5)}" style="flex:${v} 0 ${i > 2 ? 13 : 0}px" title="${v} ${OPERATIONS[i][0]}">${v / most > .035 || i > 2 ? v : ""}</i>` : "").join("")}</div>` : '<div class="none">none</div>';
-  const corner = D.speedups?.corners.findIndex(c => c.work === "frame" && !c.scalar);
-  const article = m => {
-   const w = m.worst, study = D.speedups?.methods.find(q => q.method === m.name)?.corners[corner]?.ratio_to_naive, fails = m.fails || "nowhere known", bad = w && w.q.max >= 1;
-   const kpi = [m.speed && [(m.name === BASE ? "1" : m.speed.toFixed(2)) + X, MANY ? `${SCENES.length} scenes, ${SCENES[0].renderer.level}` : SCENES[0].renderer.level], study && [study.median.toFixed(2) + X, `whole frame, ${D.speedups.corners[corner].level.toUpperCase()}`], w && [num(w.q.max), "worst error, levels", bad]].filter(Boolean);
-   return `<article class="method" id="m-${esc(m.name)}"><div><h2>${mark(m.name)}${esc(m.label)} <code>${esc(m.name)}</code></h2><p class="idea">${esc(m.title)}</p><div class="formula">${formula(m.formula)}</div><p class="src">${esc(m.source)} · ${esc(m.perspective)} · ${esc(m.local)}</p></div>
-<div><div class="ops"><div class="row"><span>a pixel</span>${stack(pixel(m))}</div>${RATES.filter(r => sum(m.operations[0][r[1]])).map(([l, k]) => `<div class="row"><span>${l}</span>${stack(m.operations[0][k])}</div>`).join("")}</div><div class="kpi">${kpi.map(([v, l, b]) => `<div><b${b ? ' class="slower"' : ""}>${v}</b>${l}</div>`).join("")}</div></div>
-${w ? `<figure class="crop"><div class="cc"><canvas data-m="reference" role="img" aria-label="reference"></canvas><canvas data-m="${esc(m.name)}" role="img" aria-label="${esc(m.label)}"></canvas><span>reference</span><span>${esc(m.label)}</span></div><figcaption>${bad ? `<b>Fails</b> most in <a href="#scenes/${w.scene.id}?left=${encodeURIComponent(m.name)}&right=reference">${esc(w.scene.title)}</a>; in principle: ${esc(fails)}.` : `<b>No visible failure</b> ${MANY ? `in ${SCENES.length} scenes` : "in this scene"}. In principle: ${esc(fails)}.`}</figcaption></figure>` : ""}</article>`;
-  };
-  const shown = many && !methods.open && !id ? D.methods.slice(0, 11) : D.methods;
-  el.innerHTML = `<div class="opkey">${OPERATIONS.slice(0, 6).map(([t], i) => `<span><i class="o${i}"></i>${t}</span>`).join("")}<span>counted from the methods’ own code, one light, shininess 32</span></div>${shown.map(article).join("")}${shown.length < D.methods.length ? `<button class="fold">All ${D.methods.length} methods</button>` : ""}`;
-  $(".fold", el)?.addEventListener("click", () => { methods.open = true; el.innerHTML = ""; methods([]); });
-  for (const m of shown) {
-   const w = m.worst, k = document.getElementById("m-" + m.name);
-   if (w && hasPictures(w.scene)) $$("canvas", k).forEach(c => { queue = queue.then(() => crop(c, w.scene, c.dataset.m, w.q.worst?.[0] ?? w.scene.w / 2, w.q.worst?.[1] ?? w.scene.h / 2, 84, 84)).catch(() => {}); });
-  }
- }
- const target = id && document.getElementById("m-" + id);
- if (target) requestAnimationFrame(() => target.scrollIntoView({ block: "start" }));
+	if (id) unfolded.add("methods");
+	const el = $("#methodlist"), [shown, more] = folded(METHODS, 12, "methods");
+	if ($$(".method", el).length < shown.length) {
+		const most = Math.max(...METHODS.flatMap(m => RATES.map(([, of]) => sum(of(m.operations[0])))));
+		write({ "t-methods": `${plural(IDS.length, "way")} to one equation` });
+		$("#light").innerHTML = html`${formula("I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n")}`;
+		el.innerHTML = html`${shown.map(m => article(m, most))}${more}`;
+		for (const { name, scene: s, worst } of shown) if (s && s.drawn) for (const c of $$("canvas", document.getElementById("m-" + name))) crop(c, s, c.dataset.method, worst.worst, 84, 84);
+	}
 }
 
 /* ---------- speed */
+const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [], oneLight = CORNERS.filter(c => c.lights === 1);
 let cornerMode = "same";
-const STUDY = D.speedups, studied = () => STUDY.methods.filter(m => cornerMode === "all" || m.levels_off <= 1);
-const cornerName = c => [c.work, c.level === "scalar" ? "scalar" : c.level.toUpperCase()];
-function corners() {
- const el = $("#corners"), W = Math.round(el.clientWidth), places = STUDY.corners.map((c, i) => [c, i]).filter(q => q[0].lights === 1), ratio = (m, i) => m.corners[i].ratio_to_naive;
- const ms = studied().filter(m => places.every(q => ratio(m, q[1])));
- if (!W || !ms.length) return;
- const narrow = W < 560, l = narrow ? 36 : 44, r = narrow ? 140 : 172, t = 58, b = 20, H = Math.max(430, t + b + ms.length * 16.5), x = lin(0, places.length - 1, l + 26, W - r - 14), vs = ms.flatMap(m => places.map(q => ratio(m, q[1]).median)), lo = Math.min(...vs) * .9, hi = Math.max(...vs) * 1.1, y = logs(lo, hi, H - b, t);
- let o = "", last = -99;
- for (const g of [32, 16, 8, 4, 3, 2, 1.5, 1.25, 1, .75, .5, .25, .1]) if (g >= lo && g <= hi && (g === 1 || y(g) - last > 22)) { last = y(g); o += line(l, y(g), W - r, y(g), g === 1 ? 'stroke="var(--ink3)"' : undefined) + text(l - 6, y(g) + 4, g + (g === 1 ? X : ""), `class="t" ${END}`); }
- places.forEach(([c, i], k) => {
-  const best = STUDY.methods.filter(m => m.levels_off <= 1 && ratio(m, i)).sort((p, q) => ratio(q, i).median - ratio(p, i).median)[0], [work, level] = cornerName(c);
-  o += line(x(k), t, x(k), H - b);
-  o += narrow ? text(x(k), 14, work, `class="b" ${MID} style="font-size:11px"`) + text(x(k), 28, level, `${MID} style="font-size:11px"`) : text(x(k), 16, `${work}, ${level}`, `class="b" ${MID}`);
-  if (best) o += narrow ? "" : text(x(k), 32, "fastest: " + esc(nm(best.method)), `class="t" ${MID}`);
-  if (best) o += text(x(k), 46, ratio(best, i).median.toFixed(2) + X, `class="t" ${MID}`);
- });
- const end = places[places.length - 1][1], labels = spread(ms.map(m => y(ratio(m, end).median)), 16, t, H - b);
- ms.forEach((m, n) => {
-  const hero = MARKED.has(m.method), c = hue(m.method), tip = `${nm(m.method)}: ${places.map(([k, i]) => `${cornerName(k).join(" ")} ${ratio(m, i).median.toFixed(2)} ×`).join(", ")}`;
-  o += `<g class="hit" data-m="${esc(m.method)}" tabindex="0" role="button" aria-label="${esc(tip)}"><title>${esc(tip)}</title><path d="M${places.map(([, i], k) => x(k).toFixed(1) + " " + y(ratio(m, i).median).toFixed(1)).join("L")}" fill="none" stroke="${c}" stroke-width="${hero ? 2.25 : 1.4}" opacity="${hero ? .95 : .6}"/>${places.map(([, i], k) => line(x(k), y(ratio(m, i).low), x(k), y(ratio(m, i).high), `stroke="${c}" stroke-width="1.5"`) + shape(m.method, x(k), y(ratio(m, i).median), 5)).join("")}<path d="M${x(places.length - 1) + 8} ${y(ratio(m, end).median)}L${x(places.length - 1) + 20} ${labels[n]}" stroke="var(--line2)" fill="none"/>${text(x(places.length - 1) + 24, labels[n] + 4, `${esc(nm(m.method))}<tspan dx="6" style="fill:var(--ink2);font-weight:450">${ratio(m, end).median.toFixed(2)}</tspan>`, `class="label" style="${hero ? "font-weight:600;" : ""}${narrow ? "font-size:11px" : ""}"`)}</g>`;
- });
- el.innerHTML = SVG(W, H, o, "Speed of methods in kernels and frames, scalar and SIMD");
- bind(el, d => go("methods/" + d.m));
+const studied = () => STUDY.methods.filter(m => cornerMode === "all" || m.levels_off <= 1);
+const levelName = c => c.level === "scalar" ? "scalar" : c.level.toUpperCase();
+const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
+/* The fastest method of a corner that draws naive Phong's picture. */
+const fastest = c => STUDY.methods.filter(m => m.levels_off <= 1 && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
+/* Methods as lines from place to place; a place has a name, a note and values [v, low, high]. */
+function slopes(id, label, list, panes, nameOf, format, gap = 20) {
+	const el = $(id), W = widthOf(el), part = (W + 20) / panes.length, l = 40, r = part - (part < 300 ? 122 : 190), t = 44, b = Math.max(430, t + list.length * 16.5), shown = [];
+	if (!W || !list.length) return;
+	panes.forEach((places, k) => {
+		const all = list.flatMap(m => places.map(p => p.values(m)[0])), x = scale(false, 0, places.length - 1, k * part + l + 20, k * part + r), y = scale(true, Math.min(...all) * .9, Math.max(...all) * 1.1, b, t);
+		shown.push(axisY(y, k * part + l, k * part + r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]));
+		shown.push(curves(x, y, list.map(m => ({
+			method: m.method, name: nameOf(m.method), value: format(places[places.length - 1].values(m)[0]), bold: MARKED.has(m.method), kind: MARKED.has(m.method) ? "" : "thin", href: `#methods/${m.method}`,
+			tip: `${nameOf(m.method)}: ${places.map(p => `${p.name} ${p.note} ${num(p.values(m)[0])}`).join(", ")}`, points: places.map((p, i) => [i, ...p.values(m)]),
+		})), { gap: 15.5, out: 22 }));
+	});
+	el.innerHTML = svg(W, b + 10, label, shown, true);
 }
-function lights() {
- const el = $("#lights"), W = Math.round(el.clientWidth), ms = studied().slice(0, 14), H = 450, t = 40;
- const pairs = [true, false].map(scalar => [1, 4].map(n => STUDY.corners.findIndex(c => c.work === "kernel" && c.scalar === scalar && c.lights === n))).filter(p => p.every(i => i >= 0)), half = (W - 20 * (pairs.length - 1)) / pairs.length;
- if (!W || !pairs.length) return;
- const ns = (m, i) => m.corners[i].timing.median_ns / STUDY.span;
- let o = "";
- pairs.forEach(([one, four], k) => {
-  const x0 = k * (half + 20), v = ms.flatMap(m => [ns(m, one), ns(m, four)]), y = logs(Math.min(...v) * .9, Math.max(...v) * 1.1, H - 34, t), xa = x0 + 34, xb = x0 + half - 118, labels = spread(ms.map(m => y(ns(m, four))), 15, t, H - 34);
-  o += text((xa + xb) / 2, 14, cornerName(STUDY.corners[one])[1], `class="b" ${MID}`);
-  for (const [at, n] of [[xa, 1], [xb, 4]]) o += text(at, H - 12, W < 520 ? n : n === 1 ? "1 light" : "4 lights", `class="t" ${MID}`) + line(at, t - 8, at, H - 28);
-  ms.forEach((m, i) => {
-   const hero = MARKED.has(m.method), c = hue(m.method), q = n => m.corners[n].timing;
-   o += `<g class="hit" data-m="${esc(m.method)}"><title>${esc(nm(m.method))}: ${num(ns(m, one))} → ${num(ns(m, four))} ns a pixel</title>${line(xa, y(ns(m, one)), xb, y(ns(m, four)), `stroke="${c}" stroke-width="${hero ? 2.25 : 1.4}" opacity="${hero ? .95 : .6}"`)}${[[xa, one], [xb, four]].map(([at, n]) => line(at, y(q(n).p25_ns / STUDY.span), at, y(q(n).p75_ns / STUDY.span), `stroke="${c}" stroke-width="3" opacity=".28"`) + shape(m.method, at, y(ns(m, n)), 4.6)).join("")}${text(xb + 12, labels[i] + 4, `${num(ns(m, four), 2)} <tspan style="fill:var(--ink2);${hero ? "font-weight:600" : ""}">${esc(nm(m.method).replace(" Phong", ""))}</tspan>`, 'class="label" style="font-size:11.5px"')}</g>`;
-  });
-  const least = Math.min(...ms.map(m => ns(m, one))), most = Math.max(...ms.map(m => ns(m, one)));
-  for (const v of [least, most]) o += text(xa - 9, y(v) + 4, num(v, 2), `class="t" ${END}`);
- });
- el.innerHTML = SVG(W, H, o, "Nanoseconds a pixel with one and four lights");
- bind(el, d => go("methods/" + d.m));
+function corners(mode) {
+	cornerMode = mode;
+	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]), list = studied();
+	slopes("#corners", "Speed of methods in kernels and frames, scalar and SIMD", list.filter(m => oneLight.every(c => ratioIn(m, c))), [oneLight.map(c => ({ name: c.work, note: levelName(c), values: values(c) }))], nameOf, v => v.toFixed(2));
+	const kernels = [true, false].map(scalar => CORNERS.filter(c => c.work === "kernel" && c.scalar === scalar)).filter(pair => pair.length > 1);
+	slopes("#lights", "Nanoseconds a pixel with one and four lights", list.slice(0, 14), kernels.map(pair => pair.map(c => ({ name: levelName(c), note: plural(c.lights, "light"), values: m => ["median_ns", "p25_ns", "p75_ns"].map(k => m.corners[c.i].timing[k] / STUDY.span) }))), shortName, v => num(v, 2), 40);
 }
-const curveName = c => c.engine === "span" ? `${nm(c.method)}, lecture’s form` : nm(c.method), curveHue = c => c.engine === "span" ? "var(--ink3)" : hue(c.method);
+const curveName = c => c.engine === "span" ? "lecture’s form" : nameOf(c.method), curveHue = c => c.engine === "span" ? "var(--ink3)" : hue(c.method);
+/* Times of whole frames against a count of the measured points. */
 function grow(id, keep, count, label) {
- const el = $(id), W = Math.round(el.clientWidth), G = D.scaling, points = G.points.map((p, i) => ({ n: count(p), i, p })).filter(q => keep(q.p)).sort(by(q => q.n));
- if (!W || points.length < 2) return;
- const H = 330, l = 48, r = W < 480 ? 112 : 150, t = 14, b = 44, x = logs(points[0].n, points[points.length - 1].n, l + 8, W - r), ms = (c, q) => c.times[q.i] && c.times[q.i].min_ns / 1e6, v = G.curves.flatMap(c => points.map(q => ms(c, q))).filter(Boolean), y = logs(Math.min(...v) * .85, Math.max(...v) * 1.15, H - b, t);
- let o = "";
- for (const g of logTicks(Math.min(...v) * .85, Math.max(...v) * 1.15, 6)) o += line(l, y(g), W - r + 8, y(g)) + text(l - 6, y(g) + 4, tickText(g) + " ms", `class="t" ${END}`);
- for (const g of logTicks(points[0].n, points[points.length - 1].n, 5)) o += text(x(g), H - b + 18, tickText(g), `class="t" ${MID}`);
- o += text((l + W - r) / 2, H - 6, label, `class="ax" ${MID}`);
- const drawn = G.curves.map(c => points.filter(q => ms(c, q))), ends = drawn.map(q => q[q.length - 1]), labels = spread(G.curves.map((c, i) => y(ms(c, ends[i]))), 16, t, H - b);
- G.curves.forEach((c, i) => {
-  const colour = curveHue(c), name = c.engine === "span" ? "lecture’s form" : nm(c.method);
-  o += `<path d="M${drawn[i].map(q => x(q.n).toFixed(1) + " " + y(ms(c, q)).toFixed(1)).join("L")}" fill="none" stroke="${colour}" stroke-width="2"${c.engine === "span" ? ' stroke-dasharray="5 4"' : ""}/>${drawn[i].map(q => `<circle cx="${x(q.n)}" cy="${y(ms(c, q))}" r="3" fill="${colour}"><title>${esc(curveName(c))}: ${num(ms(c, q))} ms</title></circle>`).join("")}${text(x(ends[i].n) + 9, labels[i] + 4, esc(name), 'class="halo label" style="font-size:12px"')}`;
- });
- el.innerHTML = SVG(W, H, o, label);
+	const el = $(id), W = widthOf(el), { points, curves: all } = D.scaling, chosen = points.map((p, i) => ({ ...p, i, n: count(p) })).filter(p => !p.away && keep(p)).sort(by(p => p.n));
+	if (!W || chosen.length < 2) return;
+	const series = all.map(c => ({
+		method: c.method, name: curveName(c), colour: curveHue(c), kind: c.engine === "span" ? "dash1" : "", tip: curveName(c), points: chosen.filter(p => c.times[p.i]).map(p => [p.n, c.times[p.i].min_ns / 1e6]),
+	})).filter(s => s.points.length);
+	const ms = series.flatMap(s => s.points.map(p => p[1])), l = 48, r = W - (W < 480 ? 112 : 150), b = 286;
+	const x = scale(true, chosen[0].n, chosen[chosen.length - 1].n, l + 8, r), y = scale(true, Math.min(...ms) * .85, Math.max(...ms) * 1.15, b, 14);
+	el.innerHTML = svg(W, 330, `Time of a frame by ${label}`, [axisY(y, l, r + 8, y.ticks(40), " ms"), axisX(x, b, x.ticks(70)), text((l + r) / 2, 324, label, "axis mid"), curves(x, y, series)]);
 }
+const COSTS = [["vertex_ns", "vertex"], ["triangle_ns", "triangle"], ["span_ns", "span"], ["pixel_ns", "pixel of a span"], ["background_ns", "pixel of the picture"]];
 function costs() {
- const curves = D.scaling.curves.filter(c => c.costs), kinds = [["vertex_ns", "vertex"], ["triangle_ns", "triangle"], ["span_ns", "span"], ["pixel_ns", "pixel of a span"], ["background_ns", "pixel of the picture"]];
- const row = (c, most, k) => `<div class="cost" title="${esc(curveName(c))}"><span><i style="width:${Math.max(1, c.costs[k] / most * 100)}%;background:${curveHue(c)}"></i></span><span>${num(c.costs[k], 2)}</span></div>`;
- $("#costs").innerHTML = `<div class="names"><b>&nbsp;</b>${curves.map(c => `<div>${esc(c.engine === "span" ? "lecture’s form" : nm(c.method))}</div>`).join("")}</div>${kinds.map(([k, n]) => `<div><b>${n}</b>${curves.map(c => row(c, Math.max(...curves.map(c => c.costs[k])) || 1, k)).join("")}</div>`).join("")}`;
- const base = curves.find(c => c.method === BASE && c.engine !== "span"), fitted = curves.find(c => c !== base && c.costs);
- const even = base ? curves.filter(c => c.method !== BASE && c.engine === base.engine).map(c => {
-  const saves = base.costs.pixel_ns - c.costs.pixel_ns, more = c.costs.span_ns - base.costs.span_ns;
-  return `${nm(c.method)} ${saves <= 0 ? "saves nothing a pixel" : more <= 0 ? "is cheaper from the first pixel of a span" : `from ${num(more / saves, 2)} pixels a span`}`;
- }) : [];
- const worst = Math.max(...curves.map(c => Math.abs(c.costs.worst)));
- $("#breakeven").textContent = even.length ? `Break-even with ${nm(BASE)} by these costs: ${even.join("; ")}. The largest misfit of a time is ${(worst * 100).toFixed(0)} %.` : fitted ? `The largest misfit of a time is ${(worst * 100).toFixed(0)} %.` : "";
+	const list = D.scaling.curves.filter(c => c.costs), most = k => Math.max(...list.map(c => c.costs[k])) || 1, base = list.find(c => c.method === BASE && c.engine !== "span");
+	$("#costs").innerHTML = table(["", ...COSTS.map(([, name]) => name)], list.map(c => [curveName(c), ...COSTS.map(([k]) => bar(num(c.costs[k], 2), Math.max(1, c.costs[k] / most(k) * 100), curveHue(c)))]));
+	const even = list.filter(c => base && c.method !== BASE && c.engine === base.engine).map(c => {
+		const saved = base.costs.pixel_ns - c.costs.pixel_ns, more = c.costs.span_ns - base.costs.span_ns;
+		return `${nameOf(c.method)} ${saved <= 0 ? "saves nothing a pixel" : more <= 0 ? "is always cheaper" : `from ${num(more / saved, 2)} pixels a span`}`;
+	});
+	write({ breakeven: list.length ? `${even.length ? `Break-even with ${nameOf(BASE)}: ${even.join("; ")}. ` : ""}The largest misfit of a time is ${(Math.max(...list.map(c => Math.abs(c.costs.worst))) * 100).toFixed(0)} %.` : "" });
 }
-let besideScene = "";
 /* Documents side by side: a column each, the processor as its head. */
 function beside() {
- const names = [...new Set(DOCS.flatMap(d => d.comparisons.map(c => c.name)))], pick = $("#beside-scene"), all = "all scenes they share";
- if (!pick.options.length) { pick.innerHTML = [...(names.length > 1 ? [""] : []), ...names].map(n => `<option value="${esc(n)}">${esc(n || all)}</option>`).join(""); besideScene = pick.value; pick.onchange = () => { besideScene = pick.value; beside(); }; }
- const shared = besideScene ? [besideScene] : names.filter(n => DOCS.every(d => d.comparisons.some(c => c.name === n)));
- const cell = (d, m) => { const rows = shared.map(n => d.comparisons.find(c => c.name === n)?.rows.find(r => r.variant === m)); if (!rows.length || rows.some(r => !r?.speed)) return null; return { ms: geo(rows.map(r => r.speed.timing.median_ns / 1e6)), ratio: geo(rows.map(r => r.speed.ratio_to_naive?.median ?? 1)), max: Math.max(...rows.map(r => r.error.max * 255)) }; };
- const variants = [...new Set(DOCS.flatMap(d => d.comparisons.flatMap(c => c.rows.map(r => r.variant))))];
- $("#beside").innerHTML = `<table class="data"><thead><tr><th scope="col">method</th>${DOCS.map(d => `<th scope="col" title="${esc(d.machine.rustc)}">${esc(d.machine.cpu)}<br><small>${esc([d.machine.version, d.machine.commit?.slice(0, 9), d.date].filter(Boolean).join(" · "))}</small></th>`).join("")}</tr></thead><tbody>${variants.map(m => `<tr><th scope="row"><span class="mname">${mark(m)}${esc(nm(m))}</span></th>${DOCS.map(d => { const q = cell(d, m); return `<td>${q ? `${num(q.ms)} ms · ${q.ratio.toFixed(2)}${X} · ${num(q.max)} levels` : "–"}</td>`; }).join("")}</tr>`).join("")}</tbody></table>`;
+	const names = [...new Set(DOCS.flatMap(d => d.comparisons.map(c => c.name)))], pick = $("#beside-scene"), rowsOf = (d, name) => d.comparisons.find(c => c.name === name)?.rows;
+	if (!pick.options.length) pick.innerHTML = html`${[...(names.length > 1 ? [""] : []), ...names].map(n => html`<option value="${n}">${n || "all scenes they share"}</option>`)}`;
+	pick.onchange = beside;
+	const shared = pick.value ? [pick.value] : names.filter(n => DOCS.every(d => rowsOf(d, n)));
+	const cell = (d, m) => {
+		const rows = shared.map(n => rowsOf(d, n)?.find(r => r.variant === m));
+		if (!rows.length || rows.some(r => !r?.speed)) return "–";
+		return `${num(mean(rows.map(r => r.speed.timing.median_ns / 1e6)))} ms · ${mean(rows.map(r => r.speed.ratio_to_naive?.median ?? 1)).toFixed(2)}${TIMES} · ${num(Math.max(...rows.map(r => r.error.max * 255)))} levels`;
+	};
+	const heads = DOCS.map(({ machine, date }) => html`${machine.cpu}<br><small>${[machine.version, machine.commit?.slice(0, 9), date].filter(Boolean).join(" · ")}</small>`);
+	const variants = [...new Set(DOCS.flatMap(d => d.comparisons.flatMap(c => c.rows.map(r => r.variant))))];
+	$("#beside").innerHTML = table(["method", ...heads], variants.map(m => [html`<span class="name">${mark(m)}${nameOf(m)}</span>`, ...DOCS.map(d => cell(d, m))]));
 }
 function speed() {
- const show = (id, on) => { $(id).hidden = !on; };
- show("#speed-corners", STUDY);
- show("#speed-growth", D.scaling);
- show("#speed-beside", DOCS.length > 1);
- show("#speed-none", !STUDY && !D.scaling);
- show("#speed-answer", STUDY);
- if (STUDY) {
-  const places = STUDY.corners.map((c, i) => [c, i]).filter(q => q[0].lights === 1), phrase = ([c, i]) => {
-   const same = STUDY.methods.filter(m => m.levels_off <= 1 && m.corners[i].ratio_to_naive).sort((p, q) => q.corners[i].ratio_to_naive.median - p.corners[i].ratio_to_naive.median)[0], fast = STUDY.methods.find(m => m.method === "fast-phong")?.corners[i].ratio_to_naive;
-   return same && `${cornerName(c).reverse().join(" ")}s: ${nm(same.method)} ${same.corners[i].ratio_to_naive.median.toFixed(2)}${X}${fast && same.method !== "fast-phong" ? `, fast Phong ${fast.median.toFixed(2)}${X}` : ""}`;
-  };
-  $("#speed-answer").textContent = `Fastest with naive Phong’s picture, and the lecture’s fast Phong beside it — ${places.map(phrase).filter(Boolean).join("; ")}.`;
-  $("#corners-sub").textContent = `Speed as a multiple of naive Phong’s in the same corner; whiskers are 95 % intervals. Spans of ${grouped(STUDY.span)} pixels; frames of ${STUDY.mesh}, ${STUDY.size.join(" × ")}.`;
-  $("#lights-sub").textContent = `A span of ${grouped(STUDY.span)} pixels, ns a pixel; less is better. Bars: middle half of the samples.`;
-  if (!$("#corner-mode").children.length) segments($("#corner-mode"), [["same", "Same picture"], ["all", "All"]], () => cornerMode, k => { cornerMode = k; corners(); lights(); });
-  corners();
-  lights();
- }
- if (D.scaling) {
-  const G = D.scaling, at = G.at;
-  grow("#grow-triangles", p => !p.away && p.size.join() === at.join(), p => p.triangles, `triangles, at ${at.join(" × ")}`);
-  grow("#grow-pixels", p => !p.away && p.asked === G.of, p => p.pixels, `covered pixels, about ${grouped(G.of)} triangles`);
-  costs();
- }
- if (DOCS.length > 1) beside();
+	if (STUDY) {
+		const lecture = STUDY.methods.find(m => m.method === "fast-phong"), entry = (m, c) => ratioIn(m, c) ? html`${nameOf(m.method)} <b>${ratioText(ratioIn(m, c))}</b>` : "–";
+		$("#speed-summary").innerHTML = table(["", ...oneLight.map(c => `${levelName(c)} ${c.work}`)], [["fastest with naive Phong’s picture", ...oneLight.map(c => entry(fastest(c), c))], ["the lecture’s fast Phong", ...oneLight.map(c => entry(lecture, c))]]);
+		write({ "study-span": grouped(STUDY.span), "study-frame": `${STUDY.mesh}, ${STUDY.size.join(" × ")}` });
+		segments($("#corner-mode"), () => cornerMode, corners);
+		corners(cornerMode);
+	}
+	const growth = D.scaling;
+	if (growth) {
+		grow("#grow-triangles", p => p.size.join() === growth.at.join(), p => p.triangles, `triangles, at ${growth.at.join(" × ")}`);
+		grow("#grow-pixels", p => p.asked === growth.of, p => p.pixels, `covered pixels, about ${grouped(growth.of)} triangles`);
+		costs();
+	}
+	if (DOCS.length > 1) beside();
 }
 
 /* ---------- lectures */
-const SIGN = { confirms: "✓", contradicts: "✗", adds: "+" };
-const figurePictures = () => memo("figures", () => JSON.parse($("#figure-pictures").textContent));
-const chip = (k, t) => `<span class="chip ${k}">${SIGN[k]} ${t}</span>`;
-const chips = (f, named) => `<span class="chips">${VERDICTS.map(k => [k, f.findings.filter(x => x.agreement === k).length]).filter(q => q[1]).map(([k, n]) => chip(k, n + (named ? " " + k : ""))).join("")}</span>`;
-function findingValue(x) {
- const size = Math.abs(x.value), power = size !== 0 && (size < .001 || size >= 1e6);
- const shown = power ? (([m, e]) => `${m}·10<sup>${+e}</sup>`.replace("-", "−"))(x.value.toExponential(1).split("e")) : String(+x.value.toPrecision(4));
- return shown + (x.unit ? " " + esc(x.unit) : "");
+const figurePictures = f => memo("figures", () => JSON.parse($("#figure-pictures").textContent))[FIGURES.indexOf(f)] ?? [];
+const chips = (f, named) => html`<span class="chips">${counts(f.findings).map(([k, n]) => chip(k, n + (named ? " " + k : "")))}</span>`;
+const topic = f => f.title.split(":")[0];
+function findingValue({ value, unit }) {
+	const size = Math.abs(value), [digits, power] = value.toExponential(1).replace(/-/g, "−").replace("+", "").split("e");
+	return html`${size && (size < .001 || size >= 1e6) ? html`${digits}·10<sup>${power}</sup>` : +value.toPrecision(4)} ${unit}`;
 }
-const where = f => `<a href="#lectures/${f.name}">${esc(f.title.split(":")[0])}</a><span class="where">${esc(f.lecture)}</span>`;
-const findingTable = (list, named) => `<div class="scroll" tabindex="0" role="region" aria-label="Findings"><table class="data flist"><thead><tr>${named ? '<th scope="col">where</th>' : ""}<th scope="col">measured</th><th scope="col">value</th><th scope="col">verdict</th><th scope="col">in words</th></tr></thead><tbody>${list.map(x => `<tr>${named ? `<td>${where(x.f)}</td>` : ""}<td>${esc(x.label)}</td><td class="num" title="${x.value}">${findingValue(x)}</td><td>${chip(x.agreement, x.agreement)}</td><td>${esc(x.verdict)}</td></tr>`).join("")}</tbody></table></div>`;
-function wrongTable() {
- const wrong = FINDINGS.filter(x => x.agreement === "contradicts");
- return `<p class="answer2">${wrong.length} measurements disagree with what is printed, most under conditions that the text does not name.</p><div class="scroll" tabindex="0" role="region" aria-label="Where the lectures are wrong"><table class="data flist"><thead><tr><th scope="col">the lecture</th><th scope="col">what it turns out to be</th><th scope="col">measured</th><th scope="col">value</th></tr></thead><tbody>${wrong.map((x, i) => { const n = wrong.filter(o => o.f === x.f).length; return `<tr>${wrong[i - 1]?.f === x.f ? "" : `<td rowspan="${n}">${where(x.f)}</td>`}<td>${esc(x.verdict)}</td><td>${esc(x.label)}</td><td class="num">${findingValue(x)}</td></tr>`; }).join("")}</tbody></table></div>`;
+const findingTable = (list, where) => scrolling("Findings", table([where && "figure", "finding", "measured", "value", "verdict"].filter(Boolean), list.map(x => [
+	...(where ? [html`<a href="#lectures/${x.figure.name}">${topic(x.figure)}</a><small>${x.figure.lecture}</small>`] : []), x.verdict, x.label, html`<span title="${x.value}">${findingValue(x)}</span>`, chip(x.agreement, x.agreement),
+]), "findings" + (where ? " where" : "")));
+const PLOT_HUES = ["--base", "--h3", "--h2", "--h4", "--h1", "--h5"];
+/* Curves over one another, on axes unless the chart is a small one. */
+function plot(p, W, H) {
+	const small = H < 150, series = p.series.map((s, i) => ({ ...keyed(s, i), points: s.points.filter(q => q.every(v => v != null && isFinite(v))) })), [l, r, t, b] = small ? [4, W - 4, 6, H - 6] : [52, W - 12, 22, H - 42];
+	const axis = (values, [, kind], from, to) => {
+		const log = kind === "log", list = values.filter(v => isFinite(v) && (!log || v > 0)), low = Math.min(...list), high = Math.max(...list);
+		return low < high ? scale(log, low, high, from, to) : scale(log, low / 2 || -.5, low * 2 || .5, from, to);
+	};
+	const points = series.flatMap(s => s.points), x = axis([...points.map(q => q[0]), ...p.marks], p.x, l, r), y = axis(points.map(q => q[1]), p.y, b, t), at = ([u, v]) => [x(clamp(u, x.low, x.high)), y(clamp(v, y.low, y.high))];
+	const axes = small ? [] : [axisY(y, l, r, y.ticks(32)), axisX(x, b, x.ticks(60)), text((l + r) / 2, H - 6, p.x[0], "axis mid"), text(2, 12, p.y[0], "axis")];
+	return svg(W, H, `${p.title}: ${p.series.map(s => s.label).join(", ")}`, [axes, p.marks.map(m => line(x(m), t, x(m), b, "dots")), series.map(s => html`<g style="color:${s.colour}">${curve(s.points.map(at), s.kind)}</g>`)]);
 }
-/* Curves over one another; labels at their ends, or below where there is no room. */
-function plotSVG(p, W, small) {
- const series = p.series.map(s => ({ ...s, points: s.points.filter(([x, y]) => x != null && y != null && isFinite(x) && isFinite(y)) })), H = small ? 112 : 300, l = small ? 4 : 52, r = small ? 4 : 12, t = small ? 6 : 22, b = small ? 6 : 42;
- const axis = (values, [, scale], from, to) => {
-  let v = values.filter(isFinite);
-  const log = scale === "log";
-  if (log) v = v.filter(q => q > 0);
-  if (!v.length) v = [1, 2];
-  let [a, z] = [Math.min(...v), Math.max(...v)];
-  if (a === z) [a, z] = log ? [a / 2, z * 2] : [a - .5, z + .5];
-  const f = log ? logs(a, z, from, to) : lin(a, z, from, to);
-  return { f: q => clamp(f(log ? Math.max(q, a) : q), Math.min(from, to), Math.max(from, to)), ticks: log ? logTicks(a, z, 6) : linTicks(a, z, 6) };
- };
- const all = series.flatMap(s => s.points), x = axis(all.map(q => q[0]).concat(p.marks), p.x, l, W - r), y = axis(all.map(q => q[1]), p.y, H - b, t);
- const DASH = ["", "7 3", "2 2", "9 3 2 3", "4 4", "1 3"], colour = i => ["var(--base)", "var(--h3)", "var(--h2)", "var(--h4)", "var(--h1)", "var(--h5)"][i % 6];
- let o = "";
- if (!small) {
-  for (const g of y.ticks) o += line(l, y.f(g), W - r, y.f(g)) + text(l - 6, y.f(g) + 4, tickText(g), `class="t" ${END}`);
-  for (const g of x.ticks) o += text(x.f(g), H - b + 17, tickText(g), `class="t" ${MID}`);
-  o += text((l + W - r) / 2, H - 6, esc(p.x[0]), `class="ax" ${MID}`) + text(2, 12, esc(p.y[0]), 'class="ax"');
- }
- for (const m of p.marks) o += line(x.f(m), t, x.f(m), H - b, 'stroke="var(--ink3)" stroke-dasharray="2 3"');
- series.forEach((s, i) => { o += `<path d="M${s.points.map(q => x.f(q[0]).toFixed(1) + " " + y.f(q[1]).toFixed(1)).join("L")}" fill="none" stroke="${colour(i)}" stroke-width="${small ? 1.5 : 1.75}"${DASH[i % 6] ? ` stroke-dasharray="${DASH[i % 6]}"` : ""}/>`; });
- const legend = small ? "" : `<div class="legend">${series.map((s, i) => `<span><svg width="26" height="8" aria-hidden="true">${line(0, 4, 26, 4, `stroke="${colour(i)}" stroke-width="2"${DASH[i % 6] ? ` stroke-dasharray="${DASH[i % 6]}"` : ""}`)}</svg> ${esc(s.label)}</span>`).join("")}</div>`;
- return SVG(W, H, o, `${p.title}: ${p.series.map(s => s.label).join(", ")}`) + legend;
-}
+const keyed = (s, i) => ({ colour: `var(${PLOT_HUES[i % 6]})`, kind: `dash${i % 6}`, ...s });
+const legend = series => html`<div class="legend">${series.map(keyed).map(s => html`<span style="color:${s.colour}"><svg width="26" height="8" aria-hidden="true">${curve([[0, 4], [26, 4]], s.kind)}</svg><span>${s.label}</span></span>`)}</div>`;
+/* The blocks of a figure. */
 function figureBody(f) {
- const files = [...figurePictures()[FIGURES.indexOf(f)] ?? []];
- const block = ([kind, b]) => {
-  if (kind === "text") return `<p>${esc(b)}</p>`;
-  if (kind === "table") return `<div class="plain scroll" tabindex="0" role="region" aria-label="${esc(f.title)}"><table><thead><tr>${b.head.map(h => `<th scope="col">${esc(h)}</th>`).join("")}</tr></thead><tbody>${b.rows.map(r => `<tr>${r.map((c, i) => i ? `<td>${esc(c)}</td>` : `<th scope="row">${esc(c)}</th>`).join("")}</tr>`).join("")}</tbody></table></div>`;
-  if (kind === "plot") return `<figure class="plot"><h4>${esc(b.title)}</h4><div class="chartbox" data-plot="${f.blocks.findIndex(q => q.plot === b)}"></div><figcaption>${esc(b.caption)}</figcaption></figure>`;
-  return `<div class="shown" style="--columns:${clamp(b.columns, 1, 6)};--widest:1fr">${b.shown.map(p => `<figure><img src="${files.shift() ?? ""}" alt="${esc(p.alt)}"><figcaption>${esc(p.caption)}</figcaption></figure>`).join("")}</div>`;
- };
- let html = "", plots = "";
- const flush = () => { if (plots) html += `<div class="plots">${plots}</div>`; plots = ""; };
- for (const b of f.blocks.map(b => Object.entries(b)[0])) { if (b[0] === "plot") plots += block(b); else { flush(); html += block(b); } }
- flush();
- return html;
+	const files = [...figurePictures(f)];
+	const show = {
+		text: b => html`<p>${b}</p>`,
+		table: b => scrolling(f.title, table(b.head, b.rows, "plain")),
+		plot: (b, at) => html`<figure class="plot"><h3>${b.title}</h3><div class="chartbox" data-plot="${at}"></div><figcaption>${b.caption}</figcaption></figure>`,
+		pictures: b => html`<div class="shown" style="--columns:${clamp(b.columns, 1, 6)}">${b.shown.map(p => html`<figure><img src="${files.shift()}" alt="${p.alt}"><figcaption>${p.caption}</figcaption></figure>`)}</div>`,
+	};
+	return f.blocks.map((block, at) => {
+		const [[kind, content]] = Object.entries(block);
+		return show[kind](content, at);
+	});
 }
-function lectures([sub]) {
- const body = $("#lecture-body"), tabs = [["", plural(FIGURES.length, "figure")], ["wrong", "Where the lectures are wrong"], ["all", `All ${FINDINGS.length} findings`]], tab = ["wrong", "all"].includes(sub) ? sub : "";
- if (!FIGURES.length) { body.innerHTML = '<p class="answer2">No figures are in this report (<code>--figures all</code>).</p>'; return; }
- segments($("#lecture-tabs"), tabs, () => sub && !tab ? null : tab, k => go("lectures" + (k ? "/" + k : "")));
- const f = FIGURES.find(q => q.name === sub) ?? (FIGURES.length === 1 ? FIGURES[0] : null);
- if (tab === "wrong") body.innerHTML = wrongTable();
- else if (tab === "all") body.innerHTML = findingTable(FINDINGS, true);
- else if (!f) {
-  body.innerHTML = `<div class="gal">${FIGURES.map(q => `<a class="fcard" href="#lectures/${q.name}"><span class="th"></span><span class="tx"><b>${esc(q.title)}</b><small>${esc(q.lecture)}</small>${chips(q)}</span></a>`).join("")}</div>`;
-  $$(".fcard", body).forEach((c, i) => {
-   const th = $(".th", c), plot = FIGURES[i].blocks.find(b => b.plot)?.plot, shown = FIGURES[i].blocks.flatMap(b => b.pictures?.shown ?? []), files = figurePictures()[i] ?? [];
-   if (!files.length) { th.classList.add("fig"); th.innerHTML = plot ? plotSVG(plot, 260, true) : ""; return; }
-   files.slice(0, 3).forEach((src, n) => { const img = new Image(); img.alt = shown[n]?.alt ?? ""; img.src = src; img.decoding = "async"; th.append(img); });
-   const first = $("img", th);
-   first.decode().then(() => { const a = first.naturalWidth / first.naturalHeight, n = Math.min(files.length, 3); th.style.gridTemplateColumns = a > 3 ? "1fr" : `repeat(${n},1fr)`; if (first.naturalWidth < 60 && a > 4.5 && plot) { th.classList.add("fig"); th.innerHTML = plotSVG(plot, 260, true); } }).catch(() => {});
-  });
- } else {
-  body.innerHTML = `<div class="md">${FIGURES.length > 1 ? `<nav class="list" aria-label="Figures">${FIGURES.map(q => `<a href="#lectures/${q.name}"${q === f ? ' aria-current="true"' : ""}><span>${esc(q.title.split(":")[0])}</span>${q.findings.some(x => x.agreement === "contradicts") ? '<span class="chip contradicts" title="contradicts">✗</span>' : ""}</a>`).join("")}</nav>` : ""}<article class="fig"><h2 class="ft">${esc(f.title)}</h2><p class="facts">${esc(f.lecture)}</p>${chips(f, true)}<div class="body">${figureBody(f)}</div><h3>Findings</h3>${findingTable(f.findings)}</article></div>`;
-  const current = $(".list [aria-current]", body);
-  if (current) current.parentElement.scrollTop = current.offsetTop - current.parentElement.offsetTop - 120;
-  plots(f);
- }
+function drawPlots(f) { $$("[data-plot]").forEach(el => { 
+	const { plot: p } = f.blocks[el.dataset.plot];
+	el.innerHTML = html`${plot(p, widthOf(el) || 460, 300)}${legend(p.series)}`;
+});  }
+/* A figure in the gallery: its first pictures, or its first plot. */
+function preview(f) {
+	const first = f.blocks.find(b => b.plot)?.plot, shown = f.blocks.flatMap(b => b.pictures?.shown ?? []), files = figurePictures(f).slice(0, 3);
+	return files.length ? files.map((src, i) => html`<img src="${src}" alt="${shown[i].alt}">`) : first && plot(first, 260, 112);
 }
-function plots(f) {
- $$("[data-plot]").forEach(el => { el.innerHTML = plotSVG(f.blocks[el.dataset.plot].plot, Math.round(el.clientWidth) || 460); });
+function lectures([part = ""]) {
+	const body = $("#lecture-body"), lists = { wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS }, list = lists[part];
+	segments($("#lecture-tabs"), () => part, key => go(key ? "lectures/" + key : "lectures"));
+	const f = FIGURES.find(q => q.name === part) ?? (FIGURES.length === 1 ? FIGURES[0] : null);
+	if (list) body.innerHTML = html`${part === "wrong" && html`<p class="lead">${list.length} measurements disagree with what is printed, most under conditions that the text does not name.</p>`}${findingTable(list, true)}`;
+	else if (f) {
+		const links = html`<nav class="list" aria-label="Figures">${FIGURES.map(q => html`<a href="#lectures/${q.name}" ${q === f && html`aria-current="true"`}><span>${topic(q)}</span>${q.findings.some(x => x.agreement === "contradicts") && html`<span class="chip contradicts" title="contradicts">✗</span>`}</a>`)}</nav>`;
+		body.innerHTML = html`<div class="${FIGURES.length > 1 ? "detail" : ""}">${FIGURES.length > 1 && links}<article class="fig"><h2>${f.title}</h2><p class="facts">${f.lecture}</p>${chips(f, true)}${figureBody(f)}<h3>Findings</h3>${findingTable(f.findings)}</article></div>`;
+		$(".list [aria-current]", body)?.scrollIntoView({ block: "nearest", inline: "center" });
+		drawPlots(f);
+	} else {
+		body.innerHTML = html`<div class="gallery">${FIGURES.map(q => html`<a class="fcard" href="#lectures/${q.name}"><span class="preview">${preview(q)}</span><span class="tx"><b>${q.title}</b><small>${q.lecture}</small>${chips(q)}</span></a>`)}</div>`;
+	}
 }
 
 /* ---------- how measured */
-const command = D.command_line.map(w => /^[\w\-./:=,+@%]+$/.test(w) ? w : `'${w.replace(/'/g, "'\\''")}'`).join(" ");
+const quoted = w => /^[\w\-./:=,+@%]+$/.test(w) ? w : `'${w.replace(/'/g, "'\\''")}'`;
 function measured() {
- const el = $("#rounds"), W = Math.round(el.clientWidth) || 500, ms = chosen(4), widths = ms.map(m => clamp(10 + 14 / (M[m].speed ?? 1), 10, 40)), total = 3 * (sum(widths) + 6) + 40, k = (W - 6) / total;
- let o = "", x = 0;
- if (ms.length > 1) {
-  for (let round = 0; round < 3; round++) {
-   o += text(x * k, 12, `round ${round + 1}`, 'class="t"');
-   const order = ms.map((_, i) => (i + (round >> 1)) % ms.length);
-   for (const i of round & 1 ? order.reverse() : order) { o += `<rect x="${x * k}" y="20" width="${Math.max(1, widths[i] * k - 2)}" height="20" rx="3" fill="${hue(ms[i])}"><title>${esc(nm(ms[i]))}</title></rect>`; x += widths[i]; }
-   x += 6;
-  }
-  el.innerHTML = SVG(W, 48, o + text(x * k, 34, "… at least 5", 'class="t"'), "Rounds: the methods take turns");
- }
- const rounds = SCENES.flatMap(s => Object.values(s.rows).map(q => q.rounds)).filter(Boolean), m = D.machine, scene = SCENES[0];
- const rows = [["processor", m.cpu], ["logical processors", m.cores], ["system", `${m.os} ${m.arch}`], ["compiled by", `${m.rustc}, ${m.profile}, opt-level ${m.opt_level}`], ["for", m.target_features.join(", ")], ["fastphong", m.version + (m.commit ? `, commit ${m.commit}` : "")], ["date", D.date], ["whole run", D.seconds && `${num(D.seconds)} s`], ["rounds", rounds.length && `${Math.min(...rounds)} to ${Math.max(...rounds)} of every method in a scene`], ["drawn by", scene && `the ${scene.renderer.engine} engine, ${scene.renderer.level}, ${plural(scene.renderer.threads, "thread")}`], ["command", `<code>${esc(command)}</code>`]];
- $("#machine").innerHTML = rows.filter(r => r[1]).map(([t, v]) => `<dt>${t}</dt><dd class="over-v">${t === "command" ? v : esc(v)}</dd>`).join("") + (D.beside || []).map((d, i) => `<dt>beside it, ${i + 1}</dt><dd>${esc(d.machine.cpu)}, ${esc(d.machine.os)} ${esc(d.machine.arch)}; ${esc(d.machine.rustc)}; fastphong ${esc(d.machine.version)}${d.machine.commit ? ", " + esc(d.machine.commit) : ""}</dd>`).join("");
- $("#timed").textContent = `Timed: ${D.timed}. Compared: ${D.compared}.`;
- const spreads = SCENES.flatMap(s => Object.values(s.rows)).filter(q => q.p75).map(q => (q.p75 - q.p25) / q.ms).sort(by(v => v)), typical = spreads[spreads.length >> 1];
- const bias = [
-  m.profile !== "release" && "<b>Built without optimisation: the times say nothing of the methods.</b>",
-  !TIMED && "No times were taken: this report tells of errors only.",
-  typical != null && `The middle half of the samples of a time typically spreads over ${num(typical * 100, 2)} % of it${typical > .1 ? ": the machine was busy with other things, and what intervals cannot tell apart should be measured again on a quiet one" : ""}.`,
-  TIMED && `Scenes are drawn and timed at the size that is shown${MANY ? "; the first three were given more rounds than the others" : ""}.`,
-  SCENES.some(s => Object.values(s.rows).some(q => q.other)) && "Pixels at which a method shows another polygon than the reference are counted and left out of its error: their colours tell of depth, not of shading.",
-  SCENES.some(s => s.encoding === "srgb") && "Scenes stored as sRGB are compared in linear light; their pictures are shown as stored.",
-  D.scaling && "Growth is explained by least times, since points cannot be timed in turns with one another; all else by medians.",
- ];
- $("#bias").innerHTML = bias.filter(Boolean).map(t => `<p class="bias-q">${t}</p>`).join("");
- $("#again").textContent = [command, ...(scene ? [`fastphong compare ${/^[\w\-./:=,+@%?&]+$/.test(scene.name) ? scene.name : `'${scene.name}'`} --size ${scene.w}x${scene.h}`] : []), `fastphong explain ${BEST ?? BASE}`].join("\n");
- const stem = "fastphong-report";
- $("#get-json").onclick = () => save(stem + ".json", $("#fastphong-data").textContent, "application/json");
- $("#get-csv").onclick = () => save(stem + ".csv", csv([["scene", "method", "engine", "max, levels", "rms, levels", "p99, levels", "pixels over 1 level", "psnr, dB", "ssim", "ms", "ns a pixel", "speed", "low", "high"], ...SCENES.flatMap(s => Object.values(s.rows).map(q => [s.name, q.variant, q.bary ? BARY : s.renderer.engine, q.max, q.rms, q.p99, q.over1, q.psnr, q.ssim, q.ms, q.ns, ...(q.ratio ?? []).slice(0, 3)]))]), "text/csv");
- $("#get-findings").onclick = () => save("fastphong-findings.csv", csv([["figure", "key", "label", "value", "unit", "agreement", "verdict"], ...FINDINGS.map(x => [x.f.name, x.key, x.label, x.value, x.unit, x.agreement, x.verdict])]), "text/csv");
- $("#get-findings").hidden = !FINDINGS.length;
- $("#get-csv").hidden = !SCENES.length;
+	const command = D.command_line.map(quoted).join(" "), { machine } = D, [scene] = SCENES, rounds = ROWS.map(q => q.rounds).filter(Boolean);
+	const about = ({ cpu, os, arch, rustc, version, commit }) => `${cpu}, ${os} ${arch}; ${rustc}; fastphong ${version}${commit ? `, commit ${commit}` : ""}`;
+	const facts = [
+		["machine", about(machine)], ["logical processors", machine.cores], ["build", `${machine.profile}, opt-level ${machine.opt_level}, ${machine.target_features.join(", ")}`], ["date", D.date], ["whole run", D.seconds && `${num(D.seconds)} s`],
+		["rounds", rounds.length && `${Math.min(...rounds)} to ${Math.max(...rounds)} of every method in a scene`], ["drawn by", scene && `the ${scene.renderer.engine} engine, ${scene.renderer.level}, ${plural(scene.renderer.threads, "thread")}`],
+		["command", html`<code>${command}</code>`], ...DOCS.slice(1).map((d, i) => [`beside it, ${i + 1}`, about(d.machine)]),
+	];
+	const spreads = ROWS.filter(q => q.p75).map(q => (q.p75 - q.p25) / q.ms).sort(by(v => v)), typical = spreads[spreads.length >> 1] ?? 0;
+	$("#busy").hidden = typical < .1;
+	const again = [command, scene && `fastphong compare ${quoted(scene.name)} --size ${scene.w}x${scene.h}`, `fastphong explain ${BEST ?? BASE}`];
+	$("#machine").innerHTML = html`${facts.filter(([, value]) => value).map(([name, value]) => html`<dt>${name}</dt><dd>${value}</dd>`)}`;
+	write({ timed: D.timed, compared: D.compared, typical: num(typical * 100, 2), again: again.filter(Boolean).join("\n") });
+	$("#get-json").onclick = () => save("fastphong-report.json", $("#fastphong-data").textContent, "application/json");
+	$("#get-csv").onclick = () => save("fastphong-report.csv", csv(ROWS.map(({ worst, ratio, barycentric, ...q }) => ({ ...q, x: worst?.[0], y: worst?.[1], speed: ratio?.median, low: ratio?.low, high: ratio?.high, barycentric: barycentric?.median }))), "text/csv");
+	$("#get-findings").onclick = () => save("fastphong-findings.csv", csv(FINDINGS.map(x => ({ ...x, figure: x.figure.name }))), "text/csv");
 }
 
 /* ---------- routes: #view/part?left=…&right=…&mode=…&x=…&y=…&zoom=…&row=… */
-const VIEWS = { overview, scenes, methods, speed, lectures, measured }, TITLES = { overview: "", scenes: "Scenes", methods: "Methods", speed: "Speed", lectures: "Lectures", measured: "How measured" };
-let current = "", remembering, restoring = true;
-const go = h => { clearTimeout(remembering); location.hash = h; };
-/* What an address says of a viewer. */
-function fromRoute(q, v) {
- const o = {}, whole = k => q.has(k) && isFinite(q.get(k)) ? Math.floor(+q.get(k)) : null;
- if (q.get("scene") && S[q.get("scene")]) o.scene = S[q.get("scene")];
- if (q.has("left")) o.a = q.get("left");
- if (q.has("right")) o.b = q.get("right");
- if (MODES.some(m => m[0] === q.get("mode"))) o.mode = q.get("mode");
- else if (q.has("left") || q.has("right")) o.mode = "slide";
- if (q.has("scale")) o.top = +q.get("scale") || 0;
- const s = o.scene ?? v.scene, [x, y] = [whole("x"), whole("y")];
- if (x != null && y != null) { o.pin = [clamp(x, 0, s.w - 1), clamp(y, 0, s.h - 1)]; o.z = clamp(+q.get("zoom") || 1, 1, 32); [o.cx, o.cy] = [(o.pin[0] + .5) / s.w, (o.pin[1] + .5) / s.h]; }
- if (v.row && q.has("row")) o.line = clamp(whole("row") ?? 0, 0, s.h - 1);
- return o;
+const VIEWS = { overview, scenes, methods, speed, lectures, measured };
+let view = "", restoring = true;
+function go(hash) {
+	clearTimeout(timers.remember);
+	location.hash = hash;
+}
+/* Reads the state of a viewer from the query of an address; the viewer mends it. */
+function fromRoute(query, v) {
+	const given = Object.fromEntries(query), whole = key => given[key] && isFinite(given[key]) ? Math.floor(given[key]) : null, s = S[given.scene] ?? v.scene, state = { scene: s };
+	if (given.left) state.a = given.left;
+	if (given.right) state.b = given.right;
+	if (given.left || given.right || given.mode) state.mode = Object.values(MODES).includes(given.mode) ? given.mode : "slide";
+	if (given.scale) state.top = +given.scale || 0;
+	if (whole("x") != null && whole("y") != null) {
+		const pin = [clamp(whole("x"), 0, s.w - 1), clamp(whole("y"), 0, s.h - 1)];
+		Object.assign(state, { pin, z: clamp(+given.zoom || 1, 1, 32), cx: (pin[0] + .5) / s.w, cy: (pin[1] + .5) / s.h });
+	}
+	if (v.row && given.row) state.line = whole("row") ?? 0;
+	return state;
 }
 /* Keeps the address in step with a viewer, so that a link shows what its sender saw. */
 function remember(v) {
- if (restoring) return;
- clearTimeout(remembering);
- remembering = setTimeout(() => {
-  if (current !== (v === v1 ? "overview" : "scenes")) return;
-  const q = new URLSearchParams(), s = v.scene;
-  if (v === v1 && s !== SCENES[0]) q.set("scene", s.id);
-  q.set("left", v.a);
-  q.set("right", v.b);
-  if (v.mode !== "slide") q.set("mode", v.mode);
-  if (v.top) q.set("scale", v.top);
-  if (v.pin) { q.set("x", v.pin[0]); q.set("y", v.pin[1]); if (v.z > 1) q.set("zoom", +v.z.toFixed(1)); }
-  if (v.line != null) q.set("row", v.line);
-  history.replaceState(null, "", `#${v === v1 ? "overview" : "scenes/" + s.id}?${q}`);
- }, 60);
+	if (restoring) return;
+	delay("remember", 60, () => {
+		const own = v === v1 ? "overview" : "scenes", { scene: s, pin } = v;
+		if (view !== own) return;
+		const zoom = pin && v.z > 1 ? v.z.toFixed(1) : null, state = { scene: v === v1 && s !== SCENES[0] ? s.id : null, left: v.a, right: v.b, mode: v.mode === "slide" ? null : v.mode, scale: v.top || null, x: pin?.[0], y: pin?.[1], zoom, row: v.line };
+		history.replaceState(null, "", `#${v === v1 ? own : `scenes/${s.id}`}?${new URLSearchParams(Object.entries(state).filter(([, value]) => value != null))}`);
+	});
 }
 function route(e) {
- clearTimeout(remembering);
- const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?"), [v, ...parts] = path.split("/").map(decodeURIComponent), name = VIEWS[v] ? v : "overview", changed = name !== current;
- current = name;
- restoring = true;
- $$(".view").forEach(s => s.classList.toggle("on", s.id === name));
- $$(".top nav a").forEach(a => {
-  const on = a.hash === "#" + name;
-  if (on) a.setAttribute("aria-current", "page"); else a.removeAttribute("aria-current");
-  if (on && changed) a.scrollIntoView({ block: "nearest", inline: "center" });
- });
- if (changed || name === "lectures") scrollTo(0, 0);
- VIEWS[name](parts.filter(Boolean), new URLSearchParams(query ?? ""));
- restoring = false;
- document.title = `${TITLES[name] ? TITLES[name] + " · " : ""}fastphong: Phong shading, measured`;
-}
-function redraw() {
- if (current === "overview" && v1) { pareto(v1); strip(); }
- if (current === "speed") speed();
- if (current === "measured") measured();
- if (current === "scenes" && v2) rowPlot(v2);
- if (current === "lectures") { const f = FIGURES.find(q => location.hash.endsWith("/" + q.name)) ?? FIGURES[0]; if (f && $("[data-plot]")) plots(f); }
+	clearTimeout(timers.remember);
+	const [path, query] = (e?.newURL ? new URL(e.newURL) : location).hash.slice(1).split("?"), [asked, ...parts] = path.split("/").map(decodeURIComponent), name = VIEWS[asked] && FILLED[asked] ? asked : FILLED.overview ? "overview" : "lectures", changed = name !== view;
+	view = name;
+	restoring = true;
+	$$(".view").forEach(s => s.classList.toggle("on", s.id === name));
+	const link = $(`.top nav a[href="#${name}"]`);
+	$$(".top nav a").forEach(a => { a.ariaCurrent = a === link ? "page" : null; });
+	if (changed) link.scrollIntoView({ block: "nearest", inline: "center" });
+	VIEWS[name](parts.filter(Boolean), new URLSearchParams(query ?? ""));
+	const target = e && document.getElementById("m-" + parts[0]);
+	if (target) target.scrollIntoView();
+	else if (changed || e && name === "lectures") scrollTo(0, 0);
+	restoring = false;
+	document.title = `${name === "overview" ? "" : link.textContent + " · "}fastphong: Phong shading, measured`;
 }
 addEventListener("hashchange", route);
-let resizing;
-addEventListener("resize", () => { clearTimeout(resizing); resizing = setTimeout(redraw, 120); });
+addEventListener("resize", () => delay("resize", 120, route));
 addEventListener("keydown", e => {
- if (e.ctrlKey || e.metaKey || e.altKey || /^(SELECT|INPUT|TEXTAREA)$/.test(e.target.tagName) || $("#keys").open) return;
- if (e.key === "?") { $("#keys").showModal(); return; }
- const v = current === "overview" ? v1 : current === "scenes" ? v2 : null;
- if (!v) return;
- if (current === "scenes" && (e.key === "[" || e.key === "]")) { step(e.key === "]" ? 1 : -1); return; }
- if (e.key === " " && e.target.closest("button,a,summary,.hit")) return;
- if (/^Arrow/.test(e.key) && e.target.closest(".scroll,.rail,nav")) return;
- if (v.key(e)) e.preventDefault();
+	const v = view === "overview" ? v1 : view === "scenes" ? v2 : null, on = e.target;
+	if (e.ctrlKey || e.metaKey || e.altKey || on.matches("select") || $("#keys").open) return;
+	if (e.key === "?") return $("#keys").showModal();
+	if (!v || e.key === " " && on.closest("button,a,.hit")) return;
+	const step = v === v2 && ({ "[": -1, "]": 1 }[e.key] ?? (on.closest(".rail") && { ArrowUp: -1, ArrowLeft: -1, ArrowDown: 1, ArrowRight: 1 }[e.key]));
+	if (step) {
+		e.preventDefault();
+		return stepScene(step);
+	}
+	if (e.key.startsWith("Arrow") && on.closest(".scroll,nav")) return;
+	if (v.key(e)) e.preventDefault();
 });
 $("#help").onclick = () => $("#keys").showModal();
 $("#theme").onclick = () => {
- const r = document.documentElement, dark = r.dataset.theme ? r.dataset.theme === "dark" : matchMedia("(prefers-color-scheme:dark)").matches;
- r.dataset.theme = dark ? "light" : "dark";
- try { localStorage.setItem("fastphong-theme", r.dataset.theme); } catch { /* a file opened from disk may have no storage */ }
+	const { dataset } = ROOT, dark = dataset.theme ? dataset.theme === "dark" : matchMedia("(prefers-color-scheme:dark)").matches;
+	dataset.theme = dark ? "light" : "dark";
+	try { localStorage.setItem("fastphong-theme", dataset.theme); } catch { /* a file opened from disk may have no storage */ }
 };
-$("#big").onclick = e => { e.currentTarget.setAttribute("aria-pressed", document.documentElement.toggleAttribute("data-big")); redraw(); };
+$("#big").onclick = e => {
+	e.currentTarget.ariaPressed = ROOT.toggleAttribute("data-big");
+	route();
+};
 $$(".answer .m").forEach(a => a.style.setProperty("--c", hue(a.dataset.m)));
-$$(".top nav a").forEach(a => {
- const has = { "#scenes": SCENES.length, "#methods": IDS.length, "#speed": STUDY || D.scaling || DOCS.length > 1, "#lectures": FIGURES.length, "#overview": SCENES.length || FIGURES.length > 1 }[a.hash];
- a.hidden = has !== undefined && !has;
-});
+/* Parts of the page that have something to show. */
+const FILLED = {
+	scenes: SCENES.length, methods: IDS.length, lectures: FIGURES.length, findings: FINDINGS.length, overview: SCENES.length || FIGURES.length > 1, speed: STUDY || D.scaling || DOCS.length > 1, study: STUDY, growth: D.scaling,
+	beside: DOCS.length > 1, many: MANY, strip: MANY && chosen(1).length, timed: TIMED, untimed: !TIMED, measured: true, numbers: !PICTURES, debug: D.machine.profile !== "release",
+	srgb: SCENES.some(s => s.encoding === "srgb"), depth: ROWS.some(q => q.other),
+};
+$$("[data-if]").forEach(el => { el.hidden = !FILLED[el.dataset.if]; });
 addEventListener("beforeprint", () => {
- $$(".view").forEach(s => s.classList.add("on"));
- const none = new URLSearchParams();
- if (SCENES.length) { overview([], none); if (!v2) scenes([], none); methods([]); }
- speed();
- if (!$("#lecture-body").children.length) lectures([]);
- measured();
+	$$(".view").forEach(s => s.classList.add("on"));
+	for (const name in VIEWS) if (FILLED[name]) VIEWS[name]([], new URLSearchParams());
 });
-addEventListener("afterprint", () => { current = ""; route(); });
-if (!SCENES.length && FIGURES.length === 1 && !location.hash) history.replaceState(null, "", "#lectures/" + FIGURES[0].name);
+addEventListener("afterprint", () => {
+	view = "";
+	route();
+});
 route();

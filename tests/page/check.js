@@ -21,6 +21,61 @@
     check(`${where}: wider than the window`, document.documentElement.scrollWidth <= innerWidth + 1);
     check(`${where}: a picture without an alternative`, ![...document.images].some(i => !i.hasAttribute("alt")));
   };
+  /* Accessibility of what is seen: contrast of texts, order of headings, names of controls and pictures, focus that shows. */
+  const pen = document.createElement("canvas").getContext("2d", { willReadFrequently: true }), colours = new Map();
+  const rgba = colour => {
+    if (!colours.has(colour)) {
+      pen.clearRect(0, 0, 1, 1);
+      pen.fillStyle = colour;
+      pen.fillRect(0, 0, 1, 1);
+      const [r, g, b, a] = pen.getImageData(0, 0, 1, 1).data;
+      colours.set(colour, [r, g, b, a / 255]);
+    }
+    return colours.get(colour);
+  };
+  const over = (top, under, alpha = top[3]) => [0, 1, 2].map(i => top[i] * alpha + under[i] * (1 - alpha));
+  const luminance = c => [.2126, .7152, .0722].reduce((sum, k, i) => sum + k * (c[i] <= 10.31475 ? c[i] / 3294.6 : ((c[i] / 255 + .055) / 1.055) ** 2.4), 0);
+  const background = el => {
+    if (!el) return [255, 255, 255];
+    const colour = rgba(getComputedStyle(el).backgroundColor);
+    return colour[3] === 1 ? colour.slice(0, 3) : over(colour, background(el.parentElement));
+  };
+  const opacity = el => el ? +getComputedStyle(el).opacity * opacity(el.parentElement) : 1;
+  const seen = el => el.checkVisibility({ visibilityProperty: true }) && el.getClientRects().length;
+  const contrasts = where => {
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    while (walker.nextNode()) {
+      const node = walker.currentNode, el = node.parentElement;
+      if (!node.data.trim() || !seen(el) || el.closest("script, template, noscript, option, .skip, title")) continue;
+      const style = getComputedStyle(el), svg = el.closest("svg text"), halo = svg && style.stroke !== "none";
+      const under = halo ? rgba(style.stroke) : background(el), ink = over(rgba(svg ? style.fill : style.color), under, rgba(svg ? style.fill : style.color)[3] * opacity(el));
+      const [low, high] = [luminance(ink), luminance(under)].sort((a, b) => a - b), ratio = (high + .05) / (low + .05);
+      count++;
+      if (ratio < 4.5) failed.push(`${where}: contrast ${ratio.toFixed(2)} of "${node.data.trim().slice(0, 30)}" (${el.tagName}.${el.getAttribute("class") ?? ""})`);
+    }
+  };
+  const accessible = where => {
+    const { dataset } = document.documentElement, before = dataset.theme;
+    for (const theme of ["light", "dark"]) {
+      dataset.theme = theme;
+      contrasts(`${where}, ${theme}`);
+    }
+    if (before) dataset.theme = before; else delete dataset.theme;
+    const headings = [...document.querySelectorAll("h1, h2, h3, h4, h5, h6")].filter(seen).map(h => +h.tagName[1]);
+    check(`${where}: one first heading`, headings[0] === 1 && headings.filter(h => h === 1).length === 1);
+    check(`${where}: no heading skips a level: ${headings}`, headings.every((h, i) => !i || h <= headings[i - 1] + 1));
+    const named = el => (el.getAttribute("aria-label") ?? document.getElementById(el.getAttribute("aria-labelledby"))?.textContent ?? el.getAttribute("title") ?? el.getAttribute("alt") ?? (el.labels?.[0] ?? el).textContent ?? "").trim();
+    for (const el of document.querySelectorAll("button, a, select, img, [role]")) if (seen(el) && !el.closest("[aria-hidden=true]")) check(`${where}: no name for ${el.outerHTML.slice(0, 80)}`, /[\p{L}\d]/u.test(named(el)) || el.getAttribute("alt") === "");
+    for (const el of document.querySelectorAll("canvas, svg")) if (seen(el)) check(`${where}: neither named nor hidden: ${el.outerHTML.slice(0, 80)}`, el.closest("[aria-hidden=true]") || named(el));
+    const controls = [...document.querySelectorAll("button, a[href], select, summary, [tabindex], .hit")].filter(el => seen(el) && el.tabIndex >= 0);
+    for (const el of controls) {
+      el.focus({ preventScroll: true });
+      const shown = [el, el.parentElement, ...el.children].some(e => getComputedStyle(e).outlineStyle !== "none" && getComputedStyle(e).outlineWidth !== "0px");
+      check(`${where}: the focus does not show on ${el.outerHTML.slice(0, 80)}`, document.activeElement === el && shown);
+    }
+    for (const el of document.querySelectorAll(".view.on :is(.hit, [role=button], .scroll, pre)")) if (seen(el)) check(`${where}: not reached by Tab: ${el.outerHTML.slice(0, 60)}`, el.tabIndex === 0 || el.matches("a"));
+    document.activeElement.blur();
+  };
   const link = async (what, hash, is) => { await visit("measured"); await visit(hash); await until(what, is); };
   try {
     const scenes = SCENES.length, drawn = scenes && PICTURES;
@@ -31,21 +86,25 @@
         const marks = [...document.querySelectorAll("#pareto .hit")];
         check("overview: a mark a method", marks.length === IDS.length);
         for (const m of [...IDS].slice(-3)) {
-          document.querySelector(`#pareto .hit[data-m="${CSS.escape(m)}"]`).dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
+          document.querySelector(`#pareto .hit[data-key="${CSS.escape(m)}"]`).dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
           await until(`overview: ${m} is shown when its mark is chosen`, () => shown(v1).split("|")[1] === m);
         }
         document.querySelectorAll("#pareto-basis button").forEach(b => b.click());
-        for (const b of document.querySelectorAll("#v1 .scn button")) { b.click(); await until("overview: a scene is chosen", () => shown(v1).startsWith(b.dataset.s + "|")); }
+        for (const b of document.querySelectorAll("#v1 .choices button")) { b.click(); await until("overview: a scene is chosen", () => shown(v1).startsWith(b.dataset.key + "|")); }
       }
       labels("overview");
+      accessible("overview");
       const words = [...document.querySelectorAll("#overview p")].filter(p => p.offsetParent).map(p => p.textContent.trim()).join(" ").split(/\s+/).length;
       check(`overview: ${words} words of running text`, words < 120);
       for (const s of [SCENES[0], SCENES[scenes - 1]]) {
         await visit(`scenes/${s.id}`);
         check(`${s.id}: title`, document.querySelector("#t-scenes").textContent === s.title);
         check(`${s.id}: a row a method`, document.querySelectorAll("#table tbody tr").length >= Math.min(15, s.list.length));
-        for (const b of ["cols", "bary", "cols", "bary"]) document.getElementById(b).click();
-        for (const k of ["name", "max", "rms", "ms", "ratio", "ratio"]) document.querySelector(`#table thead [data-k=${k}]`).click();
+        for (const b of ["cols", "bary"]) document.getElementById(b).click();
+        check(`${s.id}: more columns and rows`, document.querySelectorAll("#table thead th").length === 13 && (document.querySelector("#table .bary") || !s.barycentric.length || document.querySelector("#table .fold")));
+        accessible(`${s.id}: table`);
+        for (const b of ["cols", "bary"]) document.getElementById(b).click();
+        for (const k of ["name", "max", "rms", "ms", "ratio", "ratio"]) document.querySelector(`#table thead [data-key=${k}]`).click();
         if (!drawn) continue;
         await until(`${s.id}: the viewer shows`, () => shown(v2).startsWith(s.id + "|"));
         for (const [k, mode] of [["f", "flip"], ["d", "side"], ["e", "error"], ["s", "slide"]]) { key(k); await until(`${s.id}: ${mode}`, () => shown(v2).endsWith("|" + mode)); }
@@ -71,35 +130,50 @@
         }
         for (const k of ["+", "-", "z", " ", " ", "x", "x", "ArrowLeft", "ArrowRight", "p"]) key(k);
         for (const b of document.querySelectorAll("#v2 .zoom button")) b.click();
-        const [px, er] = [await picture(s, s.list[0]), await codes(s, s.list[0])];
-        check(`${s.id}: a colour and an error a pixel`, px.px.length === 4 * er.length && er.length === s.w * s.h);
-        for (const m of s.list) if (s.rows[m].max > 1) { const top = levels(s)[(await codes(s, m)).reduce((a, c) => Math.max(a, c), 0)]; check(`${s.id}: the map of ${m} reaches its largest error`, top >= s.rows[m].max * .95 || s.rows[m].other > 0); }
+        const { px } = await picture(s, s.list[0]), there = (await picture(s, "reference")).px;
+        check(`${s.id}: a colour a pixel`, px.length === 4 * s.w * s.h);
+        for (const m of s.list) {
+          const map = await errors(s, m), most = map.reduce((a, e) => Math.max(a, e), 0);
+          check(`${s.id}: an error a pixel of ${m}`, map.length === s.w * s.h);
+          // Rounding moves each of two linear pictures by half a level.
+          if (s.encoding !== "srgb" && !s.rows[m].other) check(`${s.id}: the map of ${m} reaches its largest error, ${most} against ${s.rows[m].max}`, Math.abs(most - s.rows[m].max) <= 1.001);
+          if (s.encoding !== "srgb" && m === s.list[0]) check(`${s.id}: errors are differences`, map.every((e, i) => e === Math.max(...[0, 1, 2].map(c => Math.abs(px[4 * i + c] - there[4 * i + c])))));
+        }
         const m = s.list[s.list.length - 1];
         await link(`${s.id}: a link is restored`, `scenes/${s.id}?left=${encodeURIComponent(m)}&right=reference&mode=error&x=3&y=2&zoom=4&row=2`, () => v2.a === m && v2.mode === "error" && v2.pin?.join() === "3,2" && v2.z === 4 && v2.line === 2);
         labels("scenes");
+        accessible("scenes");
         showRow(v2, null);
       }
       if (scenes > 1) { const before = v2.scene; key("]"); await until("the next scene", () => v2.scene !== before); key("["); await until("the scene before", () => v2.scene === before); }
       await visit("methods");
-      check("methods: an article a method", document.querySelectorAll(".method").length === (IDS.length > 14 ? 11 : IDS.length));
+      check("methods: an article a method", document.querySelectorAll(".method").length === (IDS.length > 14 ? 12 : IDS.length));
       check("methods: formulas are mathematics", document.querySelectorAll("#methodlist math").length >= Math.min(11, IDS.length));
       labels("methods");
+      accessible("methods");
+      if (IDS.length > 14) {
+        document.querySelector("#methodlist .fold").click();
+        check("methods: all of them", document.querySelectorAll(".method").length === IDS.length);
+      }
     }
     if (STUDY || D.scaling || DOCS.length > 1) {
       await visit("speed");
       labels("speed");
       document.querySelectorAll("#corner-mode button").forEach(b => b.click());
       labels("speed, all");
+      accessible("speed");
     }
     if (FIGURES.length) {
-      for (const h of ["lectures", "lectures/wrong", "lectures/all"]) { await visit(h); check(h, document.querySelector("#lecture-body").textContent.length > 200); labels(h); }
-      for (const f of FIGURES) { await visit("lectures/" + f.name); check(`figure ${f.name}`, document.querySelector(".fig h2")?.textContent === f.title && document.querySelectorAll(".flist tbody tr").length === f.findings.length); labels(f.name); }
+      for (const h of ["lectures", "lectures/wrong", "lectures/all"]) { await visit(h); check(h, document.querySelector("#lecture-body").textContent.length > 200); labels(h); accessible(h); }
+      for (const f of FIGURES) { await visit("lectures/" + f.name); check(`figure ${f.name}`, document.querySelector(".fig h2")?.textContent === f.title && document.querySelectorAll(".findings tbody tr").length === f.findings.length); labels(f.name); if (f === FIGURES[0] || f.name === "slerp") accessible(f.name); }
     }
     await visit("measured");
     check("measured: the processor is named", document.querySelector("#machine").textContent.includes(D.machine.cpu));
     labels("measured");
+    accessible("measured");
     for (const b of ["theme", "theme", "big", "big", "help"]) document.getElementById(b).click();
     check("help opens", document.getElementById("keys").open);
+    contrasts("keys");
     document.getElementById("keys").close();
     dispatchEvent(new Event("beforeprint"));
     check("print: all views", document.querySelectorAll(".view.on").length === 6);

@@ -1,0 +1,31 @@
+/* Adds made-up methods to a page's data until there are 30, so that charts, lists and keys are tried with many. */
+{
+  const element = document.getElementById("fastphong-data"), data = JSON.parse(element.textContent);
+  const families = ["alpha", "bishop", "cubic", "delta", "eigen", "fourier", "hermite", "weimer"], sources = ["gouraud", "fast-phong", "duff-phong", "slerp-phong"];
+  // Multiples of the golden ratio: scattered, and the same on every run.
+  const chance = n => (n * 0.6180339887) % 1;
+  const added = Array.from({ length: Math.max(0, 30 - data.methods.length) }, (_, n) => ({ name: `${families[n % 8]}-phong-${n}`, source: sources[n % 4], factor: 0.3 + 2.5 * chance(n + 1) }));
+  const copy = (list, key, { name, source }) => {
+    const made = structuredClone(list.find(m => m[key] === source));
+    list.push(Object.assign(made, { [key]: name }));
+    return made;
+  };
+  const slower = (ratio, timing, k) => {
+    for (const q of ["median", "low", "high"]) ratio[q] *= k;
+    for (const q of ["median_ns", "p25_ns", "p75_ns"]) timing[q] /= k;
+  };
+  for (const [n, m] of added.entries()) {
+    Object.assign(copy(data.methods, "name", m), { label: m.name.replaceAll("-", " "), family: families[n % 8] });
+    for (const scene of data.comparisons) {
+      const { speed } = copy(scene.rows, "variant", m);
+      slower(speed.ratio_to_naive, speed.timing, m.factor);
+    }
+    for (const corner of data.speedups ? copy(data.speedups.methods, "method", m).corners : []) slower(corner.ratio_to_naive, corner.timing, m.factor);
+  }
+  element.textContent = JSON.stringify(data);
+  for (const pictures of document.querySelectorAll("script[id^=pictures-]")) {
+    const stored = JSON.parse(pictures.textContent);
+    for (const { name, source } of added) stored.rows[name] = { on: source };
+    pictures.textContent = JSON.stringify(stored);
+  }
+}
