@@ -6,7 +6,7 @@ use crate::picture::{LinearPicture, Picture};
 use crate::reference::cs171::barycentric::{
     Weights, centre_of_mass, printed_gamma, signed_area, unsigned_weights, weights,
 };
-use crate::reference::cs171::{Inside, PixelGrid, raster_colored_triangle, raster_triangle};
+use crate::reference::cs171::{Inside, Raster, raster_colored_triangle, raster_triangle};
 use alloc::format;
 use glam::{DVec2, DVec3};
 
@@ -60,7 +60,7 @@ fn painted(weights_at: impl Fn(DVec2) -> Weights) -> LinearPicture {
 
 fn make() -> Result<Content, FigureError> {
     let mut content = Content::default();
-    let mut grid = PixelGrid::new(SIDE, SIDE, DVec3::ZERO);
+    let mut grid = Raster::new(SIDE, SIDE, DVec3::ZERO);
     raster_colored_triangle(
         TRIANGLE,
         [DVec3::X, DVec3::X, DVec3::Z],

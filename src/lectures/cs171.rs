@@ -10,7 +10,7 @@ use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, MeshBuilder};
 use crate::picture::{Picture, Picture8};
 use crate::reference::cs171::{
-    PixelGrid, Reading, Shading, TriangleCorner, full_shading, render, world_to_ndc,
+    Raster, Reading, Shading, TriangleCorner, full_shading, render, world_to_ndc,
 };
 use crate::scene::{
     Camera, Culling, Light, Lighting, Object, Projection, Scene, SpecularGate, SpecularModel,
@@ -167,7 +167,7 @@ fn floors(behind: f64) -> Result<[Picture<[f64; 4]>; 2], FigureError> {
         ndc: world_to_ndc(&matrix, v),
         inv_w: 1.0,
     });
-    let mut grid = PixelGrid::new(SIDE as usize, SIDE as usize, DVec3::ZERO);
+    let mut grid = Raster::new(SIDE as usize, SIDE as usize, DVec3::ZERO);
     for triangle in [[a, b, c], [a, c, d]] {
         let reading = Reading {
             cull: false,
