@@ -6,7 +6,7 @@ use crate::picture::{LinearPicture, Picture};
 use crate::reference::cs171::barycentric::{
     Weights, centre_of_mass, printed_gamma, signed_area, unsigned_weights, weights,
 };
-use crate::reference::cs171::{Inside, PixelGrid, raster_colored_triangle, raster_triangle};
+use crate::reference::cs171::{Inside, Raster, raster_colored_triangle, raster_triangle};
 use glam::{DVec2, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
@@ -68,7 +68,7 @@ fn pictures(content: &mut FigureContent) -> Result {
          centre of mass white. Then two misprints. The notes divide γ by f_ac(p) in place of \
          f_ab(c); Lecture 5's slides take areas without signs.",
     );
-    let mut grid = PixelGrid::new(SIDE, SIDE, DVec3::ZERO);
+    let mut grid = Raster::new(SIDE, SIDE, DVec3::ZERO);
     let colours = [DVec3::X, DVec3::X, DVec3::Z];
     raster_colored_triangle(TRIANGLE, colours, Inside::Closed, &mut grid);
     let gradient = grid.colours.map(|texel| texel.map(|c| c as f32));

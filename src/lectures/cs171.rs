@@ -7,7 +7,7 @@ use crate::frame::triangulate::triangulated;
 use crate::mesh::Material;
 use crate::picture::{Picture, Picture8};
 use crate::reference::cs171::{
-    PixelGrid, Reading, Shading, TriangleCorner, full_shading, render, world_to_ndc,
+    Raster, Reading, Shading, TriangleCorner, full_shading, render, world_to_ndc,
 };
 use crate::scene::{Camera, Light, Lighting, Projection, SpecularGate, SpecularModel};
 use alloc::{format, vec};
@@ -145,7 +145,7 @@ fn floors(behind: f64) -> Result<[F64Picture; 2]> {
         ndc: world_to_ndc(&matrix, v),
         inv_w: 1.0,
     });
-    let mut grid = PixelGrid::new(SIDE as usize, SIDE as usize, DVec3::ZERO);
+    let mut grid = Raster::new(SIDE as usize, SIDE as usize, DVec3::ZERO);
     for triangle in [[a, b, c], [a, c, d]] {
         full_shading(Shading::Flat, &triangle, &light, reading, &mut grid);
     }

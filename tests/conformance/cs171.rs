@@ -7,7 +7,7 @@ use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
 use fastphong::raster::{Edges, NOTHING, barycentric_polygon_numbers};
 use fastphong::reference::cs171::{
-    Inside, PixelGrid, Reading, Shading, Ties, TriangleCorner, flat_shading, full_shading,
+    Inside, Raster, Reading, Shading, Ties, TriangleCorner, flat_shading, full_shading,
     gouraud_shading, lighting, ndc_to_screen, phong_shading, raster_colored_ndc_triangle,
     raster_colored_triangle, raster_triangle, render, world_to_ndc,
 };
@@ -110,7 +110,7 @@ fn shared_edges_are_holes_or_drawn_twice() {
         );
         assert_eq!((once, twice), expected, "{inside:?}");
     }
-    let mut grid = PixelGrid::new(5, 5, DVec3::ZERO);
+    let mut grid = Raster::new(5, 5, DVec3::ZERO);
     for (triangle, colour) in square.into_iter().zip([DVec3::X, DVec3::Y]) {
         raster_colored_triangle(triangle, [colour; 3], Inside::Closed, &mut grid);
     }
@@ -124,7 +124,7 @@ fn shared_edges_are_holes_or_drawn_twice() {
 /// Algorithm 2 on CS171's right triangle from red, along the hypotenuse, to blue at the opposite corner.
 #[test]
 fn algorithm_2_mixes_red_and_blue() {
-    let mut grid = PixelGrid::new(9, 9, DVec3::ZERO);
+    let mut grid = Raster::new(9, 9, DVec3::ZERO);
     // The right angle at pixel (0, 8), the hypotenuse from (0, 0) to (8, 8).
     let places = [
         DVec2::new(0.5, 0.5),
@@ -377,7 +377,7 @@ fn ties_go_to_the_later_or_to_the_earlier() {
     ];
     let nearer = triangle.map(|c| corner(c.ndc.x, c.ndc.y, -0.5));
     for (ties, seen) in [(Ties::Later, 0.75), (Ties::Earlier, 0.25)] {
-        let mut grid = PixelGrid::new(16, 16, DVec3::ZERO);
+        let mut grid = Raster::new(16, 16, DVec3::ZERO);
         let reading = Reading {
             ties,
             ..Reading::default()
@@ -400,7 +400,7 @@ fn ties_go_to_the_later_or_to_the_earlier() {
         assert_eq!(grid.buffer.get(8, 8), -0.5);
     }
     // Without a buffer the later one is seen, however deep.
-    let mut grid = PixelGrid::new(16, 16, DVec3::ZERO);
+    let mut grid = Raster::new(16, 16, DVec3::ZERO);
     for (triangle, diffuse) in [(&nearer, 0.5), (&triangle, 0.125)] {
         flat_shading(triangle, &plain(diffuse), Reading::default(), &mut grid);
     }
@@ -413,7 +413,7 @@ fn algorithm_5_draws_what_is_in_the_cube() {
     // Depth grows by 4 from left to right: inside the cube is the middle half, columns 4 to 11.
     let depth = |x: f64| 2.0 * x;
     let triangle = [(-1.0, -3.0), (1.0, -3.0), (0.0, 3.0)].map(|(x, y)| corner(x, y, depth(x)));
-    let mut grid = PixelGrid::new(16, 16, DVec3::ZERO);
+    let mut grid = Raster::new(16, 16, DVec3::ZERO);
     raster_colored_ndc_triangle(&triangle, [DVec3::ONE; 3], Reading::default(), &mut grid);
     for (x, y) in (0..16).flat_map(|y| (0..16).map(move |x| (x, y))) {
         let ndc = DVec2::new((x as f64 + 0.5) / 8.0 - 1.0, 1.0 - (y as f64 + 0.5) / 8.0);
@@ -441,14 +441,14 @@ fn algorithms_4_6_and_7_are_8_without_hidden_surfaces() {
         }
     });
     let reading = Reading::default();
-    type Algorithm = fn(&[TriangleCorner; 3], &Lighting, Reading, &mut PixelGrid);
+    type Algorithm = fn(&[TriangleCorner; 3], &Lighting, Reading, &mut Raster);
     let all: [(Shading, Algorithm); 3] = [
         (Shading::Gouraud, gouraud_shading),
         (Shading::Flat, flat_shading),
         (Shading::Phong, phong_shading),
     ];
     for (shading, algorithm) in all {
-        let [mut bare, mut full, mut back] = [(); 3].map(|()| PixelGrid::new(120, 90, DVec3::ZERO));
+        let [mut bare, mut full, mut back] = [(); 3].map(|()| Raster::new(120, 90, DVec3::ZERO));
         algorithm(&corners, light, reading, &mut bare);
         full_shading(shading, &corners, light, reading, &mut full);
         assert_eq!(bare.colours, full.colours, "{shading:?}");
@@ -477,7 +477,7 @@ fn triangles_without_area_draw_nothing() {
     ];
     let point = [corner(0.0625, 0.0625, 0.0); 3];
     for triangle in [line, point] {
-        let mut grid = PixelGrid::new(16, 16, DVec3::ZERO);
+        let mut grid = Raster::new(16, 16, DVec3::ZERO);
         for shading in [Shading::Flat, Shading::Gouraud, Shading::Phong] {
             full_shading(
                 shading,

@@ -60,7 +60,7 @@ pub(super) fn place(
 }
 
 /// One coordinate of the vertices of a block.
-type Coordinate = [f64; BLOCK];
+type Coord = [f64; BLOCK];
 
 /// The way of one object's vertices onto the picture.
 struct Placing<'a> {
@@ -183,7 +183,7 @@ impl<'a> Placing<'a> {
 
     /// Returns one coordinate in clip space, in the order of additions of a product of matrix and vector.
     #[inline(always)]
-    fn row(&self, row: usize, x: &Coordinate, y: &Coordinate, z: &Coordinate) -> Coordinate {
+    fn row(&self, row: usize, x: &Coord, y: &Coord, z: &Coord) -> Coord {
         let matrix = self.matrix.row(row);
         let mut clip = [0.0; BLOCK];
         for i in 0..BLOCK {
@@ -195,14 +195,7 @@ impl<'a> Placing<'a> {
     /// True if all are between the near and the far plane, and x and y within `reach` times w: finite then, and inside
     /// every plane that is as far out or farther.
     #[inline(always)]
-    fn all_inside(
-        &self,
-        reach: [f64; 2],
-        x: &Coordinate,
-        y: &Coordinate,
-        z: &Coordinate,
-        w: &Coordinate,
-    ) -> bool {
+    fn all_inside(&self, reach: [f64; 2], x: &Coord, y: &Coord, z: &Coord, w: &Coord) -> bool {
         let mut inside = true;
         for i in 0..BLOCK {
             // As the planes compute it: the sign of a difference is exact.
@@ -218,10 +211,10 @@ impl<'a> Placing<'a> {
     #[inline(always)]
     fn on_picture<const PERSPECTIVE: bool>(
         &self,
-        x: &Coordinate,
-        y: &Coordinate,
-        z: &Coordinate,
-        w: &Coordinate,
+        x: &Coord,
+        y: &Coord,
+        z: &Coord,
+        w: &Coord,
         out: &mut [ScreenVertex; BLOCK],
     ) {
         let mut weights = [1.0; BLOCK];
@@ -255,7 +248,7 @@ fn nearest(pixels: f64) -> SubPixel {
 
 /// Computes the sides of the view that vertices between near and far plane are beyond, as [`View::codes`] has them.
 #[inline(always)]
-fn sides(x: &Coordinate, y: &Coordinate, w: &Coordinate, codes: &mut [Codes; BLOCK]) {
+fn sides(x: &Coord, y: &Coord, w: &Coord, codes: &mut [Codes; BLOCK]) {
     for i in 0..BLOCK {
         let (left, right) = (Codes::from(x[i] < -w[i]), Codes::from(x[i] > w[i]));
         let (bottom, top) = (Codes::from(y[i] < -w[i]), Codes::from(y[i] > w[i]));
@@ -265,7 +258,7 @@ fn sides(x: &Coordinate, y: &Coordinate, w: &Coordinate, codes: &mut [Codes; BLO
 
 /// Loads a block of numbers; if there are fewer, the last one fills it.
 #[inline(always)]
-fn lanes(all: &[f32], from: usize, count: usize) -> Coordinate {
+fn lanes(all: &[f32], from: usize, count: usize) -> Coord {
     let of_block = &all[from..from + count];
     let mut lanes = [0.0; BLOCK];
     match of_block.first_chunk::<BLOCK>() {

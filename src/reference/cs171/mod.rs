@@ -103,6 +103,9 @@ pub enum Shading {
     Phong,
 }
 
+/// The corners of a triangle.
+pub type Corners = [TriangleCorner; 3];
+
 /// A corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleCorner {
@@ -119,18 +122,18 @@ pub struct TriangleCorner {
 
 /// The raster grid, and the buffer grid of Algorithm 8.
 #[derive(Clone, Debug)]
-pub struct PixelGrid {
+pub struct Raster {
     /// Red, green, blue in 0..=1; alpha is 1 where a triangle was drawn.
     pub colours: Picture<[f64; 4]>,
     /// The NDC depth of what was drawn; the largest double where nothing was.
     pub buffer: Picture<f64>,
 }
 
-impl PixelGrid {
+impl Raster {
     /// Makes a grid of `width` × `height` pixels of this colour, on which nothing was drawn.
-    pub fn new(width: usize, height: usize, background: DVec3) -> PixelGrid {
+    pub fn new(width: usize, height: usize, background: DVec3) -> Raster {
         let [r, g, b] = background.to_array();
-        PixelGrid {
+        Raster {
             colours: Picture::new(width, height, [r, g, b, 0.0]),
             buffer: Picture::new(width, height, f64::MAX),
         }

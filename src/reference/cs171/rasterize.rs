@@ -1,7 +1,7 @@
 //! Algorithms 1, 2, 5 and 8: the pixels that a triangle fills.
 
 use super::barycentric::{Weights, f, weights};
-use super::{Inside, PixelGrid, Reading, Ties, TriangleCorner};
+use super::{Inside, Raster, Reading, Ties, TriangleCorner};
 use crate::frame::perspective::weights_in_space;
 use glam::{DMat4, DVec2, DVec3};
 
@@ -70,7 +70,7 @@ pub fn raster_colored_triangle(
     places: [DVec2; 3],
     colours: [DVec3; 3],
     inside: Inside,
-    grid: &mut PixelGrid,
+    grid: &mut Raster,
 ) {
     raster_triangle(places, grid.size(), inside, |x, y, weights| {
         grid.fill(x, y, blend(weights, colours))
@@ -94,7 +94,7 @@ pub fn raster_colored_ndc_triangle(
     corners: &[TriangleCorner; 3],
     colours: [DVec3; 3],
     reading: Reading,
-    grid: &mut PixelGrid,
+    grid: &mut Raster,
 ) {
     raster_ndc_triangle(corners, reading, grid, |weights| blend(weights, colours));
 }
@@ -103,7 +103,7 @@ pub fn raster_colored_ndc_triangle(
 pub(super) fn raster_ndc_triangle(
     corners: &[TriangleCorner; 3],
     reading: Reading,
-    grid: &mut PixelGrid,
+    grid: &mut Raster,
     colour: impl Fn(Weights) -> DVec3,
 ) {
     let places = corners.map(|corner| ndc_to_screen(corner.ndc, grid.size()));
@@ -125,7 +125,7 @@ pub(super) fn raster_ndc_triangle(
 pub(super) fn raster_visible_triangle(
     corners: &[TriangleCorner; 3],
     reading: Reading,
-    grid: &mut PixelGrid,
+    grid: &mut Raster,
     colour: impl Fn(Weights) -> DVec3,
 ) {
     let ndc = corners.map(|corner| corner.ndc);

@@ -2,41 +2,28 @@
 
 use super::barycentric::Weights;
 use super::rasterize::{blend, raster_ndc_triangle, raster_visible_triangle};
-use super::{PixelGrid, Reading, Shading, TriangleCorner, lighting, raster_colored_ndc_triangle};
+use super::{
+    Corners, Raster, Reading, Shading, TriangleCorner, lighting, raster_colored_ndc_triangle,
+};
 use crate::frame::{Frame, ScreenVertex};
 use crate::scene::{Interpolation, Lighting};
 use alloc::vec::Vec;
 use glam::DVec3;
 
 /// Lights the corners and lets Algorithm 5 fill the triangle (Algorithm 4).
-pub fn gouraud_shading(
-    corners: &[TriangleCorner; 3],
-    light: &Lighting,
-    reading: Reading,
-    grid: &mut PixelGrid,
-) {
+pub fn gouraud_shading(corners: &Corners, light: &Lighting, reading: Reading, grid: &mut Raster) {
     let colours = corners.map(|corner| lighting(corner.world, corner.normal, light));
     raster_colored_ndc_triangle(corners, colours, reading, grid);
 }
 
 /// Lights the average corner and fills the triangle with its colour (Algorithm 6).
-pub fn flat_shading(
-    corners: &[TriangleCorner; 3],
-    light: &Lighting,
-    reading: Reading,
-    grid: &mut PixelGrid,
-) {
+pub fn flat_shading(corners: &Corners, light: &Lighting, reading: Reading, grid: &mut Raster) {
     let colour = flat_colour(average(corners), light, reading);
     raster_ndc_triangle(corners, reading, grid, |_| colour);
 }
 
 /// Lights every pixel, with position and normal between those of the corners (Algorithm 7).
-pub fn phong_shading(
-    corners: &[TriangleCorner; 3],
-    light: &Lighting,
-    reading: Reading,
-    grid: &mut PixelGrid,
-) {
+pub fn phong_shading(corners: &Corners, light: &Lighting, reading: Reading, grid: &mut Raster) {
     raster_ndc_triangle(corners, reading, grid, |weights| {
         phong_colour(corners, weights, light, reading)
     });
@@ -46,10 +33,10 @@ pub fn phong_shading(
 /// other two.
 pub fn full_shading(
     shading: Shading,
-    corners: &[TriangleCorner; 3],
+    corners: &Corners,
     light: &Lighting,
     reading: Reading,
-    grid: &mut PixelGrid,
+    grid: &mut Raster,
 ) {
     match shading {
         Shading::Flat => {
@@ -69,7 +56,7 @@ pub fn full_shading(
 }
 
 /// Returns the average position and the average normal.
-fn average(corners: &[TriangleCorner; 3]) -> [DVec3; 2] {
+fn average(corners: &Corners) -> [DVec3; 2] {
     let [a, b, c] = corners;
     [
         (a.world + b.world + c.world) / 3.0,
@@ -90,12 +77,7 @@ fn flat_colour([v_avg, n_avg]: [DVec3; 2], light: &Lighting, reading: Reading) -
     lighting(v_avg, read(n_avg, reading), light)
 }
 
-fn phong_colour(
-    corners: &[TriangleCorner; 3],
-    weights: Weights,
-    light: &Lighting,
-    reading: Reading,
-) -> DVec3 {
+fn phong_colour(corners: &Corners, weights: Weights, light: &Lighting, reading: Reading) -> DVec3 {
     let n = blend(weights, corners.map(|corner| corner.normal));
     let v = blend(weights, corners.map(|corner| corner.world));
     lighting(v, read(n, reading), light)
@@ -106,8 +88,8 @@ fn phong_colour(
 /// Polygons of more than three corners are passed over: [`triangulated`](crate::frame::triangulate::triangulated) cuts them. The
 /// average corner is that of the scene's polygon ([`Frame::mean`]). A corner that clipping made is not lit, but lies
 /// between two that are. A point on the near or far plane itself may be lost to rounding, as the cube is closed and tested
-/// in `f64`. Of a frame with several samples a pixel the grid is one of samples: [`PixelGrid::filtered`].
-pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> PixelGrid {
+/// in `f64`. Of a frame with several samples a pixel the grid is one of samples: [`Raster::filtered`].
+pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Raster {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let corners = corners(frame);
     let light = |number: u32| &frame.lightings()[frame.material(number) as usize];
@@ -125,7 +107,7 @@ pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> PixelGrid {
             colours[cut.vertex as usize] = a.lerp(b, f64::from(cut.t));
         }
     }
-    let mut grid = PixelGrid::new(frame.width(), frame.height(), wide(frame.background()));
+    let mut grid = Raster::new(frame.width(), frame.height(), wide(frame.background()));
     for polygon in frame.polygons() {
         let &[a, b, c] = frame.corners(polygon) else {
             continue;
