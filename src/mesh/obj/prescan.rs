@@ -10,7 +10,6 @@ use super::error::{ObjProblem, quote};
 use super::lines::{Statements, is_plain_number, keyword, without_comment};
 use std::collections::BTreeMap;
 use std::format;
-use std::io::Write;
 use std::string::String;
 use std::vec::Vec;
 
@@ -378,8 +377,13 @@ fn smoothing_group(word: &str) -> u64 {
     word.parse().unwrap_or(if word == "on" { 1 } else { 0 })
 }
 
-/// Appends a separator and `number` in decimal.
-fn push_decimal(text: &mut Vec<u8>, separator: &[u8], number: usize) {
+/// Appends a separator and `number` in decimal. Faster than `write!`, and there are as many numbers as corners.
+fn push_decimal(text: &mut Vec<u8>, separator: &[u8], mut number: usize) {
     text.extend_from_slice(separator);
-    write!(text, "{number}").expect("memory takes every byte");
+    let first = text.len();
+    while number > 0 {
+        text.push(b'0' + (number % 10) as u8);
+        number /= 10;
+    }
+    text[first..].reverse();
 }

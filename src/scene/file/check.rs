@@ -1,6 +1,6 @@
 //! Ranges of the values of a scene: the one place that decides, for files and flags alike.
 
-use super::diagnostics::{Origin, SceneError, SourceText};
+use super::diagnostics::{Origin, SceneError};
 use super::schema::ChoiceWord;
 use super::value::{Data, SceneTable};
 use crate::picture::Rgb;
@@ -11,7 +11,6 @@ use std::borrow::ToOwned;
 use std::collections::BTreeMap;
 use std::format;
 use std::string::String;
-use std::sync::Arc;
 
 /// A table that is read: values in their ranges, or errors that name the key, or the flag that stands for it, and its place.
 #[derive(Clone, Copy)]
@@ -20,8 +19,6 @@ pub(super) struct Section<'a> {
     pub table: &'a SceneTable,
     /// The name of it in errors; empty for the scene.
     pub name: &'static str,
-    /// The file, if there is one.
-    pub source: &'a Option<Arc<SourceText>>,
 }
 
 /// A table that is not given.
@@ -34,17 +31,13 @@ impl<'a> Section<'a> {
     /// Returns the table called `key`, empty if it is not given; errors call it `name`.
     pub fn section(&self, key: &str, name: &'static str) -> Section<'a> {
         let table = self.table.table(key).unwrap_or(&NONE);
-        Section {
-            table,
-            name,
-            ..*self
-        }
+        Section { table, name }
     }
 
     /// Returns the tables called `key`; errors call each of them `name`.
     pub fn sections(&self, key: &str, name: &'static str) -> impl Iterator<Item = Section<'a>> {
-        let (section, tables) = (Section { name, ..*self }, self.table.tables(key));
-        tables.iter().map(move |table| Section { table, ..section })
+        let tables = self.table.tables(key).iter();
+        tables.map(move |table| Section { table, name })
     }
 
     /// True if `key` is given.
@@ -70,17 +63,12 @@ impl<'a> Section<'a> {
         let title = format!("`{}` {problem}", self.name(key));
         let value = self.table.get(key);
         let origin = value.map_or(&self.table.origin, |value| &value.origin);
-        SceneError::new(origin.clone(), title, expected).within(self.source)
+        SceneError::new(origin.clone(), title, expected)
     }
 
     /// Makes an error about the table.
     pub fn table_error(&self, problem: &str, expected: &str) -> SceneError {
-        SceneError::new(self.table.origin.clone(), problem, expected).within(self.source)
-    }
-
-    /// Makes an error about the scene as a whole.
-    pub fn scene_error(&self, problem: &str, expected: &str) -> SceneError {
-        SceneError::new(Origin::Program, problem, expected).within(self.source)
+        SceneError::new(self.table.origin.clone(), problem, expected)
     }
 
     /// Makes `error` point at the value of `key`, too, if that is given.

@@ -35,7 +35,7 @@ pub struct SourceText {
 
 /// A scene that cannot be read or drawn.
 ///
-/// `Display` is one line with file, line and what was expected; [`SceneError::render`] shows the text of the file, too.
+/// `Display` is one line: the place in the file if there is one, the problem, and what was expected; [`SceneError::render`] shows the text of the file, too.
 #[derive(Clone, Debug)]
 pub struct SceneError(Box<Diagnostic>);
 
@@ -188,12 +188,8 @@ impl SceneError {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(source) = &self.0.source {
-            write!(f, "{}:", source.path.display())?;
-            match self.line_and_column() {
-                Some((line, column)) => write!(f, "{line}:{column}: ")?,
-                None => write!(f, " ")?,
-            }
+        if let (Some(source), Some((line, column))) = (&self.0.source, self.line_and_column()) {
+            write!(f, "{}:{line}:{column}: ", source.path.display())?;
         }
         f.write_str(&self.sentence())
     }

@@ -47,10 +47,17 @@ impl SceneFile {
         &self,
         load_mesh: impl FnMut(&str, &Path) -> LoadedMesh,
     ) -> Result<Resolved, SceneError> {
+        let scene = self.scene(load_mesh);
+        scene.map_err(|error| error.within(&self.source))
+    }
+
+    fn scene(
+        &self,
+        load_mesh: impl FnMut(&str, &Path) -> LoadedMesh,
+    ) -> Result<Resolved, SceneError> {
         let file = Section {
             table: &self.table,
             name: "",
-            source: &self.source,
         };
         let (image, mut warnings) = (file.section("image", "image"), Vec::new());
         let width = image.side("width")?.unwrap_or(Scene::DEFAULT_SIZE.0);
@@ -103,7 +110,8 @@ impl SceneFile {
         let default = material(&given, &Material::default())?;
         if file.table.tables("object").is_empty() {
             let expected = "expected at least one [[object]]";
-            let error = file.scene_error("the scene has no objects", expected);
+            let problem = "the scene has no objects";
+            let error = SceneError::new(Origin::Program, problem, expected);
             return Err(error.help("for example: [[object]] with mesh = \"builtin:sphere\""));
         }
         // All that can be checked without a mesh is, before the first one costs time.

@@ -1,7 +1,7 @@
 //! From the camera of a scene file to the camera of the scene.
 
 use super::check::{Section, is_coordinate, is_position};
-use super::diagnostics::SceneError;
+use super::diagnostics::{Origin, SceneError};
 use crate::scene::of_mesh::unit;
 use crate::scene::{Camera, Fit, Projection, Scene};
 use glam::DVec3;
@@ -63,7 +63,7 @@ impl<'a> Viewpoint<'a> {
             None => Camera::fit(points, &self.fit).ok_or_else(|| {
                 let expected = "nothing to fit the camera to";
                 let problem = "the objects have no polygons";
-                self.section.scene_error(problem, expected)
+                SceneError::new(Origin::Program, problem, expected)
             })?,
         };
         if let Some(half_height) = self.half_height {
