@@ -5,7 +5,7 @@ use super::measured::{How, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
 use super::talk::{Talk, to_stdout};
 use super::{Failure, Outcome};
-use fastphong::compare::comparison::{Document, TableKind, table};
+use fastphong::compare::comparison::{Comparison, Document, TableKind, table};
 use fastphong::compare::timing::Machine;
 
 /// Compare methods on one scene: error against the reference, time, ratios
@@ -17,7 +17,7 @@ pub struct Compare {
     timing: TimingFlags,
     #[command(flatten)]
     drawn: LectureFlags,
-    /// Print PSNR, SSIM, brightness and other errors as well
+    /// Print PSNR, SSIM, FLIP, brightness and other errors as well
     #[arg(long)]
     all_columns: bool,
     /// Print all as JSON
@@ -34,9 +34,12 @@ impl Compare {
             renderers: &[self.drawn.renderer()?],
             threads: &self.drawn.threads,
         };
-        let comparisons = self
+        let mut comparisons = self
             .timing
             .compare(&[&self.input], &self.scene, how, *talk)?;
+        if self.json || self.all_columns {
+            comparisons.iter_mut().for_each(Comparison::perceive);
+        }
         if self.json {
             let document = Document::new(&comparisons, &Machine::this(), &command_line());
             to_stdout(document.to_text().as_bytes())?;

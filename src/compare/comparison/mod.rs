@@ -52,11 +52,12 @@ pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
 pub use triangulation::{Triangulation, triangulation};
 
-use super::metrics::Difference;
+use super::metrics::{Difference, Perceived, mean_flip};
 use super::timing::Limits;
 use crate::frame::triangulate::triangulated;
 use crate::frame::{Frame, FrameStats};
 use crate::number::Level;
+use crate::picture::encoding::store;
 use crate::picture::{Encoding, LinearPicture, Picture8};
 use crate::raster::{self, Renderer, coverage};
 use crate::scene::Interpolation;
@@ -305,6 +306,16 @@ impl Comparison {
             (self.renderer, limits),
             progress,
         );
+    }
+
+    /// Finds the mean ꟻLIP of all rows, [`Difference::flip`] of their errors. It is that of the pictures as they are
+    /// stored; pixels that show another polygon count as well.
+    pub fn perceive(&mut self) {
+        let reference = Perceived::new(&store(&self.reference, self.encoding));
+        for row in self.rows.iter_mut().chain(&mut self.barycentric) {
+            let map = reference.flip(&Perceived::new(&row.picture));
+            row.error.flip = map.ok().map(|map| mean_flip(&map));
+        }
     }
 
     /// Drops all pictures, which take most of its memory: what is left can still be timed.

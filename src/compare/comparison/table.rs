@@ -46,6 +46,9 @@ const COMPARE: &[Column] = &[
     ("SSIM", |row| {
         optional(row.error.ssim, |s| format!("{s:.5}"))
     }),
+    ("FLIP", |row| {
+        optional(row.error.flip, |f| format!("{f:.5}"))
+    }),
     ("brightness", |row| signed_levels(row.error.signed_mean)),
     ("own max", own),
     ("over 1 level", |row| row.error.over_one_level.to_string()),
