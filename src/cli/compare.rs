@@ -5,7 +5,7 @@ use super::log::{Log, to_stdout};
 use super::measured::{Measurement, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
 use super::{CliError, Outcome};
-use fastphong::compare::comparison::{TableKind, table};
+use fastphong::compare::comparison::{Comparison, TableKind, table};
 use fastphong::report::Document;
 
 /// Compare methods on one scene: error against the reference, time, ratios
@@ -17,7 +17,7 @@ pub struct CompareArgs {
     timing: TimingFlags,
     #[command(flatten)]
     drawn: LectureFlags,
-    /// Also print PSNR, SSIM, brightness and other errors
+    /// Also print PSNR, SSIM, FLIP, brightness and other errors
     #[arg(long)]
     all_columns: bool,
     /// Print everything as JSON
@@ -30,13 +30,16 @@ pub struct CompareArgs {
 impl CompareArgs {
     /// Compares, times, and prints the table.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
-        let comparisons = self.timing.compare(&Measurement {
+        let mut comparisons = self.timing.compare(&Measurement {
             inputs: &[&self.input],
             scene: &self.scene,
             renderers: &[self.drawn.renderer()?],
             threads: self.drawn.threads,
             log,
         })?;
+        if self.json || self.all_columns {
+            comparisons.iter_mut().for_each(Comparison::perceive);
+        }
         let kind = match self.all_columns {
             true => TableKind::Compare,
             false => TableKind::Short,

@@ -5,7 +5,8 @@ use super::output::Output;
 use super::reference_check::{SCALE, largest_difference};
 use super::{CliError, Outcome, values};
 use fastphong::compare::metrics::{
-    Difference, METRICS, compare, difference_map, signed_difference_map,
+    Difference, METRICS, Perceived, compare, difference_map, flip_colours, mean_flip,
+    signed_difference_map,
 };
 use fastphong::compare::table::aligned;
 use fastphong::picture::image_file::{FilePicture, comparable, read_picture};
@@ -32,6 +33,9 @@ pub struct DiffArgs {
     /// Map brighter and darker in different colours: orange and blue
     #[arg(long, requires = "output")]
     signed: bool,
+    /// Map what a viewer sees when the pictures alternate (FLIP), from black to a light yellow
+    #[arg(long, requires = "output", conflicts_with_all = ["signed", "scale"])]
+    flip: bool,
     /// Print the numbers as JSON
     #[arg(long)]
     json: bool,
@@ -44,13 +48,18 @@ impl DiffArgs {
         let output = output.transpose()?;
         let (reference, actual) = (read_picture(&self.reference)?, read_picture(&self.actual)?);
         let [r, a] = comparable(&reference, &actual);
-        let difference = compare(&r, &a)?;
+        let mut difference = compare(&r, &a)?;
+        let [seen, other] =
+            [&reference, &actual].map(|picture| Perceived::new(&picture.to_stored()));
+        let flip = seen.flip(&other)?;
+        difference.flip = Some(mean_flip(&flip));
         if let Some(output) = &output {
-            let map = match self.signed {
-                true => signed_difference_map,
-                false => difference_map,
+            let map = match (self.flip, self.signed) {
+                (true, _) => flip_colours(&flip),
+                (_, true) => signed_difference_map(&r, &a, self.scale)?,
+                (_, false) => difference_map(&r, &a, self.scale)?,
             };
-            output.write(&FilePicture::stored(map(&r, &a, self.scale)?))?;
+            output.write(&FilePicture::stored(map))?;
         }
         let text = match self.json {
             true => format!("{:#}\n", self.json(&difference, reference.size())),

@@ -57,6 +57,14 @@ pub fn srgb_encode(c: f32) -> f32 {
     (1.055 * libm::pow(f64::from(c), 1.0 / 2.4) - 0.055) as f32
 }
 
+/// Returns the linear intensity of sRGB value `encoded`, both in 0..=1: the inverse of [`srgb_encode`].
+pub fn srgb_decode(encoded: f64) -> f64 {
+    if encoded <= 0.04045 {
+        return encoded / 12.92;
+    }
+    libm::pow((encoded + 0.055) / 1.055, 2.4)
+}
+
 /// Stores linear texels with a transfer function, as fast as a table look-up and as exactly as the function itself.
 #[derive(Debug)]
 pub struct Encoder {
@@ -76,13 +84,7 @@ impl Encoder {
         least[0] = f32::NEG_INFINITY;
         for (k, c) in least.iter_mut().enumerate().take(256).skip(1) {
             // The inverse of the function at the lower end of the level, then to the very float.
-            let encoded = (k as f64 - 0.5) / 255.0;
-            let linear = if encoded <= 0.04045 {
-                encoded / 12.92
-            } else {
-                libm::pow((encoded + 0.055) / 1.055, 2.4)
-            };
-            *c = linear as f32;
+            *c = srgb_decode((k as f64 - 0.5) / 255.0) as f32;
             while level(*c) as usize >= k {
                 *c = c.next_down();
             }

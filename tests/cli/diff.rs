@@ -116,6 +116,22 @@ fn maps_show_where() {
         lit("signed.ppm"),
         fastphong::compare::metrics::BEYOND_DARKER
     );
+    folder.run("diff a.png b.png -o flip.png --flip").done();
+    let map = picture(&folder.path("flip.png"));
+    let level = |x, y| {
+        map.get(x, y)[..3]
+            .iter()
+            .map(|c| u32::from(*c))
+            .sum::<u32>()
+    };
+    assert!(
+        level(3, 7) > level(5, 7) && level(5, 7) > level(15, 0),
+        "it spreads"
+    );
+    assert_eq!(map.get(15, 0), [0, 0, 4, 255], "magma begins nearly black");
+    folder
+        .run("diff a.png b.png -o map.png --flip --scale 4")
+        .refused(&["--scale <LEVELS>"]);
     let piped = folder
         .run("diff a.png b.png -o - --scale 40")
         .done()

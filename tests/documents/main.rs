@@ -1,5 +1,7 @@
 //! The documents against the code.
 
+#[cfg(feature = "cli")]
+mod flags;
 mod lectures;
 mod markdown;
 mod rooms;

@@ -50,10 +50,11 @@ mod tests;
 pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
 
-use super::metrics::Difference;
+use super::metrics::{Difference, Perceived, mean_flip};
 use super::timing::TimeLimits;
 use crate::frame::triangulate::triangulated;
 use crate::frame::{Frame, FrameStats};
+use crate::picture::encoding::store;
 use crate::picture::{Encoding, LinearPicture, Picture8};
 use crate::raster::{Renderer, coverage};
 use crate::scene::Interpolation;
@@ -339,6 +340,16 @@ impl Comparison {
     pub fn time(&mut self, frame: &Frame, limits: TimeLimits, progress: impl FnMut(f32)) {
         self.renderer = DrawnBy::new(self.requested);
         speed::time(self, frame, &triangulated(frame).frame, limits, progress);
+    }
+
+    /// Finds the mean ꟻLIP of all rows, [`Difference::flip`] of their errors. It is that of the pictures as they are
+    /// stored; pixels that show another polygon count as well.
+    pub fn perceive(&mut self) {
+        let reference = Perceived::new(&store(&self.reference, self.encoding));
+        for row in self.rows.iter_mut().chain(&mut self.barycentric) {
+            let map = reference.flip(&Perceived::new(&row.picture));
+            row.error.flip = map.ok().map(|map| mean_flip(&map));
+        }
     }
 
     /// Drops all pictures, which take most of its memory; the rest can still be timed.

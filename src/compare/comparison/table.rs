@@ -48,6 +48,7 @@ const COMPARE: &[Column] = &[
     RMS,
     ("PSNR, dB", |row| Some(decibels(&row.error))),
     ("SSIM", |row| Some(format!("{:.5}", row.error.ssim?))),
+    ("FLIP", |row| Some(format!("{:.5}", row.error.flip?))),
     ("brightness", |row| {
         Some(signed_levels(row.error.signed_mean))
     }),

@@ -111,6 +111,13 @@ pub static METRICS: &[MetricInfo] = &[
         value: |d| d.ssim,
     },
     MetricInfo {
+        name: "flip",
+        unit: "",
+        meaning: "mean FLIP of the whole frame (Andersson et al. 2020), what a viewer sees: 0 for equal pictures, at most 1",
+        better: Better::Lower,
+        value: |d| d.flip,
+    },
+    MetricInfo {
         name: "differing",
         unit: "pixels",
         meaning: "pixels whose colour is not the same to the last bit",

@@ -8,8 +8,8 @@
 //! # Which pixels count
 //! A pixel that neither picture covers, and that has the same colour in both, is *background*: it is left out of every
 //! mean, as more of it would flatter every method. All others are *compared*, with the colours that the two pictures
-//! store; a pixel that only one of them covers is counted as a coverage mismatch as well. Only PSNR, SSIM and
-//! `frame_rms` are taken over the whole frame, so that they equal what other tools report.
+//! store; a pixel that only one of them covers is counted as a coverage mismatch as well. Only PSNR, SSIM,
+//! ꟻLIP and `frame_rms` are taken over the whole frame, so that they equal what other tools report.
 //!
 //! ```
 //! use fastphong::compare::metrics::compare;
@@ -32,11 +32,13 @@ use core::fmt;
 
 use crate::picture::Picture;
 
+mod flip;
 mod list;
 mod map;
 mod ssim;
 
 use crate::picture::{Levels, Texel};
+pub use flip::{Perceived, flip_colours, mean_flip};
 pub use list::{Better, METRICS, MetricInfo};
 pub use map::{BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, difference_map, signed_difference_map};
 
@@ -89,6 +91,9 @@ pub struct Difference {
     ///
     /// Excluded pixels count as equal.
     pub ssim: Option<f64>,
+    /// Mean ꟻLIP over the whole frame, as both pictures are stored: 0 for equal pictures, at most 1; `None` unless it was
+    /// asked for, as it takes ten times as long as all others ([`Perceived`]).
+    pub flip: Option<f64>,
 }
 
 impl Difference {

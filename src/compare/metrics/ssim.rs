@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::{AddAssign, Mul};
 
 /// Side of the window.
 const WINDOW: usize = 11;
@@ -76,12 +77,17 @@ fn multiply(x_row: &[f64], y_row: &[f64], [xs, ys, squares, crosses]: &mut [Vec<
     }
 }
 
-/// Sums up eleven slices with their weights, element by element.
-fn weigh<'a>(weights: &[f64; WINDOW], slice: impl Fn(usize) -> &'a [f64], out: &mut [f64]) {
-    out.fill(0.0);
+/// Sums slices, one for each weight, element by element.
+#[inline(always)]
+pub(super) fn weigh<'a, T: Copy + Default + AddAssign + Mul<Output = T> + 'a>(
+    weights: &[T],
+    slice: impl Fn(usize) -> &'a [T],
+    out: &mut [T],
+) {
+    out.fill(T::default());
     for (k, weight) in weights.iter().enumerate() {
         for (sum, value) in out.iter_mut().zip(slice(k)) {
-            *sum += weight * value;
+            *sum += *weight * *value;
         }
     }
 }

@@ -31,6 +31,7 @@ struct Known {
     signed_levels: f64,
     psnr: f64,
     ssim: f64,
+    flip: f64,
 }
 
 /// Made with scikit-image 0.26.0 and NumPy 2.4.6:
@@ -46,27 +47,38 @@ struct Known {
 /// max, rms, mae = abs(a - r).max(), np.sqrt(((a - r) ** 2).mean()), abs(a - r).mean()
 /// signed = ((la - lr) * 255).mean()
 /// ```
+///
+/// and with flip_evaluator 1.7, the implementation by the authors of ꟻLIP, in f32:
+///
+/// ```text
+/// map, _, _ = flip_evaluator.evaluate(*(np.float32(p / 255.0) for p in (r, a)), "LDR", applyMagma=False)
+/// flip = np.float64(map).mean()
+/// ```
 #[rustfmt::skip]
 static KNOWN: [Known; 4] = [
     Known {
         size: [11, 11], noise: |x, y, c| (x * y + c) % 5 - 2,
         max_levels: 2.0, rms_levels: 1.3696835612108513, mae_levels: 1.1267217630853994,
         signed_levels: -0.38290247933884364, psnr: 45.39839873991237, ssim: 0.9981901887766458,
+        flip: 0.02376365901763774,
     },
     Known {
         size: [40, 16], noise: |x, y, c| (3 * x + 7 * y + c) % 5 - 2,
         max_levels: 2.0, rms_levels: 1.407753825543846, mae_levels: 1.1911458333333333,
         signed_levels: 0.003682812499999075, psnr: 45.160269284648685, ssim: 0.9983545024187952,
+        flip: 0.011683460400854528,
     },
     Known {
         size: [13, 31], noise: |x, y, c| (x * x + 11 * y + 5 * c) % 97 - 48,
         max_levels: 48.0, rms_levels: 26.34543387109196, mae_levels: 22.31017369727047,
         signed_levels: -0.8982258064516121, psnr: 19.716696505318282, ssim: 0.46569468528196845,
+        flip: 0.24193979435537943,
     },
     Known {
         size: [24, 17], noise: |_, _, _| 20,
         max_levels: 20.0, rms_levels: 19.44001583554588, mae_levels: 19.17401960784314,
         signed_levels: 19.14215049019608, psnr: 22.356871321475435, ssim: 0.992065160983734,
+        flip: 0.346359987031011,
     },
 ];
 
@@ -94,6 +106,9 @@ fn numbers_equal_those_of_scikit_image() {
         // Window means of values in 0..=1 take 22 products and sums in two passes, so are off by 50 * 2^-53 = 6e-15,
         // variances by four times that, on both sides; divided by C2 = 9e-4, the least a denominator can be: 6e-11.
         near(d.ssim.unwrap(), known.ssim, 6e-11);
+        // Both are in f32, and their pixels within 1e-4 of each other: see `flip`.
+        let map = Perceived::new(&reference).flip(&Perceived::new(&actual));
+        near(mean_flip(&map.unwrap()), known.flip, 1e-5);
     }
 }
 
@@ -308,7 +323,9 @@ fn sizes_must_agree() {
 #[test]
 fn every_metric_states_its_value_and_names_are_unique() {
     let [reference, actual] = pair(40, 16, |x, y, c| (3 * x + 7 * y + c) % 5 - 2);
-    let d = compare(&reference, &actual).unwrap();
+    let mut d = compare(&reference, &actual).unwrap();
+    assert_eq!(d.flip, None, "it was not asked for");
+    d.flip = Some(0.25);
     for metric in METRICS {
         assert!(
             std::ptr::eq(MetricInfo::named(metric.name).unwrap(), metric),

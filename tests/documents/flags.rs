@@ -1,0 +1,213 @@
+//! `docs/flags.md`: each flag of `fastphong render` with a picture without it and one with it.
+//!
+//! `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from [`FLAGS`] and the help of the
+//! tool: look at each pair before committing it.
+
+use crate::markdown::{files, read, root};
+use fastphong::picture::image_file::decode_picture;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Flags that change the picture: name, default where the help does not give one, and what `render` is told without the
+/// flag and with it.
+#[rustfmt::skip]
+const FLAGS: &[[&str; 4]] = &[
+    ["resolution", "", "teapot --resolution 160x120", "teapot --resolution 40x30"],
+    ["view", "the camera of the scene", "teapot", "teapot --view 200,50"],
+    ["eye", "fitted", "builtin:cube", "builtin:cube --eye 0,1,3"],
+    ["target", "the origin", "builtin:cube --eye 2,2,3", "builtin:cube --eye 2,2,3 --target 1,0,0"],
+    ["up", "", "football", "football --up 1,1,0"],
+    ["fovy", "orthographic", "corrugated", "corrugated --fovy 70"],
+    ["half-height", "fitted", "vase", "vase --half-height 4"],
+    ["near", "fitted", "terrain --eye 0,2,4", "terrain --eye 0,2,4 --near 4"],
+    ["far", "fitted", "terrain --eye 0,2,4", "terrain --eye 0,2,4 --far 4"],
+    ["fit", "0.8", "football", "football --fit 0.4"],
+    ["light", "those of the scene", "vase", "vase --light=-1,0.5,0.2"],
+    ["light-at", "those of the scene", "terrain --light 0,1,0", "terrain --light-at 0,0.5,0"],
+    ["attenuation", "none", "terrain --light-at 1,1,1", "terrain --light-at 1,1,1 --attenuation 1"],
+    ["falloff", "none", "terrain --light-at 1,1,1", "terrain --light-at 1,1,1 --falloff inverse-square"],
+    ["no-lights", "off", "vase --ambient 3", "vase --ambient 3 --no-lights"],
+    ["ambient", "1", "vase", "vase --ambient 3"],
+    ["ka", "0.08,0.07,0.06", "teapot", "teapot --ka 0.3"],
+    ["kd", "0.6,0.45,0.3", "teapot", "teapot --kd 0.1,0.3,0.6"],
+    ["ks", "0.4", "fine-sphere", "fine-sphere --ks 0"],
+    ["shininess", "32", "fine-sphere", "fine-sphere --shininess 4"],
+    ["background", "0", "teapot", "teapot --background 0.2,0.3,0.5"],
+    ["interpolation", "screen", "perspective --aov checkerboard --interpolation screen", "perspective --aov checkerboard --interpolation perspective"],
+    ["viewer", "infinite", "local-lights --viewer infinite", "local-lights --viewer local"],
+    ["specular", "phong", "fine-sphere --light 1,0.3,-0.5", "fine-sphere --light 1,0.3,-0.5 --specular blinn"],
+    ["shininess-for", "that of --specular", "fine-sphere --specular blinn", "fine-sphere --specular blinn --shininess-for phong"],
+    ["specular-gate", "gated", "fine-sphere --light 1,0.3,-0.8 --shininess 4 --specular blinn", "fine-sphere --light 1,0.3,-0.8 --shininess 4 --specular blinn --specular-gate ungated"],
+    ["encoding", "linear", "football", "football --encoding srgb"],
+    ["cull", "back", "builtin:sphere --eye 0,2,3 --near 3 --ambient 3", "builtin:sphere --eye 0,2,3 --near 3 --ambient 3 --cull none"],
+    ["two-sided", "off", "terrain --view 30,-30 --cull none", "terrain --view 30,-30 --cull none --two-sided"],
+    ["visibility", "z-buffer", "interpenetration", "interpenetration --visibility painter"],
+    ["painter-key", "mean", "interpenetration --visibility painter", "interpenetration --visibility painter --painter-key farthest"],
+    ["depth-bits", "32", "z-fighting --depth-bits 32", "z-fighting --depth-bits 16"],
+    ["depth", "interpolated", "z-fighting --samples 4", "z-fighting --samples 4 --depth per-sample"],
+    ["clipping", "planes", "terrain --eye 0,0.15,0.3 --fovy 80", "terrain --eye 0,0.15,0.3 --fovy 80 --clipping ndc-cube"],
+    ["samples", "1", "football", "football --samples 4"],
+    ["normals", "averaged", "football", "football --normals crease=10"],
+    ["method", "", "coarse-sphere", "coarse-sphere --method gouraud"],
+    ["engine", "", "two-lights", "two-lights --engine cs171:normals=as-printed"],
+    ["aov", "off", "teapot", "teapot --aov normal"],
+    ["square", "", "terrain --aov checkerboard", "terrain --aov checkerboard --square 0.25"],
+];
+
+/// Flags that change no picture, but for the rounding of a pixel here and there.
+#[rustfmt::skip]
+const OTHERS: &[&str] = &[
+    "output", "format", "simd", "threads", "print-scene", "stats", "reference", "reference-threshold", "verbose", "quiet", "help",
+];
+
+const PAGE: &str = "docs/flags.md";
+const PICTURES: &str = "docs/images/flags";
+/// Bytes of all pictures together.
+const MOST_BYTES: usize = 400_000;
+
+const HEAD: &str = "# Flags and what they do to the picture
+
+Each flag of `fastphong render` with a picture without it and one with it. Under each picture is what follows `fastphong render`.
+All are drawn with `--size 160x120 --method naive-phong --simd scalar` as well, unless the row says otherwise.
+
+`FASTPHONG_BLESS=1 cargo test --test documents flags` makes this page; `cargo test --test documents flags` checks that it and its
+pictures are up to date.
+
+| flag | default | meaning | without | with |
+|---|---|---|---|---|
+";
+
+fn run(arguments: &str) -> Vec<u8> {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_fastphong"));
+    let output = command.args(arguments.split_whitespace()).output();
+    let output = output.expect("the tool runs");
+    let problem = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments}: {problem}");
+    output.stdout
+}
+
+/// Draws a picture, as a PNG file.
+fn draw(command: &str) -> Vec<u8> {
+    let mut full = format!("render {command} --quiet -o -");
+    for (flag, fixed) in [
+        ("--resolution", "--resolution 160x120"),
+        ("--aov --method", "--method naive-phong"),
+        ("--aov --engine", "--simd scalar"),
+    ] {
+        if !flag.split(' ').any(|flag| command.contains(flag)) {
+            full += &format!(" {fixed}");
+        }
+    }
+    run(&full)
+}
+
+/// Reads the flags from the help of `render`: name, then the first sentence and the default, empty if there is none.
+fn help() -> BTreeMap<String, [String; 2]> {
+    let text = String::from_utf8(run("render --help")).expect("text");
+    let mut texts: BTreeMap<String, String> = BTreeMap::new();
+    let mut name = String::new();
+    for line in text.lines() {
+        let trimmed = line.trim();
+        let is_flag = trimmed.starts_with('-') && line.len() - trimmed.len() < 8;
+        if let Some((_, flag)) = trimmed.split_once("--").filter(|_| is_flag) {
+            let end = flag.find([' ', '=']).unwrap_or(flag.len());
+            name = flag[..end].to_owned();
+            texts.insert(name.clone(), String::new());
+        } else if !line.is_empty() && !line.starts_with(' ') {
+            // The head of a group of flags ends the text of the flag before it.
+            name.clear();
+        } else if let Some(text) = texts.get_mut(&name) {
+            *text += &format!(" {trimmed}");
+        }
+    }
+    let parts = |text: String| {
+        let (_, default) = text.split_once("[default: ").unwrap_or_default();
+        let default = default.split(']').next().unwrap_or_default();
+        let ends = [". ", "[", " Possible values:"].into_iter();
+        let end = ends.filter_map(|end| text.find(end)).min();
+        let sentence = &text[..end.unwrap_or(text.len())];
+        [sentence, default].map(|part| part.trim().replace('|', "\\|"))
+    };
+    let texts = texts.into_iter();
+    texts.map(|(name, text)| (name, parts(text))).collect()
+}
+
+/// Returns the name of the picture that a command draws.
+fn file(command: &str) -> String {
+    let words = command.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    format!("{PICTURES}/{}.png", words.join("-"))
+}
+
+fn page(help: &BTreeMap<String, [String; 2]>) -> String {
+    let mut page = HEAD.to_owned();
+    for [flag, default, without, with] in FLAGS {
+        let [sentence, in_help] = &help[*flag];
+        let default = if in_help.is_empty() {
+            default
+        } else {
+            in_help.as_str()
+        };
+        let picture = |command| {
+            let file = file(command).replace("docs/", "");
+            format!("![{command}]({file})<br>`{command}`")
+        };
+        let (without, with) = (picture(without), picture(with));
+        page += &format!("| `--{flag}` | {default} | {sentence} | {without} | {with} |\n");
+    }
+    page += "\n## Flags that leave the picture as it is\n\n";
+    for flag in OTHERS {
+        page += &format!("- `--{flag}`: {}\n", help[*flag][0]);
+    }
+    page
+}
+
+#[test]
+fn flags_of_render_are_in_the_page() {
+    let shown = FLAGS.iter().map(|row| row[0]);
+    let known: BTreeSet<&str> = shown.chain(OTHERS.iter().copied()).collect();
+    let help = help();
+    let in_help: BTreeSet<&str> = help.keys().map(String::as_str).collect();
+    assert_eq!(
+        in_help, known,
+        "flags of `render --help`, and those of this file"
+    );
+    let page = page(&help);
+    if std::env::var_os("FASTPHONG_BLESS").is_some() {
+        std::fs::write(root().join(PAGE), &page).expect(PAGE);
+    }
+    assert!(read(PAGE) == page, "{PAGE} is not what the tool makes");
+}
+
+#[test]
+fn flags_have_the_pictures_that_the_tool_draws() {
+    let commands: BTreeSet<&str> = FLAGS.iter().flat_map(|row| [row[2], row[3]]).collect();
+    let drawn: BTreeMap<&str, Vec<u8>> = commands.into_iter().map(|c| (c, draw(c))).collect();
+    let picture = |bytes: &[u8]| decode_picture(bytes).expect("a picture");
+    if std::env::var_os("FASTPHONG_BLESS").is_some() {
+        let _ = std::fs::remove_dir_all(root().join(PICTURES));
+        std::fs::create_dir_all(root().join(PICTURES)).expect(PICTURES);
+        for (command, bytes) in &drawn {
+            std::fs::write(root().join(file(command)), bytes).expect("a written picture");
+        }
+    }
+    let mut bytes = 0;
+    for (command, drawn) in &drawn {
+        let file = file(command);
+        let stored = std::fs::read(root().join(&file)).expect(&file);
+        assert!(
+            picture(&stored) == picture(drawn),
+            "{file} is not what `{command}` draws"
+        );
+        bytes += stored.len();
+    }
+    assert!(bytes < MOST_BYTES, "{bytes} bytes of pictures");
+    let named: BTreeSet<PathBuf> = drawn.keys().map(|c| PathBuf::from(file(c))).collect();
+    let stored: BTreeSet<PathBuf> = files(PICTURES, "png").into_iter().collect();
+    assert_eq!(stored, named, "a picture for each command and no other");
+    for [flag, _, without, with] in FLAGS {
+        let [without, with] = [without, with].map(|command| picture(&drawn[command]));
+        assert!(without != with, "--{flag} makes no difference");
+    }
+}
