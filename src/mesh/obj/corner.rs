@@ -19,12 +19,21 @@ pub(super) struct WrittenCorner {
 impl WrittenCorner {
     /// Reads a word of an `f` statement.
     pub(super) fn read(word: &str) -> Result<Self, ObjProblem> {
+        // A position alone needs no splitting.
+        if let Ok(position) = word.parse() {
+            return Ok(WrittenCorner {
+                position,
+                texture: None,
+                normal: None,
+            });
+        }
         let bad = || ObjProblem::BadCorner(quote(word));
         let index = |part: Option<&str>| match part {
             None | Some("") => Ok(None),
             Some(part) => part.parse().map(Some).map_err(|_| bad()),
         };
-        let mut parts = word.split('/');
+        // A list of characters: the search for a single one is made for long texts, and slower in words.
+        let mut parts = word.split(['/']);
         let corner = WrittenCorner {
             position: index(parts.next())?.ok_or_else(bad)?,
             texture: index(parts.next())?,

@@ -379,11 +379,14 @@ fn smoothing_group(word: &str) -> u64 {
 
 /// Appends a separator and `number` in decimal. Faster than `write!`, and there are as many numbers as corners.
 fn push_decimal(text: &mut Vec<u8>, separator: &[u8], mut number: usize) {
-    text.extend_from_slice(separator);
-    let first = text.len();
+    // 20 digits hold every 64-bit number.
+    let mut digits = [0; 20];
+    let mut start = digits.len();
     while number > 0 {
-        text.push(b'0' + (number % 10) as u8);
+        start -= 1;
+        digits[start] = b'0' + (number % 10) as u8;
         number /= 10;
     }
-    text[first..].reverse();
+    text.extend_from_slice(separator);
+    text.extend_from_slice(&digits[start..]);
 }
