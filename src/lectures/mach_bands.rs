@@ -11,7 +11,7 @@ use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "mach-bands",
-    title: "Mach bands: weakened at the edges, not eliminated",
+    title: "Mach bands: jumps at the edges of polygons",
     lecture: "L21 2, 3, 4: \"this blurring eliminates Mach bands\"",
     parts: &[bands],
 };
