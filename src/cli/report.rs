@@ -157,8 +157,9 @@ impl ReportArgs {
         };
         let mut document = Document::new(command_line(), Vec::new());
         let (drawn, figures) = self.drawn.threads.install(|| {
-            let drawn = names.par_iter().zip(&files).map(draw);
-            let drawn = drawn.collect::<Result<Vec<DrawnScene>, CliError>>()?;
+            // All are collected before the first error ends it, so that it is the same at every run.
+            let drawn: Vec<_> = names.par_iter().zip(&files).map(draw).collect();
+            let drawn = drawn.into_iter().collect::<Result<Vec<DrawnScene>, _>>()?;
             let figures = draw_figures(&figures, &|part, name| progress(1, part, name))?;
             Ok::<_, CliError>((drawn, figures))
         })??;
