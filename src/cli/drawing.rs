@@ -1,6 +1,5 @@
 //! From a frame to a picture, by a method and an engine.
 
-use super::auto::AUTO;
 use super::engines::{ENGINES, Engine, Simd, cs171_shading};
 use super::talk::{Talk, counted, grouped};
 use super::{Failure, aov::Aov};
@@ -18,6 +17,9 @@ use fastphong::shading::{METHODS, Variant};
 
 /// The name under which the reference picture can be asked for like a method.
 const REFERENCE: &str = "reference";
+
+/// The name under which the choice of the method is left to the program.
+pub const AUTO: &str = "auto";
 
 /// The source of the colours.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::Aov;
-use super::auto::{AUTO, AskedMethod, asked_method};
-use super::drawing::{Content, Drawing};
+use super::auto::{AskedMethod, asked_method};
+use super::drawing::{AUTO, Content, Drawing};
 use super::engines::{self, Engine, Simd, ThreadFlags, renderer};
 use super::name_template::{named, scene_name};
 use super::output::{self, Output};
