@@ -2,7 +2,6 @@
 
 use super::engines::{ENGINES, EngineFlag, Simd, cs171_shading};
 use super::log::Log;
-use super::method_flag::AUTO;
 use super::text::{counted, grouped};
 use super::{CliError, aov::Aov};
 use fastphong::compare::comparison::DrawnBy;
@@ -21,6 +20,9 @@ use std::fmt;
 
 /// The name under which the reference picture can be asked for like a method.
 const REFERENCE: &str = "reference";
+
+/// The name under which the choice of the method is left to the program.
+pub const AUTO: &str = "auto";
 
 /// The source of the colours.
 #[derive(Clone, Debug)]

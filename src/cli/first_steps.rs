@@ -4,11 +4,11 @@
 pub const FIRST_STEPS: &str = "\
 Eleven ways to shade polygons, from flat to Phong, to draw, time and check. Five things to try:
 
-  fastphong render builtin:teapot -o teapot.png         a picture; so does any mesh file: bunny.obj
+  fastphong render builtin:teapot -o teapot.png          a picture; your bunny.obj does as well
   fastphong render two-lights -m fast-phong -o fast.png  where the lecture's method shows its facets
-  fastphong compare teapot                              a row a method: its error, its time
-  fastphong explain fast-phong                          formula, cost, where it fails
-  fastphong report                                      all of it on one page, in about a minute
+  fastphong compare teapot                               a row a method: its error, its time
+  fastphong explain fast-phong                           formula, cost, where it fails
+  fastphong report                                       all of it on one page, in about a minute
 
-fastphong --help has all commands, fastphong list scenes what to draw. No command: exit code 2.
+fastphong --help has all commands, fastphong list scenes what to draw.
 ";

@@ -1,13 +1,10 @@
 //! `--method`: a method by name, or `auto`, which is chosen once the frame is there.
 
-use super::drawing::{self, Method};
+use super::drawing::{self, AUTO, Method};
 use super::engines::EngineFlag;
 use fastphong::frame::Frame;
 use fastphong::raster::Renderer;
 use fastphong::shading::Variant;
-
-/// The name of the choice.
-pub const AUTO: &str = "auto";
 
 /// The method that was asked for: `None` is `auto`.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::Aov;
-use super::drawing::{PictureContent, RenderJob};
+use super::drawing::{AUTO, PictureContent, RenderJob};
 use super::engines::{self, EngineFlag, ScanlineEngine, Simd, ThreadFlags, renderer};
 use super::log::{Log, to_stderr, to_stdout};
-use super::method_flag::{AUTO, AskedMethod, asked_method};
+use super::method_flag::{AskedMethod, asked_method};
 use super::name_template::{named, scene_name};
 use super::output::{self, Output};
 use super::progress::Progress;

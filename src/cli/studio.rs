@@ -79,9 +79,10 @@ fn lights(camera: &Camera) -> Data {
     let up = toward.cross(right);
     let light = |([x, y, z], colour): ([f64; 3], [f64; 3])| {
         let direction: DVec3 = x * right + y * up + z * toward;
+        // Three digits, for who reads the printed scene.
+        let direction = ((1e3 * direction).round() / 1e3).to_array();
         let mut light = SceneTable::default();
-        let direction = Data::Triple(direction.to_array());
-        light.set("direction", direction, Origin::Program);
+        light.set("direction", Data::Triple(direction), Origin::Program);
         light.set("colour", Data::Triple(colour), Origin::Program);
         light
     };
