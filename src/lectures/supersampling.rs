@@ -28,9 +28,11 @@ const SIZE: [u32; 2] = [24, 18];
 const TRIANGLE: [[f64; 2]; 3] = [[3.2, 1.3], [21.7, 8.1], [6.4, 16.6]];
 const PLANE: [[f64; 2]; 4] = [[-1.0, -1.0], [25.0, -1.0], [25.0, 19.0], [-1.0, 19.0]];
 
-/// Makes a frame of polygons, each of one colour, depth and corners in pixels, with so many samples
-/// a pixel.
-fn frame(size: [u32; 2], samples: u32, polygons: &[([f32; 3], f64, &[[f64; 2]])]) -> Result<Frame> {
+/// The colour, the depth and the corners of a polygon, in pixels.
+type Coloured<'a> = ([f32; 3], f64, &'a [[f64; 2]]);
+
+/// Makes a frame of polygons with so many samples a pixel along each side.
+fn frame(size: [u32; 2], samples: u32, polygons: &[Coloured<'_>]) -> Result<Frame> {
     let [width, height] = size.map(|side| side * samples);
     let mut builder = FrameBuilder::new(width, height);
     builder.samples(samples);
