@@ -108,13 +108,18 @@ impl Perceived {
         let edges = strength(&detector(&|x| -x));
         let points = strength(&detector(&|x| x * x / (deviation * deviation) - 1.0));
 
+        // The colour of one pixel after the other: backgrounds are converted once.
+        let mut last = ([f32::NAN; 4], Vec3::ZERO);
         let percept = |i: usize| {
-            let [y, cx, wide, narrow] =
-                [&blurred_y, &blurred_cx, &wide.1, &narrow.1].map(|plane| plane.texels()[i]);
-            let cz = share * wide + (1.0 - share) * narrow;
-            let rgb = to_rgb * Vec3::new(y + cx, y, y - cz);
+            let planes = [&blurred_y, &blurred_cx, &wide.1, &narrow.1].map(|p| p.texels()[i]);
+            if planes != last.0 {
+                let [y, cx, wide, narrow] = planes;
+                let cz = share * wide + (1.0 - share) * narrow;
+                let rgb = to_rgb * Vec3::new(y + cx, y, y - cz);
+                last = (planes, hunt_lab(to_xyz * rgb.clamp(Vec3::ZERO, Vec3::ONE)));
+            }
             Percept {
-                lab: hunt_lab(to_xyz * rgb.clamp(Vec3::ZERO, Vec3::ONE)),
+                lab: last.1,
                 edge: edges[i],
                 point: points[i],
             }
