@@ -8,7 +8,7 @@
 //!
 //! All of them have the same fill rule, and draw exactly the same pixels: those whose centres have an odd number of polygon edges to their left, counted in
 //! exact integers on corners snapped to 1/256 pixel. Polygons that share an edge share none of its pixels and leave no hole.
-//! The rule is `first_centre` and `Crossing` in `spans/edge.rs` with the parity in `ActiveEdges::spans` (`spans/active.rs`), and as
+//! The rule is `first_centre` and `EdgeCrossing` in `spans/edge.rs` with the parity in `ActiveEdges::spans` (`spans/active.rs`), and as
 //! edge functions `EdgeFunctions` in `rows/triangles.rs`.
 //!
 //! Start with `spans/mod.rs`; `render.rs` says which engine draws, `setup.rs` what is computed before the first scanline.
@@ -35,4 +35,4 @@ pub use aov::{
 };
 pub use barycentric::{Edges, barycentric_polygon_numbers};
 pub use engine::{Engine, Plan, Renderer};
-pub use spans::{Crossing, NOTHING};
+pub use spans::{EdgeCrossing, NOTHING};
