@@ -1,7 +1,7 @@
-//! What is seen besides shaded colours: depth, normals, polygon numbers, coverage, and varyings themselves.
+//! Pictures beside shaded colours: depth, normals, polygon numbers, coverage, and interpolated colours and checkerboards.
 //!
-//! A mean of depths or of polygon numbers means nothing: those are of single samples, [`Frame::width`] × [`Frame::height`] of
-//! them, and where a frame has several a pixel they are not filtered.
+//! A mean of depths or of polygon numbers means nothing: where a frame has several samples a pixel these pictures have
+//! [`Frame::width`] × [`Frame::height`] of them, not filtered.
 //!
 //! Colours of vertices and checkerboards (L5, Interpolation Across Triangles) are linear on the screen, or, if the frame asks for
 //! it, linear in space for one division a pixel. Under a perspective camera the first bends the squares of a board at every
@@ -10,26 +10,20 @@
 use super::barycentric::{self, Edges};
 use super::setup::{Varyings, unit};
 use super::spans::{NOTHING, scan};
-use super::target::{draw_anyhow, draw_rows, linear_picture, linear_samples};
-use crate::frame::Frame;
+use super::target::{Target, draw_anyhow, draw_rows, empty, linear_samples};
+use crate::frame::{Frame, ScreenVertex};
 use crate::picture::{LinearPicture, Picture, Rgb};
 use crate::scene::Interpolation;
 use crate::shading::ramp;
-use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
-
-/// Varyings of no numbers: for what is only seen.
-fn nothing() -> Varyings<'static> {
-    Varyings::of_vertices(vec![], 0)
-}
 
 /// Returns the number of the polygon seen at each pixel, an index into [`Frame::polygons`], or [`NOTHING`].
 ///
 /// It does not depend on the shading method.
 pub fn polygon_numbers(frame: &Frame) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
-    scan(frame, &nothing(), &mut |row, line, _| {
+    scan(frame, &Varyings::none(), &mut |row, line, _| {
         for (x, number) in picture.row_mut(row).iter_mut().enumerate() {
             *number = line.polygon(x);
         }
@@ -40,7 +34,7 @@ pub fn polygon_numbers(frame: &Frame) -> Picture<u32> {
 /// Returns the depth at each pixel as it is compared, 0 at the near plane, 1 at the far plane; infinite where nothing is seen.
 pub fn depth(frame: &Frame) -> Picture<f32> {
     let mut picture = Picture::new(frame.width(), frame.height(), f32::INFINITY);
-    scan(frame, &nothing(), &mut |row, line, _| {
+    scan(frame, &Varyings::none(), &mut |row, line, _| {
         for (pixel, depth) in picture.row_mut(row).iter_mut().zip(line.depth()) {
             *pixel = depth;
         }
@@ -48,35 +42,33 @@ pub fn depth(frame: &Frame) -> Picture<f32> {
     picture
 }
 
-/// Gives every span of every polygon, hidden ones too: polygon number, row, and the pixels whose centres it covers.
+/// Calls `visit` with every span of every polygon, hidden ones too: polygon number, row, and the pixels whose centres it covers.
 ///
 /// Rows come in order, and within a row polygons in drawing order. A pixel is covered when its centre has an odd number of the
 /// polygon's edges to its left.
 pub fn coverage(frame: &Frame, mut visit: impl FnMut(u32, usize, Range<usize>)) {
-    scan(frame, &nothing(), &mut |row, line, _| {
+    scan(frame, &Varyings::none(), &mut |row, line, _| {
         for span in line.spans() {
             visit(span.polygon, row, span.start as usize..span.end as usize);
         }
     });
 }
 
-/// Takes the numbers that are interpolated to a pixel.
-type Visit<'a> = dyn FnMut(usize, usize, &[f32]) + 'a;
-
-/// Gives the varyings at each pixel that is seen: column, row, numbers.
+/// Calls `visit` with the varyings at each pixel that is seen: column, row, numbers.
 fn interpolate(
     frame: &Frame,
     varyings: &Varyings<'_>,
     edges: Option<Edges>,
-    visit: &mut Visit<'_>,
+    visit: &mut dyn FnMut(usize, usize, [f32; 4]),
 ) {
-    let count = varyings.count;
+    const COUNT: usize = 4;
+    let numbers = |start: &[f32]| [start[0], start[1], start[2], start[3]];
     let mut starts = Vec::new();
     match edges {
         Some(edges) => {
             barycentric::scan(frame, varyings, edges, &mut |_, row, columns, starts| {
-                for (x, start) in columns.iter().zip(starts.chunks_exact(2 * count)) {
-                    visit(*x, row, &start[..count]);
+                for (x, start) in columns.iter().zip(starts.chunks_exact(2 * COUNT)) {
+                    visit(*x, row, numbers(start));
                 }
             });
         }
@@ -84,9 +76,9 @@ fn interpolate(
             line.runs(|span, pixels| {
                 starts.clear();
                 edges.start(span, pixels.start as u32 - span.start, &mut starts);
-                let (at, step) = starts.split_at_mut(count);
+                let (at, step) = starts.split_at_mut(COUNT);
                 for x in pixels {
-                    visit(x, row, at);
+                    visit(x, row, numbers(at));
                     at.iter_mut().zip(&*step).for_each(|(at, step)| *at += step);
                 }
             });
@@ -96,37 +88,30 @@ fn interpolate(
 
 /// Returns the unit normal at each pixel, in world space, as (N + 1)/2; alpha 0 where nothing is seen.
 pub fn normals(frame: &Frame) -> LinearPicture {
-    let varyings = of_vertices(frame, 3, |vertex| frame.normal(vertex));
+    let varyings = of_vertices(frame, |vertex| frame.normal(vertex));
     let mut picture = linear_samples(frame);
     interpolate(frame, &varyings, None, &mut |x, row, n| {
-        let [r, g, b] = (unit(n).unit() * 0.5).array();
+        let [r, g, b] = (unit(&n).unit() * 0.5).array();
         picture.row_mut(row)[x] = [r + 0.5, g + 0.5, b + 0.5, 1.0].map(|c| c.clamp(0.0, 1.0));
     });
     picture
 }
 
-/// Returns three numbers a vertex as varyings, times the weight of perspective where the frame asks for it; `count` is 4 if the
-/// weight follows them.
-fn of_vertices(frame: &Frame, count: usize, of: impl Fn(u32) -> [f32; 3]) -> Varyings<'static> {
-    let vertices = 0..frame.vertices().len() as u32;
-    let mut all: Vec<[f32; 3]> = vertices.map(of).collect();
+/// Returns three numbers a vertex as varyings, followed by 1; all times the weight of perspective where the frame asks for it.
+fn of_vertices(frame: &Frame, of: impl Fn(u32) -> [f32; 3]) -> Varyings<'static> {
+    let mut all: Vec<[f32; 3]> = (0..frame.vertices().len() as u32).map(of).collect();
     for corner in frame.clip_corners() {
         let (a, b) = (all[corner.a as usize], all[corner.b as usize]);
         let between = |i: usize| ramp(a[i], b[i], corner.t, 0.0)[0];
         all[corner.vertex as usize] = [between(0), between(1), between(2)];
     }
-    let is_weighted = frame.interpolation() == Interpolation::Perspective;
-    let values = all
-        .iter()
-        .zip(frame.vertices())
-        .flat_map(|([x, y, z], vertex)| {
-            let weight = if is_weighted { vertex.inv_w } else { 1.0 };
-            [*x, *y, *z, 1.0]
-                .map(|value| value * weight)
-                .into_iter()
-                .take(count)
-        });
-    Varyings::of_vertices(values.collect::<Vec<f32>>(), count)
+    let weighted = |([x, y, z], vertex): (&[f32; 3], &ScreenVertex)| {
+        let is_weighted = frame.interpolation() == Interpolation::Perspective;
+        let weight = if is_weighted { vertex.inv_w } else { 1.0 };
+        [*x, *y, *z, 1.0].map(|value| value * weight)
+    };
+    let values = all.iter().zip(frame.vertices()).flat_map(weighted);
+    Varyings::of_vertices(values.collect::<Vec<f32>>(), 4)
 }
 
 /// Returns the colours of the vertices ([`Frame::colour`]), interpolated: linear, clamped to 0..=1; alpha 0 where nothing is
@@ -135,15 +120,10 @@ pub fn vertex_colours(frame: &Frame) -> LinearPicture {
     shown(frame, None, |vertex| frame.colour(vertex), |colour| colour)
 }
 
-/// Does as [`vertex_colours`] by the barycentric renderer (CS171 1, Algorithm 2), which passes over polygons of more than three
-/// corners.
+/// Returns the picture of [`vertex_colours`] by the barycentric renderer (CS171 1, Algorithm 2), which passes over polygons of
+/// more than three corners.
 pub fn barycentric_vertex_colours(frame: &Frame, edges: Edges) -> LinearPicture {
-    shown(
-        frame,
-        Some(edges),
-        |vertex| frame.colour(vertex),
-        |colour| colour,
-    )
+    shown(frame, Some(edges), |v| frame.colour(v), |colour| colour)
 }
 
 /// Returns a checkerboard on the world's x and z, the plane of a floor: alpha 0 where nothing is seen.
@@ -155,7 +135,7 @@ pub fn checkerboard(frame: &Frame, size: f64, colours: [Rgb; 2]) -> LinearPictur
     board(frame, None, size, colours)
 }
 
-/// Does as [`checkerboard`] by the barycentric renderer, which passes over polygons of more than three corners.
+/// Returns the picture of [`checkerboard`] by the barycentric renderer, which passes over polygons of more than three corners.
 pub fn barycentric_checkerboard(
     frame: &Frame,
     edges: Edges,
@@ -165,9 +145,10 @@ pub fn barycentric_checkerboard(
     board(frame, Some(edges), size, colours)
 }
 
+/// Draws a checkerboard by the span engine, or by the barycentric renderer with `edges`.
 fn board(frame: &Frame, edges: Option<Edges>, size: f64, colours: [Rgb; 2]) -> LinearPicture {
     let eye = frame.eye();
-    // Where a vertex is in the world, rounded once.
+    // The position of a vertex in the world, rounded once.
     let world = |vertex: u32| {
         let from_eye = frame.position(vertex);
         core::array::from_fn(|i| (eye[i] + f64::from(from_eye[i])) as f32)
@@ -180,7 +161,7 @@ fn board(frame: &Frame, edges: Option<Edges>, size: f64, colours: [Rgb; 2]) -> L
     })
 }
 
-/// Returns three numbers a vertex as a picture: interpolated, sample by sample, as `colour` shows them.
+/// Returns a picture of three numbers a vertex: `colour` of the interpolated numbers at each sample.
 fn shown(
     frame: &Frame,
     edges: Option<Edges>,
@@ -188,18 +169,13 @@ fn shown(
     colour: impl Fn([f32; 3]) -> [f32; 3],
 ) -> LinearPicture {
     let is_weighted = frame.interpolation() == Interpolation::Perspective;
-    let varyings = of_vertices(frame, if is_weighted { 4 } else { 3 }, of);
-    let mut picture = linear_picture(frame);
-    let draw = |target: &mut dyn super::target::Target| {
+    let varyings = of_vertices(frame, of);
+    let mut picture = empty(frame);
+    let draw = |target: &mut dyn Target| {
         interpolate(frame, &varyings, edges, &mut |x, row, numbers| {
-            let value = match *numbers {
-                [x, y, z, weight] => {
-                    let w = 1.0 / weight;
-                    [x * w, y * w, z * w]
-                }
-                _ => [numbers[0], numbers[1], numbers[2]],
-            };
-            target.store(x, row, &[colour(value)]);
+            let [a, b, c, weight] = numbers;
+            let w = if is_weighted { 1.0 / weight } else { 1.0 };
+            target.store(x, row, &[colour([a * w, b * w, c * w])]);
         });
     };
     match edges {

@@ -10,7 +10,7 @@ use super::spans::NOTHING;
 use super::target::Target;
 use crate::frame::{Frame, ScreenVertex};
 use crate::picture::Picture;
-use crate::shading::{Pixels, Run};
+use crate::shading::Run;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -62,11 +62,14 @@ impl EdgeFunction {
     }
 }
 
-/// Takes the visible pixels of a triangle on a row: the polygon, the row, the columns, and what each pixel starts from.
-type Visit<'a> = dyn FnMut(u32, usize, &[usize], &[f32]) + 'a;
-
-/// Goes through the triangles of `frame`, in drawing order; polygons with more corners are passed over.
-pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: &mut Visit<'_>) {
+/// Calls `visit` with the visible pixels of each triangle on each row, in drawing order: the polygon, the row, the columns,
+/// and the start of a run at each pixel. Polygons with more corners are passed over.
+pub(super) fn scan(
+    frame: &Frame,
+    varyings: &Varyings<'_>,
+    edges: Edges,
+    visit: &mut dyn FnMut(u32, usize, &[usize], &[f32]),
+) {
     let depth = SampleDepth::new(frame);
     let mut depth_buffer = vec![f32::INFINITY; frame.width() * frame.height()];
     let (mut columns, mut starts) = (Vec::new(), Vec::new());
@@ -95,7 +98,8 @@ pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: 
         let scale = 1.0 / doubled_area.abs() as f32;
         let depths = corners.map(|corner| depth.of_corner(frame, corner));
         let values = order.map(|(corner, v)| varyings.of_corner(number, corner, v));
-        let (x_range, y_range) = bounding_box(frame, &corners);
+        let x_range = pixels(corners.map(|v| v.x.to_bits()), frame.width());
+        let y_range = pixels(corners.map(|v| v.y.to_bits()), frame.height());
         for row in y_range {
             columns.clear();
             starts.clear();
@@ -112,7 +116,7 @@ pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: 
                 if here.iter().zip(&least).any(|(f, least)| f < least) {
                     continue;
                 }
-                // α = f_bc(p) / f_bc(a), and likewise β and γ: f_bc(a) is the doubled area for all three.
+                // α = f_bc(p) / f_bc(a), β and γ accordingly: f_bc(a) is the doubled area for all three.
                 let weights = here.map(|f| f as f32 * scale);
                 let mix = |a, b, c| weights[0] * a + weights[1] * b + weights[2] * c;
                 let q = mix(depths[0], depths[1], depths[2]);
@@ -140,67 +144,42 @@ pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: 
 pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
     let mut colours = vec![[0.0; 3]; setup.frame.width()];
     let mut runs = Vec::new();
-    scan(
-        setup.frame,
-        &setup.varyings,
-        edges,
-        &mut |number, row, columns, starts| {
-            let run = Run {
-                uniforms: setup.uniforms_of(number),
-                x: 0,
-                pixels: 1,
-            };
-            runs.clear();
-            runs.resize(columns.len(), run);
-            let job = Pixels {
-                parameters: setup.parameters,
-                uniforms: &setup.uniforms,
-                extras: setup.extras,
-                runs: &runs,
-                starts,
-            };
-            (setup.kernels.pixels)(&job, &mut colours);
-            for (column, colour) in columns.iter().zip(&colours) {
-                target.store(*column, row, &[*colour]);
-            }
-        },
-    );
+    let visit = &mut |number, row, columns: &[usize], starts: &[f32]| {
+        let run = Run {
+            uniforms: setup.uniforms_of(number),
+            x: 0,
+            pixels: 1,
+        };
+        runs.clear();
+        runs.resize(columns.len(), run);
+        (setup.kernels.pixels)(&setup.pixels(&runs, starts), &mut colours);
+        for (column, colour) in columns.iter().zip(&colours) {
+            target.store(*column, row, &[*colour]);
+        }
+    };
+    scan(setup.frame, &setup.varyings, edges, visit);
 }
 
 /// Returns the number of the polygon that the barycentric renderer shows at each pixel, an index into [`Frame::polygons`], or
 /// [`NOTHING`].
 ///
-/// It is that of [`polygon_numbers`](super::polygon_numbers), but where depths agree to within rounding.
+/// It agrees with [`polygon_numbers`](super::polygon_numbers) except where depths are equal within rounding.
 pub fn barycentric_polygon_numbers(frame: &Frame, edges: Edges) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
-    scan(
-        frame,
-        &Varyings::of_vertices(vec![], 0),
-        edges,
-        &mut |number, row, columns, _| {
-            let row = picture.row_mut(row);
-            columns.iter().for_each(|column| row[*column] = number);
-        },
-    );
+    let visit = &mut |number, row, columns: &[usize], _: &[f32]| {
+        let row = picture.row_mut(row);
+        columns.iter().for_each(|column| row[*column] = number);
+    };
+    scan(frame, &Varyings::none(), edges, visit);
     picture
 }
 
-/// Returns the pixels whose centres may lie in a triangle: columns and rows.
-fn bounding_box(frame: &Frame, corners: &[&ScreenVertex; 3]) -> (Range<usize>, Range<usize>) {
-    let range = |coordinates: [i32; 3], limit: usize| {
-        let (mut low, mut high) = (coordinates[0], coordinates[0]);
-        for c in coordinates {
-            (low, high) = (low.min(c), high.max(c));
-        }
-        // Centres at 256 p + 128, both ends included for closed edges.
-        let first = (low - 128 + 255).div_euclid(256).max(0) as usize;
-        let last = (high - 128).div_euclid(256) + 1;
-        first.min(limit)..(last.max(0) as usize).min(limit)
-    };
-    (
-        range(corners.map(|v| v.x.to_bits()), frame.width()),
-        range(corners.map(|v| v.y.to_bits()), frame.height()),
-    )
+/// Returns the pixels of 0 to `limit` whose centres lie between the least and the largest of three coordinates.
+fn pixels([a, b, c]: [i32; 3], limit: usize) -> Range<usize> {
+    // Centres at 256 p + 128, both ends included for closed edges.
+    let first = (a.min(b).min(c) + 127).div_euclid(256).max(0) as usize;
+    let end = (a.max(b).max(c) - 128).div_euclid(256) + 1;
+    first.min(limit)..(end.max(0) as usize).min(limit)
 }
 
 #[cfg(test)]

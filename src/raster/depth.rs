@@ -1,10 +1,10 @@
-//! Depth at a sample: from what is interpolated to what is compared. The depth tests are `VisibleLine::draw` in `spans/line.rs` and
+//! Depth at a sample: from the interpolated number to the one that is compared. The depth tests are `VisibleLine::draw` in `spans/line.rs` and
 //! `Writer::put` in `rows/tile.rs`.
 
 use crate::frame::{DepthRange, Frame, ScreenVertex};
 use crate::scene::{Clipping, DepthBits, DepthSource, HiddenSurfaces};
 
-/// How depth is made of the values at the corners, and how it is kept.
+/// The rule by which depth is computed at a sample, stored and compared.
 ///
 /// ```text
 /// interpolated:              z = q,                       q = z/w at the corners
@@ -17,12 +17,15 @@ pub struct SampleDepth {
     quantity: Quantity,
     origin: f32,
     factor: f32,
-    most: Option<u32>,
-    hides: bool,
-    cube: bool,
+    /// The largest integer that depth is stored as, if it is stored as integers.
+    pub most: Option<u32>,
+    /// True if nearer samples hide farther ones.
+    pub hides: bool,
+    /// True if samples outside of the NDC cube are not drawn.
+    pub cube: bool,
 }
 
-/// What is interpolated.
+/// The number that is interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
     Depth,
@@ -31,7 +34,7 @@ enum Quantity {
 }
 
 impl SampleDepth {
-    /// The depth of the samples of `frame`.
+    /// Returns the rule of `frame`.
     pub fn new(frame: &Frame) -> Self {
         let buffer = match frame.hidden_surfaces() {
             HiddenSurfaces::ZBuffer(buffer) => Some(buffer),
@@ -60,33 +63,17 @@ impl SampleDepth {
         }
     }
 
-    /// True if nearer samples hide farther ones.
-    pub fn hides(&self) -> bool {
-        self.hides
-    }
-
     /// True if depth is interpolated, not computed at each sample.
     pub fn is_interpolated(&self) -> bool {
         self.quantity == Quantity::Depth
     }
 
-    /// True if samples outside of the NDC cube are not drawn.
-    pub fn is_cut_by_cube(&self) -> bool {
-        self.cube
-    }
-
-    /// Returns the largest integer that depth is kept as, if it is kept as integers.
-    #[cfg(feature = "simd")]
-    pub fn most(&self) -> Option<u32> {
-        self.most
-    }
-
-    /// True if what is interpolated is what is compared, and nothing else is asked.
+    /// True if the interpolated number itself is stored and compared, without any other test.
     pub fn is_plain(&self) -> bool {
-        self.quantity == Quantity::Depth && self.most.is_none() && !self.cube
+        self.hides && self.is_interpolated() && self.most.is_none() && !self.cube
     }
 
-    /// What of a corner is interpolated.
+    /// Returns the number of a corner that is interpolated.
     #[inline(always)]
     pub fn of_corner(&self, frame: &Frame, vertex: &ScreenVertex) -> f32 {
         match self.quantity {
@@ -99,20 +86,20 @@ impl SampleDepth {
         }
     }
 
-    /// What is kept of a sample at which the interpolated value is `q`, if it is seen where `depth` was kept before.
+    /// Returns the depth to store for a sample with the interpolated number `q`, if it passes the test against the stored `depth`.
     #[inline(always)]
     pub fn seen(&self, q: f32, depth: f32) -> Option<f32> {
         let z = match self.quantity {
             Quantity::Depth => q,
             Quantity::InverseW | Quantity::Distance => (q - self.origin) * self.factor,
         };
-        // CS171 3, Algorithm 5: whether the sample lies in the cube; as to x and y, the picture ends there.
+        // CS171 3, Algorithm 5, is the sample in the cube? The picture ends at the cube's other faces.
         let is_inside = !self.cube || (0.0..=1.0).contains(&z);
         let kept = self.kept(z);
         (is_inside && (!self.hides || kept < depth)).then_some(kept)
     }
 
-    /// What the depth buffer keeps of `z`: the float itself, or a whole number of 0..=2ᵇ − 1, which an `f32` holds.
+    /// Returns `z` as the depth buffer stores it: the float itself, or a whole number of 0..=2ᵇ − 1, which an `f32` holds.
     #[inline(always)]
     pub fn kept(&self, z: f32) -> f32 {
         match self.most {
@@ -122,7 +109,7 @@ impl SampleDepth {
         }
     }
 
-    /// The depth that `kept` stands for, 0..=1.
+    /// Returns the depth that the stored `kept` stands for, 0..=1.
     pub fn shown(&self, kept: f32) -> f32 {
         match self.most {
             Some(most) if kept.is_finite() => kept / most as f32,

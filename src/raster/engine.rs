@@ -1,13 +1,10 @@
-//! Which engine draws a frame: the span engine is scalar, the row engine SIMD.
+//! The choice of an engine: the span engine is scalar, the row engine SIMD.
 
 use crate::number::Level;
-use crate::number::suggest::nearest;
-use alloc::format;
-use alloc::string::String;
+use crate::number::parallel;
 use core::fmt;
-use core::str::FromStr;
 
-/// The loops that draw a frame.
+/// A set of loops that draw a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engine {
     /// One pixel at a time: active edges, a depth buffer of one line, and visible runs that are walked and shaded once, the
@@ -18,26 +15,11 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// All there are.
-    pub const ALL: [Engine; 2] = [Engine::Span, Engine::Row];
-
-    /// Its name on the command line.
+    /// Returns the name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Engine::Span => "span",
             Engine::Row => "row",
-        }
-    }
-
-    /// What it is, in one sentence.
-    pub fn title(self) -> &'static str {
-        match self {
-            Engine::Span => {
-                "one pixel at a time: active edges, a depth buffer of one line, visible runs shaded once: the lecture's way"
-            }
-            Engine::Row => {
-                "SIMD: a deferred renderer, varyings kept in a G-buffer, each row shaded once"
-            }
         }
     }
 }
@@ -48,21 +30,7 @@ impl fmt::Display for Engine {
     }
 }
 
-impl FromStr for Engine {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Engine, String> {
-        let named = |engine: &Engine| engine.name() == name;
-        Engine::ALL.into_iter().find(named).ok_or_else(|| {
-            match nearest(name, Engine::ALL.map(Engine::name)) {
-                Some(near) => format!("unknown engine `{name}`: did you mean `{near}`?"),
-                None => format!("unknown engine `{name}`: expected `span` or `row`"),
-            }
-        })
-    }
-}
-
-/// What draws a frame, and on what. On how many threads, the current pool of `rayon` says (feature `threads`).
+/// An engine with its instruction set. The current pool of `rayon` gives the number of threads (feature `threads`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Renderer {
     /// The span engine, one pixel at a time.
@@ -75,7 +43,7 @@ pub enum Renderer {
 
 impl Renderer {
     /// The lecture's own form: spans, one pixel at a time, on one thread. Its pictures are the same bits on every platform,
-    /// and it is what every other is measured against.
+    /// and every other renderer is measured against it.
     pub const LECTURE: Renderer = Renderer::Span;
 
     /// Returns the engine that runs on `level`: the span engine on [`Level::Scalar`], the row engine on any other.
@@ -113,20 +81,20 @@ impl Renderer {
     }
 
     /// Returns how many threads walk and shade its pixels: one in the span engine, in the row engine those of the current
-    /// pool of `rayon`, which is one without the feature `threads`. Vertices are lit on all of the pool by both.
+    /// pool of `rayon`, which is one without the feature `threads`. Both light vertices on all threads of the pool.
     pub fn threads(self) -> usize {
         match self {
             Renderer::Span => 1,
-            Renderer::Row(_) => crate::number::parallel::threads(),
+            Renderer::Row(_) => parallel::threads(),
         }
     }
 }
 
-/// What draws a frame indeed: see [`crate::shading::Variant::plan`].
+/// The renderer that draws a frame after all: see [`crate::shading::Variant::plan`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// What draws it.
+    /// The renderer.
     pub renderer: Renderer,
-    /// Why it is not what was asked for, if it is not.
+    /// The reason why it is not the one that was asked for, if it is another.
     pub reason: Option<&'static str>,
 }

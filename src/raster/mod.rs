@@ -4,14 +4,14 @@
 //! - `spans` is the lecture's, scalar: an edge table, active edges that step their varyings from scanline to scanline, a depth
 //!   buffer of one line, and visible runs that are walked and shaded once. Everything can be drawn by it.
 //! - `rows` (feature `simd`) is a deferred renderer: bands of scanlines, a G-buffer, each row shaded once.
-//! - `barycentric` is what the first is measured against: a bounding box a triangle, three edge functions a pixel.
+//! - `barycentric` is the bounding-box rasterizer that the span engine is measured against: three edge functions a pixel.
 //!
-//! All of them have the same fill rule, and draw exactly the same pixels: those whose centres have an odd number of polygon edges to their left, counted in
-//! exact integers on corners snapped to 1/256 pixel. Polygons that share an edge share none of its pixels and leave no hole.
-//! The rule is `first_centre` and `Crossing` in `spans/edge.rs` with the parity in `ActiveEdges::spans` (`spans/active.rs`), and as
-//! edge functions `EdgeFunctions` in `rows/triangles.rs`.
+//! All of them have the same fill rule, and draw exactly the same pixels: those whose centres have an odd number of polygon edges
+//! to their left, counted in exact integers on corners snapped to 1/256 pixel. Polygons that share an edge share none of its
+//! pixels and leave no hole. The rule is `first_centre` and `EdgeCrossing` in `spans/edge.rs` with the parity in
+//! `ActiveEdges::spans` (`spans/active.rs`), and as edge functions `EdgeFunctions` in `rows/triangles.rs`.
 //!
-//! Start with `spans/mod.rs`; `render.rs` says which engine draws, `setup.rs` what is computed before the first scanline.
+//! Start with `spans/mod.rs`. `render.rs` chooses the engine, `setup.rs` computes uniforms and varyings before the first scanline.
 
 mod aov;
 mod auto;
@@ -36,4 +36,4 @@ pub use aov::{
 };
 pub use barycentric::{Edges, barycentric_polygon_numbers};
 pub use engine::{Engine, Plan, Renderer};
-pub use spans::{Crossing, NOTHING};
+pub use spans::{EdgeCrossing, NOTHING};

@@ -1,4 +1,4 @@
-//! Where the painter goes wrong: pairs drawn in the wrong order, and polygons that no order draws right.
+//! Conflicts of the painter's algorithm: pairs drawn in the wrong order, and polygons that no order draws right.
 //!
 //! ```
 //! use fastphong::mesh::builtin::builtin;
@@ -20,9 +20,10 @@ use crate::scene::Clipping;
 use alloc::collections::BTreeSet;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::mem::replace;
 use core::ops::Range;
 
-/// What is wrong with drawing the polygons of a frame in their order, without looking at depth.
+/// The conflicts of drawing the polygons of a frame in their order, without a depth test.
 ///
 /// A polygon *hides* another if it is nearer at a pixel that both cover. Polygons are named by their places in
 /// [`Frame::polygons`].
@@ -31,7 +32,7 @@ pub struct Conflicts {
     /// Pairs (a, b) of which a hides b and is drawn before it all the same, in ascending order. Of two polygons that cut
     /// each other on the picture each hides the other: such a pair is here once, whatever the order.
     pub wrong: Vec<(u32, u32)>,
-    /// How many pairs hide each other: they cut each other on the picture.
+    /// The number of pairs that hide each other: they cut each other on the picture.
     pub interpenetrating: usize,
     /// Polygons that hide each other in a ring, so that no order draws them right: each group as large as it gets
     /// (strongly connected components of two polygons or more), its members in ascending order.
@@ -42,10 +43,10 @@ pub struct Conflicts {
 /// are those of the other polygon.
 const SAME_DEPTH: f64 = 1.0 / (1u64 << 24) as f64;
 
-/// What is wrong with drawing the polygons of `frame` in their order, whether or not it is the painter's.
+/// Finds the conflicts of drawing the polygons of `frame` in their order, whether or not it is the painter's.
 ///
-/// It goes over the scanlines. Where two spans of a row overlap, both depths are linear, so that who is nearer is told by
-/// the two ends of the overlap. Takes O(s d) for s spans of which d lie over each other.
+/// It goes over the scanlines. Where two spans of a row overlap, both depths are linear, so that the two ends of the overlap
+/// tell which is nearer. Takes O(s d) for s spans of which d lie over each other.
 pub fn conflicts(frame: &Frame) -> Conflicts {
     let hides = relation(frame);
     let drawn_wrong = |&&(a, b): &&(u32, u32)| a < b;
@@ -57,67 +58,45 @@ pub fn conflicts(frame: &Frame) -> Conflicts {
     }
 }
 
-/// All pairs (a, b) of which a hides b.
+/// Returns all pairs (a, b) of which a hides b.
 fn relation(frame: &Frame) -> BTreeSet<(u32, u32)> {
     let mut hides = BTreeSet::new();
-    let mut row_of_spans = 0;
+    let mut row = 0;
     let mut spans: Vec<(Range<usize>, u32)> = Vec::new();
-    let mut row = Row::new(frame);
     coverage(frame, |polygon, y, pixels| {
-        if y != row_of_spans {
-            row.compare(row_of_spans, &mut spans, &mut hides);
+        if y != row {
+            compare(frame, row, &mut spans, &mut hides);
             spans.clear();
-            row_of_spans = y;
+            row = y;
         }
         spans.push((pixels, polygon));
     });
-    row.compare(row_of_spans, &mut spans, &mut hides);
+    compare(frame, row, &mut spans, &mut hides);
     hides
 }
 
-/// A row of pixels, and the spans that reach the one looked at.
-struct Row<'a> {
-    frame: &'a Frame,
-    open: Vec<(Range<usize>, u32, Scanline<'a>)>,
-}
-
-impl<'a> Row<'a> {
-    fn new(frame: &'a Frame) -> Self {
-        Row {
-            frame,
-            open: Vec::new(),
-        }
-    }
-
-    /// Adds what the spans of row `y` say to `hides`.
-    fn compare(
-        &mut self,
-        y: usize,
-        spans: &mut [(Range<usize>, u32)],
-        hides: &mut BTreeSet<(u32, u32)>,
-    ) {
-        let frame = self.frame;
-        let tests_samples = frame.clipping() == Clipping::NdcCube;
-        spans.sort_unstable_by_key(|(pixels, polygon)| (pixels.start, *polygon));
-        self.open.clear();
-        for (pixels, polygon) in spans {
-            self.open.retain(|(open, ..)| open.end > pixels.start);
-            let mut scanline = Scanline::new(frame);
-            scanline.cut(frame.corners(&frame.polygons()[*polygon as usize]), y);
-            for (open, other, others_scanline) in &self.open {
-                let (first, last) = (pixels.start, pixels.end.min(open.end) - 1);
-                // Under the test of each sample the ends need not be seen.
-                let step = if tests_samples {
-                    1
-                } else {
-                    (last - first).max(1)
-                };
-                for x in (first..=last).step_by(step) {
-                    let (Some(a), Some(b)) =
-                        (depth(frame, &scanline, x), depth(frame, others_scanline, x))
-                    else {
-                        continue;
-                    };
+/// Adds the pairs that the spans of row `y` show to `hides`.
+fn compare(
+    frame: &Frame,
+    y: usize,
+    spans: &mut [(Range<usize>, u32)],
+    hides: &mut BTreeSet<(u32, u32)>,
+) {
+    let tests_samples = frame.clipping() == Clipping::NdcCube;
+    spans.sort_unstable_by_key(|(pixels, polygon)| (pixels.start, *polygon));
+    // The spans that reach the pixel looked at.
+    let mut open: Vec<(usize, u32, Scanline<'_>)> = Vec::new();
+    for (pixels, polygon) in spans {
+        open.retain(|(end, ..)| *end > pixels.start);
+        let mut scanline = Scanline::new(frame);
+        scanline.cut(frame.corners(&frame.polygons()[*polygon as usize]), y);
+        for (end, other, others_scanline) in &open {
+            let (first, last) = (pixels.start, pixels.end.min(*end) - 1);
+            // Under the test of each sample the ends need not be seen.
+            let step = if tests_samples { 1 } else { last - first };
+            for x in (first..=last).step_by(step.max(1)) {
+                let depths = (depth(frame, &scanline, x), depth(frame, others_scanline, x));
+                if let (Some(a), Some(b)) = depths {
                     if b - a > SAME_DEPTH {
                         hides.insert((*polygon, *other));
                     } else if a - b > SAME_DEPTH {
@@ -125,12 +104,12 @@ impl<'a> Row<'a> {
                     }
                 }
             }
-            self.open.push((pixels.clone(), *polygon, scanline));
         }
+        open.push((pixels.end, *polygon, scanline));
     }
 }
 
-/// The depth of a polygon at a pixel that shows it when nothing hides it.
+/// Returns the depth of a polygon at a pixel that shows it when nothing hides it.
 fn depth(frame: &Frame, scanline: &Scanline, x: usize) -> Option<f64> {
     let depth = scanline
         .weights(x)
@@ -138,60 +117,58 @@ fn depth(frame: &Frame, scanline: &Scanline, x: usize) -> Option<f64> {
     depth.filter(|z| frame.clipping() == Clipping::Planes || (0.0..=1.0).contains(z))
 }
 
-/// The strongly connected components of two polygons or more of `count` polygons (Tarjan, *Depth-first search and linear
-/// graph algorithms*, 1972), without recursion.
+/// Returns the strongly connected components of two polygons or more of `count` polygons.
+///
+/// Two searches (Kosaraju and Sharir): polygons in the order in which a search from them ends; then, the last ones first, the
+/// polygons that lead to each and were not met before are its component.
 fn cycles(hides: &BTreeSet<(u32, u32)>, count: usize) -> Vec<Vec<u32>> {
-    const NEW: u32 = u32::MAX;
-    let edges: Vec<(u32, u32)> = hides.iter().copied().collect();
-    let first_edge = |polygon: u32| edges.partition_point(|(from, _)| *from < polygon);
-    // When each polygon was found, and the earliest one found that it leads back to.
-    let (mut found, mut lowest) = (vec![NEW; count], vec![NEW; count]);
-    let (mut next, mut waiting, mut is_waiting) = (0, Vec::new(), vec![false; count]);
+    let forward: Vec<(u32, u32)> = hides.iter().copied().collect();
+    let mut backward: Vec<(u32, u32)> = hides.iter().map(|&(a, b)| (b, a)).collect();
+    backward.sort_unstable();
+    let (mut ended, mut is_met) = (Vec::new(), vec![false; count]);
+    for &(root, _) in &forward {
+        search(&forward, root, &mut is_met, &mut ended);
+    }
+    is_met.fill(false);
     let mut cycles = Vec::new();
-    for root in edges.iter().map(|(from, _)| *from) {
-        if found[root as usize] != NEW {
-            continue;
-        }
-        // Polygons on the path, each with the edge to be followed next.
-        let mut path = vec![(root, first_edge(root))];
-        while let Some((polygon, edge)) = path.pop() {
-            let at = polygon as usize;
-            if found[at] == NEW {
-                (found[at], lowest[at]) = (next, next);
-                next += 1;
-                waiting.push(polygon);
-                is_waiting[at] = true;
-            }
-            match edges.get(edge) {
-                Some(&(from, to)) if from == polygon => {
-                    path.push((polygon, edge + 1));
-                    if found[to as usize] == NEW {
-                        path.push((to, first_edge(to)));
-                    } else if is_waiting[to as usize] {
-                        lowest[at] = lowest[at].min(found[to as usize]);
-                    }
-                    continue;
-                }
-                _ => {}
-            }
-            if lowest[at] == found[at] {
-                let start = waiting.iter().rposition(|p| *p == polygon).unwrap_or(0);
-                let mut component = waiting.split_off(start);
-                component
-                    .iter()
-                    .for_each(|p| is_waiting[*p as usize] = false);
-                if component.len() > 1 {
-                    component.sort_unstable();
-                    cycles.push(component);
-                }
-            }
-            if let Some((parent, _)) = path.last() {
-                lowest[*parent as usize] = lowest[*parent as usize].min(lowest[at]);
-            }
+    for &root in ended.iter().rev() {
+        let mut component = Vec::new();
+        search(&backward, root, &mut is_met, &mut component);
+        if component.len() > 1 {
+            component.sort_unstable();
+            cycles.push(component);
         }
     }
     cycles.sort_unstable();
     cycles
+}
+
+/// Appends the polygons that `root` leads to and that were not met before, itself included, in the order in which a depth-first
+/// search leaves them. `edges` are in ascending order. Without recursion.
+fn search(edges: &[(u32, u32)], root: u32, is_met: &mut [bool], left: &mut Vec<u32>) {
+    let first_edge = |polygon: u32| edges.partition_point(|(from, _)| *from < polygon);
+    // Polygons on the path, each with the edge to be followed next.
+    let mut path = Vec::new();
+    let mut next = Some(root);
+    loop {
+        if let Some(polygon) = next
+            && !replace(&mut is_met[polygon as usize], true)
+        {
+            path.push((polygon, first_edge(polygon)));
+        }
+        let Some((polygon, edge)) = path.last_mut() else {
+            return;
+        };
+        next = edges
+            .get(*edge)
+            .filter(|(from, _)| from == polygon)
+            .map(|(_, to)| *to);
+        *edge += 1;
+        if next.is_none() {
+            left.push(*polygon);
+            path.pop();
+        }
+    }
 }
 
 #[cfg(test)]
@@ -199,7 +176,7 @@ mod tests {
     use super::*;
     use crate::number::test_random::Random;
 
-    /// The same by definition: two polygons are in one cycle if each leads to the other.
+    /// Finds cycles by definition: two polygons are in one if each leads to the other.
     fn by_reachability(hides: &BTreeSet<(u32, u32)>, count: usize) -> Vec<Vec<u32>> {
         let mut leads = vec![vec![false; count]; count];
         hides

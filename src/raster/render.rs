@@ -1,11 +1,13 @@
-//! From a method and a frame to a picture: which engine draws, and into what.
+//! Rendering: from a method and a frame to a picture, by the engine that a renderer asks for.
 
+#[cfg(feature = "simd")]
+use super::bands::{draw_bands, stream_bands};
 use super::barycentric::{self, Edges};
 use super::depth::SampleDepth;
 use super::engine::{Plan, Renderer};
 use super::setup::SetUp;
 use super::spans;
-use super::target::{Stored, draw_anyhow, draw_rows, linear_picture, picture8};
+use super::target::{Stored, draw_anyhow, draw_rows, empty};
 use crate::frame::Frame;
 use crate::number::Level;
 use crate::picture::encoding::store;
@@ -49,8 +51,8 @@ impl Variant {
         self.render_linear_with(frame, Renderer::LECTURE)
     }
 
-    /// Returns how `renderer` draws `frame` with this method: as it says where that can be, else as near to it as can be, with
-    /// the reason.
+    /// Returns the renderer that draws `frame` with this method where `renderer` is asked for: the span engine, with a reason,
+    /// if the row engine cannot draw it.
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
         let depth = SampleDepth::new(frame);
         let reason = match renderer {
@@ -61,7 +63,7 @@ impl Variant {
             Renderer::Row(_) if !depth.is_interpolated() => {
                 Some("the row engine interpolates depth and does not compute it per sample")
             }
-            Renderer::Row(_) if depth.is_cut_by_cube() => {
+            Renderer::Row(_) if depth.cube => {
                 Some("the row engine does not test samples against the NDC cube")
             }
             // The number of a material is a float in the G-buffer.
@@ -70,12 +72,10 @@ impl Variant {
             }
             Renderer::Row(_) => None,
         };
-        let renderer = if reason.is_some() {
-            Renderer::Span
-        } else {
-            renderer
-        };
-        Plan { renderer, reason }
+        Plan {
+            renderer: reason.map_or(renderer, |_| Renderer::Span),
+            reason,
+        }
     }
 
     /// Draws `frame` with an engine and an instruction set into `picture`, which is made anew unless it has the size of the
@@ -86,27 +86,29 @@ impl Variant {
             return;
         }
         if (picture.width(), picture.height()) != (frame.picture_width(), frame.picture_height()) {
-            *picture = picture8(frame);
+            *picture = empty(frame);
         }
         self.draw(frame, renderer, picture);
     }
 
     /// Draws `frame` with an engine and an instruction set, before rounding: linear channels, clamped to 0..=1.
     pub fn render_linear_with(&self, frame: &Frame, renderer: Renderer) -> LinearPicture {
-        let mut picture = linear_picture(frame);
+        let mut picture = empty(frame);
         self.draw(frame, renderer, &mut picture);
         picture
     }
 
+    /// Draws `frame` into a picture of its size.
     fn draw<T: Stored>(&self, frame: &Frame, renderer: Renderer, picture: &mut Picture<T>) {
         #[cfg(feature = "simd")]
         if let Renderer::Row(level) = self.plan(frame, renderer).renderer {
-            let is_bytes = T::bytes(&mut [], T::background([0.0; 3])).is_some();
+            let is_bytes = T::bytes(&mut []).is_some();
             let pixels = picture.texels_mut();
-            let mut bands = super::bands::PictureBands { frame, pixels };
-            return super::rows::draw(self, frame, level, is_bytes, &mut bands);
+            return super::rows::draw(self, frame, level, is_bytes, &mut |height, draw| {
+                draw_bands(frame, (height, 0), pixels, draw);
+            });
         }
-        picture.texels_mut().fill(T::background(frame.background()));
+        picture.texels_mut().fill(T::background(frame));
         let _ = renderer; // without SIMD there is one engine
         let setup = SetUp::new(self, frame, Level::Scalar, 1.0);
         draw_rows(frame, picture.texels_mut(), |target| {
@@ -114,12 +116,11 @@ impl Variant {
         });
     }
 
-    /// Draws `frame` as [`Variant::render_with`] does, and gives its pixels to `take` from the top, row by row, some rows at a
-    /// time and each soon after it was drawn. The picture is in memory as a whole only where the span engine draws it, and for
-    /// sRGB. When `take` fails no more is drawn.
+    /// Draws `frame` as [`Variant::render_with`] does, and gives its pixels to `take` from the top, some rows at a time, each
+    /// soon after it was drawn. The picture is in memory as a whole only where the span engine draws it, and for sRGB.
     ///
     /// # Errors
-    /// Those of `take`.
+    /// Returns the error of `take`, after which no more is drawn.
     ///
     /// ```
     /// use core::convert::Infallible;
@@ -148,13 +149,13 @@ impl Variant {
             && frame.encoding() == Encoding::Linear
         {
             let mut taken = Ok(());
-            let mut take = |pixels: &[[u8; 4]]| {
-                taken = take(pixels);
-                taken.is_ok()
-            };
-            let take = &mut take;
-            let mut bands = super::bands::StreamedBands { frame, take };
-            super::rows::draw(self, frame, level, true, &mut bands);
+            super::rows::draw(self, frame, level, true, &mut |height, draw| {
+                let mut take = |pixels: &[[u8; 4]]| {
+                    taken = take(pixels);
+                    taken.is_ok()
+                };
+                stream_bands(frame, height, &mut take, draw);
+            });
             return taken;
         }
         let mut picture = Picture8::new(0, 0, [0; 4]);
@@ -162,10 +163,10 @@ impl Variant {
         take(picture.texels())
     }
 
-    /// Draws the triangles of `frame` with the barycentric renderer; `None` when it does not have this method.
+    /// Draws the triangles of `frame` with the barycentric renderer. Returns `None` if it does not have this method.
     pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
         match frame.encoding() {
-            Encoding::Linear => self.triangles(frame, edges, picture8(frame)),
+            Encoding::Linear => self.triangles(frame, edges, empty(frame)),
             Encoding::Srgb => Some(store(
                 &self.render_barycentric_linear(frame, edges)?,
                 Encoding::Srgb,
@@ -175,7 +176,7 @@ impl Variant {
 
     /// Draws as [`Variant::render_barycentric`], before rounding.
     pub fn render_barycentric_linear(&self, frame: &Frame, edges: Edges) -> Option<LinearPicture> {
-        self.triangles(frame, edges, linear_picture(frame))
+        self.triangles(frame, edges, empty(frame))
     }
 
     /// Draws the triangles of `frame` over an empty picture.

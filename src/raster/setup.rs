@@ -1,4 +1,4 @@
-//! What is computed before the first scanline: uniforms once a material, varyings once a vertex, a corner or a polygon.
+//! The set-up before the first scanline: uniforms once a material, varyings once a vertex, a corner or a polygon.
 
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::number::parallel::for_each_chunk;
@@ -6,12 +6,13 @@ use crate::number::{Level, Vec3, vec3};
 use crate::scene::Interpolation;
 use crate::shading::increments::GreatCircle;
 use crate::shading::lighting::Uniforms;
-use crate::shading::{Extras, Kernels, LitAt, Local, Perspective, Variant, Vertices, ramp};
+use crate::shading::{Extras, Kernels, LitAt, Local, Perspective, Pixels, Run};
+use crate::shading::{Variant, Vertices, ramp};
 use alloc::borrow::Cow;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// What a varying belongs to.
+/// The element that a varying belongs to.
 #[derive(Clone, Debug)]
 pub(super) enum Per {
     /// A vertex, by its number.
@@ -34,7 +35,7 @@ pub(super) struct Varyings<'a> {
 }
 
 impl<'a> Varyings<'a> {
-    /// Takes `count` numbers a vertex, interpolated linearly; none for what is only seen.
+    /// Takes `count` numbers a vertex, interpolated linearly.
     pub fn of_vertices(values: impl Into<Cow<'a, [f32]>>, count: usize) -> Self {
         Varyings {
             values: values.into(),
@@ -42,6 +43,11 @@ impl<'a> Varyings<'a> {
             per: Per::Vertex,
             great_circle: false,
         }
+    }
+
+    /// Returns no numbers, for engines that only find what is visible.
+    pub fn none() -> Self {
+        Varyings::of_vertices(&[][..], 0)
     }
 
     /// Returns the numbers of corner `corner` of polygon `number`, whose vertex is `vertex`.
@@ -93,7 +99,7 @@ const CHUNK: usize = 1 << 13;
 type Item = (u32, [f32; 3], [f32; 3]);
 
 impl<'a> SetUp<'a> {
-    /// Computes all that a method needs on a frame, with colours multiplied by `scale`, on an instruction set.
+    /// Computes uniforms and varyings of a method on a frame, with colours multiplied by `scale`, on an instruction set.
     pub fn new(variant: &'a Variant, frame: &'a Frame, level: Level, scale: f32) -> Self {
         let (entry, info, near) = (variant.entry(), variant.info(), frame.is_local());
         let kernels = entry.kernels(frame.light_count(), near);
@@ -109,6 +115,8 @@ impl<'a> SetUp<'a> {
         }
         let extras = entry.extras(near, is_perspective);
         let [own, _] = (kernels.counts)(frame.light_count());
+        let mut varyings = Varyings::of_vertices(&[][..], own + extras.count());
+        varyings.great_circle = kernels.great_circle;
         let mut all = SetUp {
             frame,
             kernels,
@@ -116,12 +124,7 @@ impl<'a> SetUp<'a> {
             extras,
             uniforms,
             is_by_polygon,
-            varyings: Varyings {
-                values: Cow::Borrowed(&[]),
-                count: own + extras.count(),
-                per: Per::Vertex,
-                great_circle: kernels.great_circle,
-            },
+            varyings,
         };
         let is_weighted =
             is_perspective && matches!(info.perspective, Perspective::Free | Perspective::Divides);
@@ -142,34 +145,43 @@ impl<'a> SetUp<'a> {
         }
     }
 
+    /// Returns the job of a kernel that shades runs, or walks along them.
+    pub fn pixels<'p>(&'p self, runs: &'p [Run], starts: &'p [f32]) -> Pixels<'p> {
+        Pixels {
+            parameters: self.parameters,
+            uniforms: &self.uniforms,
+            extras: self.extras,
+            runs,
+            starts,
+        }
+    }
+
+    /// Lights every vertex, or borrows the frame's normals where a method interpolates nothing else.
     fn light_vertices(&mut self, level: Level, is_weighted: bool) {
-        let (frame, near) = (self.frame, self.frame.is_local());
-        let only = frame.lightings().len() == 1;
-        if self.extras == Extras::default()
-            && let Some(normals) = frame.normals_on_screen()
-        {
-            if self.kernels.passes_normal {
+        let (frame, count, near) = (self.frame, self.varyings.count, self.frame.is_local());
+        let has_one_material = frame.lightings().len() == 1;
+        let normals = frame.normals_on_screen();
+        let mut values = match normals.filter(|_| self.extras == Extras::default()) {
+            Some(normals) if self.kernels.passes_normal => {
                 self.varyings.values = Cow::Borrowed(normals.as_flattened());
                 return;
             }
-            if only && !near {
-                self.varyings.values = Cow::Owned(self.lit_in_place(level, normals));
-                return;
+            // Normals need not be gathered.
+            Some(normals) if has_one_material && !near => {
+                self.filled(normals.len(), &|first, values| {
+                    let normals = &normals[first..][..values.len() / count];
+                    // Directional lights do not ask for points.
+                    self.light(level, 0, normals, normals, values);
+                })
             }
-        }
-        let item = |i: usize| {
-            let vertex = i as u32;
-            let point = if near {
-                frame.position(vertex)
-            } else {
-                [0.0; 3]
-            };
-            // Where there is one material, whose a vertex is need not be read.
-            let material = if only { 0 } else { frame.material(vertex) };
-            (material, frame.normal(vertex), point)
+            _ => self.lit(level, frame.vertices().len(), &|i| {
+                let vertex = i as u32;
+                let point = near.then(|| frame.position(vertex)).unwrap_or_default();
+                // The only material need not be read.
+                let material = (!has_one_material).then(|| frame.material(vertex));
+                (material.unwrap_or(0), frame.normal(vertex), point)
+            }),
         };
-        let mut values = self.lit(level, frame.vertices().len(), &item);
-        let count = self.varyings.count;
         for corner in frame.clip_corners() {
             let ends = [corner.a, corner.b].map(|v| values[v as usize * count..][..count].to_vec());
             let to = &mut values[corner.vertex as usize * count..][..count];
@@ -183,6 +195,7 @@ impl<'a> SetUp<'a> {
         self.varyings.values = Cow::Owned(values);
     }
 
+    /// Lights each polygon once.
     fn light_polygons(&mut self, level: Level, at: LitAt) {
         let frame = self.frame;
         let item = |number: usize| {
@@ -198,18 +211,14 @@ impl<'a> SetUp<'a> {
         self.varyings.per = Per::Polygon;
     }
 
-    /// Lights the corners of each polygon by what the polygon sees.
+    /// Lights the corners of each polygon by the light that the polygon sees.
     fn light_corners(&mut self, level: Level, is_weighted: bool) {
         let (frame, count) = (self.frame, self.varyings.count);
         let (mut first, mut corners) = (Vec::new(), Vec::new());
         for (number, polygon) in (0..).zip(frame.polygons()) {
             first.push(corners.len() as u32);
-            corners.extend(
-                frame
-                    .corners(polygon)
-                    .iter()
-                    .map(|&vertex| (number, vertex)),
-            );
+            let vertices = frame.corners(polygon).iter();
+            corners.extend(vertices.map(|&vertex| (number, vertex)));
         }
         let item = |i: usize| (corners[i].0, frame.normal(corners[i].1), [0.0; 3]);
         let mut values = self.lit(level, corners.len(), &item);
@@ -237,80 +246,62 @@ impl<'a> SetUp<'a> {
         to
     }
 
+    /// Returns `count` varyings that `fill` fills, on several threads: it takes the number of the first of some varyings.
+    fn filled(&self, count: usize, fill: &(dyn Fn(usize, &mut [f32]) + Sync)) -> Vec<f32> {
+        let stride = self.varyings.count;
+        let mut values = vec![0.0; count * stride];
+        // Without varyings the chunks have a size all the same.
+        for_each_chunk(&mut values[..], CHUNK * stride.max(1), &|first, values| {
+            fill(first / stride, values);
+        });
+        values
+    }
+
     /// Lights `count` vertices, on several threads and on an instruction set.
     fn lit(&self, level: Level, count: usize, item: &(dyn Fn(usize) -> Item + Sync)) -> Vec<f32> {
         let stride = self.varyings.count;
-        let mut values = vec![0.0; count * stride];
-        if stride == 0 {
-            return values;
-        }
-        for_each_chunk(
-            &mut values[..],
-            CHUNK * stride,
-            &|first, values: &mut [f32]| {
-                let mut first = first / stride;
-                let (mut normals, mut points) = ([[0.0; 3]; BATCH], [[0.0; 3]; BATCH]);
-                let mut rest = values;
-                while !rest.is_empty() {
-                    let most = BATCH.min(rest.len() / stride);
-                    let (number, mut k) = (item(first).0, 0);
-                    while k < most {
-                        let (other, normal, point) = item(first + k);
-                        if other != number {
-                            break;
-                        }
-                        (normals[k], points[k]) = (normal, point);
-                        k += 1;
+        self.filled(count, &|mut first, mut rest| {
+            let (mut normals, mut points) = ([[0.0; 3]; BATCH], [[0.0; 3]; BATCH]);
+            while !rest.is_empty() {
+                let most = BATCH.min(rest.len() / stride);
+                let (number, mut k) = (item(first).0, 0);
+                while k < most {
+                    let (other, normal, point) = item(first + k);
+                    if other != number {
+                        break;
                     }
-                    let (here, others) = rest.split_at_mut(k * stride);
-                    let vertices = Vertices {
-                        parameters: self.parameters,
-                        uniforms: &self.uniforms[number as usize],
-                        normals: &normals[..k],
-                        points: &points[..k],
-                        stride,
-                    };
-                    self.light(level, &vertices, here);
-                    self.add_extras(here, &points[..k]);
-                    (rest, first) = (others, first + k);
+                    (normals[k], points[k]) = (normal, point);
+                    k += 1;
                 }
-            },
-        );
-        values
-    }
-
-    /// Lights vertices of one material by directional lights: their normals need not be gathered.
-    fn lit_in_place(&self, level: Level, normals: &[[f32; 3]]) -> Vec<f32> {
-        let stride = self.varyings.count;
-        let mut values = vec![0.0; normals.len() * stride];
-        if stride == 0 {
-            return values;
-        }
-        for_each_chunk(
-            &mut values[..],
-            CHUNK * stride,
-            &|first, values: &mut [f32]| {
-                let normals = &normals[first / stride..][..values.len() / stride];
-                let vertices = Vertices {
-                    parameters: self.parameters,
-                    uniforms: &self.uniforms[0],
-                    normals,
-                    points: normals, // of no use to directional lights
-                    stride,
-                };
-                self.light(level, &vertices, values);
-            },
-        );
-        values
+                let (here, others) = rest.split_at_mut(k * stride);
+                self.light(level, number, &normals[..k], &points[..k], here);
+                self.add_extras(here, &points[..k]);
+                (rest, first) = (others, first + k);
+            }
+        })
     }
 
     /// Lights vertices of one material by the kernel of an instruction set.
-    fn light(&self, level: Level, vertices: &Vertices<'_>, to: &mut [f32]) {
+    fn light(
+        &self,
+        level: Level,
+        uniforms: u32,
+        normals: &[[f32; 3]],
+        points: &[[f32; 3]],
+        to: &mut [f32],
+    ) {
         let simd = self.kernels.on(level).and_then(|simd| simd.vertices);
-        simd.unwrap_or(self.kernels.vertices)(vertices, to);
+        let vertices = Vertices {
+            parameters: self.parameters,
+            uniforms: &self.uniforms[uniforms as usize],
+            normals,
+            points,
+            stride: self.varyings.count,
+        };
+        simd.unwrap_or(self.kernels.vertices)(&vertices, to);
     }
 
-    /// Stores what the house interpolates behind what the method does.
+    /// Stores the house's extras behind the varyings of the method.
     fn add_extras(&self, values: &mut [f32], points: &[[f32; 3]]) {
         if self.extras == Extras::default() {
             return;

@@ -1,58 +1,43 @@
-//! Where colours go: bytes, linear floats, or the mean of several samples.
+//! The targets of engines: pictures of bytes or linear floats, directly or through a box filter over several samples.
 
 use crate::frame::Frame;
 use crate::picture::encoding::quantise;
-use crate::picture::{LinearPicture, Picture, Picture8};
+use crate::picture::{LinearPicture, Picture};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A colour as a picture stores it.
+/// A pixel as a picture stores it.
 pub(super) trait Stored: Copy + Send + Sync {
-    /// Stores a drawn colour: clamped to 0..=1, opaque.
-    fn drawn(rgb: [f32; 3]) -> Self;
-    /// Stores a pixel that is partly covered: colour and alpha, all in 0..=1.
-    fn mixed(rgba: [f32; 4]) -> Self;
-    /// Stores the background: clamped to 0..=1, transparent.
-    fn background(rgb: [f32; 3]) -> Self;
-    /// Returns pixels and background as bytes, if that is what they are.
+    /// Stores a linear colour and alpha, clamped to 0..=1.
+    fn of(rgba: [f32; 4]) -> Self;
+    /// Returns pixels as bytes, if they are stored so.
     #[cfg(feature = "simd")]
-    fn bytes(pixels: &mut [Self], background: Self) -> Option<(&mut [[u8; 4]], [u8; 4])>;
+    fn bytes(_pixels: &mut [Self]) -> Option<&mut [[u8; 4]]> {
+        None
+    }
+
+    /// Stores the background: transparent.
+    fn background(frame: &Frame) -> Self {
+        let [r, g, b] = frame.background();
+        Self::of([r, g, b, 0.0])
+    }
 }
 
 impl Stored for [u8; 4] {
     #[inline(always)]
-    fn drawn([r, g, b]: [f32; 3]) -> Self {
-        [quantise(r), quantise(g), quantise(b), 255]
-    }
-    fn mixed(rgba: [f32; 4]) -> Self {
-        rgba.map(quantise)
-    }
-    fn background(rgb: [f32; 3]) -> Self {
-        let [r, g, b, _] = Self::drawn(rgb);
-        [r, g, b, 0]
+    fn of([r, g, b, alpha]: [f32; 4]) -> Self {
+        [quantise(r), quantise(g), quantise(b), quantise(alpha)]
     }
     #[cfg(feature = "simd")]
-    fn bytes(pixels: &mut [Self], background: Self) -> Option<(&mut [[u8; 4]], [u8; 4])> {
-        Some((pixels, background))
+    fn bytes(pixels: &mut [Self]) -> Option<&mut [[u8; 4]]> {
+        Some(pixels)
     }
 }
 
 impl Stored for [f32; 4] {
     #[inline(always)]
-    fn drawn(rgb: [f32; 3]) -> Self {
-        let [r, g, b] = rgb.map(|c| c.clamp(0.0, 1.0));
-        [r, g, b, 1.0]
-    }
-    fn mixed(rgba: [f32; 4]) -> Self {
-        rgba
-    }
-    fn background(rgb: [f32; 3]) -> Self {
-        let [r, g, b, _] = Self::drawn(rgb);
-        [r, g, b, 0.0]
-    }
-    #[cfg(feature = "simd")]
-    fn bytes(_: &mut [Self], _: Self) -> Option<(&mut [[u8; 4]], [u8; 4])> {
-        None
+    fn of(rgba: [f32; 4]) -> Self {
+        rgba.map(|c| c.clamp(0.0, 1.0))
     }
 }
 
@@ -60,45 +45,39 @@ impl Stored for [f32; 4] {
 pub(super) trait Target {
     /// Stores a run of pixels from (`x`, `row`) on, linear and not clamped.
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]);
-    /// Returns the pixels of row `row` and the background, where they are stored as bytes: then all of them may be stored
-    /// there.
+    /// Returns the pixels of row `row` if they are stored as bytes: the caller may then write all of them there.
     #[cfg(feature = "simd")]
-    fn bytes(&mut self, row: usize) -> Option<(&mut [[u8; 4]], [u8; 4])>;
+    fn bytes(&mut self, _row: usize) -> Option<&mut [[u8; 4]]> {
+        None
+    }
 }
 
-/// Pixels that are stored as they are drawn.
-struct Rows<'a, T> {
+/// Rows of pixels that are stored as they are drawn.
+struct Direct<'a, T> {
     pixels: &'a mut [T],
     width: usize,
-    #[cfg_attr(not(feature = "simd"), expect(dead_code))]
-    background: T,
 }
 
-impl<T: Stored> Target for Rows<'_, T> {
+impl<T: Stored> Target for Direct<'_, T> {
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]) {
         let row = &mut self.pixels[row * self.width..][..self.width];
-        for (pixel, colour) in row[x..].iter_mut().zip(colours) {
-            *pixel = T::drawn(*colour);
+        for (pixel, &[r, g, b]) in row[x..].iter_mut().zip(colours) {
+            *pixel = T::of([r, g, b, 1.0]);
         }
     }
     #[cfg(feature = "simd")]
-    fn bytes(&mut self, row: usize) -> Option<(&mut [[u8; 4]], [u8; 4])> {
-        T::bytes(
-            &mut self.pixels[row * self.width..][..self.width],
-            self.background,
-        )
+    fn bytes(&mut self, row: usize) -> Option<&mut [[u8; 4]]> {
+        T::bytes(&mut self.pixels[row * self.width..][..self.width])
     }
 }
 
-/// A box filter in linear light: the mean of each pixel's n × n samples, where the background stands for those that nothing
-/// covers; alpha is the share of those that something does.
+/// A box filter in linear light: the mean of each pixel's n × n samples, where the background stands for samples that nothing
+/// covers; alpha is the covered share.
 ///
-/// Sums are exact: an f64 holds any 64 numbers of 24 bits each and of one magnitude, so that what is constant stays so.
+/// Sums are exact: an f64 holds any 64 numbers of 24 bits each and of one magnitude, so that a constant colour stays constant.
 struct BoxFilter<'a, T> {
     pixels: &'a mut [T],
-    width: usize,
-    samples: usize,
-    background: [f32; 3],
+    frame: &'a Frame,
     /// The row of pixels that is being collected; those before it are finished.
     row: usize,
     /// Sum of the colours and number of the covered samples, by pixel.
@@ -108,15 +87,14 @@ struct BoxFilter<'a, T> {
 impl<T: Stored> BoxFilter<'_, T> {
     /// Stores the row that was being collected.
     fn flush(&mut self) {
-        let all = (self.samples * self.samples) as f64;
-        let row = &mut self.pixels[self.row * self.width..][..self.width];
-        for (pixel, (sum, covered)) in row.iter_mut().zip(&mut self.sums) {
+        let all = self.frame.samples().pow(2) as f64;
+        let background = self.frame.background().map(f64::from);
+        let row = self.pixels[self.row * self.sums.len()..].iter_mut();
+        for (pixel, (sum, covered)) in row.zip(&mut self.sums) {
             if *covered > 0 {
                 let share = f64::from(*covered);
-                let mean = |c: usize| {
-                    ((sum[c] + (all - share) * f64::from(self.background[c])) / all) as f32
-                };
-                *pixel = T::mixed([mean(0), mean(1), mean(2), (share / all) as f32]);
+                let mean = |c: usize| ((sum[c] + (all - share) * background[c]) / all) as f32;
+                *pixel = T::of([mean(0), mean(1), mean(2), (share / all) as f32]);
                 (*sum, *covered) = ([0.0; 3], 0);
             }
         }
@@ -126,53 +104,44 @@ impl<T: Stored> BoxFilter<'_, T> {
 impl<T: Stored> Target for BoxFilter<'_, T> {
     /// Takes rows in order.
     fn store(&mut self, x: usize, row: usize, colours: &[[f32; 3]]) {
-        if row / self.samples != self.row {
+        let samples = self.frame.samples();
+        if row / samples != self.row {
             self.flush();
-            self.row = row / self.samples;
+            self.row = row / samples;
         }
         for (column, colour) in (x..).zip(colours) {
-            let (sum, covered) = &mut self.sums[column / self.samples];
+            let (sum, covered) = &mut self.sums[column / samples];
             for (sum, channel) in sum.iter_mut().zip(colour) {
                 *sum += f64::from(channel.clamp(0.0, 1.0));
             }
             *covered += 1;
         }
     }
-    #[cfg(feature = "simd")]
-    fn bytes(&mut self, _: usize) -> Option<(&mut [[u8; 4]], [u8; 4])> {
-        None
-    }
 }
 
-/// Draws into `pixels`, whole rows of the frame's picture that hold its background, what `draw` gives sample by sample, row by
-/// row; row 0 is the first one of them.
+/// Has `draw` draw samples, row by row, into `pixels`: whole rows of the frame's picture that hold its background. Row 0 is
+/// the first of them.
 pub(super) fn draw_rows<T: Stored>(
     frame: &Frame,
     pixels: &mut [T],
     draw: impl FnOnce(&mut dyn Target),
 ) {
-    let (width, samples) = (frame.picture_width(), frame.samples());
-    if samples == 1 {
-        let background = T::background(frame.background());
-        return draw(&mut Rows {
-            pixels,
-            width,
-            background,
-        });
+    let width = frame.picture_width();
+    if frame.samples() == 1 {
+        return draw(&mut Direct { pixels, width });
     }
+    let (row, sums) = (0, vec![([0.0; 3], 0); width]);
     let mut filter = BoxFilter {
         pixels,
-        width,
-        samples,
-        background: frame.background(),
-        row: 0,
-        sums: vec![([0.0; 3], 0); width],
+        frame,
+        row,
+        sums,
     };
     draw(&mut filter);
     filter.flush();
 }
 
-/// Does the same for a `draw` that comes back to what it drew: all samples are kept until it is done.
+/// Has `draw` draw samples in any order into `pixels`, as [`draw_rows`] does: all samples are kept until it is done.
 pub(super) fn draw_anyhow<T: Stored>(
     frame: &Frame,
     pixels: &mut [T],
@@ -182,14 +151,13 @@ pub(super) fn draw_anyhow<T: Stored>(
         return draw_rows(frame, pixels, draw);
     }
     let mut samples = linear_samples(frame);
-    draw(&mut Rows {
+    draw(&mut Direct {
         width: frame.width(),
-        background: [0.0; 4],
         pixels: samples.texels_mut(),
     });
     draw_rows(frame, pixels, |target| {
         for row in 0..samples.height() {
-            for (x, [r, g, b, alpha]) in samples.row(row).iter().copied().enumerate() {
+            for (x, &[r, g, b, alpha]) in samples.row(row).iter().enumerate() {
                 if alpha > 0.0 {
                     target.store(x, row, &[[r, g, b]]);
                 }
@@ -198,23 +166,13 @@ pub(super) fn draw_anyhow<T: Stored>(
     });
 }
 
-/// Returns an empty picture of bytes for `frame`: its background, alpha 0.
-pub(super) fn picture8(frame: &Frame) -> Picture8 {
-    empty(frame)
-}
-
-/// Returns an empty linear picture for `frame`: its background, alpha 0.
-pub(super) fn linear_picture(frame: &Frame) -> LinearPicture {
-    empty(frame)
-}
-
-fn empty<T: Stored>(frame: &Frame) -> Picture<T> {
-    let background = T::background(frame.background());
-    Picture::new(frame.picture_width(), frame.picture_height(), background)
+/// Returns an empty picture for `frame`: its background, alpha 0.
+pub(super) fn empty<T: Stored>(frame: &Frame) -> Picture<T> {
+    let (width, height) = (frame.picture_width(), frame.picture_height());
+    Picture::new(width, height, T::background(frame))
 }
 
 /// Returns an empty linear picture with a pixel for each sample.
 pub(super) fn linear_samples(frame: &Frame) -> LinearPicture {
-    let background = Stored::background(frame.background());
-    Picture::new(frame.width(), frame.height(), background)
+    Picture::new(frame.width(), frame.height(), Stored::background(frame))
 }

@@ -77,7 +77,7 @@ fn a_band_has_every_polygon_that_covers_any_of_its_pixels_in_order() {
 /// Also in groups that follow one of other shapes, and in a list with all chunks.
 #[test]
 fn triangles_are_told_from_polygons_of_other_shapes() {
-    for count in [1, GROUP, CHUNK + GROUP + 1] {
+    for count in [1, 64, CHUNK + 65] {
         for other in [None, Some(0), Some(count / 2), Some(count - 1)] {
             for corners in [4, 5] {
                 let mut builder = FrameBuilder::new(8, 8);

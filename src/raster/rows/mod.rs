@@ -27,87 +27,81 @@ mod tile;
 mod tiny;
 mod triangles;
 
-use super::bands::Bands;
+use super::bands::EachBand;
 use super::bins::{Bins, Listed};
 use super::depth::SampleDepth;
 use super::setup::SetUp;
 use super::spans::active::ActiveEdges;
-use crate::frame::Frame;
+use super::target::Stored;
+use crate::frame::{Frame, Polygon};
 use crate::number::Level;
 use crate::number::lanes::Lanes;
 use crate::number::simd::{Token, vectorize};
 use crate::shading::{SimdKernels, Variant};
 use core::ops::Range;
-use runs::{RunQueue, Triangle};
-use shade::Line;
+use runs::RunQueue;
+use shade::RowBuffers;
 use small::{RowStarts, SmallTriangle};
-use tile::{Count, DepthTest, Tile};
+use tile::{NumberCount, Tile};
 use tiny::Fragments;
-use triangles::{Batch, Kind, LINE, each_bit};
+use triangles::{Batch, CoveragePath, LINE, bits};
 
 /// Scanlines of a tile: edges are seldom started anew, and every thread gets some.
 const HEIGHT: usize = 16;
 
 /// Memory that a thread keeps from tile to tile.
 #[derive(Debug, Default)]
-struct Scratch {
+struct TileScratch {
     tile: Tile,
     batch: Batch,
     fragments: Fragments,
     starts: RowStarts,
     queue: RunQueue,
-    line: Line,
+    line: RowBuffers,
 }
 
-/// A method on a frame, and how its pixels are kept.
-struct Rows<'a> {
+/// A method on a frame, and the layout of its pixels.
+struct RowEngine<'a> {
     setup: SetUp<'a>,
     kernels: &'a SimdKernels,
-    test: DepthTest,
-    /// Planes of a pixel: what is walked, or interpolated.
+    test: SampleDepth,
+    /// The planes of a pixel: walked or interpolated numbers.
     planes: usize,
-    /// Numbers of a pixel: its depth, its planes, and its material if materials differ.
+    /// The numbers of a pixel: its depth, its planes, and its material if materials differ.
     numbers: usize,
-    has_material: bool,
-    /// The uniforms of all pixels where they do not.
-    only: u32,
+    /// The uniforms of all pixels, if they are the same.
+    only: Option<u32>,
+    background: [u8; 4],
 }
 
-/// Draws a method on a frame, tile by tile. `is_bytes` where `bands` stores bytes.
+/// Draws a method on a frame, tile by tile. `is_bytes` where the picture stores bytes.
 pub(super) fn draw(
     variant: &Variant,
     frame: &Frame,
     level: Level,
     is_bytes: bool,
-    bands: &mut dyn Bands,
+    each_band: &mut EachBand<'_>,
 ) {
-    let scale = if is_bytes && frame.samples() == 1 {
-        255.0
-    } else {
-        1.0
-    };
+    let is_scaled = is_bytes && frame.samples() == 1;
+    let scale = if is_scaled { 255.0 } else { 1.0 };
     let setup = SetUp::new(variant, frame, level, scale);
     let Some(kernels) = setup.kernels.on(level) else {
         return; // no plan asks for the row engine there
     };
-    let depth = SampleDepth::new(frame);
     let [_, planes] = (setup.kernels.counts)(frame.light_count());
     let planes = planes + setup.extras.count();
     let only = only_material(&setup);
-    let rows = Rows {
-        test: DepthTest {
-            hides: depth.hides(),
-            most: depth.most(),
-        },
+    let rows = RowEngine {
+        test: SampleDepth::new(frame),
         planes,
         numbers: 1 + planes + usize::from(only.is_none()),
-        has_material: only.is_none(),
-        only: only.unwrap_or(0),
+        only,
+        background: Stored::background(frame),
         kernels,
         setup,
     };
     let bins = Bins::new(frame, HEIGHT);
-    bands.each(HEIGHT, &|number, band, target| {
+    each_band(HEIGHT, &|number, band, target| {
         with_scratch(|scratch| {
             scratch.tile.prepare(HEIGHT, frame.width(), rows.numbers);
             for polygons in bins.band(number) {
@@ -130,65 +124,60 @@ pub(super) fn draw(
     });
 }
 
-/// Gives `work` what this thread keeps from band to band.
-fn with_scratch(work: impl FnOnce(&mut Scratch)) {
+/// Calls `work` with the memory that this thread keeps from tile to tile.
+fn with_scratch(work: impl FnOnce(&mut TileScratch)) {
     std::thread_local! {
-        static KEPT: core::cell::RefCell<Scratch> = core::cell::RefCell::default();
+        static KEPT: core::cell::RefCell<TileScratch> = core::cell::RefCell::default();
     }
     KEPT.with_borrow_mut(work);
 }
 
-/// Returns the number of the uniforms that all polygons have, if there is only one: objects of a scene bring their own material,
-/// which are often the same.
+/// Returns the number of the uniforms that all polygons have, if they are the same: objects of a scene bring their own materials,
+/// which are often equal.
 fn only_material(setup: &SetUp<'_>) -> Option<u32> {
     let (frame, polygons) = (setup.frame, setup.frame.polygons());
     if setup.is_by_polygon {
         return None;
     }
-    if frame
-        .lightings()
-        .iter()
-        .all(|lighting| *lighting == frame.lightings()[0])
-    {
+    if frame.lightings().windows(2).all(|two| two[0] == two[1]) {
         return Some(0);
     }
     let first = polygons.first().map_or(0, |polygon| polygon.material);
-    polygons
-        .iter()
-        .all(|polygon| polygon.material == first)
-        .then_some(first)
+    let is_first = |polygon: &Polygon| polygon.material == first;
+    polygons.iter().all(is_first).then_some(first)
 }
 
-impl Rows<'_> {
+impl RowEngine<'_> {
     /// Rasterises polygons into a tile, in order.
-    fn rasterise<S: Token>(&self, polygons: &[Listed], rows: &Range<usize>, scratch: &mut Scratch) {
-        let simd = S::get();
+    fn rasterise<S: Token>(
+        &self,
+        polygons: &[Listed],
+        rows: &Range<usize>,
+        scratch: &mut TileScratch,
+    ) {
+        let (simd, varyings) = (S::get(), &self.setup.varyings);
         let is_linear = self.setup.kernels.linear;
+        let is_planar = !varyings.great_circle && varyings.count < LINE;
         let mut active = None;
         let mut rest = polygons;
-        while let Some((next, others)) = rest.split_first() {
-            if is_linear && next.is_triangle() {
-                // Triangles are drawn at once: what was before them must be drawn first.
-                self.draw_runs(simd, scratch);
-                if self.numbers == 4 {
-                    rest = &rest[self.triangles::<S, 4>(simd, rest, rows, scratch)..];
-                } else {
-                    rest = &rest[self.triangles::<S, 0>(simd, rest, rows, scratch)..];
+        while let Some(next) = rest.first() {
+            let mut taken = 1;
+            if next.is_triangle() && is_planar {
+                if is_linear {
+                    // Triangles are drawn at once: runs from before them come first.
+                    self.draw_runs(simd, scratch);
                 }
-                continue;
-            }
-            let varyings = &self.setup.varyings;
-            if next.is_triangle() && !varyings.great_circle && varyings.count < LINE {
-                rest = &rest[self.triangle_runs(simd, rest, rows, scratch)..];
+                taken = match (is_linear, self.numbers) {
+                    (true, 4) => self.triangles::<S, 4>(simd, rest, rows, scratch),
+                    _ => self.triangles::<S, 0>(simd, rest, rows, scratch),
+                };
             } else {
-                let active = active.get_or_insert_with(|| {
-                    ActiveEdges::new(self.setup.frame, &self.setup.varyings)
-                });
-                scratch
-                    .queue
-                    .add_polygon(&self.setup, active, next.number, rows);
-                rest = others;
+                let new = || ActiveEdges::new(self.setup.frame, varyings);
+                let active = active.get_or_insert_with(new);
+                let queue = &mut scratch.queue;
+                queue.add_polygon(&self.setup, active, next.number, rows);
             }
+            rest = &rest[taken..];
             if scratch.queue.is_full() {
                 self.draw_runs(simd, scratch);
             }
@@ -196,107 +185,53 @@ impl Rows<'_> {
         self.draw_runs(simd, scratch);
     }
 
-    /// Draws triangles from the front of `polygons`; gives how many.
+    /// Takes triangles from the front of `polygons`, and returns their number: draws those of a method whose pixels are its varyings,
+    /// and finds the runs of those of any other.
     #[inline(never)]
     fn triangles<S: Token, const N: usize>(
         &self,
         simd: S,
         polygons: &[Listed],
         rows: &Range<usize>,
-        scratch: &mut Scratch,
+        scratch: &mut TileScratch,
     ) -> usize {
-        let (taken, drawn, others) = find(simd, self.setup.frame, polygons, rows, scratch);
-        let Scratch {
-            tile,
-            batch,
-            fragments,
-            starts,
-            ..
-        } = scratch;
         vectorize(
             simd,
             #[inline(always)]
             || {
-                let m = Lanes(simd);
-                batch.set_up_planes(m, &self.setup, Count::<N>(self.numbers), drawn | others);
-                let writer = &mut tile.writer::<S, N>(m, self.test);
-                each_bit(
-                    drawn | others,
-                    #[inline(always)]
-                    |k| {
-                        if others >> k & 1 == 0 {
-                            fragments.draw(m, batch, k, writer);
-                        } else if batch.kind[k] == Kind::Small as i32 {
-                            SmallTriangle::new(m, batch, k).draw(starts, rows.start, writer);
-                        } else {
-                            runs::draw_large(m, batch, k, rows.start, writer);
-                        }
-                    },
-                );
+                let (m, top) = (Lanes(simd), rows.start);
+                let (taken, tiny, others) = find(m, self.setup.frame, polygons, rows, scratch);
+                let (batch, fragments) = (&mut scratch.batch, &scratch.fragments);
+                let (queue, all) = (&mut scratch.queue, tiny | others);
+                if N == 0 && !self.setup.kernels.linear {
+                    let count = NumberCount::<0>(1 + self.setup.varyings.count);
+                    batch.set_up_planes(m, &self.setup, count, all);
+                    for k in bits(all) {
+                        let tiny = (others >> k & 1 == 0).then_some(fragments);
+                        queue.add_triangle(m, &self.setup, (batch, k, tiny), top);
+                    }
+                    return taken;
+                }
+                batch.set_up_planes(m, &self.setup, NumberCount::<N>(self.numbers), all);
+                let writer = &mut scratch.tile.writer::<S, N>(m, self.test);
+                for k in bits(all) {
+                    if others >> k & 1 == 0 {
+                        fragments.draw(m, batch, k, writer);
+                    } else if batch.path[k] == CoveragePath::Small as i32 {
+                        SmallTriangle::new(m, batch, k).draw(&mut scratch.starts, top, writer);
+                    } else {
+                        runs::draw_large(m, (batch, k), top, &mut queue.found, writer);
+                    }
+                }
+                taken
             },
-        );
-        taken
-    }
-
-    /// Finds the runs of triangles from the front of `polygons`; gives how many.
-    #[inline(never)]
-    fn triangle_runs<S: Token>(
-        &self,
-        simd: S,
-        polygons: &[Listed],
-        rows: &Range<usize>,
-        scratch: &mut Scratch,
-    ) -> usize {
-        let (taken, drawn, others) = find(simd, self.setup.frame, polygons, rows, scratch);
-        let Scratch {
-            batch,
-            fragments,
-            queue,
-            ..
-        } = scratch;
-        vectorize(
-            simd,
-            #[inline(always)]
-            || {
-                let m = Lanes(simd);
-                let count = Count::<0>(1 + self.setup.varyings.count);
-                batch.set_up_planes(m, &self.setup, count, drawn | others);
-                each_bit(
-                    drawn | others,
-                    #[inline(always)]
-                    |k| {
-                        let top = rows.start;
-                        if others >> k & 1 == 0 {
-                            let [_, b, c] = &batch.edges;
-                            let across = [b, c].map(|f| f.right[k] as f32 * batch.over_area[k]);
-                            let mut runs = queue.triangle(m, &self.setup, batch, k, across);
-                            fragments.runs(
-                                batch,
-                                k,
-                                top,
-                                #[inline(always)]
-                                |row, pixels, at| runs.add(row, pixels, at),
-                            );
-                        } else if let Some(triangle) = Triangle::of(batch, k) {
-                            let across = triangle.across();
-                            let mut runs = queue.triangle(m, &self.setup, batch, k, across);
-                            triangle.runs(
-                                top,
-                                #[inline(always)]
-                                |row, pixels, at| runs.add(row, pixels, at),
-                            );
-                        }
-                    },
-                );
-            },
-        );
-        taken
+        )
     }
 
     /// Draws the runs that were found.
     #[inline(never)]
-    fn draw_runs<S: Token>(&self, simd: S, scratch: &mut Scratch) {
-        let Scratch { tile, queue, .. } = scratch;
+    fn draw_runs<S: Token>(&self, simd: S, scratch: &mut TileScratch) {
+        let TileScratch { tile, queue, .. } = scratch;
         if queue.is_empty() {
             return;
         }
@@ -307,47 +242,29 @@ impl Rows<'_> {
             #[inline(always)]
             || {
                 let m = Lanes(simd);
-                let is_walked = self.kernels.walk.is_some();
-                queue.draw(
-                    m,
-                    &self.setup,
-                    is_walked,
-                    self.planes,
-                    &mut tile.writer(m, self.test),
-                );
+                let (is_walked, writer) = (self.kernels.walk.is_some(), tile.writer(m, self.test));
+                queue.draw(m, &self.setup, is_walked, self.planes, writer);
             },
         );
     }
 }
 
-/// Gathers triangles from the front of `polygons` and finds where they lie in a tile. Gives how many, and bits for the tiny ones that
-/// cover anything and for the others.
-#[inline(never)]
+/// Gathers triangles from the front of `polygons` and finds their places in a tile. Returns their number, bits for the tiny ones
+/// that cover a pixel, and bits for those that are not tiny.
+#[inline(always)]
 fn find<S: Token>(
-    simd: S,
+    m: Lanes<S>,
     frame: &Frame,
     polygons: &[Listed],
     rows: &Range<usize>,
-    scratch: &mut Scratch,
+    scratch: &mut TileScratch,
 ) -> (usize, u32, u32) {
-    let Scratch {
-        tile,
-        batch,
-        fragments,
-        ..
-    } = scratch;
-    vectorize(
-        simd,
-        #[inline(always)]
-        || {
-            let m = Lanes(simd);
-            let taken = batch.gather(frame, polygons);
-            let (blocks, others) = batch.set_up(m, frame.width(), rows);
-            tile.extend(blocks);
-            let tiny = fragments.find(m, batch, rows.start, tile.layout());
-            (taken, tiny, others)
-        },
-    )
+    let TileScratch { tile, batch, .. } = scratch;
+    let taken = batch.gather(frame, polygons);
+    let (blocks, others) = batch.set_up(m, frame.width(), rows);
+    tile.extend(blocks);
+    let tiny = scratch.fragments.find(m, batch, rows.start, tile);
+    (taken, tiny, others)
 }
 
 #[cfg(test)]

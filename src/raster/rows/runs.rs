@@ -1,36 +1,56 @@
-//! The run path: large triangles, polygons of any shape, and methods whose pixels are recurrences, all by runs of pixels on a
-//! scanline.
+//! The run path: large triangles, polygons of any shape, and methods whose pixels are recurrences, by runs of pixels on a scanline.
 
 use super::tile::{Tile, Writer};
-use super::triangles::{Batch, LINE};
+use super::tiny::Fragments;
+use super::triangles::{Batch, Numbers};
 use crate::frame::SubPixel;
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
 use crate::raster::setup::SetUp;
-use crate::raster::spans::active::{ActiveEdges, Span};
-use crate::raster::spans::edge::{Crossing, first_centre};
+use crate::raster::spans::active::ActiveEdges;
+use crate::raster::spans::edge::{EdgeCrossing, first_centre};
 use crate::raster::spans::edge_table::{TableEdge, for_each_edge};
 use crate::shading::{Pixels, Run, start_len};
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, f32x8, i32x8};
 
-/// Where a run lies: its row in the tile, its pixels, depth at the first one and its growth.
+/// The place of a run: its row in the tile, its pixels, depth at the first one and its growth.
 #[derive(Clone, Debug)]
-struct Place {
+struct RunPlace {
     row: usize,
     pixels: Range<usize>,
     depth: [f32; 2],
 }
 
+impl RunPlace {
+    /// Returns the place of a run, with the numbers at its first pixel and their growth.
+    #[inline(always)]
+    fn new(FoundRun { row, pixels, .. }: FoundRun, at: &Numbers, step: &Numbers) -> Self {
+        let depth = [at[0], step[0]];
+        RunPlace { row, pixels, depth }
+    }
+}
+
+/// A run of a triangle: its row in the tile, its pixels, and the barycentric coordinates of the second and the third corner at the
+/// first of them.
+#[derive(Clone, Debug)]
+pub(super) struct FoundRun {
+    pub row: usize,
+    pub pixels: Range<usize>,
+    pub weights: [f32; 2],
+}
+
 /// Runs that wait to be walked along, all of them by one call.
 #[derive(Debug, Default)]
 pub(crate) struct RunQueue {
-    places: Vec<Place>,
+    /// The runs of a triangle on their way into the others.
+    pub(super) found: Vec<FoundRun>,
+    places: Vec<RunPlace>,
     runs: Vec<Run>,
-    /// What each run starts from: see [`start_len`].
+    /// The start of each run: see [`start_len`].
     starts: Vec<f32>,
-    /// What the walks give.
+    /// The pixels that the walks return.
     walked: Vec<f32>,
     /// Blocks of all runs.
     blocks: usize,
@@ -38,15 +58,15 @@ pub(crate) struct RunQueue {
     edges: Vec<(i32, TableEdge)>,
 }
 
-/// As many blocks are walked along by one call: what they give stays in the first cache.
+/// Blocks that are walked along by one call: their pixels stay in the first cache.
 const MOST_BLOCKS: usize = 128;
 
-/// The walk of a method along runs.
+/// A function that walks along runs.
 pub(super) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 
 impl RunQueue {
-    /// Adds a run, which has its numbers at the end of `starts` already.
-    fn push(&mut self, uniforms: u32, place: Place) {
+    /// Adds a run, whose start stands at the end of `starts` already.
+    fn push(&mut self, uniforms: u32, place: RunPlace) {
         self.blocks += place.pixels.len().div_ceil(BLOCK);
         self.runs.push(Run {
             uniforms,
@@ -68,27 +88,35 @@ impl RunQueue {
         self.blocks = 0;
     }
 
-    /// Returns what adds runs of triangle `k` of a batch, for a method that is walked along: its varyings are linear over it, and
-    /// `across` is how much its barycentric coordinates grow from pixel to pixel.
+    /// Adds the runs of triangle `k` of a batch, in the tile that begins with row `top`, for a method that is walked along: its
+    /// varyings are linear over the triangle. With `tiny` it is one of these fragments' triangles.
     #[inline(always)]
-    pub fn triangle<'a, S: Simd>(
-        &'a mut self,
+    pub fn add_triangle<S: Simd>(
+        &mut self,
         m: Lanes<S>,
         setup: &SetUp<'_>,
-        batch: &'a Batch,
-        k: usize,
-        across: [f32; 2],
-    ) -> TriangleRuns<'a, S> {
+        (batch, k, tiny): (&Batch, usize, Option<&Fragments>),
+        top: usize,
+    ) {
+        let across = match tiny {
+            Some(fragments) => fragments.runs(batch, k, top, &mut self.found),
+            None => large_runs(batch, k, top, &mut self.found),
+        };
+        let uniforms = setup.uniforms_of(batch.listed[k].number);
         let count = setup.varyings.count;
-        TriangleRuns {
-            m,
-            batch,
-            k,
-            count,
-            step: batch.planes.growth(m, k, 1 + count, across),
-            uniforms: setup.uniforms_of(batch.listed[k].number),
-            queue: self,
+        let step = batch.planes.growth(m, k, 1 + count, across);
+        let mut found = core::mem::take(&mut self.found);
+        for run in found.drain(..) {
+            let at = batch.planes.at(m, k, 1 + count, run.weights);
+            // Whole lines: the numbers past the last are cut off.
+            let first = self.starts.len();
+            self.starts.extend_from_slice(&at[1..]);
+            self.starts.truncate(first + count);
+            self.starts.extend_from_slice(&step[1..]);
+            self.starts.truncate(first + 2 * count);
+            self.push(uniforms, RunPlace::new(run, &at, &step));
         }
+        self.found = found;
     }
 
     /// Adds the runs of polygon `number`, of any shape: its edges step what they carry from row to row.
@@ -103,18 +131,13 @@ impl RunQueue {
         let (uniforms, width) = (setup.uniforms_of(number), frame.width() as u32);
         self.edges.clear();
         let mut edges = core::mem::take(&mut self.edges);
-        for_each_edge(
-            frame,
-            rows.start as i32..rows.end as i32,
-            number,
-            |row, edge| {
-                edges.push((row, edge));
-            },
-        );
+        let (top, bottom) = (rows.start as i32, rows.end as i32);
+        for_each_edge(frame, top..bottom, number, |row, edge| {
+            edges.push((row, edge))
+        });
         edges.sort_by_key(|(row, _)| *row);
         let mut next = 0;
-        let mut row = edges.first().map_or(rows.end as i32, |(row, _)| *row);
-        while row < rows.end as i32 {
+        for row in edges.first().map_or(bottom, |(row, _)| *row)..bottom {
             let begin = edges[next..].iter().take_while(|(first, _)| *first == row);
             let new = next..next + begin.count();
             next = new.end;
@@ -122,16 +145,15 @@ impl RunQueue {
             if active.is_empty() && next == edges.len() {
                 break;
             }
-            active.spans(width, |active, span: Span| {
+            active.spans(width, |active, span| {
                 active.start(&span, 0, &mut self.starts);
-                let place = Place {
+                let place = RunPlace {
                     row: row as usize - rows.start,
                     pixels: span.start as usize..span.end as usize,
                     depth: [span.depth, span.depth_step],
                 };
                 self.push(uniforms, place);
             });
-            row += 1;
         }
         active.clear();
         self.edges = edges;
@@ -142,9 +164,9 @@ impl RunQueue {
         self.runs.is_empty()
     }
 
-    /// Says which blocks of a tile the runs may draw.
+    /// Reports the blocks of a tile that the runs may draw.
     pub fn extend(&self, tile: &mut Tile) {
-        for Place { pixels, .. } in &self.places {
+        for RunPlace { pixels, .. } in &self.places {
             tile.extend(pixels.start / BLOCK..pixels.end.div_ceil(BLOCK));
         }
     }
@@ -153,20 +175,14 @@ impl RunQueue {
     pub fn walk(&mut self, setup: &SetUp<'_>, walk: Option<WalkKernel>, planes: usize) {
         let Some(walk) = walk else { return };
         let room = self.blocks * BLOCK * planes;
-        // A block before and after: what is loaded from there is not written.
-        self.walked
-            .resize(self.walked.len().max(room + 2 * BLOCK), 0.0);
-        let job = Pixels {
-            parameters: setup.parameters,
-            uniforms: &setup.uniforms,
-            extras: setup.extras,
-            runs: &self.runs,
-            starts: &self.starts,
-        };
+        // A block before and after: numbers loaded from there are not written.
+        let len = self.walked.len().max(room + 2 * BLOCK);
+        self.walked.resize(len, 0.0);
+        let job = setup.pixels(&self.runs, &self.starts);
         walk(&job, &mut self.walked[BLOCK..BLOCK + room]);
     }
 
-    /// Draws the runs, in order. Their pixels are what was walked, or the varyings themselves.
+    /// Draws the runs, in order. Their pixels are the walked ones, or the varyings themselves.
     #[inline(always)]
     pub fn draw<S: Simd>(
         &mut self,
@@ -174,132 +190,82 @@ impl RunQueue {
         setup: &SetUp<'_>,
         is_walked: bool,
         planes: usize,
-        writer: &mut Writer<'_, S, 0>,
+        mut writer: Writer<'_, S, 0>,
     ) {
         let len = start_len(setup.varyings.great_circle, setup.varyings.count);
         let mut walked = BLOCK;
         for (i, place) in self.places.iter().enumerate() {
             let material = m.splat(self.runs[i].uniforms as f32);
-            if is_walked {
-                let length = place.pixels.len().next_multiple_of(BLOCK);
-                let from = &self.walked[walked - BLOCK..walked + length * planes + BLOCK];
-                draw_run(
-                    m,
-                    place,
-                    writer,
-                    #[inline(always)]
-                    |number, x| match number - 1 {
-                        plane if plane < planes => {
-                            m.load(&from[(BLOCK as isize + x) as usize + plane * length..])
-                        }
-                        _ => material,
-                    },
-                );
-                walked += length * planes;
-            } else {
-                let (at, step) = self.starts[i * len..][..len].split_at(planes);
-                draw_run(
-                    m,
-                    place,
-                    writer,
-                    #[inline(always)]
-                    |number, x| match number - 1 {
-                        plane if plane < planes => {
-                            m.ramp(at[plane] + x as f32 * step[plane], step[plane])
-                        }
-                        _ => material,
-                    },
-                );
-            }
+            let length = place.pixels.len().next_multiple_of(BLOCK);
+            let size = if is_walked { length * planes } else { 0 };
+            let from = &self.walked[..if is_walked { walked + size + BLOCK } else { 0 }];
+            let start = &self.starts[i * len..][..len];
+            draw_run(
+                m,
+                place,
+                &mut writer,
+                #[inline(always)]
+                |number, x| match number - 1 {
+                    plane if plane >= planes => material,
+                    plane if is_walked => {
+                        m.load(&from[(walked as isize + x) as usize + plane * length..])
+                    }
+                    plane => {
+                        let step = start[planes + plane];
+                        m.ramp(start[plane] + x as f32 * step, step)
+                    }
+                },
+            );
+            walked += size;
         }
         self.clear();
     }
 }
 
-/// Adds the runs of a triangle to a queue.
-pub(super) struct TriangleRuns<'a, S> {
-    m: Lanes<S>,
-    queue: &'a mut RunQueue,
-    batch: &'a Batch,
-    k: usize,
-    count: usize,
-    /// Growth of depth and varyings from pixel to pixel.
-    step: [f32; LINE],
-    uniforms: u32,
-}
-
-impl<S: Simd> TriangleRuns<'_, S> {
-    /// Adds a run, with the barycentric coordinates of the second and the third corner at its first pixel.
-    #[inline(always)]
-    pub fn add(&mut self, row: usize, pixels: Range<usize>, weights: [f32; 2]) {
-        let Self { m, k, count, .. } = *self;
-        let at = self.batch.planes.at(m, k, 1 + count, weights);
-        let starts = &mut self.queue.starts;
-        // Whole lines: what is past the last number is cut off.
-        let first = starts.len();
-        starts.extend_from_slice(&at[1..]);
-        starts.truncate(first + count);
-        starts.extend_from_slice(&self.step[1..]);
-        starts.truncate(first + 2 * count);
-        let depth = [at[0], self.step[0]];
-        self.queue.push(self.uniforms, Place { row, pixels, depth });
-    }
-}
-
-/// Draws a run; `number` gives each number but depth, at the block that begins `x` pixels after the run's first one.
+/// Draws a run. `number` returns each number but depth, at the block that begins `x` pixels after the run's first one.
 #[inline(always)]
 fn draw_run<S: Simd, const N: usize>(
     m: Lanes<S>,
-    place: &Place,
+    place: &RunPlace,
     writer: &mut Writer<'_, S, N>,
     number: impl Fn(usize, isize) -> f32x8<S>,
 ) {
-    let Place { row, pixels, depth } = place;
+    let RunPlace { row, pixels, depth } = place;
     for block in pixels.start / BLOCK..pixels.end.div_ceil(BLOCK) {
         let x = (block * BLOCK) as isize - pixels.start as isize;
         writer.put(
             (row * writer.blocks + block) * writer.stride(),
             outside(m, block, pixels),
-            m.ramp(depth[0] + x as f32 * depth[1], depth[1]),
             #[inline(always)]
-            |i| number(i, x),
+            |i| match i {
+                0 => m.ramp(depth[0] + x as f32 * depth[1], depth[1]),
+                _ => number(i, x),
+            },
         );
     }
 }
 
-/// Draws large triangle `k` of a batch into the tile that begins with row `top`.
+/// Draws large triangle `k` of a batch into the tile that begins with row `top`, by way of the empty list `found`.
 #[inline(always)]
 pub(super) fn draw_large<S: Simd, const N: usize>(
     m: Lanes<S>,
-    batch: &Batch,
-    k: usize,
+    (batch, k): (&Batch, usize),
     top: usize,
+    found: &mut Vec<FoundRun>,
     writer: &mut Writer<'_, S, N>,
 ) {
-    let Some(triangle) = Triangle::of(batch, k) else {
-        return;
-    };
-    let count = writer.count.get();
-    let step: [f32; LINE] = batch.planes.growth(m, k, count, triangle.across());
-    triangle.runs(
-        top,
-        #[inline(always)]
-        |row, pixels, weights| {
-            let at = batch.planes.at(m, k, count, weights);
-            let place = Place {
-                row,
-                pixels,
-                depth: [at[0], step[0]],
-            };
-            draw_run(
-                m,
-                &place,
-                writer,
-                #[inline(always)]
-                |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),
-            );
-        },
-    );
+    let (count, across) = (writer.count.get(), large_runs(batch, k, top, found));
+    let step = batch.planes.growth(m, k, count, across);
+    for run in found.drain(..) {
+        let at = batch.planes.at(m, k, count, run.weights);
+        draw_run(
+            m,
+            &RunPlace::new(run, &at, &step),
+            writer,
+            #[inline(always)]
+            |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),
+        );
+    }
 }
 
 /// Returns a number below 0 at those pixels of block `block` that a run does not have.
@@ -309,85 +275,51 @@ fn outside<S: Simd>(m: Lanes<S>, block: usize, pixels: &Range<usize>) -> i32x8<S
     (k - m.int(pixels.start as i32 - first)) | (m.int(pixels.end as i32 - 1 - first) - k)
 }
 
-/// A triangle of any size, by the crossings of its edges with the scanlines.
-#[derive(Clone, Debug)]
-pub(super) struct Triangle {
-    columns: Range<i32>,
-    rows: Range<i32>,
-    x: [i32; 3],
-    y: [i32; 3],
-    /// One over twice its area, below 0 where its corners run the other way around.
-    over_area: f32,
-}
-
-impl Triangle {
-    /// Returns triangle `k` of a batch, if it has an area.
-    pub fn of(batch: &Batch, k: usize) -> Option<Triangle> {
-        let (x, y) = (
-            [0, 1, 2].map(|i| batch.x[i][k]),
-            [0, 1, 2].map(|i| batch.y[i][k]),
-        );
-        let ([xa, xb, xc], [ya, yb, yc]) = (x, y);
-        let wide = i64::from;
-        let area = wide(xb - xa) * wide(yc - ya) - wide(xc - xa) * wide(yb - ya);
-        (area != 0).then_some(Triangle {
-            columns: batch.columns[0][k]..batch.columns[1][k],
-            rows: batch.rows[0][k]..batch.rows[1][k],
-            x,
-            y,
-            over_area: 1.0 / area as f32,
-        })
+/// Appends the runs of triangle `k` of a batch, of any size, by the crossings of its edges with the scanlines of the tile that
+/// begins with row `top`. Returns the growth of the barycentric coordinates from pixel to pixel.
+fn large_runs(batch: &Batch, k: usize, top: usize, found: &mut Vec<FoundRun>) -> [f32; 2] {
+    let [x, y] = [&batch.x, &batch.y].map(|at| [at[0][k], at[1][k], at[2][k]]);
+    let [columns, rows] = [&batch.columns, &batch.rows].map(|ends| ends[0][k]..ends[1][k]);
+    // Twice the area of the triangle of corners i and j and a point, below 0 where it runs the other way around.
+    let doubled = |i: usize, j: usize, px: i64, py: i64| {
+        let [xi, xj, yi, yj] = [x[i], x[j], y[i], y[j]].map(i64::from);
+        (xj - xi) * (py - yi) - (yj - yi) * (px - xi)
+    };
+    let area = doubled(0, 1, i64::from(x[2]), i64::from(y[2]));
+    if area == 0 {
+        return [0.0; 2];
     }
-
-    /// Returns how much the barycentric coordinates of the second and the third corner grow from pixel to pixel.
-    #[inline(always)]
-    pub fn across(&self) -> [f32; 2] {
-        let (y, scale) = (&self.y, 256.0 * self.over_area);
-        [(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale]
-    }
-
-    /// Gives its runs: the row in the tile that begins with row `top`, the pixels, and the barycentric coordinates of the second and
-    /// the third corner at the first of them.
-    #[inline(always)]
-    pub fn runs(&self, top: usize, mut visit: impl FnMut(usize, Range<usize>, [f32; 2])) {
-        let Triangle {
-            x,
-            y,
-            columns,
-            rows,
-            ..
-        } = self;
-        // From the top corner two edges go down; the third one follows one of them.
-        let mut order = [0usize, 1, 2];
-        order.sort_unstable_by_key(|&i| y[i]);
-        let [above, middle, below] = order.map(|i| [x[i], y[i]].map(SubPixel::from_bits));
-        let bend = first_centre(middle[1]).clamp(rows.start, rows.end);
-        let mut long = Crossing::new(above, below, rows.start);
-        let function = |i: usize, j: usize, column: i32, row: i32| {
-            let wide = i64::from;
-            let (px, py) = (256 * wide(column) + 128, 256 * wide(row) + 128);
-            wide(x[j] - x[i]) * (py - wide(y[i])) - wide(y[j] - y[i]) * (px - wide(x[i]))
-        };
-        for (from, to, rows) in [
-            (above, middle, rows.start..bend),
-            (middle, below, bend..rows.end),
-        ] {
-            if rows.is_empty() {
-                continue;
+    let over_area = 1.0 / area as f32;
+    // From the top corner two edges go down; the third one follows one of them.
+    let mut order = [0usize, 1, 2];
+    order.sort_unstable_by_key(|&i| y[i]);
+    let [above, middle, below] = order.map(|i| [x[i], y[i]].map(SubPixel::from_bits));
+    let bend = first_centre(middle[1]).clamp(rows.start, rows.end);
+    let mut long = EdgeCrossing::new(above, below, rows.start);
+    for (from, to, rows) in [
+        (above, middle, rows.start..bend),
+        (middle, below, bend..rows.end),
+    ] {
+        if rows.is_empty() {
+            continue;
+        }
+        let mut short = EdgeCrossing::new(from, to, rows.start);
+        for row in rows {
+            let (p, q) = (long.pixel(), short.pixel());
+            let (start, end) = (p.min(q).max(columns.start), p.max(q).min(columns.end));
+            if start < end {
+                let [px, py] = [start, row].map(|at| 256 * i64::from(at) + 128);
+                let weight = |i, j| doubled(i, j, px, py) as f32 * over_area;
+                found.push(FoundRun {
+                    row: row as usize - top,
+                    pixels: start as usize..end as usize,
+                    weights: [weight(2, 0), weight(0, 1)],
+                });
             }
-            let mut short = Crossing::new(from, to, rows.start);
-            for row in rows {
-                let (p, q) = (long.pixel(), short.pixel());
-                let (start, end) = (p.min(q).max(columns.start), p.max(q).min(columns.end));
-                if start < end {
-                    let weight =
-                        |i: usize, j: usize| function(i, j, start, row) as f32 * self.over_area;
-                    let pixels = start as usize..end as usize;
-                    visit(row as usize - top, pixels, [weight(2, 0), weight(0, 1)]);
-                }
-                long.advance();
-                short.advance();
-            }
+            long.advance();
+            short.advance();
         }
     }
+    let scale = 256.0 * over_area;
+    [(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale]
 }

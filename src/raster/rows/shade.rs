@@ -1,8 +1,8 @@
-//! Shading: one row of the G-buffer to colours, by one call of the method for each material on it. The loop
-//! over its pixels is the method's kernel: `shade_any` in `shading/kernels.rs`.
+//! Shading: one row of the G-buffer to colours, by one call of the method for each material on it. The loop over its pixels is
+//! the method's kernel: `shade` in `shading/kernels.rs`.
 
 use super::tile::Tile;
-use super::{Rows, Scratch};
+use super::{RowEngine, TileScratch};
 use crate::number::simd::BLOCK;
 use crate::raster::target::Target;
 use crate::shading::{RowColours, ShadeRow};
@@ -14,20 +14,20 @@ const STEP: usize = 2 * BLOCK;
 
 /// The colours of a row, where they do not go straight into the picture.
 #[derive(Debug, Default)]
-pub(crate) struct Line {
+pub(crate) struct RowBuffers {
     bytes: Vec<[u8; 4]>,
     channels: [Vec<f32>; 3],
     run: Vec<[f32; 3]>,
 }
 
-impl Rows<'_> {
+impl RowEngine<'_> {
     /// Shades row `row` of a tile into `target`, and empties it.
-    pub(super) fn shade(&self, row: usize, scratch: &mut Scratch, target: &mut dyn Target) {
-        let Scratch { tile, line, .. } = scratch;
+    pub(super) fn shade(&self, row: usize, scratch: &mut TileScratch, target: &mut dyn Target) {
+        let TileScratch { tile, line, .. } = scratch;
         let width = self.setup.frame.width();
-        let blocks = tile.drawn();
+        let (blocks, background) = (tile.drawn(), self.background);
         let drawn = (blocks.start * BLOCK).min(width)..(blocks.end * BLOCK).min(width);
-        if let Some((to, background)) = target.bytes(row) {
+        if let Some(to) = target.bytes(row) {
             to[..drawn.start].fill(background);
             to[drawn.end..].fill(background);
         }
@@ -41,7 +41,7 @@ impl Rows<'_> {
                 numbers: self.numbers,
             };
             let part = pixels.start - steps.start..pixels.end - steps.start;
-            if let Some((to, background)) = target.bytes(row) {
+            if let Some(to) = target.bytes(row) {
                 if pixels == steps {
                     let mut out = RowColours::Bytes(&mut to[pixels], background);
                     return (self.kernels.shade)(&job, cells, &mut out);
@@ -64,7 +64,7 @@ impl Rows<'_> {
         scratch.tile.clear_row(row);
     }
 
-    /// Gives the pixels between which all that are drawn have the same material, and its uniforms.
+    /// Calls `visit` with the number of some uniforms and pixels of which all that are drawn have these.
     fn each_material(
         &self,
         tile: &Tile,
@@ -75,8 +75,8 @@ impl Rows<'_> {
         if drawn.is_empty() {
             return;
         }
-        if !self.has_material {
-            return visit(self.only, drawn);
+        if let Some(only) = self.only {
+            return visit(only, drawn);
         }
         let first = drawn.start / BLOCK;
         let cells = tile.row(row, first..drawn.end.div_ceil(BLOCK));
@@ -86,11 +86,9 @@ impl Rows<'_> {
         let (mut from, mut same) = (drawn.start, None);
         for x in drawn.clone() {
             if at(x, 0) < f32::INFINITY {
-                let material = at(x, tile.stride() / BLOCK - 1) as u32;
-                if let Some(same) = same
-                    && same != material
-                {
-                    visit(same, from..x);
+                let material = at(x, self.numbers - 1) as u32;
+                if same.is_some_and(|same| same != material) {
+                    visit(same.unwrap_or(0), from..x);
                     from = x;
                 }
                 same = Some(material);
@@ -100,8 +98,8 @@ impl Rows<'_> {
     }
 }
 
-impl Line {
-    /// Stores those of the pixels `part` of a row that are drawn, `first` pixels from its beginning.
+impl RowBuffers {
+    /// Stores the drawn pixels among the pixels `part` of a row, `first` pixels from its beginning.
     fn store(
         &mut self,
         part: Range<usize>,

@@ -1,5 +1,4 @@
-//! Small triangles, block by block, by edge functions: narrow ones row by row of their boxes, others between the limits of each
-//! row.
+//! Small triangles, block by block, by edge functions: narrow ones over their whole boxes, others between the limits of each row.
 
 use super::tile::{MOST, Writer};
 use super::triangles::Batch;
@@ -8,13 +7,13 @@ use crate::number::simd::BLOCK;
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
 
-/// A depth, and the other numbers of pixels.
-type Numbers<S> = [f32x8<S>; MOST];
+/// The numbers of a block of pixels, depth first.
+type BlockNumbers<S> = [f32x8<S>; MOST];
 
 /// A small triangle that is drawn block by block.
 ///
 /// Its numbers are exact, but for roundings, at the first pixel of its first block, or of the first one of each row, and grow from
-/// there: finding them anew in each block took 46 instructions a block where 28 do now (`phong-rsqrt`, AVX2).
+/// there.
 ///
 /// That costs accuracy where a triangle is thin. Barycentric coordinates are in 0..=1 where it is covered and grow by at most
 /// [`STEEPEST`](super::triangles::STEEPEST) a pixel. A covered pixel is at most 15 rows and 15 columns from where numbers begin, so
@@ -25,17 +24,17 @@ type Numbers<S> = [f32x8<S>; MOST];
 pub(super) struct SmallTriangle<'a, S: Simd> {
     m: Lanes<S>,
     batch: &'a Batch,
-    /// Its number in the batch.
+    /// The number in the batch.
     k: usize,
     /// The blocks of a row between which it lies.
     blocks: [usize; 2],
-    /// How much its edge functions grow to each pixel of a block, from block to block, and from row to row.
+    /// The growth of its edge functions to each pixel of a block, from block to block, and from row to row.
     ramp: [i32x8<S>; 3],
     across: [i32x8<S>; 3],
     down: [i32x8<S>; 3],
 }
 
-/// What eight rows of a small triangle begin with, by row.
+/// The first blocks of eight rows of a small triangle.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RowStarts {
     /// The first block, counted from the triangle's first, and the one after the last.
@@ -84,7 +83,7 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         }
     }
 
-    /// Draws one or two blocks a row: all of them are looked at. Limits would take longer than what they spare.
+    /// Draws one or two blocks a row, all of them: finding the limits of each row would take longer.
     #[inline(always)]
     fn narrow<const N: usize>(&self, rows: Range<usize>, writer: &mut Writer<'_, S, N>) {
         let (m, k, [_, b, c]) = (self.m, self.k, &self.batch.edges);
@@ -92,10 +91,8 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         let count = writer.count.get();
         let growth = self.growth::<N>(count, [b.growth[k], c.growth[k]]);
         let down = self.growth::<N>(count, [b.fall[k], c.fall[k]]);
-        let start = self
-            .batch
-            .planes
-            .at(m, k, count, [b.weight[k], c.weight[k]]);
+        let weights = [b.weight[k], c.weight[k]];
+        let start = self.batch.planes.at(m, k, count, weights);
         let (counted, width) = (m.float(m.counted()), m.splat(BLOCK as f32));
         let (mut at, mut across) = (growth, growth);
         let mut i = 0;
@@ -104,15 +101,14 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
             across[i] = growth[i] * width;
             i += 1;
         }
-        let at_first = |edge: usize| m.int(self.batch.edges[edge].at[k]) + self.ramp[edge];
-        let mut functions = [at_first(0), at_first(1), at_first(2)];
+        let first_of = |edge: usize| m.int(self.batch.edges[edge].at[k]);
+        let mut functions = grown([first_of(0), first_of(1), first_of(2)], self.ramp);
         let stride = writer.stride();
         let mut place = (rows.start * writer.blocks + first) * stride;
         for _ in rows {
             writer.put(
                 place,
                 outside(functions),
-                at[0],
                 #[inline(always)]
                 |i| at[i],
             );
@@ -120,7 +116,6 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
                 writer.put(
                     place + stride,
                     outside(grown(functions, self.across)),
-                    at[0] + across[0],
                     #[inline(always)]
                     |i| at[i] + across[i],
                 );
@@ -143,115 +138,85 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         rows: Range<usize>,
         writer: &mut Writer<'_, S, N>,
     ) {
-        let (m, k, edges) = (self.m, self.k, &self.batch.edges);
-        let [first, _] = self.blocks;
+        let (m, [_, b, c]) = (self.m, &self.batch.edges);
         let (count, stride) = (writer.count.get(), writer.stride());
-        let (mut across, mut ramps) = (
-            self.growth::<N>(count, [edges[1].growth[k], edges[2].growth[k]]),
-            [m.splat(0.0); MOST],
-        );
+        let mut across = self.growth::<N>(count, [b.growth[self.k], c.growth[self.k]]);
+        let mut ramps = [m.splat(0.0); MOST];
         let (counted, width) = (m.float(m.counted()), m.splat(BLOCK as f32));
         let mut i = 0;
         while i < count {
             (across[i], ramps[i]) = (across[i] * width, across[i] * counted);
             i += 1;
         }
-        self.each_row(
-            starts,
-            rows,
-            count,
-            #[inline(always)]
-            |row, of_eight, starts| {
-                let mut functions = self.functions(starts, of_eight);
-                let mut at = ramps;
-                let mut i = 0;
-                while i < count {
-                    at[i] = m.splat(starts.numbers[i][of_eight]) + ramps[i];
-                    i += 1;
-                }
-                let before = row * writer.blocks + first;
-                let [from, to] = [starts.blocks[0][of_eight], starts.blocks[1][of_eight]];
-                let mut place = (before + from as u32 as usize) * stride;
-                for _ in from..to {
-                    writer.put(
-                        place,
-                        outside(functions),
-                        at[0],
-                        #[inline(always)]
-                        |i| at[i],
-                    );
-                    functions = grown(functions, self.across);
-                    let mut i = 0;
-                    while i < count {
-                        at[i] += across[i];
-                        i += 1;
-                    }
-                    place += stride;
-                }
-            },
-        );
-    }
-
-    /// Gives its rows: number in the tile, number among eight, and what these begin with, `count` numbers of each.
-    ///
-    /// Eight rows are found at a time. Rows past the last are computed and not given: there 32 bits need not hold the results.
-    #[inline(always)]
-    fn each_row(
-        &self,
-        starts: &mut RowStarts,
-        rows: Range<usize>,
-        count: usize,
-        mut visit: impl FnMut(usize, usize, &RowStarts),
-    ) {
-        let (m, k, edges) = (self.m, self.k, &self.batch.edges);
-        let over_area = m.splat(self.batch.over_area[k]);
-        let mut row = rows.start;
-        while row < rows.end {
-            let number = m.counted() + m.int((row - rows.start) as i32);
-            let at = |edge: usize| m.int(edges[edge].at[k]) + number * self.down[edge];
-            let mut start = [at(0), at(1), at(2)];
-            let [from, to] = self.limits(start);
-            m.store_int(from, &mut starts.blocks[0]);
-            m.store_int(to, &mut starts.blocks[1]);
-            let mut i = 0;
-            while i < 3 {
-                start[i] += from * self.across[i];
-                m.store_int(start[i], &mut starts.functions[i]);
-                i += 1;
+        let first_block = rows.start * writer.blocks + self.blocks[0];
+        for row in 0..rows.len() {
+            let of_eight = row % BLOCK;
+            if of_eight == 0 {
+                self.start_rows(starts, row, count);
             }
-            let weight = |edge: usize| {
-                m.float(start[edge])
-                    .mul_add(over_area, m.splat(edges[edge].off[k]))
-            };
-            let weights = [weight(1), weight(2)];
+            let first_of = |edge: usize| m.int(starts.functions[edge][of_eight]);
+            let mut functions = grown([first_of(0), first_of(1), first_of(2)], self.ramp);
+            let mut at = ramps;
             let mut i = 0;
             while i < count {
-                m.store(
-                    self.batch.planes.number(m, k, i, weights),
-                    &mut starts.numbers[i],
-                );
+                at[i] = m.splat(starts.numbers[i][of_eight]) + ramps[i];
                 i += 1;
             }
-            let here = BLOCK.min(rows.end - row);
-            for of_eight in 0..here {
-                visit(row + of_eight, of_eight, starts);
+            let before = first_block + row * writer.blocks;
+            let [from, to] = [starts.blocks[0][of_eight], starts.blocks[1][of_eight]];
+            let mut place = (before + from as u32 as usize) * stride;
+            for _ in from..to {
+                writer.put(
+                    place,
+                    outside(functions),
+                    #[inline(always)]
+                    |i| at[i],
+                );
+                functions = grown(functions, self.across);
+                let mut i = 0;
+                while i < count {
+                    at[i] += across[i];
+                    i += 1;
+                }
+                place += stride;
             }
-            row += here;
         }
     }
 
-    /// Returns the edge functions in the first block of a row.
+    /// Finds the limits of eight rows from its row `row` on, and the first blocks there, with `count` numbers. Rows past its last
+    /// are not drawn: 32 bits need not hold their results.
     #[inline(always)]
-    fn functions(&self, starts: &RowStarts, of_eight: usize) -> [i32x8<S>; 3] {
-        let function = |edge: usize| self.m.int(starts.functions[edge][of_eight]) + self.ramp[edge];
-        [function(0), function(1), function(2)]
+    fn start_rows(&self, starts: &mut RowStarts, row: usize, count: usize) {
+        let (m, k, edges) = (self.m, self.k, &self.batch.edges);
+        let over_area = m.splat(self.batch.over_area[k]);
+        let number = m.counted() + m.int(row as i32);
+        let at = |edge: usize| m.int(edges[edge].at[k]) + number * self.down[edge];
+        let mut start = [at(0), at(1), at(2)];
+        let [from, to] = self.limits(start);
+        m.store_int(from, &mut starts.blocks[0]);
+        m.store_int(to, &mut starts.blocks[1]);
+        let mut i = 0;
+        while i < 3 {
+            start[i] += from * self.across[i];
+            m.store_int(start[i], &mut starts.functions[i]);
+            i += 1;
+        }
+        let off = |edge: usize| m.splat(edges[edge].off[k]);
+        let weight = |edge: usize| m.float(start[edge]).mul_add(over_area, off(edge));
+        let weights = [weight(1), weight(2)];
+        let mut i = 0;
+        while i < count {
+            let number = self.batch.planes.number(m, k, i, weights);
+            m.store(number, &mut starts.numbers[i]);
+            i += 1;
+        }
     }
 
-    /// Returns the blocks of rows, counted from the first, between which all functions are over 0, which are `start` at the rows'
-    /// first pixels.
+    /// Returns the blocks of rows, counted from the first, between which all functions are over 0, from their values `start` at the
+    /// rows' first pixels.
     ///
-    /// Where a function becomes 0 is off by three roundings: with at most 62 columns by less than 2⁻¹⁶ of one. A block more is
-    /// looked at where that could matter.
+    /// The zero of a function is off by three roundings: with at most 62 columns by less than 2⁻¹⁶ of one. One more block is
+    /// drawn where that could matter.
     #[inline(always)]
     fn limits(&self, start: [i32x8<S>; 3]) -> [i32x8<S>; 2] {
         let (m, k, [first, end]) = (self.m, self.k, self.blocks);
@@ -273,9 +238,9 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         ]
     }
 
-    /// Returns how much its numbers grow where the coordinates grow by `growth`.
+    /// Returns the growth of its numbers where the coordinates grow by `growth`.
     #[inline(always)]
-    fn growth<const N: usize>(&self, count: usize, growth: [f32; 2]) -> Numbers<S> {
+    fn growth<const N: usize>(&self, count: usize, growth: [f32; 2]) -> BlockNumbers<S> {
         let steps = self.batch.planes.growth(self.m, self.k, count, growth);
         let mut grown = [self.m.splat(0.0); MOST];
         let mut i = 0;
@@ -293,6 +258,7 @@ fn outside<S: Simd>([a, b, c]: [i32x8<S>; 3]) -> i32x8<S> {
     a | b | c
 }
 
+/// Returns edge functions one step further.
 #[inline(always)]
 fn grown<S: Simd>(at: [i32x8<S>; 3], step: [i32x8<S>; 3]) -> [i32x8<S>; 3] {
     [at[0] + step[0], at[1] + step[1], at[2] + step[2]]

@@ -54,15 +54,11 @@ type Pixel = ((usize, usize), [f32; 2]);
 /// Returns the pixels that `draw` draws into an empty tile.
 fn drawn<S: Token>(
     simd: S,
-    (width, rows): (usize, &Range<usize>),
+    (width, rows, test): (usize, &Range<usize>, SampleDepth),
     draw: impl FnOnce(&mut tile::Writer<'_, S, 0>),
 ) -> Vec<Pixel> {
     let mut tile = Tile::default();
     tile.prepare(HEIGHT, width, 3);
-    let test = DepthTest {
-        hides: true,
-        most: None,
-    };
     draw(&mut tile.writer(Lanes(simd), test));
     let stride = tile.stride();
     let mut found = vec![];
@@ -111,13 +107,13 @@ fn check<S: Token>(
     let polygons: Vec<Listed> = (0..).zip(frame.polygons()).map(listed).collect();
     let mut rest = &polygons[..];
     let mut counts = [0; 4];
-    let mut scratch = Scratch::default();
+    let mut scratch = TileScratch::default();
     while !rest.is_empty() {
         scratch.tile.prepare(HEIGHT, width, 3);
-        let (taken, tiny, others) = find(simd, frame, rest, &rows, &mut scratch);
+        let (taken, tiny, others) = find(Lanes(simd), frame, rest, &rows, &mut scratch);
         assert!(taken > 0 && tiny & others == 0);
         let blocks = scratch.tile.drawn();
-        let Scratch {
+        let TileScratch {
             batch,
             fragments,
             starts,
@@ -135,32 +131,33 @@ fn check<S: Token>(
         for (k, listed) in rest[..taken].iter().enumerate() {
             let expected = expected[listed.number as usize].iter().copied();
             let expected: Vec<_> = expected.filter(|(row, _)| rows.contains(row)).collect();
-            let (m, at) = (Lanes(simd), (width, &rows));
+            let (m, at) = (Lanes(simd), (width, &rows, SampleDepth::new(frame)));
             if (tiny | others) >> k & 1 == 0 {
                 assert_eq!(expected, [], "{listed:?}");
                 continue;
             }
             let draw_large = |writer: &mut tile::Writer<'_, S, 0>| {
-                runs::draw_large(m, batch, k, rows.start, writer);
+                runs::draw_large(m, (batch, k), rows.start, &mut vec![], writer);
             };
             // Runs find the pixels of triangles of any size.
             let mut found = vec![drawn(simd, at, draw_large)];
-            let mut path = Kind::Large;
+            let mut path = CoveragePath::Large;
             if tiny >> k & 1 == 1 {
-                path = Kind::Tiny;
+                path = CoveragePath::Tiny;
                 found.push(drawn(simd, at, |writer| {
                     fragments.draw(m, batch, k, writer)
                 }));
-                let mut by_runs = vec![];
-                fragments.runs(batch, k, rows.start, |row, pixels, weights| {
-                    by_runs.push(((rows.start + row, pixels.start), weights));
-                    let rest = pixels.skip(1);
-                    by_runs.extend(rest.map(|x| ((rows.start + row, x), [0.0; 2])));
-                });
+                let (mut runs, mut by_runs) = (vec![], vec![]);
+                fragments.runs(batch, k, rows.start, &mut runs);
+                for run in runs {
+                    let row = rows.start + run.row;
+                    by_runs.push(((row, run.pixels.start), run.weights));
+                    by_runs.extend(run.pixels.skip(1).map(|x| ((row, x), [0.0; 2])));
+                }
                 assert_weights(&by_runs);
                 assert_eq!(places(&by_runs), expected, "{listed:?}");
-            } else if batch.kind[k] == Kind::Small as i32 {
-                path = Kind::Small;
+            } else if batch.path[k] == CoveragePath::Small as i32 {
+                path = CoveragePath::Small;
                 found.push(drawn(simd, at, |writer| {
                     SmallTriangle::new(m, batch, k).draw(starts, rows.start, writer);
                 }));

@@ -3,7 +3,7 @@
 
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
-use crate::raster::depth::level_of;
+use crate::raster::depth::{SampleDepth, level_of};
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, f32x8, i32x8};
@@ -12,20 +12,20 @@ use fearless_simd::{Simd, SimdBase, f32x8, i32x8};
 /// a weight, and the material.
 pub(super) const MOST: usize = 9;
 
-/// How many numbers a pixel has: `N`, or for `N` = 0 as many as it says.
+/// The number of numbers of a pixel: `N`, or for `N` = 0 the field.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Count<const N: usize>(pub usize);
+pub(super) struct NumberCount<const N: usize>(pub usize);
 
-impl<const N: usize> Count<N> {
+impl<const N: usize> NumberCount<N> {
     #[inline(always)]
     pub fn get(self) -> usize {
         if N == 0 { self.0 } else { N }
     }
 }
 
-/// Pixels in blocks of 8: the depths of neighbouring pixels, their first plane, their second, and so on lie together. So a block
-/// is one place in memory, whatever its planes are, and what the triangle beside just wrote is read back as it was written,
-/// which processors do without waiting.
+/// A tile of pixels in blocks of 8: the depths of neighbouring pixels, their first plane, their second, and so on lie together.
+/// So a block is one place in memory, and numbers that the last triangle just wrote are read back as they were written, which
+/// processors do without waiting.
 #[derive(Debug, Default)]
 pub(crate) struct Tile {
     rows: usize,
@@ -52,7 +52,7 @@ impl Tile {
         self.drawn = blocks..0;
     }
 
-    /// Says that these blocks of any row may be drawn.
+    /// Reports that these blocks of any row may have been drawn.
     #[inline(always)]
     pub fn extend(&mut self, blocks: Range<usize>) {
         self.drawn = self.drawn.start.min(blocks.start)..self.drawn.end.max(blocks.end);
@@ -64,7 +64,7 @@ impl Tile {
         self.drawn.start.min(self.drawn.end) & !1..self.drawn.end.next_multiple_of(2)
     }
 
-    /// Returns values from one block to the next.
+    /// Returns the distance from one block to the next, in values.
     pub fn stride(&self) -> usize {
         self.numbers * BLOCK
     }
@@ -84,84 +84,54 @@ impl Tile {
         }
     }
 
-    /// Returns where the numbers of pixels are.
-    pub fn layout(&self) -> Layout {
-        Layout {
-            pixels: (self.blocks * BLOCK) as i32,
-            numbers: self.numbers as i32,
-        }
+    /// Returns the places of the first numbers of pixels, from rows and columns.
+    #[inline(always)]
+    pub fn places<S: Simd>(&self, m: Lanes<S>, row: i32x8<S>, column: i32x8<S>) -> i32x8<S> {
+        let in_block = column & m.int(BLOCK as i32 - 1);
+        // 32 bits hold the numbers of a tile, which has at most 16 rows.
+        let pixels = row * m.int((self.blocks * BLOCK) as i32) + (column - in_block);
+        pixels * m.int(self.numbers as i32) + in_block
     }
 
-    /// Returns write access to all blocks. Which of them are drawn is said by [`Tile::extend`]: others are not shaded.
+    /// Returns write access to all blocks. Report the blocks written with [`Tile::extend`], or they are not shaded.
     #[inline(always)]
     pub fn writer<S: Simd, const N: usize>(
         &mut self,
         lanes: Lanes<S>,
-        test: DepthTest,
+        test: SampleDepth,
     ) -> Writer<'_, S, N> {
+        let never = f32::INFINITY;
         Writer {
             lanes,
             test,
-            least: lanes.splat(if test.hides {
-                f32::NEG_INFINITY
-            } else {
-                f32::INFINITY
-            }),
+            least: lanes.splat(if test.hides { -never } else { never }),
             blocks: self.blocks,
-            count: Count(self.numbers),
+            count: NumberCount(self.numbers),
             values: &mut self.values,
         }
     }
 }
 
-/// Where the numbers of a tile are, whatever they mean.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Layout {
-    /// Pixels a row, as there is room for.
-    pixels: i32,
-    /// Numbers a pixel.
-    numbers: i32,
-}
-
-impl Layout {
-    /// Returns where the first number of each pixel is, from rows and columns.
-    #[inline(always)]
-    pub fn places<S: Simd>(self, m: Lanes<S>, row: i32x8<S>, column: i32x8<S>) -> i32x8<S> {
-        let in_block = column & m.int(BLOCK as i32 - 1);
-        // As many numbers a row as 32 bits hold: a tile has at most 16 rows of them.
-        (row * m.int(self.pixels) + (column - in_block)) * m.int(self.numbers) + in_block
-    }
-}
-
-/// What is compared at a pixel.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct DepthTest {
-    /// True if nearer pixels hide farther ones.
-    pub hides: bool,
-    /// The largest integer, if depth is kept as one.
-    pub most: Option<u32>,
-}
-
-/// Writes pixels into a tile, with the depth test.
+/// Write access to a tile, with the depth test.
 pub(super) struct Writer<'a, S: Simd, const N: usize> {
     lanes: Lanes<S>,
-    test: DepthTest,
-    /// What is stored counts as no nearer than this.
+    test: SampleDepth,
+    /// Stored depths count as no nearer than this: infinity where nearer pixels do not hide farther ones.
     least: f32x8<S>,
     /// Blocks a row.
     pub blocks: usize,
-    pub count: Count<N>,
+    pub count: NumberCount<N>,
     values: &'a mut [f32],
 }
 
 impl<S: Simd, const N: usize> Writer<'_, S, N> {
-    /// Returns values from one block to the next.
+    /// Returns the distance from one block to the next, in values.
     #[inline(always)]
     pub fn stride(&self) -> usize {
         self.count.get() * BLOCK
     }
 
-    /// Returns depth as it is kept.
+    /// Returns depth as it is stored.
     #[inline(always)]
     fn kept(&self, depth: f32x8<S>) -> f32x8<S> {
         match self.test.most {
@@ -170,20 +140,14 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
         }
     }
 
-    /// Writes the block whose values begin at `place` where `outside` is not below 0 and its depth passes the test. `numbers` gives
+    /// Writes the block whose values begin at `place` where `outside` is not below 0 and its depth passes the test. `number` returns
     /// each number, depth first.
     ///
-    /// It writes in any case: which blocks are seen, and which of them wholly, cannot be predicted where triangles are small.
+    /// It writes in any case: the processor cannot predict which blocks are seen where triangles are small.
     #[inline(always)]
-    pub fn put(
-        &mut self,
-        place: usize,
-        outside: i32x8<S>,
-        depth: f32x8<S>,
-        mut number: impl FnMut(usize) -> f32x8<S>,
-    ) {
+    pub fn put(&mut self, place: usize, outside: i32x8<S>, number: impl Fn(usize) -> f32x8<S>) {
         let (m, stride) = (self.lanes, self.stride());
-        let depth = self.kept(depth);
+        let depth = self.kept(number(0));
         let Some(values) = self.values.get_mut(place..place + stride) else {
             return;
         };
@@ -198,7 +162,7 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
         }
     }
 
-    /// Writes one pixel, its depth and then its numbers, at a place that [`Layout::places`] gave.
+    /// Writes one pixel, its depth and then its numbers, at a place that [`Tile::places`] gave.
     #[inline(always)]
     pub fn put_one(&mut self, place: i32, numbers: &[f32]) {
         // Places are 0 or more: so the end of what is stored is in bounds if it is at all.
@@ -206,8 +170,8 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
         let mut depth = numbers[0];
         if self.test.most.is_some() {
             let mut lanes = [0.0; BLOCK];
-            self.lanes
-                .store(self.kept(self.lanes.splat(depth)), &mut lanes);
+            let kept = self.kept(self.lanes.splat(depth));
+            self.lanes.store(kept, &mut lanes);
             depth = lanes[0];
         }
         let values = &mut self.values[place..place + (count - 1) * BLOCK + 1];

@@ -1,11 +1,12 @@
 //! Tiny triangles: eight of them at a time, pixel by pixel of their boxes. Where a triangle has a pixel or two, setting up its
-//! rows is most of its cost; this way nothing is set up for one triangle alone.
+//! rows is most of its cost; here nothing is set up for one triangle alone.
 
-use super::tile::{Layout, Writer};
-use super::triangles::{BATCH, Batch, Ints, Kind, TINY_HEIGHT, TINY_WIDTH};
+use super::runs::FoundRun;
+use super::tile::{Tile, Writer};
+use super::triangles::{BATCH, Batch, CoveragePath, Ints, TINY_HEIGHT, TINY_WIDTH, bits};
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
-use core::ops::Range;
+use alloc::vec::Vec;
 use fearless_simd::{Simd, SimdFloat};
 
 /// Pixels of a box.
@@ -15,53 +16,44 @@ const ROOM: usize = 32;
 /// Pixels of the boxes of a batch.
 const ALL: usize = BATCH * ROOM;
 
-/// The pixels that the tiny triangles of a batch cover.
-#[derive(Debug)]
+/// The pixels that the tiny triangles of a batch cover. Those of their boxes lie together for eight triangles after eight: by
+/// pixel, then by triangle.
+#[derive(Debug, Default)]
 pub(crate) struct Fragments {
-    /// Where each pixel of each box is in the tile: eight triangles after eight, by pixel, then by triangle.
-    places: [i32; ALL],
+    /// The place of each pixel in the tile.
+    places: [[i32; ROOM]; BATCH],
     /// The barycentric coordinates of the second and the third corner there.
-    weights: [[f32; ALL]; 2],
+    weights: [[[f32; ROOM]; BATCH]; 2],
     /// Bit [`TINY_HEIGHT`] · column + row: 1 if that pixel of the box is covered, for each triangle.
     covered: Ints,
 }
 
-impl Default for Fragments {
-    fn default() -> Self {
-        Fragments {
-            places: [0; ALL],
-            weights: [[0.0; ALL]; 2],
-            covered: [0; BATCH],
-        }
-    }
-}
-
 impl Fragments {
-    /// Finds what the tiny triangles of a batch cover in a tile that begins with row `top`. Gives a bit for each that covers
-    /// anything.
+    /// Finds the pixels that the tiny triangles of a batch cover in a tile that begins with row `top`. Returns a bit for each
+    /// triangle that covers any.
     #[inline(always)]
-    pub fn find<S: Simd>(&mut self, m: Lanes<S>, batch: &Batch, top: usize, layout: Layout) -> u32 {
+    pub fn find<S: Simd>(&mut self, m: Lanes<S>, batch: &Batch, top: usize, tile: &Tile) -> u32 {
         let (mut drawn, mut first) = (0, 0);
         while first < batch.count {
-            drawn |= self.find_eight(m, batch, (first, top), layout) << first;
+            drawn |= self.find_eight(m, batch, (first, top), tile) << first;
             first += BLOCK;
         }
         drawn
     }
 
-    /// Finds what those cover of the eight triangles from number `first` on.
+    /// Finds the pixels of the eight triangles from number `first` on.
     #[inline(always)]
     fn find_eight<S: Simd>(
         &mut self,
         m: Lanes<S>,
         batch: &Batch,
         (first, top): (usize, usize),
-        layout: Layout,
+        tile: &Tile,
     ) -> u32 {
         let one = m.int(1);
         let others = m
-            .load_int(&batch.kind[first..])
-            .less(m.int(Kind::Tiny as i32));
+            .load_int(&batch.path[first..])
+            .less(m.int(CoveragePath::Tiny as i32));
         if !m.any_not_negative(others) {
             return 0;
         }
@@ -80,32 +72,28 @@ impl Fragments {
         ];
         let over_area = m.load(&batch.over_area[first..]);
         let back = [m.load(&b.off[first..]), m.load(&c.off[first..])];
-        // Columns and rows that are left, less 1: below 0 outside the box. As many are looked at as the widest and the highest of
-        // the triangles have, whether any covers a pixel there or not: that would often be guessed wrong.
+        // Columns and rows that are left, less 1: below 0 outside the box. The loops end with the widest and the highest of the
+        // triangles: a branch on covered pixels would often be mispredicted.
         let mut beside = (columns[1] - columns[0] - one) | others;
         let all_below = (rows[1] - rows[0] - one) | others;
-        let (mut across_at, next_row) = (columns[0], layout.places(m, one, m.int(0)));
+        let (mut across_at, next_row) = (columns[0], tile.places(m, one, m.int(0)));
         let mut covered = m.int(0);
         let mut slot = 0;
         while slot < SLOTS && m.any_not_negative(beside) {
             let (mut here, mut below) = (column, all_below);
-            let mut place = layout.places(m, rows[0] - m.int(top as i32), across_at);
+            let mut place = tile.places(m, rows[0] - m.int(top as i32), across_at);
             let mut bit = m.int(1 << slot);
             let mut at = first * ROOM + slot * BLOCK;
             let mut row = 0;
             while row < TINY_HEIGHT && m.any_not_negative(below) {
                 let outside = here[0] | here[1] | here[2] | below | beside;
                 covered |= m.int(-1).less(outside) & bit;
-                m.store_int(place, &mut self.places[at..]);
+                m.store_int(place, &mut self.places.as_flattened_mut()[at..]);
                 let [to_b, to_c] = &mut self.weights;
-                m.store(
-                    m.float(here[1]).mul_add(over_area, back[0]),
-                    &mut to_b[at..],
-                );
-                m.store(
-                    m.float(here[2]).mul_add(over_area, back[1]),
-                    &mut to_c[at..],
-                );
+                let b = m.float(here[1]).mul_add(over_area, back[0]);
+                let c = m.float(here[2]).mul_add(over_area, back[1]);
+                m.store(b, &mut to_b.as_flattened_mut()[at..]);
+                m.store(c, &mut to_c.as_flattened_mut()[at..]);
                 here = [here[0] + down[0], here[1] + down[1], here[2] + down[2]];
                 (below, place, bit) = (below - one, place + next_row, bit + bit);
                 (at, row) = (at + BLOCK, row + 1);
@@ -122,38 +110,40 @@ impl Fragments {
         m.bits_not_negative(m.int(0).less(covered) ^ m.int(-1))
     }
 
-    /// Gives the runs of tiny triangle `k`, which must cover a pixel: the row in the tile that begins with row `top`, the pixels, and
-    /// the barycentric coordinates at the first of them.
+    /// Appends the runs of tiny triangle `k`, which must cover a pixel, in the tile that begins with row `top`. Returns the growth
+    /// of the barycentric coordinates from pixel to pixel.
     #[inline(always)]
-    pub fn runs(
-        &self,
-        batch: &Batch,
-        k: usize,
-        top: usize,
-        mut visit: impl FnMut(usize, Range<usize>, [f32; 2]),
-    ) {
+    pub fn runs(&self, batch: &Batch, k: usize, top: usize, found: &mut Vec<FoundRun>) -> [f32; 2] {
         let first = k / BLOCK * BLOCK * ROOM + k % BLOCK;
-        let [column, row] = [
-            batch.columns[0][k] as usize,
-            batch.rows[0][k] as usize - top,
-        ];
+        let column = batch.columns[0][k] as usize;
         for below in 0..TINY_HEIGHT as usize {
-            let is_covered = |x: usize| self.covered[k] >> (TINY_HEIGHT as usize * x + below) & 1;
-            let columns = 0..TINY_WIDTH as usize;
-            let Some(start) = columns.clone().find(|x| is_covered(*x) == 1) else {
+            let is_covered =
+                |x: &usize| self.covered[k] >> (TINY_HEIGHT as usize * x + below) & 1 == 1;
+            let mut columns = 0..TINY_WIDTH as usize;
+            let Some(start) = columns.find(is_covered) else {
                 continue;
             };
-            let end = columns
-                .rev()
-                .find(|x| is_covered(*x) == 1)
-                .map_or(start, |last| last + 1);
+            let end = columns.rfind(is_covered).unwrap_or(start) + 1;
             let at = first + (TINY_HEIGHT as usize * start + below) * BLOCK;
-            let weights = [self.weights[0][at], self.weights[1][at]];
-            visit(row + below, column + start..column + end, weights);
+            found.push(FoundRun {
+                row: batch.rows[0][k] as usize - top + below,
+                pixels: column + start..column + end,
+                weights: self.weights_at(at),
+            });
         }
+        let [_, b, c] = &batch.edges;
+        let scale = batch.over_area[k];
+        [b.right[k] as f32 * scale, c.right[k] as f32 * scale]
     }
 
-    /// Draws the covered pixels of tiny triangle `k`, of which there must be one.
+    /// Returns the barycentric coordinates at a pixel.
+    #[inline(always)]
+    fn weights_at(&self, at: usize) -> [f32; 2] {
+        let [b, c] = &self.weights;
+        [b.as_flattened()[at], c.as_flattened()[at]]
+    }
+
+    /// Draws the covered pixels of tiny triangle `k`.
     #[inline(always)]
     pub fn draw<S: Simd, const N: usize>(
         &self,
@@ -163,16 +153,11 @@ impl Fragments {
         writer: &mut Writer<'_, S, N>,
     ) {
         let first = k / BLOCK * BLOCK * ROOM + k % BLOCK;
-        let mut left = self.covered[k] as u32;
-        loop {
-            let at = (first + left.trailing_zeros() as usize * BLOCK) % ALL;
-            let weights = [self.weights[0][at], self.weights[1][at]];
+        for pixel in bits(self.covered[k] as u32) {
+            let at = (first + pixel * BLOCK) % ALL;
+            let weights = self.weights_at(at);
             let numbers = batch.planes.at(m, k, writer.count.get(), weights);
-            writer.put_one(self.places[at], &numbers);
-            left &= left.wrapping_sub(1);
-            if left == 0 {
-                return;
-            }
+            writer.put_one(self.places.as_flattened()[at], &numbers);
         }
     }
 }

@@ -1,10 +1,10 @@
-//! Triangle set-up, a batch at a time, eight triangles in the lanes of a block: gather, bounds, edge functions, and later, of
-//! those that cover something, plane equations.
+//! Triangle set-up, a batch at a time, eight triangles in the lanes of a block: gather, bounds, edge functions, and, after
+//! coverage, plane equations.
 //!
 //! Where triangles have a pixel or two, many cover no pixel centre though their bounding boxes hold one. So positions are gathered
-//! first, then it is found what is covered, and only of triangles that cover something are varyings read.
+//! first, then coverage is found, and varyings are read only for triangles that cover a pixel.
 
-use super::tile::{Count, MOST};
+use super::tile::{MOST, NumberCount};
 use crate::frame::Frame;
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
@@ -34,9 +34,9 @@ pub(super) const STEEPEST: i32 = 4;
 pub(super) type Ints = [i32; BATCH];
 type Floats = [f32; BATCH];
 
-/// What of a triangle is to be drawn; 0 is nothing.
+/// The path by which a triangle is drawn; 0 stands for a triangle that is not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum CoveragePath {
     /// By edge functions, block by block.
     Small = 1,
     /// By crossings, run by run: it is large, or not known to be small.
@@ -56,16 +56,16 @@ pub(crate) struct Batch {
     /// The pixels of the tile whose centres the bounding boxes hold: first column and the one after the last, rows.
     pub(super) columns: [Ints; 2],
     pub(super) rows: [Ints; 2],
-    /// What is to be drawn: see [`Kind`].
-    pub(super) kind: Ints,
+    /// The [`CoveragePath`].
+    pub(super) path: Ints,
     pub(super) over_area: Floats,
     pub(super) edges: [EdgeFunctions; 3],
     pub(super) planes: PlaneEquations,
 }
 
 /// An edge function of each triangle, over 0 inside, in sub-pixels²: at the centre of the first pixel of the first block of the
-/// first row, less 1 for right and bottom edges, which do not own the centres that lie on them; how much it grows from column
-/// to column, from block to block, and from row to row; and what was taken off, over the area.
+/// first row, less 1 for right and bottom edges, which do not own the centres that lie on them; its growth from column to
+/// column, from block to block, and from row to row; and the number taken off, over the area.
 #[derive(Debug, Default)]
 pub(super) struct EdgeFunctions {
     pub at: Ints,
@@ -73,32 +73,34 @@ pub(super) struct EdgeFunctions {
     pub across: Ints,
     pub down: Ints,
     pub off: Floats,
-    /// What follows is that of small triangles that are not tiny. The barycentric coordinate at the centre of that first pixel, but
-    /// for edge 0, and its growth from column to column and from row to row.
+    /// The barycentric coordinate at the centre of that first pixel, except for edge 0, and its growth from column to column and
+    /// from row to row. This and the following is set for small triangles that are not tiny.
     pub weight: Floats,
     pub growth: Floats,
     pub fall: Floats,
-    /// Where it grows to the right, how many columns on it becomes 0, per value; else 0.
+    /// The columns to the zero of a function that grows to the right, per value; else 0.
     pub begins: Floats,
-    /// Where it falls to the right, likewise, and 0; else 0, and more columns than any has.
+    /// The columns to the zero of a function that falls to the right, per value, and 0; else 0, and more columns than any has.
     pub ends: [Floats; 2],
 }
 
-/// Numbers that a corner has room for: whole blocks.
+/// The room for the numbers of a corner: whole blocks.
 pub(super) const LINE: usize = MOST.next_multiple_of(BLOCK);
+/// The numbers of a corner or a pixel, depth first.
+pub(super) type Numbers = [f32; LINE];
 
-/// Numbers over each triangle: at its first corner, and how far the other two are from it.
+/// Plane equations of each triangle: numbers at its first corner, and the differences of the other two from it.
 ///
 /// ```text
 /// A = A_a + β (A_b − A_a) + γ (A_c − A_a)
 /// ```
 /// β and γ come from exact integers and are in 0..=1 inside, so that nothing cancels, however thin the triangle is.
 ///
-/// Depth first, then varyings and extras, then the material. Those of a corner lie together, as they are read and as a pixel
-/// needs them; in whole blocks, whose last numbers mean nothing.
+/// Depth first, then varyings and extras, then the material. The numbers of a corner lie together, as they are read and as a
+/// pixel needs them; in whole blocks, whose last numbers mean nothing.
 #[derive(Debug, Default)]
 #[repr(align(32))]
-pub(super) struct PlaneEquations(pub [[[f32; LINE]; 3]; BATCH]);
+pub(super) struct PlaneEquations(pub [[Numbers; 3]; BATCH]);
 
 impl PlaneEquations {
     /// Returns number `number` over triangle `k` at pixels with these barycentric coordinates of the second and third corner.
@@ -117,14 +119,33 @@ impl PlaneEquations {
 
     /// Returns the first `count` numbers of triangle `k` where its second and third corner have the coordinates `weights`.
     #[inline(always)]
-    pub fn at<S: Simd>(
+    pub fn at<S: Simd>(&self, m: Lanes<S>, k: usize, count: usize, weights: [f32; 2]) -> Numbers {
+        self.from(m, k, count, &self.0[k][0], weights)
+    }
+
+    /// Returns the growth of the numbers where the coordinates grow by `weights`.
+    #[inline(always)]
+    pub fn growth<S: Simd>(
         &self,
         m: Lanes<S>,
         k: usize,
         count: usize,
         weights: [f32; 2],
-    ) -> [f32; LINE] {
-        let ([at, to_b, to_c], [b, c]) = (&self.0[k], weights.map(|w| m.splat(w)));
+    ) -> Numbers {
+        self.from(m, k, count, &[0.0; LINE], weights)
+    }
+
+    /// Returns the numbers `at`, grown by the coordinates `weights`.
+    #[inline(always)]
+    fn from<S: Simd>(
+        &self,
+        m: Lanes<S>,
+        k: usize,
+        count: usize,
+        at: &Numbers,
+        weights: [f32; 2],
+    ) -> Numbers {
+        let ([_, to_b, to_c], [b, c]) = (&self.0[k], [m.splat(weights[0]), m.splat(weights[1])]);
         let mut numbers = [0.0; LINE];
         let mut i = 0;
         while i < count {
@@ -134,53 +155,32 @@ impl PlaneEquations {
         }
         numbers
     }
-
-    /// Returns how much they grow where the coordinates grow by `weights`.
-    #[inline(always)]
-    pub fn growth<S: Simd>(
-        &self,
-        m: Lanes<S>,
-        k: usize,
-        count: usize,
-        weights: [f32; 2],
-    ) -> [f32; LINE] {
-        let ([_, to_b, to_c], [b, c]) = (&self.0[k], weights.map(|w| m.splat(w)));
-        let mut growth = [0.0; LINE];
-        let mut i = 0;
-        while i < count {
-            m.store(
-                m.load(&to_c[i..]).mul_add(c, m.load(&to_b[i..]) * b),
-                &mut growth[i..],
-            );
-            i += BLOCK;
-        }
-        growth
-    }
 }
 
-/// What eight triangles have in common with pixels.
+/// Eight triangles in relation to the pixels.
+#[derive(Clone, Copy)]
 struct Bounded<S: Simd> {
     /// Corners from the left upper corner of the box on: small numbers, and 0 where 32 bits might not hold what follows.
     x: [i32x8<S>; 3],
     y: [i32x8<S>; 3],
-    /// The centre of the first pixel of the first block of the first row, likewise.
+    /// The centre of the first pixel of the first block of the first row, from that corner on.
     px: i32x8<S>,
     py: i32x8<S>,
     /// −1 where the corners run the other way around.
     turned: i32x8<S>,
     over_area: f32x8<S>,
-    /// Its columns: no columns where nothing is to be drawn.
+    /// The columns of the boxes: none where nothing is to be drawn.
     columns: [i32x8<S>; 2],
     /// True if any is small.
     has_small: bool,
 }
 
 impl Batch {
-    /// Gathers the positions of triangles from the front of `polygons` until there are enough, or a polygon has another shape; gives
-    /// how many.
+    /// Gathers the positions of triangles from the front of `polygons` until there are enough, or a polygon has another shape.
+    /// Returns their number.
     ///
-    /// In a loop of its own, in which nothing has to be guessed: so the reads of many triangles overlap. Their places in memory are
-    /// far from one another, and waiting for them took a third of the time.
+    /// In a loop without unpredictable branches, so that the reads of many triangles overlap: their places in memory are far from
+    /// one another.
     #[inline(always)]
     pub fn gather(&mut self, frame: &Frame, polygons: &[Listed]) -> usize {
         let (vertices, most) = (frame.vertices(), polygons.len().min(BATCH));
@@ -200,8 +200,8 @@ impl Batch {
         k
     }
 
-    /// Bounds what was gathered by a picture `width` pixels wide and the rows of a tile, and sets up edge functions. Gives the
-    /// blocks of a row between which the triangles lie, and a bit for each triangle that is small or large.
+    /// Bounds the triangles by a picture `width` pixels wide and the rows of a tile, and sets up edge functions. Returns the blocks
+    /// of a row between which the triangles lie, and a bit for each triangle that is small or large.
     #[inline(always)]
     pub fn set_up<S: Simd>(
         &mut self,
@@ -233,8 +233,7 @@ impl Batch {
         (blocks, others)
     }
 
-    /// Bounds the eight triangles from number `first` on, and says what is to be drawn of each; gives a bit for each that is small
-    /// or large.
+    /// Bounds the eight triangles from number `first` on, and chooses their paths. Returns a bit for each that is small or large.
     #[inline(always)]
     fn bound<S: Simd>(
         &mut self,
@@ -244,43 +243,27 @@ impl Batch {
         band: [i32; 2],
     ) -> (Bounded<S>, u32) {
         let (zero, all) = (m.int(0), m.int(-1));
-        let load = |from: &[Ints; 3]| {
-            [
-                m.load_int(&from[0][first..]),
-                m.load_int(&from[1][first..]),
-                m.load_int(&from[2][first..]),
-            ]
-        };
+        let of = |corner: &Ints| m.load_int(&corner[first..]);
+        let load = |from: &[Ints; 3]| [of(&from[0]), of(&from[1]), of(&from[2])];
         let (x, y) = (load(&self.x), load(&self.y));
         let (left, right) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
         let (top, bottom) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
-        // As `first_centre` has it, in 32 bits: coordinates are within ±2²³.
-        let (columns, rows) = (
-            [
-                ((left + m.int(127)) >> 8).max(zero),
-                ((right + m.int(127)) >> 8).min(m.int(width)),
-            ],
-            [
-                ((top + m.int(127)) >> 8).max(m.int(band[0])),
-                ((bottom + m.int(127)) >> 8).min(m.int(band[1])),
-            ],
-        );
-        // What stands after the last one was there before.
+        // `first_centre` in 32 bits: coordinates are within ±2²³.
+        let centre = |at: i32x8<S>| (at + m.int(127)) >> 8;
+        let columns = [centre(left).max(zero), centre(right).min(m.int(width))];
+        let rows = [
+            centre(top).max(m.int(band[0])),
+            centre(bottom).min(m.int(band[1])),
+        ];
+        // Those after the last one were gathered before.
         let is_gathered = m.counted().less(m.int((self.count - first) as i32));
         let is_there = columns[0].less(columns[1]) & rows[0].less(rows[1]) & is_gathered;
         let is_small = (right - left).less(m.int(256 * SMALL_WIDTH + 1))
             & (bottom - top).less(m.int(256 * SMALL_HEIGHT));
         let exact = is_there & is_small;
-        let x = [
-            (x[0] - left) & exact,
-            (x[1] - left) & exact,
-            (x[2] - left) & exact,
-        ];
-        let y = [
-            (y[0] - top) & exact,
-            (y[1] - top) & exact,
-            (y[2] - top) & exact,
-        ];
+        let from = |a: i32x8<S>, origin: i32x8<S>| (a - origin) & exact;
+        let x = [from(x[0], left), from(x[1], left), from(x[2], left)];
+        let y = [from(y[0], top), from(y[1], top), from(y[2], top)];
         let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
         let turned = area.less(zero);
         let area = (area ^ turned) - turned;
@@ -294,13 +277,13 @@ impl Batch {
         let steep = drawn & area.less(longer * m.int(256 / STEEPEST)) & (tiny ^ all);
         let small = drawn & (steep ^ all);
         let large = is_there & ((is_small ^ all) | steep);
-        let kind = (small & m.int(Kind::Small as i32))
-            | (tiny & m.int(Kind::Tiny as i32))
-            | (large & m.int(Kind::Large as i32));
+        let path = (small & m.int(CoveragePath::Small as i32))
+            | (tiny & m.int(CoveragePath::Tiny as i32))
+            | (large & m.int(CoveragePath::Large as i32));
         let not_small = (small & (tiny ^ all)) ^ all;
         let has_small = m.any_not_negative(not_small);
         let others = m.bits_not_negative(not_small & (large ^ all));
-        m.store_int(kind, &mut self.kind[first..]);
+        m.store_int(path, &mut self.path[first..]);
         m.store(over_area, &mut self.over_area[first..]);
         for end in 0..2 {
             m.store_int(columns[end], &mut self.columns[end][first..]);
@@ -310,8 +293,8 @@ impl Batch {
         let bounded = Bounded {
             x,
             y,
-            px: (block * m.int(256) + m.int(128) - left) & exact,
-            py: (rows[0] * m.int(256) + m.int(128) - top) & exact,
+            px: from(block * m.int(256) + m.int(128), left),
+            py: from(rows[0] * m.int(256) + m.int(128), top),
             turned,
             over_area,
             columns: [
@@ -326,25 +309,17 @@ impl Batch {
     /// Sets up edge function `edge`, which is 0 at the two other corners.
     #[inline(always)]
     fn edge<S: Simd>(&mut self, m: Lanes<S>, first: usize, edge: usize, bounded: &Bounded<S>) {
-        let Bounded {
-            x,
-            y,
-            px,
-            py,
-            turned,
-            over_area,
-            ..
-        } = bounded;
-        let (zero, none) = (m.int(0), m.splat(0.0));
+        let Bounded { x, y, turned, .. } = *bounded;
+        let (zero, none, over_area) = (m.int(0), m.splat(0.0), bounded.over_area);
         let (i, j) = ((edge + 1) % 3, (edge + 2) % 3);
-        let dx = ((x[j] - x[i]) ^ *turned) - *turned;
-        let dy = ((y[j] - y[i]) ^ *turned) - *turned;
+        let dx = ((x[j] - x[i]) ^ turned) - turned;
+        let dy = ((y[j] - y[i]) ^ turned) - turned;
         let level = (dy.less(zero) | zero.less(dy)) ^ m.int(-1);
         let disowns = m.int(1) + (dy.less(zero) | (level & zero.less(dx)));
         let to = &mut self.edges[edge];
-        let at = dx * (*py - y[i]) - dy * (*px - x[i]) - disowns;
+        let at = dx * (bounded.py - y[i]) - dy * (bounded.px - x[i]) - disowns;
         let (right, down) = (dy * m.int(-256), dx * m.int(256));
-        let off = m.float(disowns) * *over_area;
+        let off = m.float(disowns) * over_area;
         m.store_int(at, &mut to.at[first..]);
         m.store_int(right, &mut to.right[first..]);
         m.store_int(down, &mut to.down[first..]);
@@ -353,12 +328,10 @@ impl Batch {
             return;
         }
         if edge != 0 {
-            m.store(
-                m.float(at).mul_add(*over_area, off),
-                &mut to.weight[first..],
-            );
-            m.store(m.float(right) * *over_area, &mut to.growth[first..]);
-            m.store(m.float(down) * *over_area, &mut to.fall[first..]);
+            let weight = m.float(at).mul_add(over_area, off);
+            m.store(weight, &mut to.weight[first..]);
+            m.store(m.float(right) * over_area, &mut to.growth[first..]);
+            m.store(m.float(down) * over_area, &mut to.fall[first..]);
         }
         m.store_int(dy * m.int(-256 * BLOCK as i32), &mut to.across[first..]);
         let right = m.float(right);
@@ -371,96 +344,70 @@ impl Batch {
         m.store(beyond - falls, &mut to.ends[1][first..]);
     }
 
-    /// Sets up the plane equations of those triangles whose bits `drawn` has: depth, varyings, and the number of the uniforms if
+    /// Sets up the plane equations of the triangles whose bits `drawn` has: depth, varyings, and the number of the uniforms if
     /// pixels have one. Again in a loop of its own.
     #[inline(always)]
     pub fn set_up_planes<S: Simd, const N: usize>(
         &mut self,
         m: Lanes<S>,
         setup: &SetUp<'_>,
-        count: Count<N>,
+        count: NumberCount<N>,
         drawn: u32,
     ) {
-        let vertices = setup.frame.vertices();
-        let values = &setup.varyings.values[..];
-        // The usual three numbers a vertex, without a loop over them.
-        if N == 4 && matches!(setup.varyings.per, Per::Vertex) {
-            let values = values.as_chunks::<3>().0;
-            // Bounded once for both.
-            let most = vertices.len().min(values.len());
-            let (vertices, values) = (&vertices[..most], &values[..most]);
-            return self.read(
-                m,
-                drawn,
-                count,
-                #[inline(always)]
-                |_, _, vertex, line| {
-                    let [x, y, z] = values[vertex as usize];
-                    (line[0], line[1], line[2], line[3]) =
-                        (vertices[vertex as usize].depth, x, y, z);
-                },
-            );
+        for k in bits(drawn) {
+            let Listed { number, corners } = self.listed[k];
+            let numbers = |corner: usize| corner_numbers(setup, count, number, corner, corners);
+            let (at, to_b, to_c) = (numbers(0), numbers(1), numbers(2));
+            let to = &mut self.planes.0[k];
+            let mut i = 0;
+            while i < count.get() {
+                let from = m.load(&at[i..]);
+                m.store(from, &mut to[0][i..]);
+                m.store(m.load(&to_b[i..]) - from, &mut to[1][i..]);
+                m.store(m.load(&to_c[i..]) - from, &mut to[2][i..]);
+                i += BLOCK;
+            }
         }
-        let has_material = count.get() > 1 + setup.varyings.count;
-        self.read(
-            m,
-            drawn,
-            count,
-            #[inline(always)]
-            |number, corner, vertex, line| {
-                line[0] = vertices[vertex as usize].depth;
-                let varying = setup.varyings.of_corner(number, corner, vertex);
-                for (to, value) in line[1..].iter_mut().zip(varying) {
-                    *to = *value;
-                }
-                if has_material {
-                    line[count.get() - 1] = setup.uniforms_of(number) as f32;
-                }
-            },
-        );
-    }
-
-    /// Has `read` read the corners of triangles, by polygon, corner and vertex.
-    #[inline(always)]
-    fn read<S: Simd, const N: usize>(
-        &mut self,
-        m: Lanes<S>,
-        drawn: u32,
-        count: Count<N>,
-        mut read: impl FnMut(u32, u32, u32, &mut [f32; LINE]),
-    ) {
-        each_bit(
-            drawn,
-            #[inline(always)]
-            |k| {
-                let Listed {
-                    number,
-                    corners: [a, b, c],
-                } = self.listed[k];
-                let (mut at, mut to_b, mut to_c) = ([0.0; LINE], [0.0; LINE], [0.0; LINE]);
-                read(number, 0, a, &mut at);
-                read(number, 1, b, &mut to_b);
-                read(number, 2, c, &mut to_c);
-                let to = &mut self.planes.0[k];
-                let mut i = 0;
-                while i < count.get() {
-                    let from = m.load(&at[i..]);
-                    m.store(from, &mut to[0][i..]);
-                    m.store(m.load(&to_b[i..]) - from, &mut to[1][i..]);
-                    m.store(m.load(&to_c[i..]) - from, &mut to[2][i..]);
-                    i += BLOCK;
-                }
-            },
-        );
     }
 }
 
-/// Gives the number of each bit that is 1, from the lowest on.
+/// Returns the numbers of a corner of triangle `number`: depth, varyings, and the number of the uniforms if pixels have one.
 #[inline(always)]
-pub(super) fn each_bit(bits: u32, mut visit: impl FnMut(usize)) {
-    let mut left = bits;
-    while left != 0 {
-        visit(left.trailing_zeros() as usize % BATCH);
-        left &= left - 1;
+fn corner_numbers<const N: usize>(
+    setup: &SetUp<'_>,
+    count: NumberCount<N>,
+    number: u32,
+    corner: usize,
+    corners: [u32; 3],
+) -> Numbers {
+    let (varyings, vertex) = (&setup.varyings, corners[corner]);
+    let mut line = [0.0; LINE];
+    line[0] = setup.frame.vertices()[vertex as usize].depth;
+    if N == 4 && matches!(varyings.per, Per::Vertex) {
+        // The fast path: three numbers, without a loop over them.
+        let values = varyings.values.as_chunks::<3>().0;
+        [line[1], line[2], line[3]] = values[vertex as usize];
+        return line;
     }
+    let varying = varyings.of_corner(number, corner as u32, vertex);
+    for (to, value) in line[1..].iter_mut().zip(varying) {
+        *to = *value;
+    }
+    if count.get() > 1 + varyings.count {
+        line[count.get() - 1] = setup.uniforms_of(number) as f32;
+    }
+    line
+}
+
+/// Returns the numbers of the bits that are 1, from the lowest on.
+#[inline(always)]
+pub(super) fn bits(mut left: u32) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(
+        #[inline(always)]
+        move || {
+            let k = left.trailing_zeros() as usize;
+            left &= left.wrapping_sub(1);
+            (k < BATCH).then_some(k)
+        },
+    )
 }

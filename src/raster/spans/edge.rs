@@ -6,7 +6,7 @@ use core::cmp::Ordering;
 /// Sub-pixels a pixel: what `SubPixel` counts in.
 const UNIT: i64 = 1 << SubPixel::FRAC_NBITS;
 
-/// The first row (or column) whose centre is not before `at`.
+/// Returns the first row (or column) whose centre is not before `at`.
 #[inline(always)]
 pub fn first_centre(at: SubPixel) -> i32 {
     // ceil(at − ½) on the bits
@@ -26,7 +26,7 @@ pub fn first_centre(at: SubPixel) -> i32 {
 /// 0 ≤ rest < denominator = 256 dY, all in 64 bits: coordinates within ±2²³ sub-pixels give products under 2⁵⁰.
 /// It may start at any scanline, so that clipped edges are as exact as whole ones.
 #[derive(Clone, Copy, Debug)]
-pub struct Crossing {
+pub struct EdgeCrossing {
     pixel: i32,
     step_pixels: i32,
     rest: i64,
@@ -34,8 +34,8 @@ pub struct Crossing {
     denominator: i64,
 }
 
-impl Crossing {
-    /// The crossing of the edge from `top` down to `bottom` (each x, y) with scanline `row`.
+impl EdgeCrossing {
+    /// Returns the crossing of the edge from `top` down to `bottom` (each x, y) with scanline `row`.
     #[inline(always)]
     pub fn new(top: [SubPixel; 2], bottom: [SubPixel; 2], row: i32) -> Self {
         let bits = |c: SubPixel| i64::from(c.to_bits());
@@ -47,7 +47,7 @@ impl Crossing {
         // The crossing relative to the centre of pixel 0, times the denominator.
         let numerator = (x0 - UNIT / 2) * dy + (centre - y0) * dx;
         let pixel = -(-numerator).div_euclid(denominator);
-        Crossing {
+        EdgeCrossing {
             pixel: pixel as i32,
             rest: pixel * denominator - numerator,
             step_pixels: dx.div_euclid(dy) as i32, // 3.2, 3.4: the whole pixels of Δx
@@ -56,19 +56,19 @@ impl Crossing {
         }
     }
 
-    /// The first pixel whose centre is not left of the crossing.
+    /// Returns the first pixel whose centre is not left of the crossing.
     #[inline(always)]
     pub fn pixel(&self) -> i32 {
         self.pixel
     }
 
-    /// How far the centre of [`Crossing::pixel`] is right of the crossing, in pixels, 0..1.
+    /// Returns the distance from the crossing to the centre of [`EdgeCrossing::pixel`], in pixels, 0..1.
     #[inline(always)]
     pub fn offset(&self) -> f32 {
         self.rest as f32 / self.denominator as f32
     }
 
-    /// To the next scanline.
+    /// Steps to the next scanline.
     #[inline(always)]
     pub fn advance(&mut self) {
         self.pixel += self.step_pixels; // 3.3
@@ -79,9 +79,9 @@ impl Crossing {
         }
     }
 
-    /// Which of two crossings with the same scanline lies farther left, exactly.
+    /// Compares two crossings with the same scanline, exactly: the one farther left is less.
     #[inline(always)]
-    pub fn compare(&self, other: &Crossing) -> Ordering {
+    pub fn compare(&self, other: &EdgeCrossing) -> Ordering {
         self.pixel.cmp(&other.pixel).then_with(|| {
             // The larger rest lies farther left. Rests are under 2³², denominators at most 2³²: the products fit.
             let left = other.rest as u64 * self.denominator as u64;
@@ -127,7 +127,7 @@ mod tests {
             }
             let (top, bottom) = ([at(x0), at(y0)], [at(x1), at(y1)]);
             let first = first_centre(top[1]);
-            let mut crossing = Crossing::new(top, bottom, first);
+            let mut crossing = EdgeCrossing::new(top, bottom, first);
             for row in first..first + 40 {
                 let centre = i128::from(row) * 256 + 128;
                 if centre >= i128::from(y1) {
@@ -139,7 +139,7 @@ mod tests {
                         >= (centre - i128::from(y0)) * i128::from(x1 - x0)
                 };
                 assert!(not_left(crossing.pixel()) && !not_left(crossing.pixel() - 1));
-                let again = Crossing::new(top, bottom, row);
+                let again = EdgeCrossing::new(top, bottom, row);
                 assert_eq!(
                     crossing.compare(&again),
                     Ordering::Equal,
@@ -153,8 +153,8 @@ mod tests {
     #[test]
     fn order_is_exact() {
         // Two edges whose crossings differ by less than an f64 can tell at this distance.
-        let steep = Crossing::new([at(1 << 22), at(0)], [at((1 << 22) + 1), at(1 << 23)], 0);
-        let upright = Crossing::new([at(1 << 22), at(0)], [at(1 << 22), at(1 << 23)], 0);
+        let steep = EdgeCrossing::new([at(1 << 22), at(0)], [at((1 << 22) + 1), at(1 << 23)], 0);
+        let upright = EdgeCrossing::new([at(1 << 22), at(0)], [at(1 << 22), at(1 << 23)], 0);
         assert_eq!(steep.compare(&upright), Ordering::Greater);
         assert_eq!(upright.compare(&steep), Ordering::Less);
     }

@@ -62,7 +62,7 @@ impl EdgeTable {
     }
 }
 
-/// Gives the edges of polygon `number` that cross centres of the scanlines `rows`, each with the first one of these.
+/// Calls `visit` with the edges of polygon `number` that cross centres of the scanlines `rows`, each with the first one of these.
 #[inline(always)]
 pub(crate) fn for_each_edge(
     frame: &Frame,

@@ -1,6 +1,6 @@
-//! The span seen at each pixel of a scanline: a depth buffer of one line, and the depth test of the span engine.
+//! The visible line: the span seen at each pixel of a scanline, by a depth buffer of one line and the span engine's depth test.
 
-use super::active::Span;
+use super::active::PolygonSpan;
 use crate::raster::depth::SampleDepth;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,10 +9,10 @@ use core::ops::Range;
 /// The number of the span, or polygon, at a pixel where there is none.
 pub const NOTHING: u32 = u32::MAX;
 
-/// Walks along a span: where `sees` gives a depth to keep, the span number `number` is seen.
+/// Steps depth along a span. Where `sees` returns a depth to store, span `number` is seen.
 #[inline(always)]
 fn walk<'a>(
-    span: &Span,
+    span: &PolygonSpan,
     line: impl Iterator<Item = (&'a mut f32, &'a mut u32)>,
     number: u32,
     sees: impl Fn(f32, f32) -> Option<f32>,
@@ -29,7 +29,7 @@ fn walk<'a>(
 /// The nearest span at each pixel of one scanline, and its depth.
 #[derive(Debug)]
 pub(crate) struct VisibleLine {
-    spans: Vec<Span>,
+    spans: Vec<PolygonSpan>,
     depth: Vec<f32>,
     seen: Vec<u32>,
     drawn: Range<usize>,
@@ -56,7 +56,7 @@ impl VisibleLine {
     }
 
     /// Draws a span: it is seen where its depth is strictly less than what was drawn before.
-    pub fn draw(&mut self, span: Span) {
+    pub fn draw(&mut self, span: PolygonSpan) {
         let number = self.spans.len() as u32;
         let pixels = span.start as usize..span.end as usize;
         self.drawn = if self.drawn.is_empty() {
@@ -68,8 +68,8 @@ impl VisibleLine {
             .iter_mut()
             .zip(&mut self.seen[pixels]);
         let rule = self.rule;
-        // The usual way has a loop of its own, in which nothing is left to be asked.
-        if rule.hides() && rule.is_plain() {
+        // The fast path has a loop of its own, without decisions.
+        if rule.is_plain() {
             walk(&span, line, number, |q, depth| (q < depth).then_some(q));
         } else {
             walk(&span, line, number, |q, depth| rule.seen(q, depth));
@@ -77,26 +77,26 @@ impl VisibleLine {
         self.spans.push(span);
     }
 
-    /// Depth at each pixel, as finely as it is kept; infinite where nothing was drawn.
+    /// Returns the depth at each pixel, as finely as it is stored; infinite where nothing was drawn.
     pub fn depth(&self) -> impl Iterator<Item = f32> {
         self.depth.iter().map(|kept| self.rule.shown(*kept))
     }
 
-    /// The polygon seen at pixel `x`, or [`NOTHING`].
+    /// Returns the polygon seen at pixel `x`, or [`NOTHING`].
     pub fn polygon(&self, x: usize) -> u32 {
         self.spans
             .get(self.seen[x] as usize)
             .map_or(NOTHING, |span| span.polygon)
     }
 
-    /// The spans that were drawn on this line, hidden ones too.
-    pub fn spans(&self) -> &[Span] {
+    /// Returns the spans that were drawn on this line, hidden ones too.
+    pub fn spans(&self) -> &[PolygonSpan] {
         &self.spans
     }
 
-    /// The visible runs, from left to right: a span and the pixels at which it is seen.
+    /// Calls `visit` with each visible run, from left to right: a span and the pixels at which it is seen.
     #[inline(always)]
-    pub fn runs(&self, mut visit: impl FnMut(&Span, Range<usize>)) {
+    pub fn runs(&self, mut visit: impl FnMut(&PolygonSpan, Range<usize>)) {
         let mut x = self.drawn.start;
         while x < self.drawn.end {
             let number = self.seen[x];

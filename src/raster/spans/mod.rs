@@ -16,7 +16,7 @@ pub(super) mod edge_table;
 mod line;
 
 use active::ActiveEdges;
-pub use edge::Crossing;
+pub use edge::EdgeCrossing;
 pub use line::NOTHING;
 use line::VisibleLine;
 
@@ -24,16 +24,18 @@ use super::depth::SampleDepth;
 use super::setup::{SetUp, Varyings};
 use super::target::Target;
 use crate::frame::Frame;
-use crate::shading::{Pixels, Run};
+use crate::shading::Run;
 use alloc::vec;
 use alloc::vec::Vec;
 use edge_table::EdgeTable;
 
-/// Takes a scanline on which anything is drawn: its number, what is seen on it, and the edges that its spans refer to.
-pub(super) type Visit<'a> = dyn FnMut(usize, &VisibleLine, &ActiveEdges<'_>) + 'a;
-
-/// Goes down the scanlines of a frame.
-pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, visit: &mut Visit<'_>) {
+/// Goes down the scanlines of a frame. Calls `visit` with each one on which anything is drawn: its number, its visible spans, and
+/// the edges that these refer to.
+pub(super) fn scan(
+    frame: &Frame,
+    varyings: &Varyings<'_>,
+    visit: &mut dyn FnMut(usize, &VisibleLine, &ActiveEdges<'_>),
+) {
     let table = EdgeTable::new(frame);
     let mut line = VisibleLine::new(frame.width(), SampleDepth::new(frame));
     let mut active = ActiveEdges::new(frame, varyings);
@@ -63,14 +65,7 @@ pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
                 pixels: pixels.len() as u32,
             });
         });
-        let job = Pixels {
-            parameters: setup.parameters,
-            uniforms: &setup.uniforms,
-            extras: setup.extras,
-            runs: &runs,
-            starts: &starts,
-        };
-        (setup.kernels.pixels)(&job, &mut colours);
+        (setup.kernels.pixels)(&setup.pixels(&runs, &starts), &mut colours);
         let mut rest = &colours[..];
         for run in &runs {
             let (here, others) = rest.split_at(run.pixels as usize);
