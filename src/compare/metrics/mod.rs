@@ -92,7 +92,7 @@ pub struct Difference {
     /// Excluded pixels count as equal.
     pub ssim: Option<f64>,
     /// Mean ꟻLIP over the whole frame, as both pictures are stored: 0 for equal pictures, at most 1; `None` unless it was
-    /// asked for, as it takes ten times as long as all others ([`Perceived`]).
+    /// asked for, as it takes twice as long as all others together ([`Perceived`]).
     pub flip: Option<f64>,
 }
 
