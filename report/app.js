@@ -29,7 +29,7 @@ function onChoose(el, choose) {
 	};
 }
 const unfolded = new Set();
-/* The first ones of a long list, and the button that shows the others too. */
+/* The first ones of a long list, and the button that shows the rest. */
 function folded(list, most, what) {
 	const all = unfolded.has(what) || list.length < 1.2 * most;
 	return [all ? list : list.slice(0, most), !all && html`<button class="fold" data-fold="${what}">All ${list.length} ${what}</button>`];
@@ -58,7 +58,7 @@ const scrolling = (label, body) => html`<div class="scroll" tabindex="0" role="r
 /* A number with a bar beside it. */
 const bar = (value, percent, colour) => html`<span class="bar"><span>${value}</span><i><b style="width:${percent}%;background:${colour}"></b></i></span>`;
 const timers = {};
-/* Does something after some milliseconds, unless it is asked for again before. */
+/* Does something after a while, unless asked again before. */
 function delay(what, ms, action) {
 	clearTimeout(timers[what]);
 	timers[what] = setTimeout(action, ms);
@@ -190,12 +190,19 @@ async function unpack(text, { w, h }, count) {
 		return plane;
 	});
 }
-const added = (base, more) => base.map((plane, p) => plane.map((v, i) => v + more[p][i]));
+/* Adds the planes of a picture to others, modulo 256. */
+function add(more, base) {
+	more.forEach((plane, p) => {
+		const under = base[p];
+		for (let i = 0; i < plane.length; i++) plane[i] += under[i];
+	});
+	return more;
+}
 const planes = (s, m) => memo(`planes ${s.id} ${m}`, async () => {
 	const data = pictureData(s);
 	if (m === "reference") return unpack(data.reference, s, 3);
-	const { on = "reference", add } = data.rows[m], base = await planes(s, on);
-	return add ? added(base, await unpack(add, s, 3)) : base;
+	const { on = "reference", add: more } = data.rows[m], base = await planes(s, on);
+	return more ? add(await unpack(more, s, 3), base) : base;
 });
 /* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green and red of a pixel. */
 function canvasOf(s, word) {
@@ -232,7 +239,7 @@ const errorMap = (s, m, top) => memo(`map ${s.id} ${m} ${top}`, async () => {
 	return canvasOf(s, i => HEAT[Math.round(heat(map[i], top) * 255)]);
 });
 let queue = Promise.resolve();
-/* Does something that can wait behind all else that can. */
+/* Does something when all else is done. */
 const later = what => { queue = queue.then(() => new Promise(done => setTimeout(done, 8))).then(what).catch(() => {}); };
 /* Draws the part x, y, w, h of a picture into a canvas of some size. */
 async function drawPart(canvas, s, m, part, size, smooth) {
@@ -528,7 +535,7 @@ function tickText(v) {
 	if (size && size < 1e-3) return html`10<tspan dy="-4" font-size="9">${Math.round(Math.log10(size))}</tspan>`;
 	return size >= 1e6 ? +(v / 1e6).toPrecision(2) + " M" : size >= 1e4 ? +(v / 1e3).toPrecision(3) + " k" : String(+v.toPrecision(3));
 }
-/* Numbers of the axis on the left, with lines to `right`, and of the one below. */
+/* Numbers of the axis on the left, with lines, and of the one below. */
 const axisY = (y, left, right, ticks, unit = "") => ticks.map(t => [line(left, y(t), right, y(t)), text(left - 6, y(t) + 4, [tickText(t), unit], "tick end")]);
 const axisX = (x, bottom, ticks) => ticks.map(t => text(x(t), bottom + 17, tickText(t), "tick mid"));
 /* Positions near those wished for, at least `gap` apart if there is room. */
@@ -552,7 +559,7 @@ ${far && line(x(ex) + 7, y(ey), at - 3, labels[n], "leader")}${text(at, labels[n
 		return s.href ? html`<a class="hit" href="${s.href}" aria-label="${s.tip}" style="${colour}">${body}</a>` : html`<g style="${colour}">${body}</g>`;
 	});
 }
-/* Places labels of points: none overlaps another label or a mark; one without room is left out (`label` null). */
+/* Places labels of points: none overlaps another; one without room is left out (`label` null). */
 function place(points, box, bars) {
 	const done = [], overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
 	for (const p of [...points].sort((a, b) => b.priority - a.priority || a.y - b.y)) {
@@ -844,7 +851,7 @@ function chooseInTable(key, e) {
 	sort = { key, up: sort.key === key ? !sort.up : !DESCENDING.includes(key) };
 	sceneTable();
 }
-/* Copies the table as it is shown, with the intervals, as Markdown. */
+/* Copies the shown table, with intervals, as Markdown. */
 async function copyMarkdown() {
 	const cell = c => `${c.textContent.replace(/[|\\`*_<]/g, "\\$&")}${$("[title]", c) ? ` (${$("[title]", c).title})` : ""}`, [head, ...rows] = $$("#table tr").map(tr => `| ${[...tr.cells].map(cell).join(" | ")} |\n`);
 	const markdown = head + head.replace(/[^|\n]+/g, " --: ").replace("--:", "---") + rows.join("");
@@ -870,7 +877,7 @@ function symbol(t) {
 	const name = html`${d && html`<mi mathvariant="normal">${"Δ".repeat(d.length)}</mi>`}${/^[NLVRHP]$/.test(head) ? html`<mi mathvariant="normal" class="vector">${head}</mi>` : html`<mi>${head}</mi>`}`, index = letters || mark;
 	return index ? html`<msub>${group(name)}${group(html`<mi>${index}</mi>`)}</msub>` : group(name);
 }
-/* Replaces divisions by fractions: a / b with spaces takes the products on both sides, a/b without them the neighbours. */
+/* Makes fractions: a / b with spaces takes the products on both sides, a/b the neighbours. */
 function fractions(items) {
 	for (let i = items.findIndex(x => x.over); i > 0; i = items.findIndex(x => x.over)) {
 		const end = (k, step) => {
@@ -912,7 +919,7 @@ function mathematics(tokens, close) {
 	}
 	return fractions(items);
 }
-/* Sets a formula as `fastphong explain` prints it; what is no formula stays words. */
+/* Sets a formula as `fastphong explain` prints it; the rest stays words. */
 const formula = source => source.split(/[;\n]|,(?![^(]*\))/).map(part => part.trim()).filter(Boolean).map(part => {
 	if (!/[=^/]/.test(part)) return html`<div class="words">${part}</div>`;
 	const tokens = part.replace(/^(\w+)_next\s*=/, "$1 ←").match(/[A-Za-z]+\d*(?:_[a-z]+)?|\d+(?:\.\d+)?|\.\.\.|\s+|\S/g);
@@ -999,7 +1006,7 @@ function costs() {
 	});
 	write({ breakeven: list.length ? `${even.length ? `Break-even with ${nameOf(BASE)}: ${even.join("; ")}. ` : ""}The largest misfit of a time is ${(Math.max(...list.map(c => Math.abs(c.costs.worst))) * 100).toFixed(0)} %.` : "" });
 }
-/* Documents side by side: a column each, the processor as its head. */
+/* Documents side by side, a column each under its processor. */
 function beside() {
 	const names = [...new Set(DOCS.flatMap(d => d.comparisons.map(c => c.name)))], pick = $("#beside-scene"), rowsOf = (d, name) => d.comparisons.find(c => c.name === name)?.rows;
 	if (!pick.options.length) pick.innerHTML = html`${[...(names.length > 1 ? [""] : []), ...names].map(n => html`<option value="${n}">${n || "all scenes they share"}</option>`)}`;
