@@ -2,7 +2,7 @@
 
 use super::tile::{Tile, Writer};
 use super::tiny::Fragments;
-use super::triangles::{Batch, Numbers};
+use super::triangles::{Batch, FoundRun, Numbers};
 use crate::frame::SubPixel;
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
@@ -30,15 +30,6 @@ impl RunPlace {
         let depth = [at[0], step[0]];
         RunPlace { row, pixels, depth }
     }
-}
-
-/// A run of a triangle: its row in the tile, its pixels, and the barycentric coordinates of the second and the third corner at the
-/// first of them.
-#[derive(Clone, Debug)]
-pub(super) struct FoundRun {
-    pub row: usize,
-    pub pixels: Range<usize>,
-    pub weights: [f32; 2],
 }
 
 /// Runs that wait to be walked along, all of them by one call.
