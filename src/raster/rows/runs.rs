@@ -187,27 +187,37 @@ impl RunQueue {
         let mut walked = BLOCK;
         for (i, place) in self.places.iter().enumerate() {
             let material = m.splat(self.runs[i].uniforms as f32);
-            let length = place.pixels.len().next_multiple_of(BLOCK);
-            let size = if is_walked { length * planes } else { 0 };
-            let from = &self.walked[..if is_walked { walked + size + BLOCK } else { 0 }];
-            let start = &self.starts[i * len..][..len];
-            draw_run(
-                m,
-                place,
-                &mut writer,
-                #[inline(always)]
-                |number, x| match number - 1 {
-                    plane if plane >= planes => material,
-                    plane if is_walked => {
-                        m.load(&from[(walked as isize + x) as usize + plane * length..])
-                    }
-                    plane => {
-                        let step = start[planes + plane];
-                        m.ramp(start[plane] + x as f32 * step, step)
-                    }
-                },
-            );
-            walked += size;
+            if is_walked {
+                let length = place.pixels.len().next_multiple_of(BLOCK);
+                let from = &self.walked[walked - BLOCK..walked + length * planes + BLOCK];
+                draw_run(
+                    m,
+                    place,
+                    &mut writer,
+                    #[inline(always)]
+                    |number, x| match number - 1 {
+                        plane if plane < planes => {
+                            m.load(&from[(BLOCK as isize + x) as usize + plane * length..])
+                        }
+                        _ => material,
+                    },
+                );
+                walked += length * planes;
+            } else {
+                let (at, step) = self.starts[i * len..][..len].split_at(planes);
+                draw_run(
+                    m,
+                    place,
+                    &mut writer,
+                    #[inline(always)]
+                    |number, x| match number - 1 {
+                        plane if plane < planes => {
+                            m.ramp(at[plane] + x as f32 * step[plane], step[plane])
+                        }
+                        _ => material,
+                    },
+                );
+            }
         }
         self.clear();
     }
