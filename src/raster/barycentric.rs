@@ -62,14 +62,13 @@ impl EdgeFunction {
     }
 }
 
-/// Calls `visit` with the visible pixels of each triangle on each row, in drawing order: the polygon, the row, the columns,
-/// and the start of a run at each pixel. Polygons with more corners are passed over.
-pub(super) fn scan(
-    frame: &Frame,
-    varyings: &Varyings<'_>,
-    edges: Edges,
-    visit: &mut dyn FnMut(u32, usize, &[usize], &[f32]),
-) {
+/// A function that takes the visible pixels of a triangle on a row: the polygon, the row, the columns, and the start of a run at
+/// each pixel.
+type VisitRow<'a> = dyn FnMut(u32, usize, &[usize], &[f32]) + 'a;
+
+/// Calls `visit` with the visible pixels of each triangle on each row, in drawing order. Polygons with more corners are passed
+/// over.
+pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: &mut VisitRow<'_>) {
     let depth = SampleDepth::new(frame);
     let mut depth_buffer = vec![f32::INFINITY; frame.width() * frame.height()];
     let (mut columns, mut starts) = (Vec::new(), Vec::new());

@@ -2,7 +2,7 @@
 
 use super::tile::{Tile, Writer};
 use super::tiny::Fragments;
-use super::triangles::{Batch, Numbers};
+use super::triangles::{Batch, FoundRun, Numbers};
 use crate::frame::SubPixel;
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
@@ -30,15 +30,6 @@ impl RunPlace {
         let depth = [at[0], step[0]];
         RunPlace { row, pixels, depth }
     }
-}
-
-/// A run of a triangle: its row in the tile, its pixels, and the barycentric coordinates of the second and the third corner at the
-/// first of them.
-#[derive(Clone, Debug)]
-pub(super) struct FoundRun {
-    pub row: usize,
-    pub pixels: Range<usize>,
-    pub weights: [f32; 2],
 }
 
 /// Runs that wait to be walked along, all of them by one call.
@@ -196,27 +187,37 @@ impl RunQueue {
         let mut walked = BLOCK;
         for (i, place) in self.places.iter().enumerate() {
             let material = m.splat(self.runs[i].uniforms as f32);
-            let length = place.pixels.len().next_multiple_of(BLOCK);
-            let size = if is_walked { length * planes } else { 0 };
-            let from = &self.walked[..if is_walked { walked + size + BLOCK } else { 0 }];
-            let start = &self.starts[i * len..][..len];
-            draw_run(
-                m,
-                place,
-                &mut writer,
-                #[inline(always)]
-                |number, x| match number - 1 {
-                    plane if plane >= planes => material,
-                    plane if is_walked => {
-                        m.load(&from[(walked as isize + x) as usize + plane * length..])
-                    }
-                    plane => {
-                        let step = start[planes + plane];
-                        m.ramp(start[plane] + x as f32 * step, step)
-                    }
-                },
-            );
-            walked += size;
+            if is_walked {
+                let length = place.pixels.len().next_multiple_of(BLOCK);
+                let from = &self.walked[walked - BLOCK..walked + length * planes + BLOCK];
+                draw_run(
+                    m,
+                    place,
+                    &mut writer,
+                    #[inline(always)]
+                    |number, x| match number - 1 {
+                        plane if plane < planes => {
+                            m.load(&from[(BLOCK as isize + x) as usize + plane * length..])
+                        }
+                        _ => material,
+                    },
+                );
+                walked += length * planes;
+            } else {
+                let (at, step) = self.starts[i * len..][..len].split_at(planes);
+                draw_run(
+                    m,
+                    place,
+                    &mut writer,
+                    #[inline(always)]
+                    |number, x| match number - 1 {
+                        plane if plane < planes => {
+                            m.ramp(at[plane] + x as f32 * step[plane], step[plane])
+                        }
+                        _ => material,
+                    },
+                );
+            }
         }
         self.clear();
     }

@@ -1,9 +1,8 @@
 //! Tiny triangles: eight of them at a time, pixel by pixel of their boxes. Where a triangle has a pixel or two, setting up its
 //! rows is most of its cost; here nothing is set up for one triangle alone.
 
-use super::runs::FoundRun;
 use super::tile::{Tile, Writer};
-use super::triangles::{BATCH, Batch, CoveragePath, Ints, TINY_HEIGHT, TINY_WIDTH, bits};
+use super::triangles::{BATCH, Batch, CoveragePath, FoundRun, Ints, TINY_HEIGHT, TINY_WIDTH, bits};
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use alloc::vec::Vec;

@@ -10,42 +10,6 @@ use crate::shading::increments::{GreatCircle, Walk};
 use crate::shading::ramp;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
-use core::mem::swap;
-
-/// Four varyings, and their growth from scanline to scanline: as many as are stepped at once.
-type Four = [[f32; 4]; 2];
-
-/// Sets up four varyings between two ends: see [`ramp`].
-#[inline(always)]
-fn ramps(a: [f32; 4], b: [f32; 4], t0: f32, dt: f32) -> Four {
-    let mut ramps = [[0.0; 4]; 2];
-    for i in 0..4 {
-        [ramps[0][i], ramps[1][i]] = ramp(a[i], b[i], t0, dt); // 3.5, 4.1
-    }
-    ramps
-}
-
-/// Returns four varyings on the next scanline.
-#[inline(always)]
-fn stepped([at, step]: Four) -> Four {
-    let mut next = at;
-    for i in 0..4 {
-        next[i] += step[i]; // 3.6, 4.2
-    }
-    [next, step]
-}
-
-/// Returns the first four numbers, and 0 for those that are missing.
-#[inline(always)]
-fn four(numbers: &[f32]) -> [f32; 4] {
-    match *numbers {
-        [a, b, c] => [a, b, c, 0.0],
-        [a, b, c, d, ..] => [a, b, c, d],
-        [a, b] => [a, b, 0.0, 0.0],
-        [a] => [a, 0.0, 0.0, 0.0],
-        [] => [0.0; 4],
-    }
-}
 
 /// An edge on its way down the picture: its crossing, and depth and varyings, each stepped from scanline to scanline.
 #[derive(Clone, Copy, Debug)]
@@ -58,11 +22,15 @@ struct ActiveEdge {
     crossing: EdgeCrossing,
     /// Depth here, and its growth.
     depth: [f32; 2],
-    /// The first four varyings: a normal or a colour, and a weight.
-    varyings: Four,
-    /// The place of the others in [`EdgeList::fours`], or of the great circle in [`EdgeList::circles`].
+    /// A few varyings here, and their growth.
+    at: [f32; FEW],
+    step: [f32; FEW],
+    /// The place of more of them in [`EdgeVaryings`].
     slot: u32,
 }
+
+/// Varyings that are kept with the edge: a normal or a colour, and a weight.
+const FEW: usize = 4;
 
 /// A span: the pixels of one polygon between two of its edges on one scanline, clipped to the picture.
 #[derive(Clone, Copy, Debug)]
@@ -85,36 +53,60 @@ pub(crate) struct PolygonSpan {
     pub depth_step: f32,
 }
 
-/// The edges that cross a scanline, with the varyings that an [`ActiveEdge`] has no room for.
-#[derive(Debug, Default)]
-struct EdgeList {
-    edges: Vec<ActiveEdge>,
-    /// The varyings after the first four, edge by edge.
-    fours: Vec<Four>,
+/// The varyings of edges on their way down, where they are great circles or more than [`FEW`] numbers.
+#[derive(Debug)]
+struct EdgeVaryings {
+    /// Numbers of a varying, rounded up to whole groups of four, which are added at once; 0 where they are kept with the edge.
+    padded: usize,
+    /// A slot an edge: the numbers here, then their steps.
+    values: Vec<f32>,
     circles: Vec<GreatCircle<f32>>,
+    free: Vec<u32>,
 }
 
-impl EdgeList {
-    /// Empties the list.
-    fn clear(&mut self) {
-        self.edges.clear();
-        self.fours.clear();
-        self.circles.clear();
+impl EdgeVaryings {
+    /// Starts an edge between two varyings at the parameter `t0`, with steps of `dt`. Returns its slot.
+    fn enter(&mut self, [a, b]: [&[f32]; 2], t0: f32, dt: f32) -> u32 {
+        let size = 2 * self.padded;
+        let slot = self.free.pop().unwrap_or_else(|| {
+            self.values.resize(self.values.len() + size, 0.0);
+            (self.values.len() / size) as u32 - 1
+        });
+        let (at, step) = self.values[slot as usize * size..][..size].split_at_mut(self.padded);
+        for (((at, step), a), b) in at.iter_mut().zip(step).zip(a).zip(b) {
+            [*at, *step] = ramp(*a, *b, t0, dt);
+        }
+        slot
     }
 
-    /// Steps the varyings at a slot of the list `before`, `more` fours, to this scanline. Returns their new place.
-    fn advance(&mut self, before: &EdgeList, slot: u32, more: usize) -> u32 {
-        if let Some(circle) = before.circles.get(slot as usize) {
-            let mut circle = *circle;
+    fn enter_circle(&mut self, circle: GreatCircle<f32>) -> u32 {
+        let slot = self.free.pop().unwrap_or(self.circles.len() as u32);
+        match self.circles.get_mut(slot as usize) {
+            Some(place) => *place = circle,
+            None => self.circles.push(circle),
+        }
+        slot
+    }
+
+    /// Steps an edge to the next scanline.
+    fn advance(&mut self, slot: u32) {
+        if let Some(circle) = self.circles.get_mut(slot as usize) {
             circle.sines.next(); // 4.9–4.12
-            self.circles.push(circle);
-            return self.circles.len() as u32 - 1;
+            return;
         }
-        let place = self.fours.len() as u32;
-        for varyings in &before.fours[slot as usize..][..more] {
-            self.fours.push(stepped(*varyings));
+        let size = 2 * self.padded;
+        let (at, step) = self.values[slot as usize * size..][..size].split_at_mut(self.padded);
+        let (at, step) = (at.as_chunks_mut::<4>().0, step.as_chunks::<4>().0);
+        for (at, step) in at.iter_mut().zip(step) {
+            for i in 0..4 {
+                at[i] += step[i]; // 3.6, 4.2
+            }
         }
-        place
+    }
+
+    /// Returns the numbers of a slot.
+    fn numbers(&self, slot: u32) -> &[f32] {
+        &self.values[slot as usize * 2 * self.padded..][..self.padded]
     }
 }
 
@@ -124,33 +116,39 @@ pub(crate) struct ActiveEdges<'a> {
     frame: &'a Frame,
     varyings: &'a Varyings<'a>,
     depth: SampleDepth,
-    here: EdgeList,
-    /// The list of the scanline before.
-    before: EdgeList,
+    edges: Vec<ActiveEdge>,
+    merged: Vec<ActiveEdge>,
+    more: EdgeVaryings,
     /// True if edges carry anything.
     is_walked: bool,
-    /// Fours of an edge after the first.
-    more: usize,
+    /// True if edges carry it in slots.
+    has_slots: bool,
 }
 
 impl<'a> ActiveEdges<'a> {
     pub fn new(frame: &'a Frame, varyings: &'a Varyings<'a>) -> Self {
         let is_walked = varyings.count > 0 && !matches!(varyings.per, Per::Polygon);
-        let is_linear = is_walked && !varyings.great_circle;
+        let is_many = is_walked && varyings.count > FEW && !varyings.great_circle;
         ActiveEdges {
             frame,
             varyings,
             depth: SampleDepth::new(frame),
-            here: EdgeList::default(),
-            before: EdgeList::default(),
+            edges: Vec::new(),
+            merged: Vec::new(),
+            more: EdgeVaryings {
+                padded: usize::from(is_many) * varyings.count.next_multiple_of(4),
+                values: Vec::new(),
+                circles: Vec::new(),
+                free: Vec::new(),
+            },
             is_walked,
-            more: usize::from(is_linear) * (varyings.count.div_ceil(4).saturating_sub(1)),
+            has_slots: is_many || varyings.great_circle,
         }
     }
 
     /// True if no edge crosses this scanline.
     pub fn is_empty(&self) -> bool {
-        self.here.edges.is_empty()
+        self.edges.is_empty()
     }
 
     /// Goes to scanline `row`: steps the edges that cross it, drops those that end before its centre, and takes in the `new` ones
@@ -159,82 +157,101 @@ impl<'a> ActiveEdges<'a> {
     /// From one list to the other: an edge that was just stepped is not read again before it is used.
     pub fn next<'e>(&mut self, new: impl Iterator<Item = &'e TableEdge>, row: i32) {
         let mut new = new.peekable();
-        swap(&mut self.here, &mut self.before);
-        self.here.clear();
-        self.here.edges.reserve(self.before.edges.len());
-        for i in 0..self.before.edges.len() {
-            let mut edge = self.before.edges[i];
+        self.merged.clear();
+        self.merged.reserve(self.edges.len());
+        for i in 0..self.edges.len() {
+            let mut edge = self.edges[i];
             while let Some(begins) = new.next_if(|begins| begins.polygon < edge.polygon) {
                 self.start_edge(begins, row);
             }
             if edge.end <= row {
+                if self.has_slots {
+                    self.more.free.push(edge.slot);
+                }
                 continue;
             }
             edge.crossing.advance();
             edge.depth[0] += edge.depth[1]; // 3.3
-            edge.varyings = stepped(edge.varyings);
-            if self.more > 0 || self.varyings.great_circle {
-                edge.slot = self.here.advance(&self.before, edge.slot, self.more);
+            for i in 0..FEW {
+                edge.at[i] += edge.step[i]; // 3.6, 4.2
             }
-            self.here.edges.push(edge);
+            if self.has_slots {
+                self.more.advance(edge.slot);
+            }
+            self.merged.push(edge);
         }
         for begins in new {
             self.start_edge(begins, row);
         }
+        core::mem::swap(&mut self.edges, &mut self.merged);
     }
 
     /// Appends an edge at scanline `row`, with the sub-pixel start: the parameter there is that of the scanline's centre.
     #[inline(always)]
     fn start_edge(&mut self, edge: &TableEdge, row: i32) {
         let vertices = self.frame.vertices();
-        let [top, bottom] = [edge.top, edge.bottom].map(|v| &vertices[v as usize]);
+        let (top, bottom) = (
+            &vertices[edge.top as usize],
+            &vertices[edge.bottom as usize],
+        );
         let place = |v: &ScreenVertex| [v.x, v.y];
         // Exact: both differences have at most 24 bits.
         let height = (bottom.y - top.y).to_bits() as f32;
         let centre = SubPixel::from_num(row) + SubPixel::from_bits(1 << (SubPixel::FRAC_NBITS - 1));
         let t0 = (centre - top.y).to_bits() as f32 / height;
         let dt = (1 << SubPixel::FRAC_NBITS) as f32 / height; // Δt = 1 / (y_2 − y_1)
-        let (mut varyings, mut slot) = ([[0.0; 4]; 2], 0);
+        let (mut at, mut step, mut slot) = ([0.0; FEW], [0.0; FEW], 0);
         if self.is_walked {
             let [a, b] = self.ends(edge);
-            varyings = ramps(four(a), four(b), t0, dt);
-            if self.more > 0 || self.varyings.great_circle {
-                slot = self.start_slot(edge.polygon, [a, b], t0, dt);
+            if let (&[ax, ay, az], &[bx, by, bz]) = (a, b)
+                && !self.has_slots
+            {
+                // The fast path: three numbers, without a loop.
+                [at[0], step[0]] = ramp(ax, bx, t0, dt); // 3.5, 4.1
+                [at[1], step[1]] = ramp(ay, by, t0, dt);
+                [at[2], step[2]] = ramp(az, bz, t0, dt);
+            } else {
+                slot = self.start_slowly(edge, [t0, dt], [&mut at, &mut step]);
             }
         }
         let from = self.depth.of_corner(self.frame, top);
         let to = self.depth.of_corner(self.frame, bottom);
-        self.here.edges.push(ActiveEdge {
+        self.merged.push(ActiveEdge {
             polygon: edge.polygon,
             corner: edge.corner,
             end: first_centre(bottom.y),
             crossing: EdgeCrossing::new(place(top), place(bottom), row),
             depth: ramp(from, to, t0, dt), // 3.4
-            varyings,
+            at,
+            step,
             slot,
         });
     }
 
-    /// Starts the varyings that an [`ActiveEdge`] has no room for. Returns their place.
+    /// Starts the varyings of an edge unless they are three numbers. Returns their slot.
     #[inline(never)]
-    fn start_slot(&mut self, polygon: u32, [a, b]: [&[f32]; 2], t0: f32, dt: f32) -> u32 {
+    fn start_slowly(
+        &mut self,
+        edge: &TableEdge,
+        [t0, dt]: [f32; 2],
+        [at, step]: [&mut [f32; FEW]; 2],
+    ) -> u32 {
+        let ends = self.ends(edge);
         if self.varyings.great_circle {
-            let normals = [unit(a), unit(b)];
-            let circle = GreatCircle::new(vec3(self.face(polygon)), normals, t0, dt);
-            self.here.circles.push(circle);
-            return self.here.circles.len() as u32 - 1;
+            let face = self
+                .frame
+                .polygon_normal(&self.frame.polygons()[edge.polygon as usize]);
+            let normals = [unit(ends[0]), unit(ends[1])];
+            let circle = GreatCircle::new(vec3(face), normals, t0, dt);
+            return self.more.enter_circle(circle);
         }
-        let place = self.here.fours.len() as u32;
-        for (a, b) in a[4..].chunks(4).zip(b[4..].chunks(4)) {
-            self.here.fours.push(ramps(four(a), four(b), t0, dt));
+        if self.has_slots {
+            return self.more.enter(ends, t0, dt);
         }
-        place
-    }
-
-    /// Returns the unit normal of a polygon.
-    fn face(&self, polygon: u32) -> [f32; 3] {
-        let polygon = &self.frame.polygons()[polygon as usize];
-        self.frame.polygon_normal(polygon)
+        for (((at, step), a), b) in at.iter_mut().zip(step).zip(ends[0]).zip(ends[1]) {
+            [*at, *step] = ramp(*a, *b, t0, dt);
+        }
+        0
     }
 
     /// Returns the varyings of the upper and the lower end of an edge.
@@ -257,23 +274,25 @@ impl<'a> ActiveEdges<'a> {
     /// Forgets all edges.
     #[cfg(feature = "simd")]
     pub fn clear(&mut self) {
-        self.here.clear();
+        let slots = self.edges.drain(..).map(|edge| edge.slot);
+        if self.has_slots {
+            self.more.free.extend(slots);
+        }
     }
 
     /// Puts the edges of each polygon in order and calls `visit` with their spans, polygon by polygon.
     pub fn spans(&mut self, width: u32, mut visit: impl FnMut(&Self, PolygonSpan)) {
         let mut first = 0;
-        while first < self.here.edges.len() {
-            let edges = &mut self.here.edges;
-            let polygon = edges[first].polygon;
+        while first < self.edges.len() {
+            let polygon = self.edges[first].polygon;
             let mut end = first + 1;
-            while end < edges.len() && edges[end].polygon == polygon {
+            while end < self.edges.len() && self.edges[end].polygon == polygon {
                 end += 1;
             }
-            order(&mut edges[first..end]);
+            order(&mut self.edges[first..end]);
             // A closed polygon crosses a scanline an even number of times.
             for left in (first..end - 1).step_by(2) {
-                let pair = [&self.here.edges[left], &self.here.edges[left + 1]];
+                let pair = [&self.edges[left], &self.edges[left + 1]];
                 if let Some(span) = span(pair, left as u32, width) {
                     visit(self, span);
                 }
@@ -287,34 +306,40 @@ impl<'a> ActiveEdges<'a> {
     pub fn start(&self, span: &PolygonSpan, skipped: u32, to: &mut Vec<f32>) {
         // A run that begins inside its span starts at its own first pixel's parameter.
         let t0 = span.t0 + skipped as f32 * span.dt;
-        let left = &self.here.edges[span.left as usize];
-        let right = &self.here.edges[span.left as usize + 1];
+        let left = &self.edges[span.left as usize];
+        let right = &self.edges[span.left as usize + 1];
+        if self.varyings.count == 3 && self.is_walked && !self.has_slots {
+            // The fast path: three numbers, without a loop.
+            let [x, dx] = ramp(left.at[0], right.at[0], t0, span.dt); // 3.5, 4.1
+            let [y, dy] = ramp(left.at[1], right.at[1], t0, span.dt);
+            let [z, dz] = ramp(left.at[2], right.at[2], t0, span.dt);
+            to.extend_from_slice(&[x, y, z, dx, dy, dz]);
+            return;
+        }
         if self.varyings.great_circle {
-            let circles = &self.here.circles;
+            let circles = &self.more.circles;
             to.extend(circles[left.slot as usize].normal().array()); // 4.8
             to.extend(circles[right.slot as usize].normal().array());
             to.extend([t0, span.dt]);
-            to.extend(self.face(span.polygon));
+            to.extend(
+                self.frame
+                    .polygon_normal(&self.frame.polygons()[span.polygon as usize]),
+            );
             return;
         }
-        let mut end = to.len() + self.varyings.count;
+        let (count, first) = (self.varyings.count, to.len());
+        to.resize(first + 2 * count, 0.0);
+        let (at, step) = to[first..].split_at_mut(count);
         if let Some(constant) = self.varyings.of_polygon(span.polygon) {
-            to.extend_from_slice(constant);
-            to.resize(end + self.varyings.count, 0.0);
+            at.copy_from_slice(constant);
             return;
         }
-        let at = |edge: &ActiveEdge, four: usize| match four {
-            0 => edge.varyings[0],
-            _ => self.here.fours[edge.slot as usize + four - 1][0],
+        let ends = match self.has_slots {
+            true => [self.more.numbers(left.slot), self.more.numbers(right.slot)],
+            false => [&left.at[..], &right.at[..]],
         };
-        // Numbers, then their growth: in fours, of which the last one is cut off.
-        for part in 0..2 {
-            for four in 0..=self.more {
-                let four = ramps(at(left, four), at(right, four), t0, span.dt); // 4.1
-                to.extend_from_slice(&four[part]);
-            }
-            to.truncate(end);
-            end += self.varyings.count;
+        for (((at, step), a), b) in at.iter_mut().zip(step).zip(ends[0]).zip(ends[1]) {
+            [*at, *step] = ramp(*a, *b, t0, span.dt);
         }
     }
 }
