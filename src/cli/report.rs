@@ -18,7 +18,6 @@ use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, SceneTable};
-use fastphong::scene::input;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -118,7 +117,7 @@ impl ReportArgs {
         let start = Instant::now();
         let names = named_or_shipped(&self.inputs);
         // Every input is loaded first, so that a bad one fails at once.
-        let load = |name: &&str| self.scene.load(name).map(|file| self.shown(file));
+        let load = |name: &&str| self.scene.load_to_show(name).map(|file| self.shown(file));
         let files = names
             .iter()
             .map(load)
@@ -222,7 +221,7 @@ impl ReportArgs {
         bar: &Progress,
         log: Log,
     ) -> Result<DrawnScene, CliError> {
-        let resolved = input::resolve(file)?;
+        let resolved = self.scene.resolve_to_show(&mut file.clone())?;
         bar.aside(|| self.scene.warn(&resolved, log));
         let frame = resolved.scene.frame()?;
         drop(resolved);

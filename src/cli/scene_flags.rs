@@ -82,6 +82,8 @@ static FLAGS: &[Flag] = flags! {
     "shininess-for" "MODEL" ["shininess_for"]
     /// Highlights where the light is behind the surface
     "specular-gate" "GATE" ["specular_gate"]
+    /// Alpha of a PNG file: the covered share of each pixel, or opaque everywhere
+    "alpha" "ALPHA" ["image.alpha"]
     /// Encoding of stored pictures in 8 bits
     "encoding" "NAME" ["image.encoding"]
     /// Polygons to cull, by the side that is seen

@@ -42,7 +42,6 @@ pub use document::{
 };
 pub use markdown::Markdown;
 pub use page::shell_word;
-pub use pictures::{LEAST_ERROR, STEPS_AN_OCTAVE};
 
 use crate::compare::comparison::Comparison;
 use crate::lectures::{FigureBlock, FigureContent};

@@ -6,9 +6,9 @@
 
 use crate::compare::comparison::Comparison;
 use crate::number::parallel::collect;
+use crate::picture::Picture8;
 use crate::picture::encoding::store;
 use crate::picture::image_file::{FilePicture, Format};
-use crate::picture::{LinearPicture, Picture8};
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::String;
@@ -20,24 +20,16 @@ use flate2::write::ZlibEncoder;
 use serde::Serialize;
 use std::io::Write;
 
-/// Steps of an error map from one power of two to the next.
-pub const STEPS_AN_OCTAVE: f64 = 8.0;
-
-/// Largest error, in grey levels, that a map shows as none.
-pub const LEAST_ERROR: f64 = 1.0 / 64.0;
-
 /// The pictures of one scene, as the page reads them.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Pictures {
-    /// [`STEPS_AN_OCTAVE`] of the error maps.
-    steps: f64,
     /// The packed reference.
     reference: String,
     /// A picture a variant.
     rows: BTreeMap<String, PackedPicture>,
 }
 
-/// A picture and its error map, each as a difference from another one.
+/// A picture as a difference from another one.
 #[derive(Clone, Debug, Default, Serialize)]
 struct PackedPicture {
     /// The variant whose picture it adds to; the reference if `None`.
@@ -46,47 +38,24 @@ struct PackedPicture {
     /// The packed difference from its base; `None` if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     add: Option<String>,
-    /// The variant whose error map it adds to; a map of zeros if `None`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    map_on: Option<String>,
-    /// The packed difference of its error map from its base; `None` if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    map: Option<String>,
 }
 
 impl Pictures {
-    /// Packs the reference, and each scanline picture with its error map.
+    /// Packs the reference and each scanline picture.
     pub fn new(comparison: &Comparison) -> Pictures {
         let reference = planes(&store(&comparison.reference, comparison.encoding));
-        let width = comparison.width;
-        let names: Vec<String> = comparison.rows.iter().map(|row| row.name()).collect();
-        let rows = &comparison.rows;
+        let (width, rows) = (comparison.width, &comparison.rows);
         let drawn = collect(rows.len(), 1, |i| planes(&rows[i].picture));
-        let maps = collect(rows.len(), 1, |i| {
-            Vec::from([error_codes(&comparison.reference, &rows[i].linear)])
-        });
-        let nothing = Vec::from([alloc::vec![0; reference[0].len()]]);
-        let pack_on = |base: &[Vec<u8>], all: &[Vec<Vec<u8>>], at: usize| {
-            let near = nearest(&all[at], base, &all[..at]);
-            let under = near.map_or(base, |i| &all[i]);
-            let added = (under != &all[at][..]).then(|| pack(&added(under, &all[at]), width));
-            (near.map(|i| names[i].clone()), added)
-        };
         let packed = |at: usize| {
-            let (on, add) = pack_on(&reference, &drawn, at);
-            let (map_on, map) = pack_on(&nothing, &maps, at);
-            let packed = PackedPicture {
-                on,
-                add,
-                map_on,
-                map,
-            };
-            (names[at].clone(), packed)
+            let near = nearest(&drawn[at], &reference, &drawn[..at]);
+            let base = near.map_or(&reference, |i| &drawn[i]);
+            let add = (base != &drawn[at]).then(|| pack(&added(base, &drawn[at]), width));
+            let on = near.map(|i| rows[i].name());
+            (rows[at].name(), PackedPicture { on, add })
         };
         Pictures {
-            steps: STEPS_AN_OCTAVE,
             reference: pack(&reference, width),
-            rows: collect(names.len(), 1, packed).into_iter().collect(),
+            rows: collect(rows.len(), 1, packed).into_iter().collect(),
         }
     }
 
@@ -131,24 +100,6 @@ fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
         plane(|[r, g, _, _]| r.wrapping_sub(*g)),
         plane(|[_, g, b, _]| b.wrapping_sub(*g)),
     ])
-}
-
-/// Returns the error of each pixel on the scale of the maps: 0 up to [`LEAST_ERROR`], then [`STEPS_AN_OCTAVE`].
-fn error_codes(reference: &LinearPicture, actual: &LinearPicture) -> Vec<u8> {
-    let code = |(r, a): (&[f32; 4], &[f32; 4])| {
-        let errors = (0..3).map(|c| 255.0 * f64::from((a[c] - r[c]).abs()));
-        // A channel that is not finite counts as white against black.
-        let error = errors
-            .map(|e| if e.is_finite() { e } else { 255.0 })
-            .fold(0.0, f64::max);
-        if error <= LEAST_ERROR {
-            return 0;
-        }
-        let steps = libm::round(STEPS_AN_OCTAVE * libm::log2(error / LEAST_ERROR));
-        (1.0 + steps).min(255.0) as u8
-    };
-    let pairs = reference.texels().iter().zip(actual.texels());
-    pairs.map(code).collect()
 }
 
 /// Filters the rows of planes as PNG does, deflates them, and writes that in base 64.
@@ -295,20 +246,6 @@ mod tests {
         let others = [Vec::from([Vec::from([1, 3, 9])]), picture.clone()];
         assert_eq!(nearest(&picture, &base, &others), Some(1));
         assert_eq!(nearest(&base, &base, &others), None);
-    }
-
-    #[test]
-    fn error_codes_are_steps_of_an_octave() {
-        let reference = LinearPicture::new(5, 1, [0.0, 0.0, 0.0, 1.0]);
-        let mut actual = reference.clone();
-        let errors = [0.0, 0.99 * LEAST_ERROR as f32, 1.0, 2.0, 255.0];
-        for (pixel, error) in actual.row_mut(0).iter_mut().zip(errors) {
-            pixel[1] = error / 255.0;
-        }
-        // Six octaves from 1/64 to 1 level, one more to 2, eight less 0.006 to 255.
-        assert_eq!(error_codes(&reference, &actual), [0, 0, 49, 57, 113]);
-        actual.row_mut(0)[0][2] = f32::NAN;
-        assert_eq!(error_codes(&reference, &actual)[0], 113);
     }
 
     #[test]
