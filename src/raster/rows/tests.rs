@@ -148,7 +148,7 @@ fn check<S: Token>(
                     fragments.draw(m, batch, k, writer)
                 }));
                 let (mut runs, mut by_runs) = (vec![], vec![]);
-                fragments.runs(batch, k, rows.start, &mut runs);
+                fragments.runs(batch, k, rows.start, |run| runs.push(run));
                 for run in runs {
                     let row = rows.start + run.row;
                     by_runs.push(((row, run.pixels.start), run.weights));
