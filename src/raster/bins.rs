@@ -8,6 +8,11 @@ use alloc::vec::Vec;
 
 /// Polygons that are sorted into bands together; chunks are sorted apart from one another.
 const CHUNK: usize = 1 << 13;
+/// Polygons that are read, and then bounded, together.
+const GROUP: usize = 64;
+
+/// A column and a row in sub-pixels.
+type Point = [i32; 2];
 
 /// A polygon with its corners, if it is a triangle: bands are read in a row, where polygons and their corner lists are spread
 /// over memory, two reads of which the second waits for the first.
@@ -70,16 +75,23 @@ impl BinChunk {
         let bands = frame.height().div_ceil(height);
         let mut starts = vec![0u32; bands + 2];
         let mut entries = Vec::with_capacity(all.len());
+        let mut ranges = [[0; CHUNK]; 2];
         vectorized(
             #[inline(always)]
             || {
-                for (number, polygon) in (first as u32..).zip(all) {
-                    let (corners, bands) = bands_of(frame, polygon, height);
-                    entries.push((Listed { number, corners }, bands));
-                    // First by how many polygons each band has more than the one before.
-                    let [from, end] = bands.map(usize::from);
-                    starts[from] = starts[from].wrapping_add(1);
-                    starts[end] = starts[end].wrapping_sub(1);
+                let mut read_entries = [Listed::default(); GROUP];
+                let mut points = [[[0; 2]; GROUP]; 3];
+                for (group, polygons) in all.chunks(GROUP).enumerate() {
+                    let number = (first + group * GROUP) as u32;
+                    read(frame, number, polygons, &mut points, &mut read_entries);
+                    entries.extend_from_slice(&read_entries[..polygons.len()]);
+                    find_bands(frame, &points, height, &mut ranges, group * GROUP);
+                }
+                // First by how many polygons each band has more than the one before.
+                let [from, end] = &ranges;
+                for (&from, &end) in from[..all.len()].iter().zip(end) {
+                    starts[usize::from(from)] = starts[usize::from(from)].wrapping_add(1);
+                    starts[usize::from(end)] = starts[usize::from(end)].wrapping_sub(1);
                 }
             },
         );
@@ -95,7 +107,8 @@ impl BinChunk {
             polygons[*place as usize] = entry;
             *place += 1;
         };
-        for (entry, [from, end]) in entries {
+        let [from, end] = &ranges;
+        for ((entry, &from), &end) in entries.into_iter().zip(from).zip(end) {
             put(from, entry);
             for band in from + 1..end {
                 put(band, entry);
@@ -105,59 +118,94 @@ impl BinChunk {
     }
 }
 
-/// Returns the corners for [`Listed`], and the bands of `height` scanlines whose pixel centres the bounding box of a polygon
-/// holds: the first one and the one after the last, or the one after all bands where it holds none. There are at most
-/// [`MAX_SIDE`](crate::scene::Scene::MAX_SIDE) bands.
+/// Reads the polygons of a group from number `number` on: stores each as it is listed, and three points with its bounding box.
 #[inline(always)]
-fn bands_of(frame: &Frame, polygon: &Polygon, height: usize) -> ([u32; 3], [u16; 2]) {
+fn read(
+    frame: &Frame,
+    number: u32,
+    polygons: &[Polygon],
+    points: &mut [[Point; GROUP]; 3],
+    entries: &mut [Listed; GROUP],
+) {
     let (vertices, shared) = (frame.vertices(), &frame.geometry.corners[..]);
-    let (first, mut corners) = (polygon.first as usize, Listed::OTHER);
-    // Without looking for the owner of the corners first, as `Frame::corners` does: those of pieces stand elsewhere.
-    let [least, most] = if polygon.count == 3
-        && let Some(&[a, b, c]) = shared.get(first..first + 3)
-    {
-        corners = [a, b, c];
-        let (a, b) = (&vertices[a as usize], &vertices[b as usize]);
-        let box_of_two = joined([position(a); 2], position(b));
-        joined(box_of_two, position(&vertices[c as usize]))
-    } else {
-        corners = *frame.corners(polygon).as_array().unwrap_or(&corners);
-        bounds(frame, polygon)
-    };
-    // `first_centre` in 32 bits: coordinates are within ±2²³.
-    let begin = least.map(|at| ((at + 127) >> 8).max(0));
-    let right = ((most[0] + 127) >> 8).min(frame.width() as i32);
-    let bottom = ((most[1] + 127) >> 8).min(frame.height() as i32);
-    let is_there = (begin[0] < right) & (begin[1] < bottom);
+    for k in 0..polygons.len().min(GROUP) {
+        let polygon = &polygons[k];
+        let (first, mut corners) = (polygon.first as usize, Listed::OTHER);
+        // Without looking for the owner of the corners first, as `Frame::corners` does: those of pieces stand elsewhere.
+        if polygon.count == 3
+            && let Some(&[a, b, c]) = shared.get(first..first + 3)
+        {
+            points[0][k] = position(&vertices[a as usize]);
+            points[1][k] = position(&vertices[b as usize]);
+            points[2][k] = position(&vertices[c as usize]);
+            corners = [a, b, c];
+        } else {
+            let [least, most] = bounds(frame, polygon);
+            (points[0][k], points[1][k], points[2][k]) = (least, most, most);
+            corners = *frame.corners(polygon).as_array().unwrap_or(&corners);
+        }
+        entries[k] = Listed {
+            number: number + k as u32,
+            corners,
+        };
+    }
+}
+
+/// Stores the bands of `height` scanlines whose pixel centres the bounding box of each polygon of a group holds, from place
+/// `first` on: the first band and the one after the last, or the one after all bands where it holds no centre.
+#[inline(always)]
+fn find_bands(
+    frame: &Frame,
+    corners: &[[Point; GROUP]; 3],
+    height: usize,
+    [from, end]: &mut [[u16; CHUNK]; 2],
+    first: usize,
+) {
+    let limit = [[frame.width() as i32, frame.height() as i32]; GROUP];
+    let (mut begin, mut stop) = ([[0; 2]; GROUP], [[0; 2]; GROUP]);
+    // Columns and rows one after the other, as they stand in memory.
+    let [a, b, c] = corners;
+    let (a, b, c) = (a.as_flattened(), b.as_flattened(), c.as_flattened());
+    for i in 0..2 * GROUP {
+        let (least, most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+        // `first_centre` in 32 bits: coordinates are within ±2²³.
+        begin.as_flattened_mut()[i] = ((least + 127) >> 8).max(0);
+        stop.as_flattened_mut()[i] = ((most + 127) >> 8).min(limit.as_flattened()[i]);
+    }
     let (log_height, nowhere) = (
         height.trailing_zeros(),
         frame.height().div_ceil(height) as i32,
     );
-    let band = |row: i32| if is_there { row >> log_height } else { nowhere } as u16;
-    (corners, [band(begin[1]), band(bottom - 1) + 1])
+    let (from, end) = (&mut from[first..][..GROUP], &mut end[first..][..GROUP]);
+    for k in 0..GROUP {
+        let ([left, top], [right, bottom]) = (begin[k], stop[k]);
+        let is_there = (left < right) & (top < bottom);
+        from[k] = if is_there { top >> log_height } else { nowhere } as u16;
+        end[k] = if is_there {
+            (bottom - 1) >> log_height
+        } else {
+            nowhere
+        } as u16
+            + 1;
+    }
 }
 
 /// Returns the column and the row of a vertex in sub-pixels.
 #[inline(always)]
-fn position(vertex: &ScreenVertex) -> [i32; 2] {
+fn position(vertex: &ScreenVertex) -> Point {
     [vertex.x.to_bits(), vertex.y.to_bits()]
 }
 
-/// Returns a bounding box, its left upper and right lower corner, extended by a point.
-#[inline(always)]
-fn joined([least, most]: [[i32; 2]; 2], [x, y]: [i32; 2]) -> [[i32; 2]; 2] {
-    [
-        [least[0].min(x), least[1].min(y)],
-        [most[0].max(x), most[1].max(y)],
-    ]
-}
-
-/// Returns the bounding box of a polygon of any shape.
+/// Returns the left upper and the right lower corner of the bounding box of a polygon of any shape.
 #[inline(never)]
-fn bounds(frame: &Frame, polygon: &Polygon) -> [[i32; 2]; 2] {
-    let corners = frame.corners(polygon).iter();
-    let points = corners.map(|&corner| position(&frame.vertices()[corner as usize]));
-    points.fold([[i32::MAX; 2], [i32::MIN; 2]], joined)
+fn bounds(frame: &Frame, polygon: &Polygon) -> [Point; 2] {
+    let (mut least, mut most) = ([i32::MAX; 2], [i32::MIN; 2]);
+    for &corner in frame.corners(polygon) {
+        let [x, y] = position(&frame.vertices()[corner as usize]);
+        least = [least[0].min(x), least[1].min(y)];
+        most = [most[0].max(x), most[1].max(y)];
+    }
+    [least, most]
 }
 
 #[cfg(test)]

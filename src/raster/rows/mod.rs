@@ -195,12 +195,12 @@ impl RowEngine<'_> {
         rows: &Range<usize>,
         scratch: &mut TileScratch,
     ) -> usize {
+        let (taken, tiny, others) = find(simd, self.setup.frame, polygons, rows, scratch);
         vectorize(
             simd,
             #[inline(always)]
             || {
                 let (m, top) = (Lanes(simd), rows.start);
-                let (taken, tiny, others) = find(m, self.setup.frame, polygons, rows, scratch);
                 let (batch, fragments) = (&mut scratch.batch, &scratch.fragments);
                 let (queue, all) = (&mut scratch.queue, tiny | others);
                 if N == 0 && !self.setup.kernels.linear {
@@ -210,7 +210,7 @@ impl RowEngine<'_> {
                         let tiny = (others >> k & 1 == 0).then_some(fragments);
                         queue.add_triangle(m, &self.setup, (batch, k, tiny), top);
                     }
-                    return taken;
+                    return;
                 }
                 batch.set_up_planes(m, &self.setup, NumberCount::<N>(self.numbers), all);
                 let writer = &mut scratch.tile.writer::<S, N>(m, self.test);
@@ -223,9 +223,9 @@ impl RowEngine<'_> {
                         runs::draw_large(m, (batch, k), top, &mut queue.found, writer);
                     }
                 }
-                taken
             },
-        )
+        );
+        taken
     }
 
     /// Draws the runs that were found.
@@ -251,20 +251,27 @@ impl RowEngine<'_> {
 
 /// Gathers triangles from the front of `polygons` and finds their places in a tile. Returns their number, bits for the tiny ones
 /// that cover a pixel, and bits for those that are not tiny.
-#[inline(always)]
+#[inline(never)]
 fn find<S: Token>(
-    m: Lanes<S>,
+    simd: S,
     frame: &Frame,
     polygons: &[Listed],
     rows: &Range<usize>,
     scratch: &mut TileScratch,
 ) -> (usize, u32, u32) {
     let TileScratch { tile, batch, .. } = scratch;
-    let taken = batch.gather(frame, polygons);
-    let (blocks, others) = batch.set_up(m, frame.width(), rows);
-    tile.extend(blocks);
-    let tiny = scratch.fragments.find(m, batch, rows.start, tile);
-    (taken, tiny, others)
+    vectorize(
+        simd,
+        #[inline(always)]
+        || {
+            let m = Lanes(simd);
+            let taken = batch.gather(frame, polygons);
+            let (blocks, others) = batch.set_up(m, frame.width(), rows);
+            tile.extend(blocks);
+            let tiny = scratch.fragments.find(m, batch, rows.start, tile);
+            (taken, tiny, others)
+        },
+    )
 }
 
 #[cfg(test)]

@@ -89,25 +89,44 @@ impl RunQueue {
         (batch, k, tiny): (&Batch, usize, Option<&Fragments>),
         top: usize,
     ) {
-        let across = match tiny {
-            Some(fragments) => fragments.runs(batch, k, top, &mut self.found),
-            None => large_runs(batch, k, top, &mut self.found),
-        };
         let uniforms = setup.uniforms_of(batch.listed[k].number);
         let count = setup.varyings.count;
+        let Some(fragments) = tiny else {
+            let across = large_runs(batch, k, top, &mut self.found);
+            let step = batch.planes.growth(m, k, 1 + count, across);
+            let mut found = core::mem::take(&mut self.found);
+            for run in found.drain(..) {
+                let at = batch.planes.at(m, k, 1 + count, run.weights);
+                self.add(uniforms, run, count, [&at, &step]);
+            }
+            self.found = found;
+            return;
+        };
+        let [_, b, c] = &batch.edges;
+        let across = [b, c].map(|f| f.right[k] as f32 * batch.over_area[k]);
         let step = batch.planes.growth(m, k, 1 + count, across);
-        let mut found = core::mem::take(&mut self.found);
-        for run in found.drain(..) {
-            let at = batch.planes.at(m, k, 1 + count, run.weights);
-            // Whole lines: the numbers past the last are cut off.
-            let first = self.starts.len();
-            self.starts.extend_from_slice(&at[1..]);
-            self.starts.truncate(first + count);
-            self.starts.extend_from_slice(&step[1..]);
-            self.starts.truncate(first + 2 * count);
-            self.push(uniforms, RunPlace::new(run, &at, &step));
-        }
-        self.found = found;
+        fragments.runs(
+            batch,
+            k,
+            top,
+            #[inline(always)]
+            |run| {
+                let at = batch.planes.at(m, k, 1 + count, run.weights);
+                self.add(uniforms, run, count, [&at, &step]);
+            },
+        );
+    }
+
+    /// Adds a run of a triangle, with depth and `count` varyings at its first pixel, and their growth.
+    #[inline(always)]
+    fn add(&mut self, uniforms: u32, run: FoundRun, count: usize, [at, step]: [&Numbers; 2]) {
+        // Whole lines: the numbers past the last are cut off.
+        let first = self.starts.len();
+        self.starts.extend_from_slice(&at[1..]);
+        self.starts.truncate(first + count);
+        self.starts.extend_from_slice(&step[1..]);
+        self.starts.truncate(first + 2 * count);
+        self.push(uniforms, RunPlace::new(run, at, step));
     }
 
     /// Adds the runs of polygon `number`, of any shape: its edges step what they carry from row to row.

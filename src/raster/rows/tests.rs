@@ -110,7 +110,7 @@ fn check<S: Token>(
     let mut scratch = TileScratch::default();
     while !rest.is_empty() {
         scratch.tile.prepare(HEIGHT, width, 3);
-        let (taken, tiny, others) = find(Lanes(simd), frame, rest, &rows, &mut scratch);
+        let (taken, tiny, others) = find(simd, frame, rest, &rows, &mut scratch);
         assert!(taken > 0 && tiny & others == 0);
         let blocks = scratch.tile.drawn();
         let TileScratch {
@@ -148,7 +148,7 @@ fn check<S: Token>(
                     fragments.draw(m, batch, k, writer)
                 }));
                 let (mut runs, mut by_runs) = (vec![], vec![]);
-                fragments.runs(batch, k, rows.start, &mut runs);
+                fragments.runs(batch, k, rows.start, |run| runs.push(run));
                 for run in runs {
                     let row = rows.start + run.row;
                     by_runs.push(((row, run.pixels.start), run.weights));

@@ -5,7 +5,6 @@ use super::tile::{Tile, Writer};
 use super::triangles::{BATCH, Batch, CoveragePath, FoundRun, Ints, TINY_HEIGHT, TINY_WIDTH, bits};
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
-use alloc::vec::Vec;
 use fearless_simd::{Simd, SimdFloat};
 
 /// Pixels of a box.
@@ -109,10 +108,9 @@ impl Fragments {
         m.bits_not_negative(m.int(0).less(covered) ^ m.int(-1))
     }
 
-    /// Appends the runs of tiny triangle `k`, which must cover a pixel, in the tile that begins with row `top`. Returns the growth
-    /// of the barycentric coordinates from pixel to pixel.
+    /// Calls `visit` with the runs of tiny triangle `k`, which must cover a pixel, in the tile that begins with row `top`.
     #[inline(always)]
-    pub fn runs(&self, batch: &Batch, k: usize, top: usize, found: &mut Vec<FoundRun>) -> [f32; 2] {
+    pub fn runs(&self, batch: &Batch, k: usize, top: usize, mut visit: impl FnMut(FoundRun)) {
         let first = k / BLOCK * BLOCK * ROOM + k % BLOCK;
         let column = batch.columns[0][k] as usize;
         for below in 0..TINY_HEIGHT as usize {
@@ -124,15 +122,12 @@ impl Fragments {
             };
             let end = columns.rfind(is_covered).unwrap_or(start) + 1;
             let at = first + (TINY_HEIGHT as usize * start + below) * BLOCK;
-            found.push(FoundRun {
+            visit(FoundRun {
                 row: batch.rows[0][k] as usize - top + below,
                 pixels: column + start..column + end,
                 weights: self.weights_at(at),
             });
         }
-        let [_, b, c] = &batch.edges;
-        let scale = batch.over_area[k];
-        [b.right[k] as f32 * scale, c.right[k] as f32 * scale]
     }
 
     /// Returns the barycentric coordinates at a pixel.

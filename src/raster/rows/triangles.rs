@@ -363,10 +363,58 @@ impl Batch {
         count: NumberCount<N>,
         drawn: u32,
     ) {
+        let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);
+        // The fast path: three numbers a vertex, without a loop over them.
+        if N == 4 && matches!(varyings.per, Per::Vertex) {
+            let values = varyings.values.as_chunks::<3>().0;
+            // Bounded once for both.
+            let most = vertices.len().min(values.len());
+            let (vertices, values) = (&vertices[..most], &values[..most]);
+            return self.read(
+                m,
+                drawn,
+                count,
+                #[inline(always)]
+                |_, _, vertex, line| {
+                    let [x, y, z] = values[vertex as usize];
+                    let depth = vertices[vertex as usize].depth;
+                    (line[0], line[1], line[2], line[3]) = (depth, x, y, z);
+                },
+            );
+        }
+        self.read(
+            m,
+            drawn,
+            count,
+            #[inline(always)]
+            |number, corner, vertex, line| {
+                line[0] = vertices[vertex as usize].depth;
+                let varying = varyings.of_corner(number, corner, vertex);
+                for (to, value) in line[1..].iter_mut().zip(varying) {
+                    *to = *value;
+                }
+                if count.get() > 1 + varyings.count {
+                    line[count.get() - 1] = setup.uniforms_of(number) as f32;
+                }
+            },
+        );
+    }
+
+    /// Has `read` read the corners of triangles, by polygon, corner and vertex.
+    #[inline(always)]
+    fn read<S: Simd, const N: usize>(
+        &mut self,
+        m: Lanes<S>,
+        drawn: u32,
+        count: NumberCount<N>,
+        read: impl Fn(u32, u32, u32, &mut Numbers),
+    ) {
         for k in bits(drawn) {
             let Listed { number, corners } = self.listed[k];
-            let numbers = |corner: usize| corner_numbers(setup, count, number, corner, corners);
-            let (at, to_b, to_c) = (numbers(0), numbers(1), numbers(2));
+            let (mut at, mut to_b, mut to_c) = ([0.0; LINE], [0.0; LINE], [0.0; LINE]);
+            read(number, 0, corners[0], &mut at);
+            read(number, 1, corners[1], &mut to_b);
+            read(number, 2, corners[2], &mut to_c);
             let to = &mut self.planes.0[k];
             let mut i = 0;
             while i < count.get() {
@@ -378,34 +426,6 @@ impl Batch {
             }
         }
     }
-}
-
-/// Returns the numbers of a corner of triangle `number`: depth, varyings, and the number of the uniforms if pixels have one.
-#[inline(always)]
-fn corner_numbers<const N: usize>(
-    setup: &SetUp<'_>,
-    count: NumberCount<N>,
-    number: u32,
-    corner: usize,
-    corners: [u32; 3],
-) -> Numbers {
-    let (varyings, vertex) = (&setup.varyings, corners[corner]);
-    let mut line = [0.0; LINE];
-    line[0] = setup.frame.vertices()[vertex as usize].depth;
-    if N == 4 && matches!(varyings.per, Per::Vertex) {
-        // The fast path: three numbers, without a loop over them.
-        let values = varyings.values.as_chunks::<3>().0;
-        [line[1], line[2], line[3]] = values[vertex as usize];
-        return line;
-    }
-    let varying = varyings.of_corner(number, corner as u32, vertex);
-    for (to, value) in line[1..].iter_mut().zip(varying) {
-        *to = *value;
-    }
-    if count.get() > 1 + varyings.count {
-        line[count.get() - 1] = setup.uniforms_of(number) as f32;
-    }
-    line
 }
 
 /// Returns the numbers of the bits that are 1, from the lowest on.
