@@ -33,7 +33,7 @@ const FLAGS: &[[&str; 4]] = &[
     ["kd", "0.6,0.45,0.3", "teapot", "teapot --kd 0.1,0.3,0.6"],
     ["ks", "0.4", "fine-sphere", "fine-sphere --ks 0"],
     ["shininess", "32", "fine-sphere", "fine-sphere --shininess 4"],
-    ["alpha", "coverage", "teapot --alpha coverage", "teapot --alpha opaque"],
+    ["alpha", "coverage", "fine-sphere", "fine-sphere --alpha opaque"],
     ["background", "0", "teapot", "teapot --background 0.2,0.3,0.5"],
     ["interpolation", "screen", "perspective --aov checkerboard --interpolation screen", "perspective --aov checkerboard --interpolation perspective"],
     ["viewer", "infinite", "local-lights --viewer infinite", "local-lights --viewer local"],

@@ -220,7 +220,7 @@ impl RowEngine<'_> {
                     } else if batch.path[k] == CoveragePath::Small as i32 {
                         SmallTriangle::new(m, batch, k).draw(&mut scratch.starts, top, writer);
                     } else {
-                        runs::draw_large(m, (batch, k), top, &mut queue.found, writer);
+                        runs::draw_large(m, (batch, k), top, writer);
                     }
                 }
             },

@@ -35,8 +35,6 @@ impl RunPlace {
 /// Runs that wait to be walked along, all of them by one call.
 #[derive(Debug, Default)]
 pub(crate) struct RunQueue {
-    /// The runs of a triangle on their way into the others.
-    pub(super) found: Vec<FoundRun>,
     places: Vec<RunPlace>,
     runs: Vec<Run>,
     /// The start of each run: see [`start_len`].
@@ -92,15 +90,17 @@ impl RunQueue {
         let uniforms = setup.uniforms_of(batch.listed[k].number);
         let count = setup.varyings.count;
         let Some(fragments) = tiny else {
-            let across = large_runs(batch, k, top, &mut self.found);
-            let step = batch.planes.growth(m, k, 1 + count, across);
-            let mut found = core::mem::take(&mut self.found);
-            for run in found.drain(..) {
-                let at = batch.planes.at(m, k, 1 + count, run.weights);
-                self.add(uniforms, run, count, [&at, &step]);
-            }
-            self.found = found;
-            return;
+            return large_runs(
+                (batch, k),
+                top,
+                #[inline(always)]
+                |across| batch.planes.growth(m, k, 1 + count, across),
+                #[inline(always)]
+                |step, run| {
+                    let at = batch.planes.at(m, k, 1 + count, run.weights);
+                    self.add(uniforms, run, count, [&at, step]);
+                },
+            );
         };
         let [_, b, c] = &batch.edges;
         let across = [b, c].map(|f| f.right[k] as f32 * batch.over_area[k]);
@@ -265,27 +265,32 @@ fn draw_run<S: Simd, const N: usize>(
     }
 }
 
-/// Draws large triangle `k` of a batch into the tile that begins with row `top`, by way of the empty list `found`.
+/// Draws large triangle `k` of a batch into the tile that begins with row `top`.
 #[inline(always)]
 pub(super) fn draw_large<S: Simd, const N: usize>(
     m: Lanes<S>,
     (batch, k): (&Batch, usize),
     top: usize,
-    found: &mut Vec<FoundRun>,
     writer: &mut Writer<'_, S, N>,
 ) {
-    let (count, across) = (writer.count.get(), large_runs(batch, k, top, found));
-    let step = batch.planes.growth(m, k, count, across);
-    for run in found.drain(..) {
-        let at = batch.planes.at(m, k, count, run.weights);
-        draw_run(
-            m,
-            &RunPlace::new(run, &at, &step),
-            writer,
-            #[inline(always)]
-            |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),
-        );
-    }
+    let count = writer.count.get();
+    large_runs(
+        (batch, k),
+        top,
+        #[inline(always)]
+        |across| batch.planes.growth(m, k, count, across),
+        #[inline(always)]
+        |step, run| {
+            let at = batch.planes.at(m, k, count, run.weights);
+            draw_run(
+                m,
+                &RunPlace::new(run, &at, step),
+                writer,
+                #[inline(always)]
+                |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),
+            );
+        },
+    );
 }
 
 /// Returns a number below 0 at those pixels of block `block` that a run does not have.
@@ -295,9 +300,16 @@ fn outside<S: Simd>(m: Lanes<S>, block: usize, pixels: &Range<usize>) -> i32x8<S
     (k - m.int(pixels.start as i32 - first)) | (m.int(pixels.end as i32 - 1 - first) - k)
 }
 
-/// Appends the runs of triangle `k` of a batch, of any size, by the crossings of its edges with the scanlines of the tile that
-/// begins with row `top`. Returns the growth of the barycentric coordinates from pixel to pixel.
-fn large_runs(batch: &Batch, k: usize, top: usize, found: &mut Vec<FoundRun>) -> [f32; 2] {
+/// Calls `visit` with the runs of triangle `k` of a batch, of any size, by the crossings of its edges with the scanlines of the
+/// tile that begins with row `top`. `grow` turns the growth of its barycentric coordinates from pixel to pixel into that of its
+/// numbers.
+#[inline(always)]
+fn large_runs(
+    (batch, k): (&Batch, usize),
+    top: usize,
+    grow: impl FnOnce([f32; 2]) -> Numbers,
+    mut visit: impl FnMut(&Numbers, FoundRun),
+) {
     let [x, y] = [&batch.x, &batch.y].map(|at| [at[0][k], at[1][k], at[2][k]]);
     let [columns, rows] = [&batch.columns, &batch.rows].map(|ends| ends[0][k]..ends[1][k]);
     // Twice the area of the triangle of corners i and j and a point, below 0 where it runs the other way around.
@@ -307,9 +319,11 @@ fn large_runs(batch: &Batch, k: usize, top: usize, found: &mut Vec<FoundRun>) ->
     };
     let area = doubled(0, 1, i64::from(x[2]), i64::from(y[2]));
     if area == 0 {
-        return [0.0; 2];
+        return;
     }
     let over_area = 1.0 / area as f32;
+    let scale = 256.0 * over_area;
+    let step = grow([(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale]);
     // From the top corner two edges go down; the third one follows one of them.
     let mut order = [0usize, 1, 2];
     order.sort_unstable_by_key(|&i| y[i]);
@@ -330,16 +344,15 @@ fn large_runs(batch: &Batch, k: usize, top: usize, found: &mut Vec<FoundRun>) ->
             if start < end {
                 let [px, py] = [start, row].map(|at| 256 * i64::from(at) + 128);
                 let weight = |i, j| doubled(i, j, px, py) as f32 * over_area;
-                found.push(FoundRun {
+                let run = FoundRun {
                     row: row as usize - top,
                     pixels: start as usize..end as usize,
                     weights: [weight(2, 0), weight(0, 1)],
-                });
+                };
+                visit(&step, run);
             }
             long.advance();
             short.advance();
         }
     }
-    let scale = 256.0 * over_area;
-    [(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale]
 }

@@ -137,7 +137,7 @@ fn check<S: Token>(
                 continue;
             }
             let draw_large = |writer: &mut tile::Writer<'_, S, 0>| {
-                runs::draw_large(m, (batch, k), rows.start, &mut vec![], writer);
+                runs::draw_large(m, (batch, k), rows.start, writer);
             };
             // Runs find the pixels of triangles of any size.
             let mut found = vec![drawn(simd, at, draw_large)];
