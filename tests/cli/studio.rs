@@ -109,7 +109,7 @@ fn faces_may_name_normals_that_the_file_does_not_have() {
     let ended = folder.run("render mesh.obj --size 64x48 -o out.png").done();
     assert_eq!(ended.err.matches("warning").count(), 1, "{}", ended.err);
     ended
-        .says("warning: mesh.obj: a face names normals and texture coordinates")
+        .says("warning: mesh.obj: a face names normals or texture coordinates")
         .says("line 4)");
     folder.write(
         "mesh.obj",

@@ -358,8 +358,10 @@ fn order(edges: &mut [ActiveEdge]) {
 
 /// True if `a` lies left of `b`.
 fn is_before(a: &ActiveEdge, b: &ActiveEdge) -> bool {
-    let order = a.crossing.compare(&b.crossing);
-    order.then(a.corner.cmp(&b.corner)) == Ordering::Less
+    match a.crossing.compare(&b.crossing) {
+        Ordering::Equal => a.corner < b.corner,
+        order => order == Ordering::Less,
+    }
 }
 
 /// Returns the span between two edges, of which the left one has number `number`, if it covers a pixel.
