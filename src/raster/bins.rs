@@ -82,8 +82,12 @@ impl BinChunk {
                 let mut read_entries = [Listed::default(); GROUP];
                 let mut points = [[[0; 2]; GROUP]; 3];
                 for (group, polygons) in all.chunks(GROUP).enumerate() {
-                    let number = (first + group * GROUP) as u32;
-                    read(frame, number, polygons, &mut points, &mut read_entries);
+                    for (k, polygon) in polygons.iter().take(GROUP).enumerate() {
+                        let number = (first + group * GROUP + k) as u32;
+                        let (corners, [a, b, c]) = read(frame, polygon);
+                        read_entries[k] = Listed { number, corners };
+                        (points[0][k], points[1][k], points[2][k]) = (a, b, c);
+                    }
                     entries.extend_from_slice(&read_entries[..polygons.len()]);
                     find_bands(frame, &points, height, &mut ranges, group * GROUP);
                 }
@@ -118,37 +122,21 @@ impl BinChunk {
     }
 }
 
-/// Reads the polygons of a group from number `number` on: stores each as it is listed, and three points with its bounding box.
+/// Returns the corners for [`Listed`], and three points with the bounding box of a polygon.
 #[inline(always)]
-fn read(
-    frame: &Frame,
-    number: u32,
-    polygons: &[Polygon],
-    points: &mut [[Point; GROUP]; 3],
-    entries: &mut [Listed; GROUP],
-) {
+fn read(frame: &Frame, polygon: &Polygon) -> ([u32; 3], [Point; 3]) {
     let (vertices, shared) = (frame.vertices(), &frame.geometry.corners[..]);
-    for k in 0..polygons.len().min(GROUP) {
-        let polygon = &polygons[k];
-        let (first, mut corners) = (polygon.first as usize, Listed::OTHER);
-        // Without looking for the owner of the corners first, as `Frame::corners` does: those of pieces stand elsewhere.
-        if polygon.count == 3
-            && let Some(&[a, b, c]) = shared.get(first..first + 3)
-        {
-            points[0][k] = position(&vertices[a as usize]);
-            points[1][k] = position(&vertices[b as usize]);
-            points[2][k] = position(&vertices[c as usize]);
-            corners = [a, b, c];
-        } else {
-            let [least, most] = bounds(frame, polygon);
-            (points[0][k], points[1][k], points[2][k]) = (least, most, most);
-            corners = *frame.corners(polygon).as_array().unwrap_or(&corners);
-        }
-        entries[k] = Listed {
-            number: number + k as u32,
-            corners,
-        };
+    let first = polygon.first as usize;
+    // Without looking for the owner of the corners first, as `Frame::corners` does: those of pieces stand elsewhere.
+    if polygon.count == 3
+        && let Some(&[a, b, c]) = shared.get(first..first + 3)
+    {
+        let point = |v: u32| position(&vertices[v as usize]);
+        return ([a, b, c], [point(a), point(b), point(c)]);
     }
+    let corners = *frame.corners(polygon).as_array().unwrap_or(&Listed::OTHER);
+    let [least, most] = bounds(frame, polygon);
+    (corners, [least, most, most])
 }
 
 /// Stores the bands of `height` scanlines whose pixel centres the bounding box of each polygon of a group holds, from place
