@@ -1,5 +1,5 @@
 "use strict";
-/* Draws the report's page from one JSON document (#fastphong-data) and its packed pictures. No library; nothing is loaded. */
+/* Draws the page from one JSON document (#fastphong-data) and packed pictures. Nothing is loaded. */
 
 /* ---------- markup */
 const ROOT = document.documentElement;
@@ -8,7 +8,7 @@ const $$ = (selector, root = document) => [...root.querySelectorAll(selector)];
 const ENTITIES = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" };
 class Markup extends String {}
 const put = v => v instanceof Markup ? v : Array.isArray(v) ? v.map(put).join("") : v == null || v === false ? "" : String(v).replace(/[&<>"']/g, c => ENTITIES[c]);
-/* Tags a template of HTML or SVG: escapes the values, unless they are markup, and joins lists. */
+/* Tags a template of HTML or SVG: escapes values that are no markup, and joins lists. */
 const html = (texts, ...values) => new Markup(texts.reduce((all, text, i) => all + put(values[i - 1]) + text));
 /* Puts markup into an element, and gives the focus back to the control that had it. */
 function fill(el, markup) {
@@ -149,7 +149,7 @@ for (const m of METHODS) {
 	m.max = m.worst?.max;
 	m.speed = ratios.length && ratios.length === drawn.length ? mean(ratios) : null;
 }
-/* Keys 1 to 9: the first member of each family, then the most exact of the others; in the order of the list. */
+/* Keys 1 to 9: the first of each family, then the most exact others; in the order of the list. */
 const order = m => IDS.indexOf(m.name);
 [...METHODS].sort(by(m => m.head ? order(m) : 1e6 + (m.max ?? 0))).slice(0, 9).sort(by(order)).forEach((m, i) => { m.key = String(i + 1); });
 const nameOf = m => M[m]?.label ?? m, shortName = m => nameOf(m).replace(" Phong", ""), hue = m => M[m]?.hue ?? "var(--ink3)";
@@ -265,7 +265,7 @@ const KEYS = {
 	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.slides && v.move(v.split - (e.shiftKey ? .1 : .02)), arrowright: (v, e) => v.slides && v.move(v.split + (e.shiftKey ? .1 : .02)),
 };
 for (const key in MODES) KEYS[key] = v => v.set({ mode: MODES[key] });
-/* Compares the pictures of methods `a` and `b` on a scene; tells `change` of changes and `probe` of the pixel looked at. */
+/* Compares the pictures of methods `a` and `b` on a scene; calls `change`, and `probe` with the pixel looked at. */
 class Viewer {
 	constructor(root, options) {
 		Object.assign(this, { root, mode: "slide", split: .5, z: 1, cx: .5, cy: .5, top: 0, side: "a", turn: 0 }, options);
@@ -404,7 +404,7 @@ class Viewer {
 		this.draw();
 		this.change?.(this, { pin: true });
 	}
-	/* One finger or the mouse moves the divider, or the picture when it is zoomed; two fingers zoom. */
+	/* One finger or the mouse moves the divider, or a zoomed picture; two fingers zoom. */
 	listen() {
 		const stage = this.stage, fingers = new Map();
 		const pair = () => {
@@ -765,7 +765,7 @@ function sceneFacts(s) {
 	];
 }
 let probing = 0;
-/* Shows every method at the pixel under the pointer, else at the held one, else at the worst of the left. */
+/* Shows every method at the pixel under the pointer, held, or worst of the left. */
 async function probe(v) {
 	const s = v.scene, turn = ++probing, of = v.a === "reference" ? v.b : v.a, rest = v.rest = !v.hover && !v.pin && s.rows[of]?.worst || null, pixel = v.hover ?? v.pin ?? rest;
 	if (!s.drawn) return;
@@ -1113,7 +1113,8 @@ function measured() {
 	];
 	const spreads = ROWS.filter(q => q.p75).map(q => (q.p75 - q.p25) / q.ms).sort(by(v => v)), typical = spreads[spreads.length >> 1] ?? 0;
 	$("#busy").hidden = typical < .1;
-	const again = [command, scene && `fastphong compare ${quoted(scene.name)} --size ${scene.w}x${scene.h}`, `fastphong explain ${BEST ?? BASE}`];
+	// A mesh alone is lit by the report, not by `compare`.
+	const again = [command, scene && !/:|\.obj$/i.test(scene.name) && `fastphong compare ${quoted(scene.name)} --size ${scene.w}x${scene.h}`, `fastphong explain ${BEST ?? BASE}`];
 	$("#machine").innerHTML = html`${facts.filter(([, value]) => value).map(([name, value]) => html`<dt>${name}</dt><dd>${value}</dd>`)}`;
 	write({ timed: D.timed, compared: D.compared, typical: num(typical * 100, 2), again: again.filter(Boolean).join("\n") });
 	$("#get-json").onclick = () => save("fastphong-report.json", $("#fastphong-data").textContent, "application/json");
