@@ -42,7 +42,7 @@ fn engines(c: &mut Criterion) {
         });
         group.bench_function("floor", |b| {
             let mut depth = vec![0.0f32; picture.width() * BAND];
-            b.iter(|| floor(black_box(&mut depth), picture.texels_mut()));
+            b.iter(|| floor(black_box(&mut depth), picture.pixels_mut()));
         });
         for method in METHODS {
             let variant = Variant::parse(method).expect("a method of the table");
@@ -95,7 +95,7 @@ fn over_floor(c: &mut Criterion) {
     group.sampling_mode(SamplingMode::Flat);
     group.bench_function("floor", |b| {
         let mut depth = vec![0.0f32; picture.width() * BAND];
-        b.iter(|| floor(black_box(&mut depth), picture.texels_mut()));
+        b.iter(|| floor(black_box(&mut depth), picture.pixels_mut()));
     });
     for method in ["gouraud", "naive-phong", "phong-rsqrt"] {
         let variant = Variant::parse(method).expect("a method of the table");
@@ -112,15 +112,15 @@ fn over_floor(c: &mut Criterion) {
 }
 
 /// Clears depth and colour, tests depth and writes both, for every pixel, band by band.
-fn floor(depth: &mut [f32], texels: &mut [[u8; 4]]) {
-    for band in texels.chunks_mut(depth.len()) {
+fn floor(depth: &mut [f32], pixels: &mut [[u8; 4]]) {
+    for band in pixels.chunks_mut(depth.len()) {
         depth.fill(f32::INFINITY);
         band.fill([0; 4]);
         let near = black_box(0.5);
-        for (z, texel) in depth.iter_mut().zip(band) {
+        for (z, pixel) in depth.iter_mut().zip(band) {
             let is_nearer = near < *z;
             *z = if is_nearer { near } else { *z };
-            *texel = if is_nearer { [1, 2, 3, 255] } else { *texel };
+            *pixel = if is_nearer { [1, 2, 3, 255] } else { *pixel };
         }
     }
 }

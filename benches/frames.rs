@@ -20,7 +20,7 @@ fn frames(c: &mut Criterion) {
         let frame = scenes::scene(mesh).frame().expect("a valid scene");
         let triangles = triangulated(&frame).frame;
         let covered = polygon_numbers(&frame)
-            .texels()
+            .pixels()
             .iter()
             .filter(|number| **number != NOTHING)
             .count();

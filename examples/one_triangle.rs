@@ -79,7 +79,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut file = format!("P6\n{} {}\n255\n", picture.width(), picture.height()).into_bytes();
     file.extend(
         picture
-            .texels()
+            .pixels()
             .iter()
             .flat_map(|[r, g, b, _]| [*r, *g, *b]),
     );

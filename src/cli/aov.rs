@@ -54,10 +54,10 @@ impl Aov {
             Aov::Colours | Aov::Checkerboard => {
                 store(&self.linear(frame, square), frame.encoding())
             }
-            Aov::Normal => raster::normals(frame).map(|texel| texel.map(quantise)),
+            Aov::Normal => raster::normals(frame).map(|pixel| pixel.map(quantise)),
             Aov::Depth => {
                 let depth = raster::depth(frame);
-                let drawn = depth.texels().iter().filter(|depth| depth.is_finite());
+                let drawn = depth.pixels().iter().filter(|depth| depth.is_finite());
                 let (near, far) = drawn.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), d| {
                     (d.min(a), d.max(b))
                 });

@@ -10,7 +10,7 @@ use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
 use fastphong::number::suggest::nearest;
 use fastphong::picture::encoding::store;
-use fastphong::picture::image_file::{FilePicture, FileTexels};
+use fastphong::picture::image_file::{FilePicture, FilePixels};
 use fastphong::picture::{Encoding, Picture, Picture8};
 use fastphong::raster::{self, Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
@@ -179,7 +179,7 @@ impl RenderJob {
                 _,
                 renderer,
             ) => variant.render_rows(&self.frame, *renderer, take),
-            _ => take(self.picture(false).to_stored().texels()),
+            _ => take(self.picture(false).to_stored().pixels()),
         }
     }
 
@@ -220,12 +220,12 @@ impl RenderJob {
     pub fn picture(&self, linear: bool) -> FilePicture {
         let mut picture = self.drawn(linear);
         if self.opaque
-            && let FileTexels::Stored(stored) = &mut picture.texels
+            && let FilePixels::Stored(stored) = &mut picture.pixels
         {
             stored
-                .texels_mut()
+                .pixels_mut()
                 .iter_mut()
-                .for_each(|texel| texel[3] = 255);
+                .for_each(|pixel| pixel[3] = 255);
         }
         picture
     }

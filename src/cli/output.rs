@@ -57,7 +57,7 @@ impl Output {
     ) -> Result<(), CliError> {
         self.write_by(|out| {
             let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
-            rows(&mut |texels| file.texels(texels))?;
+            rows(&mut |pixels| file.pixels(pixels))?;
             file.finish()
         })
     }

@@ -400,7 +400,7 @@ mod tests {
             assert_eq!(check(32, &[&above, &below]), 0);
             let cut = triangulated(&shape(32, 32, &[&above, &below]));
             assert!(
-                covered(&cut.frame).texels().iter().all(|&n| n == 1),
+                covered(&cut.frame).pixels().iter().all(|&n| n == 1),
                 "{ragged:?}"
             );
         }

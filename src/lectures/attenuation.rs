@@ -55,7 +55,7 @@ fn floor(falloff: Falloff, intensity: f32) -> Result<LinearPicture> {
 
 /// Returns the part of a picture, in per cent, that is darker than so many grey levels.
 fn below(levels: f32, picture: &LinearPicture) -> f64 {
-    100.0 * share(picture, |texel| texel[0] < levels / 255.0)
+    100.0 * share(picture, |pixel| pixel[0] < levels / 255.0)
 }
 
 fn curves(content: &mut FigureContent) -> Result {
@@ -79,7 +79,7 @@ fn floors(content: &mut FigureContent) -> Result {
     let (mut panels, mut rows, mut clipped) = (Vec::new(), Vec::new(), Vec::new());
     for (label, falloff) in FALLOFFS {
         let picture = floor(falloff, 1.0)?;
-        let white = 100.0 * share(&picture, |texel| texel[0] >= 1.0);
+        let white = 100.0 * share(&picture, |pixel| pixel[0] >= 1.0);
         let cells = [white, below(1.0, &picture), below(10.0, &picture)];
         let cells = cells.map(|share| format!("{} %", written(share)));
         rows.push(format!("{label} | {}", cells.join(" | ")));

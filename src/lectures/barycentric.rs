@@ -53,10 +53,10 @@ fn without_signs(p: DVec2) -> Weights {
 /// Draws every pixel that `weights` calls inside, in the colour of its weights.
 fn painted(weights: fn(DVec2) -> Weights) -> LinearPicture {
     let mut picture = Picture::new(SIDE, SIDE, [0.0; 4]);
-    for (texel, p) in picture.texels_mut().iter_mut().zip(pixels()) {
+    for (pixel, p) in picture.pixels_mut().iter_mut().zip(pixels()) {
         if is_in(weights(p)) {
             let [r, g, b] = weights(p).map(|w| w as f32);
-            *texel = [r, g, b, 1.0];
+            *pixel = [r, g, b, 1.0];
         }
     }
     picture
@@ -71,7 +71,7 @@ fn pictures(content: &mut FigureContent) -> Result {
     let mut grid = Raster::new(SIDE, SIDE, DVec3::ZERO);
     let colours = [DVec3::X, DVec3::X, DVec3::Z];
     raster_colored_triangle(TRIANGLE, colours, Inside::Closed, &mut grid);
-    let gradient = grid.colours.map(|texel| texel.map(|c| c as f32));
+    let gradient = grid.colours.map(|pixel| pixel.map(|c| c as f32));
     let mut right = painted(exact);
     let centre = centre_of_mass(TRIANGLE);
     for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {

@@ -27,7 +27,7 @@ const SIDE: u32 = 96;
 type F64Picture = Picture<[f64; 4]>;
 
 fn eight_bits(picture: &F64Picture) -> Picture8 {
-    picture.map(|texel| texel.map(|c| libm::round(255.0 * c) as u8))
+    picture.map(|pixel| pixel.map(|c| libm::round(255.0 * c) as u8))
 }
 
 /// Makes a red sphere under a yellow and a blue light at positions, lit as CS171 does it.
@@ -80,7 +80,7 @@ fn highlights(content: &mut FigureContent) -> Result {
             ("Algorithm 7 as printed", eight_bits(&raw)),
         ],
     );
-    let green = [&gouraud, &phong, &raw].map(|p| p.texels().iter().map(|texel| 255.0 * texel[1]));
+    let green = [&gouraud, &phong, &raw].map(|p| p.pixels().iter().map(|pixel| 255.0 * pixel[1]));
     let [gouraud, phong, raw] = green.clone().map(largest);
     let [_, with_unit, as_printed] = green;
     let lost = largest(with_unit.zip(as_printed).map(|(unit, raw)| unit - raw));
@@ -159,7 +159,7 @@ fn floors(behind: f64) -> Result<[F64Picture; 2]> {
 
 /// Counts the pixels that `a` covers and `b` does not.
 fn only(a: &F64Picture, b: &F64Picture) -> usize {
-    let pairs = a.texels().iter().zip(b.texels());
+    let pairs = a.pixels().iter().zip(b.pixels());
     pairs.filter(|(a, b)| a[3] > b[3]).count()
 }
 

@@ -73,7 +73,7 @@ fn ways(content: &mut FigureContent) -> Result {
     let scene = far_away()?;
     let by = |source| Ok::<_, FigureError>(depth(&with(&scene, BITS[2].1, source).frame()?));
     let (corners, samples) = (by(DepthSource::Interpolated)?, by(DepthSource::PerSample)?);
-    let both = corners.texels().iter().zip(samples.texels());
+    let both = corners.pixels().iter().zip(samples.pixels());
     let both = both.filter(|(a, b)| a.is_finite() && b.is_finite());
     let difference = largest(both.map(|(a, b)| f64::from((a - b).abs())));
     // Corners, and each step along an edge and a span, round depths of up to 1 by 2⁻²⁵, on both

@@ -77,7 +77,7 @@ fn grid(content: &mut FigureContent) -> Result {
             let sphere = shiny(strength, exponent, light, 56)?;
             let picture = drawn(sphere, SpecularModel::Phong)?;
             // Brighter than diffuse and ambient light alone can be.
-            bright.push(share(&picture, |texel| texel[0] > 0.22 + strength / 2.0));
+            bright.push(share(&picture, |pixel| pixel[0] > 0.22 + strength / 2.0));
             panels.push((format!("k_s {strength}, p {exponent}"), stored(&picture)));
         }
     }

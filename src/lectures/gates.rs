@@ -65,7 +65,7 @@ fn gates(content: &mut FigureContent) -> Result {
     // A surface that has no more than ambient light is turned away from the light.
     let matte = torus(MATTE, SpecularGate::Gated)?;
     let behind = |picture: &LinearPicture| {
-        let pairs = || picture.texels().iter().zip(matte.texels());
+        let pairs = || picture.pixels().iter().zip(matte.pixels());
         let is_away = |m: &[f32; 4]| m[3] > 0.0 && f64::from(m[0]) <= 0.08 + 1e-6;
         let shines = |(p, m): &(&[f32; 4], &[f32; 4])| is_away(m) && p[0] - m[0] > 2.0 / 255.0;
         let away = pairs().filter(|(_, m)| is_away(m)).count();

@@ -50,9 +50,9 @@ fn terms(content: &mut FigureContent) -> Result {
         ],
     );
     let mut sum = ambient;
-    let others = diffuse.texels().iter().zip(specular.texels());
-    for (texel, (d, s)) in sum.texels_mut().iter_mut().zip(others) {
-        (0..3).for_each(|c| texel[c] += d[c] + s[c]);
+    let others = diffuse.pixels().iter().zip(specular.pixels());
+    for (pixel, (d, s)) in sum.pixels_mut().iter_mut().zip(others) {
+        (0..3).for_each(|c| pixel[c] += d[c] + s[c]);
     }
     let difference = levels(&sum, &all);
     content.confirms(
@@ -69,8 +69,8 @@ fn diffuse_series(content: &mut FigureContent) -> Result {
     let (mut panels, mut ratios) = (Vec::new(), Vec::new());
     for kd in [0.25f32, 0.5, 0.75, 1.0] {
         let picture = sphere(grey(0.0, kd, 0.0, 1.0))?;
-        let texels = picture.texels().iter();
-        ratios.push(texels.fold(0.0, |most, texel| texel[0].max(most)) / kd);
+        let pixels = picture.pixels().iter();
+        ratios.push(pixels.fold(0.0, |most, pixel| pixel[0].max(most)) / kd);
         panels.push((format!("k_d = {kd}"), stored(&picture)));
     }
     content.pictures(4, "A sphere in diffuse light", panels);
@@ -110,8 +110,8 @@ fn top(frame: &Frame, picture: &LinearPicture, degrees: f64) -> Option<f64> {
         let normal = polygon.map(|p| DVec3::from_array(frame.polygon_normal(p).map(f64::from)));
         normal.is_some_and(|normal| normal.dot(up) > 0.999)
     };
-    let pixel = polygon_numbers(frame).texels().iter().position(is_top)?;
-    Some(f64::from(picture.texels()[pixel][0]))
+    let pixel = polygon_numbers(frame).pixels().iter().position(is_top)?;
+    Some(f64::from(picture.pixels()[pixel][0]))
 }
 
 /// Turns a cube under light from above (L5: "top face of 60° rotated cube intercepts half the

@@ -26,7 +26,7 @@ pub(super) fn covered_by_both<'a>(
     a: &'a LinearPicture,
     b: &'a LinearPicture,
 ) -> impl Iterator<Item = ([f32; 4], [f32; 4])> + 'a {
-    let pairs = a.texels().iter().copied().zip(b.texels().iter().copied());
+    let pairs = a.pixels().iter().copied().zip(b.pixels().iter().copied());
     pairs.filter(|(a, b)| a[3] > 0.0 && b[3] > 0.0)
 }
 
@@ -49,7 +49,7 @@ pub(super) fn differing(a: &LinearPicture, b: &LinearPicture) -> usize {
     let differ = |(a, b): &(&[f32; 4], &[f32; 4])| {
         a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.5 / 255.0)
     };
-    a.texels().iter().zip(b.texels()).filter(differ).count()
+    a.pixels().iter().zip(b.pixels()).filter(differ).count()
 }
 
 /// Returns the percentage of `all` that `part` is; 0 of nothing.
@@ -59,14 +59,14 @@ pub(super) fn percent(part: usize, all: usize) -> f64 {
 
 /// Returns the share of the covered pixels for which `is` holds, 0..=1.
 pub(super) fn share(picture: &LinearPicture, is: impl Fn([f32; 4]) -> bool) -> f64 {
-    let covered = || picture.texels().iter().filter(|texel| texel[3] > 0.0);
-    covered().filter(|texel| is(**texel)).count() as f64 / covered().count().max(1) as f64
+    let covered = || picture.pixels().iter().filter(|pixel| pixel[3] > 0.0);
+    covered().filter(|pixel| is(**pixel)).count() as f64 / covered().count().max(1) as f64
 }
 
 /// Returns the grey levels of a row, from left to right.
 pub(super) fn profile(picture: &LinearPicture, row: usize) -> Vec<f64> {
-    let texels = picture.row(row).iter();
-    texels.map(|texel| 255.0 * f64::from(texel[0])).collect()
+    let pixels = picture.row(row).iter();
+    pixels.map(|pixel| 255.0 * f64::from(pixel[0])).collect()
 }
 
 /// The jump of a curve: its right side minus its left side.

@@ -151,8 +151,8 @@ fn opposed(content: &mut FigureContent) -> Result {
     let mut not_finite = 0;
     for steps in STEPS {
         let fast = draw(&frame, &format!("fast-phong:steps={steps}"))?;
-        let texels = fast.texels().iter();
-        not_finite += texels.filter(|texel| !texel[0].is_finite()).count();
+        let pixels = fast.pixels().iter();
+        not_finite += pixels.filter(|pixel| !pixel[0].is_finite()).count();
         let worst = levels(&fast, &naive);
         let name = plural(steps);
         content.contradicts(

@@ -144,7 +144,7 @@ fn weight(content: &mut FigureContent) -> Result {
     let [z_a, z_b] = ENDS;
     let drawn = strip()?;
     let alphas = || (0..STRIP).map(|x| 1.0 - (x as f64 + 0.5) / STRIP as f64);
-    let red = drawn.row(0).iter().map(|texel| f64::from(texel[0]));
+    let red = drawn.row(0).iter().map(|pixel| f64::from(pixel[0]));
     let engine: Vec<(f64, f64)> = alphas().zip(red).collect();
     let corrected = |alpha| weight_in_space(alpha, z_a, z_b);
     let printed = |alpha| printed_weight_in_space(alpha, z_a, z_b);

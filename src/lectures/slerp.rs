@@ -46,8 +46,8 @@ fn turns(vectors: Vec<DVec3>) -> Vec<f64> {
 fn speed(content: &mut FigureContent) -> Result {
     const DEGREES: f64 = 120.0;
     let picture = normals(&strip(DEGREES)?);
-    let linear_normals = picture.row(2).iter().map(|texel| {
-        let [x, y, z, _] = texel.map(|c| 2.0 * f64::from(c) - 1.0);
+    let linear_normals = picture.row(2).iter().map(|pixel| {
+        let [x, y, z, _] = pixel.map(|c| 2.0 * f64::from(c) - 1.0);
         DVec3::new(x, y, z)
     });
     let dt = 1.0 / SPAN as f32;
@@ -201,7 +201,7 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
         let frame = strip(degrees)?;
         let drawn = draw(&frame, "slerp-phong")?;
         let exact = reference::render(&frame, Model::Slerp).picture;
-        let pairs = drawn.texels().iter().zip(exact.texels());
+        let pairs = drawn.pixels().iter().zip(exact.pixels());
         // A pixel that is not a number counts as wrong by white.
         let levels = |a: f32, b: f64| (255.0 * (f64::from(a) - b).abs()).min(255.0);
         let off = largest(pairs.map(|(a, b)| levels(a[0], b[0])));

@@ -118,10 +118,10 @@ fn between(picture: &LinearPicture, position: [f64; 2]) -> Option<[f32; 4]> {
             }
             let is_inside =
                 x >= 0.0 && y >= 0.0 && x < picture.width() as f64 && y < picture.height() as f64;
-            let texel = is_inside
+            let pixel = is_inside
                 .then(|| picture.get(x as usize, y as usize))
-                .filter(|texel| texel[3] > 0.0)?;
-            for (sum, channel) in sum.iter_mut().zip(texel) {
+                .filter(|pixel| pixel[3] > 0.0)?;
+            for (sum, channel) in sum.iter_mut().zip(pixel) {
                 *sum += part * f64::from(channel);
             }
         }
@@ -134,7 +134,7 @@ fn between(picture: &LinearPicture, position: [f64; 2]) -> Option<[f32; 4]> {
 /// degrees.
 fn angles(a: &LinearPicture, b: &LinearPicture) -> f64 {
     let normal =
-        |texel: [f32; 4]| DVec3::from_array([0, 1, 2].map(|i| 2.0 * f64::from(texel[i]) - 1.0));
+        |pixel: [f32; 4]| DVec3::from_array([0, 1, 2].map(|i| 2.0 * f64::from(pixel[i]) - 1.0));
     largest(covered_by_both(a, b).map(|(a, b)| angle(normal(a), normal(b))))
 }
 
@@ -297,16 +297,16 @@ mod tests {
     #[test]
     fn turning_back_undoes_a_quarter_turn_to_the_bit() {
         // Row 0 of the turned picture, left to right, is the left column of the original, upward.
-        let texel = |n: usize| [n as f32 / 9.0, 0.0, 0.0, 1.0];
+        let pixel = |n: usize| [n as f32 / 9.0, 0.0, 0.0, 1.0];
         let upright =
-            LinearPicture::from_texels(3, 3, (0..9).map(texel).collect()).expect("nine texels");
-        let turned = [6, 3, 0, 7, 4, 1, 8, 5, 2].map(texel).to_vec();
-        let turned = LinearPicture::from_texels(3, 3, turned).expect("nine texels");
+            LinearPicture::from_pixels(3, 3, (0..9).map(pixel).collect()).expect("nine pixels");
+        let turned = [6, 3, 0, 7, 4, 1, 8, 5, 2].map(pixel).to_vec();
+        let turned = LinearPicture::from_pixels(3, 3, turned).expect("nine pixels");
         assert_eq!(turned_back(&turned, 90.0), upright);
     }
 
     #[test]
-    fn a_position_between_texels_is_linear_and_needs_all_of_them() {
+    fn a_position_between_pixels_is_linear_and_needs_all_of_them() {
         let mut picture = LinearPicture::new(2, 2, [0.0, 0.0, 0.0, 1.0]);
         picture.row_mut(0)[1] = [1.0, 0.5, 0.0, 1.0];
         assert_eq!(

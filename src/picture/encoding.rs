@@ -65,7 +65,7 @@ pub fn srgb_decode(encoded: f64) -> f64 {
     libm::pow((encoded + 0.055) / 1.055, 2.4)
 }
 
-/// Stores linear texels with a transfer function, as fast as a table look-up and as exactly as the function itself.
+/// Stores linear pixels with a transfer function, as fast as a table look-up and as exactly as the function itself.
 #[derive(Debug)]
 pub struct Encoder {
     /// The least intensity that is stored as each level; two that no intensity reaches at the end.
@@ -111,7 +111,7 @@ impl Encoder {
         level
     }
 
-    /// Returns a linear texel as it is stored; alpha has no transfer function.
+    /// Returns a linear pixel as it is stored; alpha has no transfer function.
     #[inline(always)]
     pub fn store(&self, [r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
         [self.level(r), self.level(g), self.level(b), quantise(alpha)]
@@ -121,10 +121,10 @@ impl Encoder {
 /// Returns a linear picture as it is stored.
 pub fn store(picture: &LinearPicture, encoding: Encoding) -> Picture8 {
     match encoding {
-        Encoding::Linear => picture.map(|texel| texel.map(quantise)),
+        Encoding::Linear => picture.map(|pixel| pixel.map(quantise)),
         Encoding::Srgb => {
             let encoder = Encoder::srgb();
-            picture.map(|texel| encoder.store(texel))
+            picture.map(|pixel| encoder.store(pixel))
         }
     }
 }

@@ -1,12 +1,12 @@
-//! Pictures: in memory, as grey levels, in files. A picture is a rectangle of texels, row 0 at the top.
+//! Pictures: in memory, as grey levels, in files. A picture is a rectangle of pixels, row 0 at the top.
 
 pub mod encoding;
 #[cfg(feature = "io")]
 pub mod image_file;
-mod texel;
+mod pixel;
 
 pub use encoding::Encoding;
-pub use texel::{Levels, Texel};
+pub use pixel::{Levels, Pixel};
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -14,12 +14,12 @@ use alloc::vec::Vec;
 /// A colour or a per-channel coefficient: red, green, blue, linear, usually in 0..=1.
 pub type Rgb = [f32; 3];
 
-/// A rectangle of texels, stored row by row from the top.
+/// A rectangle of pixels, stored row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture<T> {
     width: usize,
     height: usize,
-    texels: Vec<T>,
+    pixels: Vec<T>,
 }
 
 /// A stored picture: red, green, blue, alpha in 0..=255; alpha is 255 where something was drawn, 0 elsewhere.
@@ -29,25 +29,25 @@ pub type Picture8 = Picture<[u8; 4]>;
 pub type LinearPicture = Picture<[f32; 4]>;
 
 impl<T: Copy> Picture<T> {
-    /// Makes a picture of `width` × `height` texels, all `fill`.
+    /// Makes a picture of `width` × `height` pixels, all `fill`.
     pub fn new(width: usize, height: usize, fill: T) -> Self {
         Picture {
             width,
             height,
-            texels: vec![fill; width * height],
+            pixels: vec![fill; width * height],
         }
     }
 
-    /// Makes a picture from `texels`, row by row from the top; `None` unless there are `width` × `height` of them.
-    pub fn from_texels(width: usize, height: usize, texels: Vec<T>) -> Option<Self> {
-        (texels.len() == width * height).then_some(Picture {
+    /// Makes a picture from `pixels`, row by row from the top; `None` unless there are `width` × `height` of them.
+    pub fn from_pixels(width: usize, height: usize, pixels: Vec<T>) -> Option<Self> {
+        (pixels.len() == width * height).then_some(Picture {
             width,
             height,
-            texels,
+            pixels,
         })
     }
 
-    /// Returns the number of texels a row.
+    /// Returns the number of pixels a row.
     pub fn width(&self) -> usize {
         self.width
     }
@@ -57,37 +57,37 @@ impl<T: Copy> Picture<T> {
         self.height
     }
 
-    /// Returns all texels, row by row from the top.
-    pub fn texels(&self) -> &[T] {
-        &self.texels
+    /// Returns all pixels, row by row from the top.
+    pub fn pixels(&self) -> &[T] {
+        &self.pixels
     }
 
-    /// Returns all texels, to be changed.
-    pub fn texels_mut(&mut self) -> &mut [T] {
-        &mut self.texels
+    /// Returns all pixels, to be changed.
+    pub fn pixels_mut(&mut self) -> &mut [T] {
+        &mut self.pixels
     }
 
-    /// Returns one row of texels.
+    /// Returns one row of pixels.
     pub fn row(&self, y: usize) -> &[T] {
-        &self.texels[y * self.width..][..self.width]
+        &self.pixels[y * self.width..][..self.width]
     }
 
-    /// Returns one row of texels, to be changed.
+    /// Returns one row of pixels, to be changed.
     pub fn row_mut(&mut self, y: usize) -> &mut [T] {
-        &mut self.texels[y * self.width..][..self.width]
+        &mut self.pixels[y * self.width..][..self.width]
     }
 
-    /// Returns the texel in column `x` of row `y`.
+    /// Returns the pixel in column `x` of row `y`.
     pub fn get(&self, x: usize, y: usize) -> T {
         self.row(y)[x]
     }
 
-    /// Returns the picture with every texel passed through `f`.
+    /// Returns the picture with every pixel passed through `f`.
     pub fn map<U: Copy>(&self, f: impl Fn(T) -> U) -> Picture<U> {
         Picture {
             width: self.width,
             height: self.height,
-            texels: self.texels.iter().map(|&t| f(t)).collect(),
+            pixels: self.pixels.iter().map(|&t| f(t)).collect(),
         }
     }
 }

@@ -179,9 +179,9 @@ fn shown(
         });
     };
     match edges {
-        None => draw_rows(frame, picture.texels_mut(), draw),
+        None => draw_rows(frame, picture.pixels_mut(), draw),
         // The barycentric renderer comes back to samples that it drew.
-        Some(_) => draw_anyhow(frame, picture.texels_mut(), draw),
+        Some(_) => draw_anyhow(frame, picture.pixels_mut(), draw),
     }
     picture
 }

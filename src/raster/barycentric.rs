@@ -225,16 +225,16 @@ mod tests {
         // Depth is constant over a triangle, so that only the rounding of it could part the two: one depth in 2²³.
         let frame = triangles(30_000, 300);
         let scanline = polygon_numbers(&frame);
-        let seen = scanline.texels().iter().filter(|n| **n != NOTHING);
+        let seen = scanline.pixels().iter().filter(|n| **n != NOTHING);
         assert!(
             seen.clone().any(|n| *n > 65_536 / 3),
             "numbers of over 16 bits are among them"
         );
         let barycentric = barycentric_polygon_numbers(&frame, Edges::TopLeft);
         let other = scanline
-            .texels()
+            .pixels()
             .iter()
-            .zip(barycentric.texels())
+            .zip(barycentric.pixels())
             .filter(|(a, b)| a != b)
             .count();
         assert_eq!(other, 0, "of {} pixels", seen.count());

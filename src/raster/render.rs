@@ -30,7 +30,7 @@ impl Variant {
     /// // Every method covers the same pixels.
     /// for method in METHODS {
     ///     let other = method.variant().render(&frame);
-    ///     assert!(picture.texels().iter().zip(other.texels()).all(|(a, b)| a[3] == b[3]));
+    ///     assert!(picture.pixels().iter().zip(other.pixels()).all(|(a, b)| a[3] == b[3]));
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -103,15 +103,15 @@ impl Variant {
         #[cfg(feature = "simd")]
         if let Renderer::Row(level) = self.plan(frame, renderer).renderer {
             let is_bytes = T::bytes(&mut []).is_some();
-            let pixels = picture.texels_mut();
+            let pixels = picture.pixels_mut();
             return super::rows::draw(self, frame, level, is_bytes, &mut |height, draw| {
                 draw_bands(frame, (height, 0), pixels, draw);
             });
         }
-        picture.texels_mut().fill(T::background(frame));
+        picture.pixels_mut().fill(T::background(frame));
         let _ = renderer; // without SIMD there is one engine
         let setup = SetUp::new(self, frame, Level::Scalar, 1.0);
-        draw_rows(frame, picture.texels_mut(), |target| {
+        draw_rows(frame, picture.pixels_mut(), |target| {
             spans::draw(&setup, target)
         });
     }
@@ -160,7 +160,7 @@ impl Variant {
         }
         let mut picture = Picture8::new(0, 0, [0; 4]);
         self.render_with(frame, renderer, &mut picture);
-        take(picture.texels())
+        take(picture.pixels())
     }
 
     /// Draws the triangles of `frame` with the barycentric renderer. Returns `None` if it does not have this method.
@@ -190,7 +190,7 @@ impl Variant {
             return None;
         }
         let setup = SetUp::new(self, frame, Level::Scalar, 1.0);
-        draw_anyhow(frame, picture.texels_mut(), |target| {
+        draw_anyhow(frame, picture.pixels_mut(), |target| {
             barycentric::draw(&setup, edges, target);
         });
         Some(picture)

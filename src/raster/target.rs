@@ -153,7 +153,7 @@ pub(super) fn draw_anyhow<T: Stored>(
     let mut samples = linear_samples(frame);
     draw(&mut Direct {
         width: frame.width(),
-        pixels: samples.texels_mut(),
+        pixels: samples.pixels_mut(),
     });
     draw_rows(frame, pixels, |target| {
         for row in 0..samples.height() {

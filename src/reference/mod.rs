@@ -102,27 +102,27 @@ pub struct ReferencePicture {
 impl ReferencePicture {
     /// Returns the picture in single precision.
     pub fn to_linear(&self) -> LinearPicture {
-        self.picture.map(|texel| texel.map(|c| c as f32))
+        self.picture.map(|pixel| pixel.map(|c| c as f32))
     }
 
     /// Returns the picture in eight bits: round(255 c), with no transfer function.
     pub fn to_picture8(&self) -> Picture8 {
         self.picture
-            .map(|texel| texel.map(|c| libm::round(255.0 * c) as u8))
+            .map(|pixel| pixel.map(|c| libm::round(255.0 * c) as u8))
     }
 }
 
-/// Returns the mean of each `side` × `side` texels, alpha too: a texel that nothing covers has the background's colour.
+/// Returns the mean of each `side` × `side` pixels, alpha too: a pixel that nothing covers has the background's colour.
 fn filtered(samples: &Picture<[f64; 4]>, side: usize) -> Picture<[f64; 4]> {
     let mut picture = Picture::new(samples.width() / side, samples.height() / side, [0.0; 4]);
     for y in 0..picture.height() {
-        for (x, texel) in picture.row_mut(y).iter_mut().enumerate() {
+        for (x, pixel) in picture.row_mut(y).iter_mut().enumerate() {
             let rows =
                 (y * side..(y + 1) * side).map(|row| &samples.row(row)[x * side..(x + 1) * side]);
             for sample in rows.flatten() {
-                *texel = core::array::from_fn(|c| texel[c] + sample[c]);
+                *pixel = core::array::from_fn(|c| pixel[c] + sample[c]);
             }
-            *texel = texel.map(|sum| sum / (side * side) as f64);
+            *pixel = pixel.map(|sum| sum / (side * side) as f64);
         }
     }
     picture

@@ -94,7 +94,7 @@ fn added(base: &[Vec<u8>], picture: &[Vec<u8>]) -> Vec<Vec<u8>> {
 
 /// Splits a picture into green, red − green and blue − green; coverage is not kept.
 fn planes(picture: &Picture8) -> Vec<Vec<u8>> {
-    let plane = |of: fn(&[u8; 4]) -> u8| picture.texels().iter().map(of).collect();
+    let plane = |of: fn(&[u8; 4]) -> u8| picture.pixels().iter().map(of).collect();
     Vec::from([
         plane(|[_, g, _, _]| *g),
         plane(|[r, g, _, _]| r.wrapping_sub(*g)),
@@ -250,12 +250,12 @@ mod tests {
 
     #[test]
     fn halving_takes_means() {
-        let texels = [[0, 10, 100, 255], [2, 10, 101, 255], [8, 11, 12, 9]];
-        let picture = Picture8::from_texels(3, 1, texels.into()).unwrap();
+        let pixels = [[0, 10, 100, 255], [2, 10, 101, 255], [8, 11, 12, 9]];
+        let picture = Picture8::from_pixels(3, 1, pixels.into()).unwrap();
         let small = [[1, 10, 101, 255], [8, 11, 12, 255]];
         assert_eq!(
             halved(&picture),
-            Picture8::from_texels(2, 1, small.into()).unwrap()
+            Picture8::from_pixels(2, 1, small.into()).unwrap()
         );
     }
 

@@ -47,7 +47,7 @@ pub struct Object {
 /// All that a picture shows.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Texels a row, 1..=[`Scene::MAX_SIDE`].
+    /// Pixels a row, 1..=[`Scene::MAX_SIDE`].
     pub width: u32,
     /// Rows, 1..=[`Scene::MAX_SIDE`].
     pub height: u32,
@@ -88,7 +88,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Makes a scene of nothing, seen by `camera` on 640 × 480 texels under white ambient light; everything else as in a scene file that
+    /// Makes a scene of nothing, seen by `camera` on 640 × 480 pixels under white ambient light; everything else as in a scene file that
     /// says nothing, but without its light. For `Scene { objects, ..Scene::new(camera) }`.
     pub fn new(camera: Camera) -> Scene {
         Scene {
@@ -113,7 +113,7 @@ impl Scene {
         }
     }
 
-    /// The longest side of a picture: 16,384 texels, as far as a 16-bit texel coordinate with two guard bits goes.
+    /// The longest side of a picture: 16,384 pixels, as far as a 16-bit pixel coordinate with two guard bits goes.
     pub const MAX_SIDE: u32 = 16_384;
     /// The most lights a scene may have.
     pub const MAX_LIGHTS: usize = 64;

@@ -1,7 +1,7 @@
 //! `fastphong render --aov`: what is known of each pixel besides its colour.
 
 use super::{Folder, SPHERE, picture};
-use fastphong::picture::image_file::{FileTexels, read_picture};
+use fastphong::picture::image_file::{FilePixels, read_picture};
 
 #[test]
 fn aovs_show_depth_normals_and_polygons() {
@@ -20,14 +20,14 @@ fn aovs_show_depth_normals_and_polygons() {
             .done();
     }
     let depth = picture(&folder.path("depth.png"));
-    let drawn = depth.texels().iter().filter(|texel| texel[3] == 255);
+    let drawn = depth.pixels().iter().filter(|pixel| pixel[3] == 255);
     assert_eq!(
-        drawn.clone().map(|texel| texel[0]).max(),
+        drawn.clone().map(|pixel| pixel[0]).max(),
         Some(255),
         "the nearest pixel is white"
     );
     assert_eq!(
-        drawn.map(|texel| texel[0]).min(),
+        drawn.map(|pixel| pixel[0]).min(),
         Some(0),
         "the farthest pixel is black"
     );
@@ -39,9 +39,9 @@ fn aovs_show_depth_normals_and_polygons() {
         "{r} {g} {b}"
     );
 
-    let floats = |name: &str| match read_picture(&folder.path(name)).unwrap().texels {
-        FileTexels::Linear(floats) => floats,
-        FileTexels::Stored(_) => panic!("{name} holds no floats"),
+    let floats = |name: &str| match read_picture(&folder.path(name)).unwrap().pixels {
+        FilePixels::Linear(floats) => floats,
+        FilePixels::Stored(_) => panic!("{name} holds no floats"),
     };
     let raw = floats("depth.pfm");
     assert!((0.0..1.0).contains(&raw.get(32, 24)[0]) && raw.get(0, 0)[0] == f32::INFINITY);
@@ -81,7 +81,7 @@ fn aovs_show_vertex_colours_and_a_checkerboard() {
     let rgb = picture(&folder.path("rgb.png"));
     // Weights sum to 1, and so do the colours: 255, give or take a half for each of three roundings.
     let drawn: Vec<[u8; 4]> = rgb
-        .texels()
+        .pixels()
         .iter()
         .copied()
         .filter(|t| t[3] == 255)
@@ -114,7 +114,7 @@ fn aovs_show_vertex_colours_and_a_checkerboard() {
             .done();
         let board = picture(&folder.path("board.png"));
         let (mut light, mut dark) = (0, 0);
-        for t in board.texels().iter().filter(|t| t[3] == 255) {
+        for t in board.pixels().iter().filter(|t| t[3] == 255) {
             *(if t[0] > 128 { &mut light } else { &mut dark }) += 1;
         }
         // Half of the squares each, but of the one square.

@@ -94,9 +94,9 @@ fn maps_show_where() {
     let lit = |name: &str| {
         let map = picture(&folder.path(name));
         let lit = map
-            .texels()
+            .pixels()
             .iter()
-            .filter(|texel| texel[..3] != [0; 3])
+            .filter(|pixel| pixel[..3] != [0; 3])
             .count();
         assert_eq!((map.width(), map.height(), lit), (16, 12, 1), "{name}");
         map.get(3, 7)

@@ -106,9 +106,9 @@ fn view_zero_is_from_z_and_azimuth_turns_toward_x() {
         // The two directions differ by the rounding of a sine: places on the picture do so by less than 1/256 pixel,
         // which may move a pixel of the rim.
         let differing = turned
-            .texels()
+            .pixels()
             .iter()
-            .zip(placed.texels())
+            .zip(placed.pixels())
             .filter(|(a, b)| a[3] != b[3])
             .count();
         assert!(differing <= 2, "{view}: {differing} pixels");
@@ -136,9 +136,9 @@ fn material_flags_stand_over_every_material() {
         let drawn = picture(&folder.path("out.png"));
         assert!(
             drawn
-                .texels()
+                .pixels()
                 .iter()
-                .all(|texel| texel[3] == 0 || texel[..3] == [0; 3]),
+                .all(|pixel| pixel[3] == 0 || pixel[..3] == [0; 3]),
             "{input}"
         );
     }
@@ -150,9 +150,9 @@ fn without_lights_only_ambient_light_is_left() {
     // round(255 k_a)
     assert!(
         drawn
-            .texels()
+            .pixels()
             .iter()
-            .all(|texel| texel[3] == 0 || *texel == [51, 102, 153, 255])
+            .all(|pixel| pixel[3] == 0 || *pixel == [51, 102, 153, 255])
     );
     assert!(covered(&drawn) > 300);
 }

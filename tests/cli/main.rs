@@ -215,9 +215,9 @@ fn sphere(flags: &str) -> Picture8 {
 
 fn covered(picture: &Picture8) -> usize {
     picture
-        .texels()
+        .pixels()
         .iter()
-        .filter(|texel| texel[3] == 255)
+        .filter(|pixel| pixel[3] == 255)
         .count()
 }
 

@@ -51,8 +51,8 @@ fn a_difference_leaves_both_pictures_and_a_map() {
     let folder = Folder::new();
     folder.run(&format!("render {SPHERE} -o ref.png")).done();
     let mut changed = picture(&folder.path("ref.png"));
-    let texel = changed.get(32, 24);
-    changed.row_mut(24)[32] = [texel[0] - 3, texel[1], texel[2], 255];
+    let pixel = changed.get(32, 24);
+    changed.row_mut(24)[32] = [pixel[0] - 3, pixel[1], pixel[2], 255];
     write_picture(&folder.path("ref.png"), &FilePicture::stored(changed)).unwrap();
 
     let check = format!("render {SPHERE} --reference ref.png");
@@ -76,9 +76,9 @@ fn a_difference_leaves_both_pictures_and_a_map() {
     );
     let map = picture(&folder.path("ref.diff.png"));
     let lit = map
-        .texels()
+        .pixels()
         .iter()
-        .filter(|texel| texel[..3] != [0; 3])
+        .filter(|pixel| pixel[..3] != [0; 3])
         .count();
     assert!(lit == 1 && map.get(32, 24)[..3] != [0; 3], "{lit}");
 

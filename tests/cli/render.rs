@@ -2,7 +2,7 @@
 
 use super::{Folder, SPHERE, covered, picture, sphere};
 use fastphong::picture::Picture8;
-use fastphong::picture::image_file::{FileTexels, read_picture};
+use fastphong::picture::image_file::{FilePixels, read_picture};
 
 #[test]
 fn every_kind_of_input_gives_a_picture_of_the_size_asked_for() {
@@ -76,11 +76,11 @@ fn a_pfm_holds_linear_floats_and_every_format_the_same_picture() {
             .done();
     }
     folder.run(&format!("render {SPHERE} -o linear.png")).done();
-    let FileTexels::Linear(floats) = read_picture(&folder.path("out.pfm")).unwrap().texels else {
+    let FilePixels::Linear(floats) = read_picture(&folder.path("out.pfm")).unwrap().pixels else {
         panic!("no floats");
     };
     // Linear whatever the encoding: rounded, it is the linear picture.
-    let rounded = floats.map(|texel| texel.map(fastphong::picture::encoding::quantise));
+    let rounded = floats.map(|pixel| pixel.map(fastphong::picture::encoding::quantise));
     let colours = |picture: &Picture8| picture.map(|[r, g, b, _]| [r, g, b]);
     assert_eq!(
         colours(&rounded),
@@ -236,7 +236,7 @@ fn supersampled_pictures_have_the_size_of_the_scene() {
     );
     let partly = |picture: &Picture8| {
         picture
-            .texels()
+            .pixels()
             .iter()
             .filter(|t| t[3] > 0 && t[3] < 255)
             .count()

@@ -73,15 +73,15 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
     let mut failures = Vec::new();
     for scene in cases(None) {
         let decided = scene.decided();
-        let left_out = decided.texels().iter().filter(|decided| !**decided).count();
+        let left_out = decided.pixels().iter().filter(|decided| !**decided).count();
         println!(
             "{}: {left_out} of {} pixels are left out",
             scene.name,
-            decided.texels().len()
+            decided.pixels().len()
         );
         let fights = scene.name == "z-fighting"; // a depth buffer of 16 bits, whose levels are wide
         assert!(
-            fights || left_out * 1000 <= decided.texels().len(),
+            fights || left_out * 1000 <= decided.pixels().len(),
             "{}: {left_out} pixels left out",
             scene.name
         );
@@ -157,8 +157,8 @@ fn spans_take_as_few_steps_as_cannot_be_seen() {
             linear("fast-phong", frame),
             linear(&format!("fast-phong:steps={steps}"), frame),
         ];
-        let (a, b) = (pictures[0].texels(), pictures[1].texels());
-        let drawn = a.iter().filter(|texel| texel[3] > 0.0).count();
+        let (a, b) = (pictures[0].pixels(), pictures[1].pixels());
+        let drawn = a.iter().filter(|pixel| pixel[3] > 0.0).count();
         let others = a.iter().zip(b).filter(|(a, b)| a != b).count();
         1.0 - others as f64 / drawn as f64
     };
@@ -193,7 +193,7 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
         }
         let drawn = scene
             .seen()
-            .texels()
+            .pixels()
             .iter()
             .filter(|&&p| p != NOTHING)
             .count();
@@ -255,19 +255,19 @@ const WITHOUT_HIGHLIGHT: [&str; 6] = [
 /// is meant to.
 #[test]
 fn every_scene_is_lit() {
-    let wide = |texel: [f32; 4]| texel.map(f64::from);
+    let wide = |pixel: [f32; 4]| pixel.map(f64::from);
     for scene in cases(None) {
         let full = scene.truth(Model::Phong);
         let dull = matte(&scene.frame);
         let dull = reference::shade(&dull, scene.visibility(), Model::Phong).to_linear();
         let (mut drawn, mut lit, mut highlit) = (0usize, 0usize, 0usize);
-        for (i, &polygon) in scene.visibility().polygons.texels().iter().enumerate() {
+        for (i, &polygon) in scene.visibility().polygons.pixels().iter().enumerate() {
             if polygon == NOTHING {
                 continue;
             }
             let lighting = &scene.frame.lightings()
                 [scene.frame.polygons()[polygon as usize].material as usize];
-            let (full, dull) = (wide(full.texels()[i]), wide(dull.texels()[i]));
+            let (full, dull) = (wide(full.pixels()[i]), wide(dull.pixels()[i]));
             let most =
                 |c: usize| f64::from(lighting.lights.iter().map(|l| l.diffuse[c]).sum::<f32>());
             let shine =
@@ -285,7 +285,7 @@ fn every_scene_is_lit() {
             scene.name
         );
         assert!(
-            drawn * 20 > full.texels().len(),
+            drawn * 20 > full.pixels().len(),
             "{}: {drawn} pixels drawn",
             scene.name
         );

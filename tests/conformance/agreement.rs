@@ -123,13 +123,13 @@ fn a_light_behind_makes_no_highlight() {
     let mut compared = 0;
     for entry in METHODS {
         let picture = entry.variant().render_linear(&frame);
-        for (texel, normal) in picture.texels().iter().zip(normals.texels()) {
+        for (pixel, normal) in picture.pixels().iter().zip(normals.pixels()) {
             let n =
                 DVec3::new(normal[0].into(), normal[1].into(), normal[2].into()) * 2.0 - DVec3::ONE;
             // Far enough from the rim that no corner of the polygon, 4.5 degrees wide, faces the light.
-            if texel[3] > 0.0 && (0.3..0.6).contains(&n.dot(view)) {
+            if pixel[3] > 0.0 && (0.3..0.6).contains(&n.dot(view)) {
                 assert_eq!(
-                    texel[..3],
+                    pixel[..3],
                     Material::default().ambient,
                     "{}",
                     entry.info.name
@@ -146,15 +146,15 @@ fn a_light_behind_makes_no_highlight() {
 fn no_lights_means_ambient_only() {
     let frame = sphere(|scene| scene.lights.clear());
     for entry in METHODS {
-        for texel in entry
+        for pixel in entry
             .variant()
             .render_linear(&frame)
-            .texels()
+            .pixels()
             .iter()
             .filter(|t| t[3] > 0.0)
         {
             assert_eq!(
-                texel[..3],
+                pixel[..3],
                 Material::default().ambient,
                 "{}",
                 entry.info.name
@@ -170,7 +170,7 @@ fn stored_and_linear_pictures_agree() {
     for entry in METHODS {
         let stored = entry.variant().render(&frame);
         let linear = entry.variant().render_linear(&frame);
-        let rounded = linear.map(|texel| texel.map(fastphong::picture::encoding::quantise));
+        let rounded = linear.map(|pixel| pixel.map(fastphong::picture::encoding::quantise));
         assert_eq!(stored, rounded, "{}", entry.info.name);
         let mut reused = Picture::new(96, 72, [7u8; 4]);
         entry.variant().render_into(&frame, &mut reused);
@@ -285,15 +285,15 @@ fn orientation_matters_for_squares_only() {
     let back: Vec<[f32; 4]> = (0..n * n)
         .map(|i| lying.get(i / n, n - 1 - i % n))
         .collect();
-    let back = Picture::from_texels(n, n, back).expect("as many texels");
+    let back = Picture::from_pixels(n, n, back).expect("as many pixels");
     let other: Vec<[f32; 4]> = (0..n * n)
         .map(|i| lying.get(n - 1 - i / n, i % n))
         .collect();
-    let other = Picture::from_texels(n, n, other).expect("as many texels");
+    let other = Picture::from_pixels(n, n, other).expect("as many pixels");
     let inner = |x: usize, y: usize| (x as i32 - 64).abs() + (y as i32 - 64).abs() < 40;
     let most = |turned: &Picture<[f32; 4]>| {
         let pixels = (0..n * n).filter(|i| inner(i % n, i / n));
-        let differences = pixels.map(|i| (turned.texels()[i][0] - upright.texels()[i][0]).abs());
+        let differences = pixels.map(|i| (turned.pixels()[i][0] - upright.pixels()[i][0]).abs());
         differences.fold(0.0f32, f32::max)
     };
     // Half of the square is bright at 0 degrees and gray at 90: whichever way it is turned back.

@@ -200,9 +200,9 @@ fn vertex_colours_are_linear_on_the_surface() {
     let bent = vertex_colours(&seen(floor(true), Interpolation::Screen));
     let straight = vertex_colours(&frame);
     let most = bent
-        .texels()
+        .pixels()
         .iter()
-        .zip(straight.texels())
+        .zip(straight.pixels())
         .map(|(a, b)| (a[0] - b[0]).abs())
         .fold(0.0, f32::max);
     assert!(
@@ -221,10 +221,10 @@ fn colours_are_one_a_position_or_none() {
         builder.clone().finish().expect("a mesh"),
         Interpolation::Screen,
     ));
-    assert!(picture.texels().contains(&[1.0; 4]));
+    assert!(picture.pixels().contains(&[1.0; 4]));
     assert!(
         picture
-            .texels()
+            .pixels()
             .iter()
             .all(|t| *t == [1.0; 4] || t[3] == 0.0)
     );

@@ -216,9 +216,9 @@ fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
     assert_eq!((uncut, cut), (0, 1));
     let mut compared = 0;
     for (a, b) in whole
-        .texels()
+        .pixels()
         .iter()
-        .zip(part.texels())
+        .zip(part.pixels())
         .filter(|(_, b)| b[3] > 0.0)
     {
         // The new corners are snapped to 1/256 pixel, half of that off; intensities change by 0.8 over some 20 rows.
@@ -229,7 +229,7 @@ fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
         compared += 1;
     }
     assert!(
-        compared > 300 && whole.texels().iter().filter(|t| t[3] > 0.0).count() > compared,
+        compared > 300 && whole.pixels().iter().filter(|t| t[3] > 0.0).count() > compared,
         "{compared} pixels"
     );
 }
@@ -302,7 +302,7 @@ fn odd_places_give_pictures() {
                 let picture = entry.variant().render_linear(&frame);
                 assert!(
                     picture
-                        .texels()
+                        .pixels()
                         .iter()
                         .all(|t| t.iter().all(|c| (0.0..=1.0).contains(c)))
                 );

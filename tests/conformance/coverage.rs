@@ -199,7 +199,7 @@ fn the_barycentric_renderer_covers_the_same_pixels() {
         };
         assert_eq!(ours, drawn(Edges::TopLeft));
         let closed = drawn(Edges::Closed);
-        for (a, b) in ours.texels().iter().zip(closed.texels()) {
+        for (a, b) in ours.pixels().iter().zip(closed.pixels()) {
             assert!(a[3] <= b[3], "closed edges lose nothing");
             more += usize::from(a[3] < b[3]);
         }
@@ -228,8 +228,8 @@ fn at_equal_depth_the_first_polygon_is_seen() {
             raster::barycentric_polygon_numbers(&frame, Edges::TopLeft),
             reference::visibility(&frame).polygons,
         ];
-        assert!(flat.render(&frame).texels().iter().any(|t| t[3] > 0));
-        for number in numbers.iter().flat_map(|picture| picture.texels()) {
+        assert!(flat.render(&frame).pixels().iter().any(|t| t[3] > 0));
+        for number in numbers.iter().flat_map(|picture| picture.pixels()) {
             assert!(
                 [seen, NOTHING].contains(number),
                 "depth test {depth_test}: polygon {number} is seen"

@@ -75,12 +75,12 @@ fn algorithm_1_covers_closed_triangles() {
         for (i, &count) in covered.iter().enumerate() {
             assert_eq!(
                 count == 1,
-                closed.texels()[i] != NOTHING,
+                closed.pixels()[i] != NOTHING,
                 "at {}, {}",
                 i % 48,
                 i / 48
             );
-            on_edges += usize::from(closed.texels()[i] != owned.texels()[i]);
+            on_edges += usize::from(closed.pixels()[i] != owned.pixels()[i]);
             filled += count;
         }
     }
@@ -240,8 +240,8 @@ fn differ(frame: &Frame, shading: Shading, model: Model) -> (f64, usize) {
     let (mut worst, mut pixels) = (0.0f64, 0);
     for ((&count, a), b) in closed_cover(frame)
         .iter()
-        .zip(ours.texels())
-        .zip(truth.texels())
+        .zip(ours.pixels())
+        .zip(truth.pixels())
     {
         match count {
             0 => assert_eq!((a[3], b[3]), (0.0, 0.0)),
@@ -303,7 +303,7 @@ fn algorithm_7_as_printed_is_darker() {
     });
     let sum = |c: [f64; 4]| c[0] + c[1] + c[2];
     let (mut darker, mut most) = (0, 0.0f64);
-    for (a, b) in unit.texels().iter().zip(raw.texels()) {
+    for (a, b) in unit.pixels().iter().zip(raw.pixels()) {
         assert!(
             sum(*b) <= sum(*a) + 1e-12,
             "a shorter normal lights no pixel more"
@@ -339,16 +339,16 @@ fn algorithm_8_culls_back_faces() {
     assert_eq!(picture(&all, true), picture(&front, true));
     // The depth buffer alone would hide them as well, all but the rim.
     let other = picture(&all, false)
-        .texels()
+        .pixels()
         .iter()
-        .zip(picture(&front, true).texels())
+        .zip(picture(&front, true).pixels())
         .filter(|(a, b)| a != b)
         .count();
     assert!(other < 400, "{other}");
     // From inside, one sees back faces only: nothing.
     let inside = sphere(Interpolation::Screen, Culling::Front);
-    assert!(picture(&inside, true).texels().iter().all(|t| t[3] == 0.0));
-    assert!(picture(&inside, false).texels().iter().any(|t| t[3] == 1.0));
+    assert!(picture(&inside, true).pixels().iter().all(|t| t[3] == 0.0));
+    assert!(picture(&inside, false).pixels().iter().any(|t| t[3] == 1.0));
 }
 
 fn corner(x: f64, y: f64, z: f64) -> TriangleCorner {
@@ -452,16 +452,16 @@ fn algorithms_4_6_and_7_are_8_without_hidden_surfaces() {
         algorithm(&corners, light, reading, &mut bare);
         full_shading(shading, &corners, light, reading, &mut full);
         assert_eq!(bare.colours, full.colours, "{shading:?}");
-        assert!(bare.colours.texels().iter().filter(|t| t[3] == 1.0).count() > 200);
+        assert!(bare.colours.pixels().iter().filter(|t| t[3] == 1.0).count() > 200);
         let turned = [corners[2], corners[1], corners[0]];
         full_shading(shading, &turned, light, reading, &mut back);
         assert!(
-            back.colours.texels().iter().all(|t| t[3] == 0.0),
+            back.colours.pixels().iter().all(|t| t[3] == 0.0),
             "{shading:?}: culled"
         );
         algorithm(&turned, light, reading, &mut back);
         assert!(
-            back.colours.texels().iter().any(|t| t[3] == 1.0),
+            back.colours.pixels().iter().any(|t| t[3] == 1.0),
             "{shading:?}: as printed, drawn"
         );
     }
@@ -487,7 +487,7 @@ fn triangles_without_area_draw_nothing() {
                 &mut grid,
             );
         }
-        assert!(grid.colours.texels().iter().all(|t| *t == [0.0; 4]));
+        assert!(grid.colours.pixels().iter().all(|t| *t == [0.0; 4]));
         let places = triangle.map(|corner| ndc_to_screen(corner.ndc, [16, 16]));
         raster_triangle(places, [16, 16], Inside::Closed, |x, y, _| {
             panic!("{x}, {y} is filled")

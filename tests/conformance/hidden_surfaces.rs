@@ -54,7 +54,7 @@ fn depth_per_sample_is_interpolated_depth() {
         let (a, b) = (raster::depth(&interpolated), raster::depth(&per_sample));
         let truth = [&interpolated, &per_sample].map(|frame| reference::visibility(frame).depth);
         let mut differing = 0;
-        for (i, (a, b)) in a.texels().iter().zip(b.texels()).enumerate() {
+        for (i, (a, b)) in a.pixels().iter().zip(b.pixels()).enumerate() {
             assert_eq!(a.is_finite(), b.is_finite());
             if a.is_finite() {
                 assert!(
@@ -62,7 +62,7 @@ fn depth_per_sample_is_interpolated_depth() {
                     "{a} and {b} at pixel {i}"
                 );
                 differing += usize::from(a != b);
-                for (found, truth) in [(a, truth[0].texels()[i]), (b, truth[1].texels()[i])] {
+                for (found, truth) in [(a, truth[0].pixels()[i]), (b, truth[1].pixels()[i])] {
                     assert!(
                         (f64::from(*found) - truth).abs() <= bound,
                         "{found} is not {truth} at pixel {i}"
@@ -99,13 +99,13 @@ fn engines_and_reference_see_the_same_polygons() {
                 ] {
                     let mut differing = 0;
                     for (i, (seen, expected)) in seen
-                        .texels()
+                        .pixels()
                         .iter()
-                        .zip(truth.polygons.texels())
+                        .zip(truth.polygons.pixels())
                         .enumerate()
                     {
                         if seen != expected {
-                            let gap = truth.depth_gap.texels()[i];
+                            let gap = truth.depth_gap.pixels()[i];
                             assert!(gap <= margin, "{bits:?} {source:?}: {gap} at pixel {i}");
                             differing += 1;
                         }
@@ -141,7 +141,7 @@ fn sixteen_bits_fight_where_more_do_not() {
         let frame = builder.finish().expect("a frame");
         let truth = reference::visibility(&frame).polygons;
         let count = |picture: &fastphong::picture::Picture<u32>, number| {
-            picture.texels().iter().filter(|n| **n == number).count()
+            picture.pixels().iter().filter(|n| **n == number).count()
         };
         let ours = raster::polygon_numbers(&frame);
         assert_eq!(count(&ours, NOTHING), count(&truth, NOTHING));
@@ -266,9 +266,9 @@ fn pairs_pixel_by_pixel(frame: &Frame, alone: impl Fn(usize) -> Frame) -> Vec<(u
         .collect();
     let hides = |a: usize, b: usize| {
         let mut both = depths[a]
-            .texels()
+            .pixels()
             .iter()
-            .zip(depths[b].texels())
+            .zip(depths[b].pixels())
             .filter(|(a, b)| a.is_finite() && b.is_finite());
         // Corners are rounded to f32: what differs by a unit in the last place of 1 may be equal.
         both.any(|(a, b)| b - a > 1.0 / f64::from(1 << 24))
@@ -327,9 +327,9 @@ fn painted_wrong(name: &str) -> usize {
         seen(&shipped(name, HiddenSurfaces::default())),
     );
     painted
-        .texels()
+        .pixels()
         .iter()
-        .zip(buffered.texels())
+        .zip(buffered.pixels())
         .filter(|(a, b)| a != b)
         .count()
 }
@@ -373,7 +373,7 @@ fn the_scene_of_z_fighting_fights() {
     let star = |bits| {
         let frame = shipped("z-fighting", buffer(bits, DepthSource::Interpolated));
         raster::polygon_numbers(&frame)
-            .texels()
+            .pixels()
             .iter()
             .filter(|n| **n == 1)
             .count()
@@ -401,7 +401,7 @@ fn fighting_is_the_same_outside_of_a_margin() {
     // A step adds an increment to a depth of ½..1 and rounds it by 2^-25 at most; at most 48 + 36 steps lead to a sample,
     // and less than 16 operations before them. The increments are off by 2^-24 of all that depth rises by, 0.02.
     let margin = (48.0 + 36.0 + 16.0 + 2.0 * 0.02 * 84.0) * ROUNDING;
-    let all = depths[0].texels().iter().filter(|z| z.is_finite());
+    let all = depths[0].pixels().iter().filter(|z| z.is_finite());
     assert!(
         all.clone().all(|z| (0.97..0.999).contains(z)),
         "depth rises by less than 0.02 on either side"

@@ -213,17 +213,17 @@ fn square(turns: usize, normals: [DVec3; 4]) -> [((f64, f64), DVec3); 4] {
 /// The picture turned back by a quarter turn: what was drawn in the top row stands in the left column, upward.
 fn turned_back(picture: &LinearPicture) -> LinearPicture {
     let n = picture.width();
-    let texels = (0..n * n)
+    let pixels = (0..n * n)
         .map(|i| picture.get(n - 1 - i / n, i % n))
         .collect();
-    LinearPicture::from_texels(n, n, texels).expect("as many texels as before")
+    LinearPicture::from_pixels(n, n, pixels).expect("as many pixels as before")
 }
 
 fn largest_difference(a: &LinearPicture, b: &LinearPicture) -> f64 {
     let difference = |(x, y): (&[f32; 4], &[f32; 4])| f64::from((x[0] - y[0]).abs());
-    a.texels()
+    a.pixels()
         .iter()
-        .zip(b.texels())
+        .zip(b.pixels())
         .map(difference)
         .fold(0.0, f64::max)
 }

@@ -294,7 +294,7 @@ fn unlucky_places_make_no_artefacts() {
             if name == "opposite" {
                 // Blue has no specular term: at most ambient and diffuse light, 0.06 + 0.5 · 0.3.
                 assert!(
-                    picture.texels().iter().all(|t| t[2] <= 0.22),
+                    picture.pixels().iter().all(|t| t[2] <= 0.22),
                     "{}: a highlight without k_s",
                     entry.info.name
                 );

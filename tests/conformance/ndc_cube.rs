@@ -109,7 +109,7 @@ fn in_front_of_the_eye_the_test_is_clipping() {
             (0, 0, 1)
         );
         let drawn = raster::polygon_numbers(&frame)
-            .texels()
+            .pixels()
             .iter()
             .filter(|n| **n == 0)
             .count();
@@ -131,7 +131,7 @@ fn through_the_plane_of_the_eye_the_test_is_wrong() {
     scene.clipping = Clipping::Planes;
     let truth = raster::polygon_numbers(&scene.frame().expect("a frame"));
     assert_eq!(
-        truth.texels().iter().filter(|n| **n == 0).count(),
+        truth.pixels().iter().filter(|n| **n == 0).count(),
         3200,
         "not one pixel of the ground is drawn"
     );
@@ -211,7 +211,7 @@ fn anything_around_the_eye_gives_a_picture() {
             let picture = entry.variant().render_linear(&frame);
             assert!(
                 picture
-                    .texels()
+                    .pixels()
                     .iter()
                     .all(|t| t.iter().all(|c| (0.0..=1.0).contains(c))),
                 "{}",

@@ -146,11 +146,11 @@ fn the_comparison_catches_what_it_should() {
     let naive = picture("naive-phong");
     let mut moved = naive.clone();
     let lit = moved
-        .texels()
+        .pixels()
         .iter()
         .position(|t| t[0] > 100 && t[0] < 250)
         .expect("a lit pixel");
-    moved.texels_mut()[lit][0] += 2;
+    moved.pixels_mut()[lit][0] += 2;
     let levels = |other: &Picture8| levels_apart(&naive, other, |_, _| true).0;
     assert!(levels(&moved) > 1);
     assert!(levels(&picture("gouraud")) > 1);

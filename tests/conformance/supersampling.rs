@@ -67,14 +67,14 @@ fn a_constant_picture_stays_constant() {
             let face = picture.get(0, 0);
             // The face of `add` looks into the light; the corners do not.
             assert_eq!(face, [1.0; 4]);
-            assert!(picture.texels().iter().all(|t| *t == face));
+            assert!(picture.pixels().iter().all(|t| *t == face));
             for picture in pictures(&frame) {
                 let first = picture.get(0, 0);
                 // z of the normal, a rounding of `intensity`, goes through a few more roundings in each engine.
                 assert!((first[0] - intensity).abs() < 1e-6 && first[3] == 1.0);
                 assert!(
                     picture
-                        .texels()
+                        .pixels()
                         .iter()
                         .all(|t| (t[0] - first[0]).abs() < 1e-6 && t[3] == 1.0)
                 );
@@ -90,7 +90,7 @@ fn a_constant_picture_stays_constant() {
         for picture in pictures(&empty) {
             assert!(
                 picture
-                    .texels()
+                    .pixels()
                     .iter()
                     .all(|t| *t == [0.25, 0.5, 0.125, 0.0]),
                 "{n}"
@@ -204,7 +204,7 @@ fn every_sample_is_shaded() {
             let stored = entry.variant().render(&frame);
             assert_eq!(
                 stored,
-                small.map(|texel| texel.map(quantise)),
+                small.map(|pixel| pixel.map(quantise)),
                 "{}",
                 entry.info.name
             );

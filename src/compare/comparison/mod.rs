@@ -317,7 +317,7 @@ pub fn draw(
         polygons: frame.polygons().len(),
         triangles: frame.polygons().iter().map(|p| p.count as usize - 2).sum(),
         not_simple: cut.not_simple,
-        covered_pixels: reference.texels().iter().filter(is_covered).count(),
+        covered_pixels: reference.pixels().iter().filter(is_covered).count(),
         fragments,
         stats: frame.stats(),
         renderer: DrawnBy::new(renderer),

@@ -190,10 +190,10 @@ mod tests {
     #[test]
     fn a_pixel_is_the_same_if_all_its_samples_are() {
         let picture = Picture::new(2, 1, [0.0; 4]);
-        let samples = Picture::from_texels(4, 2, [1, 1, 2, 2, 1, 1, 2, 3].into()).unwrap();
+        let samples = Picture::from_pixels(4, 2, [1, 1, 2, 2, 1, 1, 2, 3].into()).unwrap();
         for changed in 0..8 {
             let mut other = samples.clone();
-            other.texels_mut()[changed] = 9;
+            other.pixels_mut()[changed] = 9;
             let same = [0, 1].map(|x| same_polygons(&samples, &other, &picture, x, 0));
             assert_eq!(
                 same,
@@ -208,8 +208,8 @@ mod tests {
         let reference = Picture::new(2, 1, [0.5, 0.5, 0.5, 1.0]);
         let mut actual = reference.clone();
         actual.row_mut(0)[1] = [0.9, 0.9, 0.9, 1.0];
-        let seen = Picture::from_texels(2, 1, [3, 4].into()).unwrap();
-        let shown = Picture::from_texels(2, 1, [3, 5].into()).unwrap();
+        let seen = Picture::from_pixels(2, 1, [3, 4].into()).unwrap();
+        let shown = Picture::from_pixels(2, 1, [3, 5].into()).unwrap();
         let same = difference(&reference, &actual, &seen, &seen);
         assert!(same.max > 0.39 && same.excluded == 0);
         let masked = difference(&reference, &actual, &seen, &shown);

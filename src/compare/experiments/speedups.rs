@@ -250,14 +250,14 @@ fn span_picture(variant: &Variant, corner: &SpeedCorner, length: usize) -> Pictu
     if corner.scalar {
         let mut colours = vec![[0.0f32; 3]; length];
         variant.shade_span(&bench, &mut colours);
-        for (pixel, colour) in picture.texels_mut().iter_mut().zip(&colours) {
+        for (pixel, colour) in picture.pixels_mut().iter_mut().zip(&colours) {
             let [red, green, blue] = colour.map(quantise);
             *pixel = [red, green, blue, 255];
         }
     } else {
         let mut row = SpanRow::new(variant, &bench, length);
         variant.shade_span_on(level(corner.scalar), &bench, &mut row);
-        picture.texels_mut().copy_from_slice(row.bytes());
+        picture.pixels_mut().copy_from_slice(row.bytes());
     }
     picture
 }
@@ -265,9 +265,9 @@ fn span_picture(variant: &Variant, corner: &SpeedCorner, length: usize) -> Pictu
 /// Returns the largest difference of a channel of two pictures of one size, in grey levels.
 fn farthest(a: &Picture8, b: &Picture8) -> u8 {
     let channels = a
-        .texels()
+        .pixels()
         .as_flattened()
         .iter()
-        .zip(b.texels().as_flattened());
+        .zip(b.pixels().as_flattened());
     channels.map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
 }

@@ -101,7 +101,7 @@ impl Perceived {
         let strength = |weights: &[f32]| {
             let across = columns(&rows(&y, weights), &smooth);
             let down = columns(&smooth_rows, weights);
-            let pairs = across.texels().iter().zip(down.texels());
+            let pairs = across.pixels().iter().zip(down.pixels());
             let lengths = pairs.map(|(x, y)| libm::sqrtf(x * x + y * y));
             lengths.collect::<Vec<f32>>()
         };
@@ -111,7 +111,7 @@ impl Perceived {
         // The colour of one pixel after the other: backgrounds are converted once.
         let mut last = ([f32::NAN; 4], Vec3::ZERO);
         let percept = |i: usize| {
-            let planes = [&blurred_y, &blurred_cx, &wide.1, &narrow.1].map(|p| p.texels()[i]);
+            let planes = [&blurred_y, &blurred_cx, &wide.1, &narrow.1].map(|p| p.pixels()[i]);
             if planes != last.0 {
                 let [y, cx, wide, narrow] = planes;
                 let cz = share * wide + (1.0 - share) * narrow;
@@ -125,7 +125,7 @@ impl Perceived {
             }
         };
         let percepts = (0..edges.len()).map(percept).collect();
-        let picture = Picture::from_texels(picture.width(), picture.height(), percepts);
+        let picture = Picture::from_pixels(picture.width(), picture.height(), percepts);
         Perceived(picture.expect("a percept for each pixel"))
     }
 
@@ -138,17 +138,17 @@ impl Perceived {
         let to_xyz: Mat3 = RGB_TO_XYZ.as_mat3();
         let [green, blue] = [Vec3::Y, Vec3::Z].map(|rgb| hunt_lab(to_xyz * rgb));
         let most = libm::powf(hyab(green, blue), QC);
-        let pairs = self.0.texels().iter().zip(actual.0.texels());
+        let pairs = self.0.pixels().iter().zip(actual.0.pixels());
         let errors = pairs.map(|(r, a)| error(r, a, most)).collect();
-        let map = Picture::from_texels(self.0.width(), self.0.height(), errors);
+        let map = Picture::from_pixels(self.0.width(), self.0.height(), errors);
         Ok(map.expect("an error for each pixel"))
     }
 }
 
 /// Returns the mean of a map of errors, 0 if it is empty.
 pub fn mean_flip(map: &Picture<f32>) -> f64 {
-    let sum: f64 = map.texels().iter().copied().map(f64::from).sum();
-    sum / map.texels().len().max(1) as f64
+    let sum: f64 = map.pixels().iter().copied().map(f64::from).sum();
+    sum / map.pixels().len().max(1) as f64
 }
 
 /// Returns a map of errors in the colours of magma, as the authors' tool writes it: black for 0, a light yellow for 1.
@@ -329,7 +329,7 @@ mod tests {
         ] {
             for size in [1, 24] {
                 let map = flip(&flat(size, reference), &flat(size, actual));
-                map.texels().iter().for_each(|error| near(*error, expected));
+                map.pixels().iter().for_each(|error| near(*error, expected));
             }
         }
     }
@@ -380,8 +380,8 @@ mod tests {
 
     #[test]
     fn colours_go_from_black_to_yellow() {
-        let map = Picture::from_texels(3, 1, [0.0, 0.5, 1.0].into()).expect("three");
+        let map = Picture::from_pixels(3, 1, [0.0, 0.5, 1.0].into()).expect("three");
         let colours = [[0, 0, 4, 255], [183, 55, 121, 255], [252, 253, 191, 255]];
-        assert_eq!(flip_colours(&map).texels(), colours);
+        assert_eq!(flip_colours(&map).pixels(), colours);
     }
 }

@@ -5,7 +5,7 @@
 //! is not; larger differences than the scale have a colour that the scale does not contain.
 
 use super::{SizeMismatch, channel_errors};
-use crate::picture::{Levels, Picture, Picture8, Texel};
+use crate::picture::{Levels, Picture, Picture8, Pixel};
 
 /// Colour of pixels without a difference.
 pub const EQUAL: [u8; 4] = [0, 0, 0, 255];
@@ -28,7 +28,7 @@ const DARKER: [[f64; 3]; 2] = [[16.0, 40.0, 92.0], [136.0, 200.0, 255.0]];
 ///
 /// # Errors
 /// If the sizes differ.
-pub fn difference_map<A: Texel, B: Texel>(
+pub fn difference_map<A: Pixel, B: Pixel>(
     reference: &Picture<A>,
     actual: &Picture<B>,
     scale: f32,
@@ -51,7 +51,7 @@ pub fn difference_map<A: Texel, B: Texel>(
 ///
 /// # Errors
 /// If the sizes differ.
-pub fn signed_difference_map<A: Texel, B: Texel>(
+pub fn signed_difference_map<A: Pixel, B: Pixel>(
     reference: &Picture<A>,
     actual: &Picture<B>,
     scale: f32,
@@ -64,15 +64,15 @@ pub fn signed_difference_map<A: Texel, B: Texel>(
     })
 }
 
-fn paint<A: Texel, B: Texel>(
+fn paint<A: Pixel, B: Pixel>(
     reference: &Picture<A>,
     actual: &Picture<B>,
     colour: impl Fn(Levels, Levels) -> [u8; 4],
 ) -> Result<Picture8, SizeMismatch> {
     SizeMismatch::check(reference, actual)?;
     let mut map = Picture8::new(reference.width(), reference.height(), EQUAL);
-    let pairs = reference.texels().iter().zip(actual.texels());
-    for (out, (r, a)) in map.texels_mut().iter_mut().zip(pairs) {
+    let pairs = reference.pixels().iter().zip(actual.pixels());
+    for (out, (r, a)) in map.pixels_mut().iter_mut().zip(pairs) {
         let (r, a) = (r.levels(), a.levels());
         *out = match r.alpha() == a.alpha() {
             true => colour(r, a),

@@ -37,7 +37,7 @@ mod list;
 mod map;
 mod ssim;
 
-use crate::picture::{Levels, Texel};
+use crate::picture::{Levels, Pixel};
 pub use flip::{Perceived, flip_colours, mean_flip};
 pub use list::{Better, METRICS, MetricInfo};
 pub use map::{BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, difference_map, signed_difference_map};
@@ -161,7 +161,7 @@ impl core::error::Error for SizeMismatch {}
 ///
 /// # Errors
 /// If the sizes differ.
-pub fn compare<A: Texel, B: Texel>(
+pub fn compare<A: Pixel, B: Pixel>(
     reference: &Picture<A>,
     actual: &Picture<B>,
 ) -> Result<Difference, SizeMismatch> {
@@ -175,7 +175,7 @@ pub fn compare<A: Texel, B: Texel>(
 ///
 /// # Errors
 /// If the sizes differ.
-pub fn compare_where<A: Texel, B: Texel>(
+pub fn compare_where<A: Pixel, B: Pixel>(
     reference: &Picture<A>,
     actual: &Picture<B>,
     included: impl Fn(usize, usize) -> bool,

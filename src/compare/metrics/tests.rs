@@ -197,7 +197,7 @@ fn coverage_is_counted_on_its_own() {
 #[test]
 fn thresholds_bite_beyond_whole_and_half_levels() {
     let reference = Picture8::new(3, 1, [200, 200, 200, 255]);
-    let actual = Picture8::from_texels(
+    let actual = Picture8::from_pixels(
         3,
         1,
         [[200, 201, 200, 255], [202, 200, 200, 255], [200; 4]].to_vec(),

@@ -31,7 +31,7 @@ use std::path::Path;
 use std::vec::Vec;
 
 use super::encoding::quantise;
-use super::{Levels, LinearPicture, Picture, Picture8, Texel};
+use super::{Levels, LinearPicture, Picture, Picture8, Pixel};
 
 mod error;
 mod netpbm;
@@ -91,9 +91,9 @@ impl Format {
     }
 }
 
-/// The texels that a file holds.
+/// The pixels that a file holds.
 #[derive(Clone, Debug, PartialEq)]
-pub enum FileTexels {
+pub enum FilePixels {
     /// Grey levels, from PNG or PPM.
     Stored(Picture8),
     /// Floats, from PFM.
@@ -103,8 +103,8 @@ pub enum FileTexels {
 /// The contents of a picture file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilePicture {
-    /// The texels; alpha is full where the file has none.
-    pub texels: FileTexels,
+    /// The pixels; alpha is full where the file has none.
+    pub pixels: FilePixels,
     /// True if the file says which pixels are covered.
     pub has_alpha: bool,
 }
@@ -113,7 +113,7 @@ impl FilePicture {
     /// Makes a picture of grey levels with alpha, as it goes into a PNG file.
     pub fn stored(picture: Picture8) -> FilePicture {
         FilePicture {
-            texels: FileTexels::Stored(picture),
+            pixels: FilePixels::Stored(picture),
             has_alpha: true,
         }
     }
@@ -121,34 +121,34 @@ impl FilePicture {
     /// Makes a picture of floats with alpha, as it is before it goes into a file.
     pub fn linear(picture: LinearPicture) -> FilePicture {
         FilePicture {
-            texels: FileTexels::Linear(picture),
+            pixels: FilePixels::Linear(picture),
             has_alpha: true,
         }
     }
 
     /// Returns width and height in pixels.
     pub fn size(&self) -> [usize; 2] {
-        match &self.texels {
-            FileTexels::Stored(picture) => [picture.width(), picture.height()],
-            FileTexels::Linear(picture) => [picture.width(), picture.height()],
+        match &self.pixels {
+            FilePixels::Stored(picture) => [picture.width(), picture.height()],
+            FilePixels::Linear(picture) => [picture.width(), picture.height()],
         }
     }
 
     /// Returns the picture in 8 bits a channel; floats are rounded by [`quantise`].
     pub fn to_stored(&self) -> Picture8 {
-        match &self.texels {
-            FileTexels::Stored(picture) => picture.clone(),
-            FileTexels::Linear(picture) => picture.map(|texel| texel.map(quantise)),
+        match &self.pixels {
+            FilePixels::Stored(picture) => picture.clone(),
+            FilePixels::Linear(picture) => picture.map(|pixel| pixel.map(quantise)),
         }
     }
 
     /// Returns the picture in floats; a grey level is 1/255.
     pub fn to_linear(&self) -> LinearPicture {
-        match &self.texels {
-            FileTexels::Stored(picture) => {
-                picture.map(|texel| texel.map(|level| f32::from(level) / 255.0))
+        match &self.pixels {
+            FilePixels::Stored(picture) => {
+                picture.map(|pixel| pixel.map(|level| f32::from(level) / 255.0))
             }
-            FileTexels::Linear(picture) => picture.clone(),
+            FilePixels::Linear(picture) => picture.clone(),
         }
     }
 
@@ -167,23 +167,23 @@ impl FilePicture {
     /// # Errors
     /// As [`FilePicture::encode`], and those of `out`.
     pub fn write_to(&self, format: Format, out: &mut dyn Write) -> io::Result<()> {
-        match (format, &self.texels) {
-            (Format::Png, FileTexels::Stored(picture)) => {
+        match (format, &self.pixels) {
+            (Format::Png, FilePixels::Stored(picture)) => {
                 out.write_all(&encode_png(picture).map_err(io::Error::other)?)
             }
-            (Format::Ppm, FileTexels::Stored(picture)) => netpbm::write_ppm(picture, out),
-            (Format::Pfm, FileTexels::Linear(picture)) => netpbm::write_pfm(picture, out),
-            (Format::Pfm, FileTexels::Stored(_)) => netpbm::write_pfm(&self.to_linear(), out),
-            (Format::Png | Format::Ppm, FileTexels::Linear(_)) => {
+            (Format::Ppm, FilePixels::Stored(picture)) => netpbm::write_ppm(picture, out),
+            (Format::Pfm, FilePixels::Linear(picture)) => netpbm::write_pfm(picture, out),
+            (Format::Pfm, FilePixels::Stored(_)) => netpbm::write_pfm(&self.to_linear(), out),
+            (Format::Png | Format::Ppm, FilePixels::Linear(_)) => {
                 FilePicture::stored(self.to_stored()).write_to(format, out)
             }
         }
     }
 
     fn levels(&self, with_alpha: bool) -> Picture<Levels> {
-        let levels = match &self.texels {
-            FileTexels::Stored(picture) => picture.map(Texel::levels),
-            FileTexels::Linear(picture) => picture.map(Texel::levels),
+        let levels = match &self.pixels {
+            FilePixels::Stored(picture) => picture.map(Pixel::levels),
+            FilePixels::Linear(picture) => picture.map(Pixel::levels),
         };
         match with_alpha {
             true => levels,
@@ -223,15 +223,15 @@ pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
 /// # Errors
 /// If the bytes are none of the formats, are broken or cut off, or hold more than [`MAX_PIXELS`] pixels.
 pub fn decode_picture(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
-    let (texels, has_alpha) = match announced(bytes).ok_or(DecodeError::NotAPicture)? {
+    let (pixels, has_alpha) = match announced(bytes).ok_or(DecodeError::NotAPicture)? {
         Format::Png => {
             let (picture, has_alpha) = png::decode(bytes)?;
-            (FileTexels::Stored(picture), has_alpha)
+            (FilePixels::Stored(picture), has_alpha)
         }
-        Format::Ppm => (FileTexels::Stored(netpbm::decode_ppm(bytes)?), false),
-        Format::Pfm => (FileTexels::Linear(netpbm::decode_pfm(bytes)?), false),
+        Format::Ppm => (FilePixels::Stored(netpbm::decode_ppm(bytes)?), false),
+        Format::Pfm => (FilePixels::Linear(netpbm::decode_pfm(bytes)?), false),
     };
-    Ok(FilePicture { texels, has_alpha })
+    Ok(FilePicture { pixels, has_alpha })
 }
 
 /// Returns the format that the first bytes of a file announce.

@@ -9,7 +9,7 @@ use std::{format, str};
 use super::{DecodeError, EncodeError, Format, checked_size};
 use crate::picture::{LinearPicture, Picture8};
 
-/// Texels that are converted at a time.
+/// Pixels that are converted at a time.
 const RUN: usize = 1 << 10;
 
 /// Bytes that are written at a time: enough for the cost of a call not to show, few enough to stay in a cache, and whole
@@ -20,7 +20,7 @@ const PIECE: usize = 1 << 17;
 pub(super) fn write_ppm(picture: &Picture8, out: impl Write) -> io::Result<()> {
     let (width, height) = (picture.width(), picture.height());
     let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
-    file.texels(picture.texels())?;
+    file.pixels(picture.pixels())?;
     file.finish()
 }
 
@@ -44,19 +44,19 @@ impl<W: Write> PpmWriter<W> {
         })
     }
 
-    /// Writes the next texels, row by row; alpha is dropped.
+    /// Writes the next pixels, row by row; alpha is dropped.
     ///
     /// # Errors
     /// If they cannot be written, or are more than the file has pixels.
-    pub fn texels(&mut self, texels: &[[u8; 4]]) -> io::Result<()> {
-        let problem = "there are more texels than pixels of the picture";
-        let missing = self.missing.checked_sub(texels.len());
+    pub fn pixels(&mut self, pixels: &[[u8; 4]]) -> io::Result<()> {
+        let problem = "there are more pixels than pixels of the picture";
+        let missing = self.missing.checked_sub(pixels.len());
         self.missing =
             missing.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, problem))?;
         let mut bytes = [0; 3 * RUN];
-        for texels in texels.chunks(RUN) {
-            let bytes = &mut bytes[..3 * texels.len()];
-            without_alpha(texels, bytes);
+        for pixels in pixels.chunks(RUN) {
+            let bytes = &mut bytes[..3 * pixels.len()];
+            without_alpha(pixels, bytes);
             self.pieces.write(bytes)?;
         }
         Ok(())
@@ -65,7 +65,7 @@ impl<W: Write> PpmWriter<W> {
     /// Writes what is left.
     ///
     /// # Errors
-    /// If it cannot be written, or texels are missing.
+    /// If it cannot be written, or pixels are missing.
     pub fn finish(self) -> io::Result<()> {
         match self.missing {
             0 => self.pieces.finish(),
@@ -85,11 +85,11 @@ pub(super) fn write_pfm(picture: &LinearPicture, out: impl Write) -> io::Result<
     let mut pieces = pieces.map_err(io::Error::other)?;
     let mut bytes = [[[0; 4]; 3]; RUN];
     for y in (0..height).rev() {
-        for texels in picture.row(y).chunks(RUN) {
-            for (bytes, &[r, g, b, _]) in bytes.iter_mut().zip(texels) {
+        for pixels in picture.row(y).chunks(RUN) {
+            for (bytes, &[r, g, b, _]) in bytes.iter_mut().zip(pixels) {
                 *bytes = [r, g, b].map(f32::to_le_bytes);
             }
-            let samples = bytes[..texels.len()].as_flattened().as_flattened();
+            let samples = bytes[..pixels.len()].as_flattened().as_flattened();
             pieces.write(samples)?;
         }
     }
@@ -126,18 +126,18 @@ impl<W: Write> Pieces<W> {
     }
 }
 
-/// Writes the colours of `texels`, three bytes each, into `bytes`.
-fn without_alpha(texels: &[[u8; 4]], bytes: &mut [u8]) {
-    // Four texels fill three words.
-    let (fours, last_texels) = texels.as_chunks::<4>();
+/// Writes the colours of `pixels`, three bytes each, into `bytes`.
+fn without_alpha(pixels: &[[u8; 4]], bytes: &mut [u8]) {
+    // Four pixels fill three words.
+    let (fours, last_pixels) = pixels.as_chunks::<4>();
     let (words, last_bytes) = bytes.split_at_mut(12 * fours.len());
     let words = words.as_chunks_mut::<4>().0.as_chunks_mut::<3>().0;
     for (words, &four) in words.iter_mut().zip(fours) {
         let [a, b, c, d] = four.map(|[r, g, b, _]| u32::from_le_bytes([r, g, b, 0]));
         *words = [a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8].map(u32::to_le_bytes);
     }
-    for (bytes, texel) in last_bytes.chunks_exact_mut(3).zip(last_texels) {
-        bytes.copy_from_slice(&texel[..3]);
+    for (bytes, pixel) in last_bytes.chunks_exact_mut(3).zip(last_pixels) {
+        bytes.copy_from_slice(&pixel[..3]);
     }
 }
 
@@ -166,8 +166,8 @@ pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
     }
     let level = |value: u32| ((510 * value + range) / (2 * range)) as u8;
     let mut picture = Picture8::new(width, height, [255; 4]);
-    for texel in picture.texels_mut() {
-        for (channel, value) in texel[..3].iter_mut().zip(&mut samples) {
+    for pixel in picture.pixels_mut() {
+        for (channel, value) in pixel[..3].iter_mut().zip(&mut samples) {
             *channel = level(value);
         }
     }
@@ -198,8 +198,8 @@ pub(super) fn decode_pfm(bytes: &[u8]) -> Result<LinearPicture, DecodeError> {
     let mut picture = LinearPicture::new(width, height, [1.0; 4]);
     for (row, samples) in samples.chunks_exact(width * channels).rev().enumerate() {
         let samples = samples.chunks_exact(channels);
-        for (texel, samples) in picture.row_mut(row).iter_mut().zip(samples) {
-            for (i, channel) in texel[..3].iter_mut().enumerate() {
+        for (pixel, samples) in picture.row_mut(row).iter_mut().zip(samples) {
+            for (i, channel) in pixel[..3].iter_mut().enumerate() {
                 *channel = from_bytes(samples[i % channels]);
             }
         }

@@ -23,7 +23,7 @@ pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
         .write_image(
-            picture.texels().as_flattened(),
+            picture.pixels().as_flattened(),
             width as u32,
             height as u32,
             ExtendedColorType::Rgba8,
@@ -48,8 +48,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Picture8, bool), DecodeError> {
     let [width, height] = checked_size(Format::Png, width.into(), height.into())?;
     let has_alpha = decoder.color_type().has_alpha();
     let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
-    let texels = image.into_rgba8().as_raw().as_chunks().0.to_vec();
-    let picture = Picture8::from_texels(width, height, texels);
+    let pixels = image.into_rgba8().as_raw().as_chunks().0.to_vec();
+    let picture = Picture8::from_pixels(width, height, pixels);
     let picture =
         picture.ok_or_else(|| malformed("the number of its pixels is not width × height"))?;
     Ok((picture, has_alpha))

@@ -8,7 +8,7 @@ use crate::compare::metrics::compare;
 
 /// A picture with every byte value, and uncovered pixels.
 fn stored() -> Picture8 {
-    let texel = |i: usize| {
+    let pixel = |i: usize| {
         [
             i as u8,
             (i * 7) as u8,
@@ -16,12 +16,12 @@ fn stored() -> Picture8 {
             if i.is_multiple_of(5) { 0 } else { 255 },
         ]
     };
-    Picture8::from_texels(32, 8, (0..256).map(texel).collect()).unwrap()
+    Picture8::from_pixels(32, 8, (0..256).map(pixel).collect()).unwrap()
 }
 
 /// A picture with values that need all bits of a float.
 fn linear() -> LinearPicture {
-    let texel = |i: usize| {
+    let pixel = |i: usize| {
         [
             i as f32 / 7.0,
             -1.0e-30 * i as f32,
@@ -29,7 +29,7 @@ fn linear() -> LinearPicture {
             1.0,
         ]
     };
-    LinearPicture::from_texels(5, 3, (0..15).map(texel).collect()).unwrap()
+    LinearPicture::from_pixels(5, 3, (0..15).map(pixel).collect()).unwrap()
 }
 
 fn encode_ppm(picture: &Picture8) -> io::Result<Vec<u8>> {
@@ -73,7 +73,7 @@ fn every_format_gives_back_what_it_holds() {
     assert_eq!(
         back,
         FilePicture {
-            texels: FileTexels::Stored(stored()),
+            pixels: FilePixels::Stored(stored()),
             has_alpha: true
         }
     );
@@ -81,7 +81,7 @@ fn every_format_gives_back_what_it_holds() {
     assert_eq!(
         back,
         FilePicture {
-            texels: FileTexels::Stored(opaque(&stored())),
+            pixels: FilePixels::Stored(opaque(&stored())),
             has_alpha: false
         }
     );
@@ -89,7 +89,7 @@ fn every_format_gives_back_what_it_holds() {
     assert_eq!(
         back,
         FilePicture {
-            texels: FileTexels::Linear(linear()),
+            pixels: FilePixels::Linear(linear()),
             has_alpha: false
         }
     );
@@ -97,13 +97,13 @@ fn every_format_gives_back_what_it_holds() {
 
 #[test]
 fn the_bytes_are_those_of_the_formats() {
-    let picture = Picture8::from_texels(1, 2, vec![[1, 2, 3, 255], [4, 5, 6, 0]]).unwrap();
+    let picture = Picture8::from_pixels(1, 2, vec![[1, 2, 3, 255], [4, 5, 6, 0]]).unwrap();
     assert_eq!(
         encode_ppm(&picture).unwrap(),
         b"P6\n1 2\n255\n\x01\x02\x03\x04\x05\x06"
     );
     let picture =
-        LinearPicture::from_texels(1, 2, vec![[1.0, 0.5, 0.0, 1.0], [-2.0, 0.0, 0.0, 0.0]])
+        LinearPicture::from_pixels(1, 2, vec![[1.0, 0.5, 0.0, 1.0], [-2.0, 0.0, 0.0, 0.0]])
             .unwrap();
     let bytes = encode_pfm(&picture).unwrap();
     let (head, samples) = bytes.split_at(b"PF\n1 2\n-1.0\n".len());
@@ -128,7 +128,7 @@ const SIZES: [[usize; 2]; 8] = [
 #[test]
 fn large_pictures_are_written_as_small_ones() {
     for [width, height] in SIZES {
-        let texel = |i: usize| {
+        let pixel = |i: usize| {
             [
                 i as u8,
                 (i >> 8) as u8,
@@ -137,9 +137,9 @@ fn large_pictures_are_written_as_small_ones() {
             ]
         };
         let picture =
-            Picture8::from_texels(width, height, (0..width * height).map(texel).collect()).unwrap();
+            Picture8::from_pixels(width, height, (0..width * height).map(pixel).collect()).unwrap();
         let mut expected = format!("P6\n{width} {height}\n255\n").into_bytes();
-        expected.extend(picture.texels().iter().flat_map(|&[r, g, b, _]| [r, g, b]));
+        expected.extend(picture.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]));
         assert!(
             encode_ppm(&picture).unwrap() == expected,
             "{width}x{height}"
@@ -148,15 +148,15 @@ fn large_pictures_are_written_as_small_ones() {
         // In parts that end anywhere.
         let mut bytes = Vec::new();
         let mut file = PpmWriter::new(&mut bytes, width, height).unwrap();
-        for texels in picture.texels().chunks(1 + width * height / 7) {
-            file.texels(texels).unwrap();
+        for pixels in picture.pixels().chunks(1 + width * height / 7) {
+            file.pixels(pixels).unwrap();
         }
         file.finish().unwrap();
         assert!(bytes == expected, "{width}x{height} in parts");
 
-        let texel = |i: usize| [i as f32, -(i as f32), 1.0 / (i as f32), 0.5];
+        let pixel = |i: usize| [i as f32, -(i as f32), 1.0 / (i as f32), 0.5];
         let picture =
-            LinearPicture::from_texels(width, height, (0..width * height).map(texel).collect())
+            LinearPicture::from_pixels(width, height, (0..width * height).map(pixel).collect())
                 .unwrap();
         let mut expected = format!("PF\n{width} {height}\n-1.0\n").into_bytes();
         for y in (0..height).rev() {
@@ -164,7 +164,7 @@ fn large_pictures_are_written_as_small_ones() {
                 picture
                     .row(y)
                     .iter()
-                    .flat_map(|texel| texel[..3].iter().flat_map(|c| c.to_le_bytes())),
+                    .flat_map(|pixel| pixel[..3].iter().flat_map(|c| c.to_le_bytes())),
             );
         }
         assert!(
@@ -209,11 +209,11 @@ fn files_are_written_in_whole_pages() {
 }
 
 #[test]
-fn a_file_has_as_many_texels_as_its_header_says() {
+fn a_file_has_as_many_pixels_as_its_header_says() {
     let mut file = PpmWriter::new(Vec::new(), 3, 2).unwrap();
-    file.texels(&[[1; 4]; 4]).unwrap();
+    file.pixels(&[[1; 4]; 4]).unwrap();
     assert_eq!(
-        file.texels(&[[1; 4]; 3]).unwrap_err().kind(),
+        file.pixels(&[[1; 4]; 3]).unwrap_err().kind(),
         io::ErrorKind::InvalidInput
     );
     assert_eq!(
@@ -232,12 +232,12 @@ fn a_file_has_as_many_texels_as_its_header_says() {
 #[test]
 fn pictures_are_converted_to_what_a_format_holds() {
     let shades =
-        LinearPicture::from_texels(2, 1, vec![[0.5, 2.0, f32::NAN, 1.0], [0.0, 0.25, 1.0, 0.0]])
+        LinearPicture::from_pixels(2, 1, vec![[0.5, 2.0, f32::NAN, 1.0], [0.0, 0.25, 1.0, 0.0]])
             .unwrap();
     let picture = FilePicture::linear(shades);
     let png = decode_picture(&picture.encode(Format::Png).unwrap()).unwrap();
     assert_eq!(
-        png.to_stored().texels(),
+        png.to_stored().pixels(),
         [[128, 255, 0, 255], [0, 64, 255, 0]]
     );
     assert_eq!(
@@ -338,20 +338,20 @@ fn png_files_of_all_colour_types_are_read() {
         .unwrap();
         decode_picture(&out).unwrap()
     };
-    let texels = |picture: &FilePicture| picture.to_stored().texels().to_vec();
+    let pixels = |picture: &FilePicture| picture.to_stored().pixels().to_vec();
     let grey = encode(&[7, 200], image::ExtendedColorType::L8);
     assert_eq!(
-        (texels(&grey), grey.has_alpha),
+        (pixels(&grey), grey.has_alpha),
         (vec![[7, 7, 7, 255], [200, 200, 200, 255]], false)
     );
     let grey = encode(&[7, 0, 200, 255], image::ExtendedColorType::La8);
     assert_eq!(
-        (texels(&grey), grey.has_alpha),
+        (pixels(&grey), grey.has_alpha),
         (vec![[7, 7, 7, 0], [200, 200, 200, 255]], true)
     );
     let colour = encode(&[1, 2, 3, 4, 5, 6], image::ExtendedColorType::Rgb8);
     assert_eq!(
-        (texels(&colour), colour.has_alpha),
+        (pixels(&colour), colour.has_alpha),
         (vec![[1, 2, 3, 255], [4, 5, 6, 255]], false)
     );
     // 16 bits, most significant byte first in the file, in the machine's order here: 257 k is k, and 0x017f = 383 is 1.49 levels.
@@ -360,7 +360,7 @@ fn png_files_of_all_colour_types_are_read() {
         .flat_map(|sample| sample.to_ne_bytes())
         .collect();
     assert_eq!(
-        texels(&encode(&deep, image::ExtendedColorType::Rgb16)),
+        pixels(&encode(&deep, image::ExtendedColorType::Rgb16)),
         [[1, 2, 255, 255], [0, 1, 1, 255]]
     );
 }
@@ -388,7 +388,7 @@ fn png_palettes_are_looked_up() {
     .concat();
     let picture = decode_picture(&bytes).unwrap();
     assert_eq!(
-        picture.to_stored().texels(),
+        picture.to_stored().pixels(),
         [[40, 50, 60, 255], [10, 20, 30, 255]]
     );
 
@@ -424,17 +424,17 @@ fn crc(bytes: &[u8]) -> u32 {
 
 #[test]
 fn ppm_files_of_others_are_read() {
-    let texels = |bytes: &[u8]| decode_picture(bytes).unwrap().to_stored().texels().to_vec();
+    let pixels = |bytes: &[u8]| decode_picture(bytes).unwrap().to_stored().pixels().to_vec();
     assert_eq!(
-        texels(b"P6 # by hand\n#\n 1\t1 \r\n 255\n\x01\x20\n"),
+        pixels(b"P6 # by hand\n#\n 1\t1 \r\n 255\n\x01\x20\n"),
         [[1, 32, 10, 255]],
         "samples may look like space"
     );
-    assert_eq!(texels(b"P6 1 1 1 \x00\x01\x01"), [[0, 255, 255, 255]]);
+    assert_eq!(pixels(b"P6 1 1 1 \x00\x01\x01"), [[0, 255, 255, 255]]);
     // 7/15 of 255 is 119; in 16 bits, 32768/65535 of 255 is 127.502.
-    assert_eq!(texels(b"P6 1 1 15 \x00\x07\x0f"), [[0, 119, 255, 255]]);
+    assert_eq!(pixels(b"P6 1 1 15 \x00\x07\x0f"), [[0, 119, 255, 255]]);
     assert_eq!(
-        texels(b"P6 1 1 65535 \x00\x00\x80\x00\xff\xff"),
+        pixels(b"P6 1 1 65535 \x00\x00\x80\x00\xff\xff"),
         [[0, 128, 255, 255]]
     );
 }
@@ -445,9 +445,9 @@ fn pfm_files_of_others_are_read() {
         [text.as_bytes(), &sample.repeat(count)].concat()
     };
     let picture = decode_picture(&header("PF 1 1\n2.5\n", 0.25f32.to_be_bytes(), 3)).unwrap();
-    assert_eq!(picture.to_linear().texels(), [[0.25, 0.25, 0.25, 1.0]]);
+    assert_eq!(picture.to_linear().pixels(), [[0.25, 0.25, 0.25, 1.0]]);
     let picture = decode_picture(&header("Pf\n2 1\n-1\n", 0.75f32.to_le_bytes(), 2)).unwrap();
-    assert_eq!(picture.to_linear().texels(), [[0.75, 0.75, 0.75, 1.0]; 2]);
+    assert_eq!(picture.to_linear().pixels(), [[0.75, 0.75, 0.75, 1.0]; 2]);
 }
 
 #[test]

@@ -153,8 +153,8 @@ impl Raster {
         let share = 1.0 / (side * side) as f64;
         for (x, y) in (0..height * side).flat_map(|y| (0..width * side).map(move |x| (x, y))) {
             let sample = self.colours.get(x, y);
-            let texel = &mut picture.row_mut(y / side)[x / side];
-            *texel = core::array::from_fn(|c| texel[c] + share * sample[c]);
+            let pixel = &mut picture.row_mut(y / side)[x / side];
+            *pixel = core::array::from_fn(|c| pixel[c] + share * sample[c]);
         }
         picture
     }

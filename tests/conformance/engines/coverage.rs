@@ -152,7 +152,7 @@ fn shipped_scenes_are_covered_as_in_the_lecture() {
         let (scene, frame) = (&case.name, &case.frame);
         for method in ["flat", "slerp-phong"].map(variant) {
             let drawn = covered(&method.render_linear(frame));
-            assert!(drawn.texels().iter().any(|&drawn| drawn));
+            assert!(drawn.pixels().iter().any(|&drawn| drawn));
             for renderer in renderers() {
                 for threads in 1..=3 {
                     let ours = on_threads(threads, || {

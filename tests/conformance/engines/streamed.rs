@@ -13,18 +13,18 @@ const HEIGHT: u32 = 270;
 
 /// The picture of the rows that are given away, and in how many parts they were.
 fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, usize) {
-    let (mut texels, mut parts) = (Vec::new(), 0);
+    let (mut pixels, mut parts) = (Vec::new(), 0);
     let Ok(()) = variant.render_rows(frame, renderer, |rows| {
         assert!(
             !rows.is_empty() && rows.len().is_multiple_of(frame.picture_width()),
             "whole rows"
         );
-        texels.extend_from_slice(rows);
+        pixels.extend_from_slice(rows);
         parts += 1;
         Ok::<(), Infallible>(())
     });
-    let picture = Picture::from_texels(frame.picture_width(), frame.picture_height(), texels)
-        .expect("every texel once");
+    let picture = Picture::from_pixels(frame.picture_width(), frame.picture_height(), pixels)
+        .expect("every pixel once");
     (picture, parts)
 }
 

@@ -18,7 +18,7 @@ fn bytes(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, Pic
         stored,
         variant
             .render_linear_with(frame, renderer)
-            .map(|texel| texel.map(f32::to_bits)),
+            .map(|pixel| pixel.map(f32::to_bits)),
     )
 }
 
@@ -62,7 +62,7 @@ fn bands_leave_no_seams() {
         let frame = scene.frame().expect("a frame");
         for variant in METHODS.iter().map(|entry| entry.variant()) {
             let drawn = covered(&variant.render_linear(&frame));
-            assert!(drawn.texels().contains(&true));
+            assert!(drawn.pixels().contains(&true));
             for renderer in renderers() {
                 let who = || {
                     format!(
@@ -72,7 +72,7 @@ fn bands_leave_no_seams() {
                     )
                 };
                 let one = on_threads(1, || bytes(&variant, &frame, renderer));
-                assert_eq!(one.1.map(|texel| texel[3] != 0), drawn, "{}", who());
+                assert_eq!(one.1.map(|pixel| pixel[3] != 0), drawn, "{}", who());
                 for threads in [2, 3] {
                     let again = on_threads(threads, || bytes(&variant, &frame, renderer));
                     assert!(

@@ -57,5 +57,5 @@ fn assert_equal_sizes<T: Copy>(a: &Picture<T>, b: &Picture<T>) {
 
 /// Returns which pixels are covered.
 pub fn covered(picture: &LinearPicture) -> Picture<bool> {
-    picture.map(|texel| texel[3] > 0.0)
+    picture.map(|pixel| pixel[3] > 0.0)
 }

@@ -1,11 +1,11 @@
-//! Texels of every kind, seen as grey levels.
+//! Pixels of every kind, seen as grey levels.
 
 /// Weights of red, green and blue in luminance (ITU-R BT.709-6, item 3.2).
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// Red, green, blue, alpha in grey levels: 0 is black, 255 is full, as in a stored picture but with fractions.
 ///
-/// A texel of 8 bits and the difference of two of them are exact in this unit, so that thresholds of whole levels
+/// A pixel of 8 bits and the difference of two of them are exact in this unit, so that thresholds of whole levels
 /// bite where they say; `1.0 / 255.0` has no such luck.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Levels(pub [f64; 4]);
@@ -31,25 +31,25 @@ impl Levels {
     }
 }
 
-/// A texel that can be compared: one that can be stated in grey levels.
-pub trait Texel: Copy {
-    /// This texel in grey levels.
+/// A pixel that can be compared: one that can be stated in grey levels.
+pub trait Pixel: Copy {
+    /// This pixel in grey levels.
     fn levels(self) -> Levels;
 }
 
-impl Texel for [u8; 4] {
+impl Pixel for [u8; 4] {
     fn levels(self) -> Levels {
         Levels(self.map(f64::from))
     }
 }
 
-impl Texel for [f32; 4] {
+impl Pixel for [f32; 4] {
     fn levels(self) -> Levels {
         Levels(self.map(|c| 255.0 * f64::from(c)))
     }
 }
 
-impl Texel for Levels {
+impl Pixel for Levels {
     fn levels(self) -> Levels {
         self
     }
