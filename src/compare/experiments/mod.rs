@@ -14,7 +14,7 @@ mod speedups;
 mod tests;
 
 pub use fit::{Observation, fit};
-pub use scaling::{Costs, Curve, Point, Scaling, ScalingOptions};
+pub use scaling::{Costs, Curve, Scaling, ScalingOptions, ScalingPoint};
 pub use speedups::{MethodSpeedups, SpeedCorner, Speedup, SpeedupOptions, Speedups, Work};
 
 use super::comparison::with_baseline;

@@ -67,7 +67,7 @@ impl Default for ScalingOptions {
 
 /// A frame: the counts of all that costs, and the time of projecting it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Point {
+pub struct ScalingPoint {
     /// About how many triangles were asked for.
     pub asked: usize,
     /// Pixels a row, rows.
@@ -109,7 +109,7 @@ pub struct Costs {
 
 impl Costs {
     /// Returns the sum of the costs at a point, in nanoseconds.
-    pub fn explain(&self, point: &Point) -> f64 {
+    pub fn explain(&self, point: &ScalingPoint) -> f64 {
         let costs = [
             self.triangle_ns,
             self.span_ns,
@@ -146,7 +146,7 @@ pub struct Scaling {
     /// The triangles asked for where pixels grow.
     pub of: usize,
     /// The frames that were drawn.
-    pub points: Vec<Point>,
+    pub points: Vec<ScalingPoint>,
     /// The methods; in the end naive Phong in the lecture's own form.
     pub curves: Vec<Curve>,
 }
@@ -242,7 +242,7 @@ impl Scaling {
         }
         let projection = timings.next().expect("a timing a candidate");
         self.points
-            .push(Point::new(frame, (asked, size, away), projection));
+            .push(ScalingPoint::new(frame, (asked, size, away), projection));
         for (curve, way) in self.curves.iter_mut().zip(ways) {
             let is_drawn = asked <= way.most;
             curve.times.push(is_drawn.then(|| timings.next()).flatten());
@@ -293,19 +293,19 @@ impl ScalingOptions {
     }
 }
 
-impl Point {
+impl ScalingPoint {
     /// Counts all that costs in a frame.
     fn new(
         frame: &Frame,
         (asked, size, away): (usize, [u32; 2], bool),
         projection: Timing,
-    ) -> Point {
+    ) -> ScalingPoint {
         let (mut spans, mut pixels) = (0, 0);
         coverage(frame, |_, _, span| {
             spans += usize::from(!span.is_empty());
             pixels += span.len();
         });
-        Point {
+        ScalingPoint {
             asked,
             size,
             away,
@@ -328,8 +328,8 @@ impl Point {
 
 /// Fits the time of projecting a vertex. In one family of meshes triangles are in proportion to vertices, so that no fit of
 /// frames could tell one from the other; therefore projecting is timed by itself.
-fn vertex_cost(points: &[Point]) -> Option<f64> {
-    let observe = |point: &Point| Observation {
+fn vertex_cost(points: &[ScalingPoint]) -> Option<f64> {
+    let observe = |point: &ScalingPoint| Observation {
         counts: [point.vertices as f64],
         total: point.projection.min_ns,
         scale: point.projection.min_ns,
@@ -340,11 +340,11 @@ fn vertex_cost(points: &[Point]) -> Option<f64> {
 
 /// Fits the costs that explain times beyond `vertex_ns` for each vertex. Least times are explained: points cannot be timed
 /// in turns with one another, and disturbances only add.
-fn costs(vertex_ns: f64, points: &[Point], times: &[Option<Timing>]) -> Option<Costs> {
+fn costs(vertex_ns: f64, points: &[ScalingPoint], times: &[Option<Timing>]) -> Option<Costs> {
     let timed = (0..).zip(points).zip(times);
     let timed = timed.filter_map(|((i, p), t)| Some((i, p, t.as_ref()?.min_ns)));
-    let timed: Vec<(usize, &Point, f64)> = timed.collect();
-    let observe = |&(_, point, ns): &(usize, &Point, f64)| Observation {
+    let timed: Vec<(usize, &ScalingPoint, f64)> = timed.collect();
+    let observe = |&(_, point, ns): &(usize, &ScalingPoint, f64)| Observation {
         counts: point.counts(),
         total: ns - point.projection.min_ns,
         scale: ns,
