@@ -120,7 +120,7 @@ impl RenderJob {
         let has: Vec<&str> = engine.flat_map(|engine| engine.methods()).collect();
         let is_known = |variant: &Variant| has.contains(&variant.info().name);
         if !matches!(method, Method::Variant(variant) if is_known(variant)) {
-            let problem = format!("{title} does not have `{method}`");
+            let problem = format!("{title} does not support the method `{method}`");
             return Err(format!("{problem}: expected one of {}", has.join(", ")).into());
         }
         refuse_simd(title, *simd)?;

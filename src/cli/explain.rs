@@ -134,7 +134,7 @@ fn example_bound(method: &Variant) -> Result<f64, CliError> {
 /// Returns counted operations as a table.
 fn costs(counts: &OperationCounts) -> String {
     let names = OPERATIONS.iter().map(|(name, ..)| (*name).to_owned());
-    let head = std::iter::once("  once a".to_owned()).chain(names);
+    let head = std::iter::once("  per".to_owned()).chain(names);
     let mut lines: Vec<Vec<String>> = vec![head.collect()];
     for (_, rate, of) in RATES {
         let counts = of(counts);

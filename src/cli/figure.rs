@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Draw figures of the lectures anew, with measured values beside them, as one page
+/// Redraw the lectures' figures, with measured values beside them, as one page
 #[derive(clap::Args, Debug)]
 pub struct FigureArgs {
     /// Figures, as `fastphong list figures` names them

@@ -133,7 +133,7 @@ impl InfoArgs {
                 "objects",
                 format!("{}, {polygons} polygons in all", objects.len()),
             ),
-            row("method", format!("{method} by auto: {why}")),
+            row("method", format!("{method} (chosen by auto: {why})")),
         ];
         let names = ["auto"].into_iter().chain(std::iter::repeat(""));
         rows.extend(

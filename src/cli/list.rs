@@ -143,10 +143,10 @@ fn method_text(info: &Info) -> String {
 pub fn exactness(info: &Info) -> String {
     let Roundings { start, step, of } = info.roundings;
     let (model, of) = (info.model.name(), stepped(of));
-    let text = format!("off its closed form, {model}, by {start} roundings of 2^-24 in its {of}");
+    let text = format!("error against the closed form `{model}`: {start} × 2^-24 in its {of}");
     match step {
         0.0 => text,
-        _ => format!("{text} and {step} more at every step"),
+        _ => format!("{text}, and {step} × 2^-24 more at every step"),
     }
 }
 

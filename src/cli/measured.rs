@@ -81,9 +81,9 @@ impl Measurement<'_> {
 #[derive(clap::Args, Debug)]
 pub struct TimingFlags {
     /// Methods between commas, with parameters as in `fast-phong:steps=1`, or `all`; naive-phong is always included
-    #[arg(short, long, value_name = "METHODS", default_value = "all", value_parser = methods)]
+    #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = "all", value_parser = methods)]
     pub methods: Methods,
-    /// Seconds of timing a scene; all methods take at least five rounds
+    /// Seconds of timing per scene; all methods take at least five rounds
     #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, allow_hyphen_values = true)]
     pub time_budget: Duration,
 }

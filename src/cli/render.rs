@@ -35,12 +35,12 @@ pub struct RenderArgs {
     #[arg(long, value_name = "png|ppm|pfm", value_parser = output::format, requires = "output")]
     format: Option<Format>,
     /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `auto` draws naive Phong's
-    /// picture in the least time: `fastphong info` says by which method. `reference` is the closed form in f64,
+    /// picture in the least time: `fastphong info` shows which method that is. `reference` is the closed form in f64,
     /// `reference:model=flat|gouraud|phong|slerp`
     #[arg(short, long, default_value = AUTO, value_parser = asked_method)]
     method: AskedMethod,
-    /// Engine that finds the pixels: `span` (or `scanline`), as in the lecture, one pixel at a time; `row`, SIMD; `auto`, `row`
-    /// where it can draw the frame; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with
+    /// Engine that finds the pixels: `span` (or `scanline`), as in the lecture, one pixel at a time; `row` (SIMD); `auto`: `row` if
+    /// it supports the scene, else `span`; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with
     /// `:normals=unit|as-printed`. See `fastphong list engines`
     #[arg(long, default_value = "auto", value_parser = engines::engine)]
     engine: EngineFlag,
@@ -50,7 +50,7 @@ pub struct RenderArgs {
     simd: Simd,
     #[command(flatten)]
     threads: ThreadFlags,
-    /// Show another quantity than colours
+    /// Show a quantity other than colour
     #[arg(long, value_enum, conflicts_with_all = ["method", "engine", "simd"])]
     aov: Option<Aov>,
     /// Side of a square of `--aov checkerboard`, in world units

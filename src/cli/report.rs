@@ -47,7 +47,7 @@ pub struct ReportArgs {
     /// first three
     #[arg(long)]
     full: bool,
-    /// Lay files of `--json` from several machines or commits side by side, without drawing
+    /// Compare saved `--json` files of several machines or commits side by side, without drawing
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["inputs", "figures", "studies", "full"])]
     from: Vec<PathBuf>,
     /// Also write README.md and its pictures beside the page

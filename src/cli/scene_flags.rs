@@ -48,7 +48,7 @@ static FLAGS: &[Flag] = flags! {
     "near" "DISTANCE" ["camera.near"]
     /// Distance of the far plane
     "far" "DISTANCE" ["camera.far"]
-    /// Fit the camera: objects fill this part of the picture
+    /// Fit the camera: objects fill this fraction of the picture
     "fit" "PART" ["camera.fit"]
     /// A light from this direction, instead of those of the scene; can be given several times
     "light" "X,Y,Z[,I|,R,G,B]" ["light.direction"]
@@ -78,9 +78,9 @@ static FLAGS: &[Flag] = flags! {
     "viewer" "WHERE" ["viewer"]
     /// Cosine of the highlights: phong (R.V) or blinn (N.H)
     "specular" "MODEL" ["specular"]
-    /// Cosine that exponents are meant for; they are converted if --specular differs
+    /// Model that shininess values were chosen for; they are converted if --specular differs
     "shininess-for" "MODEL" ["shininess_for"]
-    /// Highlights where the light is behind the surface
+    /// Highlights where the light is behind the surface: gated (none), ungated (as printed) or weighted (times L.N)
     "specular-gate" "GATE" ["specular_gate"]
     /// Alpha of a PNG file: the covered share of each pixel, or opaque everywhere
     "alpha" "ALPHA" ["image.alpha"]

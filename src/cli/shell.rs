@@ -7,7 +7,7 @@ use clap_complete::Shell;
 use clap_mangen::Man;
 use std::path::PathBuf;
 
-/// Print the completions of a shell: put them where it looks for them
+/// Print shell completions (install them where your shell expects them)
 #[derive(clap::Args, Debug)]
 pub struct CompletionsArgs {
     /// The shell

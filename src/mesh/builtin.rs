@@ -265,9 +265,7 @@ impl ShapeParameter {
         let number = number.ok_or_else(|| format!("`{name}` is {kind}, not `{text}`"))?;
         match (min..=max).contains(&&number) {
             true => Ok(number),
-            false => Err(format!(
-                "`{name}` goes from {min} to {max}, which `{text}` is outside of"
-            )),
+            false => Err(format!("`{name}` is {text}: expected {min} to {max}")),
         }
     }
 }

@@ -117,7 +117,7 @@ pub fn load(input: &str) -> Result<SceneFile, SceneError> {
 fn unknown(input: &str, path: &Path) -> SceneError {
     if path.exists() {
         let expected = "expected a scene file that ends in .toml or a mesh file that ends in .obj";
-        let problem = "neither a scene nor a mesh file by its ending";
+        let problem = "unknown file extension";
         return SceneError::new(Origin::Program, format!("{input}: {problem}"), expected);
     }
     let scenes = || SCENES.iter().map(|scene| scene.name);
@@ -136,7 +136,7 @@ fn unknown(input: &str, path: &Path) -> SceneError {
             scenes().collect::<Vec<_>>().join(", ")
         ),
     };
-    let problem = "is neither a file nor a shipped scene";
+    let problem = "does not exist as a file or a shipped scene";
     SceneError::new(Origin::Program, format!("`{input}` {problem}{hint}"), "")
 }
 
@@ -289,22 +289,19 @@ mod tests {
         for (input, said) in [
             (
                 "taepot",
-                "`taepot` is neither a file nor a shipped scene; did you mean `teapot`?",
+                "`taepot` does not exist as a file or a shipped scene; did you mean `teapot`?",
             ),
             ("scenes/taepot.toml", "did you mean `teapot`?"),
             ("torus", "did you mean `builtin:torus`?"),
             (
                 "nothing-like-it.obj",
-                "`nothing-like-it.obj` is neither a file nor a shipped scene",
+                "`nothing-like-it.obj` does not exist as a file or a shipped scene",
             ),
             (
                 "nothing-like-it",
-                "is neither a file nor a shipped scene (expected a scene file .toml, a mesh file .obj,",
+                "does not exist as a file or a shipped scene (expected a scene file .toml, a mesh file .obj,",
             ),
-            (
-                "Cargo.lock",
-                "Cargo.lock: neither a scene nor a mesh file by its ending",
-            ),
+            ("Cargo.lock", "Cargo.lock: unknown file extension"),
         ] {
             let error = load(input).unwrap_err();
             assert!(error.to_string().contains(said), "{error}");

@@ -36,12 +36,12 @@ impl<const L: usize> Shader for FastPhong<L> {
                 first guess, and where normals cancel inside a span",
         parameters: &[MethodParameter {
             name: "steps",
-            meaning: "steps of Newton's method a pixel",
+            meaning: "steps of Newton's method per pixel",
             default: MethodParameter::AUTO,
             least: 1,
             most: NewtonSteps::MOST,
             auto: Some(Auto {
-                meaning: "on each span the fewest that leave every term within 0.001 of itself, a true root where 3 do not",
+                meaning: "the fewest Newton steps (1 to 3) that keep the relative error on a span below 0.001; an exact root otherwise",
                 length_error: |lighting| largest_error(lighting.specular, lighting.shininess),
             }),
         }],

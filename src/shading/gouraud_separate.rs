@@ -18,7 +18,7 @@ pub struct GouraudSeparate;
 impl Shader for GouraudSeparate {
     const INFO: Info = Info {
         name: "gouraud-separate",
-        title: "vertex colours not clamped, diffuse and specular light interpolated apart",
+        title: "unclamped vertex colours; diffuse and specular light interpolated separately",
         formula: "D_next = D + dD;  S_next = S + dS;  I = min(1, D + S), D = Ia ka + Ip kd (L.N), S = Ip ks (R.V)^n at vertices",
         source: "L21 3, eq 3.5, 3.6; OpenGL 1.2, 2.13.1 (separate specular colour)",
         model: Model::GouraudSeparate,

@@ -101,12 +101,12 @@ impl Perspective {
     pub fn sentence(self) -> &'static str {
         match self {
             Perspective::Unaffected => "interpolates nothing, so perspective changes nothing",
-            Perspective::Free => "perspective-correct at no cost a pixel: the weight cancels",
+            Perspective::Free => "perspective-correct at no cost per pixel: the weight cancels",
             Perspective::Divides => {
-                "perspective-correct for one division and three multiplications a pixel more"
+                "perspective-correct for one more division and three more multiplications per pixel"
             }
             Perspective::ScreenOnly => {
-                "stays linear on the screen: its increments are constant only there"
+                "not perspective-correct: its increments are constant on the screen only"
             }
         }
     }
@@ -128,10 +128,10 @@ impl Local {
     pub fn sentence(self) -> &'static str {
         match self {
             Local::PerPolygon => {
-                "lights and eye at positions are seen from the mean of each polygon's corners"
+                "directions to positional lights and eye are taken at the mean of each polygon's corners"
             }
-            Local::PerVertex => "lights and eye at positions are seen from each vertex",
-            Local::PerPixel => "lights and eye at positions are seen from each pixel",
+            Local::PerVertex => "directions to positional lights and eye are taken at each vertex",
+            Local::PerPixel => "directions to positional lights and eye are taken at each pixel",
         }
     }
 }

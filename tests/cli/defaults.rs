@@ -51,7 +51,7 @@ fn auto_is_the_default_method_and_says_what_it_takes() {
     folder
         .run("info teapot")
         .done()
-        .prints("phong-rsqrt by auto: ");
+        .prints("phong-rsqrt (chosen by auto: ");
     let json = folder.run("info teapot --json").done().json();
     assert_eq!(json["method"]["name"], "phong-rsqrt");
     folder

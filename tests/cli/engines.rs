@@ -32,8 +32,14 @@ fn engines_agree_and_say_what_they_do() {
         ))
     };
     let has = "expected one of flat, flat-average, gouraud, gouraud-separate, naive-phong";
-    refused("fast-phong").refused(&["the barycentric renderer does not have `fast-phong`", has]);
-    refused("reference").refused(&["the barycentric renderer does not have `reference`", has]);
+    refused("fast-phong").refused(&[
+        "the barycentric renderer does not support the method `fast-phong`",
+        has,
+    ]);
+    refused("reference").refused(&[
+        "the barycentric renderer does not support the method `reference`",
+        has,
+    ]);
 }
 
 /// CS171's algorithms give the pictures of the methods that they are; with normals as printed another one.
@@ -71,8 +77,8 @@ fn cs171_draws_what_the_engines_draw() {
         ))
     };
     let has = "expected one of flat-average, gouraud, naive-phong";
-    refused("flat").refused(&["CS171 does not have `flat`", has]);
-    refused("reference").refused(&["CS171 does not have `reference`", has]);
+    refused("flat").refused(&["CS171 does not support the method `flat`", has]);
+    refused("reference").refused(&["CS171 does not support the method `reference`", has]);
 }
 
 #[test]

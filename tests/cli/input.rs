@@ -24,7 +24,7 @@ fn what_is_not_there() {
     refused(
         &[],
         "taepot",
-        &["`taepot` is neither a file nor a shipped scene; did you mean `teapot`?"],
+        &["`taepot` does not exist as a file or a shipped scene; did you mean `teapot`?"],
     );
     refused(&[], "torus", &["did you mean `builtin:torus`?"]);
     refused(
@@ -35,17 +35,17 @@ fn what_is_not_there() {
     refused(
         &[],
         "missing.obj",
-        &["`missing.obj` is neither a file nor a shipped scene"],
+        &["`missing.obj` does not exist as a file or a shipped scene"],
     );
     refused(
         &[],
         "missing.toml",
-        &["`missing.toml` is neither a file nor a shipped scene"],
+        &["`missing.toml` does not exist as a file or a shipped scene"],
     );
     refused(
         &[("mesh.stl", b"solid")],
         "mesh.stl",
-        &["mesh.stl: neither a scene nor a mesh file by its ending"],
+        &["mesh.stl: unknown file extension"],
     );
     refused(
         &[],

@@ -219,8 +219,8 @@ fn every_method_is_explained() {
     folder
         .run("explain fast-phong")
         .done()
-        .prints("steps=auto: steps of Newton's method a pixel; auto or 1..8, default auto")
-        .prints("auto: on each span the fewest");
+        .prints("steps=auto: steps of Newton's method per pixel; auto or 1..8, default auto")
+        .prints("auto: the fewest Newton steps");
     // Each method with lights at positions; Duff's six products and the weight of perspective by two additions each.
     for (lights, additions) in [("1", 14), ("2", 20)] {
         let json = folder.run("explain duff-phong --json").done().json();

@@ -136,7 +136,8 @@ fn head(c: &Comparison) -> String {
     if c.all_rows().any(|row| row.speed.is_some()) {
         text +=
             "time: from projected frame to stored picture, median ± half the interquartile range\n";
-        text += "speed over 1: faster; =: a tie, the 95 % interval holds 1\n";
+        text +=
+            "× columns: speed-up, above 1 is faster; = is a tie (the 95 % interval contains 1)\n";
     }
     text + "\n"
 }

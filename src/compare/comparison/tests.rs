@@ -351,7 +351,7 @@ fn tables_have_a_row_a_method() {
         let text = table(&comparison, kind);
         let (head, body) = text.split_once("\n\n").unwrap();
         assert!(
-            head.starts_with("sphere: 48×36, ") && head.contains("speed over 1: faster"),
+            head.starts_with("sphere: 48×36, ") && head.contains("above 1 is faster"),
             "{head}"
         );
         let lines: Vec<&str> = body.lines().collect();

@@ -84,7 +84,7 @@ fn counts_are_those_of_a_sphere() {
         assert!(point.spans <= point.pixels && point.pixels < width * height);
     }
     let [near, away] = [false, true].map(|away| {
-        let is_it = |p: &&Point| p.away == away && p.asked == 400 && p.size == [192, 108];
+        let is_it = |p: &&ScalingPoint| p.away == away && p.asked == 400 && p.size == [192, 108];
         measured.points.iter().find(is_it).unwrap()
     });
     // Of a sixteenth of the area, up to pixels along the outline: the small one has a radius of 0.8 · 54/4 = 10.8, and so
