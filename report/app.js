@@ -1002,7 +1002,7 @@ function costs() {
 	$("#costs").innerHTML = table(["", ...COSTS.map(([, name]) => name)], list.map(c => [curveName(c), ...COSTS.map(([k]) => bar(num(c.costs[k], 2), Math.max(1, c.costs[k] / most(k) * 100), curveHue(c)))]));
 	const even = list.filter(c => base && c.method !== BASE && c.engine === base.engine).map(c => {
 		const saved = base.costs.pixel_ns - c.costs.pixel_ns, more = c.costs.span_ns - base.costs.span_ns;
-		return `${nameOf(c.method)} ${saved <= 0 ? "saves nothing a pixel" : more <= 0 ? "is always cheaper" : `from ${num(more / saved, 2)} pixels a span`}`;
+		return `${nameOf(c.method)} ${saved <= 0 ? "saves nothing a pixel" : more <= 0 ? "has cheaper spans" : `from ${num(more / saved, 2)} pixels a span`}`;
 	});
 	write({ breakeven: list.length ? `${even.length ? `Break-even with ${nameOf(BASE)}: ${even.join("; ")}. ` : ""}The largest misfit of a time is ${(Math.max(...list.map(c => Math.abs(c.costs.worst))) * 100).toFixed(0)} %.` : "" });
 }

@@ -108,7 +108,7 @@ pub(super) fn answer(data: &Value) -> Vec<Part> {
             Part::Method(name.to_string()),
             plain(&format!(" {} (", on(level))),
             Part::Strong(times(Some(ratio))),
-            plain(")"),
+            plain(" on one sphere)"),
         ]);
     }
     let mut fast = all.iter().filter(|o| o.name == FAST && best.name != FAST);

@@ -233,7 +233,7 @@ fn the_answer_names_the_fastest_of_those_that_draw_the_picture() {
     ]);
     let text = said(&of, Some(wide));
     assert!(
-        text.contains("and Phong rsqrt on AVX2 (1.50\u{A0}×);"),
+        text.contains("and Phong rsqrt on AVX2 (1.50\u{A0}× on one sphere);"),
         "{text}"
     );
     assert!(
