@@ -1,9 +1,9 @@
 //! Phong shading on a scanline rasterizer: eleven methods to run, time, look at and check against an f64 reference.
 //!
 //! *Lecture 21: Shading* (L21) shades polygons on a scan-line rasterizer: flat, with vertex colours (Gouraud), with interpolated normals
-//! (Phong), and then Phong's picture for the price of a few additions. Each of these is a *method* here, one file and one
-//! line of [`shading::METHODS`]; all of them draw the same [`frame::Frame`], so that their pictures differ by shading and by
-//! nothing else, and each is measured against a closed form in `f64` that shares no arithmetic with it.
+//! (Phong), and then draws Phong's picture for a few additions per pixel. Each of these is a *method* here: one file and one
+//! line of [`shading::METHODS`]. All methods draw the same [`frame::Frame`], so their pictures differ by shading and by nothing
+//! else. Each is measured against a closed form in `f64` that shares no arithmetic with it.
 //!
 //! # From a mesh to a number
 //!
@@ -16,14 +16,14 @@
 //!
 //! // A mesh: polygons of any number of sides. `mesh::obj` reads them from files.
 //! let mesh = builtin("teapot?res=6")?;
-//! // A scene: the mesh, a camera that sees it, a light. All fields are there to be changed.
+//! // A scene: the mesh, a camera that sees it, a light. All fields are public.
 //! let mut scene = Scene::of_mesh(mesh);
 //! (scene.width, scene.height) = (160, 120);
-//! // A frame: what the camera sees, projected and clipped. From here on nothing can fail.
+//! // A frame: the polygons that the camera sees, projected and clipped. From here on nothing can fail.
 //! let frame = scene.frame()?;
 //! // A picture, by the lecture's fast method with one step of Newton's.
 //! let fast = Variant::parse("fast-phong:steps=1")?.render(&frame);
-//! // What it should be, and how far it is from that.
+//! // The reference picture, and the difference from it.
 //! let exact = reference::render(&frame, Model::Phong).to_picture8();
 //! let difference = compare(&exact, &fast)?;
 //! assert_eq!(difference.coverage_mismatches, 0);
@@ -33,16 +33,16 @@
 //!
 //! # Where things are
 //!
-//! | room | items |
+//! | for | items |
 //! |---|---|
 //! | pictures | [`picture::Picture`], [`picture::encoding`], `picture::image_file` |
-//! | numbers | [`number::Num`]: one text for scalar, SIMD and counted arithmetic |
+//! | arithmetic | [`number::Num`]: scalar, SIMD or counting, behind one trait |
 //! | shapes | [`mesh::builtin::builtin`], `mesh::obj::load_obj`, [`mesh::MeshBuilder`], [`mesh::vertex_normals`] (L21 1.1, 3.1) |
 //! | scenes | [`scene::Scene::of_mesh`], [`scene::Camera`], [`scene::Light`], `scene::file::SceneFile`, `scene::input::load` |
-//! | the waist | [`frame::Frame`] from [`scene::Scene::frame`], [`frame::PreparedScene`] for many frames, [`frame::FrameBuilder`] for polygons from elsewhere |
-//! | truth | [`mod@reference`]: four closed forms in `f64` |
+//! | frames | [`frame::Frame`], the interface between geometry and shading: from [`scene::Scene::frame`], [`frame::PreparedScene`] for many frames, [`frame::FrameBuilder`] for polygons from elsewhere |
+//! | the reference | [`mod@reference`]: four closed forms in `f64` |
 //! | methods | [`shading::Variant::render`], [`shading::METHODS`]; [`shading::Shader`] to add one from outside this crate |
-//! | loops | [`raster`]: scan lines as in the lecture, barycentric coordinates to compare with |
+//! | engines | [`raster`]: scan lines as in the lecture, SIMD rows, barycentric coordinates to compare with |
 //! | errors, times | [`compare::metrics::compare`], [`compare::metrics::difference_map`], [`shading::Variant::operations`], `compare::comparison` |
 //! | figures | `lectures` |
 //!

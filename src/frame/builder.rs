@@ -13,7 +13,9 @@ use crate::scene::{
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-/// A builder of a frame: collects vertices and polygons, then checks them once, so that no reader of the frame need to.
+/// A builder of a frame: collects vertices and polygons, then checks them once, so no reader of the frame needs to.
+///
+/// `examples/own_triangles.rs` is a whole program.
 #[derive(Clone, Debug)]
 pub struct FrameBuilder {
     frame: Frame,
@@ -28,8 +30,7 @@ impl FrameBuilder {
         }
     }
 
-    /// Sets the samples of a pixel along each side, 1 (as it is), 2, 4 or 8: a divisor of its width and
-    /// its height.
+    /// Sets the samples of a pixel along each side: 1, 2, 4 or 8. Width and height of the frame must be multiples of it.
     pub fn samples(&mut self, samples: u32) -> &mut Self {
         self.frame.samples = samples;
         self
@@ -59,7 +60,7 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets the distances at which depth is 0 and 1; by default the distance is the depth.
+    /// Sets the distances from the eye at which depth is 0 and 1. Without it they are 0 and 1.
     pub fn depth_range(&mut self, range: DepthRange) -> &mut Self {
         self.frame.depth_range = range;
         self
@@ -135,7 +136,7 @@ impl FrameBuilder {
         self
     }
 
-    /// Sets the mean for the next polygon to that of `corners`, one at least: for pieces, which have not all corners of their
+    /// Sets the mean for the next polygon to that of `corners`, at least one: the mean of a clipped piece is that of its whole
     /// polygon.
     ///
     /// # Panics
@@ -159,8 +160,8 @@ impl FrameBuilder {
         self
     }
 
-    /// Adds a polygon: vertex numbers of its corners, its unit normal, its number in the scene. It has the material of
-    /// its first corner.
+    /// Adds a polygon in drawing order: the vertex numbers of its corners in either winding, its unit normal for flat shading,
+    /// and any number to tell it by ([`Polygon::source`]). It has the material of its first corner.
     pub fn polygon(&mut self, corners: &[u32], normal: [f32; 3], source: u32) -> &mut Self {
         let geometry = self.geometry();
         let material = corners

@@ -16,8 +16,8 @@ pub struct Vertex {
     /// z/w: linear on the screen, 0 at the near plane, 1 at the far plane; outside that under [`Clipping::NdcCube`] only.
     pub depth: f32,
     /// near/w under a perspective camera, 1 under an orthographic one: the weight of perspective interpolation, and the
-    /// source of depth at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)). Over 0, but under
-    /// [`Clipping::NdcCube`], where it is below 0 behind the eye.
+    /// source of depth at each sample ([`DepthSource::PerSample`](crate::scene::DepthSource)). Greater than 0; under
+    /// [`Clipping::NdcCube`] less than 0 behind the eye.
     pub inv_w: f32,
     /// Unit vertex normal in world space (L21 3.1); ignored at a [`ClipCorner`].
     pub normal: [f32; 3],
@@ -71,7 +71,8 @@ pub struct Polygon {
     pub count: u32,
     /// The index of its material in [`Frame::lightings`]; its vertices have the same one.
     pub material: u32,
-    /// The number of its polygon in the scene, counted over all objects (pieces of one clipped polygon share it).
+    /// The number of its polygon in the scene, counted over all objects; pieces of one clipped polygon share it. A builder may
+    /// give any number: pictures of AOVs show it, nothing else reads it.
     pub source: u32,
     /// The number of its normal in the frame's geometry, and [`Polygon::FLIPPED`] where it is negated: see
     /// [`Frame::polygon_normal`].

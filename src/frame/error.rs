@@ -95,7 +95,7 @@ impl fmt::Display for FrameError {
             FrameError::Polygon { index } => {
                 write!(
                     f,
-                    "polygon {index} has fewer than three corners or names something that does not exist"
+                    "polygon {index} has fewer than three corners, or refers to a vertex or a material that does not exist"
                 )
             }
         }

@@ -1,7 +1,7 @@
-//! A frame: projected polygons and the light on them. The waist of the crate.
+//! A frame: projected polygons and the light on them, the interface between geometry and shading.
 //!
-//! Left of it stand files, matrices and failure; right of it arithmetic that cannot fail and does not know where
-//! polygons come from. The shading methods, the barycentric renderer and the `f64` reference all take the same frame,
+//! Files, matrices and everything that can fail come before it. After it there is only arithmetic that cannot fail and does
+//! not know where polygons come from. The shading methods, the barycentric renderer and the `f64` reference all take the same frame,
 //! so what differs between their pictures is shading and not geometry.
 
 mod builder;

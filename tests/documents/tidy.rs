@@ -187,7 +187,7 @@ fn operations(entry: &'static Entry) -> String {
         ("pixel: shade", one.shade, four.shade),
     ];
     let mut table = String::from(
-        "| once a | + − | × | ÷ | √ | compare | sin, atan |\n|---|---|---|---|---|---|---|\n",
+        "| once per | + − | × | ÷ | √ | compare | sin, atan |\n|---|---|---|---|---|---|---|\n",
     );
     for (rate, one, four) in rates {
         if (one, four) != Default::default() {
