@@ -33,7 +33,7 @@ pub struct BenchArgs {
     engine: Option<ScanlineEngine>,
     /// Instruction sets of the pixel loops between commas, or `all` of this machine; `scalar` selects the span engine, any other
     /// the row engine, and each is timed for itself [default: scalar; auto with --frame-times]
-    #[arg(long, value_name = "LEVELS", value_parser = engines::simd_list)]
+    #[arg(long, value_name = "ISA,…", value_parser = engines::simd_list)]
     simd: Option<SimdList>,
     #[command(flatten)]
     threads: ThreadFlags,

@@ -6,6 +6,7 @@ use super::measured::{Measurement, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
 use super::{CliError, Outcome};
 use fastphong::compare::comparison::{Comparison, TableKind, table};
+use fastphong::raster::Renderer;
 use fastphong::report::Document;
 
 /// Compare methods on one scene: error against the reference, time, ratios
@@ -30,10 +31,11 @@ pub struct CompareArgs {
 impl CompareArgs {
     /// Compares, times, and prints the table.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        let renderer = self.drawn.renderer()?;
         let mut comparisons = self.timing.compare(&Measurement {
             inputs: &[&self.input],
             scene: &self.scene,
-            renderers: &[self.drawn.renderer()?],
+            renderers: &[renderer],
             threads: self.drawn.threads,
             log,
         })?;
@@ -49,6 +51,9 @@ impl CompareArgs {
             false => comparisons.iter().map(|c| table(c, kind)).collect(),
         };
         to_stdout(text.as_bytes())?;
+        if renderer == Renderer::LECTURE {
+            log.note("note: drawn as in the lecture, by scalar code; --simd auto compares what `render` uses");
+        }
         Ok(Outcome::Done)
     }
 }

@@ -22,13 +22,13 @@ pub struct DiffArgs {
     actual: PathBuf,
     /// Exit with code 1 when a channel differs by more grey levels, of 255; a pixel that only one of the pictures
     /// covers differs by 255
-    #[arg(long, value_name = "LEVELS", value_parser = values::grey_levels, allow_hyphen_values = true)]
+    #[arg(long, value_name = "GREY_LEVELS", value_parser = values::grey_levels, allow_hyphen_values = true)]
     fail_above: Option<f64>,
     /// Write a map of the difference; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Grey levels at the light end of the map; larger differences are magenta
-    #[arg(long, value_name = "LEVELS", default_value_t = SCALE, value_parser = values::scale, allow_hyphen_values = true, requires = "output")]
+    #[arg(long, value_name = "GREY_LEVELS", default_value_t = SCALE, value_parser = values::scale, allow_hyphen_values = true, requires = "output")]
     scale: f32,
     /// Map brighter and darker in different colours: orange and blue
     #[arg(long, requires = "output")]

@@ -56,6 +56,9 @@ pub fn method(text: &str) -> Result<Method, String> {
         Some(near) if !means_method => {
             Err(format!("unknown method `{name}`: did you mean `{near}`?"))
         }
+        None if !means_method && Variant::parse(name).is_err() => {
+            Err(format!("{error}, `{AUTO}`, `{REFERENCE}`"))
+        }
         _ => Err(error),
     }
 }

@@ -252,7 +252,7 @@ pub struct LectureFlags {
     engine: Option<ScanlineEngine>,
     /// Instruction set of the pixel loops: `scalar` selects the span engine, any other of `fastphong list simd` and `auto` the
     /// row engine [default: scalar]
-    #[arg(long, value_name = "LEVEL", value_parser = simd)]
+    #[arg(long, value_name = "ISA", value_parser = simd)]
     simd: Option<Simd>,
     #[command(flatten)]
     pub threads: ThreadFlags,

@@ -4,7 +4,7 @@ use super::auto::{AutoChoice, auto_choices};
 use super::log::{Log, json_to_stdout, to_stdout};
 use super::mesh_facts::{MeshFacts, PLANAR};
 use super::scene_flags::SceneFlags;
-use super::text::{grouped, wrapped};
+use super::text::{counted, grouped, wrapped};
 use super::{CliError, Outcome};
 use fastphong::compare::table::aligned;
 use fastphong::mesh::vertex_normals::NormalSource;
@@ -124,15 +124,13 @@ impl InfoArgs {
             Projection::Perspective { fovy } => format!("perspective, {fovy} degrees"),
         };
         let [eye, target] = [camera.eye, camera.target].map(|p| point(p.to_array()));
-        let polygons = grouped(objects.iter().map(|o| o.facts.polygons).sum());
+        let polygons = objects.iter().map(|o| o.facts.polygons).sum();
+        let polygons = counted(polygons, "polygon", "polygons");
         let mut rows = vec![
             row("picture", format!("{} x {}", scene.width, scene.height)),
             row("camera", format!("at {eye}, toward {target}; {projection}")),
             row("lights", scene.lights.len().to_string()),
-            row(
-                "objects",
-                format!("{}, {polygons} polygons in all", objects.len()),
-            ),
+            row("objects", format!("{}, {polygons} in all", objects.len())),
             row("method", format!("{method} (chosen by auto: {why})")),
         ];
         let names = ["auto"].into_iter().chain(std::iter::repeat(""));

@@ -4,6 +4,7 @@ use super::CliError;
 use super::engines::ThreadFlags;
 use super::log::Log;
 use super::progress::Progress;
+use super::render::warn_of_polygons_left_out;
 use super::scene_flags::SceneFlags;
 use super::values::number;
 use fastphong::compare::comparison::{Comparison, Input, compare};
@@ -96,6 +97,7 @@ impl TimingFlags {
         of.each_scene(|name, scene, progress| {
             let frame = scene.frame()?;
             drop(scene);
+            progress.aside(|| warn_of_polygons_left_out(frame.stats(), of.log));
             let input = Input {
                 name: name.to_owned(),
                 frame: &frame,

@@ -24,6 +24,11 @@ use std::time::Instant;
 
 /// Draw a scene or a mesh
 #[derive(clap::Args, Debug)]
+#[command(
+    override_usage = "fastphong render [OPTIONS] --output <FILE> <INPUT>\n       \
+                      fastphong render [OPTIONS] --reference <FILE> <INPUT>\n       \
+                      fastphong render [OPTIONS] <--stats|--print-scene> <INPUT>"
+)]
 pub struct RenderArgs {
     /// Scene file, mesh file, builtin:NAME?key=value, or name of a shipped scene
     input: String,
@@ -46,7 +51,7 @@ pub struct RenderArgs {
     engine: EngineFlag,
     /// Instruction set of the pixel loops: `auto`, the best of this machine, or one of `fastphong list simd`. `scalar` selects
     /// the span engine (one thread, the same bytes on every platform), any other the row engine
-    #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = engines::simd)]
+    #[arg(long, value_name = "ISA", default_value = "auto", value_parser = engines::simd)]
     simd: Simd,
     #[command(flatten)]
     threads: ThreadFlags,
@@ -68,7 +73,7 @@ pub struct RenderArgs {
     reference: Option<PathBuf>,
     /// Grey levels, of 255, that a channel may differ from the reference; a pixel that only one of the pictures covers
     /// differs by 255
-    #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = values::grey_levels, allow_hyphen_values = true, requires = "reference", visible_alias = "ref-threshold")]
+    #[arg(long, value_name = "GREY_LEVELS", default_value = "1", value_parser = values::grey_levels, allow_hyphen_values = true, requires = "reference", visible_alias = "ref-threshold")]
     reference_threshold: f64,
     /// Draw again whenever a file of the scene changes, until Ctrl-C
     #[arg(long)]
@@ -265,7 +270,7 @@ fn milliseconds(started: Instant) -> f64 {
 }
 
 /// Warns of polygons that cannot be drawn.
-fn warn_of_polygons_left_out(stats: FrameStats, log: Log) {
+pub fn warn_of_polygons_left_out(stats: FrameStats, log: Log) {
     let flat = match stats.zero_area {
         0 => None,
         1 => Some("polygons has no area and is left out"),
@@ -274,6 +279,12 @@ fn warn_of_polygons_left_out(stats: FrameStats, log: Log) {
     if let Some(words) = flat {
         let [flat, all] = [stats.zero_area, stats.polygons].map(grouped);
         log.warning(&format!("{flat} of {all} {words}"));
+    }
+    if stats.culled > 0 && stats.culled + stats.zero_area + stats.outside == stats.polygons {
+        let culled = counted(stats.culled, "polygon is seen", "polygons are seen");
+        log.warning(&format!(
+            "nothing is drawn: {culled} from the culled side; try --cull none"
+        ));
     }
     if stats.unprojected > 0 {
         let one = "polygon has a corner at the plane of the eye and is left out";

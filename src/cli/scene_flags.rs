@@ -48,8 +48,8 @@ static FLAGS: &[Flag] = flags! {
     "near" "DISTANCE" ["camera.near"]
     /// Distance of the far plane
     "far" "DISTANCE" ["camera.far"]
-    /// Fit the camera: objects fill this fraction of the picture
-    "fit" "PART" ["camera.fit"]
+    /// Fit the camera: objects fill this fraction of the picture, 0.001 to 100; over 1 they reach beyond it
+    "fit" "FRACTION" ["camera.fit"]
     /// A light from this direction, instead of those of the scene; can be given several times
     "light" "X,Y,Z[,I|,R,G,B]" ["light.direction"]
     /// A light at this position, instead of those of the scene; can be given several times

@@ -4,12 +4,17 @@ use alloc::vec::Vec;
 
 /// Returns the candidate nearest to `word`, if one is near enough to be meant; the first among equally near ones.
 ///
-/// Near enough is one slip for each three letters of the longer word, and one slip for shorter ones. Case does not count.
+/// Near enough is one slip for each three letters of the longer word, and one slip for shorter ones. Without such a
+/// candidate, the first one that contains `word` is returned, if that has four letters or more. Case does not count.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word: Vec<char> = word.chars().flat_map(char::to_lowercase).collect();
     let mut best: Option<(usize, &str)> = None;
+    let mut container = None;
     for candidate in candidates {
         let letters: Vec<char> = candidate.chars().flat_map(char::to_lowercase).collect();
+        if word.len() >= 4 && letters.windows(word.len()).any(|part| part == word) {
+            container = container.or(Some(candidate));
+        }
         let allowed = (word.len().max(letters.len()) / 3).max(1);
         // A difference in length alone is that many slips: no need to look closer, however long the word.
         if word.len().abs_diff(letters.len()) > allowed {
@@ -20,7 +25,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             best = Some((slips, candidate));
         }
     }
-    best.map(|(_, candidate)| candidate)
+    best.map(|(_, candidate)| candidate).or(container)
 }
 
 /// Returns the number of letters to insert, delete, replace or swap with their neighbour to turn `a` into `b`.
@@ -80,6 +85,11 @@ mod tests {
         assert_eq!(nearest("taepot", words), Some("teapot"));
         assert_eq!(nearest("not", words), Some("knot"));
         assert_eq!(nearest("bunny", words), None);
+        assert_eq!(
+            nearest("phong", ["flat", "naive-phong", "phong-rsqrt"]),
+            Some("naive-phong")
+        );
+        assert_eq!(nearest("pot", words), None, "too short to be a part");
         assert_eq!(nearest("", words), None);
         assert_eq!(nearest("abc", []), None);
     }

@@ -136,7 +136,7 @@ fn unknown(input: &str, path: &Path) -> SceneError {
             scenes().collect::<Vec<_>>().join(", ")
         ),
     };
-    let problem = "does not exist as a file or a shipped scene";
+    let problem = "is neither a file nor the name of a shipped scene";
     SceneError::new(Origin::Program, format!("`{input}` {problem}{hint}"), "")
 }
 
@@ -289,17 +289,17 @@ mod tests {
         for (input, said) in [
             (
                 "taepot",
-                "`taepot` does not exist as a file or a shipped scene; did you mean `teapot`?",
+                "`taepot` is neither a file nor the name of a shipped scene; did you mean `teapot`?",
             ),
             ("scenes/taepot.toml", "did you mean `teapot`?"),
             ("torus", "did you mean `builtin:torus`?"),
             (
                 "nothing-like-it.obj",
-                "`nothing-like-it.obj` does not exist as a file or a shipped scene",
+                "`nothing-like-it.obj` is neither a file nor the name of a shipped scene",
             ),
             (
                 "nothing-like-it",
-                "does not exist as a file or a shipped scene (expected a scene file .toml, a mesh file .obj,",
+                "is neither a file nor the name of a shipped scene (expected a scene file .toml, a mesh file .obj,",
             ),
             ("Cargo.lock", "Cargo.lock: unknown file extension"),
         ] {

@@ -78,3 +78,50 @@ fn without_arguments_there_are_five_things_to_try() {
     assert_eq!(folder.names(), ["fast.png", "teapot.png"]);
     assert!(said.lines().all(|line| line.len() <= 100), "{said}");
 }
+
+/// A mesh wound the wrong way draws nothing, which both `render` and `compare` warn of; a mesh of which some polygons are
+/// culled is said to have all of them.
+#[test]
+fn culled_polygons_are_not_silent() {
+    let folder = Folder::new();
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    folder.write("back.obj", &format!("{corners}f 1 3 2\n"));
+    folder.write("both.obj", &format!("{corners}f 1 3 2\nf 1 2 3\n"));
+    let warning =
+        "warning: nothing is drawn: 1 polygon is seen from the culled side; try --cull none";
+    folder
+        .run("render back.obj -o back.png")
+        .done()
+        .says(warning);
+    let compare = "compare back.obj --methods flat --size 32x32 --time-budget 0";
+    folder.run(compare).done().says(warning);
+    let front = folder.run("render both.obj -o both.png").done();
+    assert!(!front.err.contains("warning"), "{}", front.err);
+    folder
+        .run("compare both.obj --methods flat --size 32x32 --time-budget 0")
+        .done()
+        .prints("both.obj: 32×32, 1 of 2 polygons, ")
+        .says("--simd auto compares what `render` uses");
+    folder
+        .run("info back.obj")
+        .done()
+        .prints("1, 1 polygon in all");
+}
+
+/// An unknown method is answered with the nearest name, one that contains it, or all names that the flag takes.
+#[test]
+fn unknown_methods_are_answered_with_names() {
+    let folder = Folder::new();
+    for command in [
+        "render teapot -o out.png -m phong",
+        "compare teapot --methods phong",
+        "explain phong",
+    ] {
+        folder
+            .run(command)
+            .refused(&["unknown method `phong`", "did you mean `naive-phong`?"]);
+    }
+    folder
+        .run("render teapot -o out.png -m pong")
+        .refused(&["`slerp-phong-vector`, `auto`, `reference`"]);
+}

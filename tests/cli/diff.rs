@@ -131,7 +131,7 @@ fn maps_show_where() {
     assert_eq!(map.get(15, 0), [0, 0, 4, 255], "magma begins nearly black");
     folder
         .run("diff a.png b.png -o map.png --flip --scale 4")
-        .refused(&["--scale <LEVELS>"]);
+        .refused(&["--scale <GREY_LEVELS>"]);
     let piped = folder
         .run("diff a.png b.png -o - --scale 40")
         .done()

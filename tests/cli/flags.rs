@@ -216,7 +216,10 @@ fn flags_that_make_no_sense_are_refused_by_name() {
             "--view 0,0 --eye 1,2,3",
             &["`--view` and `--eye` exclude each other"],
         ),
-        ("--eye 0,0,0", &["`--eye` is where `target` is"]),
+        (
+            "--eye 0,0,0",
+            &["`--eye` is the point that the camera looks at"],
+        ),
         ("--eye 0,0,NaN", &["`--eye`", "NaN"]),
         ("--eye 1,2", &["expected three numbers x,y,z"]),
         (

@@ -24,7 +24,7 @@ fn what_is_not_there() {
     refused(
         &[],
         "taepot",
-        &["`taepot` does not exist as a file or a shipped scene; did you mean `teapot`?"],
+        &["`taepot` is neither a file nor the name of a shipped scene; did you mean `teapot`?"],
     );
     refused(&[], "torus", &["did you mean `builtin:torus`?"]);
     refused(
@@ -35,12 +35,12 @@ fn what_is_not_there() {
     refused(
         &[],
         "missing.obj",
-        &["`missing.obj` does not exist as a file or a shipped scene"],
+        &["`missing.obj` is neither a file nor the name of a shipped scene"],
     );
     refused(
         &[],
         "missing.toml",
-        &["`missing.toml` does not exist as a file or a shipped scene"],
+        &["`missing.toml` is neither a file nor the name of a shipped scene"],
     );
     refused(
         &[("mesh.stl", b"solid")],

@@ -133,7 +133,7 @@ fn what_cannot_be_written_is_said_and_what_was_there_is_kept() {
         .refused(&["file/page.html: cannot be written"]);
     folder
         .run(&format!("report figure5 no-such {QUICK} -o page.html"))
-        .refused(&["`no-such` does not exist as a file"]);
+        .refused(&["`no-such` is neither a file"]);
     folder
         .run(&format!(
             "report figure5 {QUICK} -o page.html --methods fats-phong"

@@ -108,7 +108,10 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
 /// Says which frame was drawn by what, and how to read the table.
 fn head(c: &Comparison) -> String {
     let count = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
-    let polygons = count(c.polygons, "polygon");
+    let polygons = match c.polygons < c.stats.polygons {
+        true => format!("{} of {}", c.polygons, count(c.stats.polygons, "polygon")),
+        false => count(c.polygons, "polygon"),
+    };
     let mut text = format!("{}: {}×{}, {polygons}", c.name, c.width, c.height);
     if c.triangles != c.polygons {
         text += &format!(" ({})", count(c.triangles, "triangle"));

@@ -32,7 +32,7 @@ impl<'a> Viewpoint<'a> {
         let expected = "degrees over 0 and under 180 (0.001 to 179.999)";
         let fovy = section.number("fovy", is_angle, expected)?;
         let is_part = |v| (1e-3..=100.0).contains(&v);
-        let fraction = section.number("fit", is_part, "a part of the frame, 0.001 to 100")?;
+        let fraction = section.number("fit", is_part, "a fraction of the picture, 0.001 to 100")?;
         let (near, far) = planes(&section)?;
         let (fixed, direction) = stand(&section)?;
         let fit = Fit {
@@ -184,10 +184,10 @@ fn stand(section: &Section) -> Result<(Option<[DVec3; 2]>, DVec3), SceneError> {
         let target = section.point("target")?.unwrap_or(DVec3::ZERO);
         if eye == target {
             let expected = "expected two different points";
-            let error = section.error("eye", "is where `target` is", expected);
+            let error = section.error("eye", "is the point that the camera looks at", expected);
             return Err(match section.has("target") {
                 true => section.pointing_at("target", "target is here", error),
-                false => error.help("without `target` the camera looks at the origin"),
+                false => error.help("without `target` that is the origin: set `target`"),
             });
         }
         let fixed = (!section.has("fit")).then_some([eye, target]);

@@ -180,21 +180,21 @@ fn cameras_that_cannot_be() {
     check(
         "[camera]\nfit = «0»\n",
         "`camera.fit` is 0",
-        "expected a part of the frame, 0.001 to 100",
+        "expected a fraction of the picture, 0.001 to 100",
         None,
     );
     let eye = "eye = [0, 0, 5]\nhalf_height = 1\n";
     check(
         "[camera]\neye = «[1, 2, 3]»\ntarget = [1, 2, 3]\n",
-        "`camera.eye` is where `target` is",
+        "`camera.eye` is the point that the camera looks at",
         "expected two different points",
         None,
     );
     check(
         "[camera]\neye = «[0, 0, 0]»\n",
-        "`camera.eye` is where `target` is",
+        "`camera.eye` is the point that the camera looks at",
         "expected two different points",
-        Some("without `target` the camera looks at the origin"),
+        Some("without `target` that is the origin: set `target`"),
     );
     check(
         "[camera]\neye = «[0, nan, 0]»\n",

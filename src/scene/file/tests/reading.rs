@@ -61,7 +61,7 @@ fn what_is_not_toml_or_has_no_such_key() {
         "clipping = «\"cube\"»\n",
         "unknown word `cube`",
         "expected `planes` or `ndc-cube`",
-        None,
+        Some("did you mean `ndc-cube`?"),
     );
     check(
         "painter_key = «\"nearest\"»\n",
