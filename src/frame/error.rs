@@ -60,7 +60,7 @@ impl fmt::Display for FrameError {
             }
             FrameError::Samples { samples } => write!(
                 f,
-                "{samples} samples a pixel along each side: expected 1, 2, 4 or 8, and at most {} along the picture's",
+                "{samples} samples per pixel along each side: expected 1, 2, 4 or 8, and at most {} along the picture's",
                 Scene::MAX_SIDE
             ),
             FrameError::Unclipped => write!(

@@ -13,9 +13,9 @@ pub(crate) struct Geometry {
     pub materials: Vec<u32>,
     /// One a vertex, or none.
     pub colours: Vec<[f32; 3]>,
-    /// Positions from the eye, one a vertex, or none: those of [`Geometry::models`] then.
+    /// Positions from the eye, one per vertex, or none: those of [`Geometry::models`] then.
     pub positions: Vec<[f32; 3]>,
-    /// Positions of vertices in model space, one a vertex, or none.
+    /// Positions of vertices in model space, one per vertex, or none.
     pub models: Models,
     /// True if all vertices are there a second time, numbered after all others, with their normals negated.
     pub two_sided: bool,

@@ -1,6 +1,6 @@
 //! The painter's algorithm: polygons sorted from back to front, so that later ones hide earlier ones (L5).
 //!
-//! Sorting takes O(n log n), and the sorted frame is then drawn without looking at depth. The key is one number a polygon:
+//! Sorting takes O(n log n), and the sorted frame is then drawn without looking at depth. The key is one number per polygon:
 //! the depth z/w of its corners, their mean or that of the farthest one. One number cannot order all scenes, and for some
 //! no order is right at all (L5: *Can have unresolvable depth order*):
 //! [`conflicts`](crate::raster::painter::conflicts) finds both.

@@ -40,7 +40,7 @@ pub struct PolygonMesh {
 }
 
 impl PolygonMesh {
-    /// The most polygons a mesh may have: 16 million, so that polygon numbers are exact in an `f32`.
+    /// The most polygons that a mesh may have: 16 million, so that polygon numbers are exact in an `f32`.
     pub const MAX_POLYGONS: usize = 1 << 24;
     /// The most corners, all polygons together: 128 million.
     pub const MAX_CORNERS: usize = 1 << 27;
@@ -146,7 +146,7 @@ pub enum MeshError {
     },
     /// More polygons than [`PolygonMesh::MAX_POLYGONS`] or more corners than [`PolygonMesh::MAX_CORNERS`].
     TooLarge,
-    /// The normals are not one a position, or their corner indices not one a corner.
+    /// There is not one normal per position, or not one normal index per corner.
     NormalCount {
         /// The number found.
         found: usize,

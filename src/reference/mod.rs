@@ -33,9 +33,9 @@ use coverage::Scanline;
 /// A closed form of shading: the attributes that vary over a polygon, and their interpolation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
-    /// One colour a polygon, lit by its own normal (L21 2). Light and eye at positions are seen from the mean of its corners.
+    /// One colour per polygon, lit by its own normal (L21 2). Light and eye at positions are seen from the mean of its corners.
     Flat,
-    /// One colour a polygon, lit by the normalised mean of its vertex normals (CS171 3, Algorithm 6).
+    /// One colour per polygon, lit by the normalised mean of its vertex normals (CS171 3, Algorithm 6).
     FlatAverage,
     /// Colours: each vertex is lit by its own normal and clamped to 0..=1; then colours are interpolated linearly
     /// (L21 3).
@@ -89,7 +89,7 @@ impl Model {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferencePicture {
     /// Linear red, green, blue in 0..=1; alpha is 1 where a polygon is seen. Elsewhere the background, with alpha 0. Of a
-    /// frame with several samples a pixel each is seen and shaded on its own, and this is their mean.
+    /// frame with several samples per pixel each is seen and shaded on its own, and this is their mean.
     pub picture: Picture<[f64; 4]>,
     /// See [`Visibility::polygons`]; of each sample.
     pub polygons: Picture<u32>,

@@ -21,7 +21,7 @@ pub(super) struct PolygonTable {
     pub starts: Vec<u32>,
     /// The lighting of each polygon; empty where all have the first.
     pub materials: Vec<u32>,
-    /// One bit a polygon: 1 if it has a normal. Without one it is never drawn.
+    /// One bit per polygon: 1 if it has a normal. Without one it is never drawn.
     pub has_normal: Vec<u64>,
 }
 

@@ -7,7 +7,7 @@ use crate::scene::{
 };
 use glam::{DMat4, DVec4};
 
-/// The planes that a position is beyond: one bit a side of the view (left, right, bottom, top, near, far), and from
+/// The planes that a position is beyond: one bit per side of the view (left, right, bottom, top, near, far), and from
 /// [`BEYOND_PLANES`] on one a plane of [`View::planes`].
 pub(super) type Codes = u16;
 

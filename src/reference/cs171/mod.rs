@@ -95,7 +95,7 @@ impl Default for Reading {
 /// The values that are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shading {
-    /// Nothing: one colour a triangle, of the average corner (Algorithm 6).
+    /// Nothing: one colour per triangle, of the average corner (Algorithm 6).
     Flat,
     /// The colours of the corners (Algorithms 4 and 5).
     Gouraud,

@@ -88,7 +88,7 @@ fn phong_colour(corners: &Corners, weights: Weights, light: &Lighting, reading: 
 /// Polygons of more than three corners are passed over: [`triangulated`](crate::frame::triangulate::triangulated) cuts them. The
 /// average corner is that of the scene's polygon ([`Frame::mean`]). A corner that clipping made is not lit, but lies
 /// between two that are. A point on the near or far plane itself may be lost to rounding, as the cube is closed and tested
-/// in `f64`. Of a frame with several samples a pixel the grid is one of samples: [`Raster::filtered`].
+/// in `f64`. Of a frame with several samples per pixel the grid is one of samples: [`Raster::filtered`].
 pub fn render(frame: &Frame, shading: Shading, reading: Reading) -> Raster {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let corners = corners(frame);
