@@ -1,4 +1,4 @@
-//! Inputs that are missing, broken or too large: one error each, with its place, and nothing written.
+//! Missing, broken or too large inputs: one error each, with its place, and nothing written.
 
 use super::Folder;
 
@@ -109,7 +109,7 @@ fn broken_mesh_files() {
             with("v 1e99 0 0\nf 1 2 4").into_bytes(),
             &["mesh.obj:4: ", "expected a finite number"],
         ),
-        // A file cut off in the middle of a line.
+        // The file is cut off in the middle of a line.
         (
             with("f 1 2 3\nv 1 2").into_bytes(),
             &["mesh.obj:5: `v` has too few numbers: expected three, found 2"],

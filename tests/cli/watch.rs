@@ -1,4 +1,4 @@
-//! `render --watch`: draws again whenever a file changes. The test ends the program.
+//! `render --watch` draws again whenever a file changes. The test stops the program.
 
 use super::Folder;
 use std::io::{BufRead, BufReader};
@@ -6,7 +6,7 @@ use std::process::{Child, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-/// The program that watches, and the lines that it says.
+/// A watching program and the lines that it prints.
 struct Watcher(Child, Receiver<String>);
 
 impl Watcher {
@@ -26,7 +26,7 @@ impl Watcher {
         Watcher(child, receive)
     }
 
-    /// Waits for a line that holds `part`.
+    /// Waits for a line that contains `part`.
     fn says(&self, part: &str) {
         let limit = Duration::from_secs(60);
         while !self

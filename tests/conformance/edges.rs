@@ -102,8 +102,8 @@ fn neighbours_agree_along_their_edge() {
             .expect("a border");
         let (a, b) = (picture.get(border - 1, row)[0], picture.get(border, row)[0]);
         // At most one pixel lies between the last pixel of one quad and the first of the other.
-        // Horizontally the intensity changes by at most 0.6 over 33 pixels, because the edges are
-        // not parallel.
+        // Horizontally the intensity changes by at most 0.6 over 33 pixels where the edges are not
+        // parallel.
         assert!((a - b).abs() < 0.02, "row {row}: {a} and {b}");
     }
 }

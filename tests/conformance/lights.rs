@@ -153,7 +153,7 @@ fn every_mode_changes_the_picture() {
     }
 }
 
-/// Duff's quadratics agree with naive Phong. The lecture's form differs: its light vectors are
+/// Duff's six quadratics agree with naive Phong. The lecture's form differs: its light vectors are
 /// constant over each polygon.
 #[test]
 fn what_constant_vectors_lose() {

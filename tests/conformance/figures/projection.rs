@@ -64,8 +64,8 @@ fn cs171() {
     let [phong, gouraud, printed] =
         ["phong", "gouraud", "printed"].map(|key| value(&content, &format!("peak-{key}")));
     // Cells are 22.5° by 25.7°, and cos 8° to the power of 60 is ½, so the highlight is smaller
-    // than a cell. Its middle is not within 2° of a vertex or edge, where cos 2° to the power of 60
-    // is 0.96. So more than 4 % of its 115 levels (½ · 0.9) are lost between vertices: 4.6.
+    // than a cell. Within 2° of a vertex or edge cos 2° to the power of 60 is 0.96. Unless its
+    // middle is there, more than 4 % of its 115 levels (½ · 0.9) are lost between vertices: 4.6.
     assert!(
         gouraud < phong - 4.6 && printed < phong - 4.6,
         "{phong}, {gouraud}, {printed}"
