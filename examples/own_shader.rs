@@ -16,7 +16,7 @@ use std::io::Write;
 ///
 /// ```text
 /// I = I_a k_a + Σ I_p k_d b/bands + Σ I_p k_s [R·V > 0.9]
-/// R·V = 2 (L·N)(V·N) − L·V,   b = how many of (i − ½) / bands, i = 1, 2, …, lie below L·N
+/// R·V = 2 (L·N)(V·N) − L·V,   b = number of (i − ½) / bands, i = 1, 2, …, below L·N
 /// ```
 #[derive(Clone, Copy, Default)]
 struct Toon {
