@@ -35,7 +35,7 @@ struct Known {
     flip: f64,
 }
 
-/// Made with scikit-image 0.26.0 and NumPy 2.4.6:
+/// Known metrics of four pairs, made with scikit-image 0.26.0 and NumPy 2.4.6:
 ///
 /// ```text
 /// from skimage.metrics import structural_similarity, peak_signal_noise_ratio
@@ -49,7 +49,7 @@ struct Known {
 /// signed = ((la - lr) * 255).mean()
 /// ```
 ///
-/// With flip_evaluator 1.7, the implementation by the authors of ꟻLIP, in f32:
+/// ꟻLIP is made with flip_evaluator 1.7, the implementation by its authors, in f32:
 ///
 /// ```text
 /// map, _, _ = flip_evaluator.evaluate(*(np.float32(p / 255.0) for p in (r, a)), "LDR", applyMagma=False)

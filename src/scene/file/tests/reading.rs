@@ -165,7 +165,7 @@ fn what_is_of_the_wrong_kind() {
     );
 }
 
-/// Text that is not TOML at all, of any kind, is an error with a place and never a panic.
+/// Text that is not TOML gives an error with a place, and never a panic.
 #[test]
 fn broken_text() {
     for (text, line, column) in [
@@ -189,7 +189,7 @@ fn broken_text() {
             "{error}"
         );
     }
-    // Every beginning of a scene, at every byte.
+    // Try every beginning of a scene, at every byte.
     let whole =
         with_object("title = 'ä'\n[camera]\neye = [0, 0, 5]\n[[light]]\ndirection = [1, 1, 1]");
     for end in (0..whole.len()).filter(|end| whole.is_char_boundary(*end)) {
