@@ -244,7 +244,7 @@ fn clipped(near: [f32; 3], far: [f32; 3], garbage: [f32; 3]) -> Frame {
 }
 
 #[test]
-fn a_clip_corner_has_what_lies_between_its_parents() {
+fn a_clip_corner_interpolates_its_parents() {
     let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
     let frame = clipped(x, z, [0.0, 0.6, 0.8]);
     let seen = visibility(&frame);

@@ -243,7 +243,7 @@ fn the_answer_names_the_fastest_of_those_that_draw_the_picture() {
 }
 
 #[test]
-fn the_answer_says_what_is_not_known() {
+fn the_answer_names_gaps() {
     let mut document = document(&[(SPHERE, "sphere")]);
     let text = answer::markdown(&answer(&report(&document).data));
     assert!(
@@ -351,7 +351,7 @@ fn parameters_are_numbers_or_auto() {
 /// Documents from before there were several engines lack engines, methods and machines beside. They
 /// read as the span engine's.
 #[test]
-fn older_documents_are_of_the_lectures_own_form() {
+fn older_documents_are_read_as_the_span_engines() {
     let mut document = document(&[("prism", "prism")]);
     let comparison = &mut document.comparisons[0];
     (comparison.title, comparison.description) = Default::default();

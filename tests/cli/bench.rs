@@ -29,7 +29,7 @@ const NEAR: &str = "builtin:sphere?rings=6&segments=8 --size 64x48 --light-at 2,
 /// `compare` draws with the scalar span engine unless another engine is asked for, and reports the
 /// renderer.
 #[test]
-fn comparisons_say_what_drew_each_row() {
+fn comparisons_name_the_renderer_of_each_row() {
     let folder = Folder::new();
     let best = Level::best().name();
     let compared = |flags: &str| {
@@ -90,7 +90,7 @@ fn comparisons_say_what_drew_each_row() {
 
 /// Errors are measured on the pictures of the engine that was asked for.
 #[test]
-fn errors_are_those_of_the_engine_that_was_asked_for() {
+fn errors_come_from_the_requested_engine() {
     let folder = Folder::new();
     let errors = |flags: &str| {
         let ended = folder
@@ -114,7 +114,7 @@ fn errors_are_those_of_the_engine_that_was_asked_for() {
 }
 
 #[test]
-fn every_instruction_set_is_timed_for_itself() {
+fn every_instruction_set_is_timed_separately() {
     let folder = Folder::new();
     let ended = folder
         .run(&format!(
@@ -172,7 +172,7 @@ fn every_instruction_set_is_timed_for_itself() {
 
 /// `--frame-times` prints one line per method, and JSON with equal numbers.
 #[test]
-fn frame_times_are_a_line_a_method() {
+fn frame_times_are_one_line_per_method() {
     let folder = Folder::new();
     let flags = "--frame-times --frames 3 --warmup 1 --threads 2 --json times.json";
     let ended = folder

@@ -6,7 +6,7 @@ use fastphong::number::Level;
 /// Without `--method` the tool draws naive Phong's picture, which fast Phong does not under
 /// positional lights. `--verbose` names the method and the reason.
 #[test]
-fn auto_is_the_default_method_and_says_what_it_takes() {
+fn auto_is_the_default_method_and_names_its_choice() {
     let folder = Folder::new();
     let scene = "render two-lights --size 160x120";
     folder
@@ -62,7 +62,7 @@ fn auto_is_the_default_method_and_says_what_it_takes() {
 /// Without arguments the tool prints five working commands and where to find help. The exit code is
 /// 2, as for all wrong usage.
 #[test]
-fn without_arguments_there_are_five_things_to_try() {
+fn without_arguments_five_commands_are_suggested() {
     let folder = Folder::new();
     let ended = folder.run("");
     assert_eq!((ended.code, &*ended.out), (Some(2), ""));

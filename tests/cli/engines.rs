@@ -7,7 +7,7 @@ use fastphong::scene::input;
 use fastphong::shading::{METHODS, Variant};
 
 #[test]
-fn engines_agree_and_say_what_they_do() {
+fn engines_agree_and_report_their_work() {
     let folder = Folder::new();
     let run = |engine: &str, name: &str| {
         folder
@@ -98,7 +98,7 @@ fn polygons_that_cross_themselves_are_told_of() {
 
 /// `--engine span` and its old name `scanline` draw the library's default picture.
 #[test]
-fn the_lectures_own_form_can_be_asked_for() {
+fn the_scalar_span_engine_can_be_requested() {
     let file = input::load("builtin:sphere?rings=6&segments=8").unwrap();
     let mut scene = input::resolve(&file).unwrap().scene;
     (scene.width, scene.height) = (64, 48);
@@ -115,7 +115,7 @@ fn the_lectures_own_form_can_be_asked_for() {
 
 /// The row engine draws the span engine's picture within rounding, on every instruction set.
 #[test]
-fn instruction_sets_draw_the_lectures_picture() {
+fn instruction_sets_draw_the_span_engines_picture() {
     for method in METHODS {
         let method = method.info.name;
         let lecture = sphere(&format!("-m {method} --engine span --simd scalar"));
@@ -145,7 +145,7 @@ fn simd() -> impl Iterator<Item = Level> {
 /// The span engine is scalar and the row engine SIMD. Any other combination is one error that names
 /// valid flags.
 #[test]
-fn engines_and_instruction_sets_are_one_axis() {
+fn mismatched_engines_and_instruction_sets_are_rejected() {
     let folder = Folder::new();
     for command in [
         &*format!("render {SPHERE} -o out.png"),
@@ -200,7 +200,7 @@ fn threads_change_no_byte() {
 }
 
 #[test]
-fn verbose_says_what_drew_the_picture() {
+fn verbose_names_the_engine() {
     let folder = Folder::new();
     // The instruction set that `auto` chooses.
     let best = Level::best();
@@ -261,7 +261,7 @@ fn verbose_says_what_drew_the_picture() {
 /// A change of engine is reported with its reason: always if the engine was asked for, else with
 /// `--verbose`.
 #[test]
-fn another_engine_than_asked_for_is_told_with_the_reason() {
+fn a_change_of_engine_is_reported_with_its_reason() {
     let folder = Folder::new();
     let run = |flags: &str| {
         folder
@@ -297,7 +297,7 @@ fn another_engine_than_asked_for_is_told_with_the_reason() {
 
 /// Single-threaded scalar renderers reject an instruction set and report that threads do not help.
 #[test]
-fn pixel_by_pixel_means_no_wide_instructions() {
+fn scalar_renderers_reject_instruction_sets() {
     let folder = Folder::new();
     for (flags, what) in [
         ("--engine barycentric -m flat", "the barycentric renderer"),
@@ -340,7 +340,7 @@ fn pixel_by_pixel_means_no_wide_instructions() {
 /// Unknown engines, instruction sets and thread counts give one error each that lists the valid
 /// ones.
 #[test]
-fn what_there_is_not_is_refused_by_name() {
+fn unknown_engines_levels_and_threads_are_rejected_by_name() {
     let folder = Folder::new();
     let expected_level = "expected `auto`, `scalar`";
     for command in [

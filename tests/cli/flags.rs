@@ -117,7 +117,7 @@ fn view_zero_is_from_z_and_azimuth_turns_toward_x() {
 }
 
 #[test]
-fn material_flags_stand_over_every_material() {
+fn material_flags_override_every_material() {
     let folder = Folder::new();
     let black = "--ka 0 --kd 0 --ks 0 --size 64x48 -o out.png";
     for (input, replaces) in [
@@ -159,7 +159,7 @@ fn without_lights_only_ambient_light_is_left() {
 }
 
 #[test]
-fn flags_that_make_no_sense_are_refused_by_name() {
+fn invalid_flags_are_rejected_by_name() {
     let folder = Folder::new();
     for (flags, parts) in [
         (

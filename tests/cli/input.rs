@@ -20,7 +20,7 @@ fn refused(files: &[(&str, &[u8])], input: &str, parts: &[&str]) {
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 #[test]
-fn what_is_not_there() {
+fn missing_inputs() {
     refused(
         &[],
         "taepot",
@@ -176,7 +176,7 @@ fn broken_scene_files() {
 }
 
 #[test]
-fn what_is_odd_about_a_mesh_is_a_warning() {
+fn odd_meshes_give_warnings() {
     let folder = Folder::new();
     folder.write(
         "mesh.obj",

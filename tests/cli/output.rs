@@ -7,7 +7,7 @@ use std::io::Read;
 use std::process::Stdio;
 
 #[test]
-fn places_that_cannot_be_written_leave_nothing_behind() {
+fn unwritable_paths_leave_nothing_behind() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("folder.png")).unwrap();
     folder.write("file", "old");
@@ -85,7 +85,7 @@ fn a_picture_can_be_piped() {
 
 /// A reader that takes nothing, or only the beginning, causes no error and no panic.
 #[test]
-fn a_reader_that_goes_away_ends_it_quietly() {
+fn a_closed_pipe_ends_the_tool_quietly() {
     let folder = Folder::new();
     for (arguments, code) in [
         ("list methods", 0),

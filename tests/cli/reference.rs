@@ -4,7 +4,7 @@ use super::{Folder, SPHERE, picture};
 use fastphong::picture::image_file::{FilePicture, write_picture};
 
 #[test]
-fn without_a_reference_the_candidate_is_kept_and_the_next_command_said() {
+fn a_missing_reference_keeps_the_candidate_and_suggests_a_command() {
     let folder = Folder::new();
     let ended = folder
         .run(&format!("render {SPHERE} --reference ref.png"))

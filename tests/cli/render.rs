@@ -193,7 +193,7 @@ fn the_printed_scene_gives_the_same_picture() {
 
 /// The painter reports wrongly ordered polygons on standard error, except with `--quiet`.
 #[test]
-fn the_painter_says_what_it_draws_wrongly() {
+fn the_painter_reports_wrongly_ordered_polygons() {
     let folder = Folder::new();
     let said = |input: &str| {
         folder
@@ -274,7 +274,7 @@ fn supersampled_pictures_have_the_size_of_the_scene() {
 
 /// Without clipping, a polygon with a corner in the eye plane is left out, reported and counted.
 #[test]
-fn polygons_without_a_place_are_told_of() {
+fn unprojectable_polygons_are_reported() {
     let folder = Folder::new();
     folder.write(
         "ground.obj",

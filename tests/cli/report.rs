@@ -77,7 +77,7 @@ fn figures_of_the_lectures_stand_in_the_page_on_demand() {
 /// Experiments appear in the page on demand. Only one method runs besides naive Phong, because
 /// frames of 1920 × 1080 are slow in test builds.
 #[test]
-fn studies_stand_in_the_page_on_demand() {
+fn experiments_appear_in_the_page_on_demand() {
     let folder = Folder::new();
     folder
         .run(&format!(
@@ -122,7 +122,7 @@ fn the_markdown_and_its_pictures_stand_beside_the_page() {
 }
 
 #[test]
-fn what_cannot_be_written_is_said_and_what_was_there_is_kept() {
+fn write_errors_are_reported_and_old_files_kept() {
     let folder = Folder::new();
     folder.write("file", "old").write("page.html", "old");
     std::fs::create_dir(folder.path("folder")).unwrap();

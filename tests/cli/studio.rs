@@ -8,7 +8,7 @@ const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 /// A mesh alone stands before opaque grey with smooth edges, lit from the camera's upper left in
 /// every view.
 #[test]
-fn a_mesh_alone_is_flattered() {
+fn a_mesh_alone_is_shown_in_the_studio() {
     let folder = Folder::new();
     let draw = |flags: &str| {
         folder
@@ -82,7 +82,7 @@ fn many_polygons_and_pixels_have_one_sample() {
 
 /// Materials of the mesh override the studio's clay, and the report shows a mesh as `render` does.
 #[test]
-fn materials_of_the_mesh_win_and_the_report_shows_it_too() {
+fn materials_of_the_mesh_override_the_studio_also_in_the_report() {
     let folder = Folder::new();
     folder
         .write("red.mtl", "newmtl red\nKa 0 0 0\nKd 1 0 0\nKs 0 0 0\n")
@@ -104,7 +104,7 @@ fn materials_of_the_mesh_win_and_the_report_shows_it_too() {
 
 /// Faces may name normals that the file does not have, as in other loaders. The tool warns once.
 #[test]
-fn faces_may_name_normals_that_the_file_does_not_have() {
+fn faces_may_name_missing_normals() {
     let folder = Folder::new();
     folder.write("mesh.obj", format!("{TRIANGLE}f 1/1/1 2/2/1 3/3/1\n"));
     let ended = folder.run("render mesh.obj --size 64x48 -o out.png").done();

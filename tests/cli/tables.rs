@@ -88,7 +88,7 @@ fn lists_have_an_entry_for_everything_in_their_table() {
 }
 
 #[test]
-fn engines_and_instruction_sets_are_listed_with_what_they_can() {
+fn engines_and_instruction_sets_are_listed_with_their_abilities() {
     let folder = Folder::new();
     let engines = folder.run("list engines --json").done().json();
     let engines = engines.as_array().expect("a list");
@@ -242,7 +242,7 @@ fn every_method_is_explained() {
 }
 
 #[test]
-fn info_counts_what_a_mesh_has() {
+fn info_counts_parts_of_a_mesh() {
     let folder = Folder::new();
     let of = |input: &str| {
         folder.run(&format!("info {input} --json")).done().json()["objects"][0].clone()
@@ -336,7 +336,7 @@ fn info_speaks_of_scenes_too() {
 /// `info` reports the choice of `auto`: the row engine on the best instruction set, or the span
 /// engine with a reason.
 #[test]
-fn info_says_what_auto_would_take() {
+fn info_reports_the_choice_of_auto() {
     let folder = Folder::new();
     let best = Level::best();
     let choices =

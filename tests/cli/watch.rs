@@ -46,7 +46,7 @@ impl Drop for Watcher {
 }
 
 #[test]
-fn a_change_of_any_file_draws_again_and_errors_do_not_end_it() {
+fn any_file_change_draws_again_and_errors_do_not_stop_it() {
     let folder = Folder::new();
     let scene = "image = { width = 16, height = 12 }\n[[object]]\nmesh = \"mesh.obj\"\n";
     let mesh = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";

@@ -368,7 +368,7 @@ fn slerp_steps_by_four_additions_and_eight_multiplications() {
 /// Four lights cost at most four times as much as one. Operations that do not involve lights cost
 /// the same.
 #[test]
-fn lights_are_paid_for_where_they_are_lit() {
+fn cost_grows_with_the_lights() {
     let pixel = |entry: &'static Entry, lights| {
         let counts = entry.variant().operations(lights);
         counts.walk.multiplications + counts.shade.multiplications

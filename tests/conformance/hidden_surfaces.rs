@@ -290,7 +290,7 @@ fn pairs_pixel_by_pixel(frame: &Frame, alone: impl Fn(usize) -> Frame) -> Vec<(u
 /// Finding wrongly ordered pairs from the ends of overlapping spans gives the same pairs as
 /// comparing pixels. The polygons are concave, and cross themselves and each other.
 #[test]
-fn wrong_pairs_are_those_of_the_pixels() {
+fn wrong_pairs_agree_with_brute_force() {
     let mut random = Random::new(41);
     let (mut wrong, mut cutting) = (0, 0);
     for round in 0..30 {
@@ -455,7 +455,7 @@ fn fighting_is_the_same_outside_of_a_margin() {
 /// With CS171's per-sample clipping two polygons can hide each other in the middle of their
 /// overlap, although one of them is outside the cube at its ends.
 #[test]
-fn conflicts_are_those_of_samples_in_the_cube() {
+fn conflicts_respect_per_sample_clipping() {
     let mut builder = FrameBuilder::new(48, 48);
     builder
         .clipping(Clipping::NdcCube)

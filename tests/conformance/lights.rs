@@ -248,7 +248,7 @@ fn converted_exponents_give_the_same_highlight() {
 /// Values stay finite, channels without specular reflection show no highlight, and the picture
 /// agrees with the reference wherever the bound is below 1.
 #[test]
-fn unlucky_places_make_no_artefacts() {
+fn degenerate_light_positions_make_no_artefacts() {
     let eye_inside = |s: &mut Scene| {
         s.lights = vec![Light {
             falloff: Falloff::InverseSquare,

@@ -97,7 +97,7 @@ fn wrong_pixels(scene: &Scene) -> (usize, usize, usize) {
 /// In front of the eye the test equals clipping: a polygon through near and far plane has no
 /// unexplained wrong pixel.
 #[test]
-fn in_front_of_the_eye_the_test_is_clipping() {
+fn in_front_of_the_eye_the_test_equals_clipping() {
     for (from, to, near, far) in [
         (-0.5, -40.0, 1.5, 20.0),
         (-1.0, -9.0, 2.0, 30.0),
@@ -145,7 +145,7 @@ fn through_the_plane_of_the_eye_the_test_is_wrong() {
 
 /// A corner in the eye plane cannot be projected: its polygon is left out and counted.
 #[test]
-fn corners_without_a_place_are_counted() {
+fn unprojectable_corners_are_counted() {
     // Three such corners: in the eye plane, at the eye, and just before it on the line of sight.
     // The last projects to the middle of the picture, but z/w is -1e5.
     let [at_the_eye, before_it] = [0.0, -1e-6].map(|z| {

@@ -138,7 +138,7 @@ fn pictures_are_the_blessed_ones() {
 
 /// The comparison rejects a pixel that is off by two levels and another method's picture.
 #[test]
-fn the_comparison_catches_what_it_should() {
+fn the_comparison_detects_two_levels() {
     let frame = &case("coarse-sphere", Some(SIZE)).frame;
     let picture = |name: &str| {
         fastphong::shading::Variant::parse(name)

@@ -261,7 +261,7 @@ fn supersampled_methods_are_within_their_bounds() {
 }
 
 #[test]
-fn numbers_of_samples_that_cannot_be() {
+fn invalid_sample_counts_are_rejected() {
     for (width, height, n) in [
         (12, 12, 3),
         (12, 12, 0),

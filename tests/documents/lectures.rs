@@ -33,7 +33,7 @@ fn every_item_stands_in_the_table_once_and_in_order() {
 }
 
 #[test]
-fn every_item_lives_where_it_says() {
+fn every_item_is_found_where_listed() {
     for [number, _, code, _] in items() {
         for part in code.split("; ") {
             let Some((file, names)) = part.split_once(':') else {

@@ -198,7 +198,7 @@ fn operations(entry: &'static Entry) -> String {
 }
 
 #[test]
-fn every_method_is_described_with_what_it_costs() {
+fn every_method_is_described_with_its_operations() {
     let methods = read("docs/methods.md");
     for entry in METHODS {
         let text = section(&methods, entry.info.name);
@@ -243,7 +243,7 @@ fn every_method_is_described_with_what_it_costs() {
 
 /// Every text that introduces the program gives the right number of methods.
 #[test]
-fn the_number_of_methods_is_true_wherever_it_is_written() {
+fn the_number_of_methods_is_right_everywhere() {
     const WORDS: [&str; 6] = ["nine", "ten", "eleven", "twelve", "thirteen", "fourteen"];
     let number = WORDS[METHODS.len() - 9];
     for name in ["Cargo.toml", "README.md", "src/lib.rs", "src/cli/mod.rs"] {
@@ -273,7 +273,7 @@ fn is_path(text: &str) -> bool {
 }
 
 #[test]
-fn every_file_that_is_named_exists() {
+fn named_files_exist() {
     let mut count = 0;
     for document in documents() {
         let text = read(&document);

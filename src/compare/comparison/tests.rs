@@ -135,7 +135,7 @@ fn naive_phong_is_added_only_where_it_is_missing() {
 }
 
 #[test]
-fn numbers_of_the_frame_are_those_of_a_hand_count() {
+fn frame_counts_agree_with_hand_counts() {
     // A square of 6 × 4 pixels has a triangle with legs of 4 pixels in front of one corner. It
     // covers the centres with x + y < 4, counted from its corner in halves: 3 + 2 + 1, and 4 on the
     // hypotenuse, which the top-left rule excludes.
@@ -196,7 +196,7 @@ fn numbers_of_the_frame_are_those_of_a_hand_count() {
 }
 
 #[test]
-fn own_closed_form_is_that_of_the_model() {
+fn rows_are_within_the_bound_of_their_closed_form() {
     // Use the most Newton steps, because short spans over large angles need more than the default.
     let with_all_steps =
         |variant: Variant| match variant.info().parameters.iter().find(|p| p.name == "steps") {

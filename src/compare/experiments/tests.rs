@@ -71,7 +71,7 @@ fn every_view_is_drawn_once_by_every_method_that_was_asked_for() {
 }
 
 #[test]
-fn counts_are_those_of_a_sphere() {
+fn counts_agree_with_a_sphere() {
     let measured = small_scaling();
     for point in &measured.points {
         // Euler: a closed surface of triangles without holes has V − T/2 = 2.
@@ -203,7 +203,7 @@ fn there_are_four_corners_and_naive_phong_is_one_of_the_methods() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused() {
+fn impossible_requests_are_rejected() {
     let none = SpeedupOptions {
         size: [0, 48],
         limits: QUICK,

@@ -263,7 +263,7 @@ fn percentile_is_the_nearest_rank() {
 }
 
 #[test]
-fn what_is_not_finite_is_a_full_error_and_spoils_no_mean() {
+fn values_not_finite_are_full_errors_and_keep_means_finite() {
     let reference = LinearPicture::new(12, 12, [0.5, 0.5, 0.5, 1.0]);
     for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let mut actual = reference.clone();

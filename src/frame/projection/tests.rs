@@ -229,7 +229,7 @@ fn corners(frame: &Frame, polygon: usize) -> Vec<PlainCorner> {
 /// Frames equal a polygon-by-polygon projection bit by bit: coordinates, weights, normals and
 /// numbers. Pieces of clipped polygons keep the place of the whole.
 #[test]
-fn frames_are_what_polygon_by_polygon_gives() {
+fn frames_equal_plain_projection() {
     let mut cut = 0;
     // The scene `million` has the sphere of the others.
     for scene in SCENES.iter().filter(|scene| scene.name != "million") {
@@ -297,7 +297,7 @@ fn assert_same(a: &Frame, b: &Frame, name: &str) {
 
 /// A frame reused for other cameras and scenes equals a new one, and soon allocates no more memory.
 #[test]
-fn a_frame_used_again_is_as_good_as_a_new_one() {
+fn a_reused_frame_equals_a_new_one() {
     let mut frame = Frame::empty(1, 1);
     for name in [
         "teapot",
@@ -412,7 +412,7 @@ fn a_camera_that_sees_nothing_leaves_an_empty_frame() {
 /// Both tests of the visible side agree: the sign of the screen area for whole polygons, the sign
 /// of a volume for clipped ones.
 #[test]
-fn both_ways_to_tell_the_side_agree() {
+fn both_tests_of_the_side_agree() {
     let scene = shipped("teapot");
     let view = View::new(&scene).expect("a camera");
     let mesh = &scene.objects[0].mesh;

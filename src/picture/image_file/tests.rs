@@ -68,7 +68,7 @@ fn the_ending_names_the_format() {
 }
 
 #[test]
-fn every_format_gives_back_what_it_holds() {
+fn every_format_reads_back_its_pictures() {
     let back = decode_picture(&encode_png(&stored()).unwrap()).unwrap();
     assert_eq!(
         back,
@@ -96,7 +96,7 @@ fn every_format_gives_back_what_it_holds() {
 }
 
 #[test]
-fn the_bytes_are_those_of_the_formats() {
+fn bytes_follow_the_formats() {
     let picture = Picture8::from_pixels(1, 2, vec![[1, 2, 3, 255], [4, 5, 6, 0]]).unwrap();
     assert_eq!(
         encode_ppm(&picture).unwrap(),
@@ -231,7 +231,7 @@ fn a_file_has_as_many_pixels_as_its_header_says() {
 }
 
 #[test]
-fn pictures_are_converted_to_what_a_format_holds() {
+fn pictures_are_converted_to_the_format() {
     let shades =
         LinearPicture::from_pixels(2, 1, vec![[0.5, 2.0, f32::NAN, 1.0], [0.0, 0.25, 1.0, 0.0]])
             .unwrap();

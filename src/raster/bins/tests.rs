@@ -78,7 +78,7 @@ fn a_band_has_every_polygon_that_covers_any_of_its_pixels_in_order() {
 /// Triangles are distinguished from other polygons, also in groups after one with other shapes, and
 /// in a list with all chunks.
 #[test]
-fn triangles_are_told_from_polygons_of_other_shapes() {
+fn triangles_are_distinguished_from_other_polygons() {
     for count in [1, 64, CHUNK + 65] {
         for other in [None, Some(0), Some(count / 2), Some(count - 1)] {
             for corners in [4, 5] {
@@ -137,7 +137,7 @@ fn triangles_are_listed_with_their_corners() {
 /// A polygon is listed in the bands of its bounding box, also over several chunks and in frames of
 /// pieces, which have their own corner lists.
 #[test]
-fn the_bands_of_a_polygon_are_those_of_its_bounding_box() {
+fn polygons_are_listed_in_the_bands_of_their_bounds() {
     let mut random = Random::new(32);
     for (count, rows) in [
         (1, 16),

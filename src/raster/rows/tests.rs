@@ -178,7 +178,7 @@ fn check<S: Token>(
 }
 
 #[test]
-fn tiles_cover_what_spans_do() {
+fn tiles_cover_the_pixels_of_spans() {
     fn of<S: Token>() {
         let mut random = Random::new(23);
         let mut counts = [0; 4];

@@ -110,7 +110,7 @@ fn quadratic_follows_the_parabola() {
 /// [`Quadratic`] drifts as documented: by at most 3 k 2⁻²⁴ of its largest value beside the
 /// roundings of its start, on normals that turn by up to 150 degrees.
 #[test]
-fn quadratic_drifts_by_three_roundings_a_step() {
+fn quadratic_drifts_by_three_roundings_per_step() {
     for pixels in [64, 256, 1024] {
         for degrees in [5.0f32, 30.0, 90.0, 150.0] {
             let n = turning(degrees, pixels).0;
@@ -219,7 +219,7 @@ fn newton_leaves_what_theory_says() {
 /// Starting from an error at a threshold, `steps` steps leave the allowed error and one step less
 /// leaves more.
 #[test]
-fn thresholds_are_where_steps_cease_to_suffice() {
+fn thresholds_separate_numbers_of_steps() {
     for largest_error in [1e-3f32, 1e-4, 1e-5] {
         let within = NewtonSteps::new(0, largest_error).within;
         let allowed = f64::from(largest_error);
@@ -540,7 +540,7 @@ mod blocks {
     /// than blocks allow. Over 15° and 64 pixels Newton's method is safe, and blocks follow it from
     /// above.
     #[test]
-    fn where_blocks_would_be_off_they_have_true_roots() {
+    fn blocks_take_true_roots_where_newton_fails() {
         let (n, truth) = turning(120.0, 16);
         let one = worst(&super::lengths(n, 1, 1e-3, 16), &truth);
         assert!(

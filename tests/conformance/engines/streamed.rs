@@ -29,7 +29,7 @@ fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, 
 }
 
 #[test]
-fn rows_make_the_picture() {
+fn streamed_rows_make_the_picture() {
     let mut in_parts = 0;
     for (kind, frame) in kinds(21, HEIGHT) {
         for variant in METHODS.iter().map(|entry| entry.variant()) {
@@ -54,7 +54,7 @@ fn rows_make_the_picture() {
 }
 
 #[test]
-fn nothing_is_drawn_for_a_taker_that_failed() {
+fn a_failed_receiver_stops_the_drawing() {
     for (kind, frame) in kinds(21, HEIGHT) {
         for renderer in renderers() {
             let mut calls = 0;

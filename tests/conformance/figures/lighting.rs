@@ -35,7 +35,7 @@ fn exponents_narrow_the_highlight() {
 }
 
 #[test]
-fn attenuation_clips_or_blackens_where_theory_says() {
+fn attenuation_clips_and_blackens_as_predicted() {
     let content = made("attenuation");
     // h / r³ ≥ 1 with r² = h² + ρ² holds in a disc of area π ρ² of 16. Half of the pixels on its
     // rim may count either way.
@@ -51,7 +51,7 @@ fn attenuation_clips_or_blackens_where_theory_says() {
 }
 
 #[test]
-fn constant_vectors_lose_what_six_products_keep() {
+fn constant_vectors_are_less_exact_than_six_products() {
     let content = made("constant-vectors");
     assert!(
         value(&content, "coarse") > 1.0 && agreement(&content, "coarse") == Agreement::Contradicts

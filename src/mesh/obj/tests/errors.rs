@@ -28,7 +28,7 @@ fn assert_error_after_points(text: &str, line: usize, message: &str) {
 }
 
 #[test]
-fn files_that_are_not_there_or_no_files() {
+fn missing_files_and_directories() {
     let missing = load_obj(Path::new("no/such/file.obj")).unwrap_err();
     assert!(
         missing

@@ -39,7 +39,7 @@ const PLAIN: Material = Material {
 };
 
 #[test]
-fn what_a_material_says() {
+fn properties_of_materials() {
     let text = "newmtl m\nKa 0.1 0.2 0.3\nKd 0.4 0.5 0.6\nKs 0.7 0.8 0.9\nNs 96.5\nillum 2\nd 1\nmap_Kd\nTf 1 1 1\n";
     let expected = Material {
         ambient: [0.1, 0.2, 0.3],
@@ -55,7 +55,7 @@ fn what_a_material_says() {
 }
 
 #[test]
-fn what_a_material_does_not_say() {
+fn defaults_of_materials() {
     assert_eq!(material("newmtl m"), (Some(PLAIN), vec![]));
     // Illumination models 0 and 1 have no highlight.
     for (illum, specular) in [("0", 0.0), ("1", 0.0), ("2", 0.5), ("3", 0.5)] {
@@ -268,7 +268,7 @@ fn a_library_in_latin_1() {
 }
 
 #[test]
-fn where_libraries_are_looked_for() {
+fn paths_of_libraries() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     // Paths have either separator. The bare name is tried if the path leads nowhere.
     for name in [

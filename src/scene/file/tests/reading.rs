@@ -4,7 +4,7 @@ use crate::scene::file::SceneFile;
 use std::format;
 
 #[test]
-fn what_is_not_toml_or_has_no_such_key() {
+fn invalid_toml_and_unknown_keys() {
     check(
         "[«camra»]\nfit = 1\n",
         "unknown key `camra`",
@@ -90,7 +90,7 @@ fn what_is_not_toml_or_has_no_such_key() {
 }
 
 #[test]
-fn what_is_of_the_wrong_kind() {
+fn values_of_the_wrong_type() {
     check(
         "two_sided = «\"yes\"»\n",
         "expected true or false",
