@@ -61,7 +61,7 @@ fn every_method_and_the_reference_draw_and_are_near_each_other() {
             sphere(&format!("-m reference:model={model}")),
         );
         let difference = fastphong::compare::metrics::compare(&a, &b).unwrap();
-        // At 64 columns and 48 rows no method is off by a tenth of a level (`Info::bound`), so
+        // At 64 columns and 48 rows no method is off by a tenth of a level (`Variant::bound`), so
         // stored values differ by at most one level.
         assert!(255.0 * difference.max <= 1.0, "{method}: {difference:?}");
     }
@@ -97,7 +97,7 @@ fn a_pfm_holds_linear_floats_and_every_format_the_same_picture() {
 }
 
 #[test]
-fn statistics_count_what_is_left_out() {
+fn statistics_count_omitted_polygons() {
     let folder = Folder::new();
     // Two triangles have no area: one is a line in space, one is seen edge-on.
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\nf 1 2 3\nf 1 3 2\nf 1 5 2\nf 1 3 4\n";

@@ -190,7 +190,7 @@ fn stored_and_linear_pictures_agree() {
 /// With perspective interpolation on a near, wide view every method agrees with the reference. The
 /// picture differs from the one interpolated on screen.
 #[test]
-fn perspective_interpolation_is_the_references() {
+fn perspective_interpolation_agrees_with_the_reference() {
     let near = |interpolation| {
         sphere(|scene| {
             scene.interpolation = interpolation;

@@ -259,7 +259,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
 }
 
 #[test]
-fn every_method_takes_what_was_counted_by_hand() {
+fn counts_agree_with_hand_counts() {
     for entry in METHODS {
         for lights in [1, 4] {
             let (found, hand) = (

@@ -274,7 +274,7 @@ fn differ(frame: &Frame, shading: Shading, model: Model) -> (f64, usize) {
 /// Algorithm 8 agrees with the reference in all three shadings. The two compute coordinates and
 /// illumination differently.
 #[test]
-fn algorithm_8_is_the_reference() {
+fn algorithm_8_agrees_with_the_reference() {
     for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
         let frame = sphere(interpolation, Culling::Back);
         for (shading, model) in [
@@ -381,7 +381,7 @@ fn plain(diffuse: f32) -> Lighting {
 /// At equal depths Algorithm 8 as printed keeps the later triangle. With the text's "less than" it
 /// keeps the earlier one.
 #[test]
-fn ties_go_to_the_later_or_to_the_earlier() {
+fn ties_go_to_the_later_or_earlier_triangle() {
     let triangle = [
         corner(-0.9, -0.9, 0.0),
         corner(0.9, -0.9, 0.0),
@@ -421,7 +421,7 @@ fn ties_go_to_the_later_or_to_the_earlier() {
 
 /// Algorithm 5 draws the part of a triangle inside the cube and nothing else.
 #[test]
-fn algorithm_5_draws_what_is_in_the_cube() {
+fn algorithm_5_draws_inside_the_cube() {
     // Depth grows by 4 from left to right. The middle half, columns 4 to 11, is inside the cube.
     let depth = |x: f64| 2.0 * x;
     let triangle = [(-1.0, -3.0), (1.0, -3.0), (0.0, 3.0)].map(|(x, y)| corner(x, y, depth(x)));
@@ -510,7 +510,7 @@ fn triangles_without_area_draw_nothing() {
 
 /// Transforming from world to NDC to screen gives the frame's vertex coordinates to the sub-pixel.
 #[test]
-fn places_are_those_of_the_frame() {
+fn screen_coordinates_agree_with_the_frame() {
     let scene = lit(Scene::of_mesh(builtin("cube").expect("a built-in mesh")));
     let frame = scene.frame().expect("a frame");
     let matrix = scene.camera.clip_matrix(120.0 / 90.0);

@@ -59,7 +59,7 @@ const FALLOFFS: [Falloff; 4] = [
 /// Methods agree with the reference within their bound for every falloff, highlight, gate and
 /// interpolation, clipped or not.
 #[test]
-fn every_mode_is_the_references() {
+fn every_mode_agrees_with_the_reference() {
     let mut nearest: BTreeMap<&str, f64> = BTreeMap::new();
     let mut failures = Vec::new();
     for (i, falloff) in FALLOFFS.into_iter().enumerate() {
@@ -156,7 +156,7 @@ fn every_mode_changes_the_picture() {
 /// Duff's six quadratics agree with naive Phong. The lecture's form differs: its light vectors are
 /// constant over each polygon.
 #[test]
-fn what_constant_vectors_lose() {
+fn constant_light_vectors_differ_from_quadratics() {
     let frame = frame(|_| ());
     let render = |name: &str| {
         Variant::parse(name)

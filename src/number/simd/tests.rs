@@ -155,7 +155,7 @@ fn any_over<S: Token, F: Block<S>>() {
 }
 
 #[test]
-fn any_gt_holds_if_one_lane_is_over() {
+fn any_over_holds_if_one_lane_is_over() {
     fn of<S: Token>() {
         any_over::<S, f32x8<S>>();
         any_over::<S, f32x16<S>>();

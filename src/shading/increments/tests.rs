@@ -199,7 +199,7 @@ fn newton_follows_the_root() {
 
 /// One step reduces a relative error e to e²/(2(1+e)). The length jumps here, so that e is visible.
 #[test]
-fn newton_leaves_what_theory_says() {
+fn newton_reduces_errors_as_derived() {
     for steps in 1..=2 {
         let jumping = (vec3([1.0, 0.0, 0.0]), vec3([-0.3, 0.0, 0.0]));
         let found = lengths(jumping, steps, 1e-3, 2);
