@@ -1,6 +1,7 @@
 //! Whole frames from a prepared scene to the stored picture, on one thread: the scalar span engine,
 //! and the row engine on every instruction set of this machine.
-//! | The floor is a lower bound: it clears, tests and writes every pixel once. Few triangles are
+//!
+//! The floor is a lower bound: it clears, tests and writes every pixel once. Few triangles are
 //! also timed at 1920 × 1080. Four lights and a million triangles are timed by the span engine and
 //! by the fastest engine.
 

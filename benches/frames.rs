@@ -1,6 +1,7 @@
 //! Whole pictures: every method by the scalar span engine, the fastest engine and, if possible, the
 //! barycentric renderer.
-//! | Times run from the projected frame to the stored picture, per covered pixel. `fastphong bench`
+//!
+//! Times run from the projected frame to the stored picture, per covered pixel. `fastphong bench`
 //! times the same in interleaved rounds; quote its figures. This benchmark tells whether a change
 //! made the code faster.
 

@@ -1,5 +1,6 @@
 //! Single spans: the cost of a method's set-up and of each pixel.
-//! | A span of n pixels takes set-up + n · slope. At n = 1 the time is nearly all set-up, which
+//!
+//! A span of n pixels takes set-up + n · slope. At n = 1 the time is nearly all set-up, which
 //! here includes the material uniforms and two vertices per span. At n = 1024 the time per element
 //! is nearly the slope. Methods that step scalars instead of vectors pay more set-up for a smaller
 //! slope. Their lines cross at the break-even length.

@@ -1,9 +1,11 @@
 //! Draws one triangle, from three positions to a picture, without any file: a tour of the library.
-//! | ```text
+//!
+//! ```text
 //! cargo run --release --example one_triangle > triangle.ppm
 //! cargo run --release --example one_triangle slerp-phong > triangle.ppm
 //! ```
-//! | Needs no feature of the crate, so it also runs with `--no-default-features`.
+//!
+//! Needs no feature of the crate, so it also runs with `--no-default-features`.
 
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, Material, MeshBuilder};

@@ -1,11 +1,14 @@
 //! A shading method outside the crate: cel shading, drawn next to naive Phong shading.
-//! | ```text
+//!
+//! ```text
 //! cargo run --release --example own_shader > own_shader.ppm
 //! ```
-//! | `Toon` defines what a vertex carries, how it is stepped along a span, and how a pixel is
+//!
+//! `Toon` defines what a vertex carries, how it is stepped along a span, and how a pixel is
 //! shaded, once for all arithmetic backends. `TOON` compiles it: every engine and instruction set
 //! then draws it like a built-in method.
-//! | Every function of a shader is `#[inline(always)]`. One that is not costs a call per pixel.
+//!
+//! Every function of a shader is `#[inline(always)]`. One that is not costs a call per pixel.
 
 use fastphong::number::{Num, Vec3};
 use fastphong::scene::input;

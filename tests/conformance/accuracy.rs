@@ -24,7 +24,8 @@ fn error(scene: &Case, variant: &Variant, truth: &LinearPicture) -> f64 {
 
 /// Checks one method on a scene with every renderer. Returns the span engine's error as a share of
 /// the rounding bound, and a message for each failure.
-/// | The other engines round in other places but no more often. The row engine steps eight pixels
+///
+/// The other engines round in other places but no more often. The row engine steps eight pixels
 /// at a time, the barycentric one interpolates by barycentric coordinates.
 fn check(scene: &Case, entry: &'static Entry) -> (f64, Vec<String>) {
     let (info, frame, variant) = (entry.info, &scene.frame, entry.variant());

@@ -1,6 +1,7 @@
 //! Compares each method's operation counts, derived by hand from the lecture's formulas, with the
 //! counting backend.
-//! | Hand counts are written like the formulas: dot products, reflections and so on. The material's
+//!
+//! Hand counts are written like the formulas: dot products, reflections and so on. The material's
 //! shininess is 32.
 
 use fastphong::number::Counts;

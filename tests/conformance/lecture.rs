@@ -22,7 +22,8 @@ const SPECULAR: f64 = 0.5;
 
 /// Largest difference between a method in `f32` and its formula on a span of [`WIDTH`] pixels and a
 /// few rows.
-/// | Each addition of a walk is off by at most 2⁻²⁴. After 64 pixels and 4 rows J, K and each
+///
+/// Each addition of a walk is off by at most 2⁻²⁴. After 64 pixels and 4 rows J, K and each
 /// coordinate of N are off by e = 68 · 2⁻²⁴ = 4.1e-6. In 2JK/D, with D over ½ here, J and K
 /// contribute 2 · 2e each and D contributes 2 · 2 · √3 e, together less than 15 e. The power
 /// multiplies this by n k_s = 10, and the diffuse term adds less than e: 151 e.

@@ -1,5 +1,6 @@
 //! `docs/flags.md` shows each flag of `fastphong render` with a picture without it and one with it.
-//! | `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from
+//!
+//! `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from
 //! [`FLAGS`] and the tool's help. Look at each pair before committing it.
 
 use crate::markdown::{files, read, root};

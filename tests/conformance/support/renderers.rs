@@ -67,7 +67,8 @@ pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) ->
 }
 
 /// Returns the error bound of the difference of two depths in 0..=1.
-/// | By edges, as derived in `coverage`: each depth is rounded twice at each of width + height
+///
+/// By edges, as derived in `coverage`: each depth is rounded twice at each of width + height
 /// steps, by half a unit in the last place, at most 2⁻²⁴ of 1, and 32 times at the starts of its
 /// walks. By barycentric coordinates there are fewer roundings. An integer, the area, its inverse
 /// and their product are rounded, 4 · 2⁻²⁴ of a coordinate in 0..=1, and so are two differences,
