@@ -122,8 +122,8 @@ fn slerp_on_a_triangle_goes_along_the_edges_then_along_the_span() {
     );
     let frame = polygon_of(8, &[apex, left, right], |_| ());
     // Row 2 is a third of the way down: 30° along both edges, (cos 30°, sin 30°, 0) and (cos 30°,
-    // 0, sin 30°). Half-way between them is their mean, (√3/2, 1/4, 1/4), normalised: z = (1/4) /
-    // √(7/8).
+    // 0, sin 30°). Half-way between them is their mean, (√3/2, 1/4, 1/4), normalised:
+    // z = (1/4) / √(7/8).
     assert_near(
         grey(&render(&frame, Model::Slerp), 3, 2),
         0.25 / libm::sqrt(0.875),

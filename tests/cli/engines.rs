@@ -126,7 +126,7 @@ fn instruction_sets_draw_the_span_engines_picture() {
             assert!(sphere(&format!("-m {method} --simd {level}")) == other);
             let difference = compare(&lecture, &other).unwrap();
             // At 64 columns and 48 rows each picture is off its closed form by less than a tenth of
-            // a level (`Variant::bound`), or a quarter where Newton's root is followed
+            // a level (`Variant::bound`). Where Newton's root is followed it is a quarter
             // (`Newton::LARGEST_ERROR`). Stored values differ by at most one level.
             assert!(
                 255.0 * difference.max <= 1.0,

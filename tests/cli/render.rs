@@ -79,7 +79,7 @@ fn a_pfm_holds_linear_floats_and_every_format_the_same_picture() {
     let FilePixels::Linear(floats) = read_picture(&folder.path("out.pfm")).unwrap().pixels else {
         panic!("no floats");
     };
-    // A PFM is linear whatever the encoding. Rounded, it equals the linear picture.
+    // A PFM is linear in every encoding. Rounded, it equals the linear picture.
     let rounded = floats.map(|pixel| pixel.map(fastphong::picture::encoding::quantise));
     let colours = |picture: &Picture8| picture.map(|[r, g, b, _]| [r, g, b]);
     assert_eq!(

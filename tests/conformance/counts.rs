@@ -53,10 +53,9 @@ const TRIGONOMETRIC: Ops = Ops([0, 0, 0, 0, 0, 1]);
 /// Dot product of three components.
 const DOT: Ops = Ops([2, 3, 0, 0, 0, 0]);
 
-/// Counts the terms of one light (2.1) after L·N and R·V. Diffuse: L·N is clamped at 0, and each
-/// channel takes a product and a sum. Highlight: it is dropped behind the surface, compared with
-/// the faintest one, raised to the power 32 by five squarings, and each channel takes a product and
-/// a sum.
+/// Counts the terms of one light (2.1) after L·N and R·V. Diffuse: L·N is clamped at 0. Highlight:
+/// it is dropped behind the surface, compared with the faintest one, and raised to the power 32 by
+/// five squarings. Each term takes a product and a sum per channel.
 fn light() -> Ops {
     3 * COMPARE + 3 * (MULTIPLY + ADD) + 5 * MULTIPLY + 3 * (MULTIPLY + ADD)
 }
@@ -88,8 +87,9 @@ fn ramp() -> Ops {
     ADD + MULTIPLY + ADD + MULTIPLY
 }
 
-/// Counts the set-up of a great circle (4.7): both chords and their lengths, the angle as twice an
-/// inverse tangent, the sine from the chords, one division, and scaling of both ends.
+/// Counts the set-up of a great circle (4.7): both chords and their lengths, and the angle as twice
+/// an inverse tangent. The sine comes from the chords. One division and the scaling of both ends
+/// follow.
 fn arc() -> Ops {
     let chords = 3 * ADD + 3 * ADD + DOT + ROOT + DOT + ROOT;
     let angle = TRIGONOMETRIC + ADD;

@@ -19,8 +19,8 @@ fn counts(frame: &Frame) -> Vec<u32> {
     counts
 }
 
-/// True if a triangle covers the pixel by a GPU's top-left rule: the centre is inside all three
-/// half-spaces, or on an edge that is a left or a top edge.
+/// True if a triangle covers the pixel by a GPU's top-left rule: its centre is inside all three
+/// half-spaces, or on a left or top edge.
 fn half_space(t: &[Corner], column: i32, row: i32) -> bool {
     let (x, y) = (i64::from(column) * 256 + 128, i64::from(row) * 256 + 128);
     let turn = |a: &Corner, b: &Corner, x: i64, y: i64| {

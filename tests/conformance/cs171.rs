@@ -285,8 +285,8 @@ fn algorithm_8_agrees_with_the_reference() {
             let (worst, pixels) = differ(&frame, shading, model);
             // Each of the two rounds some ten times for a weight, ten for a normal, ten for a
             // position and ten for a cosine: forty half-ulps. The power of 32 multiplies the error
-            // of a cosine by 32. Two lights of at most 1 add diffuse and specular terms. Bound: 2 ·
-            // 2 · 40 · 32 half-ulps.
+            // of a cosine by 32. Two lights of at most 1 add diffuse and specular terms. Bound:
+            // 2 · 2 · 40 · 32 half-ulps.
             assert!(
                 worst <= 2.0 * 2.0 * 40.0 * 32.0 * f64::EPSILON,
                 "{shading:?}, {interpolation:?}: {worst}"

@@ -31,9 +31,9 @@ fn torus(perspective: bool, hidden_surfaces: HiddenSurfaces) -> Frame {
     scene.frame().expect("a frame")
 }
 
-/// Returns the roundings of a depth on its way to a sample: two per step down an edge or along a
-/// span, of which there are at most w + h in a picture of w × h pixels, and fewer than 32 before
-/// the first step.
+/// Returns the number of roundings of a depth on its way to a sample. Each step down an edge or
+/// along a span rounds twice, and a picture of w × h pixels has at most w + h steps. Fewer than 32
+/// roundings precede the first step.
 fn roundings(frame: &Frame) -> f64 {
     2.0 * (frame.width() + frame.height()) as f64 + 32.0
 }
@@ -394,8 +394,8 @@ fn the_scene_of_z_fighting_fights() {
     assert_eq!(whole, star(DepthBits::ThirtyTwo));
 }
 
-/// Engines and reference differ in the z-fighting scene only where rounding decides a level: one of
-/// the two depths lies close to the middle between two levels.
+/// Engines and reference agree in the z-fighting scene outside a margin. They differ only where one
+/// of the two depths is so near the middle between two levels that rounding decides.
 #[test]
 fn fighting_is_the_same_outside_of_a_margin() {
     let fighting = support::scene("z-fighting", Some((48, 36)));
@@ -452,8 +452,8 @@ fn fighting_is_the_same_outside_of_a_margin() {
     );
 }
 
-/// With CS171's per-sample clipping two polygons can hide each other in the middle of their
-/// overlap, although one of them is outside the cube at its ends.
+/// Two polygons can hide each other in the middle of their overlap, although one is outside the
+/// cube at its ends. Clipping is per sample, as in CS171.
 #[test]
 fn conflicts_respect_per_sample_clipping() {
     let mut builder = FrameBuilder::new(48, 48);

@@ -71,8 +71,8 @@ fn leaning(right: f64, up: f64) -> DVec3 {
     DVec3::new(x, y, 1.0).normalize()
 }
 
-/// Builds four rows as wide as the picture, with one normal at the left and one at the right: t =
-/// (column + ½) / WIDTH.
+/// Builds four rows as wide as the picture, with one normal at the left and one at the right:
+/// t = (column + ½) / WIDTH.
 fn strip(left: DVec3, right: DVec3) -> Frame {
     let w = f64::from(WIDTH);
     frame_of(&[&[

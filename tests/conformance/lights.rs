@@ -109,7 +109,7 @@ fn every_mode_agrees_with_the_reference() {
     println!("{nearest:?}");
     assert!(failures.is_empty(), "{}", failures.join("\n"));
     // The bounds combine the worst polygon, light and weight, which never coincide. They are far
-    // from tight, but still below what is visible.
+    // from tight, but still too small to be visible.
     for (name, share) in nearest {
         assert!(
             share > 0.0005,
@@ -235,8 +235,8 @@ fn converted_exponents_give_the_same_highlight() {
     let phong = picture(SpecularModel::Phong, SpecularModel::Phong);
     let converted = most(&phong, &picture(SpecularModel::Blinn, SpecularModel::Phong));
     let same_exponent = most(&phong, &picture(SpecularModel::Blinn, SpecularModel::Blinn));
-    // cos^n 2a and cos^4n a agree to second order. For n = 32 they differ by at most 0.0043, at a =
-    // 10.1°. k_s is 0.4, and rounding to f32 is negligible.
+    // cos^n 2a and cos^4n a agree to second order. For n = 32 they differ by at most 0.0043, at
+    // a = 10.1°. k_s is 0.4, and rounding to f32 is negligible.
     assert!(converted <= 0.4 * 0.0044, "{converted}");
     assert!(
         same_exponent > 10.0 * converted,

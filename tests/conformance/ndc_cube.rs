@@ -61,8 +61,9 @@ fn depth_at(frame: &Frame, polygon: u32, x: usize, y: usize) -> (f64, f64) {
     (depth, dx.abs() + dy.abs())
 }
 
-/// Returns the error bound of a sample's depth in `f32`: two roundings per step along edge and span
-/// and fewer than 32 before, each half a unit in the last place of the largest corner depth.
+/// Returns the error bound of a sample's depth in `f32`. Each step along edge and span rounds
+/// twice, and fewer than 32 roundings precede the steps. Each is half a unit in the last place of
+/// the largest corner depth.
 fn rounding(frame: &Frame) -> f64 {
     let largest = frame
         .vertices()

@@ -1,9 +1,9 @@
-//! Compares today's pictures with the blessed ones: every shipped scene by every method and by the
-//! reference, on every engine and instruction set of this machine.
+//! Compares today's pictures with the blessed ones, for every shipped scene, method, engine and
+//! instruction set of this machine, and for the reference.
 //!
 //! `FASTPHONG_BLESS=1 cargo test --test conformance regression` blesses today's pictures. Look at
 //! each before committing it. Pixels are compared after decoding. A channel may differ by one
-//! level: a value within rounding of a half can be stored as either level, if the compiler reorders
+//! level. A value within rounding of a half can be stored as either level, if the compiler reorders
 //! the reference's operations or another engine draws it.
 
 use crate::support::cases::{case, cases};

@@ -132,7 +132,7 @@ fn costs_that_made_the_times_are_found_again() {
             (found.pixel_ns, costs.pixel_ns),
             (found.background_ns, costs.background_ns),
         ];
-        // The tolerance is that of the fit's tests.
+        // The tolerance is derived in the tests of the fit.
         assert!(
             pairs
                 .iter()

@@ -105,9 +105,9 @@ fn numbers_equal_those_of_scikit_image() {
         assert_eq!(d.frame_rms, d.rms, "all pixels are covered");
         // 20 log10(1 + 1e-12) is 9e-12 dB.
         near(d.psnr, known.psnr, 1e-11);
-        // Window means of values in 0..=1 take 22 products and sums in two passes, so they are off
-        // by 50 * 2^-53 = 6e-15, and variances by four times that, on both sides. Divided by C2 =
-        // 9e-4, the smallest denominator, this is 6e-11.
+        // Window means of values in 0..=1 take 22 products and sums in two passes. They are off by
+        // 50 * 2^-53 = 6e-15, and variances by four times that, on both sides. The smallest
+        // denominator is C2 = 9e-4, so the quotient is off by 6e-11.
         near(d.ssim.unwrap(), known.ssim, 6e-11);
         // Both are in f32, and their pixels are within 1e-4 of each other: see `flip`.
         let map = Perceived::new(&reference).flip(&Perceived::new(&actual));

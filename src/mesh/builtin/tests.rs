@@ -139,8 +139,8 @@ fn every_polygon_has_a_normal_and_the_given_ones_are_on_its_side() {
         let mesh = make(&spec);
         let normals = vertex_normals(&mesh, NormalSource::Given);
         if let Some(given) = mesh.given_normals() {
-            // Each coordinate is rounded by at most 2^-25 for numbers up to 1, the length by √3 ·
-            // 2^-25 < 1e-6.
+            // Each coordinate is rounded by at most 2^-25 for numbers up to 1, the length by
+            // √3 · 2^-25 < 1e-6.
             assert!(
                 given
                     .values
@@ -171,10 +171,10 @@ fn every_polygon_has_a_normal_and_the_given_ones_are_on_its_side() {
 #[test]
 fn given_normals_are_those_of_the_surface() {
     // A polygon's normal is the mean of the surface's normals over it, up to the square of its
-    // size, so it lies among those at its corners. At this resolution it is no farther from any
-    // than the largest difference between two corners of one polygon, about twice the distance of a
-    // correct normal. A wrong normal is unrelated to it. Along an edge the normals at its ends lean
-    // to opposite sides by equal angles, up to the square of these.
+    // size. So it lies among those at its corners. At this resolution it is no farther from any
+    // than the largest difference between two corners of one polygon. This is about twice the
+    // distance of a correct normal, and unrelated to a wrong one. Along an edge the normals at its
+    // ends lean to opposite sides by equal angles, up to the square of these.
     for name in SMOOTH {
         // The terrain's smallest hills are as small as its cells, so only the largest are tested.
         let octaves = if name == "terrain" { "&octaves=1" } else { "" };
@@ -396,9 +396,9 @@ fn the_number_of_polygons_asked_for_is_nearly_made() {
             for triangles in [false, true] {
                 let spec = format!("{}?polygons={target}&triangles={triangles}", shape.name);
                 let found = parse(&spec).expect("a spec").polygon_count();
-                // One resolution n gives c n² polygons, so the nearest is off by at most c n = √(c
-                // · target), and c is at most 64. With rows and columns a row or a column can be
-                // left out or added: half of √(16 target).
+                // One resolution n gives c n² polygons, so the nearest is off by at most c
+                // n = √(c · target), and c is at most 64. With rows and columns a row or a column
+                // can be left out or added: half of √(16 target).
                 let most = match shape.resolution {
                     Some(Resolution { columns: None, .. }) => libm::sqrt(64.0 * target as f64),
                     _ => 0.5 * libm::sqrt(16.0 * target as f64),

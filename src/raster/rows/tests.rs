@@ -80,8 +80,8 @@ fn drawn<S: Token>(
     found
 }
 
-/// Asserts that coordinates are in 0..=1, up to the error that [`SmallTriangle`] derives: 3600 ·
-/// 2⁻²⁴.
+/// Asserts that coordinates are in 0..=1, up to the error that [`SmallTriangle`] derives:
+/// 3600 · 2⁻²⁴.
 #[track_caller]
 fn assert_weights(pixels: &[Pixel]) {
     let out = 3600.0 / (1 << 24) as f32;

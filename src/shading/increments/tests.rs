@@ -326,9 +326,9 @@ fn normals_walk_great_circles_at_uniform_speed() {
         for (k, n) in edge(a, b, 64).into_iter().enumerate() {
             let t = (k as f64 + 0.5) / 64.0;
             let [wa, wb] = [1.0 - t, t].map(|t| (t * phi).sin() / phi.sin());
-            // The weights are off by the drift of 64 steps (5 half units each) and by the error of
-            // phi from rounded unit vectors (8 half units), divided by sin phi. Near 180 degrees
-            // acos in this test adds as much.
+            // The weights are off by the drift of 64 steps, 5 half units each, and by the error of
+            // phi from rounded unit vectors, 8 half units. Both are divided by sin phi. Near 180
+            // degrees acos in this test adds as much.
             let bound = (5.0 * 64.0 + 32.0) * HALF_ULP / phi.sin().powi(2);
             for i in 0..3 {
                 let truth = wa * from[i] + wb * to[i];

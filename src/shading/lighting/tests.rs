@@ -46,8 +46,8 @@ fn opposite_light_and_eye_have_no_highlight() {
     };
     let uniforms = Uniforms::new(&lighting, 1.0);
     for i in 0..1000 {
-        // At (x, 0.3 x, −2) the light is x/3 off the axis and the eye x/2: |L + V| is below 1.05 ·
-        // 5/6 x, which is below 2⁻¹⁰.
+        // At (x, 0.3 x, −2) the light is x/3 off the axis and the eye x/2: |L + V| is below
+        // 1.05 · 5/6 x, which is below 2⁻¹⁰.
         let x = i as f32 * 1e-6;
         let n = vec3([-0.6, 0.0, 0.8]); // on the side of L + V
         let point = [x, 0.3 * x, -2.0];

@@ -51,8 +51,8 @@ fn threads_change_no_byte() {
     }
 }
 
-/// Pictures that end at a band's end, one line before or one after have the span engine's coverage,
-/// and the same bytes on any number of threads.
+/// Pictures around a band's end, one line more or less, have the span engine's coverage. Their
+/// bytes do not depend on the number of threads.
 #[test]
 fn bands_leave_no_seams() {
     for height in [1, 15, 16, 17, 31, 32, 33] {

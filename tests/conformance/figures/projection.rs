@@ -25,10 +25,10 @@ fn barycentric() {
 fn perspective() {
     let content = made("perspective");
     for key in ["wrong-screen", "wrong-screen-triangles"] {
-        // Half-way between the near rim, 2.5 away, and the far one, 10.5 away, β is 10.5 / 13 =
-        // 0.81 and the screen has ½: an error of 2.5 of eight squares. From 0 at a rim to that
-        // point the error passes ½ to 1½ squares, where most pixels are wrong. This is at least a
-        // quarter of the way: more than an eighth of all pixels.
+        // Half-way between the near rim, 2.5 away, and the far one, 10.5 away, β is
+        // 10.5 / 13 = 0.81 and the screen has ½: an error of 2.5 of eight squares. From 0 at a rim
+        // to that point the error passes ½ to 1½ squares, where most pixels are wrong. This is at
+        // least a quarter of the way: more than an eighth of all pixels.
         assert!(
             value(&content, key) > 12.5,
             "{key}: {}",
@@ -50,8 +50,8 @@ fn perspective() {
         agreement(&content, "printed-weight"),
         Agreement::Contradicts
     );
-    // 128 additions of an f32 below 1 for value and weight each, over a weight of at least ¼: 2 · 4
-    // · 128 · 2⁻²⁵.
+    // 128 additions of an f32 below 1 for value and weight each, over a weight of at least ¼:
+    // 2 · 4 · 128 · 2⁻²⁵.
     assert!(value(&content, "weight") < 1024.0 / f64::from(1 << 25));
     // T6: (f + n)/(f − n) − 4fn/((f − n)(f + n)) with n = 1, f = 40: (41² − 160)/(39 · 41).
     assert!((value(&content, "depth") - 1521.0 / 1599.0).abs() < 1e-12);

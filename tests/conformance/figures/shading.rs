@@ -22,7 +22,7 @@ fn exercises() {
         drift > 1e-7 && drift < 2.0 * 1023.0 / f64::from(1 << 24),
         "{drift}"
     );
-    // The same holds over at most 230 pixels. Depth is off by as many roundings, times the density
+    // These roundings add up over at most 230 pixels. Depth is off by as many, times the density
     // 2.5.
     let levels = value(&content, "fog");
     assert!(
@@ -141,8 +141,8 @@ fn duff() {
         "{gouraud} instead of {chords}"
     );
     assert!(naive > 10.0 * gouraud.abs(), "Duff's surprise");
-    // The circle itself does not bend. What remains are the same roundings and a cosine's third
-    // derivative at two pixels per degree.
+    // The circle itself does not bend. There remain these roundings and a cosine's third derivative
+    // at two pixels per degree.
     assert!(slerp.abs() < 0.003, "{slerp}");
     assert_eq!(agreement(&content, "naive-phong"), Agreement::Contradicts);
 }
@@ -152,9 +152,9 @@ fn newton() {
     let content = made("newton");
     // The root is rounded once. N · N has four roundings, which the root halves: 3 · 2⁻²⁴.
     assert!(value(&content, "first-pixel") < 3.0 / f64::from(1 << 24));
-    // Over 60° d changes by less than 1.9 % per pixel: its relative rate is tan 30° · 2 sin 30° /
-    // 16 at the ends. The previous pixel's error adds to this: e²/2 < 2.4e-4, then e²/2 < 3e-8 and
-    // rounding, 5 · 2⁻²⁴.
+    // Over 60° d changes by less than 1.9 % per pixel: its relative rate is tan 30° · 2 sin
+    // 30° / 16 at the ends. The previous pixel's error adds to this: e²/2 < 2.4e-4, then
+    // e²/2 < 3e-8 and rounding, 5 · 2⁻²⁴.
     let [one, two, three] = [1, 2, 3].map(|steps| value(&content, &format!("error-{steps}")));
     let rounding = 5.0 / f64::from(1 << 24);
     assert!(one > 1e-4 && one < 0.036f64.powi(2) / 2.0, "{one}");

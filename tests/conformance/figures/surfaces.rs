@@ -6,8 +6,8 @@ use fastphong::lectures::Agreement;
 #[test]
 fn newell() {
     let content = made("newell");
-    // Corners are off by at most 2⁻²⁵ along each axis, over a polygon whose radius is at least half
-    // of 1.
+    // Corners are off by at most 2⁻²⁵ along each axis. The polygon's radius is 1, or more than half
+    // of it.
     let bound = (3f64.sqrt() * 4.0 / f64::from(1 << 25)).to_degrees();
     assert!(
         value(&content, "newell") < bound,
@@ -108,8 +108,8 @@ fn depth() {
 #[test]
 fn supersampling() {
     let content = made("supersampling");
-    // One sample gives 0 or 1 for evenly spread shares: an error of at least √(1/12) = 0.29. With n
-    // × n samples the error is that of the edge within a row of samples, below 1/n of it.
+    // One sample gives 0 or 1 for evenly spread shares: an error of at least √(1/12) = 0.29. With
+    // n × n samples only the edge within a row of samples is off, by less than 1/n of it.
     assert!(
         value(&content, "share") > 8.0,
         "{}",
