@@ -30,8 +30,8 @@ fn store(path: &Path, picture: &Picture8) {
         .expect("a writable file");
 }
 
-/// Returns the differences of `actual` from its blessed picture, if any, and writes both pictures
-/// of them. Blesses it if asked to.
+/// Compares `actual` with its blessed picture, or blesses it if asked to. Returns a message if they
+/// differ, and writes `actual` and the difference.
 fn check(name: &str, actual: &Picture8) -> Option<String> {
     if std::env::var_os("FASTPHONG_BLESS").is_some() {
         store(&blessed(name), actual);
@@ -45,8 +45,8 @@ fn blessed(name: &str) -> PathBuf {
     folder("tests/references").join(format!("{name}.png"))
 }
 
-/// Returns the differences of `actual` where `counts` holds, and of its coverage everywhere. Writes
-/// them as pictures.
+/// Compares colours where `counts` holds and coverage everywhere. Returns a message if they differ, and
+/// writes `actual` and the difference.
 fn check_where(
     name: &str,
     blessed: &Path,
