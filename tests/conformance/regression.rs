@@ -45,8 +45,8 @@ fn blessed(name: &str) -> PathBuf {
     folder("tests/references").join(format!("{name}.png"))
 }
 
-/// Compares colours where `counts` holds and coverage everywhere. Returns a message if they differ, and
-/// writes `actual` and the difference.
+/// Compares colours where `counts` holds and coverage everywhere. Returns a message if they differ,
+/// and writes `actual` and the difference.
 fn check_where(
     name: &str,
     blessed: &Path,
