@@ -1,4 +1,5 @@
-//! Tells the crate which compiler builds it and how, for the machine block of benchmark results.
+//! Passes the compiler's version and options to the crate, for the machine block of benchmark
+//! results.
 
 use std::env;
 use std::process::Command;

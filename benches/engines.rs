@@ -1,6 +1,9 @@
-//! Whole frames, from a prepared scene to the stored picture, on one thread: the scalar span engine, and the row engine on every
-//! instruction set of this machine. Beside them the floor: every pixel cleared, tested and written once; both at 1920 × 1080 too.
-//! Four lights and a million triangles by the span engine and by the fastest engine.
+//! Whole frames from a prepared scene to the stored picture, on one thread: the scalar span engine,
+//! and the row engine on every instruction set of this machine.
+//!
+//! The floor is a lower bound: it clears, tests and writes every pixel once. Few triangles are
+//! also timed at 1920 × 1080. Four lights and a million triangles are timed by the span engine and
+//! by the fastest engine.
 
 mod scenes;
 
@@ -12,7 +15,7 @@ use fastphong::shading::Variant;
 use std::hint::black_box;
 use std::time::Duration;
 
-/// The methods of the comparison, with the reciprocal root of the hardware.
+/// The compared methods, including those with the hardware's reciprocal root.
 const METHODS: [&str; 5] = [
     "gouraud",
     "naive-phong",
@@ -21,7 +24,7 @@ const METHODS: [&str; 5] = [
     "phong-rsqrt",
 ];
 
-/// Scanlines of a band of the floor.
+/// Scanlines per band of the floor.
 const BAND: usize = 32;
 
 fn engines(c: &mut Criterion) {
@@ -34,7 +37,8 @@ fn engines(c: &mut Criterion) {
         let prepared = scenes::scene(mesh).prepare().expect("a valid scene");
         let mut frame = prepared.frame().expect("a valid view");
         let mut group = c.benchmark_group(format!("engines/{name}"));
-        // Every sample with the same number of calls: frames take milliseconds, and a growing number takes minutes.
+        // Take the same number of calls for every sample. Frames take milliseconds, and a growing
+        // number would take minutes.
         group.sampling_mode(SamplingMode::Flat);
         let mut picture = Picture::new(frame.picture_width(), frame.picture_height(), [0; 4]);
         group.bench_function("projection", |b| {
@@ -57,7 +61,7 @@ fn engines(c: &mut Criterion) {
     }
 }
 
-/// Times four lights and a million triangles: by the scalar span engine and by the fastest engine.
+/// Times four lights and a million triangles, by the scalar span engine and by the fastest engine.
 fn large(c: &mut Criterion) {
     for &(name, mesh, lights) in scenes::LARGE {
         let prepared = scenes::lit(mesh, lights).prepare().expect("a valid scene");
@@ -80,7 +84,7 @@ fn large(c: &mut Criterion) {
     }
 }
 
-/// Times a frame of 1920 × 1080 pixels of few triangles, projection included, and the floor beside it.
+/// Times a 1920 × 1080 frame of few triangles, including projection, next to the floor.
 fn over_floor(c: &mut Criterion) {
     let (name, mesh) = scenes::SCENES[0];
     let scene = Scene {
@@ -111,7 +115,7 @@ fn over_floor(c: &mut Criterion) {
     group.finish();
 }
 
-/// Clears depth and colour, tests depth and writes both, for every pixel, band by band.
+/// Clears depth and colour, then tests depth and writes both for every pixel, band by band.
 fn floor(depth: &mut [f32], pixels: &mut [[u8; 4]]) {
     for band in pixels.chunks_mut(depth.len()) {
         depth.fill(f32::INFINITY);

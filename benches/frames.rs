@@ -1,7 +1,9 @@
-//! Whole pictures: every method by the scalar span engine, by the fastest engine and, if it can, by the barycentric renderer.
+//! Whole pictures: every method by the scalar span engine, the fastest engine and, if possible, the
+//! barycentric renderer.
 //!
-//! From the projected frame to the stored picture, per covered pixel. `fastphong bench` times the same in interleaved
-//! rounds, and is the one to quote; this benchmark tells whether a change of the code made it faster.
+//! Times run from the projected frame to the stored picture, per covered pixel. `fastphong bench`
+//! times the same in interleaved rounds; quote its figures. This benchmark tells whether a change
+//! made the code faster.
 
 mod scenes;
 
@@ -26,7 +28,8 @@ fn frames(c: &mut Criterion) {
             .count();
         let mut group = c.benchmark_group(format!("frames/{name}"));
         group.throughput(Throughput::Elements(covered as u64));
-        // Every sample with the same number of calls: frames take milliseconds, and a growing number takes minutes.
+        // Take the same number of calls for every sample. Frames take milliseconds, and a growing
+        // number would take minutes.
         group.sampling_mode(SamplingMode::Flat);
         for variant in METHODS.iter().map(|entry| entry.variant()) {
             group.bench_function(BenchmarkId::new("scanline", &variant), |b| {

@@ -1,8 +1,9 @@
-//! One span at a time: the cost of a method's set-up, and of each pixel.
+//! Single spans: the cost of a method's set-up and of each pixel.
 //!
-//! The time of a span of n pixels is set-up + n · slope. At n = 1 it is nearly all set-up (constants of the material and
-//! two vertices are part of it here, once a span); at n = 1024 the time per element is nearly the slope. Methods that
-//! step scalars instead of vectors pay more set-up for a smaller slope; their lines cross at the length from which that pays.
+//! A span of n pixels takes set-up + n · slope. At n = 1 the time is nearly all set-up, which
+//! here includes the material uniforms and two vertices per span. At n = 1024 the time per element
+//! is nearly the slope. Methods that step scalars instead of vectors pay more set-up for a smaller
+//! slope. Their lines cross at the break-even length.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use fastphong::compare::timing::SpanRow;
@@ -11,7 +12,7 @@ use fastphong::shading::{METHODS, SpanBench};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// The angle between the normals at the ends of the span, in degrees: that of a coarse mesh.
+/// Angle between the normals at the ends of the span, in degrees, as on a coarse mesh.
 const DEGREES: f32 = 20.0;
 const LIGHTS: usize = 1;
 
@@ -26,7 +27,8 @@ fn spans(c: &mut Criterion) {
                 b.iter(|| variant.shade_span(black_box(&bench), black_box(&mut out)));
             });
         }
-        // The kernels of the instruction sets on the longest span, one light and four: as the row engine calls them.
+        // Call the kernels of each instruction set as the row engine does: the longest span, one
+        // and four lights.
         const LONG: usize = 1024;
         group.throughput(Throughput::Elements(LONG as u64));
         for level in Level::available().skip(1) {

@@ -1,4 +1,4 @@
-//! The stages before and around shading: meshes, vertex normals, projection, coverage, triangulation.
+//! Stages before and around shading: meshes, vertex normals, projection, coverage, triangulation.
 
 mod scenes;
 
@@ -10,7 +10,7 @@ use fastphong::raster::{coverage, polygon_numbers};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// The angle that keeps the edges of a prism and smooths a sphere, in degrees.
+/// Crease angle that keeps the edges of a prism and smooths a sphere, in degrees.
 const CREASE: f64 = 30.0;
 
 fn stages(c: &mut Criterion) {
@@ -32,7 +32,7 @@ fn stages(c: &mut Criterion) {
                 b.iter(|| vertex_normals(black_box(shape), source));
             });
         }
-        // Vertex normals are part of it: here averaged ones.
+        // Projection includes averaging the vertex normals.
         group.bench_function("projection", |b| b.iter(|| black_box(&scene).frame()));
         group.throughput(Throughput::Elements(frame.polygons().len() as u64));
         group.bench_function("triangulation", |b| {
@@ -52,8 +52,8 @@ fn stages(c: &mut Criterion) {
     }
 }
 
-/// Times projection: scenes of triangles, about half of them culled, into frames. Set RAYON_NUM_THREADS for a number of
-/// threads.
+/// Times projection of scenes of triangles, about half of them culled, into frames. Set
+/// RAYON_NUM_THREADS to choose the number of threads.
 fn projection(c: &mut Criterion) {
     for (name, mesh) in scenes::TRIANGLES {
         let scene = scenes::scene(mesh);

@@ -1,11 +1,11 @@
-//! One triangle, from three positions to a picture, without any file: the way through the library.
+//! Draws one triangle, from three positions to a picture, without any file: a tour of the library.
 //!
 //! ```text
 //! cargo run --release --example one_triangle > triangle.ppm
 //! cargo run --release --example one_triangle slerp-phong > triangle.ppm
 //! ```
 //!
-//! Needs no feature of the crate: it also runs with `--no-default-features`.
+//! Needs no feature of the crate, so it also runs with `--no-default-features`.
 
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{GivenNormals, Material, MeshBuilder};
@@ -18,8 +18,9 @@ use std::io::Write;
 use std::sync::Arc;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // A mesh: positions, and polygons that name them, counter-clockwise seen from outside. Its normals lean outward, as
-    // if the triangle were a piece of a ball; without them they would be averaged (L21 3.1), here all the same.
+    // A mesh: positions, and polygons that index them counter-clockwise as seen from outside. The
+    // normals lean outward as on a piece of a ball. Without them they would be averaged (L21 3.1),
+    // here all equal.
     let positions = vec![
         Vec3::new(-1.0, -0.8, 0.0),
         Vec3::new(1.0, -0.8, 0.0),
@@ -35,8 +36,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         corners: None,
     });
 
-    // A scene: what there is to see, the light on it, and from where it is seen. `Scene::of_mesh` chooses all this for a
-    // mesh; here it is written out.
+    // A scene: objects, lights and camera. `Scene::of_mesh` would choose them for a mesh; here they
+    // are written out.
     let camera = Camera {
         eye: 4.0 * DVec3::Z,
         target: DVec3::ZERO,
@@ -66,16 +67,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..Scene::new(camera)
     };
 
-    // A frame: projected, clipped, checked. Everything that can go wrong has gone wrong before this line.
+    // A frame: projected, clipped and checked. After this line nothing can fail.
     let frame = scene.frame()?;
 
-    // A picture, by the method that the first argument names.
+    // A picture, by the method named in the first argument.
     let method = std::env::args()
         .nth(1)
         .unwrap_or_else(|| "naive-phong".into());
     let picture = Variant::parse(&method)?.render(&frame);
 
-    // A file: portable pixmap is a header and the bytes. With the feature `io`, `image_file` writes PNG as well.
+    // A file: a portable pixmap is a header and the bytes. With the feature `io`, `image_file` also
+    // writes PNG.
     let mut file = format!("P6\n{} {}\n255\n", picture.width(), picture.height()).into_bytes();
     file.extend(
         picture

@@ -1,13 +1,14 @@
-//! A shading method outside the crate: cel shading, drawn beside naive Phong shading.
+//! A shading method outside the crate: cel shading, drawn next to naive Phong shading.
 //!
 //! ```text
 //! cargo run --release --example own_shader > own_shader.ppm
 //! ```
 //!
-//! `Toon` says what a vertex carries, how it is stepped along a span, and how a pixel is shaded, once for all arithmetic
-//! backends. `TOON` compiles it: every engine on every instruction set then draws it as one of the crate's own.
+//! `Toon` defines what a vertex carries, how it is stepped along a span, and how a pixel is
+//! shaded, once for all arithmetic backends. `TOON` compiles it: every engine and instruction set
+//! then draws it like a built-in method.
 //!
-//! Every function of a shader is `#[inline(always)]`: one that is not costs a call a pixel.
+//! Every function of a shader is `#[inline(always)]`. One that is not costs a call per pixel.
 
 use fastphong::number::{Num, Vec3};
 use fastphong::scene::input;
@@ -18,7 +19,7 @@ use std::io::Write;
 ///
 /// ```text
 /// I = I_a k_a + Σ I_p k_d b/bands + Σ I_p k_s [R·V > 0.9]
-/// R·V = 2 (L·N)(V·N) − L·V,   b = how many of (i − ½) / bands, i = 1, 2, …, lie below L·N
+/// R·V = 2 (L·N)(V·N) − L·V,   b = number of (i − ½) / bands, i = 1, 2, …, below L·N
 /// ```
 #[derive(Clone, Copy, Default)]
 struct Toon {
@@ -36,7 +37,7 @@ impl Shader for Toon {
     };
     const PASSES_NORMAL: bool = true;
     type Varying<F: Num> = Vec3<F>; // N
-    type Walk<F: Num> = Linear<Vec3<F>>; // three additions a pixel
+    type Walk<F: Num> = Linear<Vec3<F>>; // three additions per pixel
 
     #[inline(always)]
     fn new(parameters: &[u32], _: &LightModel) -> Self {

@@ -1,4 +1,4 @@
-//! The scenes that are timed: built-in meshes of few and many polygons, of triangles and of n-gons.
+//! The timed scenes: built-in meshes of few and many polygons, of triangles and of n-gons.
 
 use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::builtin::builtin;
@@ -22,7 +22,8 @@ pub const TRIANGLES: &[(&str, &str)] = &[
     ("sphere-1m", "sphere?polygons=1000000&triangles=true"),
 ];
 
-/// Name, mesh and number of lights of the scenes that are timed in whole frames only: four lights, a million triangles.
+/// Name, mesh and number of lights of scenes timed in whole frames only: four lights, a million
+/// triangles.
 #[allow(dead_code)] // not by every benchmark
 pub const LARGE: &[(&str, &str, usize)] = &[
     (
@@ -43,7 +44,7 @@ pub const LARGE: &[(&str, &str, usize)] = &[
     ),
 ];
 
-/// Returns a camera before and above a mesh that fills 90 % of the picture.
+/// Returns a camera in front of and above a mesh that fills 90 % of the picture.
 pub fn camera(mesh: &PolygonMesh, fovy: Option<f64>) -> Camera {
     let direction = DVec3::new(0.3, 0.5, 1.0);
     let fit = Fit {
@@ -62,8 +63,9 @@ pub fn scene(mesh: &str) -> Scene {
     lit(mesh, 1)
 }
 
-/// Returns the scene of a mesh that fills 90 % of 640 × 480 pixels, seen and lit from the front and from above, by up to four lights. Vertex normals
-/// are averaged, so that they differ over every polygon, the prism's as well.
+/// Returns the scene of a mesh that fills 90 % of 640 × 480 pixels, seen and lit from the front and
+/// above, with up to four lights. Vertex normals are averaged, so they vary over every polygon,
+/// even the prism's.
 pub fn lit(mesh: &str, lights: usize) -> Scene {
     let directions = [
         (1.0, 1.0, 2.0),

@@ -1,22 +1,23 @@
-//! Pictures whose pixels are known by hand.
+//! Reference pictures with pixels worked out by hand.
 
 use super::fixtures::{between, polygon_of, vertex, z_light};
 use super::{Model, ReferencePicture, Visibility, render, shade, visibility};
 use crate::frame::{Frame, FrameBuilder, Vertex};
 use crate::scene::{HiddenSurfaces, Interpolation};
 
-/// Rounding of a normal's z to f32 at most (values up to 1: 2⁻²⁵), with room for the few roundings in f64 after it.
+/// Rounding of a normal's z to f32 (values up to 1: 2⁻²⁵), with room for the few roundings in f64
+/// after it.
 const F32: f64 = 3.1e-8;
 
 /// Roundings in f64 only: some ten half-ulps of values up to 1.
 const F64: f64 = 8.0 * f64::EPSILON;
 
-/// A unit normal whose z is `z`.
+/// Returns a unit normal with this z.
 fn tilted(z: f64) -> [f32; 3] {
     [libm::sqrt(1.0 - z * z) as f32, 0.0, z as f32]
 }
 
-/// The grey of a pixel.
+/// Returns the grey value of a pixel.
 fn grey(picture: &ReferencePicture, x: usize, y: usize) -> f64 {
     let [r, g, b, a] = picture.picture.get(x, y);
     assert!(r == g && g == b && a == 1.0, "{r} {g} {b} {a}");
@@ -31,8 +32,8 @@ fn assert_near(found: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// A square whose edges lie on the pixel centres of columns and rows 0 and `side`, with these normals at its corners:
-/// top left, top right, bottom right, bottom left.
+/// Returns a square whose edges lie on the pixel centres of columns and rows 0 and `side`. Its
+/// normals are in the order top left, top right, bottom right, bottom left.
 fn square(side: f64, normals: [[f32; 3]; 4]) -> [Vertex; 4] {
     let (near, far) = (0.5, side + 0.5);
     let [a, b, c, d] = normals;
@@ -46,7 +47,7 @@ fn square(side: f64, normals: [[f32; 3]; 4]) -> [Vertex; 4] {
 
 #[test]
 fn exercise_1_sine_of_24_3_degrees() {
-    // L21 exercise 1: sin 24° = 0.40674, sin 25° = 0.42262; 0.3 of the way lies 0.411504.
+    // L21 exercise 1: sin 24° = 0.40674, sin 25° = 0.42262. 0.3 of the way is 0.411504.
     let (sin24, sin25) = (tilted(0.40674), tilted(0.42262));
     let along_the_span = polygon_of(12, &square(10.0, [sin24, sin25, sin25, sin24]), |_| ());
     assert_near(
@@ -60,7 +61,7 @@ fn exercise_1_sine_of_24_3_degrees() {
         0.411504,
         F32,
     );
-    // The same on a triangle: along its left edge and along its top edge.
+    // On a triangle: along its left edge and along its top edge.
     let [a, b, _, d] = square(10.0, [sin24, sin25, sin25, sin25]);
     let triangle = render(&polygon_of(12, &[a, b, d], |_| ()), Model::Gouraud);
     assert_near(grey(&triangle, 0, 3), 0.411504, F32);
@@ -76,7 +77,7 @@ fn the_centroid_of_a_triangle_has_the_mean_of_its_corners() {
     ];
     let frame = polygon_of(6, &corners, |_| ());
     assert_near(grey(&render(&frame, Model::Gouraud), 2, 1), 0.5, F64);
-    // The mean normal has z = ½ as well, and is shorter than 1.
+    // The mean normal also has z = ½, but is shorter than 1.
     let x: f64 = corners.iter().map(|v| f64::from(v.normal[0])).sum::<f64>() / 3.0;
     assert_near(
         grey(&render(&frame, Model::Phong), 2, 1),
@@ -87,7 +88,7 @@ fn the_centroid_of_a_triangle_has_the_mean_of_its_corners() {
 
 #[test]
 fn the_models_differ_where_they_should() {
-    // Left normals along x, right ones along z; a third of the way.
+    // Left normals point along x, right ones along z. The pixel is a third of the way between.
     let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
     let frame = polygon_of(8, &square(6.0, [x, z, z, x]), |_| ());
     let seen = visibility(&frame);
@@ -120,8 +121,9 @@ fn slerp_on_a_triangle_goes_along_the_edges_then_along_the_span() {
         vertex((6.5, 6.5), [0.0, 0.0, 1.0]),
     );
     let frame = polygon_of(8, &[apex, left, right], |_| ());
-    // Row 2 is a third of the way down: 30° along both edges, (cos 30°, sin 30°, 0) and (cos 30°, 0, sin 30°). Half of
-    // the way between them lies their mean, (√3/2, 1/4, 1/4), made a unit vector: z = (1/4) / √(7/8).
+    // Row 2 is a third of the way down: 30° along both edges, (cos 30°, sin 30°, 0) and (cos 30°,
+    // 0, sin 30°). Half-way between them is their mean, (√3/2, 1/4, 1/4), normalised:
+    // z = (1/4) / √(7/8).
     assert_near(
         grey(&render(&frame, Model::Slerp), 3, 2),
         0.25 / libm::sqrt(0.875),
@@ -170,7 +172,7 @@ fn gouraud_clamps_vertices_before_it_interpolates() {
     builder.lighting(lighting);
     let corners = square(4.0, [bright, dark, dark, bright]).map(|v| builder.vertex(v));
     builder.polygon(&corners, bright, 0);
-    // An intensity of 2 would stand at 1 in the middle.
+    // An unclamped intensity of 2 would give 1 in the middle.
     assert_near(
         grey(&render(&builder.finish().unwrap(), Model::Gouraud), 2, 2),
         0.5,
@@ -178,7 +180,7 @@ fn gouraud_clamps_vertices_before_it_interpolates() {
     );
 }
 
-/// [`square`] from dark at w = 1 on the left to bright at w = 3 on the right.
+/// Returns [`square`] from dark at w = 1 on the left to bright at w = 3 on the right.
 fn receding(interpolation: Interpolation, side: f64) -> Frame {
     let (dark, bright) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
     let mut corners = square(side, [dark, bright, bright, dark]);
@@ -194,7 +196,7 @@ fn perspective_weighs_the_near_side_more() {
     // In the middle of the screen: (0 · 1 + 1 · ⅓) / (1 + ⅓) = ¼. inv_w is rounded to f32.
     let frame = receding(Interpolation::Perspective, 4.0);
     assert_near(grey(&render(&frame, Model::Gouraud), 2, 1), 0.25, F32);
-    // Normals in the same shares, (¾, 0, ¼): z = 1/√10.
+    // Normals have equal weights, (¾, 0, ¼): z = 1/√10.
     assert_near(
         grey(&render(&frame, Model::Phong), 2, 1),
         1.0 / libm::sqrt(10.0),
@@ -202,12 +204,12 @@ fn perspective_weighs_the_near_side_more() {
     );
     let screen = receding(Interpolation::Screen, 4.0);
     assert_near(grey(&render(&screen, Model::Gouraud), 2, 1), 0.5, F64);
-    // Slerp knows no w.
+    // Slerp ignores w.
     assert_eq!(
         render(&frame, Model::Slerp).picture,
         render(&screen, Model::Slerp).picture
     );
-    // A triangle: half of the way along its top edge.
+    // A triangle, half-way along its top edge.
     let mut corners = square(
         4.0,
         [
@@ -224,14 +226,15 @@ fn perspective_weighs_the_near_side_more() {
     assert_near(grey(&render(&triangle, Model::Gouraud), 2, 0), 0.25, F32);
 }
 
-/// A square whose right side clipping made, half of the way from the left vertices to vertices beyond the picture.
-/// `garbage` is the normal written at the new vertices.
+/// Returns a square whose right side comes from clipping, half-way from the left vertices to
+/// vertices beyond the picture. `garbage` is the normal stored at the new vertices.
 fn clipped(near: [f32; 3], far: [f32; 3], garbage: [f32; 3]) -> Frame {
     let mut builder = FrameBuilder::new(8, 8);
     builder.lighting(z_light());
     let [a, _, _, d] = square(4.0, [near; 4]).map(|v| builder.vertex(v));
     let beyond = builder.vertex(vertex((30000.0, 2.0), far));
-    // The second clip corner lies three quarters of the way from a clip corner to the far vertex, the third at it.
+    // The second clip corner is three quarters of the way: half-way from the first clip corner to
+    // the far vertex.
     let half = builder.vertex(vertex((4.5, 0.5), garbage));
     let further = builder.vertex(vertex((4.5, 4.5), garbage));
     builder.clip_corner(between(half, a, beyond, 0.5));
@@ -241,11 +244,11 @@ fn clipped(near: [f32; 3], far: [f32; 3], garbage: [f32; 3]) -> Frame {
 }
 
 #[test]
-fn a_clip_corner_has_what_lies_between_its_parents() {
+fn a_clip_corner_interpolates_its_parents() {
     let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
     let frame = clipped(x, z, [0.0, 0.6, 0.8]);
     let seen = visibility(&frame);
-    // Row 0 lies on the edge from `a` to the first clip corner, column 2 half of the way along it.
+    // Row 0 lies on the edge from `a` to the first clip corner, column 2 half-way along it.
     let at = |model, x, y| grey(&shade(&frame, &seen, model), x, y);
     // Colours 0, ½, ¾.
     assert_near(at(Model::Gouraud, 2, 0), 0.25, F64);
@@ -254,11 +257,13 @@ fn a_clip_corner_has_what_lies_between_its_parents() {
         0.5 * (0.5 * 0.5 + 0.5 * 0.75),
         F64,
     );
-    // Normals (1, 0, 0), (½, 0, ½): half of the way (¾, 0, ¼). A normalised clip corner would give another direction.
+    // Normals (1, 0, 0), (½, 0, ½): half-way (¾, 0, ¼). A normalised clip corner would give another
+    // direction.
     assert_near(at(Model::Phong, 2, 0), 1.0 / libm::sqrt(10.0), F64);
-    // 0° and 45°: half of the way 22.5°.
+    // 0° and 45°: half-way 22.5°.
     assert_near(at(Model::Slerp, 2, 0), libm::sin(22.5f64.to_radians()), F64);
-    // Halfway down, the edge between 45° and 67.5° is at 56.25°; half of the way along the span 28.125°.
+    // Halfway down, the edge between 45° and 67.5° is at 56.25°. Half-way along the span is
+    // 28.125°.
     assert_near(
         at(Model::Slerp, 2, 2),
         libm::sin(28.125f64.to_radians()),
@@ -268,9 +273,10 @@ fn a_clip_corner_has_what_lies_between_its_parents() {
 
 #[test]
 fn a_clip_corner_between_opposite_normals_has_the_face_that_was_clipped() {
-    // The clipped face lies along x (`between`): the new corner has x, then z is 0 there and 1 at the left.
+    // The clipped face lies along x (`between`), so the new corner has normal x. There z is 0, and
+    // at the left it is 1.
     let frame = clipped([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.6, 0.8]);
-    // z to x is 90°, half of the way 45°.
+    // z to x is 90°, half-way 45°.
     assert_near(
         grey(&render(&frame, Model::Slerp), 2, 0),
         libm::sqrt(0.5),
@@ -278,7 +284,7 @@ fn a_clip_corner_between_opposite_normals_has_the_face_that_was_clipped() {
     );
 }
 
-/// Two squares over the same pixels, at these depths on their left and right sides.
+/// Returns two squares over the same pixels, with these depths on their left and right sides.
 fn two_layers(depth_test: bool, first: (f32, f32), second: (f32, f32)) -> Frame {
     let mut builder = FrameBuilder::new(6, 6);
     builder.lighting(z_light());

@@ -64,7 +64,7 @@ fn given(row: &mut MethodRow, of: &[(&str, f64, f64)]) {
     });
 }
 
-/// Says the answer of one scene with made-up numbers.
+/// Returns the answer for one scene with made-up numbers.
 fn said(of: &[(&str, f64, f64)], study: Option<Speedups>) -> String {
     let mut document = document(&[(SPHERE, "sphere")]);
     let rows = &mut document.comparisons[0].rows;
@@ -243,7 +243,7 @@ fn the_answer_names_the_fastest_of_those_that_draw_the_picture() {
 }
 
 #[test]
-fn the_answer_says_what_is_not_known() {
+fn the_answer_names_gaps() {
     let mut document = document(&[(SPHERE, "sphere")]);
     let text = answer::markdown(&answer(&report(&document).data));
     assert!(
@@ -348,9 +348,10 @@ fn parameters_are_numbers_or_auto() {
     );
 }
 
-/// Data from before there were other engines say nothing of them, of methods, or of machines beside.
+/// Documents from before there were several engines lack engines, methods and machines beside. They
+/// read as the span engine's.
 #[test]
-fn older_documents_are_of_the_lectures_own_form() {
+fn older_documents_are_read_as_the_span_engines() {
     let mut document = document(&[("prism", "prism")]);
     let comparison = &mut document.comparisons[0];
     (comparison.title, comparison.description) = Default::default();
@@ -386,7 +387,7 @@ fn the_description_names_every_field() {
             let is_named = ["`", "`timing.", "[].", "`findings[].", "`triangulation."]
                 .iter()
                 .any(|before| description.contains(&format!("{before}{field}`")));
-            // Blocks of figures are described in a sentence, parameters are named by their methods.
+            // One sentence describes the blocks of figures. Parameters are named by their methods.
             assert!(is_named || field == "timing", "`{field}` is not described");
             fields += 1;
             if !["blocks", "parameters"].contains(&&**field) {
@@ -402,7 +403,7 @@ fn the_description_names_every_field() {
     }
 }
 
-/// The fields that views need are among those that are written, of their kind.
+/// The reader requires every field that views need, with its type.
 #[test]
 fn every_field_that_is_read_is_needed_unless_marked() {
     let mut document = document(&[(SPHERE, "sphere")]);

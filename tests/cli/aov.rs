@@ -1,4 +1,4 @@
-//! `fastphong render --aov`: what is known of each pixel besides its colour.
+//! `fastphong render --aov`: pictures of depth, normals, polygons and other data of each pixel.
 
 use super::{Folder, SPHERE, picture};
 use fastphong::picture::image_file::{FilePixels, read_picture};
@@ -32,7 +32,8 @@ fn aovs_show_depth_normals_and_polygons() {
         "the farthest pixel is black"
     );
     assert!(depth.get(32, 24)[0] > 200 && depth.get(0, 0) == [0; 4]);
-    // In the middle the normal is about z: (N + 1)/2 = (½, ½, 1), and the facets there lean by less than 30 degrees.
+    // The middle normal points along z: (N + 1)/2 = (½, ½, 1). The facets there lean by less than
+    // 30 degrees.
     let [r, g, b, _] = picture(&folder.path("normal.png")).get(32, 24);
     assert!(
         r.abs_diff(128) < 64 && g.abs_diff(128) < 64 && b > 237,
@@ -65,7 +66,8 @@ fn aovs_show_depth_normals_and_polygons() {
         .refused(&["cannot be used with"]);
 }
 
-/// A triangle with a red, a green and a blue corner; a square of four world units under the checkerboard.
+/// AOVs show vertex colours of a triangle with a red, a green and a blue corner, and a checkerboard
+/// on a floor of 4 × 4 world units.
 #[test]
 fn aovs_show_vertex_colours_and_a_checkerboard() {
     let folder = Folder::new();
@@ -79,7 +81,7 @@ fn aovs_show_vertex_colours_and_a_checkerboard() {
         .done()
         .says("40x40, colours");
     let rgb = picture(&folder.path("rgb.png"));
-    // Weights sum to 1, and so do the colours: 255, give or take a half for each of three roundings.
+    // Weights sum to 1 and so do the colours: 255, give or take a half for each of three roundings.
     let drawn: Vec<[u8; 4]> = rgb
         .pixels()
         .iter()
@@ -117,7 +119,7 @@ fn aovs_show_vertex_colours_and_a_checkerboard() {
         for t in board.pixels().iter().filter(|t| t[3] == 255) {
             *(if t[0] > 128 { &mut light } else { &mut dark }) += 1;
         }
-        // Half of the squares each, but of the one square.
+        // Half of the squares are light and half are dark, unless there is only one square.
         assert!(
             light > 300 && (squares == 1) == (dark == 0),
             "{square}: {light}, {dark}"

@@ -1,4 +1,4 @@
-//! `fastphong compare` and `fastphong bench`: which engines are timed, and the data.
+//! `fastphong compare` and `fastphong bench`: the engines that are timed, and the data.
 
 use super::{Folder, SPHERE};
 use fastphong::number::Level;
@@ -19,15 +19,17 @@ fn rows(comparison: &Value) -> &Vec<Value> {
     comparison["rows"].as_array().unwrap()
 }
 
-/// No more rounds than need be.
+/// As few rounds as possible.
 const QUICK: &str = "--time-budget 0 --methods fast-phong,duff-phong";
 
-/// A light at a position: fast Phong keeps L and V over a polygon, and Duff's method follows them, neither in planes.
+/// A scene with a positional light. Fast Phong keeps L and V constant over a polygon and Duff's
+/// method interpolates them, neither by plane equations.
 const NEAR: &str = "builtin:sphere?rings=6&segments=8 --size 64x48 --light-at 2,3,4";
 
-/// Comparisons with the lecture are in its own form, unless another is asked for.
+/// `compare` draws with the scalar span engine unless another engine is asked for, and reports the
+/// renderer.
 #[test]
-fn comparisons_say_what_drew_each_row() {
+fn comparisons_name_the_renderer_of_each_row() {
     let folder = Folder::new();
     let best = Level::best().name();
     let compared = |flags: &str| {
@@ -86,9 +88,9 @@ fn comparisons_say_what_drew_each_row() {
     text.prints(&format!("\ndrawn by the row engine, {best}, 2 threads\n"));
 }
 
-/// Rows of another engine are of its own picture: what is compared is what was drawn.
+/// Errors are measured on the pictures of the engine that was asked for.
 #[test]
-fn errors_are_those_of_the_engine_that_was_asked_for() {
+fn errors_come_from_the_requested_engine() {
     let folder = Folder::new();
     let errors = |flags: &str| {
         let ended = folder
@@ -106,13 +108,13 @@ fn errors_are_those_of_the_engine_that_was_asked_for() {
     let lecture = errors("--engine span --simd scalar");
     assert_eq!(errors(""), lecture);
     for level in Level::available().filter(|level| *level != Level::Scalar) {
-        // Groups of eight start their increments anew: not one bit of every error can be the same.
+        // Blocks of eight restart their increments, so some bits of the errors must change.
         assert_ne!(errors(&format!("--simd {level}")), lecture, "{level}");
     }
 }
 
 #[test]
-fn every_instruction_set_is_timed_for_itself() {
+fn every_instruction_set_is_timed_separately() {
     let folder = Folder::new();
     let ended = folder
         .run(&format!(
@@ -145,7 +147,7 @@ fn every_instruction_set_is_timed_for_itself() {
         twice.json()["comparisons"].as_array().unwrap().len(),
         expected
     );
-    // Of an engine, those that it runs on.
+    // With one engine, `all` stands for the instruction sets of that engine.
     let renderers = |flags: &str| {
         let ended = folder
             .run(&format!("bench {SPHERE} {QUICK} {flags} --json -"))
@@ -168,9 +170,9 @@ fn every_instruction_set_is_timed_for_itself() {
         .refused(&["did you mean `avx2`?"]);
 }
 
-/// A line a method, in words and as JSON: the same numbers.
+/// `--frame-times` prints one line per method, and JSON with equal numbers.
 #[test]
-fn frame_times_are_a_line_a_method() {
+fn frame_times_are_one_line_per_method() {
     let folder = Folder::new();
     let flags = "--frame-times --frames 3 --warmup 1 --threads 2 --json times.json";
     let ended = folder
@@ -211,7 +213,7 @@ fn frame_times_are_a_line_a_method() {
             "{time}"
         );
         for key in ["ms_median", "ms_min"] {
-            // Four decimals.
+            // The line shows four decimals.
             assert!(
                 (after(key).parse::<f64>().unwrap() - number(key)).abs() <= 0.5e-4 + 1e-12,
                 "{line}: {time}"

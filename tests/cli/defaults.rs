@@ -1,12 +1,12 @@
-//! What the tool does where nothing is asked for.
+//! Defaults of the tool.
 
 use super::Folder;
 use fastphong::number::Level;
 
-/// Without `--method` naive Phong's picture is drawn, which fast Phong's is not under lights at positions; who wants to know
-/// is told by which method and why.
+/// Without `--method` the tool draws naive Phong's picture, which fast Phong does not under
+/// positional lights. `--verbose` names the method and the reason.
 #[test]
-fn auto_is_the_default_method_and_says_what_it_takes() {
+fn auto_is_the_default_method_and_names_its_choice() {
     let folder = Folder::new();
     let scene = "render two-lights --size 160x120";
     folder
@@ -59,9 +59,10 @@ fn auto_is_the_default_method_and_says_what_it_takes() {
         .refused(&["did you mean `auto`?"]);
 }
 
-/// Without arguments: five commands that work, then where help is. Exit code 2, as for all wrong usage.
+/// Without arguments the tool prints five working commands and where to find help. The exit code is
+/// 2, as for all wrong usage.
 #[test]
-fn without_arguments_there_are_five_things_to_try() {
+fn without_arguments_five_commands_are_suggested() {
     let folder = Folder::new();
     let ended = folder.run("");
     assert_eq!((ended.code, &*ended.out), (Some(2), ""));
@@ -71,7 +72,7 @@ fn without_arguments_there_are_five_things_to_try() {
         .filter_map(|line| line.strip_prefix("  fastphong ")?.split("  ").next())
         .collect();
     assert_eq!(commands.len(), 5, "{said}");
-    // The last one takes a minute.
+    // Skip the last command, which takes a minute.
     for command in &commands[..4] {
         folder.run(command).done();
     }

@@ -1,11 +1,11 @@
-//! `fastphong diff`: numbers, thresholds, maps.
+//! `fastphong diff`: metrics, thresholds, maps.
 
 use super::{Folder, picture};
 use fastphong::compare::metrics::METRICS;
 use fastphong::picture::Picture8;
 use fastphong::picture::image_file::{FilePicture, write_picture};
 
-/// Two pictures of 16 × 12 pixels that differ by 20 levels in one channel of one pixel.
+/// Writes two pictures of 16 × 12 pixels that differ by 20 levels in one channel of one pixel.
 fn pair() -> Folder {
     let folder = Folder::new();
     let mut picture = Picture8::new(16, 12, [100, 100, 100, 255]);
@@ -186,7 +186,7 @@ fn flip_of_a_comparison_is_that_of_the_rendered_files() {
     let rows = json["comparisons"][0]["rows"].as_array().unwrap();
     let row = rows.iter().find(|row| row["variant"] == "gouraud").unwrap();
     let compared = row["error"]["flip"].as_f64().unwrap();
-    // The reference may round a level the other way in a pixel or two of 3072.
+    // The reference may round to another level in a pixel or two of 3072.
     assert!((flip - compared).abs() < 1e-4, "{flip}, {compared}");
     folder
         .run(&format!("{compare} --all-columns"))

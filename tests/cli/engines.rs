@@ -1,4 +1,4 @@
-//! `fastphong render`: what finds the pixels, on which instruction set, and on how many threads.
+//! `fastphong render`: engines, instruction sets and threads.
 
 use super::{Folder, SPHERE, rendered, sphere};
 use fastphong::compare::metrics::compare;
@@ -7,7 +7,7 @@ use fastphong::scene::input;
 use fastphong::shading::{METHODS, Variant};
 
 #[test]
-fn engines_agree_and_say_what_they_do() {
+fn engines_agree_and_report_their_work() {
     let folder = Folder::new();
     let run = |engine: &str, name: &str| {
         folder
@@ -22,7 +22,7 @@ fn engines_agree_and_say_what_they_do() {
         .says("16 polygons of more than three corners are cut into triangles");
     run("barycentric:edges=top-left", "d.png");
     run("barycentric:edges=closed", "e.png");
-    // Flat shading has one colour a polygon: the engines agree to the last bit.
+    // Flat shading has one colour per polygon, so the engines agree to the last bit.
     for name in ["b.png", "c.png", "d.png"] {
         assert_eq!(folder.read(name), folder.read("a.png"), "{name}");
     }
@@ -42,7 +42,8 @@ fn engines_agree_and_say_what_they_do() {
     ]);
 }
 
-/// CS171's algorithms give the pictures of the methods that they are; with normals as printed another one.
+/// CS171's algorithms draw the pictures of the corresponding methods. With normals as printed they
+/// draw another one.
 #[test]
 fn cs171_draws_what_the_engines_draw() {
     let folder = Folder::new();
@@ -52,7 +53,7 @@ fn cs171_draws_what_the_engines_draw() {
                 "render {SPHERE} -m {method} --engine barycentric -o a.png"
             ))
             .done();
-        // A channel may differ by the one level that rounding of an f32 turns.
+        // Rounding of an f32 may change a channel by one level.
         let flags = "--engine cs171 --reference a.png --reference-threshold 1";
         let done = folder
             .run(&format!("render {SPHERE} -m {method} {flags} -o b.png"))
@@ -95,9 +96,9 @@ fn polygons_that_cross_themselves_are_told_of() {
         .says("warning: 1 polygon crosses or overlaps itself and is left out");
 }
 
-/// The lecture's own form is the library's, and what `scanline` has always meant.
+/// `--engine span` and its old name `scanline` draw the library's default picture.
 #[test]
-fn the_lectures_own_form_can_be_asked_for() {
+fn the_scalar_span_engine_can_be_requested() {
     let file = input::load("builtin:sphere?rings=6&segments=8").unwrap();
     let mut scene = input::resolve(&file).unwrap().scene;
     (scene.width, scene.height) = (64, 48);
@@ -112,9 +113,9 @@ fn the_lectures_own_form_can_be_asked_for() {
     }
 }
 
-/// The row engine on every instruction set: the lecture's picture, but for rounding.
+/// The row engine draws the span engine's picture within rounding, on every instruction set.
 #[test]
-fn instruction_sets_draw_the_lectures_picture() {
+fn instruction_sets_draw_the_span_engines_picture() {
     for method in METHODS {
         let method = method.info.name;
         let lecture = sphere(&format!("-m {method} --engine span --simd scalar"));
@@ -124,8 +125,9 @@ fn instruction_sets_draw_the_lectures_picture() {
             let other = sphere(&format!("-m {method} --engine row --simd {level}"));
             assert!(sphere(&format!("-m {method} --simd {level}")) == other);
             let difference = compare(&lecture, &other).unwrap();
-            // At 64 columns and 48 rows neither is off its closed form by a tenth of a level (`Info::bound`), or, where a
-            // root is followed, by a quarter (`Newton::LARGEST_ERROR`): what is stored differs by one at most.
+            // At 64 columns and 48 rows each picture is off its closed form by less than a tenth of
+            // a level (`Variant::bound`). Where Newton's root is followed it is a quarter
+            // (`Newton::LARGEST_ERROR`). Stored values differ by at most one level.
             assert!(
                 255.0 * difference.max <= 1.0,
                 "{method}, {level}: {difference:?}"
@@ -135,14 +137,15 @@ fn instruction_sets_draw_the_lectures_picture() {
     }
 }
 
-/// The SIMD levels of this machine.
+/// Returns the SIMD levels of this machine.
 fn simd() -> impl Iterator<Item = Level> {
     Level::available().filter(|level| *level != Level::Scalar)
 }
 
-/// The span engine is scalar and the row engine SIMD: anything else is one error, which names what to ask for.
+/// The span engine is scalar and the row engine SIMD. Any other combination is one error that names
+/// valid flags.
 #[test]
-fn engines_and_instruction_sets_are_one_axis() {
+fn mismatched_engines_and_instruction_sets_are_rejected() {
     let folder = Folder::new();
     for command in [
         &*format!("render {SPHERE} -o out.png"),
@@ -197,9 +200,9 @@ fn threads_change_no_byte() {
 }
 
 #[test]
-fn verbose_says_what_drew_the_picture() {
+fn verbose_names_the_engine() {
     let folder = Folder::new();
-    // The one that `auto` takes.
+    // The instruction set that `auto` chooses.
     let best = Level::best();
     if best == Level::Scalar {
         return;
@@ -255,9 +258,10 @@ fn verbose_says_what_drew_the_picture() {
     }
 }
 
-/// What a method or a scene cannot be drawn by is said: to the curious where `auto` chose, to all where they asked for it.
+/// A change of engine is reported with its reason: always if the engine was asked for, else with
+/// `--verbose`.
 #[test]
-fn another_engine_than_asked_for_is_told_with_the_reason() {
+fn a_change_of_engine_is_reported_with_its_reason() {
     let folder = Folder::new();
     let run = |flags: &str| {
         folder
@@ -291,9 +295,9 @@ fn another_engine_than_asked_for_is_told_with_the_reason() {
     }
 }
 
-/// What goes pixel by pixel on one thread refuses an instruction set, and says that threads do not help.
+/// Single-threaded scalar renderers reject an instruction set and report that threads do not help.
 #[test]
-fn pixel_by_pixel_means_no_wide_instructions() {
+fn scalar_renderers_reject_instruction_sets() {
     let folder = Folder::new();
     for (flags, what) in [
         ("--engine barycentric -m flat", "the barycentric renderer"),
@@ -333,9 +337,10 @@ fn pixel_by_pixel_means_no_wide_instructions() {
         .refused(&["cannot be used with"]);
 }
 
-/// Engines, instruction sets and numbers of threads that there are not: one error each, with what there is.
+/// Unknown engines, instruction sets and thread counts give one error each that lists the valid
+/// ones.
 #[test]
-fn what_there_is_not_is_refused_by_name() {
+fn unknown_engines_levels_and_threads_are_rejected_by_name() {
     let folder = Folder::new();
     let expected_level = "expected `auto`, `scalar`";
     for command in [

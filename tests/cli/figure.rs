@@ -30,7 +30,7 @@ fn a_figure_becomes_a_page_and_pictures() {
 }
 
 #[test]
-fn what_is_no_figure_is_refused_before_anything_is_written() {
+fn unknown_figures_are_rejected_before_anything_is_written() {
     let folder = Folder::new();
     folder
         .run("figure exrcises")

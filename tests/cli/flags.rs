@@ -1,8 +1,8 @@
-//! `fastphong render`: flags that change the picture, and flags that make no sense.
+//! `fastphong render`: flags that change the picture, and invalid flags.
 
 use super::{Folder, covered, picture, rendered, sphere};
 
-/// Each flag changes the picture; its value as the scene's own does not.
+/// Each flag changes the picture, unless its value is the scene's own.
 #[test]
 fn flags_change_the_picture() {
     let plain = sphere("");
@@ -44,7 +44,8 @@ fn flags_change_the_picture() {
     ] {
         assert!(sphere(flags) != plain, "{flags}");
     }
-    // What each changes about a light at a place that shines on the back of the sphere, too.
+    // Flags about positional lights change a picture whose light also shines on the back of the
+    // sphere.
     let near = "--fovy 40 --light-at 2,1,-0.5 --light-at 1,2,3,0.5";
     let lit = sphere(near);
     assert!(lit != sphere("--fovy 40 --light 2,1,-0.5 --light 1,2,3,0.5"));
@@ -103,8 +104,8 @@ fn view_zero_is_from_z_and_azimuth_turns_toward_x() {
         let placed = rendered(&format!(
             "builtin:gear --alpha coverage --samples 1 --size 64x48 --fit 0.7 --eye {eye}{up}"
         ));
-        // The two directions differ by the rounding of a sine: places on the picture do so by less than 1/256 pixel,
-        // which may move a pixel of the rim.
+        // The two directions differ by the rounding of a sine. Screen positions move by less than
+        // 1/256 pixel, which can change a pixel of the rim.
         let differing = turned
             .pixels()
             .iter()
@@ -116,7 +117,7 @@ fn view_zero_is_from_z_and_azimuth_turns_toward_x() {
 }
 
 #[test]
-fn material_flags_stand_over_every_material() {
+fn material_flags_override_every_material() {
     let folder = Folder::new();
     let black = "--ka 0 --kd 0 --ks 0 --size 64x48 -o out.png";
     for (input, replaces) in [
@@ -147,7 +148,7 @@ fn material_flags_stand_over_every_material() {
 #[test]
 fn without_lights_only_ambient_light_is_left() {
     let drawn = sphere("--no-lights --ambient 1 --ka 0.2,0.4,0.6");
-    // round(255 k_a)
+    // The stored level is round(255 k_a).
     assert!(
         drawn
             .pixels()
@@ -158,7 +159,7 @@ fn without_lights_only_ambient_light_is_left() {
 }
 
 #[test]
-fn flags_that_make_no_sense_are_refused_by_name() {
+fn invalid_flags_are_rejected_by_name() {
     let folder = Folder::new();
     for (flags, parts) in [
         (

@@ -1,4 +1,4 @@
-//! Inputs that are missing, broken or too large: one error each, with its place, and nothing written.
+//! Missing, broken or too large inputs: one error each, with its place, and nothing written.
 
 use super::Folder;
 
@@ -20,7 +20,7 @@ fn refused(files: &[(&str, &[u8])], input: &str, parts: &[&str]) {
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 #[test]
-fn what_is_not_there() {
+fn missing_inputs() {
     refused(
         &[],
         "taepot",
@@ -109,7 +109,7 @@ fn broken_mesh_files() {
             with("v 1e99 0 0\nf 1 2 4").into_bytes(),
             &["mesh.obj:4: ", "expected a finite number"],
         ),
-        // A file cut off in the middle of a line.
+        // The file is cut off in the middle of a line.
         (
             with("f 1 2 3\nv 1 2").into_bytes(),
             &["mesh.obj:5: `v` has too few numbers: expected three, found 2"],
@@ -176,7 +176,7 @@ fn broken_scene_files() {
 }
 
 #[test]
-fn what_is_odd_about_a_mesh_is_a_warning() {
+fn odd_meshes_give_warnings() {
     let folder = Folder::new();
     folder.write(
         "mesh.obj",

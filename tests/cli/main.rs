@@ -1,4 +1,4 @@
-//! The command line as a user calls it: exit code and message of good and bad input.
+//! The command line as a user calls it: exit codes and messages for good and bad input.
 #![cfg(feature = "cli")]
 
 mod aov;
@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// An empty folder that is removed in the end; commands run in it.
+/// An empty folder in which commands run. It is removed on drop.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -50,7 +50,7 @@ impl Folder {
         std::fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// The names of all files, in order.
+    /// Returns the names of all files, sorted.
     fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.0).expect("the folder");
         let mut names: Vec<String> = entries
@@ -66,7 +66,7 @@ impl Folder {
         names
     }
 
-    /// Runs `fastphong` with `arguments`, which spaces part.
+    /// Runs `fastphong` with space-separated `arguments`.
     fn run(&self, arguments: &str) -> Ended {
         let output = self.command(arguments).output().expect("the tool runs");
         Ended::new(arguments, output)
@@ -89,7 +89,7 @@ impl Drop for Folder {
     }
 }
 
-/// How a command ended.
+/// The outcome of a command.
 struct Ended {
     arguments: String,
     code: Option<i32>,
@@ -112,7 +112,7 @@ impl Ended {
         }
     }
 
-    /// Exit code 0.
+    /// Asserts exit code 0.
     fn done(self) -> Ended {
         assert_eq!(
             self.code,
@@ -125,7 +125,7 @@ impl Ended {
         self
     }
 
-    /// Exit code 1.
+    /// Asserts exit code 1.
     fn differs(self) -> Ended {
         assert_eq!(
             self.code,
@@ -138,7 +138,7 @@ impl Ended {
         self
     }
 
-    /// Exit code 2, nothing on standard output, and one error that holds each of `parts`.
+    /// Asserts exit code 2, an empty standard output, and one error that contains each of `parts`.
     fn refused(self, parts: &[&str]) -> Ended {
         assert_eq!(
             self.code,
@@ -167,7 +167,7 @@ impl Ended {
         self
     }
 
-    /// Standard error holds `part`.
+    /// Asserts that standard error contains `part`.
     fn says(self, part: &str) -> Ended {
         assert!(
             self.err.contains(part),
@@ -178,7 +178,7 @@ impl Ended {
         self
     }
 
-    /// Standard output holds `part`.
+    /// Asserts that standard output contains `part`.
     fn prints(self, part: &str) -> Ended {
         assert!(
             self.out.contains(part),
@@ -201,14 +201,14 @@ fn picture(path: &Path) -> Picture8 {
         .to_stored()
 }
 
-/// The picture of `input` with `flags`.
+/// Renders with `flags`, which include the input.
 fn rendered(flags: &str) -> Picture8 {
     let folder = Folder::new();
     folder.run(&format!("render {flags} -o out.png")).done();
     picture(&folder.path("out.png"))
 }
 
-/// That of [`SPHERE`].
+/// Renders [`SPHERE`] with `flags`.
 fn sphere(flags: &str) -> Picture8 {
     rendered(&format!("{SPHERE} {flags}"))
 }
@@ -221,5 +221,5 @@ fn covered(picture: &Picture8) -> usize {
         .count()
 }
 
-/// A scene of a small sphere, 64 × 48: pictures that are drawn in no time.
+/// A scene of a small sphere, 64 × 48 pixels, which renders at once.
 const SPHERE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cli/sphere.toml");

@@ -1,4 +1,4 @@
-//! `render -o "{scene}_{method}.png"`: names that say what the picture is.
+//! `render -o "{scene}_{method}.png"`: placeholders in names of pictures.
 
 use super::Folder;
 
@@ -65,7 +65,7 @@ fn unknown_placeholders_are_one_error() {
             .run(&format!("render teapot -o {name}"))
             .refused(&["which is no placeholder", known]);
     }
-    // The reference is recognised under its full name.
+    // The name is expanded before it is compared with the reference's.
     folder
         .run("render football --size 64x48 -o football.png")
         .done();

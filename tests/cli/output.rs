@@ -1,4 +1,4 @@
-//! Where pictures go: files that cannot be written, pipes, and readers that go away.
+//! Output of pictures: files that cannot be written, pipes, and readers that close early.
 
 use super::{Ended, Folder, SPHERE, picture};
 use fastphong::picture::image_file::{Format, decode_picture};
@@ -7,7 +7,7 @@ use std::io::Read;
 use std::process::Stdio;
 
 #[test]
-fn places_that_cannot_be_written_leave_nothing_behind() {
+fn unwritable_paths_leave_nothing_behind() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("folder.png")).unwrap();
     folder.write("file", "old");
@@ -72,7 +72,7 @@ fn a_picture_can_be_piped() {
             folder.read(&format!("out.{format}")),
             "{format}"
         );
-        // Words go elsewhere.
+        // Messages go to standard error.
         piped.says("zero-area").says("mesh = \"builtin:sphere");
     }
     folder
@@ -83,9 +83,9 @@ fn a_picture_can_be_piped() {
     assert!(Format::ALL.len() == 3, "every format is piped above");
 }
 
-/// A reader that takes nothing, or only the beginning, is no error and no panic.
+/// A reader that takes nothing, or only the beginning, causes no error and no panic.
 #[test]
-fn a_reader_that_goes_away_ends_it_quietly() {
+fn a_closed_pipe_ends_the_tool_quietly() {
     let folder = Folder::new();
     for (arguments, code) in [
         ("list methods", 0),

@@ -1,10 +1,10 @@
-//! `render --reference`: no reference yet, an equal one, one that differs.
+//! `render --reference`: a missing reference, an equal one, one that differs.
 
 use super::{Folder, SPHERE, picture};
 use fastphong::picture::image_file::{FilePicture, write_picture};
 
 #[test]
-fn without_a_reference_the_candidate_is_kept_and_the_next_command_said() {
+fn a_missing_reference_keeps_the_candidate_and_suggests_a_command() {
     let folder = Folder::new();
     let ended = folder
         .run(&format!("render {SPHERE} --reference ref.png"))
@@ -22,7 +22,7 @@ fn without_a_reference_the_candidate_is_kept_and_the_next_command_said() {
         .run(&format!("render {SPHERE} --reference ref.png -o mine.png"))
         .differs();
     ended.prints("to accept it: cp mine.png ref.png");
-    // The command does what it says: the next run agrees.
+    // The suggested command works: the next run agrees.
     std::fs::copy(folder.path("mine.png"), folder.path("ref.png")).unwrap();
     let ended = folder
         .run(&format!("render {SPHERE} --reference ref.png"))
@@ -89,7 +89,7 @@ fn a_difference_leaves_both_pictures_and_a_map() {
         .prints("actual: out/mine.png")
         .prints("out/ref.diff.png");
     assert!(folder.path("out/mine.png").exists() && folder.path("out/ref.diff.png").exists());
-    // A picture on standard output leaves the words to standard error.
+    // With the picture on standard output, messages go to standard error.
     let piped = folder
         .run(&format!("{check} -o -"))
         .differs()
@@ -107,7 +107,7 @@ fn other_sizes_and_other_coverage_differ() {
     ended
         .prints("the sizes differ: the reference has 64x48 pixels, the picture 32x24")
         .prints("ref.actual.png");
-    // Black on black: no colour differs, but the pixels that are covered do.
+    // Black on black: colours agree, coverage differs.
     let black = "--ka 0 --kd 0 --ks 0";
     folder
         .run(&format!("render {SPHERE} {black} --fit 0.5 -o black.png"))

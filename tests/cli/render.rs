@@ -1,4 +1,4 @@
-//! `fastphong render`: pictures, and what is said of them.
+//! `fastphong render`: pictures and messages.
 
 use super::{Folder, SPHERE, covered, picture, sphere};
 use fastphong::picture::Picture8;
@@ -43,7 +43,7 @@ fn every_method_and_the_reference_draw_and_are_near_each_other() {
     }
     assert!(sphere("-m reference:model=phong") == phong);
     assert!(sphere("-m reference:model=flat") != phong);
-    // Pixel by pixel: in groups of eight, spans as short as these have true roots, however many steps.
+    // Use the span engine: blocks of eight take true roots on spans this short, whatever the steps.
     let steps = |steps: &str| {
         sphere(&format!(
             "-m fast-phong:steps={steps} --engine span --simd scalar"
@@ -61,8 +61,8 @@ fn every_method_and_the_reference_draw_and_are_near_each_other() {
             sphere(&format!("-m reference:model={model}")),
         );
         let difference = fastphong::compare::metrics::compare(&a, &b).unwrap();
-        // At 64 columns and 48 rows no method is off by a tenth of a level (`Info::bound`), which moves what is stored by
-        // one level at most.
+        // At 64 columns and 48 rows no method is off by a tenth of a level (`Variant::bound`), so
+        // stored values differ by at most one level.
         assert!(255.0 * difference.max <= 1.0, "{method}: {difference:?}");
     }
 }
@@ -79,7 +79,7 @@ fn a_pfm_holds_linear_floats_and_every_format_the_same_picture() {
     let FilePixels::Linear(floats) = read_picture(&folder.path("out.pfm")).unwrap().pixels else {
         panic!("no floats");
     };
-    // Linear whatever the encoding: rounded, it is the linear picture.
+    // A PFM is linear in every encoding. Rounded, it equals the linear picture.
     let rounded = floats.map(|pixel| pixel.map(fastphong::picture::encoding::quantise));
     let colours = |picture: &Picture8| picture.map(|[r, g, b, _]| [r, g, b]);
     assert_eq!(
@@ -97,9 +97,9 @@ fn a_pfm_holds_linear_floats_and_every_format_the_same_picture() {
 }
 
 #[test]
-fn statistics_count_what_is_left_out() {
+fn statistics_count_omitted_polygons() {
     let folder = Folder::new();
-    // Two triangles without area: one on a line in space, and one that is seen from its edge.
+    // Two triangles have no area: one is a line in space, one is seen edge-on.
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\nf 1 2 3\nf 1 3 2\nf 1 5 2\nf 1 3 4\n";
     folder.write("mesh.obj", obj);
     let ended = folder
@@ -191,9 +191,9 @@ fn the_printed_scene_gives_the_same_picture() {
     }
 }
 
-/// The painter says what it draws wrongly, on standard error, unless it is to be quiet.
+/// The painter reports wrongly ordered polygons on standard error, except with `--quiet`.
 #[test]
-fn the_painter_says_what_it_draws_wrongly() {
+fn the_painter_reports_wrongly_ordered_polygons() {
     let folder = Folder::new();
     let said = |input: &str| {
         folder
@@ -225,7 +225,7 @@ fn the_painter_says_what_it_draws_wrongly() {
     );
 }
 
-/// Supersampling keeps the picture's size; a picture of depths is one of single samples.
+/// Supersampling keeps the picture's size. A depth picture shows single samples.
 #[test]
 fn supersampled_pictures_have_the_size_of_the_scene() {
     let plain = sphere("");
@@ -272,9 +272,9 @@ fn supersampled_pictures_have_the_size_of_the_scene() {
     );
 }
 
-/// Without clipping, a polygon with a corner at the plane of the eye is left out, said and counted.
+/// Without clipping, a polygon with a corner in the eye plane is left out, reported and counted.
 #[test]
-fn polygons_without_a_place_are_told_of() {
+fn unprojectable_polygons_are_reported() {
     let folder = Folder::new();
     folder.write(
         "ground.obj",

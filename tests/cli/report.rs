@@ -2,7 +2,7 @@
 
 use super::Folder;
 
-/// Errors and pictures as ever, of few pixels, and no more rounds than need be.
+/// Full errors and pictures, with few pixels and as few rounds as possible.
 const QUICK: &str = "--size 48x36 --time-budget 0";
 
 /// Reads a page.
@@ -10,7 +10,7 @@ fn page(folder: &Folder, path: &str) -> String {
     String::from_utf8(folder.read(path)).unwrap()
 }
 
-/// Returns the document in a page.
+/// Returns the document embedded in a page.
 fn data(html: &str) -> serde_json::Value {
     let start = "id=\"fastphong-data\">";
     let text = &html[html.find(start).unwrap() + start.len()..];
@@ -74,9 +74,10 @@ fn figures_of_the_lectures_stand_in_the_page_on_demand() {
     );
 }
 
-/// One method besides naive Phong: frames of 1920 × 1080 pixels are slow in a build for tests.
+/// Experiments appear in the page on demand. Only one method runs besides naive Phong, because
+/// frames of 1920 × 1080 are slow in test builds.
 #[test]
-fn studies_stand_in_the_page_on_demand() {
+fn experiments_appear_in_the_page_on_demand() {
     let folder = Folder::new();
     folder
         .run(&format!(
@@ -121,7 +122,7 @@ fn the_markdown_and_its_pictures_stand_beside_the_page() {
 }
 
 #[test]
-fn what_cannot_be_written_is_said_and_what_was_there_is_kept() {
+fn write_errors_are_reported_and_old_files_kept() {
     let folder = Folder::new();
     folder.write("file", "old").write("page.html", "old");
     std::fs::create_dir(folder.path("folder")).unwrap();
@@ -178,7 +179,7 @@ fn documents_are_laid_side_by_side_without_drawing() {
         .done()
         .prints("a.html\na.json\na.csv\n");
     assert!(page(&folder, "a.csv").contains("method,\"max, levels\""));
-    // What benchmarks write is laid beside it as well.
+    // `--from` also accepts JSON of benchmarks and shows it beside the report.
     let bench = folder.run(&format!("compare figure5 {QUICK} --methods flat --json"));
     folder.write("b.json", bench.done().json().to_string());
     folder.run("report --from a.json b.json -o c.html").done();

@@ -1,13 +1,14 @@
-//! The first picture of a mesh without a scene.
+//! The studio: how a mesh without a scene is rendered.
 
 use super::{Folder, covered, picture};
 use fastphong::picture::Picture8;
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// A mesh alone stands before an opaque grey, lit from the upper left whatever the view, with smooth edges.
+/// A mesh alone stands before opaque grey with smooth edges, lit from the camera's upper left in
+/// every view.
 #[test]
-fn a_mesh_alone_is_flattered() {
+fn a_mesh_alone_is_shown_in_the_studio() {
     let folder = Folder::new();
     let draw = |flags: &str| {
         folder
@@ -37,7 +38,7 @@ fn a_mesh_alone_is_flattered() {
     }
     let smooth = draw("");
     assert!(smooth == draw("--samples 2") && smooth != draw("--samples 1"));
-    // Flags stand over the studio, each over its own part of it.
+    // Flags override the studio, each its own part.
     assert_eq!(draw("--background 0").get(0, 0), [0, 0, 0, 255]);
     assert_eq!(draw("--alpha coverage").get(0, 0)[3], 0);
     assert!(draw("--light 0,0,1") != smooth && draw("--kd 0.1") != smooth);
@@ -50,7 +51,7 @@ fn a_mesh_alone_is_flattered() {
     assert!(draw(plain) == picture(&folder.path("plain.png")));
 }
 
-/// Four samples a pixel where they cost little, and only where they fit.
+/// The studio takes four samples per pixel where they are cheap and fit, and one elsewhere.
 #[test]
 fn many_polygons_and_pixels_have_one_sample() {
     let folder = Folder::new();
@@ -70,7 +71,7 @@ fn many_polygons_and_pixels_have_one_sample() {
     has("builtin:sphere?polygons=100000", true);
     has("builtin:sphere?polygons=100000 --size 3000x3000", false);
     has("builtin:cube --samples 1", false);
-    // Scenes and what compares keep what they have.
+    // Scenes and comparisons keep their own settings.
     has("teapot", false);
     folder.run("info builtin:cube").done().prints("lights   1");
     folder
@@ -79,9 +80,9 @@ fn many_polygons_and_pixels_have_one_sample() {
         .prints("1 light");
 }
 
-/// What a material library says stands over the studio's clay, and the report shows a mesh as `render` does.
+/// Materials of the mesh override the studio's clay, and the report shows a mesh as `render` does.
 #[test]
-fn materials_of_the_mesh_win_and_the_report_shows_it_too() {
+fn materials_of_the_mesh_override_the_studio_also_in_the_report() {
     let folder = Folder::new();
     folder
         .write("red.mtl", "newmtl red\nKa 0 0 0\nKd 1 0 0\nKs 0 0 0\n")
@@ -101,9 +102,9 @@ fn materials_of_the_mesh_win_and_the_report_shows_it_too() {
     );
 }
 
-/// Loaders of other tools draw a file whose faces name normals that no line gives; so does this one, and says it once.
+/// Faces may name normals that the file does not have, as in other loaders. The tool warns once.
 #[test]
-fn faces_may_name_normals_that_the_file_does_not_have() {
+fn faces_may_name_missing_normals() {
     let folder = Folder::new();
     folder.write("mesh.obj", format!("{TRIANGLE}f 1/1/1 2/2/1 3/3/1\n"));
     let ended = folder.run("render mesh.obj --size 64x48 -o out.png").done();

@@ -1,4 +1,4 @@
-//! `fastphong list`, `explain`, `info`, help.
+//! `fastphong list`, `explain`, `info` and help.
 
 use super::Folder;
 use fastphong::compare::metrics::METRICS;
@@ -88,7 +88,7 @@ fn lists_have_an_entry_for_everything_in_their_table() {
 }
 
 #[test]
-fn engines_and_instruction_sets_are_listed_with_what_they_can() {
+fn engines_and_instruction_sets_are_listed_with_their_abilities() {
     let folder = Folder::new();
     let engines = folder.run("list engines --json").done().json();
     let engines = engines.as_array().expect("a list");
@@ -191,7 +191,7 @@ fn every_method_is_explained() {
             Some(entry.info.roundings.step)
         );
     }
-    // One step of Newton's method less is one division a pixel less.
+    // One Newton step less is one division per pixel less.
     let divisions = |variant: &str| {
         let json = folder
             .run(&format!("explain {variant} --json"))
@@ -205,7 +205,7 @@ fn every_method_is_explained() {
         divisions("fast-phong:steps=2") - divisions("fast-phong:steps=1"),
         1
     );
-    // The choice left to the method is no number, and is said so.
+    // The automatic choice is no number, and is written as `auto`.
     let auto = folder.run("explain fast-phong:steps=auto --json").done();
     let auto = auto.json();
     assert_eq!(
@@ -221,7 +221,8 @@ fn every_method_is_explained() {
         .done()
         .prints("steps=auto: steps of Newton's method per pixel; auto or 1..8, default auto")
         .prints("auto: the fewest Newton steps");
-    // Each method with lights at positions; Duff's six products and the weight of perspective by two additions each.
+    // With positional lights Duff's method takes two additions for each of its six products and for
+    // the perspective weight.
     for (lights, additions) in [("1", 14), ("2", 20)] {
         let json = folder.run("explain duff-phong --json").done().json();
         let walk = &json["operations_by_lights_at_positions"][lights]["pixel_walk"];
@@ -241,7 +242,7 @@ fn every_method_is_explained() {
 }
 
 #[test]
-fn info_counts_what_a_mesh_has() {
+fn info_counts_parts_of_a_mesh() {
     let folder = Folder::new();
     let of = |input: &str| {
         folder.run(&format!("info {input} --json")).done().json()["objects"][0].clone()
@@ -281,7 +282,8 @@ fn info_counts_what_a_mesh_has() {
     );
     assert_eq!(football["normals"], "averaged");
 
-    // A bent quad, a triangle without area, two triangles wound differently, a third one at their edge.
+    // A bent quad, a triangle without area, two triangles of opposite winding, and a third one at
+    // their edge.
     let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 6 -1 0\nv 5 0 1\n\
                v 0 2 0\nf 1 2 3 4\nf 1 4 10\nf 5 6 7\nf 5 6 8\n";
     folder.write("odd.obj", obj);
@@ -331,9 +333,10 @@ fn info_speaks_of_scenes_too() {
         .prints("12 of 5 sides, 20 of 6 sides");
 }
 
-/// What `auto` would take: a scene of five lights is drawn pixel by pixel, any other by rows where the method can be.
+/// `info` reports the choice of `auto`: the row engine on the best instruction set, or the span
+/// engine with a reason.
 #[test]
-fn info_says_what_auto_would_take() {
+fn info_reports_the_choice_of_auto() {
     let folder = Folder::new();
     let best = Level::best();
     let choices =
@@ -351,7 +354,7 @@ fn info_says_what_auto_would_take() {
         (&serde_json::Value::Null, Some(METHODS.len()))
     );
     let five = "--light 1,0,1 --light 0,1,1 --light -1,0,1 --light 0,-1,1 --light 0,0,1";
-    // Lights at positions, many lights and levels of depth are no reason.
+    // Positional lights, many lights and narrow depth buffers do not change the choice.
     for flags in ["--light-at 9,9,9", five, "--depth-bits 16"] {
         assert_eq!(choices(&format!("teapot {flags}")), far, "{flags}");
     }

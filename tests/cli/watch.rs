@@ -1,4 +1,4 @@
-//! `render --watch`: draws again whenever a file changes. The test ends the program.
+//! `render --watch` draws again whenever a file changes. The test stops the program.
 
 use super::Folder;
 use std::io::{BufRead, BufReader};
@@ -6,7 +6,7 @@ use std::process::{Child, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-/// The program that watches, and the lines that it says.
+/// A watching program and the lines that it prints.
 struct Watcher(Child, Receiver<String>);
 
 impl Watcher {
@@ -26,7 +26,7 @@ impl Watcher {
         Watcher(child, receive)
     }
 
-    /// Waits for a line that holds `part`.
+    /// Waits for a line that contains `part`.
     fn says(&self, part: &str) {
         let limit = Duration::from_secs(60);
         while !self
@@ -46,7 +46,7 @@ impl Drop for Watcher {
 }
 
 #[test]
-fn a_change_of_any_file_draws_again_and_errors_do_not_end_it() {
+fn any_file_change_draws_again_and_errors_do_not_stop_it() {
     let folder = Folder::new();
     let scene = "image = { width = 16, height = 12 }\n[[object]]\nmesh = \"mesh.obj\"\n";
     let mesh = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";

@@ -1,4 +1,4 @@
-//! How far every method's picture is from its closed form in `f64`, over all shipped scenes, on linear frames.
+//! Errors of every method against its `f64` closed form, over all shipped scenes, on linear frames.
 
 use crate::support::cases::{Case, case, cases};
 use crate::support::differences::largest_difference;
@@ -22,9 +22,11 @@ fn error(scene: &Case, variant: &Variant, truth: &LinearPicture) -> f64 {
     max
 }
 
-/// Checks a method's pictures of a scene, drawn in every way: returns by what share of its rounding the lecture's own form is
-/// off, and what is wrong. The other engines and groups of pixels round in other places, but no more often: eight pixels on at a
-/// time, and from barycentric coordinates instead of along edges.
+/// Checks one method on a scene with every renderer. Returns the span engine's error as a share of
+/// the rounding bound, and a message for each failure.
+///
+/// The other engines round in other places but no more often. The row engine steps eight pixels
+/// at a time, the barycentric one interpolates by barycentric coordinates.
 fn check(scene: &Case, entry: &'static Entry) -> (f64, Vec<String>) {
     let (info, frame, variant) = (entry.info, &scene.frame, entry.variant());
     let (truth, decided) = (scene.truth(info.model), scene.decided());
@@ -52,11 +54,12 @@ fn check(scene: &Case, entry: &'static Entry) -> (f64, Vec<String>) {
             ));
         }
     }
-    // Rounding is meant to bite on these scenes: what a method allows itself beside it is for coarser ones.
+    // These scenes should exercise rounding. The method's own allowance is for coarser scenes, so
+    // it is left out.
     (max / with_numbers(entry).bound(frame), failures)
 }
 
-/// The method with no choice left to it.
+/// Returns the method with every parameter at its least value, so that it chooses nothing itself.
 fn with_numbers(entry: &'static Entry) -> Variant {
     let mut text = entry.info.name.to_string();
     for parameter in entry.info.parameters {
@@ -65,8 +68,8 @@ fn with_numbers(entry: &'static Entry) -> Variant {
     Variant::parse(&text).expect("a method")
 }
 
-/// Every method is within the rounding that its steps can make, on every scene, with every engine on every instruction set
-/// of this machine; and over all scenes that bound is not ten times too wide.
+/// Every method stays within its rounding bound on every scene, with every engine and instruction
+/// set of this machine. Over all scenes the bound is at most ten times too wide.
 #[test]
 fn every_method_is_within_its_bound_and_the_bound_bites() {
     let mut nearest: BTreeMap<&str, (f64, &str)> = BTreeMap::new();
@@ -79,13 +82,14 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
             scene.name,
             decided.pixels().len()
         );
-        let fights = scene.name == "z-fighting"; // a depth buffer of 16 bits, whose levels are wide
+        let fights = scene.name == "z-fighting"; // a 16-bit depth buffer has wide levels
         assert!(
             fights || left_out * 1000 <= decided.pixels().len(),
             "{}: {left_out} pixels left out",
             scene.name
         );
-        // An engine draws this on the threads below: none of them may wait for it there.
+        // Render this before the threads below start. An engine draws it on them, and none of them
+        // may wait for it.
         scene.seen();
         let found: Vec<_> = METHODS
             .par_iter()
@@ -120,8 +124,9 @@ fn bound(variant: &str, frame: &Frame) -> f64 {
     Variant::parse(variant).expect("a method").bound(frame)
 }
 
-/// Newton's method on spans of few pixels over large angles: the coarse sphere, 24 rows high. One step is off by far more
-/// than rounding; each further one squares the error. The exact figures are the report's; here their order is held fast.
+/// Each further Newton step squares the error on short spans over large angles: a coarse sphere 24
+/// rows high. One step is off by far more than rounding. The report has exact figures, this test
+/// checks their order.
 #[test]
 fn more_steps_are_more_exact() {
     let scene = case("coarse-sphere", Some((32, 24)));
@@ -145,13 +150,14 @@ fn more_steps_are_more_exact() {
     );
 }
 
-/// By default fast Phong takes as few steps as cannot be seen: one on a fine sphere but at its rim, more on a coarse one. What
-/// it allows itself is in its bound: a quarter of a grey level.
+/// Fast Phong takes by default the fewest steps whose error is invisible: one on a fine sphere
+/// except at its rim, more on a coarse one. Its bound includes the allowed error, a quarter of a
+/// grey level.
 #[test]
 fn spans_take_as_few_steps_as_cannot_be_seen() {
     let fine = &case("fine-sphere", None).frame;
     let coarse = &case("coarse-sphere", Some((32, 24))).frame;
-    // The share of pixels whose colour is that of a given number of steps.
+    // Returns the share of drawn pixels with the same colour as at a fixed number of steps.
     let same = |frame: &Frame, steps: u32| {
         let pictures = [
             linear("fast-phong", frame),
@@ -173,7 +179,7 @@ fn spans_take_as_few_steps_as_cannot_be_seen() {
     }
 }
 
-/// Pixels whose visible polygon differs are few, and lie where two surfaces meet within the rounding of depth.
+/// The visible polygon differs at few pixels, where two surfaces meet within the rounding of depth.
 #[test]
 fn visible_polygons_differ_only_where_surfaces_meet() {
     for scene in cases(None) {
@@ -198,7 +204,8 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
             .filter(|&&p| p != NOTHING)
             .count();
         println!("{}: {differing} of {drawn} pixels", scene.name);
-        // Few levels of depth are wide, and rounding decides where one ends: `hidden_surfaces` says where.
+        // Narrow depth buffers have wide levels, and rounding decides where one ends.
+        // `hidden_surfaces` tests these pixels.
         let fights = matches!(scene.frame.hidden_surfaces(), HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. })
             if bits.most().is_some());
         assert!(
@@ -209,7 +216,7 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
     }
 }
 
-/// The same frame without specular light.
+/// Copies a frame without specular light.
 fn matte(frame: &Frame) -> Frame {
     let mut builder = FrameBuilder::new(frame.width() as u32, frame.height() as u32);
     builder
@@ -241,7 +248,7 @@ fn matte(frame: &Frame) -> Frame {
     builder.finish().expect("what was a frame is one")
 }
 
-/// Scenes that are meant to show no highlight: flat faces turned away from it, or a matte material.
+/// Scenes without a highlight by design: flat faces turned away from it, or a matte material.
 const WITHOUT_HIGHLIGHT: [&str; 6] = [
     "corrugated",
     "cyclic-triangles",
@@ -251,8 +258,8 @@ const WITHOUT_HIGHLIGHT: [&str; 6] = [
     "z-fighting",
 ];
 
-/// A flipped winding once hid behind an ambient-only picture: every scene must show lit pixels, and highlights where it
-/// is meant to.
+/// Every scene shows lit pixels, and highlights unless it has none by design. An ambient-only
+/// picture once concealed a flipped winding.
 #[test]
 fn every_scene_is_lit() {
     let wide = |pixel: [f32; 4]| pixel.map(f64::from);
@@ -273,7 +280,8 @@ fn every_scene_is_lit() {
             let shine =
                 |c: usize| f64::from(lighting.lights.iter().map(|l| l.specular[c]).sum::<f32>());
             drawn += 1;
-            // A tenth of what diffuse light could add at most, a quarter of what specular light could.
+            // Lit: a tenth of the most that diffuse light could add. Highlit: a quarter of the most
+            // that specular light could.
             lit += usize::from(
                 (0..3).any(|c| dull[c] > f64::from(lighting.ambient[c]) + 0.1 * most(c)),
             );

@@ -1,4 +1,4 @@
-//! Methods against each other, and one way of drawing against another.
+//! Methods compared with each other, and render paths compared with each other.
 
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
@@ -35,7 +35,8 @@ fn sphere(change: impl FnOnce(&mut Scene)) -> Frame {
     scene.frame().expect("a frame")
 }
 
-/// With equal normals at all corners nothing varies over a polygon, and all methods are one: within their bounds.
+/// Equal normals at all corners make all methods agree within their bounds, because nothing varies
+/// over a polygon.
 #[test]
 fn equal_normals_make_all_methods_equal() {
     let mut random = Random::new(41);
@@ -87,7 +88,8 @@ fn equal_normals_make_all_methods_equal() {
     }
 }
 
-/// Any number of lights: exactly as many shaders as there are sizes, padded with dark ones, give the reference's picture.
+/// Every number of lights gives the reference's picture. Counts between the compiled sizes are
+/// padded with dark lights.
 #[test]
 fn any_number_of_lights() {
     for count in [0, 1, 2, 3, 4, 5, 8, 9, 20, Scene::MAX_LIGHTS] {
@@ -109,8 +111,8 @@ fn any_number_of_lights() {
     assert!(scene.frame().is_err(), "one light more than there may be");
 }
 
-/// A light straight behind the sphere: where L·N < 0, R·V = 1 − 2 (N·V)² is over 0 toward the rim, and there must be no
-/// highlight (trap T9).
+/// A light behind the sphere makes no highlight (trap T9). There L·N < 0, but R·V = 1 − 2 (N·V)² is
+/// positive toward the rim.
 #[test]
 fn a_light_behind_makes_no_highlight() {
     let mut scene =
@@ -126,7 +128,8 @@ fn a_light_behind_makes_no_highlight() {
         for (pixel, normal) in picture.pixels().iter().zip(normals.pixels()) {
             let n =
                 DVec3::new(normal[0].into(), normal[1].into(), normal[2].into()) * 2.0 - DVec3::ONE;
-            // Far enough from the rim that no corner of the polygon, 4.5 degrees wide, faces the light.
+            // These pixels are far enough from the rim that no corner of their polygon, 4.5 degrees
+            // wide, faces the light.
             if pixel[3] > 0.0 && (0.3..0.6).contains(&n.dot(view)) {
                 assert_eq!(
                     pixel[..3],
@@ -141,7 +144,7 @@ fn a_light_behind_makes_no_highlight() {
     assert!(compared > 1000, "{compared} pixels");
 }
 
-/// No lights: ambient light only, the same from every method.
+/// Without lights every method draws ambient light only.
 #[test]
 fn no_lights_means_ambient_only() {
     let frame = sphere(|scene| scene.lights.clear());
@@ -163,7 +166,7 @@ fn no_lights_means_ambient_only() {
     }
 }
 
-/// Every way of drawing a frame stores the same picture, and does so at every run.
+/// Every way of rendering a frame stores the same picture on every run.
 #[test]
 fn stored_and_linear_pictures_agree() {
     let frame = sphere(|_| ());
@@ -184,10 +187,10 @@ fn stored_and_linear_pictures_agree() {
     }
 }
 
-/// Perspective interpolation on a near, wide view: degree-0 methods and Gouraud follow the reference; and it is not the
-/// picture that is linear on the screen.
+/// With perspective interpolation on a near, wide view every method agrees with the reference. The
+/// picture differs from the one interpolated on screen.
 #[test]
-fn perspective_interpolation_is_the_references() {
+fn perspective_interpolation_agrees_with_the_reference() {
     let near = |interpolation| {
         sphere(|scene| {
             scene.interpolation = interpolation;
@@ -220,7 +223,7 @@ fn perspective_interpolation_is_the_references() {
     );
 }
 
-/// On triangles, scanline and barycentric interpolation are one (L21 3, Figure 6).
+/// Scanline and barycentric interpolation agree on triangles (L21 3, Figure 6).
 #[test]
 fn barycentric_pictures_are_scanline_pictures_on_triangles() {
     let mut scene = Scene::of_mesh(
@@ -238,7 +241,7 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
         };
         let difference =
             compare(&theirs, &entry.variant().render_linear(&frame)).expect("equal sizes");
-        // Both are within the bound of the closed form, and the forms are equal on triangles.
+        // Both are within the bound of their closed form, and the forms are equal on triangles.
         assert!(
             difference.max <= 2.0 * entry.info.bound(&frame),
             "{}: {}",
@@ -261,7 +264,8 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
     );
 }
 
-/// L21 3: on triangles the picture does not depend on how they lie; on a square it does (Figure 5).
+/// L21 3: the picture of a square depends on its orientation (Figure 5), the picture of triangles
+/// does not.
 #[test]
 fn orientation_matters_for_squares_only() {
     let turned = |spec: &str| {
@@ -280,7 +284,8 @@ fn orientation_matters_for_squares_only() {
         reference::render(&scene.frame().expect("a frame"), Model::Gouraud).to_linear()
     };
     let (upright, lying) = (turned("figure5?angle=0"), turned("figure5?angle=90"));
-    // The picture turned back by 90 degrees: counter-clockwise in space, with y downward on the picture.
+    // Turn the picture back by 90 degrees: counter-clockwise in space, with y downward in the
+    // picture.
     let n = 128;
     let back: Vec<[f32; 4]> = (0..n * n)
         .map(|i| lying.get(i / n, n - 1 - i % n))
@@ -296,7 +301,7 @@ fn orientation_matters_for_squares_only() {
         let differences = pixels.map(|i| (turned.pixels()[i][0] - upright.pixels()[i][0]).abs());
         differences.fold(0.0f32, f32::max)
     };
-    // Half of the square is bright at 0 degrees and gray at 90: whichever way it is turned back.
+    // Half of the square is bright at 0 degrees and grey at 90, whichever way it is turned back.
     assert!(
         most(&back) > 0.2 && most(&other) > 0.2,
         "{} {}",

@@ -1,4 +1,5 @@
-//! Interpolated attributes as pictures: vertex colours and Lecture 5's checkerboard, wrong and right.
+//! Pictures of interpolated attributes: vertex colours and Lecture 5's checkerboard, wrong and
+//! right.
 
 use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
@@ -43,7 +44,8 @@ fn seen(mesh: PolygonMesh, interpolation: Interpolation) -> Frame {
     scene.frame().expect("a frame")
 }
 
-/// A floor of two triangles over −4..4 in x and z, with a colour that is a linear function of x and z.
+/// Builds a floor over −4..4 in x and z whose colour is linear in x and z, of two triangles or one
+/// quad.
 fn floor(triangles: bool) -> PolygonMesh {
     let corners = [(-4.0, -4.0), (-4.0, 4.0), (4.0, 4.0), (4.0, -4.0)];
     let mut builder =
@@ -66,7 +68,8 @@ fn colour(x: f64, z: f64) -> DVec3 {
     DVec3::new(0.5 + 0.1 * x, 0.5 - 0.1 * z, 0.25 + 0.02 * (x + z))
 }
 
-/// Where the ray of a pixel meets the floor, x and z, and how far it moves in half a sub-pixel.
+/// Returns the point (x, z) where a pixel's ray meets the floor, and how far it moves in half a
+/// sub-pixel.
 fn on_floor(column: usize, row: usize) -> Option<([f64; 2], f64)> {
     let camera = camera();
     let [right, up, forward] = camera.axes();
@@ -82,7 +85,7 @@ fn on_floor(column: usize, row: usize) -> Option<([f64; 2], f64)> {
     let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
     let here = at(x, y)?;
     let moved = [at(x + 1.0, y)?, at(x, y + 1.0)?];
-    // Corners are snapped by half a sub-pixel each way, in x and in y.
+    // Corners are snapped by up to half a sub-pixel in x and in y.
     Some((
         here,
         moved
@@ -93,14 +96,16 @@ fn on_floor(column: usize, row: usize) -> Option<([f64; 2], f64)> {
     ))
 }
 
-/// How many pixels show another colour than the ray's, of those on the floor and not within `off` of a line of the board.
+/// Counts pixels on the floor whose colour is not the ray's, and all pixels compared. Skips pixels
+/// closer than twice the snapping error to a line of the board.
 fn wrong(picture: &LinearPicture) -> (usize, usize) {
     let (mut wrong, mut all) = (0, 0);
     for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
         let Some(([wx, wz], off)) = on_floor(x, y) else {
             continue;
         };
-        // Near the line an eight-millionth of the coordinates, as they are f32, is less than half a sub-pixel.
+        // Rounding coordinates to f32 moves a line by an eight-millionth of them, less than half a
+        // sub-pixel.
         if [wx, wz].iter().any(|c| (c - c.round()).abs() < 2.0 * off) {
             continue;
         }
@@ -117,8 +122,8 @@ fn wrong(picture: &LinearPicture) -> (usize, usize) {
 
 const BOARD: [[f32; 3]; 2] = [[1.0; 3], [0.0; 3]];
 
-/// Lecture 5's board: right where interpolation is linear in space, in both engines; wrong where it is linear on the screen,
-/// and wrong in another way if the floor is cut into triangles.
+/// Lecture 5's board is correct with perspective interpolation, in both engines. Interpolated on
+/// screen it is wrong, and wrong differently if the floor is cut into triangles.
 #[test]
 fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
     let board =
@@ -144,7 +149,8 @@ fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
     assert!(off == 0 && all > 1000, "{off} of {all}");
 }
 
-/// The square of size s at the origin is c_1; it moves with the world, not with the eye.
+/// Squares have size s, and the one at the origin has colour c_1. The board is fixed to the world,
+/// not to the eye.
 #[test]
 fn squares_have_their_size_and_place() {
     let frame = seen(floor(false), Interpolation::Perspective);
@@ -174,7 +180,8 @@ fn squares_have_their_size_and_place() {
     }
 }
 
-/// Colours of vertices: in space those of the ray, in both engines.
+/// Vertex colours are interpolated linearly on the surface: both engines draw the colour where each
+/// ray meets it.
 #[test]
 fn vertex_colours_are_linear_on_the_surface() {
     let frame = seen(floor(true), Interpolation::Perspective);
@@ -190,8 +197,8 @@ fn vertex_colours_are_linear_on_the_surface() {
             let [r, g, b, alpha] = picture.get(x, y).map(f64::from);
             assert_eq!(alpha, 1.0, "at {x}, {y}");
             let error = (DVec3::new(r, g, b) - colour(wx, wz)).abs().max_element();
-            // Colours change by 0.1 a unit; the corners' snapping moves the surface by `off`; some 200 steps of an f32,
-            // each off by 2⁻²⁵, divided by a weight of at least 1/14.
+            // Colours change by 0.1 per unit, and snapped corners move the surface by `off`. Some
+            // 200 steps of an f32, each off by 2⁻²⁵, are divided by a weight of at least 1/14.
             assert!(error <= 0.1 * 2.0 * off + 2e-4, "{error} at {x}, {y}");
             compared += 1;
         }
@@ -211,7 +218,7 @@ fn vertex_colours_are_linear_on_the_surface() {
     );
 }
 
-/// A mesh without colours is white; colours that are not one a position are refused.
+/// A mesh without colours is white. A mesh whose colours do not match its positions is rejected.
 #[test]
 fn colours_are_one_a_position_or_none() {
     let triangle = [Vec3::ZERO, Vec3::X, Vec3::Z];

@@ -1,4 +1,4 @@
-//! `Variant::auto`: naive Phong's picture, whatever the scene and the engine.
+//! `Variant::auto` draws naive Phong's picture on every scene and engine.
 
 use crate::support::cases::cases;
 use crate::support::differences::levels_apart;
@@ -8,7 +8,8 @@ use fastphong::picture::Picture8;
 use fastphong::raster::{Edges, Renderer};
 use fastphong::shading::Variant;
 
-/// On every shipped scene, by every engine on every instruction set, no channel is more than one level from naive Phong's.
+/// Every channel is within one level of naive Phong's on every shipped scene, by every engine and
+/// instruction set.
 #[test]
 fn auto_draws_naive_phongs_picture_to_a_level() {
     let naive = Variant::parse("naive-phong").expect("a method");

@@ -1,4 +1,5 @@
-//! Polygons that reach behind the eye, through the near plane, or far beyond the picture.
+//! Clipping of polygons that reach behind the eye, through the near plane, or far outside the
+//! picture.
 
 use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
@@ -33,7 +34,7 @@ fn scene(mesh: PolygonMesh, camera: Camera) -> Scene {
     }
 }
 
-/// Over the plane y = 0, one unit above it, looking along −z and a little downward.
+/// Returns a camera one unit above the plane y = 0 that looks along −z and slightly downward.
 fn above_ground(near: f64) -> Camera {
     Camera {
         eye: DVec3::new(0.0, 1.0, 0.0),
@@ -45,12 +46,13 @@ fn above_ground(near: f64) -> Camera {
     }
 }
 
-/// A normal whose intensity under the light along z is `i`.
+/// Returns a normal with intensity `i` under the light along z.
 fn normal(i: f64) -> Vec3 {
     DVec3::new((1.0 - i * i).sqrt(), 0.0, i).as_vec3()
 }
 
-/// A ground of `n` × `n` quads over −r..r in x and z; the intensity grows linearly with x and z from 0.1 to 0.9.
+/// Builds a ground of `n` × `n` quads over −r..r in x and z. Intensity grows linearly with x and z
+/// from 0.1 to 0.9.
 fn ground(n: usize, r: f64) -> PolygonMesh {
     let at = |i: usize, j: usize| {
         let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
@@ -93,7 +95,8 @@ fn covered_once(frame: &Frame) -> Vec<u32> {
     counts
 }
 
-/// Where the ray of a pixel meets the ground: (x, z), if it does before the far plane.
+/// Returns the point (x, z) where a pixel's ray meets the ground, or `None` if it points above the
+/// horizon.
 fn ground_at(camera: &Camera, x: usize, y: usize) -> Option<(f64, f64)> {
     let [right, up, forward] = camera.axes();
     let Projection::Perspective { fovy } = camera.projection else {
@@ -107,8 +110,9 @@ fn ground_at(camera: &Camera, x: usize, y: usize) -> Option<(f64, f64)> {
     (t > 0.0).then_some((ray.x * t, camera.eye.z + ray.z * t))
 }
 
-/// One quad under and behind the eye, as far as the guard band cuts it too: colours where each ray meets the ground are
-/// the linear ones, which is near-plane clipping, attribute clipping and perspective interpolation at once.
+/// A quad under and behind the eye has the linear colour of the ground where each ray meets it.
+/// This covers near-plane clipping, the guard band, attribute clipping and perspective
+/// interpolation.
 #[test]
 fn ground_under_the_eye_has_the_colours_of_the_rays() {
     for (cells, r, near) in [
@@ -136,9 +140,11 @@ fn ground_under_the_eye_has_the_colours_of_the_rays() {
             }
             let truth = 0.1 + 0.4 * (gx / r + 1.0) / 2.0 + 0.4 * (gz / r + 1.0) / 2.0;
             let found = f64::from(picture.get(x, y)[0]);
-            // Corners are snapped to 1/256 pixel, half of that off in x and y. On the ground a pixel near the horizon
-            // is long: a row down from the horizon the distance changes by its own half. Rays are compared where the
-            // ground moves by at most a twentieth of its size a pixel, so that 1/512 pixel is 1e-4 of it; times 0.8.
+            // Corners are snapped to 1/256 pixel, so they are off by up to half of that in x and y.
+            // Pixels near the horizon are long on the ground: one row below it the distance changes
+            // by half of itself. Rays are compared only where the ground moves by at most a
+            // twentieth of its size per pixel, so that 1/512 pixel is 1e-4 of it. Intensity varies
+            // by 0.8.
             let step = ground_at(&camera, x, y + 1)
                 .map_or(f64::INFINITY, |(bx, bz)| (bx - gx).hypot(bz - gz));
             if step > r / 10.0 {
@@ -159,7 +165,8 @@ fn ground_under_the_eye_has_the_colours_of_the_rays() {
     }
 }
 
-/// Cells that share edges share them after clipping too: no pixel is drawn twice, and none below the horizon is missed.
+/// Neighbouring cells still share their edges after clipping: no pixel is drawn twice and none
+/// below the horizon is missed.
 #[test]
 fn clipped_neighbours_leave_no_hole_and_no_overlap() {
     let camera = above_ground(0.05);
@@ -170,7 +177,8 @@ fn clipped_neighbours_leave_no_hole_and_no_overlap() {
             counts.iter().all(|&c| c <= 1),
             "{cells} cells: a pixel is drawn twice"
         );
-        // The rim of the ground is the same edge cut into pieces, whose ends are snapped: only there may pixels differ.
+        // Only rim pixels may differ: there the same edge is cut into pieces whose ends are
+        // snapped.
         let differing = counts.iter().zip(&whole).filter(|(a, b)| a != b).count();
         assert!(
             differing <= 80,
@@ -180,8 +188,8 @@ fn clipped_neighbours_leave_no_hole_and_no_overlap() {
     }
 }
 
-/// Attributes that are linear on the screen stay what they were when the far plane cuts a triangle: what is left has the
-/// colours of the whole.
+/// Clipping by the far plane keeps varyings that are linear on screen: the rest of the triangle has
+/// the colours of the whole.
 #[test]
 fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
     let corners = [
@@ -221,7 +229,8 @@ fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
         .zip(part.pixels())
         .filter(|(_, b)| b[3] > 0.0)
     {
-        // The new corners are snapped to 1/256 pixel, half of that off; intensities change by 0.8 over some 20 rows.
+        // New corners are snapped to 1/256 pixel, so they are off by up to half of that.
+        // Intensities change by 0.8 over some 20 rows.
         assert!(
             (a[0] - b[0]).abs() < 0.8 / 20.0 / 256.0 + 1e-5,
             "{a:?} became {b:?}"
@@ -234,10 +243,11 @@ fn a_cut_triangle_has_the_colours_of_the_whole_on_the_screen() {
     );
 }
 
-/// A concave comb whose teeth are cut off by the near plane falls into pieces that do not touch each other.
+/// Clipping a concave comb's teeth at the near plane gives separate pieces that do not touch.
 #[test]
 fn a_comb_is_cut_into_its_teeth() {
-    // Teeth toward the viewer: the bar is beyond the plane, the tips before it, or the reverse.
+    // The teeth point at the viewer. Either the bar is beyond the plane and the tips before it, or
+    // the reverse.
     let teeth = 4;
     for bar_in_front in [true, false] {
         let mut outline = vec![Vec3::new(-4.0, 0.0, -6.0), Vec3::new(-4.0, 0.0, -3.0)];
@@ -277,10 +287,10 @@ fn a_comb_is_cut_into_its_teeth() {
     }
 }
 
-/// Nothing that a user can meet makes a picture panic: the eye inside the mesh, polygons through the plane of the eye,
-/// corners at the eye itself, coordinates as large as they get.
+/// Extreme positions never panic: the eye inside the mesh, polygons through the eye plane, corners
+/// at the eye, huge coordinates.
 #[test]
-fn odd_places_give_pictures() {
+fn extreme_positions_never_panic() {
     for scale in [1e-6, 1.0, 1e6, 1e14] {
         for eye in [
             DVec3::new(0.1, 0.2, 0.0),
@@ -312,8 +322,8 @@ fn odd_places_give_pictures() {
     }
 }
 
-/// The eye inside a closed mesh: whatever it looks at, every pixel is covered exactly once, and nothing is seen with the
-/// side that it sees left out.
+/// From inside a closed mesh every pixel is covered exactly once in any direction. With back-face
+/// culling nothing is covered.
 #[test]
 fn inside_a_closed_mesh_every_pixel_is_covered_once() {
     let mut clipped = 0;

@@ -1,11 +1,14 @@
-//! How many operations each method takes, counted by hand from the lecture's formulas, against the counting machine.
+//! Compares each method's operation counts, derived by hand from the lecture's formulas, with the
+//! counting backend.
 //!
-//! The hand count is written as the formulas are: so many dot products, so many reflections. Material: shininess 32.
+//! Hand counts are written like the formulas: dot products, reflections and so on. The material's
+//! shininess is 32.
 
 use fastphong::number::Counts;
 use fastphong::shading::{Entry, METHODS, OperationCounts, Variant};
 
-/// Additions, multiplications, divisions, roots, comparisons, trigonometric functions.
+/// The numbers of additions, multiplications, divisions, roots, comparisons and trigonometric
+/// functions.
 #[derive(Clone, Copy)]
 struct Ops([u32; 6]);
 
@@ -47,44 +50,46 @@ const ROOT: Ops = Ops([0, 0, 0, 1, 0, 0]);
 const COMPARE: Ops = Ops([0, 0, 0, 0, 1, 0]);
 const TRIGONOMETRIC: Ops = Ops([0, 0, 0, 0, 0, 1]);
 
-/// A dot product of three components.
+/// Dot product of three components.
 const DOT: Ops = Ops([2, 3, 0, 0, 0, 0]);
 
-/// The terms of one light (2.1) once L·N and R·V are there: L·N clamped at 0, and for each channel a product and a sum of diffuse
-/// light; the highlight dropped behind the surface, compared with the faintest, to the power 32 by five squarings, and for each
-/// channel a product and a sum.
+/// Counts the terms of one light (2.1) after L·N and R·V. Diffuse: L·N is clamped at 0. Highlight:
+/// it is dropped behind the surface, compared with the faintest one, and raised to the power 32 by
+/// five squarings. Each term takes a product and a sum per channel.
 fn light() -> Ops {
     3 * COMPARE + 3 * (MULTIPLY + ADD) + 5 * MULTIPLY + 3 * (MULTIPLY + ADD)
 }
 
-/// R·V of one light from L·N and V·N of a unit normal: 2 V·N, times L·N, less L·V (4.5).
+/// Counts R·V of one light from L·N and V·N of a unit normal: 2 V·N, times L·N, less L·V (4.5).
 fn highlight() -> Ops {
     2 * MULTIPLY + ADD
 }
 
-/// L·N and R·V of one light from a unit normal: L·N, then R = 2 (L·N) N − L, then R·V.
+/// Counts L·N and R·V of one light from a unit normal: L·N, then R = 2 (L·N) N − L, then R·V.
 fn cosines_from_normal() -> Ops {
     let reflect = MULTIPLY + 3 * (MULTIPLY + ADD);
     DOT + reflect + DOT
 }
 
-/// One light from a unit normal.
+/// Counts one light from a unit normal.
 fn lit_from_normal() -> Ops {
     cosines_from_normal() + light()
 }
 
-/// A colour clamped to 0..=1: two comparisons a channel.
+/// Counts the clamp of a colour to 0..=1: two comparisons per channel.
 fn clamp() -> Ops {
     3 * 2 * COMPARE
 }
 
-/// The set-up of one linearly interpolated number: (I_2 − I_1), times t0 and added to I_1, times Δt (3.5).
+/// Counts the set-up of one linearly interpolated value: (I_2 − I_1), times t0 and added to I_1,
+/// times Δt (3.5).
 fn ramp() -> Ops {
     ADD + MULTIPLY + ADD + MULTIPLY
 }
 
-/// The set-up of a great circle: both chords and their lengths, twice their inverse tangent for the angle, the sine from
-/// the chords, one division, and both ends scaled (4.7).
+/// Counts the set-up of a great circle (4.7): both chords and their lengths, and the angle as twice
+/// an inverse tangent. The sine comes from the chords. One division and the scaling of both ends
+/// follow.
 fn arc() -> Ops {
     let chords = 3 * ADD + 3 * ADD + DOT + ROOT + DOT + ROOT;
     let angle = TRIGONOMETRIC + ADD;
@@ -92,23 +97,25 @@ fn arc() -> Ops {
     chords + angle + sine + DIVIDE + 2 * (3 * MULTIPLY)
 }
 
-/// The start of the sines: the angles t0 φ, φ − t0 φ and Δt φ, and sine and cosine of each.
+/// Counts the start of the sines: the angles t0 φ, φ − t0 φ and Δt φ, and sine and cosine of each.
 fn sines() -> Ops {
     3 * MULTIPLY + ADD + 3 * TRIGONOMETRIC
 }
 
-/// A step of the four sines and cosines (4.9–4.12), as the lecture counts it: four additions, eight multiplications.
+/// Counts a step of the four sines and cosines (4.9–4.12) as the lecture does: four additions,
+/// eight multiplications.
 fn rotation() -> Ops {
     4 * ADD + 8 * MULTIPLY
 }
 
-/// A normal between two others by the weights of (4.8).
+/// Counts a normal blended from two others by the weights of (4.8).
 fn weighted_normal() -> Ops {
     3 * (2 * MULTIPLY + ADD)
 }
 
-/// How a span finds that so many steps of Newton's method suffice: N·ΔN, ΔN·ΔN, the product N·N ΔN·ΔN less the square of the
-/// former where that is below 0, the square of the latter, and for each threshold tried its product, a difference, a comparison.
+/// Counts the choice of Newton steps for a span: N·ΔN, ΔN·ΔN, the product N·N ΔN·ΔN less the square
+/// of the former if it is below 0, and the square of the latter. Each threshold tried takes a
+/// product, a difference and a comparison.
 fn fewest_steps(tried: u32) -> Ops {
     2 * DOT + COMPARE + 3 * MULTIPLY + ADD + tried * (MULTIPLY + ADD + COMPARE)
 }
@@ -123,11 +130,11 @@ struct ByHand {
     shade: Ops,
 }
 
-/// The count of a method with its default parameters.
+/// Returns the hand count of a method with default parameters.
 fn by_hand(method: &str, lights: u32) -> ByHand {
     let lit = lights * lit_from_normal();
     match method {
-        // 2: one colour a polygon.
+        // 2: one colour per polygon.
         "flat" => ByHand {
             vertex: NONE,
             polygon: lit + clamp(),
@@ -137,7 +144,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: NONE,
             shade: NONE,
         },
-        // CS171, Algorithm 6: the mean normal made a unit vector, and one colour.
+        // CS171, Algorithm 6: normalise the mean normal, then compute one colour.
         "flat-average" => ByHand {
             vertex: NONE,
             polygon: DOT + ROOT + DIVIDE + 3 * MULTIPLY + lit + clamp(),
@@ -157,7 +164,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: 3 * ADD,
             shade: NONE,
         },
-        // 3 with two colours, lit at once and not clamped; a pixel adds them.
+        // 3 with two colours, from one lighting computation and unclamped. Each pixel adds them.
         "gouraud-separate" => ByHand {
             vertex: lit,
             polygon: NONE,
@@ -167,7 +174,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: 6 * ADD,
             shade: 3 * ADD,
         },
-        // 4.1: three coordinates; then |N|, its inverse, three products, and everything of 2.1.
+        // 4.1: step three coordinates, then |N|, its inverse, three products, and all of 2.1.
         "naive-phong" => ByHand {
             vertex: NONE,
             polygon: NONE,
@@ -177,8 +184,9 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: 3 * ADD,
             shade: DOT + ROOT + DIVIDE + 3 * MULTIPLY + lit,
         },
-        // 4.2, 4.3: J of each light, K and three coordinates. A step of Newton's method has x², minus d², x + x, a
-        // quotient and a difference. A pixel needs 1/d and 2K/D once, then J/d and 2JK/D − L·V for each light.
+        // 4.2, 4.3: step J of each light, K and three coordinates. A Newton step takes x², minus
+        // d², x + x, a quotient and a difference. A pixel takes 1/d and 2K/D once, then J/d and
+        // 2JK/D − L·V for each light.
         "fast-phong" => {
             let numbers = lights + 4;
             let newton = MULTIPLY + ADD + ADD + DIVIDE + ADD;
@@ -192,10 +200,11 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 shade: DIVIDE + MULTIPLY + DIVIDE + lights * (MULTIPLY + MULTIPLY + ADD + light()),
             }
         }
-        // The same root by the processor is counted as what it stands for, a root and a quotient: what is left is Duff's.
+        // The processor's reciprocal root counts as a root and a quotient. The rest equals Duff's
+        // method.
         "fast-phong-rsqrt" => by_hand("duff-phong", lights),
-        // Three coordinates as in naive Phong; then D, K and J of each light as dot products, the root as above, K and J of each
-        // light times that, and 2JK − L·V for each light.
+        // Step three coordinates as in naive Phong. A pixel takes D, K and J of each light as dot
+        // products, the root as above, K and each J times that root, and 2JK − L·V for each light.
         "phong-rsqrt" => ByHand {
             vertex: NONE,
             polygon: NONE,
@@ -209,9 +218,10 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 + (lights + 1) * MULTIPLY
                 + lights * (highlight() + light()),
         },
-        // Duff 1979: J of each light, K and three coordinates along edges; on a span J and K by one addition each, D = N·N
-        // by two. D needs N·N, N·ΔN twice, ΔN·ΔN, and its first and second difference. A pixel needs 1/√D and K and J of
-        // each light times that, then 2JK − L·V for each light.
+        // Duff 1979: J of each light, K and three coordinates along edges. Along a span J and K
+        // take one addition each and D = N·N takes two. The set-up of D takes N·N, N·ΔN twice,
+        // ΔN·ΔN, and its first and second difference. A pixel takes 1/√D, K and each J times that,
+        // then 2JK − L·V for each light.
         "duff-phong" => {
             let numbers = lights + 4;
             ByHand {
@@ -224,8 +234,8 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
                 shade: ROOT + DIVIDE + (lights + 1) * MULTIPLY + lights * (highlight() + light()),
             }
         }
-        // 4.4: normals along edges; on a span J of each light and K, at both ends and then by their weights. A pixel
-        // needs 2JK − L·V for each light.
+        // 4.4: normals along edges. A span computes K and J of each light at both ends, then blends
+        // them by their weights. A pixel takes 2JK − L·V for each light.
         "slerp-phong" => ByHand {
             vertex: NONE,
             polygon: NONE,
@@ -235,7 +245,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
             walk: rotation() + (lights + 1) * (2 * MULTIPLY + ADD),
             shade: lights * (highlight() + light()),
         },
-        // 4.4, steps i–iv: normals along edges and spans, then everything of 2.1.
+        // 4.4, steps i–iv: normals along edges and spans, then all of 2.1.
         "slerp-phong-vector" => ByHand {
             vertex: NONE,
             polygon: NONE,
@@ -250,7 +260,7 @@ fn by_hand(method: &str, lights: u32) -> ByHand {
 }
 
 #[test]
-fn every_method_takes_what_was_counted_by_hand() {
+fn counts_agree_with_hand_counts() {
     for entry in METHODS {
         for lights in [1, 4] {
             let (found, hand) = (
@@ -284,7 +294,8 @@ fn operations(variant: &str, lights: usize) -> OperationCounts {
         .operations(lights)
 }
 
-/// L21 3: "we can update I_next by a single addition per pixel", here of each of three channels, whatever the lights.
+/// L21 3: "we can update I_next by a single addition per pixel". This holds for each of three
+/// channels and any lights.
 #[test]
 fn gouraud_is_one_addition_a_channel() {
     for lights in [1, 4] {
@@ -293,8 +304,8 @@ fn gouraud_is_one_addition_a_channel() {
     }
 }
 
-/// L21 4.1: "we can update N_next by three additions (one for each coordinate) per pixel"; renormalising and 2.1 come
-/// on top of that.
+/// L21 4.1: "we can update N_next by three additions (one for each coordinate) per pixel".
+/// Renormalising and 2.1 come on top.
 #[test]
 fn naive_phong_steps_by_three_additions() {
     for lights in [1, 4] {
@@ -304,7 +315,8 @@ fn naive_phong_steps_by_three_additions() {
     }
 }
 
-/// L21 4.2–4.3: no root a pixel; but m steps of Newton's method are m divisions, and J/d and 2JK/D one each.
+/// L21 4.2–4.3: fast Phong takes no root per pixel. Instead m Newton steps take m divisions, and
+/// J/d and 2JK/D one each.
 #[test]
 fn fast_phong_trades_the_root_for_divisions() {
     for steps in 1..=8 {
@@ -318,8 +330,8 @@ fn fast_phong_trades_the_root_for_divisions() {
     }
 }
 
-/// Duff 1979: the squared length of the normal takes two additions a pixel and no multiplication; one root and one
-/// division remain.
+/// Duff 1979: the squared length of the normal takes two additions and no multiplication per pixel.
+/// One root and one division remain.
 #[test]
 fn duff_phong_steps_by_additions_only() {
     for lights in [1, 4] {
@@ -329,9 +341,10 @@ fn duff_phong_steps_by_additions_only() {
     }
 }
 
-/// L21 4.4: "all the necessary sines and cosines incrementally with just four additions/subtractions and eight
-/// multiplications. No trigonometric evaluations are necessary, nor are any square roots required." The lecture counts
-/// the sines only: the weighted sums are on top.
+/// L21 4.4: "all the necessary sines and cosines incrementally with just four
+/// additions/subtractions and eight multiplications. No trigonometric evaluations are necessary,
+/// nor are any square roots required." The lecture counts the sines only. The weighted sums come on
+/// top.
 #[test]
 fn slerp_steps_by_four_additions_and_eight_multiplications() {
     for lights in [1, 4] {
@@ -353,9 +366,10 @@ fn slerp_steps_by_four_additions_and_eight_multiplications() {
     }
 }
 
-/// Four lights cost at most four times as much as one, and what does not depend on lights costs the same.
+/// Four lights cost at most four times as much as one. Operations that do not involve lights cost
+/// the same.
 #[test]
-fn lights_are_paid_for_where_they_are_lit() {
+fn cost_grows_with_the_lights() {
     let pixel = |entry: &'static Entry, lights| {
         let counts = entry.variant().operations(lights);
         counts.walk.multiplications + counts.shade.multiplications

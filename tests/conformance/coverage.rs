@@ -1,4 +1,4 @@
-//! Which pixels polygons cover: exactly those of the definition, each exactly once.
+//! Coverage: polygons cover exactly the pixels of the definition, each exactly once.
 
 use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::frame::Frame;
@@ -8,7 +8,7 @@ use fastphong::reference;
 use fastphong::scene::{Culling, Scene};
 use fastphong::shading::Variant;
 
-/// How often each pixel is covered.
+/// Counts how often each pixel is covered.
 fn counts(frame: &Frame) -> Vec<u32> {
     let mut counts = vec![0; frame.width() * frame.height()];
     raster::coverage(frame, |_, row, pixels| {
@@ -19,8 +19,8 @@ fn counts(frame: &Frame) -> Vec<u32> {
     counts
 }
 
-/// The top-left rule by half-spaces, as a GPU states it: inside of all three edges, or on one that is a left or a top
-/// edge.
+/// True if a triangle covers the pixel by a GPU's top-left rule: its centre is inside all three
+/// half-spaces, or on a left or top edge.
 fn half_space(t: &[Corner], column: i32, row: i32) -> bool {
     let (x, y) = (i64::from(column) * 256 + 128, i64::from(row) * 256 + 128);
     let turn = |a: &Corner, b: &Corner, x: i64, y: i64| {
@@ -39,7 +39,8 @@ fn half_space(t: &[Corner], column: i32, row: i32) -> bool {
     let order: [usize; 3] = if area > 0 { [0, 1, 2] } else { [0, 2, 1] };
     (0..3).all(|i| {
         let (a, b) = (&t[order[i]], &t[order[(i + 1) % 3]]);
-        // y points downward: clockwise on the picture. A top edge runs to the right, a left edge runs upward.
+        // y points downward, so the order is clockwise in the picture. A top edge runs to the
+        // right, a left edge runs upward.
         let owns = (a.y == b.y && b.x > a.x) || b.y < a.y;
         let side = turn(a, b, x, y);
         side > 0 || (side == 0 && owns)
@@ -65,8 +66,9 @@ fn triangles_follow_the_top_left_rule() {
     }
 }
 
-/// Concave polygons, polygons that cross themselves, repeated corners: the engine and the reference, which share no
-/// arithmetic, see the same polygon at every pixel. Without depth the last one wins, so that nothing but coverage counts.
+/// The engine and the reference, which share no arithmetic, see the same polygon at every pixel.
+/// Polygons are concave, self-intersecting or repeat corners. Without a depth test the last polygon
+/// wins, so only coverage matters.
 #[test]
 fn the_engine_covers_what_the_reference_covers() {
     let mut random = Random::new(5);
@@ -86,7 +88,8 @@ fn the_engine_covers_what_the_reference_covers() {
     }
 }
 
-/// A tiling whose corners are pushed about at random, with cells of three to eight corners: every pixel once.
+/// A randomly distorted tiling with cells of three to eight corners covers every pixel exactly
+/// once.
 #[test]
 fn tilings_cover_every_pixel_once() {
     let mut random = Random::new(3);
@@ -94,8 +97,8 @@ fn tilings_cover_every_pixel_once() {
         let (columns, rows) = (3 + random.below(9) as i32, 3 + random.below(7) as i32);
         let (w, h) = (64 * 256 / columns, 48 * 256 / rows);
         let mut corner = |i: i32, j: i32| {
-            // The rim lies outside the picture; inside, corners move by less than a quarter of
-            // a cell, so that quads stay convex and may be cut along either diagonal.
+            // The rim lies outside the picture. Inner corners move by less than a quarter of a
+            // cell, so quads stay convex and can be cut along either diagonal.
             let mut push = |cell: i32, at: i32, last: i32| match at {
                 0 => -256,
                 _ if at == last => cell * at + 512,
@@ -116,7 +119,7 @@ fn tilings_cover_every_pixel_once() {
         for j in 0..rows as usize {
             let mut i = 0;
             while i < columns as usize {
-                // Cells of one, two or three quads, and quads cut along either diagonal.
+                // Cells are one, two or three quads wide. Some quads are cut along either diagonal.
                 let wide = (1 + random.below(3) as usize).min(columns as usize - i);
                 let top = (i..=i + wide).map(|k| grid[j][k]);
                 let bottom = (i..=i + wide).rev().map(|k| grid[j + 1][k]);
@@ -150,7 +153,7 @@ fn seen(spec: &str, culling: Culling) -> Frame {
     scene.frame().expect("a frame")
 }
 
-/// A closed mesh covers every pixel an even number of times, half of them by polygons that face the eye.
+/// A closed mesh covers every pixel an even number of times, half of them by front faces.
 #[test]
 fn closed_meshes_have_no_holes_and_no_overlaps() {
     for spec in [
@@ -183,7 +186,8 @@ fn closed_meshes_have_no_holes_and_no_overlaps() {
     }
 }
 
-/// The barycentric renderer draws the same pixels; with closed edges, as CS171 prints them, it draws more.
+/// The barycentric renderer draws the same pixels. With closed edges, as CS171 prints them, it
+/// draws more.
 #[test]
 fn the_barycentric_renderer_covers_the_same_pixels() {
     let flat = Variant::parse("flat").expect("a method");
@@ -210,7 +214,8 @@ fn the_barycentric_renderer_covers_the_same_pixels() {
     );
 }
 
-/// Strictly less depth wins: of two equal polygons the first is seen, by every engine; without depth the last.
+/// The first of two equal polygons wins with a depth test, because strictly less depth is required.
+/// Without one the last wins. All engines agree.
 #[test]
 fn at_equal_depth_the_first_polygon_is_seen() {
     let corner = |x, y, depth| Corner {
@@ -238,7 +243,8 @@ fn at_equal_depth_the_first_polygon_is_seen() {
     }
 }
 
-/// With depth, the engine and the reference differ only where two surfaces meet within the rounding of depth.
+/// With a depth test, engine and reference differ only where two surfaces meet within the rounding
+/// of depth.
 #[test]
 fn visible_polygons_differ_only_where_surfaces_meet() {
     let mut random = Random::new(23);
@@ -255,9 +261,10 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
                 drawn += usize::from(truth.polygons.get(x, y) != NOTHING);
                 if ours.get(x, y) != truth.polygons.get(x, y) {
                     differing += 1;
-                    // Depths lie in 0..1. An edge of at most 48 rows and a span of at most 64 pixels round twice a step,
-                    // by half a unit in the last place (2^-24): 224 roundings in all, for each of the two surfaces; the
-                    // starts of both walks add less than 32.
+                    // Depths lie in 0..1. An edge of at most 48 rows and a span of at most 64
+                    // pixels round twice per step, by half a unit in the last place (2^-24): 224
+                    // roundings for each of the two surfaces. The starts of both walks add fewer
+                    // than 32.
                     let gap = truth.depth_gap.get(x, y);
                     assert!(
                         gap <= 2.0 * 256.0 / f64::from(1 << 24),

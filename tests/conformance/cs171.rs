@@ -1,4 +1,5 @@
-//! CS171's algorithms as printed against the engines and the reference, which share no arithmetic with them.
+//! Compares CS171's algorithms, as printed, with the engines and the reference. They share no
+//! arithmetic.
 
 use crate::support::{Random, frame, random_polygon};
 use fastphong::frame::Frame;
@@ -18,7 +19,8 @@ use fastphong::scene::{
 };
 use glam::{DVec2, DVec3};
 
-/// CS171's own illumination: two coloured lights at positions, one that grows weaker, N·H and no gate.
+/// Lights a scene as CS171 does: two coloured positional lights, one of them attenuated, N·H and no
+/// gate.
 fn lit(mut scene: Scene) -> Scene {
     (scene.width, scene.height) = (120, 90);
     scene.specular = SpecularModel::Blinn;
@@ -45,7 +47,7 @@ fn sphere(interpolation: Interpolation, culling: Culling) -> Frame {
     triangulated(&scene.frame().expect("a frame")).frame
 }
 
-/// How many triangles have each pixel's centre inside or on an edge.
+/// Counts, for each pixel, the triangles that have its centre inside or on an edge.
 fn closed_cover(frame: &Frame) -> Vec<u32> {
     let size = [frame.width(), frame.height()];
     let mut counts = vec![0; size[0] * size[1]];
@@ -61,7 +63,8 @@ fn closed_cover(frame: &Frame) -> Vec<u32> {
     counts
 }
 
-/// Algorithm 1 fills what the barycentric renderer with closed edges fills, in exact integers, to the pixel.
+/// Algorithm 1 fills the same pixels as the barycentric renderer with closed edges, which decides
+/// in exact integers.
 #[test]
 fn algorithm_1_covers_closed_triangles() {
     let mut random = Random::new(31);
@@ -90,8 +93,8 @@ fn algorithm_1_covers_closed_triangles() {
     );
 }
 
-/// As in the text, (0, 1), an edge between two triangles is a hole; as in the algorithms, [0, 1], it is drawn twice, and
-/// the second triangle's colour stays.
+/// An edge between two triangles is a hole with open intervals, (0, 1), as in the text. With closed
+/// ones, [0, 1], as in the algorithms, it is drawn twice and the second triangle's colour stays.
 #[test]
 fn shared_edges_are_holes_or_drawn_twice() {
     let place = |x: f64, y: f64| DVec2::new(x + 0.5, y + 0.5);
@@ -121,11 +124,12 @@ fn shared_edges_are_holes_or_drawn_twice() {
     );
 }
 
-/// Algorithm 2 on CS171's right triangle from red, along the hypotenuse, to blue at the opposite corner.
+/// Algorithm 2 blends CS171's right triangle from red along the hypotenuse to blue at the opposite
+/// corner.
 #[test]
 fn algorithm_2_mixes_red_and_blue() {
     let mut grid = Raster::new(9, 9, DVec3::ZERO);
-    // The right angle at pixel (0, 8), the hypotenuse from (0, 0) to (8, 8).
+    // The right angle is at pixel (0, 8), the hypotenuse runs from (0, 0) to (8, 8).
     let places = [
         DVec2::new(0.5, 0.5),
         DVec2::new(8.5, 8.5),
@@ -138,7 +142,8 @@ fn algorithm_2_mixes_red_and_blue() {
         &mut grid,
     );
     for (x, y) in (0..9).flat_map(|y| (0..9).map(move |x| (x, y))) {
-        // The distance from the hypotenuse, over that of the opposite corner: eighths are exact.
+        // Blue is the distance from the hypotenuse over the opposite corner's distance. Eighths are
+        // exact.
         let blue = (y as f64 - x as f64) / 8.0;
         let expected = if blue >= 0.0 {
             [1.0 - blue, 0.0, blue, 1.0]
@@ -158,7 +163,7 @@ fn white(place: Place<[f32; 3]>, diffuse: f32, specular: f32) -> LightTerm {
     }
 }
 
-/// Algorithm 3 on numbers that can be followed by hand.
+/// Algorithm 3 gives the results worked out by hand.
 #[test]
 fn algorithm_3_by_hand() {
     let mut light = Lighting::new(&Material::default(), [0.0; 3], &[], DVec3::Z);
@@ -167,13 +172,13 @@ fn algorithm_3_by_hand() {
     light.specular = SpecularModel::Blinn;
     light.gate = SpecularGate::Ungated;
     light.shininess = 2.0;
-    // Straight above: n · l = n · h = 1.
+    // The light is straight above: n · l = n · h = 1.
     light.lights = vec![white(Place::Local([0.0, 0.0, 3.0]), 0.25, 0.5)];
     assert_eq!(
         lighting(DVec3::ZERO, DVec3::Z, &light),
         DVec3::new(0.875, 0.75, 1.0)
     );
-    // A second light is added; then the sum is clamped, once.
+    // A second light is added. The sum is clamped once, at the end.
     light
         .lights
         .push(white(Place::Local([0.0, 0.0, 9.0]), 0.125, 0.0));
@@ -181,26 +186,28 @@ fn algorithm_3_by_hand() {
         lighting(DVec3::ZERO, DVec3::Z, &light),
         DVec3::new(1.0, 0.875, 1.0)
     );
-    // At the distance 3 a light with k = 1/9 has half of its strength, in both terms; ambient light has all of its.
+    // At distance 3 a light with k = 1/9 has half its strength in both terms. Ambient light is not
+    // attenuated.
     light.lights = vec![LightTerm {
         falloff: Falloff::Attenuation(1.0 / 9.0),
         ..white(Place::Local([0.0, 0.0, 3.0]), 0.25, 0.5)
     }];
-    // 1/9 is rounded to f32: the strength is off by ¼ of 2⁻²⁴.
+    // 1/9 is rounded to f32, so the strength is off by ¼ of 2⁻²⁴.
     assert!(
         (lighting(DVec3::ZERO, DVec3::Z, &light) - DVec3::new(0.5, 0.375, 0.625))
             .abs()
             .max_element()
             < 2e-8
     );
-    // l toward −x, e toward +x: e + l = 0, no h, no highlight. n · l = 0.
+    // l points toward −x and e toward +x: e + l = 0, so there is no h and no highlight. n · l = 0.
     light.view = Place::Local([5.0, 0.0, 0.0]);
     light.lights = vec![white(Place::Local([-3.0, 0.0, 0.0]), 1.0, 1.0)];
     assert_eq!(
         lighting(DVec3::ZERO, DVec3::Z, &light),
         DVec3::new(0.125, 0.0, 0.25)
     );
-    // From behind, with the eye low: n · l < 0 and n · h > 0. As printed it shines.
+    // The light is behind the surface and the eye is low: n · l < 0 and n · h > 0. As printed there
+    // is a highlight.
     light.view = Place::Local([1.0, 0.0, 1.0]);
     light.lights = vec![white(Place::Local([1.0, 0.0, -0.5]), 0.0, 1.0)];
     assert!(lighting(DVec3::ZERO, DVec3::Z, &light).y > 0.01);
@@ -208,7 +215,8 @@ fn algorithm_3_by_hand() {
     assert_eq!(lighting(DVec3::ZERO, DVec3::Z, &light).y, 0.0);
 }
 
-/// "Very shiny … p value close to 1" is the wrong way round: the highlight of a large exponent is the smaller one.
+/// A larger exponent gives a smaller highlight. The lecture's "Very shiny … p value close to 1" is
+/// the wrong way round.
 #[test]
 fn large_exponents_are_the_shiny_ones() {
     let bright = |shininess: f32| {
@@ -228,12 +236,13 @@ fn large_exponents_are_the_shiny_ones() {
             })
             .count()
     };
-    // cos^p ψ > ½ up to ψ = arccos 2^(−1/p): 60°, 21.1°, 6.7°.
+    // cos^p ψ > ½ holds up to ψ = arccos 2^(−1/p): 60°, 21.1°, 6.7°.
     assert_eq!([1.0, 10.0, 100.0].map(bright), [60, 21, 7]);
 }
 
-/// The largest difference of colours where exactly one triangle has the pixel, and how many pixels those are; elsewhere
-/// nothing is drawn by either, or the pixel is on an edge.
+/// Returns the largest difference of colours at pixels covered by exactly one triangle, and the
+/// number of these pixels. Asserts that all other pixels are empty in both pictures or lie on an
+/// edge.
 fn differ(frame: &Frame, shading: Shading, model: Model) -> (f64, usize) {
     let ours = render(frame, shading, Reading::default()).colours;
     let truth = reference::render(frame, model).picture;
@@ -247,7 +256,7 @@ fn differ(frame: &Frame, shading: Shading, model: Model) -> (f64, usize) {
             0 => assert_eq!((a[3], b[3]), (0.0, 0.0)),
             1 => {
                 assert_eq!(a[3], 1.0);
-                // On an outline that belongs to nobody the reference leaves the background.
+                // The reference leaves the background on outline pixels that no triangle owns.
                 if b[3] == 1.0 {
                     worst = a
                         .iter()
@@ -262,9 +271,10 @@ fn differ(frame: &Frame, shading: Shading, model: Model) -> (f64, usize) {
     (worst, pixels)
 }
 
-/// Algorithm 8 in all three shadings against the reference, whose coordinates and illumination are computed in other ways.
+/// Algorithm 8 agrees with the reference in all three shadings. The two compute coordinates and
+/// illumination differently.
 #[test]
-fn algorithm_8_is_the_reference() {
+fn algorithm_8_agrees_with_the_reference() {
     for interpolation in [Interpolation::Screen, Interpolation::Perspective] {
         let frame = sphere(interpolation, Culling::Back);
         for (shading, model) in [
@@ -273,9 +283,10 @@ fn algorithm_8_is_the_reference() {
             (Shading::Phong, Model::Phong),
         ] {
             let (worst, pixels) = differ(&frame, shading, model);
-            // Both round some ten times to a weight, a normal and a position, and some ten times more to each cosine:
-            // forty half-ulps, in each of the two. A cosine to the power of 32 multiplies them by 32; two lights of at
-            // most 1, diffuse and specular: 2 · 2 · 40 · 32 half-ulps at most.
+            // Each of the two rounds some ten times for a weight, ten for a normal, ten for a
+            // position and ten for a cosine: forty half-ulps. The power of 32 multiplies the error
+            // of a cosine by 32. Two lights of at most 1 add diffuse and specular terms. Bound:
+            // 2 · 2 · 40 · 32 half-ulps.
             assert!(
                 worst <= 2.0 * 2.0 * 40.0 * 32.0 * f64::EPSILON,
                 "{shading:?}, {interpolation:?}: {worst}"
@@ -285,8 +296,8 @@ fn algorithm_8_is_the_reference() {
     }
 }
 
-/// Positions matter, and normals must be unit vectors: if they are taken as interpolated, as Algorithm 7 is printed, the
-/// pictures are darker, at highlights above all.
+/// Algorithm 7 as printed shades with normals that are not unit vectors. Its pictures are darker,
+/// mostly at highlights.
 #[test]
 fn algorithm_7_as_printed_is_darker() {
     let frame = sphere(Interpolation::Screen, Culling::Back);
@@ -317,7 +328,7 @@ fn algorithm_7_as_printed_is_darker() {
     );
 }
 
-/// Algorithm 8's cross product leaves out what the frame's own culling leaves out.
+/// Algorithm 8 culls by its cross product the same triangles as the frame's culling.
 #[test]
 fn algorithm_8_culls_back_faces() {
     let (front, all) = (
@@ -337,7 +348,7 @@ fn algorithm_8_culls_back_faces() {
         .colours
     };
     assert_eq!(picture(&all, true), picture(&front, true));
-    // The depth buffer alone would hide them as well, all but the rim.
+    // Depth testing alone would hide all back faces except those at the rim.
     let other = picture(&all, false)
         .pixels()
         .iter()
@@ -345,7 +356,7 @@ fn algorithm_8_culls_back_faces() {
         .filter(|(a, b)| a != b)
         .count();
     assert!(other < 400, "{other}");
-    // From inside, one sees back faces only: nothing.
+    // From inside only back faces are visible, so culling leaves nothing.
     let inside = sphere(Interpolation::Screen, Culling::Front);
     assert!(picture(&inside, true).pixels().iter().all(|t| t[3] == 0.0));
     assert!(picture(&inside, false).pixels().iter().any(|t| t[3] == 1.0));
@@ -360,16 +371,17 @@ fn corner(x: f64, y: f64, z: f64) -> TriangleCorner {
     }
 }
 
-/// A surface that shows its diffuse coefficient.
+/// Returns a lighting whose colour is the diffuse coefficient.
 fn plain(diffuse: f32) -> Lighting {
     let mut light = Lighting::new(&Material::default(), [0.0; 3], &[], DVec3::Z);
     light.lights = vec![white(Place::Infinite([0.0, 0.0, 1.0]), diffuse, 0.0)];
     light
 }
 
-/// Of two points at one depth Algorithm 8 as printed shows the later one; "less than", as in the text, the earlier one.
+/// At equal depths Algorithm 8 as printed keeps the later triangle. With the text's "less than" it
+/// keeps the earlier one.
 #[test]
-fn ties_go_to_the_later_or_to_the_earlier() {
+fn ties_go_to_the_later_or_earlier_triangle() {
     let triangle = [
         corner(-0.9, -0.9, 0.0),
         corner(0.9, -0.9, 0.0),
@@ -392,14 +404,14 @@ fn ties_go_to_the_later_or_to_the_earlier() {
             );
         }
         assert_eq!(grid.colours.get(8, 8)[0], seen, "{ties:?}");
-        // What is nearer wins in both; then what is farther loses.
+        // A nearer triangle wins in both readings, and a farther one then loses.
         for (triangle, diffuse) in [(&nearer, 0.5), (&triangle, 0.125)] {
             full_shading(Shading::Flat, triangle, &plain(diffuse), reading, &mut grid);
         }
         assert_eq!(grid.colours.get(8, 8)[0], 0.5, "{ties:?}");
         assert_eq!(grid.buffer.get(8, 8), -0.5);
     }
-    // Without a buffer the later one is seen, however deep.
+    // Without a depth buffer the later triangle wins at any depth.
     let mut grid = Raster::new(16, 16, DVec3::ZERO);
     for (triangle, diffuse) in [(&nearer, 0.5), (&triangle, 0.125)] {
         flat_shading(triangle, &plain(diffuse), Reading::default(), &mut grid);
@@ -407,23 +419,24 @@ fn ties_go_to_the_later_or_to_the_earlier() {
     assert_eq!(grid.colours.get(8, 8)[0], 0.125);
 }
 
-/// A triangle that is partly outside the cube has its part inside, and none of the rest.
+/// Algorithm 5 draws the part of a triangle inside the cube and nothing else.
 #[test]
-fn algorithm_5_draws_what_is_in_the_cube() {
-    // Depth grows by 4 from left to right: inside the cube is the middle half, columns 4 to 11.
+fn algorithm_5_draws_inside_the_cube() {
+    // Depth grows by 4 from left to right. The middle half, columns 4 to 11, is inside the cube.
     let depth = |x: f64| 2.0 * x;
     let triangle = [(-1.0, -3.0), (1.0, -3.0), (0.0, 3.0)].map(|(x, y)| corner(x, y, depth(x)));
     let mut grid = Raster::new(16, 16, DVec3::ZERO);
     raster_colored_ndc_triangle(&triangle, [DVec3::ONE; 3], Reading::default(), &mut grid);
     for (x, y) in (0..16).flat_map(|y| (0..16).map(move |x| (x, y))) {
         let ndc = DVec2::new((x as f64 + 0.5) / 8.0 - 1.0, 1.0 - (y as f64 + 0.5) / 8.0);
-        // The triangle's sides: x from −1 + (y + 3)/6 to 1 − (y + 3)/6.
+        // The triangle's sides run from x = −1 + (y + 3)/6 to x = 1 − (y + 3)/6.
         let is_in = ndc.x.abs() <= 1.0 - (ndc.y + 3.0) / 6.0 && depth(ndc.x).abs() <= 1.0;
         assert_eq!(grid.colours.get(x, y)[3] == 1.0, is_in, "at {x}, {y}");
     }
 }
 
-/// Algorithms 4, 6 and 7 are what Algorithm 8 does where one triangle faces the eye; and they draw back faces too.
+/// Algorithms 4, 6 and 7 draw a single front-facing triangle like Algorithm 8. They draw back faces
+/// too.
 #[test]
 fn algorithms_4_6_and_7_are_8_without_hidden_surfaces() {
     let scene = lit(Scene::of_mesh(builtin("cube").expect("a built-in mesh")));
@@ -467,7 +480,7 @@ fn algorithms_4_6_and_7_are_8_without_hidden_surfaces() {
     }
 }
 
-/// `cross.z < 0` lets a triangle without area through; it is drawn by nobody, and gives no colour that is not a number.
+/// Triangles without area pass the test `cross.z < 0`, but fill no pixel and produce no NaN.
 #[test]
 fn triangles_without_area_draw_nothing() {
     let line = [
@@ -495,17 +508,17 @@ fn triangles_without_area_draw_nothing() {
     }
 }
 
-/// World to NDC to screen is where the frame has its vertices, to the sub-pixel.
+/// Transforming from world to NDC to screen gives the frame's vertex coordinates to the sub-pixel.
 #[test]
-fn places_are_those_of_the_frame() {
+fn screen_coordinates_agree_with_the_frame() {
     let scene = lit(Scene::of_mesh(builtin("cube").expect("a built-in mesh")));
     let frame = scene.frame().expect("a frame");
     let matrix = scene.camera.clip_matrix(120.0 / 90.0);
     for (number, v) in (0..).zip(frame.vertices()) {
         let world = scene.camera.eye + DVec3::from_array(frame.position(number).map(f64::from));
         let place = ndc_to_screen(world_to_ndc(&matrix, world), [120, 90]);
-        // Positions are rounded to f32, 2⁻²⁴ of some 5 units, each some 50 pixels: a ten-thousandth of a sub-pixel, which
-        // may be the one that turns the rounding.
+        // Positions are rounded to f32: 2⁻²⁴ of some 5 units, each some 50 pixels, is a
+        // ten-thousandth of a sub-pixel. That can still turn the rounding to the next sub-pixel.
         assert!(
             (place - DVec2::new(v.x.to_num(), v.y.to_num()))
                 .abs()

@@ -1,10 +1,11 @@
-//! Values along edges and spans: stepped ones against closed interpolation, on polygons of any shape.
+//! Compares stepped values along edges and spans with closed interpolation, on polygons of any
+//! shape.
 
 use crate::support::{Corner, Random, frame, random_polygon};
 use fastphong::raster;
 use fastphong::shading::Variant;
 
-/// The edges that cross the centre of a row: (x of the crossing, the intensity there), from left to right.
+/// Returns (x, intensity) of the edges that cross the centre of a row, from left to right.
 fn crossings(polygon: &[Corner], row: usize) -> Vec<(f64, f64)> {
     let centre = row as f64 * 256.0 + 128.0;
     let mut found: Vec<(f64, f64)> = (0..polygon.len())
@@ -27,8 +28,9 @@ fn crossings(polygon: &[Corner], row: usize) -> Vec<(f64, f64)> {
     found
 }
 
-/// At both ends of every span of concave polygons with many sides, the stepped intensity is the closed one: linear along
-/// the two edges, then along the span (L21 3). Nothing is taken from a plane: the corners' intensities are random.
+/// Both ends of every span of concave polygons have the closed form's intensity: linear along the
+/// two edges, then along the span (L21 3). Corner intensities are random, so no plane equation
+/// would do.
 #[test]
 fn span_ends_are_closed_edge_interpolation() {
     let gouraud = Variant::parse("gouraud").expect("a method");
@@ -52,15 +54,17 @@ fn span_ends_are_closed_edge_interpolation() {
                     assert!(near_tie, "a pixel outside every pair of crossings");
                     continue;
                 };
-                // Where two edges cross each other within a millionth of a pixel their order is not this test's matter.
+                // Skip edges that cross each other within a millionth of a pixel. This test says
+                // nothing about their order.
                 if near_tie || crossings.windows(2).any(|w| w[1].0 - w[0].0 < 1e-6) {
                     continue;
                 }
                 let truth = i1 + (centre - x1) / (x2 - x1) * (i2 - i1);
                 let found = f64::from(picture.get(x, row)[0]);
-                // A vertex colour is off by 3 roundings; an edge of at most 72 rows and a span of at most 96 pixels add
-                // one for each step, and as much again for their rounded increments, of numbers up to 1 (2^-25 each,
-                // twice that at most for a start outside the picture).
+                // A vertex colour is off by 3 roundings. An edge of at most 72 rows and a span of
+                // at most 96 pixels add one rounding per step, and as much again for their rounded
+                // increments. Values are up to 1: 2^-25 each, at most twice that for a start
+                // outside the picture.
                 let bound = (3.0 + 2.0 * (72.0 + 96.0)) / f64::from(1 << 24);
                 assert!(
                     (found - truth).abs() <= bound,
@@ -73,7 +77,8 @@ fn span_ends_are_closed_edge_interpolation() {
     assert!(spans > 10_000, "{spans} span ends were compared");
 }
 
-/// L21 3: intensities agree along the common edge of two polygons: they step it from the same corner, by the same steps.
+/// L21 3: intensities agree along a common edge, because both polygons step it from the same corner
+/// by the same steps.
 #[test]
 fn neighbours_agree_along_their_edge() {
     let gouraud = Variant::parse("gouraud").expect("a method");
@@ -83,7 +88,8 @@ fn neighbours_agree_along_their_edge() {
         depth: 0.5,
         intensity,
     };
-    // Two quads share the edge from (40, 5) to (56, 91); their other corners are dark on the left, bright on the right.
+    // Two quads share the edge from (40, 5) to (56, 91). Their other corners are darker at the top,
+    // brighter at the bottom.
     let (upper, lower) = (corner(40, 5, 0.3), corner(56, 91, 0.9));
     let left = vec![corner(3, 8, 0.3), upper, lower, corner(6, 88, 0.9)];
     let right = vec![upper, corner(92, 2, 0.3), corner(88, 95, 0.9), lower];
@@ -95,8 +101,9 @@ fn neighbours_agree_along_their_edge() {
             .find(|&x| owners.get(x - 1, row) == 0 && owners.get(x, row) == 1)
             .expect("a border");
         let (a, b) = (picture.get(border - 1, row)[0], picture.get(border, row)[0]);
-        // Between the last pixel of one and the first of the other lies at most one pixel; horizontally the intensity
-        // changes by at most 0.6 over 33 pixels where the edges are not parallel.
+        // At most one pixel lies between the last pixel of one quad and the first of the other.
+        // Horizontally the intensity changes by at most 0.6 over 33 pixels where the edges are not
+        // parallel.
         assert!((a - b).abs() < 0.02, "row {row}: {a} and {b}");
     }
 }

@@ -1,4 +1,4 @@
-//! Which polygon is seen: depth buffers of all widths, both ways to depth, and the painter.
+//! Visibility by depth buffers of every width, by both depth sources, and by the painter.
 
 use crate::support;
 use crate::support::{Corner, Random, add, plain_lighting, random_polygon};
@@ -17,7 +17,8 @@ fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
     HiddenSurfaces::ZBuffer(DepthBuffer { bits, source })
 }
 
-/// A torus without culling, near a wide camera (or far from it), so that each pixel has up to four surfaces.
+/// Returns a torus without culling, up to four surfaces deep. A wide perspective camera stands near
+/// it, an orthographic one far.
 fn torus(perspective: bool, hidden_surfaces: HiddenSurfaces) -> Frame {
     let mut scene = Scene::of_mesh(builtin("torus?segments=48&sides=24").expect("a built-in mesh"));
     (scene.width, scene.height, scene.culling) = (96, 72, Culling::None);
@@ -30,23 +31,26 @@ fn torus(perspective: bool, hidden_surfaces: HiddenSurfaces) -> Frame {
     scene.frame().expect("a frame")
 }
 
-/// How often a depth of a picture of w × h pixels is rounded on its way to a sample: twice a step down an edge and along
-/// a span, and less than 32 times before the first step.
+/// Returns the number of roundings of a depth on its way to a sample. Each step down an edge or
+/// along a span rounds twice, and a picture of w × h pixels has at most w + h steps. Fewer than 32
+/// roundings precede the first step.
 fn roundings(frame: &Frame) -> f64 {
     2.0 * (frame.width() + frame.height()) as f64 + 32.0
 }
 
-/// Half a unit in the last place of numbers up to 1.
+/// Half a unit in the last place for numbers up to 1.
 const ROUNDING: f64 = 1.0 / (1u64 << 25) as f64;
 
-/// Both ways to depth give one number, to within rounding, under both cameras; and each is the reference's.
+/// Both depth sources agree with each other and with the reference within rounding, under both
+/// cameras.
 #[test]
 fn depth_per_sample_is_interpolated_depth() {
     for perspective in [false, true] {
         let [interpolated, per_sample] = [DepthSource::Interpolated, DepthSource::PerSample]
             .map(|source| torus(perspective, buffer(DepthBits::ThirtyTwo, source)));
-        // Under perspective z = f/(f−n) (1 − n/w): rounding of n/w, which is at most 1, grows by f/(f−n). The distances of
-        // the orthographic camera are up to `far`, rounded in units as much larger, and divided by f − n.
+        // Under perspective z = f/(f−n) (1 − n/w). The rounding error of n/w, which is at most 1,
+        // grows by f/(f−n). Under the orthographic camera distances reach `far`, are rounded in
+        // correspondingly larger units, and are divided by f − n.
         let (near, far) = per_sample.depth_range().ends();
         let gain = far / (far - near);
         assert!(gain < 20.0, "{gain}");
@@ -74,8 +78,9 @@ fn depth_per_sample_is_interpolated_depth() {
     }
 }
 
-/// With every width of the buffer and both ways to depth, both engines and the reference see the same polygons, but where
-/// two surfaces are within rounding, or within the levels of the buffer, of each other.
+/// Both engines and the reference see the same polygons, with every buffer width and both depth
+/// sources. Exceptions are pixels where two surfaces are closer than rounding or the buffer's
+/// levels.
 #[test]
 fn engines_and_reference_see_the_same_polygons() {
     for perspective in [false, true] {
@@ -89,7 +94,7 @@ fn engines_and_reference_see_the_same_polygons() {
                 let frame = triangulated(&frame).frame;
                 let (near, far) = frame.depth_range().ends();
                 let rounding = (1.0 + far / (far - near)) * roundings(&frame) * ROUNDING;
-                // A depth that is off by e < 1/(2ᵇ − 1) is kept as its own level or a neighbouring one.
+                // A depth off by e < 1/(2ᵇ − 1) is stored as the true level or a neighbouring one.
                 let level = bits.most().map_or(0.0, |most| 1.0 / f64::from(most));
                 let margin = 2.0 * rounding.max(if level > 0.0 { rounding + level } else { 0.0 });
                 let truth = reference::visibility(&frame);
@@ -117,8 +122,8 @@ fn engines_and_reference_see_the_same_polygons() {
     }
 }
 
-/// Two large triangles, one a little nearer everywhere, far away under a perspective that spends its depths up close: with
-/// 16 bits both fall on the same level at many pixels, where the first one drawn is seen though it is the farther one.
+/// With 16 bits, two far layers share one level at many pixels and the first one drawn wins,
+/// although it is farther. The perspective spends most levels near the eye.
 #[test]
 fn sixteen_bits_fight_where_more_do_not() {
     let apart = 0.4 / 65535.0;
@@ -147,21 +152,21 @@ fn sixteen_bits_fight_where_more_do_not() {
         assert_eq!(count(&ours, NOTHING), count(&truth, NOTHING));
         [&ours, &truth].map(|picture| (count(picture, 0), count(picture, 1)))
     };
-    // Levels are 1 apart and the layers 0.4 of that: six pixels of ten show the wrong one, where rests are spread evenly
-    // over a level. Depth grows by 130 levels over the triangle, so that they are.
+    // Layers are 0.4 levels apart, so six pixels of ten show the wrong one if fractional levels are
+    // evenly distributed. They are, because depth grows by 130 levels over the triangle.
     for (farther, nearer) in seen(DepthBits::Sixteen) {
         let share = farther as f64 / (farther + nearer) as f64;
         assert!((0.55..0.65).contains(&share), "{share}");
     }
     for bits in [DepthBits::TwentyFour, DepthBits::ThirtyTwo] {
-        // 102 levels of 24 bits lie between the layers; 256 roundings are at most 128 of them for each layer, but that
-        // needs all to go one way.
+        // 102 levels of 24 bits lie between the layers. 256 roundings amount to at most 128 levels
+        // per layer, and only if all have the same sign.
         assert_eq!(seen(bits).map(|(farther, _)| farther), [0, 0], "{bits:?}");
     }
 }
 
-/// Sorted from back to front, layers of constant depth look as they do with a depth buffer, in any order of drawing; the
-/// reference and both engines agree to the pixel, as nothing but the order counts.
+/// For layers of constant depth the painter draws the same picture as a depth buffer, in any
+/// drawing order. The reference and both engines agree to the pixel because only the order matters.
 #[test]
 fn the_painter_sorts_layers_as_depth_does() {
     let mut random = Random::new(31);
@@ -217,8 +222,8 @@ fn the_painter_sorts_layers_as_depth_does() {
     }
 }
 
-/// The key decides: a long polygon that is nearer by its mean and farther by its farthest corner; equal keys keep the
-/// order of drawing.
+/// The painter sorts by its key: a long polygon can be nearer by its mean and farther by its
+/// farthest corner. Equal keys keep the drawing order.
 #[test]
 fn the_painters_key_decides() {
     let strip = |depths: [f32; 3]| -> Vec<Corner> {
@@ -259,7 +264,8 @@ fn the_painters_key_decides() {
     }
 }
 
-/// What hides what, by looking at every pixel of every pair of polygons drawn alone.
+/// Finds occlusion pairs by brute force: draws each polygon alone and compares every pair pixel by
+/// pixel.
 fn pairs_pixel_by_pixel(frame: &Frame, alone: impl Fn(usize) -> Frame) -> Vec<(u32, u32)> {
     let depths: Vec<_> = (0..frame.polygons().len())
         .map(|i| reference::visibility(&alone(i)).depth)
@@ -270,7 +276,7 @@ fn pairs_pixel_by_pixel(frame: &Frame, alone: impl Fn(usize) -> Frame) -> Vec<(u
             .iter()
             .zip(depths[b].pixels())
             .filter(|(a, b)| a.is_finite() && b.is_finite());
-        // Corners are rounded to f32: what differs by a unit in the last place of 1 may be equal.
+        // Corners are rounded to f32, so depths a unit in the last place of 1 apart may be equal.
         both.any(|(a, b)| b - a > 1.0 / f64::from(1 << 24))
     };
     let count = depths.len();
@@ -281,10 +287,10 @@ fn pairs_pixel_by_pixel(frame: &Frame, alone: impl Fn(usize) -> Frame) -> Vec<(u
         .collect()
 }
 
-/// The pairs that are drawn in the wrong order, found from the ends of overlapping spans, are those found pixel by pixel:
-/// concave polygons, and polygons that cross themselves and each other.
+/// Finding wrongly ordered pairs from the ends of overlapping spans gives the same pairs as
+/// comparing pixels. The polygons are concave, and cross themselves and each other.
 #[test]
-fn wrong_pairs_are_those_of_the_pixels() {
+fn wrong_pairs_agree_with_brute_force() {
     let mut random = Random::new(41);
     let (mut wrong, mut cutting) = (0, 0);
     for round in 0..30 {
@@ -303,14 +309,14 @@ fn wrong_pairs_are_those_of_the_pixels() {
     assert!(wrong > 100 && cutting > 20, "{wrong} {cutting}");
 }
 
-/// A shipped scene at 160 × 120, with hidden surfaces found in this way.
+/// Returns the frame of a shipped scene at 160 × 120 with the given hidden-surface method.
 fn shipped(name: &str, how: HiddenSurfaces) -> Frame {
     let mut scene = support::scene(name, Some((160, 120)));
     scene.hidden_surfaces = how;
     scene.frame().expect("a frame")
 }
 
-/// How many pixels the painter shows another object at than a depth buffer does.
+/// Counts the pixels where the painter shows another object than the depth buffer.
 fn painted_wrong(name: &str) -> usize {
     let painted = shipped(name, HiddenSurfaces::Painter(PainterKey::Mean));
     let seen = |frame: &Frame| {
@@ -334,8 +340,9 @@ fn painted_wrong(name: &str) -> usize {
         .count()
 }
 
-/// L5: *Can have unresolvable depth order*. The ring is one cycle of three, without polygons that cut each other, and both
-/// it and polygons that cut each other are drawn wrongly whatever the key; a mesh without either is drawn right.
+/// L5: *Can have unresolvable depth order*. A ring of three polygons that do not cut each other is
+/// drawn wrongly with every key, and so are polygons that cut each other. A mesh without either is
+/// drawn correctly.
 #[test]
 fn no_order_is_right_for_a_ring() {
     for key in [PainterKey::Mean, PainterKey::Farthest] {
@@ -367,7 +374,8 @@ fn torus_of_front_faces() -> Frame {
     scene.frame().expect("a frame")
 }
 
-/// The shipped scene of z-fighting fights: with 16 bits the floor shows through a good part of the star, with 24 nowhere.
+/// The z-fighting scene fights: the floor shows through much of the star with 16 bits and nowhere
+/// with 24.
 #[test]
 fn the_scene_of_z_fighting_fights() {
     let star = |bits| {
@@ -386,8 +394,8 @@ fn the_scene_of_z_fighting_fights() {
     assert_eq!(whole, star(DepthBits::ThirtyTwo));
 }
 
-/// Where engines and reference see another polygon of that scene, the depth of one of the two lies so near the middle
-/// between two levels that rounding decides on the level.
+/// Engines and reference agree in the z-fighting scene outside a margin. They differ only where one
+/// of the two depths is so near the middle between two levels that rounding decides.
 #[test]
 fn fighting_is_the_same_outside_of_a_margin() {
     let fighting = support::scene("z-fighting", Some((48, 36)));
@@ -398,8 +406,9 @@ fn fighting_is_the_same_outside_of_a_margin() {
         alone.hidden_surfaces = HiddenSurfaces::default();
         reference::visibility(&alone.frame().expect("a frame")).depth
     });
-    // A step adds an increment to a depth of ½..1 and rounds it by 2^-25 at most; at most 48 + 36 steps lead to a sample,
-    // and less than 16 operations before them. The increments are off by 2^-24 of all that depth rises by, 0.02.
+    // Each step adds an increment to a depth of ½..1 and rounds by at most 2^-25. At most 48 + 36
+    // steps and fewer than 16 operations before them lead to a sample. Increments are off by 2^-24
+    // of the total rise in depth, 0.02.
     let margin = (48.0 + 36.0 + 16.0 + 2.0 * 0.02 * 84.0) * ROUNDING;
     let all = depths[0].pixels().iter().filter(|z| z.is_finite());
     assert!(
@@ -443,10 +452,10 @@ fn fighting_is_the_same_outside_of_a_margin() {
     );
 }
 
-/// Under CS171's test of each sample two polygons may hide each other between the ends of their overlap, where one of them
-/// is outside the cube.
+/// Two polygons can hide each other in the middle of their overlap, although one is outside the
+/// cube at its ends. Clipping is per sample, as in CS171.
 #[test]
-fn conflicts_are_those_of_samples_in_the_cube() {
+fn conflicts_respect_per_sample_clipping() {
     let mut builder = FrameBuilder::new(48, 48);
     builder
         .clipping(Clipping::NdcCube)
@@ -462,13 +471,13 @@ fn conflicts_are_those_of_samples_in_the_cube() {
     };
     add(&mut builder, material, 0, &square(-0.2, 1.2));
     add(&mut builder, material, 1, &square(0.3, 0.3));
-    // Outside the cube all over, nearer or not: it hides nothing.
+    // The third square is outside the cube everywhere, so it hides nothing.
     add(&mut builder, material, 2, &square(1.5, 1.5));
     let found = conflicts(&builder.finish().expect("a frame"));
     assert_eq!((found.wrong, found.interpenetrating), (vec![(0, 1)], 1));
 }
 
-/// The painter moves polygons and keeps what is known of them: a clipped polygon's mean is that of the whole one.
+/// The painter moves a polygon's data with it: a clipped polygon keeps the mean of the whole one.
 #[test]
 fn the_painter_keeps_the_means_of_clipped_polygons() {
     let frame = |hidden_surfaces| {

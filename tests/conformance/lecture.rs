@@ -1,5 +1,5 @@
-//! What the lecture prints against what the methods draw: its formulas evaluated in `f64` at the pixel centres of one
-//! span, and what it says of triangles, squares and edges.
+//! Compares the lecture's formulas, evaluated in `f64` at the pixel centres of one span, with the
+//! methods' pictures. Also tests its statements about triangles, squares and edges.
 
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::Material;
@@ -8,10 +8,10 @@ use fastphong::scene::{Light, Lighting};
 use fastphong::shading::{Entry, METHODS, Variant};
 use glam::{DVec3, Vec3};
 
-/// The width of the pictures here.
+/// Width of the pictures in this module.
 const WIDTH: u32 = 64;
 
-/// The exponent n of the specular term.
+/// Exponent n of the specular term.
 const SHININESS: i32 = 20;
 
 const LIGHT: DVec3 = DVec3::new(0.36, 0.48, 0.8);
@@ -20,11 +20,13 @@ const AMBIENT: f64 = 0.1;
 const DIFFUSE: f64 = 0.4;
 const SPECULAR: f64 = 0.5;
 
-/// How far a method in `f32` may be from its formula on a span of [`WIDTH`] pixels and a few rows.
+/// Largest difference between a method in `f32` and its formula on a span of [`WIDTH`] pixels and a
+/// few rows.
 ///
-/// Each addition of a walk is off by 2⁻²⁴ at most, so after 64 pixels and 4 rows J, K and each coordinate of N are off by
-/// e = 68 · 2⁻²⁴ = 4.1e-6. In 2JK/D, with D over ½ here, J and K bring 2 · 2e each and D brings 2 · 2 · √3 e, together
-/// below 15 e; the power multiplies that by n k_s = 10, and the diffuse term adds less than e: 151 e.
+/// Each addition of a walk is off by at most 2⁻²⁴. After 64 pixels and 4 rows J, K and each
+/// coordinate of N are off by e = 68 · 2⁻²⁴ = 4.1e-6. In 2JK/D, with D over ½ here, J and K
+/// contribute 2 · 2e each and D contributes 2 · 2 · √3 e, together less than 15 e. The power
+/// multiplies this by n k_s = 10, and the diffuse term adds less than e: 151 e.
 const TOLERANCE: f64 = 151.0 * 68.0 / (1 << 24) as f64;
 
 fn lighting() -> Lighting {
@@ -63,13 +65,14 @@ fn frame_of(polygons: &[&[((f64, f64), DVec3)]]) -> Frame {
     builder.finish().expect("all corners are on the picture")
 }
 
-/// The unit normal that leans so many degrees to the right and so many upward.
+/// Returns the unit normal that leans `right` degrees to the right and `up` degrees upward.
 fn leaning(right: f64, up: f64) -> DVec3 {
     let (x, y) = (right.to_radians().tan(), up.to_radians().tan());
     DVec3::new(x, y, 1.0).normalize()
 }
 
-/// Four rows over the whole picture, with one normal at the left and one at the right: t = (column + ½) / WIDTH.
+/// Builds four rows as wide as the picture, with one normal at the left and one at the right:
+/// t = (column + ½) / WIDTH.
 fn strip(left: DVec3, right: DVec3) -> Frame {
     let w = f64::from(WIDTH);
     frame_of(&[&[
@@ -80,7 +83,7 @@ fn strip(left: DVec3, right: DVec3) -> Frame {
     ]])
 }
 
-/// (2.1) with the clamps, from L·N and R·V.
+/// Evaluates (2.1) with the clamps, from L·N and R·V.
 fn intensity(l_n: f64, r_v: f64) -> f64 {
     let specular = if l_n > 0.0 {
         SPECULAR * r_v.max(0.0).powi(SHININESS)
@@ -90,13 +93,13 @@ fn intensity(l_n: f64, r_v: f64) -> f64 {
     AMBIENT + DIFFUSE * l_n.max(0.0) + specular
 }
 
-/// (2.1) as it is printed, from a unit normal.
+/// Evaluates (2.1) as printed, from a unit normal.
 fn lit(n: DVec3) -> f64 {
     let r = 2.0 * LIGHT.dot(n) * n - LIGHT;
     intensity(LIGHT.dot(n), r.dot(VIEW))
 }
 
-/// (4.7) as it is printed.
+/// Evaluates (4.7) as printed.
 fn slerp(n1: DVec3, n2: DVec3, t: f64) -> DVec3 {
     let phi = n1.dot(n2).acos();
     ((1.0 - t) * phi).sin() / phi.sin() * n1 + (t * phi).sin() / phi.sin() * n2
@@ -128,7 +131,7 @@ fn check(variant: &str, formula: impl Fn(DVec3, DVec3, f64) -> f64) {
     }
 }
 
-/// (3.5), (3.6): intensities by (2.1) at the ends, linear between them.
+/// Gouraud follows (3.5), (3.6): intensities by (2.1) at the ends, linear between them.
 #[test]
 fn gouraud_interpolates_intensities() {
     check("gouraud", |n1, n2, t| {
@@ -136,7 +139,7 @@ fn gouraud_interpolates_intensities() {
     });
 }
 
-/// (4.1), (4.2): normals linear, renormalised, (2.1) at every pixel.
+/// Naive Phong follows (4.1), (4.2): linear normals, renormalised, and (2.1) at every pixel.
 #[test]
 fn naive_phong_interpolates_normals() {
     check("naive-phong", |n1, n2, t| {
@@ -144,8 +147,9 @@ fn naive_phong_interpolates_normals() {
     });
 }
 
-/// (4.3), (4.4), (4.6): J and K linear, d = |N|, D = N · N. Three steps of Newton's method leave less than rounding:
-/// from pixel to pixel d changes by less than 3 %, and e → e²/2 twice gives 1e-7.
+/// Fast Phong follows (4.3), (4.4), (4.6): J and K linear, d = |N|, D = N · N. Three steps of
+/// Newton's method leave less than rounding: d changes by less than 3 % per pixel, and e → e²/2
+/// twice gives 1e-7.
 #[test]
 fn fast_phong_is_equation_4_6() {
     check("fast-phong:steps=3", |n1, n2, t| {
@@ -160,7 +164,7 @@ fn fast_phong_is_equation_4_6() {
     });
 }
 
-/// (4.7), (4.8), then (4.5): J and K along the great circle.
+/// Slerp Phong follows (4.7), (4.8), then (4.5): J and K along the great circle.
 #[test]
 fn slerp_phong_is_equation_4_5_along_the_great_circle() {
     check("slerp-phong", |n1, n2, t| {
@@ -170,14 +174,15 @@ fn slerp_phong_is_equation_4_5_along_the_great_circle() {
     });
 }
 
-/// (4.7), (4.8), then (2.1), without renormalising: steps i–iv of section 4.4.
+/// The vector form follows (4.7), (4.8), then (2.1) without renormalising: steps i–iv of section
+/// 4.4.
 #[test]
 fn slerp_phong_vector_is_equation_2_1_along_the_great_circle() {
     check("slerp-phong-vector", |n1, n2, t| lit(slerp(n1, n2, t)));
 }
 
-/// The lecture's summary of naive Phong shading feeds the unit normal back into the sum. That is another picture: over
-/// the 65° of the third pair above it is 48 grey levels off at the right end, which the method here must not be.
+/// Naive Phong must not follow the lecture's summary, which feeds the unit normal back into the
+/// sum. Over the 65° of the third pair above the summary is 48 grey levels off at the right end.
 #[test]
 fn the_summary_of_naive_phong_is_not_section_4_1() {
     let (n1, n2) = (leaning(-60.0, 10.0), leaning(5.0, 20.0));
@@ -201,8 +206,8 @@ fn the_summary_of_naive_phong_is_not_section_4_1() {
     assert!((last - lit(section)).abs() < TOLERANCE);
 }
 
-/// Corners of a square that stands on one of them, turned clockwise by quarter turns, with these normals in order: top,
-/// right, bottom, left. No pixel centre lies on its edges or diagonals.
+/// Returns a square on one corner, turned clockwise by `turns` quarter turns, with normals for top,
+/// right, bottom and left. No pixel centre lies on its edges or diagonals.
 fn square(turns: usize, normals: [DVec3; 4]) -> [((f64, f64), DVec3); 4] {
     let (middle, reach) = (f64::from(WIDTH) / 2.0, 24.25);
     let (low, high) = (middle - reach, middle + reach);
@@ -210,7 +215,7 @@ fn square(turns: usize, normals: [DVec3; 4]) -> [((f64, f64), DVec3); 4] {
     std::array::from_fn(|i| (places[(i + turns) % 4], normals[i]))
 }
 
-/// The picture turned back by a quarter turn: what was drawn in the top row stands in the left column, upward.
+/// Turns the picture back by a quarter turn: the top row becomes the left column, upward.
 fn turned_back(picture: &LinearPicture) -> LinearPicture {
     let n = picture.width();
     let pixels = (0..n * n)
@@ -228,8 +233,9 @@ fn largest_difference(a: &LinearPicture, b: &LinearPicture) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// L21 3, Figure 5: a square with one corner apart is shaded differently when it is turned by 90°; cut into triangles it
-/// is not, as interpolation on triangles is barycentric (Figure 6). Slerp is not affine, so even triangles turn with it.
+/// L21 3, Figure 5: turning a square with one different corner by 90° changes its shading. Cut into
+/// triangles it keeps it, because interpolation on triangles is barycentric (Figure 6). Slerp is
+/// not affine, so even its triangles change.
 #[test]
 fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
     let normals = [
@@ -262,15 +268,15 @@ fn figure_5_turns_the_shading_of_squares_and_not_of_triangles() {
             }
             name => {
                 assert!(square > 0.01, "{name}: {square}");
-                // Both pictures are within the tolerance of the same formula; default steps of Newton's method leave
-                // e²/2 = 3e-4 of a first step of 2.5 % and then 5e-8.
+                // Both pictures are within the tolerance of the same formula. The default number of
+                // Newton steps leaves e²/2 = 3e-4 of a first step of 2.5 %, and then 5e-8.
                 assert!(triangles < 2.0 * TOLERANCE, "{name}: {triangles}");
             }
         }
     }
 }
 
-/// L21 3: different ways to cut a square into triangles give different pictures.
+/// L21 3: the picture of a square depends on how it is cut into triangles.
 #[test]
 fn the_picture_depends_on_the_diagonal() {
     let normals = [

@@ -1,4 +1,5 @@
-//! Lights and a viewer at positions, falloffs, both highlights and all gates: every method against the reference.
+//! Positional lights, a local viewer, falloffs, highlights and gates: every method against the
+//! reference.
 
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
@@ -14,7 +15,8 @@ use fastphong::shading::{METHODS, SpanBench, Variant};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// A sphere of n-gons from near by, with a light at infinity and two at places; nothing of it is clipped.
+/// Builds a near sphere of n-gons with one directional and two positional lights. Nothing is
+/// clipped unless `change` moves the near plane.
 fn scene(change: impl FnOnce(&mut Scene)) -> Scene {
     let mut scene =
         Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
@@ -44,7 +46,7 @@ fn most(a: &LinearPicture, b: &LinearPicture) -> f64 {
     max
 }
 
-/// A change of a scene, with its name.
+/// A named change of a scene.
 type Change<'a> = (&'a str, &'a dyn Fn(&mut Scene));
 
 const FALLOFFS: [Falloff; 4] = [
@@ -54,9 +56,10 @@ const FALLOFFS: [Falloff; 4] = [
     Falloff::Inverse,
 ];
 
-/// Every falloff, highlight, gate and interpolation, near plane through the sphere or not: within the bound of each method.
+/// Methods agree with the reference within their bound for every falloff, highlight, gate and
+/// interpolation, clipped or not.
 #[test]
-fn every_mode_is_the_references() {
+fn every_mode_agrees_with_the_reference() {
     let mut nearest: BTreeMap<&str, f64> = BTreeMap::new();
     let mut failures = Vec::new();
     for (i, falloff) in FALLOFFS.into_iter().enumerate() {
@@ -74,7 +77,8 @@ fn every_mode_is_the_references() {
                             .for_each(|light| light.falloff = falloff);
                         (scene.specular, scene.gate, scene.interpolation) =
                             (specular, gate, interpolation);
-                        // With one falloff light and eye are far from the pixels that the near plane leaves.
+                        // With one falloff the near plane cuts the sphere. Light and eye are then
+                        // far from the remaining pixels.
                         scene.camera.near = if i == 1 { 1.55 } else { 0.5 };
                     });
                     assert_eq!(frame.stats().clipped > 0, i == 1);
@@ -104,8 +108,8 @@ fn every_mode_is_the_references() {
     }
     println!("{nearest:?}");
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    // The bounds take the worst polygon, light and weight together, which never meet: far from sharp, but still below what
-    // can be seen.
+    // The bounds combine the worst polygon, light and weight, which never coincide. They are far
+    // from tight, but still too small to be visible.
     for (name, share) in nearest {
         assert!(
             share > 0.0005,
@@ -114,13 +118,13 @@ fn every_mode_is_the_references() {
     }
 }
 
-/// What differs between the modes is not rounding: each change of a mode changes the reference's picture by more than two
-/// grey levels.
+/// Each mode changes the reference's picture by more than two grey levels, so modes differ by more
+/// than rounding.
 #[test]
 fn every_mode_changes_the_picture() {
     let render =
         |change: &dyn Fn(&mut Scene)| reference::render(&frame(change), Model::Phong).to_linear();
-    // A light behind the rim, where gates matter.
+    // A light behind the rim makes the gates matter.
     let base =
         render(&|scene| scene.lights[0] = Light::directional(-scene.camera.view(), [0.6; 3]));
     let changes: [Change; 8] = [
@@ -149,9 +153,10 @@ fn every_mode_changes_the_picture() {
     }
 }
 
-/// The six quadratics and naive Phong are one picture; the lecture's form, constant along each polygon, is another.
+/// Duff's six quadratics agree with naive Phong. The lecture's form differs: its light vectors are
+/// constant over each polygon.
 #[test]
-fn what_constant_vectors_lose() {
+fn constant_light_vectors_differ_from_quadratics() {
     let frame = frame(|_| ());
     let render = |name: &str| {
         Variant::parse(name)
@@ -167,7 +172,8 @@ fn what_constant_vectors_lose() {
     assert!(constant > 4.0 / 255.0, "constant vectors lose {constant}");
 }
 
-/// Twelve additions a pixel for one light, six for each further one, and two for 1/w².
+/// The quadratics take twelve additions per pixel for one light, six for each further light, and
+/// two for 1/w².
 #[test]
 fn the_six_products_take_two_additions_each() {
     let duff = Variant::parse("duff-phong").expect("a method");
@@ -190,7 +196,7 @@ fn the_six_products_take_two_additions_each() {
     assert_eq!(additions(2, Falloff::None, Interpolation::Screen), 20);
 }
 
-/// Far away a light at a position is a light at infinity, for every method.
+/// A positional light far away equals a directional light for every method.
 #[test]
 fn a_light_far_away_is_one_at_infinity() {
     let direction = DVec3::new(0.36, 0.48, 0.8);
@@ -203,8 +209,8 @@ fn a_light_far_away_is_one_at_infinity() {
         s.lights = vec![Light::directional(direction, [1.0; 3])];
     });
     for entry in METHODS {
-        // Vectors to the light differ by the angle 2.5 / 1e6 (eye and sphere are within 2.5 of the origin), which the
-        // model multiplies like any error of a cosine: 4 n k_s + k_d = 52.
+        // Light vectors differ by the angle 2.5 / 1e6, because eye and sphere are within 2.5 of the
+        // origin. The model amplifies it like any error of a cosine: 4 n k_s + k_d = 52.
         let bound = 52.0 * 2.5e-6 + entry.info.bound(&far) + entry.info.bound(&infinite);
         let error = most(
             &entry.variant().render_linear(&far),
@@ -214,7 +220,8 @@ fn a_light_far_away_is_one_at_infinity() {
     }
 }
 
-/// An exponent for R·V and four times as much for N·H give highlights alike: light and eye at infinity, in one plane.
+/// An exponent for R·V and four times that exponent for N·H give nearly equal highlights. Light and
+/// eye are at infinity, in one plane.
 #[test]
 fn converted_exponents_give_the_same_highlight() {
     let picture = |specular, shininess_for| {
@@ -228,8 +235,8 @@ fn converted_exponents_give_the_same_highlight() {
     let phong = picture(SpecularModel::Phong, SpecularModel::Phong);
     let converted = most(&phong, &picture(SpecularModel::Blinn, SpecularModel::Phong));
     let same_exponent = most(&phong, &picture(SpecularModel::Blinn, SpecularModel::Blinn));
-    // cos^n 2a and cos^4n a agree to second order: for n = 32 they are at most 0.0043 apart, at a = 10.1°. k_s is 0.4, and
-    // rounding to f32 is far below the rest.
+    // cos^n 2a and cos^4n a agree to second order. For n = 32 they differ by at most 0.0043, at
+    // a = 10.1°. k_s is 0.4, and rounding to f32 is negligible.
     assert!(converted <= 0.4 * 0.0044, "{converted}");
     assert!(
         same_exponent > 10.0 * converted,
@@ -237,10 +244,11 @@ fn converted_exponents_give_the_same_highlight() {
     );
 }
 
-/// Light where it has no direction, or none halfway to the eye: numbers stay finite, channels without specular reflection
-/// stay without, and where the bound says anything the picture is the reference's.
+/// Degenerate light positions make no artefacts: a light without direction, or opposite to the eye.
+/// Values stay finite, channels without specular reflection show no highlight, and the picture
+/// agrees with the reference wherever the bound is below 1.
 #[test]
-fn unlucky_places_make_no_artefacts() {
+fn degenerate_light_positions_make_no_artefacts() {
     let eye_inside = |s: &mut Scene| {
         s.lights = vec![Light {
             falloff: Falloff::InverseSquare,
@@ -251,7 +259,7 @@ fn unlucky_places_make_no_artefacts() {
         s.camera.target = DVec3::new(0.0, 0.0, -1.0);
         (s.camera.near, s.camera.far) = (0.01, 3.0);
     };
-    // The plane of the polygon nearest to the eye, a little beyond one of its corners.
+    // The light lies in the plane of a polygon near the eye, a little beyond one of its corners.
     let in_the_plane = |s: &mut Scene| {
         let mesh = &s.objects[0].mesh;
         let corner = |i: usize| {
@@ -263,7 +271,8 @@ fn unlucky_places_make_no_artefacts() {
             ..Light::positional(beyond, [0.5; 3])
         }];
     };
-    // Behind the sphere, on the line of sight to its middle: L and V are opposite there, and N·H is 0/0.
+    // The light is behind the sphere on the line of sight to its middle. L and V are opposite
+    // there, and N·H is 0/0.
     let opposite = |s: &mut Scene| {
         s.culling = Culling::Front;
         s.lights = vec![Light::positional(-s.camera.eye, [0.5; 3])];
@@ -282,7 +291,7 @@ fn unlucky_places_make_no_artefacts() {
         let case = Case::new(name, frame(change));
         for entry in METHODS {
             let picture = entry.variant().render_linear(&case.frame);
-            // `most` refuses what is not finite.
+            // `most` rejects values that are not finite.
             let error = most(case.truth(entry.info.model), &picture);
             let bound = entry.info.bound(&case.frame);
             println!("{name}, {}: {error:.1e} of {bound:.1e}", entry.info.name);

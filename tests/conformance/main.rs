@@ -1,4 +1,5 @@
-//! Pictures, coverage and counts of the library against the reference, the lectures and the blessed pictures.
+//! Tests pictures, coverage and counts against the reference, the lectures and the blessed
+//! pictures.
 
 mod accuracy;
 mod agreement;

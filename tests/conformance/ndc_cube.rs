@@ -1,4 +1,5 @@
-//! CS171's literal test of each sample against the cube, instead of clipping: where it is right, and how wrong it is.
+//! CS171's literal per-sample test against the NDC cube, instead of clipping: where it is right,
+//! and how wrong it can be.
 
 use crate::support::Random;
 use fastphong::frame::{Frame, FrameError};
@@ -12,7 +13,8 @@ use fastphong::scene::{
 use fastphong::shading::METHODS;
 use glam::{DVec3, Vec3};
 
-/// Polygons seen by an eye one unit above the origin that looks along −z, a little downward.
+/// Builds polygons seen by an eye one unit above the origin that looks along −z and slightly
+/// downward.
 fn scene(polygons: &[Vec<Vec3>], near: f64, far: f64) -> Scene {
     let mut builder = MeshBuilder::new(polygons.concat());
     let mut first = 0;
@@ -39,14 +41,14 @@ fn scene_of(mesh: PolygonMesh, near: f64, far: f64) -> Scene {
     scene
 }
 
-/// The ground from z = `from` to z = `to`, beyond both sides of the picture.
+/// Returns the ground from z = `from` to z = `to`, wider than the picture.
 fn ground(from: f32, to: f32) -> Vec<Vec3> {
     [(-60.0, from), (60.0, from), (60.0, to), (-60.0, to)]
         .map(|(x, z)| Vec3::new(x, 0.0, z))
         .to_vec()
 }
 
-/// The depth of a polygon's plane at the centre of a sample, and how much it changes from sample to sample.
+/// Returns the depth of a polygon's plane at a sample's centre, and its change per sample.
 fn depth_at(frame: &Frame, polygon: u32, x: usize, y: usize) -> (f64, f64) {
     let corners = frame.corners(&frame.polygons()[polygon as usize]);
     let at = |i: usize| {
@@ -59,8 +61,9 @@ fn depth_at(frame: &Frame, polygon: u32, x: usize, y: usize) -> (f64, f64) {
     (depth, dx.abs() + dy.abs())
 }
 
-/// What a sample's depth may be off by in `f32`: twice a step along edge and span and less than 32 times before, half a
-/// unit in the last place each, of the largest depth of a corner.
+/// Returns the error bound of a sample's depth in `f32`. Each step along edge and span rounds
+/// twice, and fewer than 32 roundings precede the steps. Each is half a unit in the last place of
+/// the largest corner depth.
 fn rounding(frame: &Frame) -> f64 {
     let largest = frame
         .vertices()
@@ -69,7 +72,8 @@ fn rounding(frame: &Frame) -> f64 {
     (2.0 * (frame.width() + frame.height()) as f64 + 32.0) * f64::from(largest) / f64::from(1 << 24)
 }
 
-/// The pixels that clipping draws and the test does not, and the reverse; and of both those that margins do not explain.
+/// Counts pixels missing and extra compared with clipping, and how many of them the margins do not
+/// explain.
 fn wrong_pixels(scene: &Scene) -> (usize, usize, usize) {
     let mut clipped = scene.clone();
     clipped.clipping = Clipping::Planes;
@@ -82,7 +86,8 @@ fn wrong_pixels(scene: &Scene) -> (usize, usize, usize) {
             (true, false) => extra += 1,
             _ => continue,
         }
-        // Corners that clipping makes are snapped to 1/256 pixel, half of that off: the cut may lie on the other side.
+        // Corners made by clipping are snapped to 1/256 pixel, off by up to half of that, so the
+        // cut may move past a centre.
         let (depth, change) = depth_at(&tested, 0, x, y);
         let margin = change / 512.0 + rounding(&tested);
         unexplained += usize::from(depth.abs() > margin && (depth - 1.0).abs() > margin);
@@ -90,9 +95,10 @@ fn wrong_pixels(scene: &Scene) -> (usize, usize, usize) {
     (missing, extra, unexplained)
 }
 
-/// A polygon that passes near and far plane in front of the eye: no pixel is wrong that margins do not explain.
+/// In front of the eye the test equals clipping: a polygon through near and far plane has no
+/// unexplained wrong pixel.
 #[test]
-fn in_front_of_the_eye_the_test_is_clipping() {
+fn in_front_of_the_eye_the_test_equals_clipping() {
     for (from, to, near, far) in [
         (-0.5, -40.0, 1.5, 20.0),
         (-1.0, -9.0, 2.0, 30.0),
@@ -116,17 +122,18 @@ fn in_front_of_the_eye_the_test_is_clipping() {
         assert!(drawn > 800 && drawn < 4800, "{drawn}");
         let (missing, extra, unexplained) = wrong_pixels(&scene);
         assert_eq!(unexplained, 0, "{missing} missing, {extra} extra");
-        // Rows of pixels are 80 wide; a margin of 1/512 pixel holds less than a row in all.
+        // Rows are 80 pixels wide, and a margin of 1/512 pixel covers less than one row in total.
         assert!(missing + extra < 80, "{missing} missing, {extra} extra");
     }
 }
 
-/// Trap T29: a polygon that passes the plane of the eye projects wrongly. All that should be seen of this ground is missing,
-/// and what is drawn instead is where nothing is.
+/// Trap T29: a polygon through the eye plane projects wrongly. All visible ground is missing, and
+/// pixels are drawn where nothing should be.
 #[test]
 fn through_the_plane_of_the_eye_the_test_is_wrong() {
     let mut scene = scene(&[ground(3.0, -10.0)], 0.1, 100.0);
-    // 3,200 pixels of the ground are missing, 400 of the sky above it are drawn; none of them lies within a margin.
+    // 3,200 pixels of the ground are missing and 400 of the sky above are drawn. None lies within a
+    // margin.
     assert_eq!(wrong_pixels(&scene), (3200, 400, 3600));
     scene.clipping = Clipping::Planes;
     let truth = raster::polygon_numbers(&scene.frame().expect("a frame"));
@@ -137,11 +144,11 @@ fn through_the_plane_of_the_eye_the_test_is_wrong() {
     );
 }
 
-/// A corner in the plane of the eye has no place: the polygon is left out and counted.
+/// A corner in the eye plane cannot be projected: its polygon is left out and counted.
 #[test]
-fn corners_without_a_place_are_counted() {
-    // In the plane; at the eye itself; before it on the line of sight, where column and row are those of the middle of the
-    // picture, but z/w is -1e5.
+fn unprojectable_corners_are_counted() {
+    // Three such corners: in the eye plane, at the eye, and just before it on the line of sight.
+    // The last projects to the middle of the picture, but z/w is -1e5.
     let [at_the_eye, before_it] = [0.0, -1e-6].map(|z| {
         [(0.0, 1.0, z), (1.0, 0.5, -3.0), (-1.0, 0.5, -3.0)]
             .map(Vec3::from)
@@ -161,8 +168,9 @@ fn corners_without_a_place_are_counted() {
     assert_eq!(scene.frame().expect_err("no frame"), FrameError::Unclipped);
 }
 
-/// Triangles anywhere around the eye: every method draws them, with every kind of depth, and engines and reference see the
-/// same ones but where depths are within rounding of each other or of the ends of the cube.
+/// Every method draws triangles anywhere around the eye, with every depth buffer and source.
+/// Engines and reference differ only where depths are within rounding of each other or of the
+/// cube's faces.
 #[test]
 fn anything_around_the_eye_gives_a_picture() {
     let mut random = Random::new(47);
@@ -182,7 +190,7 @@ fn anything_around_the_eye_gives_a_picture() {
         scene.hidden_surfaces = HiddenSurfaces::ZBuffer(DepthBuffer { bits, source });
         let frame = scene.frame().expect("a frame");
         let truth = reference::visibility(&frame);
-        // n/w is at most as large as depth/(f/(f−n)) + 1, and f/(f−n) is 1.03 here.
+        // n/w is at most depth/(f/(f−n)) + 1, and f/(f−n) is 1.03 here.
         let margin = 2.1 * rounding(&frame);
         let level = bits.most().map_or(0.0, |most| 1.0 / f64::from(most));
         for seen in [

@@ -1,9 +1,10 @@
-//! Today's pictures against the blessed ones: every shipped scene by every method and by the reference, and by every engine on
-//! every instruction set that this machine has.
+//! Compares today's pictures with the blessed ones, for every shipped scene, method, engine and
+//! instruction set of this machine, and for the reference.
 //!
-//! `FASTPHONG_BLESS=1 cargo test --test conformance regression` blesses today's pictures: look at each before committing it. Pixels
-//! are compared after decoding; a channel may differ by one level, because a value within rounding of a half may be
-//! stored as either level when the compiler orders the operations of the reference differently, or another engine does.
+//! `FASTPHONG_BLESS=1 cargo test --test conformance regression` blesses today's pictures. Look at
+//! each before committing it. Pixels are compared after decoding. A channel may differ by one
+//! level. A value within rounding of a half can be stored as either level, if the compiler reorders
+//! the reference's operations or another engine draws it.
 
 use crate::support::cases::{case, cases};
 use crate::support::differences::levels_apart;
@@ -29,7 +30,8 @@ fn store(path: &Path, picture: &Picture8) {
         .expect("a writable file");
 }
 
-/// What is wrong with `actual`, if anything; then the picture, and its difference from the blessed one, are written.
+/// Compares `actual` with its blessed picture, or blesses it if asked to. Returns a message if they
+/// differ, and writes `actual` and the difference.
 fn check(name: &str, actual: &Picture8) -> Option<String> {
     if std::env::var_os("FASTPHONG_BLESS").is_some() {
         store(&blessed(name), actual);
@@ -38,12 +40,13 @@ fn check(name: &str, actual: &Picture8) -> Option<String> {
     check_where(name, &blessed(name), actual, |_, _| true)
 }
 
-/// Where the blessed picture of a name is.
+/// Returns the path of a blessed picture.
 fn blessed(name: &str) -> PathBuf {
     folder("tests/references").join(format!("{name}.png"))
 }
 
-/// What is wrong with `actual` at the pixels where `counts` holds, and with what it covers anywhere.
+/// Compares colours where `counts` holds and coverage everywhere. Returns a message if they differ,
+/// and writes `actual` and the difference.
 fn check_where(
     name: &str,
     blessed: &Path,
@@ -112,7 +115,7 @@ fn pictures_are_the_blessed_ones() {
             }
         }
     }
-    // A blessed picture that nothing makes any more would never fail again.
+    // A blessed picture that nothing renders any more could never fail.
     for folder in fs::read_dir(folder("tests/references"))
         .expect("the folder of blessed pictures")
         .flatten()
@@ -134,9 +137,9 @@ fn pictures_are_the_blessed_ones() {
     );
 }
 
-/// The comparison itself: one pixel moved by two levels, or a method taken for another, does not pass.
+/// The comparison rejects a pixel that is off by two levels and another method's picture.
 #[test]
-fn the_comparison_catches_what_it_should() {
+fn the_comparison_detects_two_levels() {
     let frame = &case("coarse-sphere", Some(SIZE)).frame;
     let picture = |name: &str| {
         fastphong::shading::Variant::parse(name)

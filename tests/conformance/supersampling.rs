@@ -1,4 +1,4 @@
-//! Several samples a pixel: hidden and shaded each on its own, and filtered in linear light.
+//! Supersampling: each sample is depth-tested and shaded on its own, then filtered in linear light.
 
 use crate::support;
 use crate::support::{Corner, add, plain_lighting};
@@ -14,7 +14,8 @@ use fastphong::shading::{METHODS, Variant};
 
 const BACKGROUND: [f32; 3] = [0.25, 0.5, 0.125];
 
-/// A frame of `side` × `side` pixels of n × n samples, with one polygon whose corners count samples.
+/// Builds a frame of `side` × `side` pixels with n × n samples and one polygon whose corners are in
+/// samples.
 fn frame(side: u32, n: u32, encoding: Encoding, corners: &[(f64, f64)], intensity: f32) -> Frame {
     let mut builder = FrameBuilder::new(side * n, side * n);
     builder.samples(n).background(BACKGROUND).encoding(encoding);
@@ -34,7 +35,7 @@ fn frame(side: u32, n: u32, encoding: Encoding, corners: &[(f64, f64)], intensit
     builder.finish().expect("a frame")
 }
 
-/// The pictures of a frame of triangles, by both engines and the reference.
+/// Renders a frame of triangles by both engines and the reference.
 fn pictures(frame: &Frame) -> [LinearPicture; 3] {
     let gouraud = Variant::parse("gouraud").expect("a method");
     let triangles = triangulated(frame).frame;
@@ -47,7 +48,7 @@ fn pictures(frame: &Frame) -> [LinearPicture; 3] {
     ]
 }
 
-/// What is constant stays so to the last bit, however many samples there are.
+/// Filtering keeps a constant picture constant to the last bit, for every number of samples.
 #[test]
 fn a_constant_picture_stays_constant() {
     for n in [1, 2, 4, 8] {
@@ -65,12 +66,13 @@ fn a_constant_picture_stays_constant() {
                 .render_linear(&frame);
             assert_eq!((picture.width(), picture.height()), (6, 6));
             let face = picture.get(0, 0);
-            // The face of `add` looks into the light; the corners do not.
+            // The face normal of `add` points into the light, the corner normals do not.
             assert_eq!(face, [1.0; 4]);
             assert!(picture.pixels().iter().all(|t| *t == face));
             for picture in pictures(&frame) {
                 let first = picture.get(0, 0);
-                // z of the normal, a rounding of `intensity`, goes through a few more roundings in each engine.
+                // z of the normal is `intensity` rounded, and each engine rounds it a few more
+                // times.
                 assert!((first[0] - intensity).abs() < 1e-6 && first[3] == 1.0);
                 assert!(
                     picture
@@ -99,8 +101,9 @@ fn a_constant_picture_stays_constant() {
     }
 }
 
-/// The pixel on an edge has exactly the share of its samples that are covered: an upright edge k samples into pixel 2, and
-/// a diagonal through the corners of pixels, which runs through the centres of n samples of each; they are the right side's.
+/// A pixel on an edge gets exactly the share of its covered samples. One edge is upright, k samples
+/// into pixel 2. The other is a diagonal through pixel corners and the centres of n samples per
+/// pixel, which belong to the right side.
 #[test]
 fn a_pixel_on_an_edge_has_the_exact_share() {
     for n in [2u32, 4, 8] {
@@ -117,7 +120,7 @@ fn a_pixel_on_an_edge_has_the_exact_share() {
             );
             let share = (n - k) as f32 / n as f32;
             for picture in pictures(&frame) {
-                // All numbers here are multiples of 1/64: nothing is rounded.
+                // All values here are multiples of 1/64, so nothing is rounded.
                 assert_eq!(
                     picture.get(2, 3),
                     [mix(share, 0), mix(share, 1), mix(share, 2), share],
@@ -140,7 +143,7 @@ fn a_pixel_on_an_edge_has_the_exact_share() {
     }
 }
 
-/// Trap T34: the mean is taken in linear light, and encoded after it.
+/// Trap T34: samples are averaged in linear light, and the mean is encoded afterwards.
 #[test]
 fn samples_are_filtered_before_they_are_encoded() {
     let n = 4;
@@ -178,8 +181,8 @@ fn supersampled(name: &str, size: (i64, i64), n: u32) -> Frame {
     scene.frame().expect("a frame")
 }
 
-/// A supersampled picture is the mean of the picture n times as large, bit by bit: each sample is hidden and shaded on its
-/// own, by every method.
+/// A supersampled picture equals the mean of the picture n times as large, bit by bit, for every
+/// method. Each sample is depth-tested and shaded on its own.
 #[test]
 fn every_sample_is_shaded() {
     for n in [2usize, 4] {
@@ -215,8 +218,8 @@ fn every_sample_is_shaded() {
     }
 }
 
-/// Every method is as near the reference as without supersampling: a mean of errors is no larger than the largest of them,
-/// and the mean is rounded once, by 2^-25 at most.
+/// Supersampling keeps every method within its bound. A mean of errors is at most the largest
+/// error, and the mean is rounded once, by at most 2^-25.
 #[test]
 fn supersampled_methods_are_within_their_bounds() {
     for name in ["coarse-sphere", "perspective", "polygons"] {
@@ -228,7 +231,8 @@ fn supersampled_methods_are_within_their_bounds() {
             (128, 96),
             "polygon numbers are those of samples"
         );
-        // Where a sample shows another polygon, depths are within rounding, and the pixel is not compared.
+        // Pixels with a sample that shows another polygon are not compared. Their depths are within
+        // rounding.
         let same = |x: usize, y: usize| {
             let sample = |k: usize| (2 * x + k % 2, 2 * y + k / 2);
             (0..4)
@@ -257,7 +261,7 @@ fn supersampled_methods_are_within_their_bounds() {
 }
 
 #[test]
-fn numbers_of_samples_that_cannot_be() {
+fn invalid_sample_counts_are_rejected() {
     for (width, height, n) in [
         (12, 12, 3),
         (12, 12, 0),

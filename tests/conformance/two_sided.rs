@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// The same surface with inside and outside exchanged.
+/// Returns the surface with inside and outside exchanged.
 fn turned(mesh: &PolygonMesh) -> PolygonMesh {
     let mut builder = MeshBuilder::new(mesh.positions().to_vec());
     for polygon in mesh.polygons() {
@@ -29,8 +29,8 @@ fn scene(mesh: PolygonMesh) -> Scene {
     scene
 }
 
-/// Front faces cut away, so that the inside of a torus is seen; or a ground seen from a point below it, which the near plane
-/// cuts.
+/// Returns two views: the inside of a torus whose front faces are culled, and a ground seen from
+/// below and cut by the near plane.
 fn views(change: impl Fn(&mut Scene)) -> [Frame; 2] {
     let mesh = |spec: &str| builtin(spec).expect("a built-in mesh");
     let mut inside = scene(mesh("torus?segments=24&sides=12"));
@@ -62,7 +62,7 @@ fn exchange(scene: &mut Scene) {
     };
 }
 
-/// It does not matter which side of a surface is called its outside; without two-sided lighting it does.
+/// Two-sided lighting does not depend on which side is the outside. One-sided lighting does.
 #[test]
 fn inside_and_outside_are_lit_alike() {
     let pairs = views(|_| ()).into_iter().zip(views(exchange));
@@ -75,8 +75,8 @@ fn inside_and_outside_are_lit_alike() {
         for entry in METHODS {
             let draw = |frame: &Frame| entry.variant().render_linear(frame);
             let difference = compare(&draw(&ours), &draw(&exchanged)).expect("equal sizes");
-            // Newell's sum and the averages are taken in another order: normals differ by a rounding, as from the
-            // closed form, which each picture is within the bound of.
+            // Newell's sum and the averages are taken in another order, so normals differ by a
+            // rounding. Both pictures are within the bound of the closed form.
             let bound = 2.0 * entry.info.bound(&ours);
             assert!(
                 difference.max <= bound,
@@ -101,8 +101,8 @@ fn inside_and_outside_are_lit_alike() {
     }
 }
 
-/// All normals of polygons point to the eye, and a vertex on the silhouette, between a polygon seen from the front and one
-/// seen from behind, is there twice, with opposite normals.
+/// All polygon normals point to the eye. A vertex on the silhouette, between a front and a back
+/// face, occurs twice with opposite normals.
 #[test]
 fn the_silhouette_has_two_normals() {
     let mut sphere = scene(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
@@ -131,17 +131,19 @@ fn the_silhouette_has_two_normals() {
         corners.copied().collect::<BTreeSet<u32>>().len()
     };
     let twice = used(&frame) - used(&plain);
-    // Two vertices of each polygon edge on the silhouette; it goes once around the sphere, over 24 segments or so.
+    // Every polygon edge on the silhouette has two vertices. The silhouette goes once around the
+    // sphere, over some 24 segments.
     assert!((20..60).contains(&twice), "{twice}");
     for polygon in frame.polygons() {
         for &corner in frame.corners(polygon) {
-            // Corners of a polygon 15 degrees wide lean from it by less than twice that.
+            // A polygon is 15 degrees wide, so its corner normals lean from its own by less than
+            // twice that.
             assert!(wide(frame.normal(corner)).dot(wide(frame.polygon_normal(polygon))) > 0.8);
         }
     }
 }
 
-/// Engines and reference agree without knowing of it.
+/// Engines and reference agree, although neither knows about two-sided lighting.
 #[test]
 fn methods_are_within_their_bounds() {
     for case in views(|_| ()).map(|frame| Case::new("", frame)) {

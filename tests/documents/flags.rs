@@ -1,7 +1,7 @@
-//! `docs/flags.md`: each flag of `fastphong render` with a picture without it and one with it.
+//! `docs/flags.md` shows each flag of `fastphong render` with a picture without it and one with it.
 //!
-//! `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from [`FLAGS`] and the help of the
-//! tool: look at each pair before committing it.
+//! `FASTPHONG_BLESS=1 cargo test --test documents flags` makes the page and its pictures from
+//! [`FLAGS`] and the tool's help. Look at each pair before committing it.
 
 use crate::markdown::{files, read, root};
 use fastphong::picture::image_file::decode_picture;
@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Flags that change the picture: name, default where the help does not give one, and what `render` is told without the
-/// flag and with it.
+/// Flags that change the picture: name, default if the help gives none, and arguments of `render`
+/// without and with the flag.
 #[rustfmt::skip]
 const FLAGS: &[[&str; 4]] = &[
     ["resolution", "", "teapot --resolution 160x120", "teapot --resolution 40x30"],
@@ -56,7 +56,7 @@ const FLAGS: &[[&str; 4]] = &[
     ["square", "", "terrain --aov checkerboard", "terrain --aov checkerboard --square 0.25"],
 ];
 
-/// Flags that change no picture, but for the rounding of a pixel here and there.
+/// Flags that change no picture, except by rounding of single pixels.
 #[rustfmt::skip]
 const OTHERS: &[&str] = &[
     "output", "format", "simd", "threads", "print-scene", "stats", "watch", "reference", "reference-threshold", "verbose", "quiet", "help",
@@ -64,7 +64,7 @@ const OTHERS: &[&str] = &[
 
 const PAGE: &str = "docs/flags.md";
 const PICTURES: &str = "docs/images/flags";
-/// Bytes of all pictures together.
+/// Largest size of all pictures together, in bytes.
 const MOST_BYTES: usize = 400_000;
 
 const HEAD: &str = "# Flags and what they do to the picture
@@ -88,7 +88,7 @@ fn run(arguments: &str) -> Vec<u8> {
     output.stdout
 }
 
-/// Draws a picture, as a PNG file.
+/// Draws a picture and returns it as a PNG file.
 fn draw(command: &str) -> Vec<u8> {
     let mut full = format!("render {command} --quiet -o -");
     for (flag, fixed) in [
@@ -103,7 +103,8 @@ fn draw(command: &str) -> Vec<u8> {
     run(&full)
 }
 
-/// Reads the flags from the help of `render`: name, then the first sentence and the default, empty if there is none.
+/// Returns for each flag in the help of `render` its first sentence and its default, which may be
+/// empty.
 fn help() -> BTreeMap<String, [String; 2]> {
     let text = String::from_utf8(run("render --help")).expect("text");
     let mut texts: BTreeMap<String, String> = BTreeMap::new();
@@ -116,7 +117,7 @@ fn help() -> BTreeMap<String, [String; 2]> {
             name = flag[..end].to_owned();
             texts.insert(name.clone(), String::new());
         } else if !line.is_empty() && !line.starts_with(' ') {
-            // The head of a group of flags ends the text of the flag before it.
+            // The heading of a group of flags ends the previous flag's text.
             name.clear();
         } else if let Some(text) = texts.get_mut(&name) {
             *text += &format!(" {trimmed}");

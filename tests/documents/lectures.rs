@@ -1,18 +1,18 @@
-//! `docs/lectures.md` lists all that the three lectures contain, with where it lives and what shows it: here that list is
-//! held true.
+//! Checks `docs/lectures.md`, which lists all items of the three lectures with their code and their
+//! tests or figures.
 #![cfg(feature = "cli")]
 
 use crate::markdown::{defines, places, quoted, read, root, rows};
 use fastphong::lectures::Figure;
 use std::collections::BTreeMap;
 
-/// How many items the lectures have, counted in the order of their sections.
+/// The number of items in the lectures, in the order of their sections.
 const ITEMS: usize = 110;
 
-/// How many items a test or a figure may serve: beyond that it shows none of them well.
+/// The largest number of items that one test or figure may serve. Beyond it none is shown well.
 const MOST: usize = 3;
 
-/// The rows of the table: number, what, where, shown by.
+/// Returns the rows of the table: number, item, code, shown by.
 fn items() -> Vec<[String; 4]> {
     let all = rows(&read("docs/lectures.md"));
     let numbered = all
@@ -33,7 +33,7 @@ fn every_item_stands_in_the_table_once_and_in_order() {
 }
 
 #[test]
-fn every_item_lives_where_it_says() {
+fn every_item_is_found_where_listed() {
     for [number, _, code, _] in items() {
         for part in code.split("; ") {
             let Some((file, names)) = part.split_once(':') else {

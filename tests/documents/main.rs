@@ -1,4 +1,4 @@
-//! The documents against the code.
+//! Compares the documents with the code.
 
 #[cfg(feature = "cli")]
 mod flags;

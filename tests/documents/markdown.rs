@@ -1,4 +1,4 @@
-//! Reading the repository's documents and sources.
+//! Reads the repository's documents and sources.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ pub fn read(path: impl AsRef<Path>) -> String {
         .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// All files under `folder` with this ending, as paths from the root.
+/// Returns all files under `folder` with this ending, as paths from the root.
 pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![root().join(folder)];
@@ -38,7 +38,7 @@ pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     found
 }
 
-/// The texts between backticks, line by line; blocks between fences are left out.
+/// Returns the texts between backticks, line by line, without fenced blocks.
 pub fn quoted(text: &str) -> Vec<&str> {
     let mut fenced = false;
     let mut found = Vec::new();
@@ -52,7 +52,7 @@ pub fn quoted(text: &str) -> Vec<&str> {
     found
 }
 
-/// The rows of all tables of a document, as cells; `\|` is a bar within a cell.
+/// Returns the rows of all tables of a document as cells. `\|` is a bar within a cell.
 pub fn rows(text: &str) -> Vec<Vec<String>> {
     let cells = |line: &str| {
         let line = line.replace("\\|", "\u{0}");
@@ -72,7 +72,7 @@ pub fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// Whether `source` defines the function or type `name`.
+/// True if `source` defines the function or type `name`.
 pub fn defines(source: &str, name: &str) -> bool {
     [
         "fn ", "struct ", "enum ", "trait ", "const ", "static ", "type ",
@@ -86,7 +86,7 @@ pub fn defines(source: &str, name: &str) -> bool {
     })
 }
 
-/// A cell such as "`file`: `item`, `item`; `file`: `item`".
+/// Splits a cell such as "`file`: `item`, `item`; `file`: `item`".
 pub fn places(cell: &str) -> Vec<(String, Vec<String>)> {
     let place = |part: &str| {
         let (file, items) = part

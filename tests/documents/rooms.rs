@@ -1,23 +1,24 @@
-//! The rooms of `src`: a folder each. Imports point one way, between rooms and between files.
+//! The rooms of `src`, a folder each. Imports point one way, between rooms and between files.
 
 use crate::markdown::{files, read, root};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fs;
 
-/// The rooms in order, and what each may import: only rooms that stand before it.
+/// The rooms in order, with the rooms that each may import. These stand before it.
 const ROOMS: &[(&str, &[&str])] = &[
     ("picture", &[]),
     ("number", &["picture"]),
     ("mesh", &["picture", "number"]),
     ("scene", &["picture", "number", "mesh"]),
     ("frame", &["picture", "number", "mesh", "scene"]),
-    // Never `number`, `shading` or `raster`: the reference shares no arithmetic with the engines.
+    // `number`, `shading` and `raster` must stay out: the reference shares no arithmetic with the
+    // engines.
     ("reference", &["picture", "scene", "frame"]),
     (
         "shading",
         &["number", "mesh", "scene", "frame", "reference"],
     ),
-    // Of the reference, `painter.rs` needs exact spans; the engines need nothing of it.
+    // `painter.rs` needs the reference's exact spans. The engines need nothing of it.
     (
         "raster",
         &[
@@ -81,7 +82,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 /// A module as its path below the root of the crate: `frame/builder`.
 type Module = Vec<String>;
 
-/// Splits code into words and punctuation. Leaves out comments, and what stands between quotes.
+/// Splits code into words and punctuation, without comments and quoted text.
 fn tokens(source: &str) -> Vec<String> {
     let text: Vec<char> = source.chars().collect();
     let starts = |at: usize, with: &str| {
@@ -111,7 +112,7 @@ fn tokens(source: &str) -> Vec<String> {
         } else if c == '"'
             || c == '#' && found.last().is_some_and(|word| word == "r" || word == "br")
         {
-            // A text, or a raw one: r#"…"#.
+            // A string or a raw one: r#"…"#.
             let hashes = text[at..].iter().take_while(|&&c| c == '#').count();
             let raw = found.last().is_some_and(|word| word == "r" || word == "br");
             at += hashes + 1;
@@ -121,7 +122,7 @@ fn tokens(source: &str) -> Vec<String> {
             at += hashes + 1;
         } else if c == '\'' && (text.get(at + 1) == Some(&'\\') || text.get(at + 2) == Some(&'\''))
         {
-            // A character; a lifetime has no second quote.
+            // A character. A lifetime has no second quote.
             at = find(at + 3 - usize::from(text[at + 1] != '\\'), "'") + 1;
         } else if starts(at, "::") {
             found.push("::".into());
@@ -136,7 +137,7 @@ fn tokens(source: &str) -> Vec<String> {
     found
 }
 
-/// Removes items for tests only. Returns the names of the modules among them that have files of their own.
+/// Removes test-only items. Returns the names of removed modules that have their own files.
 fn remove_tests(tokens: &mut Vec<String>) -> Vec<String> {
     let is = |tokens: &[String], at: usize, word: &str| tokens.get(at).is_some_and(|t| t == word);
     let mut modules = Vec::new();
@@ -145,7 +146,7 @@ fn remove_tests(tokens: &mut Vec<String>) -> Vec<String> {
         let is_attribute =
             is(tokens, at, "#") && is(tokens, at + 1, "[") && is(tokens, at + 2, "cfg");
         let end = (at..tokens.len()).find(|&i| tokens[i] == "]").unwrap_or(at);
-        // `#[cfg(test)]` and `#[cfg(all(test, …))]`.
+        // Matches `#[cfg(test)]` and `#[cfg(all(test, …))]`.
         let for_tests = is_attribute
             && (is(tokens, at + 4, "test")
                 || is(tokens, at + 4, "all") && is(tokens, at + 6, "test"));
@@ -179,8 +180,8 @@ fn remove_tests(tokens: &mut Vec<String>) -> Vec<String> {
     modules
 }
 
-/// Returns all paths of a file: those of its `use` trees, one for each leaf, and those in its code from `crate`, `super`,
-/// `self` or `fastphong`.
+/// Returns all paths of a file: one per leaf of its `use` trees, and those in code that start with
+/// `crate`, `super`, `self` or `fastphong`.
 fn paths(tokens: &[String]) -> Vec<(bool, Vec<String>)> {
     let mut found = Vec::new();
     let mut at = 0;
@@ -208,7 +209,7 @@ fn paths(tokens: &[String]) -> Vec<(bool, Vec<String>)> {
     found
 }
 
-/// Reads a `use` tree up to the end of its branch; adds its leaves.
+/// Reads a `use` tree to the end of its branch and adds its leaves.
 fn leaves_of(
     tokens: &[String],
     at: &mut usize,
@@ -229,7 +230,7 @@ fn leaves_of(
                 }
                 *at += 1;
             }
-            // Another name for it.
+            // Skip the alias.
             "as" => *at += 2,
             "self" if depth > 0 => *at += 1,
             _ => {
@@ -244,7 +245,7 @@ fn leaves_of(
     path.truncate(depth);
 }
 
-/// Returns the module that a path leads into, or `None` for other crates and for local names.
+/// Returns the module that a path leads into, or `None` for other crates and local names.
 fn target(
     module: &Module,
     in_use: bool,
@@ -267,7 +268,7 @@ fn target(
         .find(|module| modules.contains(module))
 }
 
-/// Imports by file, tests left out.
+/// Returns the imports of each file, without tests.
 fn imports() -> BTreeMap<Module, BTreeSet<Module>> {
     let module_of = |file: &str| -> Module {
         let path = file.trim_start_matches("src/").trim_end_matches(".rs");
@@ -378,7 +379,8 @@ fn every_folder_of_src_is_a_room_and_imports_point_one_way() {
     );
 }
 
-/// A parent and its child may import each other; other files must not, at whatever distance.
+/// No file imports itself through others, at any distance. Only a parent and its child may import
+/// each other.
 #[test]
 fn no_file_imports_itself_through_others() {
     let is_family = |a: &Module, b: &Module| a.starts_with(b) || b.starts_with(a);

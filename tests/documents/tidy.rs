@@ -1,4 +1,4 @@
-//! Keeps the documentation and the source true to each other.
+//! Keeps the documentation and the source consistent.
 
 use crate::markdown::{defines, files, is_word, places, quoted, read, root, rows};
 use fastphong::number::Counts;
@@ -8,19 +8,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Files under `src` that may be longer than [`MOST_LINES`], and why.
+/// Files under `src` that may be longer than [`MOST_LINES`], with the reason.
 const LONG_FILES: &[(&str, &str)] = &[];
 
-/// Lines of code, without comments and tests, beyond which a file asks to be split by concept.
+/// The most lines of code, without comments and tests. A longer file should be split by concept.
 const MOST_LINES: usize = 700;
 
-/// Names of modules that say nothing of what is in them.
+/// Names of modules that do not describe their content.
 const ATTICS: [&str; 3] = ["utils", "common", "helpers"];
 
-/// The equations of a section of the lecture that has numbered ones: section, how many.
+/// The numbered equations per section of the lecture: section, count.
 const NUMBERED: [(u32, u32); 4] = [(1, 1), (2, 1), (3, 6), (4, 12)];
 
-/// The documents that people read.
+/// Returns the documents for readers.
 fn documents() -> Vec<PathBuf> {
     let mut all = files("docs", "md");
     all.extend(
@@ -35,7 +35,7 @@ fn documents() -> Vec<PathBuf> {
     all
 }
 
-/// The numbers that an equation comment gives: those of "3.5, 4.1" and of the range "4.9–4.12".
+/// Returns the numbers in an equation comment such as "3.5, 4.1", or the range "4.9–4.12".
 fn numbers(comment: &str) -> Vec<(u32, u32)> {
     let number = |text: &str| {
         let (section, equation) = text
@@ -56,7 +56,7 @@ fn numbers(comment: &str) -> Vec<(u32, u32)> {
     found
 }
 
-/// The comments at the ends of lines of code, of the code before the tests.
+/// Returns the comments at ends of lines of code, before the tests.
 fn line_comments(source: &str) -> Vec<&str> {
     let code = source
         .split("#[cfg(test)]\nmod tests {")
@@ -141,7 +141,7 @@ fn every_numbered_line_stands_in_the_table() {
     }
 }
 
-/// A method's section of `docs/methods.md`.
+/// Returns a method's section of `docs/methods.md`.
 fn section<'a>(methods: &'a str, name: &str) -> &'a str {
     let heading = format!("\n## `{name}`");
     let start = methods
@@ -151,8 +151,8 @@ fn section<'a>(methods: &'a str, name: &str) -> &'a str {
     &rest[..rest.find("\n## ").unwrap_or(rest.len())]
 }
 
-/// The operations of a method with one light and with four, as the table of `docs/methods.md`: one number where both are
-/// the same, rates without operations left out.
+/// Formats a method's operations with one and with four lights like the table of `docs/methods.md`:
+/// one number if both agree, without rates that have no operations.
 fn operations(entry: &'static Entry) -> String {
     let (one, four) = (entry.variant().operations(1), entry.variant().operations(4));
     let cells = |a: Counts, b: Counts| {
@@ -198,7 +198,7 @@ fn operations(entry: &'static Entry) -> String {
 }
 
 #[test]
-fn every_method_is_described_with_what_it_costs() {
+fn every_method_is_described_with_its_operations() {
     let methods = read("docs/methods.md");
     for entry in METHODS {
         let text = section(&methods, entry.info.name);
@@ -241,9 +241,9 @@ fn every_method_is_described_with_what_it_costs() {
     }
 }
 
-/// The sentence that says what this is counts the methods of the table.
+/// Every text that introduces the program gives the right number of methods.
 #[test]
-fn the_number_of_methods_is_true_wherever_it_is_written() {
+fn the_number_of_methods_is_right_everywhere() {
     const WORDS: [&str; 6] = ["nine", "ten", "eleven", "twelve", "thirteen", "fourteen"];
     let number = WORDS[METHODS.len() - 9];
     for name in ["Cargo.toml", "README.md", "src/lib.rs", "src/cli/mod.rs"] {
@@ -257,7 +257,7 @@ fn the_number_of_methods_is_true_wherever_it_is_written() {
     }
 }
 
-/// Whether a quoted text is meant as a path of the repository.
+/// True if a quoted text is meant as a path of the repository.
 fn is_path(text: &str) -> bool {
     let plain = !text.contains([' ', '*', '<', '$', '…', ':', '(', '{']) && !text.contains("NAME");
     let folder = [
@@ -273,7 +273,7 @@ fn is_path(text: &str) -> bool {
 }
 
 #[test]
-fn every_file_that_is_named_exists() {
+fn named_files_exist() {
     let mut count = 0;
     for document in documents() {
         let text = read(&document);
@@ -309,7 +309,7 @@ fn every_file_that_is_named_exists() {
     );
 }
 
-/// The other way round: what stands in `src` stands in the code map.
+/// The converse: every module in `src` is in the code map.
 #[test]
 fn every_module_stands_in_the_code_map() {
     let map = read("docs/architecture.md");
@@ -356,7 +356,7 @@ fn source_files_are_short_and_keep_the_rules() {
             if folder == "src" && lines > MOST_LINES && !allowed {
                 too_long.push(format!("{name} has {lines} lines of code"));
             }
-            // Written in two parts, so that this file keeps the rule as well.
+            // These are written in two parts, so that this file passes the check too.
             for (head, tail) in [
                 ("todo", "!("),
                 ("unimplemented", "!("),
@@ -391,7 +391,7 @@ fn source_files_are_short_and_keep_the_rules() {
     );
 }
 
-/// The lines of the fenced shell blocks of a document, comments left out.
+/// Returns the lines of a document's fenced shell blocks, without comments.
 fn commands(text: &str) -> Vec<String> {
     let mut in_shell = false;
     let mut found = Vec::new();
@@ -449,7 +449,7 @@ fn commands_in_the_documents_exist() {
     assert!(checked > 8, "only {checked} commands were found");
 }
 
-/// Asks the program itself whether it knows a sub-command and its flags.
+/// Asks the program whether it knows a sub-command and its flags.
 #[track_caller]
 fn check_usage(document: &str, command: &str, words: &[&str]) {
     let Some(program) = option_env!("CARGO_BIN_EXE_fastphong") else {

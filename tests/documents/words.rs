@@ -1,16 +1,16 @@
-//! How sources and documents begin: comments with a verb or a noun, the README short.
+//! Checks how sources and documents begin: comments with a verb or a noun, the README short.
 
 use crate::markdown::{files, read};
 
-/// Words that no doc comment begins with: they refer to something that the reader has not read yet.
+/// Openings that no doc comment may have, because they refer to something not yet read.
 const OPENINGS: [&str; 10] = [
     "What", "How", "Whether", "Where", "Which", "Its", "Those", "The same", "Likewise", "Such",
 ];
 
-/// Lines of README.md: what a stranger reads in a minute.
+/// The most lines of README.md: a stranger reads it in a minute.
 const README_LINES: usize = 130;
 
-/// Lines of a module comment: what the module does, how data flows through it, where to start reading.
+/// The most lines of a module comment: its task, its data flow, where to start reading.
 const MODULE_LINES: usize = 25;
 
 /// Returns the text of a doc comment's line.
@@ -53,7 +53,7 @@ fn doc_comments_begin_with_a_verb_or_a_noun() {
 fn module_comments_are_short() {
     let mut long = Vec::new();
     for file in files("src", "rs") {
-        // The crate's own comment is its tour, with an example that is run.
+        // The crate's own comment is its tour, with a tested example.
         if file.ends_with("src/lib.rs") {
             continue;
         }

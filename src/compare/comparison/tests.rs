@@ -11,7 +11,7 @@ use alloc::vec;
 use core::time::Duration;
 use glam::{DAffine3, DVec3};
 
-/// A built-in mesh under one light, filling 48 × 36 pixels.
+/// Returns a frame of a built-in mesh under one light, filling 48 × 36 pixels.
 fn frame_of(mesh: &str) -> Frame {
     let mesh = builtin(mesh).unwrap();
     let direction = DVec3::new(0.3, 0.5, 1.0);
@@ -59,7 +59,7 @@ fn errors_only(frame: &Frame, variants: &[Variant]) -> Comparison {
     )
 }
 
-/// Five rounds, so that a comparison with times is quick.
+/// Returns limits of five rounds, for a quick comparison with times.
 fn quick() -> Option<TimeLimits> {
     Some(TimeLimits {
         time_budget: Duration::ZERO,
@@ -135,10 +135,10 @@ fn naive_phong_is_added_only_where_it_is_missing() {
 }
 
 #[test]
-fn numbers_of_the_frame_are_those_of_a_hand_count() {
-    // A square of 6 × 4 pixels, and in front of part of it a triangle whose legs are 4 pixels: it covers the centres
-    // with x + y < 4, where x and y are counted from its corner in halves: 3 + 2 + 1 of whole ones and 4 on the
-    // hypotenuse, which the top-left rule does not count.
+fn frame_counts_agree_with_hand_counts() {
+    // A square of 6 × 4 pixels has a triangle with legs of 4 pixels in front of one corner. It
+    // covers the centres with x + y < 4, counted from its corner in halves: 3 + 2 + 1, and 4 on the
+    // hypotenuse, which the top-left rule excludes.
     let mut builder = FrameBuilder::new(10, 8);
     let light = Light::directional(DVec3::Z, [1.0; 3]);
     let material = builder.lighting(Lighting::new(
@@ -166,7 +166,8 @@ fn numbers_of_the_frame_are_those_of_a_hand_count() {
     };
     polygon(&[(1, 1), (7, 1), (7, 5), (1, 5)], 0.5);
     polygon(&[(1, 1), (5, 1), (1, 5)], 0.25);
-    // A bow tie: 2 × 2 pixels in two triangles, each of which covers no centre strictly but those on its slopes.
+    // A bow tie of 2 × 2 pixels in two triangles. It strictly covers no centre but those on its
+    // slopes.
     polygon(&[(8, 2), (10, 4), (10, 2), (8, 4)], 0.5);
     let frame = builder.finish().unwrap();
     let comparison = errors_only(&frame, &all());
@@ -186,17 +187,17 @@ fn numbers_of_the_frame_are_those_of_a_hand_count() {
             .all(|row| row.other_polygon == bow_tie),
         "the bow tie is not drawn"
     );
-    // Normals are all the same: every method computes the one colour, but for the rounding of single numbers. Slerped
-    // and stepped values add at most as many roundings as there are pixels and scanlines, 16 of 2⁻²⁴, which the power
-    // 32 multiplies by 32: 3.1e-5.
+    // All normals are equal, so every method computes one colour, except for rounding. Slerped and
+    // stepped values add at most as many roundings as there are pixels and scanlines, 16 of 2⁻²⁴.
+    // The power 32 multiplies them by 32: 3.1e-5.
     for row in comparison.all_rows() {
         assert!(row.error.max <= 3.1e-5, "{} {}", row.name(), row.error.max);
     }
 }
 
 #[test]
-fn own_closed_form_is_that_of_the_model() {
-    // With all steps of Newton's method, of which short spans over large angles need more than the default.
+fn rows_are_within_the_bound_of_their_closed_form() {
+    // Use the most Newton steps, because short spans over large angles need more than the default.
     let with_all_steps =
         |variant: Variant| match variant.info().parameters.iter().find(|p| p.name == "steps") {
             Some(steps) => Variant::parse(&alloc::format!(
@@ -311,7 +312,7 @@ fn speeds_belong_to_their_rows() {
     for row in &comparison.barycentric {
         assert!(one(of(row).ratio_to_barycentric), "{}", row.name());
     }
-    // The direction: what takes less time has a ratio over 1, round by round.
+    // A method that takes less time has a ratio over 1, round by round.
     let naive = of(named(&comparison.rows, BASELINE)).timing.samples_ns;
     for row in comparison.all_rows() {
         let speed = of(row);
@@ -365,13 +366,13 @@ fn tables_have_a_row_a_method() {
                 .split(' ')
                 .filter_map(|word| word.parse().ok())
                 .collect();
-            // Three digits, down to the sixth place: within half of the last of them, which is 1/200 of the number, or of that
-            // place.
+            // Three digits down to the sixth place: within half of the last digit, which is 1/200
+            // of the number, or of that place.
             let rounded = (255.0 * row.error.rms / 200.0).max(0.5e-6);
             let near = |shown: &f64| (shown - 255.0 * row.error.rms).abs() <= rounded;
             assert!(line.contains(" ± ") && rms.iter().any(near), "{line}");
         }
-        // Columns end where their heads end: all are to the right but the first.
+        // Columns end where their heads end, because all but the first are right-aligned.
         let ends: Vec<usize> = lines.iter().map(|line| line.chars().count()).collect();
         assert!(ends.iter().all(|end| *end == ends[0]), "{text}");
         let widest = text.lines().map(|line| line.chars().count()).max();
@@ -432,6 +433,7 @@ fn a_flat_face_with_equal_normals_stays_as_it_is() {
     let cut = errors_only(&scene.frame().unwrap(), &[])
         .triangulation
         .unwrap();
-    // Results of f64 that agree but for its rounding may become neighbours in f32, 2⁻²⁴ apart below 1.
+    // Results in f64 that agree within its rounding may become neighbours in f32, 2⁻²⁴ apart below
+    // 1.
     assert!(cut.difference.max <= f64::from(f32::EPSILON) / 2.0);
 }

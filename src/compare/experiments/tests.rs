@@ -71,7 +71,7 @@ fn every_view_is_drawn_once_by_every_method_that_was_asked_for() {
 }
 
 #[test]
-fn counts_are_those_of_a_sphere() {
+fn counts_agree_with_a_sphere() {
     let measured = small_scaling();
     for point in &measured.points {
         // Euler: a closed surface of triangles without holes has V − T/2 = 2.
@@ -87,8 +87,8 @@ fn counts_are_those_of_a_sphere() {
         let is_it = |p: &&ScalingPoint| p.away == away && p.asked == 400 && p.size == [192, 108];
         measured.points.iter().find(is_it).unwrap()
     });
-    // Of a sixteenth of the area, up to pixels along the outline: the small one has a radius of 0.8 · 54/4 = 10.8, and so
-    // an outline of 68 pixels.
+    // The far view covers a sixteenth of the area, up to pixels along the outline. The small
+    // picture has a radius of 0.8 · 54/4 = 10.8, so its outline has 68 pixels.
     assert!(
         near.pixels.abs_diff(16 * away.pixels) < 16 * 68,
         "{near:?} {away:?}"
@@ -119,7 +119,7 @@ fn costs_that_made_the_times_are_found_again() {
     for curve in &mut measured.curves {
         curve.times = times.clone();
     }
-    // One frame that took a tenth longer than its costs.
+    // One frame takes a tenth longer than its costs.
     let mut odd = measured.clone();
     odd.curves[0].times[2] = times[2].as_ref().map(|t| timing(1.1 * t.min_ns));
     measured.explain();
@@ -132,7 +132,7 @@ fn costs_that_made_the_times_are_found_again() {
             (found.pixel_ns, costs.pixel_ns),
             (found.background_ns, costs.background_ns),
         ];
-        // As in the tests of the fit.
+        // The tolerance is derived in the tests of the fit.
         assert!(
             pairs
                 .iter()
@@ -143,7 +143,7 @@ fn costs_that_made_the_times_are_found_again() {
     }
     odd.explain();
     let found = odd.curves[0].costs.unwrap();
-    // The others pull the line back: what is left is not over the tenth.
+    // The other points pull the line back, so the residual is at most the tenth.
     assert!(
         found.worst.abs() > 0.001 && found.worst.abs() <= 0.1,
         "{found:?}"
@@ -203,7 +203,7 @@ fn there_are_four_corners_and_naive_phong_is_one_of_the_methods() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused() {
+fn impossible_requests_are_rejected() {
     let none = SpeedupOptions {
         size: [0, 48],
         limits: QUICK,

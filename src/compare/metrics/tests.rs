@@ -3,7 +3,8 @@ use alloc::string::ToString;
 use super::*;
 use crate::picture::{LinearPicture, Picture8};
 
-/// A pair of opaque pictures; `noise` of column, row, channel is added to the reference, then clamped.
+/// Returns a pair of opaque pictures. `noise` of column, row and channel is added to the second,
+/// then clamped.
 fn pair(width: usize, height: usize, noise: fn(i64, i64, i64) -> i64) -> [Picture8; 2] {
     let mut pair = [
         Picture8::new(width, height, [255; 4]),
@@ -34,7 +35,7 @@ struct Known {
     flip: f64,
 }
 
-/// Made with scikit-image 0.26.0 and NumPy 2.4.6:
+/// Known metrics of four pairs, made with scikit-image 0.26.0 and NumPy 2.4.6:
 ///
 /// ```text
 /// from skimage.metrics import structural_similarity, peak_signal_noise_ratio
@@ -48,7 +49,7 @@ struct Known {
 /// signed = ((la - lr) * 255).mean()
 /// ```
 ///
-/// and with flip_evaluator 1.7, the implementation by the authors of ꟻLIP, in f32:
+/// ꟻLIP is made with flip_evaluator 1.7, the implementation by its authors, in f32:
 ///
 /// ```text
 /// map, _, _ = flip_evaluator.evaluate(*(np.float32(p / 255.0) for p in (r, a)), "LDR", applyMagma=False)
@@ -95,18 +96,20 @@ fn numbers_equal_those_of_scikit_image() {
         let [reference, actual] = pair(known.size[0], known.size[1], known.noise);
         let d = compare(&reference, &actual).unwrap();
         assert_eq!(d.max, known.max_levels / 255.0);
-        // Sums of n values up to 255² or 255 in f64 are off by less than n 2^-53 of the sum of their amounts: 1e-12 of
-        // it for the 1920 values here, below 3e-11 levels for the means.
+        // Sums of n values up to 255² or 255 in f64 are off by less than n 2^-53 of the sum of
+        // their amounts. This is 1e-12 of it for the 1920 values here, below 3e-11 levels for the
+        // means.
         near(d.rms * 255.0, known.rms_levels, 3e-11);
         near(d.mae * 255.0, known.mae_levels, 3e-11);
         near(d.signed_mean * 255.0, known.signed_levels, 3e-11);
         assert_eq!(d.frame_rms, d.rms, "all pixels are covered");
         // 20 log10(1 + 1e-12) is 9e-12 dB.
         near(d.psnr, known.psnr, 1e-11);
-        // Window means of values in 0..=1 take 22 products and sums in two passes, so are off by 50 * 2^-53 = 6e-15,
-        // variances by four times that, on both sides; divided by C2 = 9e-4, the least a denominator can be: 6e-11.
+        // Window means of values in 0..=1 take 22 products and sums in two passes. They are off by
+        // 50 * 2^-53 = 6e-15, and variances by four times that, on both sides. The smallest
+        // denominator is C2 = 9e-4, so the quotient is off by 6e-11.
         near(d.ssim.unwrap(), known.ssim, 6e-11);
-        // Both are in f32, and their pixels within 1e-4 of each other: see `flip`.
+        // Both are in f32, and their pixels are within 1e-4 of each other: see `flip`.
         let map = Perceived::new(&reference).flip(&Perceived::new(&actual));
         near(mean_flip(&map.unwrap()), known.flip, 1e-5);
     }
@@ -118,7 +121,7 @@ fn linear_and_stored_pictures_have_the_same_numbers() {
     let linear = |picture: &Picture8| picture.map(|t| t.map(|c| f32::from(c) / 255.0));
     let stored = compare(&reference, &actual).unwrap();
     let d = compare(&linear(&reference), &linear(&actual)).unwrap();
-    // The nearest f32 to k/255 is off by at most 2^-25; a difference of two by twice that.
+    // The nearest f32 to k/255 is off by at most 2^-25, a difference of two by twice that.
     let rounding = 2.0 / f64::from(1 << 25);
     near(d.max, stored.max, rounding);
     near(d.rms, stored.rms, rounding);
@@ -168,7 +171,7 @@ fn background_does_not_dilute() {
     let d = compare(&reference, &actual).unwrap();
     assert_eq!((d.frame, d.compared), (100, 1));
     assert_eq!(d.rms, 10.0 / 255.0);
-    // A hundredth of the pixels carries all squares: a tenth of the root; three roundings.
+    // A hundredth of the pixels carries all squares: a tenth of the root, with three roundings.
     near(d.frame_rms, 1.0 / 255.0, 3.0 * f64::EPSILON);
     assert_eq!(d.share(d.over_one_level), 1.0);
 
@@ -219,7 +222,7 @@ fn thresholds_bite_beyond_whole_and_half_levels() {
         "half a level is not more than half"
     );
 
-    // 0.5/255 = 0.0019607… : on either side of it.
+    // Test both sides of 0.5/255 = 0.0019607….
     assert_eq!(
         compare(&linear(0.0), &linear(0.001_960))
             .unwrap()
@@ -252,7 +255,7 @@ fn percentile_is_the_nearest_rank() {
             .map(|i| i as f64)
             .collect::<alloc::vec::Vec<_>>()
     };
-    // Of 100, the 99th smallest; of 101, rank ceil(99.99) = 100.
+    // Of 100, the 99th smallest. Of 101, rank ceil(99.99) = 100.
     assert_eq!(percentile(&mut errors(100)), 98.0);
     assert_eq!(percentile(&mut errors(101)), 99.0);
     assert_eq!(percentile(&mut errors(1)), 0.0);
@@ -260,7 +263,7 @@ fn percentile_is_the_nearest_rank() {
 }
 
 #[test]
-fn what_is_not_finite_is_a_full_error_and_spoils_no_mean() {
+fn values_not_finite_are_full_errors_and_keep_means_finite() {
     let reference = LinearPicture::new(12, 12, [0.5, 0.5, 0.5, 1.0]);
     for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let mut actual = reference.clone();
@@ -352,7 +355,8 @@ fn differences_survive_json() {
         assert_eq!(json.contains("\"psnr\":null"), d.psnr.is_infinite());
         let back: serde_json::Value = serde_json::from_str(&json).unwrap();
         let psnr = back["psnr"].as_f64().unwrap_or(f64::INFINITY);
-        // A decimal number may be read as a neighbouring float: one unit in the last place of 16..32.
+        // A decimal number may be parsed as a neighbouring float: one unit in the last place of
+        // 16..32.
         assert!(psnr == d.psnr || (psnr - d.psnr).abs() <= 16.0 * f64::EPSILON);
         assert_eq!(back["worst"], serde_json::json!(d.worst));
         assert_eq!(back["compared"], d.compared);

@@ -1,4 +1,4 @@
-//! Frames against polygons projected one after the other; frames used again; threads.
+//! Compares frames with polygons projected one by one. Also tests reused frames and threads.
 
 use super::side::eye_side;
 use super::view::{BEYOND_PLANES, View};
@@ -14,10 +14,10 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DMat3, DMat4, DVec3, DVec4};
 
-/// A corner with all that a frame says of it: vertex, position from the eye, colour.
+/// A corner with all its frame data: vertex, position from the eye, colour.
 type PlainCorner = (Vertex, [f32; 3], [f32; 3]);
 
-/// A polygon that needs no cutting, and its corners.
+/// A polygon that needs no clipping, and its corners.
 #[derive(Debug, PartialEq)]
 struct PlainPolygon {
     source: u32,
@@ -26,12 +26,12 @@ struct PlainPolygon {
     corners: Vec<PlainCorner>,
 }
 
-/// A scene polygon by polygon and corner by corner, with no array of anything.
+/// A plain projection of a scene, polygon by polygon and corner by corner, without batches.
 struct Plainly<'a> {
     view: View<'a>,
     scene: &'a Scene,
     polygons: Vec<PlainPolygon>,
-    /// The numbers of those that must be cut.
+    /// The numbers of polygons that must be clipped.
     cut: BTreeSet<u32>,
     stats: FrameStats,
 }
@@ -127,7 +127,8 @@ impl<'a> Plainly<'a> {
         }
     }
 
-    /// Twice the area on the picture of a polygon that is drawn whole; counts what becomes of others.
+    /// Returns twice the screen area of a polygon that is drawn whole. Counts all others in the
+    /// statistics.
     fn area_of_drawn(&mut self, source: u32, clips: &[DVec4], face: Option<DVec3>) -> Option<i128> {
         let codes: Vec<_> = clips.iter().map(|&clip| self.view.codes(clip)).collect();
         if codes.iter().fold(u16::MAX, |all, c| all & c) & !BEYOND_PLANES != 0 {
@@ -166,7 +167,7 @@ impl<'a> Plainly<'a> {
     }
 }
 
-/// A scene that looks otherwise: from nearer, other sides, other weights.
+/// Returns variants of a scene with other cameras, culling and interpolation.
 fn variants(scene: &Scene) -> Vec<Scene> {
     let camera = scene.camera;
     let away = camera.target - camera.eye;
@@ -213,7 +214,7 @@ fn shipped(name: &str) -> Scene {
     let mut scene = resolve(&scene.load().expect("a scene file"))
         .expect("a scene")
         .scene;
-    // Drawing order is the order of the scene.
+    // Keep the drawing order of the scene.
     scene.hidden_surfaces = HiddenSurfaces::default();
     scene
 }
@@ -225,12 +226,12 @@ fn corners(frame: &Frame, polygon: usize) -> Vec<PlainCorner> {
         .collect()
 }
 
-/// Places, weights, normals and numbers are those of each polygon on its own, to the bit; and pieces of those that are cut
-/// stand where these stood.
+/// Frames equal a polygon-by-polygon projection bit by bit: coordinates, weights, normals and
+/// numbers. Pieces of clipped polygons keep the place of the whole.
 #[test]
-fn frames_are_what_polygon_by_polygon_gives() {
+fn frames_equal_plain_projection() {
     let mut cut = 0;
-    // The million is the sphere of the others.
+    // The scene `million` has the sphere of the others.
     for scene in SCENES.iter().filter(|scene| scene.name != "million") {
         for (number, variant) in variants(&shipped(scene.name)).iter().enumerate() {
             let name = alloc::format!("{}, variant {number}", scene.name);
@@ -269,7 +270,7 @@ fn frames_are_what_polygon_by_polygon_gives() {
     assert!(cut > 1000, "the test asks little: {cut} polygons cut");
 }
 
-/// Everything that anyone can ask a frame.
+/// Asserts that two frames agree in everything that can be read from them.
 fn assert_same(a: &Frame, b: &Frame, name: &str) {
     assert_eq!(
         (a.width(), a.height(), a.stats(), a.eye()),
@@ -294,9 +295,9 @@ fn assert_same(a: &Frame, b: &Frame, name: &str) {
     }
 }
 
-/// One frame's memory serves camera after camera, scene after scene; and soon no more of it is asked for.
+/// A frame reused for other cameras and scenes equals a new one, and soon allocates no more memory.
 #[test]
-fn a_frame_used_again_is_as_good_as_a_new_one() {
+fn a_reused_frame_equals_a_new_one() {
     let mut frame = Frame::empty(1, 1);
     for name in [
         "teapot",
@@ -339,7 +340,7 @@ fn a_frame_used_again_is_as_good_as_a_new_one() {
     }
 }
 
-/// Under the painter's algorithm polygons are sorted anew each time.
+/// The painter sorts a reused frame again.
 #[test]
 fn a_frame_used_again_is_sorted_again() {
     let mut scene = shipped("mirrored");
@@ -408,9 +409,10 @@ fn a_camera_that_sees_nothing_leaves_an_empty_frame() {
     assert_eq!((frame.width(), frame.light_count()), (10, 0));
 }
 
-/// The sides by which whole and cut polygons are lit are those from which they are seen: sign of an area, sign of a volume.
+/// Both tests of the visible side agree: the sign of the screen area for whole polygons, the sign
+/// of a volume for clipped ones.
 #[test]
-fn both_ways_to_tell_the_side_agree() {
+fn both_tests_of_the_side_agree() {
     let scene = shipped("teapot");
     let view = View::new(&scene).expect("a camera");
     let mesh = &scene.objects[0].mesh;

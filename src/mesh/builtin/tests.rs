@@ -1,4 +1,5 @@
-//! Every shape in the table, at several resolutions; parameters that are wrong; the number of polygons asked for.
+//! Every built-in shape at several resolutions, wrong parameters, and requested numbers of
+//! polygons.
 
 use super::*;
 use crate::mesh::newell::{polygon_normal, unit_normal};
@@ -9,7 +10,7 @@ use alloc::string::String;
 use alloc::vec;
 use glam::{DVec3, Vec3};
 
-/// Shapes without an open edge.
+/// Shapes without open edges.
 const CLOSED: [&str; 8] = [
     "sphere",
     "bumpy",
@@ -20,9 +21,9 @@ const CLOSED: [&str; 8] = [
     "prism",
     "gear",
 ];
-/// Shapes that are seen whole from their middle.
+/// Shapes that are entirely visible from their middle.
 const STAR_CONVEX: [&str; 4] = ["sphere", "bumpy", "superellipsoid", "cube"];
-/// Shapes with a curved surface whose normals are by formula.
+/// Shapes with a curved surface and normals by formula.
 const SMOOTH: [&str; 8] = [
     "sphere",
     "bumpy",
@@ -38,7 +39,7 @@ fn make(spec: &str) -> PolygonMesh {
     builtin(spec).unwrap_or_else(|error| panic!("{spec}: {error}"))
 }
 
-/// Each shape by default, and the others coarse, fine, and triangulated where that is a choice.
+/// Returns each shape by default, coarse, fine, and triangulated if it has the choice.
 fn specs() -> Vec<(&'static Builtin, String)> {
     let mut specs = Vec::new();
     for shape in BUILTINS {
@@ -114,7 +115,8 @@ fn closed_shapes_face_outward() {
     {
         let mesh = make(spec);
         let at = |c: u32| mesh.positions()[c as usize].as_dvec3();
-        // Six times the volume by the divergence theorem, each polygon as a cone from the origin.
+        // Six times the volume by the divergence theorem, with each polygon as a cone from the
+        // origin.
         let normal = |p: usize| polygon_normal(&mesh, p);
         let volume: f64 = (0..mesh.polygon_count())
             .map(|p| at(mesh.polygon(p)[0]).dot(normal(p)))
@@ -137,7 +139,8 @@ fn every_polygon_has_a_normal_and_the_given_ones_are_on_its_side() {
         let mesh = make(&spec);
         let normals = vertex_normals(&mesh, NormalSource::Given);
         if let Some(given) = mesh.given_normals() {
-            // Each coordinate is rounded by at most 2^-25 for numbers up to 1: the length by √3 · 2^-25 < 1e-6.
+            // Each coordinate is rounded by at most 2^-25 for numbers up to 1, the length by
+            // √3 · 2^-25 < 1e-6.
             assert!(
                 given
                     .values
@@ -149,11 +152,12 @@ fn every_polygon_has_a_normal_and_the_given_ones_are_on_its_side() {
         for p in 0..mesh.polygon_count() {
             let normal = unit_normal(polygon_normal(&mesh, p))
                 .unwrap_or_else(|| panic!("{spec}: polygon {p}"));
-            // Coarse meshes of curved shapes may well turn by a right angle over one polygon.
+            // Coarse meshes of curved shapes may turn by a right angle over one polygon.
             if !SMOOTH.contains(&shape.name) && shape.name != "figure5" {
                 for k in mesh.corner_range(p) {
                     let given = normals.values[normals.corners[k] as usize].as_dvec3();
-                    // Both are rounded to f32 at least once: 2^-24 a coordinate, squared in the cosine.
+                    // Both are rounded to f32 at least once: 2^-24 per coordinate, squared in the
+                    // cosine.
                     assert!(
                         given.dot(normal) > 1.0 - 1e-6,
                         "{spec}: polygon {p}: {given} {normal}"
@@ -166,12 +170,13 @@ fn every_polygon_has_a_normal_and_the_given_ones_are_on_its_side() {
 
 #[test]
 fn given_normals_are_those_of_the_surface() {
-    // The polygon's normal is the mean of the surface's normals over it, up to the square of its size; so it lies among
-    // those at its corners. At this resolution, it is no farther from any than the largest difference between two
-    // corners of one polygon, which is about twice what a right normal has: a wrong one has nothing to do with it.
-    // And along an edge the normals at its ends lean to opposite sides by the same angle, up to the square of their own.
+    // A polygon's normal is the mean of the surface's normals over it, up to the square of its
+    // size. So it lies among those at its corners. At this resolution it is no farther from any
+    // than the largest difference between two corners of one polygon. This is about twice the
+    // distance of a correct normal, and unrelated to a wrong one. Along an edge the normals at its
+    // ends lean to opposite sides by equal angles, up to the square of these.
     for name in SMOOTH {
-        // The smallest of the terrain's hills are as small as its cells: only the largest can be asked.
+        // The terrain's smallest hills are as small as its cells, so only the largest are tested.
         let octaves = if name == "terrain" { "&octaves=1" } else { "" };
         let mesh = make(&format!("{name}?polygons=60000{octaves}"));
         let normals = vertex_normals(&mesh, NormalSource::Given);
@@ -196,7 +201,7 @@ fn given_normals_are_those_of_the_surface() {
         }
         assert!(off <= spread, "{name}: {off} {spread}");
         assert!(lean <= spread * spread, "{name}: {lean} {spread}");
-        // The most curved is the lip of the teapot's spout.
+        // The lip of the teapot's spout is the most curved.
         assert!(
             spread < 0.6,
             "{name}: too coarse for the question, {spread}"
@@ -206,9 +211,10 @@ fn given_normals_are_those_of_the_surface() {
 
 #[test]
 fn averaged_normals_of_a_sphere_are_close_to_its_own() {
-    // With steps of δ in both directions, a quad in latitude φ has a normal of latitude atan(cos(δ/2) tan φ): off by at
-    // most δ²/16. The mean of two that stand δ apart in longitude again; those north and south of a vertex are off by as
-    // much: δ²/8 in all, up to fourth powers of δ. At the poles the mean is exact by symmetry.
+    // With steps of δ in both directions, a quad in latitude φ has a normal of latitude
+    // atan(cos(δ/2) tan φ): off by at most δ²/16. The mean of two that are δ apart in longitude
+    // adds as much, and so do those north and south of a vertex: δ²/8 in all, up to fourth powers
+    // of δ. At the poles the mean is exact by symmetry.
     let rings = 32;
     let mesh = make(&format!("sphere?rings={rings}&segments={}", 2 * rings));
     let averaged = vertex_normals(&mesh, NormalSource::Averaged);
@@ -232,7 +238,8 @@ fn averaged_normals_of_a_sphere_are_close_to_its_own() {
 
 #[test]
 fn sizes_are_right() {
-    // The volume of the sphere, from below: each direction loses at most δ²/8 · 2 of it.
+    // The volume of the sphere is approached from below: each direction loses at most δ²/8 · 2 of
+    // it.
     let volume = |spec: &str| {
         let mesh = make(spec);
         let cone = |p: usize| {
@@ -255,7 +262,7 @@ fn sizes_are_right() {
             "{spec}: {found} {exact}"
         );
     }
-    // Coordinates in eighths: exact.
+    // Coordinates in eighths are exact.
     assert_eq!(volume("cube?res=8"), 8.0);
     let area = |spec: &str| {
         let mesh = make(spec);
@@ -263,7 +270,8 @@ fn sizes_are_right() {
             .map(|p| polygon_normal(&mesh, p).z / 2.0)
             .sum::<f64>()
     };
-    // In squares of 0.1 × 0.1: S 11, H 11, I 9, N 14 and E 11; rounding to f32 is far below 1e-6 of them.
+    // In squares of 0.1 × 0.1: S 11, H 11, I 9, N 14 and E 11. Rounding to f32 is far below 1e-6 of
+    // them.
     let squares = 11.0 + 11.0 + 9.0 + 14.0 + 11.0;
     assert!(
         (area("letters") - squares / 100.0).abs() < 1e-6,
@@ -271,13 +279,14 @@ fn sizes_are_right() {
         area("letters") * 100.0
     );
     assert!((area("polygon?sides=4") - 2.0).abs() < 1e-6);
-    // A comb of 8 teeth: 15 · 1 + 8 · 3 of 15 · 4 cells, on a rectangle of 2 × 1.
+    // A comb of 8 teeth fills 15 · 1 + 8 · 3 of 15 · 4 cells, on a rectangle of 2 × 1.
     assert!((area("comb") - 2.0 * 39.0 / 60.0).abs() < 1e-6);
 }
 
 #[test]
 fn a_knot_closes_without_a_jump() {
-    // Along the tube each line of positions goes on smoothly over the seam: no step is over twice the mean step.
+    // Each line of positions along the tube continues smoothly over the seam: no step is over twice
+    // the mean step.
     let (segments, sides) = (600, 12);
     let mesh = make(&format!("knot?segments={segments}&sides={sides}"));
     for side in 0..sides {
@@ -297,7 +306,7 @@ fn the_square_of_figure_5() {
         upright.given_normals().map(|n| n.values.clone()),
         Some(corner_normals.to_vec())
     );
-    // Every scan line of the upper half runs between white edges.
+    // Every scanline of the upper half runs between white edges.
     let white: Vec<f32> = (0..4)
         .filter(|&k| corner_normals[k] == Vec3::Z)
         .map(|k| upright.positions()[k].y)
@@ -310,7 +319,7 @@ fn the_square_of_figure_5() {
         "the black corner is at the right"
     );
     assert_eq!(turned.given_normals().map(|n| n.values[2]), Some(Vec3::X));
-    // Turned all the way round, and by an angle that is no whole number.
+    // Turn by a full circle, and by an angle that is not a whole number.
     assert_eq!(make("figure5?angle=360").positions(), upright.positions());
     let near = make("figure5?angle=89.9999999");
     assert!(
@@ -329,15 +338,16 @@ fn the_teapot() {
     for point in 0..290 {
         assert!(PATCHES.as_flattened().contains(&point));
     }
-    // The body is symmetric to both vertical planes, and the whole teapot to the one through spout and handle.
+    // The body is symmetric to both vertical planes, the whole teapot to the one through spout and
+    // handle.
     for point in POINTS {
         let mirrored = [point[0], -point[1], point[2]];
         assert!(POINTS.contains(&mirrored), "{point:?}");
     }
     let mesh = make("teapot?res=6");
-    // Handle and spout, two patches around: the normals point away from the middle of each ring.
+    // Handle and spout are two patches around: the normals point away from the middle of each ring.
     let patch = |k: usize| k * 36..(k + 1) * 36;
-    // But at the spout's tip, the last rows, they turn up and inward around its lip.
+    // At the spout's tip, the last rows, they turn up and inward around its lip.
     for (first, rows) in [(12, 6), (14, 6), (16, 6), (18, 3)] {
         for row in 0..rows {
             let ring: Vec<usize> = [first, first + 1]
@@ -361,12 +371,13 @@ fn the_teapot() {
             }
         }
     }
-    // Top of the knob up, middle of the bottom down, the body's belly away from the axis.
+    // Normals point up at the top of the knob, down in the middle of the bottom, and away from the
+    // axis at the belly.
     assert!(polygon_normal(&mesh, patch(20).start).y > 0.0);
     assert!(polygon_normal(&mesh, patch(28).start).y < 0.0);
     let belly = mesh.positions()[mesh.polygon(patch(4).end - 1)[0] as usize].as_dvec3();
     assert!(polygon_normal(&mesh, patch(4).end - 1).dot(belly * DVec3::new(1.0, 0.0, 1.0)) > 0.0);
-    // Only rim, lid, spout and both ends of the handle are open; patches share all other edges.
+    // Only rim, lid, spout and both ends of the handle are open. Patches share all other edges.
     let edges = edges(&mesh);
     let open = edges
         .keys()
@@ -385,8 +396,9 @@ fn the_number_of_polygons_asked_for_is_nearly_made() {
             for triangles in [false, true] {
                 let spec = format!("{}?polygons={target}&triangles={triangles}", shape.name);
                 let found = parse(&spec).expect("a spec").polygon_count();
-                // One resolution n gives c n² polygons, so that the nearest is off by at most c n = √(c · target), and c
-                // is at most 64; with rows and columns, a row of columns can be left out or added: half of √(16 target).
+                // One resolution n gives c n² polygons, so the nearest is off by at most c
+                // n = √(c · target), and c is at most 64. With rows and columns a row or a column
+                // can be left out or added: half of √(16 target).
                 let most = match shape.resolution {
                     Some(Resolution { columns: None, .. }) => libm::sqrt(64.0 * target as f64),
                     _ => 0.5 * libm::sqrt(16.0 * target as f64),
@@ -395,7 +407,7 @@ fn the_number_of_polygons_asked_for_is_nearly_made() {
             }
         }
     }
-    // 223 or 224 rings alone would miss by 96: other ratios are tried too.
+    // 223 or 224 rings alone would miss by 96, so other ratios are tried too.
     assert!(
         parse("sphere?polygons=100_000")
             .expect("a spec")
@@ -429,7 +441,7 @@ fn the_table_is_sound() {
                 shape.name,
                 parameter.name
             );
-            // The written default is read as the default.
+            // The default as text is parsed as the default.
             let text = match parameter.kind {
                 ParameterKind::Bool => (parameter.default != 0.0).to_string(),
                 _ => parameter.default.to_string(),

@@ -1,4 +1,4 @@
-//! Blocks against plain `f32`, pixel by pixel, on every instruction set of this machine.
+//! Compares blocks with plain `f32`, pixel by pixel, on every instruction set of this machine.
 
 use super::*;
 use crate::number::lanes::{Int, Lanes};
@@ -24,7 +24,7 @@ macro_rules! on_each_level {
 }
 pub(crate) use on_each_level;
 
-/// Returns an operation on columns of numbers, a block at a time.
+/// Applies an operation to columns of numbers, block by block.
 fn blocks<S: Token, F: Block<S>>(
     columns: [&[f32]; 3],
     operation: impl Fn(F, F, F) -> F,
@@ -42,7 +42,7 @@ fn blocks<S: Token, F: Block<S>>(
     out
 }
 
-/// Numbers of every kind, and random ones: every pair of them, in whole blocks.
+/// Returns every pair of special and random numbers, in whole blocks.
 fn pairs() -> [Vec<f32>; 3] {
     let mut numbers = vec![
         0.0,
@@ -74,7 +74,7 @@ fn same(found: f32, expected: f32) -> bool {
     found == expected || (found.is_nan() && expected.is_nan())
 }
 
-/// Compares an operation on blocks with the same text on plain numbers.
+/// Compares an operation on blocks with the same operation on plain numbers.
 macro_rules! compare {
     ($s:ident, $f:ident, |$a:ident, $b:ident, $c:ident| $operation:expr) => {
         compare!($s, $f, |$a, $b, $c| $operation, |_: [f32; 3], _: f32| false)
@@ -115,7 +115,7 @@ fn operations_of<S: Token, F: Block<S>>() {
     compare!(S, F, |a, b, c| Num::max(a, -0.75));
     compare!(S, F, |a, b, c| Num::gate(a, b, 0.0));
     compare!(S, F, |a, b, c| Num::gate(a, b, 0.5));
-    // Rounded once or twice.
+    // The result may be rounded once or twice.
     let add = |[a, b, c]: [f32; 3], found| same(found, f32::mul_add(a, b, c));
     compare!(S, F, |a, b, c| MulAdd::mul_add(a, b, c), add);
 }
@@ -155,7 +155,7 @@ fn any_over<S: Token, F: Block<S>>() {
 }
 
 #[test]
-fn a_block_is_over_what_any_of_it_is_over() {
+fn any_over_holds_if_one_lane_is_over() {
     fn of<S: Token>() {
         any_over::<S, f32x8<S>>();
         any_over::<S, f32x16<S>>();
@@ -163,9 +163,10 @@ fn a_block_is_over_what_any_of_it_is_over() {
     on_each_level!(of);
 }
 
-/// Over the whole range of exponents: with the estimate off by e = 1.5 · 2⁻¹² at most, Newton's step leaves 1.5 e²; the
-/// products y/2 x y and their difference from 3/2, which is 1, and the last product are rounded four times by 2⁻²⁴ of 1 at
-/// most, two of them halved. Without an estimate a root and a quotient are rounded.
+/// Inverse roots are off by less than 2⁻²¹ over the whole range of exponents. With an estimate off
+/// by e = 1.5 · 2⁻¹² at most, Newton's step leaves 1.5 e². The products y/2 x y, their difference
+/// from 3/2, which is 1, and the last product have four roundings of at most 2⁻²⁴ of 1, two of them
+/// halved. Without an estimate a root and a quotient are rounded.
 #[test]
 fn inverse_roots_are_off_by_less_than_two_to_the_minus_21() {
     fn of<S: Token>() {
@@ -198,7 +199,8 @@ fn inverse_roots_are_off_by_less_than_two_to_the_minus_21() {
     on_each_level!(of);
 }
 
-/// Numbers of 0..=1 that are 0 or normal: near 0, near 1, on both sides of where the logarithm is cut, and in between.
+/// Returns numbers in 0..=1 that are 0 or normal: near 0, near 1, on both sides of the logarithm's
+/// cut, and in between.
 fn bases() -> Vec<f32> {
     let cut = core::f32::consts::FRAC_1_SQRT_2;
     let mut all = vec![0.0, f32::MIN_POSITIVE, 1e-30, 1.0, 1.0f32.next_down(), 0.5];
@@ -228,7 +230,7 @@ fn powers_are_as_near_as_the_documentation_says() {
                 let reduced = f64::min(logarithm, 0.5 * n);
                 let share = (0.7 * (logarithm + 3.0 * reduced) + 2.0) * f64::powi(2.0, -23);
                 let error = (f64::from(power) - truth).abs();
-                // Below the normal numbers there is nothing to be near to.
+                // Below the normal numbers only an absolute bound holds.
                 let bound = truth * share + f64::powi(2.0, -126);
                 assert!(error <= bound, "{x:e}^{n}: {power:e}, {truth:e}");
             }
@@ -245,7 +247,8 @@ fn powers_are_as_near_as_the_documentation_says() {
 
 const BACKGROUND: [u8; 4] = [10, 200, 255, 0];
 
-/// Every level, both borders and their neighbours, levels outside of 0..=255 and no numbers, in each channel.
+/// Packs every level, both limits and their neighbours, levels outside 0..=255 and NaN, in each
+/// channel.
 fn packing<S: Token, F: Block<S>>() {
     let mut levels = vec![
         f32::NAN,
@@ -299,7 +302,7 @@ fn packing<S: Token, F: Block<S>>() {
         [[1, 2, 3, 4]; 5],
         "nothing behind the blocks is stored"
     );
-    // NaN becomes 0 as it is converted.
+    // The conversion turns NaN into 0.
     let byte = |level: f32| level.clamp(0.0, 255.0).round_ties_even() as u8;
     for i in 0..count {
         let [r, g, b] = channels.each_ref().map(|channel| byte(channel[i]));

@@ -6,7 +6,7 @@ use std::vec;
 use super::*;
 use crate::compare::metrics::compare;
 
-/// A picture with every byte value, and uncovered pixels.
+/// Returns a picture with every byte value, and with uncovered pixels.
 fn stored() -> Picture8 {
     let pixel = |i: usize| {
         [
@@ -19,7 +19,7 @@ fn stored() -> Picture8 {
     Picture8::from_pixels(32, 8, (0..256).map(pixel).collect()).unwrap()
 }
 
-/// A picture with values that need all bits of a float.
+/// Returns a picture with values that need all bits of a float.
 fn linear() -> LinearPicture {
     let pixel = |i: usize| {
         [
@@ -68,7 +68,7 @@ fn the_ending_names_the_format() {
 }
 
 #[test]
-fn every_format_gives_back_what_it_holds() {
+fn every_format_reads_back_its_pictures() {
     let back = decode_picture(&encode_png(&stored()).unwrap()).unwrap();
     assert_eq!(
         back,
@@ -96,7 +96,7 @@ fn every_format_gives_back_what_it_holds() {
 }
 
 #[test]
-fn the_bytes_are_those_of_the_formats() {
+fn bytes_follow_the_formats() {
     let picture = Picture8::from_pixels(1, 2, vec![[1, 2, 3, 255], [4, 5, 6, 0]]).unwrap();
     assert_eq!(
         encode_ppm(&picture).unwrap(),
@@ -108,12 +108,13 @@ fn the_bytes_are_those_of_the_formats() {
     let bytes = encode_pfm(&picture).unwrap();
     let (head, samples) = bytes.split_at(b"PF\n1 2\n-1.0\n".len());
     assert_eq!(head, b"PF\n1 2\n-1.0\n");
-    // Bottom row first; 1.0 is 3f800000, 0.5 is 3f000000, −2.0 is c0000000, the last byte first.
+    // The bottom row comes first. 1.0 is 3f800000, 0.5 is 3f000000, −2.0 is c0000000, each with its
+    // last byte first.
     assert_eq!(samples[..4], [0, 0, 0, 0xc0]);
     assert_eq!(samples[12..20], [0, 0, 0x80, 0x3f, 0, 0, 0, 0x3f]);
 }
 
-/// Sizes about the ends of what is converted and written at a time.
+/// Sizes around the ends of the chunks that are converted and written.
 const SIZES: [[usize; 2]; 8] = [
     [1, 1],
     [3, 1],
@@ -145,7 +146,7 @@ fn large_pictures_are_written_as_small_ones() {
             "{width}x{height}"
         );
 
-        // In parts that end anywhere.
+        // Parts may end anywhere.
         let mut bytes = Vec::new();
         let mut file = PpmWriter::new(&mut bytes, width, height).unwrap();
         for pixels in picture.pixels().chunks(1 + width * height / 7) {
@@ -174,7 +175,7 @@ fn large_pictures_are_written_as_small_ones() {
     }
 }
 
-/// Something that notes how many bytes it is given at a time.
+/// A writer that records how many bytes it receives at a time.
 #[derive(Default)]
 struct Sizes(Vec<usize>);
 
@@ -230,7 +231,7 @@ fn a_file_has_as_many_pixels_as_its_header_says() {
 }
 
 #[test]
-fn pictures_are_converted_to_what_a_format_holds() {
+fn pictures_are_converted_to_the_format() {
     let shades =
         LinearPicture::from_pixels(2, 1, vec![[0.5, 2.0, f32::NAN, 1.0], [0.0, 0.25, 1.0, 0.0]])
             .unwrap();
@@ -318,7 +319,8 @@ fn a_changed_byte_never_panics() {
             }
         }
     }
-    // Inside the compressed pixels the check sum sees it. Signature 8, IHDR 25, then length and type of IDAT.
+    // The checksum detects changes inside the compressed pixels. Signature 8, IHDR 25, then length
+    // and type of IDAT.
     let mut bytes = encode_png(&stored()).unwrap();
     bytes[8 + 25 + 8 + 20] ^= 1;
     assert!(message(&bytes).starts_with("broken PNG file: "));
@@ -354,7 +356,8 @@ fn png_files_of_all_colour_types_are_read() {
         (pixels(&colour), colour.has_alpha),
         (vec![[1, 2, 3, 255], [4, 5, 6, 255]], false)
     );
-    // 16 bits, most significant byte first in the file, in the machine's order here: 257 k is k, and 0x017f = 383 is 1.49 levels.
+    // 16 bits are most significant byte first in the file and in native order here. 257 k is k, and
+    // 0x017f = 383 is 1.49 levels.
     let deep: Vec<u8> = [257u16, 514, 65_535, 0, 383, 257]
         .iter()
         .flat_map(|sample| sample.to_ne_bytes())
@@ -365,7 +368,8 @@ fn png_files_of_all_colour_types_are_read() {
     );
 }
 
-/// A palette of two colours, one bit a pixel: written by hand, as the encoder has no palettes.
+/// Palettes are looked up. This one has two colours, one bit per pixel, and is written by hand
+/// because the encoder has none.
 #[test]
 fn png_palettes_are_looked_up() {
     let chunk = |kind: &[u8; 4], data: &[u8]| {
@@ -374,7 +378,7 @@ fn png_palettes_are_looked_up() {
         bytes.extend(crc(&bytes[4..]).to_be_bytes());
         bytes
     };
-    // zlib, one stored block of two bytes: filter 0, pixels 1 0; then Adler-32 of 00 80.
+    // zlib, one stored block of two bytes: filter 0, pixels 1 0. Then Adler-32 of 00 80.
     let pixels = [
         0x78, 0x01, 0x01, 2, 0, 0xfd, 0xff, 0x00, 0x80, 0x00, 0x82, 0x00, 0x81,
     ];
@@ -392,7 +396,7 @@ fn png_palettes_are_looked_up() {
         [[40, 50, 60, 255], [10, 20, 30, 255]]
     );
 
-    // A header with 100,000 pixels a side must be refused before anything is allocated.
+    // A header with 100,000 pixels per side must be rejected before anything is allocated.
     let huge = [
         png::SIGNATURE.to_vec(),
         chunk(
@@ -409,7 +413,7 @@ fn png_palettes_are_looked_up() {
     );
 }
 
-/// CRC-32 as in ISO/IEC 15948, annex D.
+/// Computes CRC-32 as in ISO/IEC 15948, annex D.
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| {
@@ -431,7 +435,7 @@ fn ppm_files_of_others_are_read() {
         "samples may look like space"
     );
     assert_eq!(pixels(b"P6 1 1 1 \x00\x01\x01"), [[0, 255, 255, 255]]);
-    // 7/15 of 255 is 119; in 16 bits, 32768/65535 of 255 is 127.502.
+    // 7/15 of 255 is 119. In 16 bits, 32768/65535 of 255 is 127.502.
     assert_eq!(pixels(b"P6 1 1 15 \x00\x07\x0f"), [[0, 119, 255, 255]]);
     assert_eq!(
         pixels(b"P6 1 1 65535 \x00\x00\x80\x00\xff\xff"),

@@ -1,4 +1,5 @@
-//! The lists of bands against the definition: what covers a pixel, and whose bounding box holds one.
+//! Compares the lists of bands with the definition: covered pixels, and bounding boxes that hold a
+//! pixel centre.
 
 use super::*;
 use crate::frame::{FrameBuilder, SubPixel, Vertex};
@@ -10,7 +11,7 @@ use core::ops::Range;
 use glam::DVec3;
 use std::collections::BTreeSet;
 
-/// `polygons` polygons of three to six corners, in and out of the picture, of which many cover no pixel.
+/// Builds a frame of polygons with three to six corners, in and out of the picture. Many cover no pixel.
 fn frame(random: &mut Random, polygons: usize, width: usize, height: usize) -> Frame {
     let mut builder = FrameBuilder::new(width as u32, height as u32);
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
@@ -74,9 +75,10 @@ fn a_band_has_every_polygon_that_covers_any_of_its_pixels_in_order() {
     }
 }
 
-/// Also in groups that follow one of other shapes, and in a list with all chunks.
+/// Triangles are distinguished from other polygons, also in groups after one with other shapes, and
+/// in a list with all chunks.
 #[test]
-fn triangles_are_told_from_polygons_of_other_shapes() {
+fn triangles_are_distinguished_from_other_polygons() {
     for count in [1, 64, CHUNK + 65] {
         for other in [None, Some(0), Some(count / 2), Some(count - 1)] {
             for corners in [4, 5] {
@@ -132,9 +134,10 @@ fn triangles_are_listed_with_their_corners() {
     assert!(triangles > 50, "{triangles}");
 }
 
-/// Also over several chunks, and where corner lists are not those of the scene: as those of pieces.
+/// A polygon is listed in the bands of its bounding box, also over several chunks and in frames of
+/// pieces, which have their own corner lists.
 #[test]
-fn the_bands_of_a_polygon_are_those_of_its_bounding_box() {
+fn polygons_are_listed_in_the_bands_of_their_bounds() {
     let mut random = Random::new(32);
     for (count, rows) in [
         (1, 16),
@@ -168,8 +171,8 @@ fn the_bands_of_a_polygon_are_those_of_its_bounding_box() {
     }
 }
 
-/// True if the bounding box of a polygon holds the centre of a pixel of the scanlines `rows`, from left and top on, up to
-/// but not including right and bottom.
+/// True if the bounding box of a polygon holds a pixel centre in the scanlines `rows`. It includes
+/// left and top and excludes right and bottom.
 fn has_centre(frame: &Frame, number: u32, rows: Range<usize>) -> bool {
     let corners = frame.corners(&frame.polygons()[number as usize]);
     let all = |of: fn(&ScreenVertex) -> SubPixel| {

@@ -1,4 +1,4 @@
-//! The three coverage paths against each other, and against the spans of the lecture.
+//! Compares the three coverage paths with each other and with the span engine.
 
 use super::triangles::{BATCH, SMALL_HEIGHT, SMALL_WIDTH};
 use super::*;
@@ -12,7 +12,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// A frame of triangles given by the bits of their corners.
+/// Builds a frame of triangles with corners in sub-pixels.
 fn frame(width: usize, height: usize, triangles: &[[[i32; 2]; 3]]) -> Frame {
     let mut builder = FrameBuilder::new(width as u32, height as u32);
     let material = builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
@@ -33,7 +33,8 @@ fn frame(width: usize, height: usize, triangles: &[[[i32; 2]; 3]]) -> Frame {
     builder.finish().expect("corners inside the guard band")
 }
 
-/// Triangles of all sizes, in and out of the picture, on a grid of half-pixels in one case of two, where centres lie on edges.
+/// Returns triangles of all sizes, in and out of the picture. Half of them lie on a grid of
+/// half-pixels, where edges hit pixel centres.
 fn soup(random: &mut Random, width: usize, height: usize) -> Vec<[[i32; 2]; 3]> {
     let reaches = [3, 20, SMALL_WIDTH, SMALL_HEIGHT, 200, 20_000];
     let mut triangle = |_| {
@@ -48,10 +49,10 @@ fn soup(random: &mut Random, width: usize, height: usize) -> Vec<[[i32; 2]; 3]> 
     (0..150).map(&mut triangle).collect()
 }
 
-/// A pixel: row and column; and the barycentric coordinates of the second and the third corner there.
+/// A pixel (row and column), with the barycentric coordinates of the second and third corner.
 type Pixel = ((usize, usize), [f32; 2]);
 
-/// Returns the pixels that `draw` draws into an empty tile.
+/// Returns the pixels that `draw` writes into an empty tile.
 fn drawn<S: Token>(
     simd: S,
     (width, rows, test): (usize, &Range<usize>, SampleDepth),
@@ -69,7 +70,7 @@ fn drawn<S: Token>(
             for k in (0..BLOCK).filter(|k| numbers[*k] != f32::INFINITY) {
                 let x = block * BLOCK + k;
                 assert_eq!(numbers[k], 0.5, "the depth");
-                // Pixels beyond the picture are drawn and never shown.
+                // Pixels beyond the picture are drawn but never shown.
                 if x < width {
                     found.push(((row, x), [numbers[BLOCK + k], numbers[2 * BLOCK + k]]));
                 }
@@ -79,7 +80,8 @@ fn drawn<S: Token>(
     found
 }
 
-/// Inside, coordinates are in 0..=1, but for what [`SmallTriangle`] derives: 3600 · 2⁻²⁴.
+/// Asserts that coordinates are in 0..=1, up to the error that [`SmallTriangle`] derives:
+/// 3600 · 2⁻²⁴.
 #[track_caller]
 fn assert_weights(pixels: &[Pixel]) {
     let out = 3600.0 / (1 << 24) as f32;
@@ -93,7 +95,7 @@ fn places(pixels: &[Pixel]) -> Vec<(usize, usize)> {
     pixels.iter().map(|(place, _)| *place).collect()
 }
 
-/// Returns how many pixels were found by each path.
+/// Checks every coverage path and returns the number of pixels found by each.
 fn check<S: Token>(
     frame: &Frame,
     rows: Range<usize>,
@@ -120,7 +122,7 @@ fn check<S: Token>(
             ..
         } = &mut scratch;
         for k in 0..BATCH {
-            // Depth, and the coordinates themselves.
+            // The varyings are depth and the coordinates themselves.
             batch.planes.0[k] = [[0.0; triangles::LINE]; 3];
             (
                 batch.planes.0[k][0][0],
@@ -176,7 +178,7 @@ fn check<S: Token>(
 }
 
 #[test]
-fn tiles_cover_what_spans_do() {
+fn tiles_cover_the_pixels_of_spans() {
     fn of<S: Token>() {
         let mut random = Random::new(23);
         let mut counts = [0; 4];

@@ -1,11 +1,12 @@
-//! Every recurrence against its closed form: one pixel at a time, and in blocks by the walk kernels of methods.
+//! Compares every recurrence with its closed form: pixel by pixel, and in blocks by the methods'
+//! walk kernels.
 
 use super::*;
 use crate::number::test_random::Random;
 use crate::number::{Vec3, vec3};
 use std::vec::Vec;
 
-/// Half a unit in the last place of a number near 1.
+/// Half a unit in the last place of numbers near 1.
 const HALF_ULP: f64 = 1.0 / (1u64 << 24) as f64;
 
 fn values<T: Into<f64>>(mut walk: impl Walk<f32, Pixel = T>, count: usize) -> Vec<f64> {
@@ -33,7 +34,7 @@ fn linear_follows_the_line() {
     }
 }
 
-/// A vector along a span: where it starts, and its step a pixel.
+/// A vector along a span: its start and its step per pixel.
 type Line = (Vec3<f32>, Vec3<f32>);
 
 /// Returns the line from `a` to `b` over `pixels` steps.
@@ -51,7 +52,7 @@ fn at((from, step): Line, k: usize) -> [f64; 3] {
     core::array::from_fn(|i| f64::from(from[i]) + k as f64 * f64::from(step[i]))
 }
 
-/// The values of the dot product of `a` and `b` with what they should be, and what they may be off by.
+/// Returns the stepped dot products of `a` and `b`, each with its true value and its error bound.
 fn products(a: Line, b: Line, pixels: usize) -> Vec<(f64, f64, f64)> {
     let length = |v: Vec3<f32>| dot([v.array().map(f64::from); 2]).sqrt();
     let truth: Vec<f64> = (0..=pixels).map(|k| dot([at(a, k), at(b, k)])).collect();
@@ -61,9 +62,10 @@ fn products(a: Line, b: Line, pixels: usize) -> Vec<(f64, f64, f64)> {
     let most_step = largest(&mut truth.windows(2).map(|pair| pair[1] - pair[0]));
     let cross = length(a.0) * length(b.1) + length(a.1) * length(b.0);
     let second = 2.0 * length(a.1) * length(b.1);
-    // In half units: a dot product of three terms has three roundings of at most the product of the lengths, the first
-    // difference is two of them and at most three operations more, the second difference one. Each step then rounds the
-    // difference once and Q once, and Q gathers what its differences are off by.
+    // In half units: a dot product of three terms has three roundings of at most the product of the
+    // lengths. The first difference is two of them and at most three more operations, the second
+    // difference is one. Each step then rounds the difference once and Q once, and Q accumulates
+    // the errors of its differences.
     let bound = |k: f64| {
         let starts = 4.0 * length(a.0) * length(b.0) + 8.0 * k * cross + k * k / 2.0 * 8.0 * second;
         HALF_ULP * (starts + (k + 2.0) * most + k * k / 2.0 * most_step)
@@ -75,7 +77,8 @@ fn products(a: Line, b: Line, pixels: usize) -> Vec<(f64, f64, f64)> {
         .collect()
 }
 
-/// Dot products of vectors that grow linearly, by additions only: normals, vectors to lights, both, over 1024 pixels.
+/// Quadratics step dot products of linear vectors by additions only: normals, light vectors and
+/// both, over 1024 pixels.
 #[test]
 fn quadratic_follows_the_parabola() {
     const PIXELS: usize = 1024;
@@ -83,7 +86,7 @@ fn quadratic_follows_the_parabola() {
     let mut tightest = 0.0f64;
     for i in 0..100 {
         let mut vector = |length: f32| vec3(random.unit()) * length;
-        // Normals of length 1, vectors to a light some ten times as long, and one that stays as it is.
+        // Normals of length 1, light vectors some ten times as long, and a constant vector.
         let n = line(vector(1.0), vector(1.0), PIXELS);
         let l = line(vector(10.0), vector(13.0), PIXELS);
         let still = (vector(1.0), vec3([0.0; 3]));
@@ -104,16 +107,17 @@ fn quadratic_follows_the_parabola() {
     );
 }
 
-/// The drift of [`Quadratic`] is as documented: at most 3 k 2⁻²⁴ of its largest value, on normals that turn
-/// by up to 150 degrees, beside the roundings of its start.
+/// [`Quadratic`] drifts as documented: by at most 3 k 2⁻²⁴ of its largest value beside the
+/// roundings of its start, on normals that turn by up to 150 degrees.
 #[test]
-fn quadratic_drifts_by_three_roundings_a_step() {
+fn quadratic_drifts_by_three_roundings_per_step() {
     for pixels in [64, 256, 1024] {
         for degrees in [5.0f32, 30.0, 90.0, 150.0] {
             let n = turning(degrees, pixels).0;
             for (k, (value, truth, _)) in products(n, n, pixels).into_iter().enumerate() {
                 let k = k as f64;
-                // The start: q by three roundings, and ΔQ by four of |ΔQ| ≤ 4 / n, k times.
+                // The start contributes three roundings of q, and four of |ΔQ| ≤ 4 / n in ΔQ, k
+                // times.
                 let bound = HALF_ULP * (3.0 * k + 4.0 + 4.0 * k * 4.0 / pixels as f64);
                 assert!(
                     (value - truth).abs() <= bound,
@@ -124,7 +128,8 @@ fn quadratic_drifts_by_three_roundings_a_step() {
     }
 }
 
-/// A square is the product of a vector with itself; where that vanishes inside a span, it touches zero and returns.
+/// A square is the product of a vector with itself. It touches zero and returns if the vector
+/// vanishes inside a span.
 #[test]
 fn quadratic_of_a_normal_that_vanishes() {
     let (a, da) = (vec3([-1.0f32, 0.0, 0.0]), vec3([1.0 / 32.0, 0.0, 0.0]));
@@ -141,8 +146,9 @@ fn sines_follow_the_circle() {
         for k in 0..2048 {
             let t = f64::from(t0) + k as f64 * f64::from(dt);
             let truth = [1.0 - t, t].map(|t| (t * f64::from(phi)).sin());
-            // A step: two products and a sum, three roundings of a vector of length 1, and the two rounded entries
-            // of the rotation: under five half units. The angle itself, phi - t0 phi and k dt phi, adds three.
+            // A step takes two products and a sum, three roundings of a vector of length 1, and the
+            // two rounded entries of the rotation: under five half units. The angle, phi - t0 phi
+            // and k dt phi, adds three.
             let bound = (5.0 * k as f64 + 8.0) * HALF_ULP * 1.5;
             let (rest, done) = walk.next();
             for (found, truth) in [rest, done].into_iter().zip(truth) {
@@ -155,7 +161,7 @@ fn sines_follow_the_circle() {
     }
 }
 
-/// Returns a normal that turns by an angle over so many pixels, and its lengths in `f64`.
+/// Returns a normal that turns by `degrees` over `pixels`, and its lengths in `f64`.
 fn turning(degrees: f32, pixels: usize) -> (Line, Vec<f64>) {
     let (sin, cos) = (degrees / 2.0).to_radians().sin_cos();
     let n = (
@@ -165,7 +171,7 @@ fn turning(degrees: f32, pixels: usize) -> (Line, Vec<f64>) {
     (n, (0..pixels).map(|k| dot([at(n, k); 2]).sqrt()).collect())
 }
 
-/// Returns lengths by Newton's method one pixel at a time; 0 steps are `auto`.
+/// Returns lengths by Newton's method, pixel by pixel. 0 steps stand for `auto`.
 fn lengths((n, dn): Line, steps: u32, largest_error: f32, pixels: usize) -> Vec<f32> {
     let mut walk = Newton::new(n, dn, &NewtonSteps::new(steps, largest_error));
     (0..pixels).map(|_| walk.next().0).collect()
@@ -173,7 +179,7 @@ fn lengths((n, dn): Line, steps: u32, largest_error: f32, pixels: usize) -> Vec<
 
 #[test]
 fn newton_follows_the_root() {
-    // 30 degrees over 64 pixels: two steps leave nothing but rounding.
+    // 30 degrees over 64 pixels: after two steps only rounding is left.
     let (n, _) = turning(30.0, 64);
     let mut walk = Newton::new(n.0, n.1, &NewtonSteps::new(2, 1e-3));
     let mut normal = Linear { at: n.0, step: n.1 };
@@ -182,7 +188,8 @@ fn newton_follows_the_root() {
         let truth = f64::from(n.dot(n)).sqrt();
         let (length, square) = walk.next();
         assert_eq!(square, n.dot(n));
-        // Rounding of one step: four operations on numbers near 1, the correction itself being small: 2 half units.
+        // One step rounds four operations on numbers near 1. The correction is small, so this is 2
+        // half units.
         assert!(
             (f64::from(length) - truth).abs() <= 4.0 * HALF_ULP,
             "at {k}: {length}, {truth}"
@@ -190,9 +197,9 @@ fn newton_follows_the_root() {
     }
 }
 
-/// One step leaves e²/(2(1+e)) of a relative error e: shown on a length that jumps, not on one that creeps.
+/// One step reduces a relative error e to e²/(2(1+e)). The length jumps here, so that e is visible.
 #[test]
-fn newton_leaves_what_theory_says() {
+fn newton_reduces_errors_as_derived() {
     for steps in 1..=2 {
         let jumping = (vec3([1.0, 0.0, 0.0]), vec3([-0.3, 0.0, 0.0]));
         let found = lengths(jumping, steps, 1e-3, 2);
@@ -209,9 +216,10 @@ fn newton_leaves_what_theory_says() {
     }
 }
 
-/// From an error at the edge of a threshold so many steps leave what is allowed, and one less leaves more.
+/// Starting from an error at a threshold, `steps` steps leave the allowed error and one step less
+/// leaves more.
 #[test]
-fn thresholds_are_where_steps_cease_to_suffice() {
+fn thresholds_separate_numbers_of_steps() {
     for largest_error in [1e-3f32, 1e-4, 1e-5] {
         let within = NewtonSteps::new(0, largest_error).within;
         let allowed = f64::from(largest_error);
@@ -226,7 +234,8 @@ fn thresholds_are_where_steps_cease_to_suffice() {
                 "{} of {allowed:.0e}",
                 steps - 1
             );
-            // The root is a difference of numbers up to 200 times as large, rounded to 2⁻²⁴, and a step back doubles it.
+            // The root is a difference of numbers up to 200 times as large, rounded to 2⁻²⁴. A step
+            // back doubles it.
             let share = after(steps) / allowed;
             assert!(
                 (share - 1.0).abs() < 1e-3,
@@ -236,8 +245,8 @@ fn thresholds_are_where_steps_cease_to_suffice() {
     }
 }
 
-/// Whatever the angle, the fewest steps leave at most what is allowed; and from fine spans to coarse ones they are one, two,
-/// three, and at last a root.
+/// The fewest steps leave at most the allowed error at every angle. From fine spans to coarse ones
+/// they are one, two, three, and finally a root.
 #[test]
 fn the_fewest_steps_suffice() {
     for allowed in [1e-3f32, 1e-3 / 32.0] {
@@ -248,7 +257,7 @@ fn the_fewest_steps_suffice() {
             for pixels in [1, 2, 3, 4, 6, 9, 16, 40, 200, 1000] {
                 let (n, truth) = turning(degrees, pixels);
                 let found = lengths(n, 0, allowed, pixels);
-                // N is off by a rounding a pixel, and D, its root and a step by four more.
+                // N is off by one rounding per pixel. D, its root and a step add four more.
                 let shortest = truth.iter().copied().fold(1.0, f64::min);
                 let rounding = HALF_ULP * (8.0 + 2.0 * pixels as f64 / shortest);
                 let error = worst(&found, &truth);
@@ -256,7 +265,7 @@ fn the_fewest_steps_suffice() {
                     error <= f64::from(allowed) + rounding,
                     "{degrees} over {pixels}: {error:.1e}"
                 );
-                // Two numbers of steps may round to one result.
+                // Two numbers of steps may round to the same result.
                 let same = |steps: &u32| found == lengths(n, *steps, allowed, pixels);
                 let steps = (1..=3).find(same).unwrap_or(4);
                 seen[steps as usize - 1] += 1;
@@ -275,7 +284,7 @@ fn worst(lengths: &[f32], truth: &[f64]) -> f64 {
     errors.fold(0.0, f64::max)
 }
 
-/// One step on a fine span and on a normal that stays; roots where the normal vanishes.
+/// Fine spans and constant normals take one step. Vanishing normals take roots.
 #[test]
 fn fine_spans_take_one_step_and_cancelling_ones_roots() {
     let of = |line, steps, pixels| lengths(line, steps, NewtonSteps::LARGEST_ERROR, pixels);
@@ -284,7 +293,8 @@ fn fine_spans_take_one_step_and_cancelling_ones_roots() {
     assert_ne!(of(fine, 0, 64), of(fine, 2, 64));
     let still = (vec3([0.0, 0.6, 0.8]), vec3([0.0; 3]));
     assert_eq!(of(still, 0, 8), of(still, 1, 8));
-    // The length grows by as much as one step is allowed to follow: it leaves nearly all that is allowed. By more, it is two.
+    // The length grows by as much as one step may follow, which leaves nearly all of the allowed
+    // error. More growth takes two steps.
     let along = |at: f32, step: f32| (vec3([at, 0.0, 0.0]), vec3([step, 0.0, 0.0]));
     let error =
         |growth: f32| f64::from(of(along(1.0, growth), 0, 2)[1]) / (1.0 + f64::from(growth)) - 1.0;
@@ -316,8 +326,9 @@ fn normals_walk_great_circles_at_uniform_speed() {
         for (k, n) in edge(a, b, 64).into_iter().enumerate() {
             let t = (k as f64 + 0.5) / 64.0;
             let [wa, wb] = [1.0 - t, t].map(|t| (t * phi).sin() / phi.sin());
-            // The weights are off by the drift of 64 steps (5 half units each) and by that of phi from rounded
-            // unit vectors (8 half units), divided by sin phi; near 180 degrees acos in this test adds as much.
+            // The weights are off by the drift of 64 steps, 5 half units each, and by the error of
+            // phi from rounded unit vectors, 8 half units. Both are divided by sin phi. Near 180
+            // degrees acos in this test adds as much.
             let bound = (5.0 * 64.0 + 32.0) * HALF_ULP / phi.sin().powi(2);
             for i in 0..3 {
                 let truth = wa * from[i] + wb * to[i];
@@ -338,7 +349,7 @@ fn nearly_equal_normals_are_interpolated_linearly() {
             .enumerate()
         {
             let truth = (k as f32 + 0.5) / 16.0 * angle;
-            // The weights' difference from linear ones, 6e-8 of the angle, and 16 steps of rounding.
+            // Weights differ from linear ones by 6e-8 of the angle, plus 16 steps of rounding.
             let is_near = (n[0] - truth).abs() <= 1e-5 * angle && (n[2] - 1.0).abs() < 1e-5;
             assert!(is_near, "{angle} at {k}: {n:?}");
         }
@@ -370,8 +381,8 @@ mod blocks {
     use glam::DVec3;
     use std::vec;
 
-    /// Returns the planes of the pixels that a method with one light walks along, by instruction set. The run starts from
-    /// `start`; another one before it and one behind it must not matter.
+    /// Returns the planes of the pixels that a method with one light walks along, by instruction
+    /// set. The run starts from `start`. A run before it and one behind it must not affect it.
     fn walked(
         method: &str,
         parameters: &[u32],
@@ -411,7 +422,7 @@ mod blocks {
             .collect()
     }
 
-    /// Returns what fast Phong and Duff's start from: J, K and N, and their steps.
+    /// Returns the start of fast Phong and of Duff's method: J, K and N, and their steps.
     fn start([j, dj]: [f32; 2], [k, dk]: [f32; 2], (n, dn): Line) -> Vec<f32> {
         [&[j, k][..], &n.array(), &[dj, dk], &dn.array()].concat()
     }
@@ -445,9 +456,9 @@ mod blocks {
             for (level, planes) in walked("duff-phong", &[], &start([0.0; 2], [0.0; 2], n), 512) {
                 for (i, value) in planes[2].iter().enumerate() {
                     let truth = dot([at(n, i); 2]);
-                    // As documented: three roundings a step, beside those of the start, ΔQ · 4 / n by four roundings k times,
-                    // and 2 s = 8 / n² by four roundings k² / 2 times. A block takes a step for eight pixels, of eight
-                    // times ΔQ.
+                    // As documented: three roundings per step beside those of the start. ΔQ · 4 / n
+                    // has four roundings k times, and 2 s = 8 / n² has four roundings k² / 2 times.
+                    // A block takes one step of eight times ΔQ for eight pixels.
                     let share = i as f64 / 512.0;
                     let roundings =
                         3.0 * i as f64 / 8.0 + 8.0 + 16.0 * share + 16.0 * share * share;
@@ -472,8 +483,8 @@ mod blocks {
                 let half = f64::from(sin).atan2(f64::from(cos));
                 for i in 0..512 {
                     let angle = (2.0 * (f64::from(t0) + i as f64 * f64::from(dt)) - 1.0) * half;
-                    // 7.5 half units a step: up to seven steps to the lane, then one for each block; both ends are divided by
-                    // sin φ.
+                    // 7.5 half units per step: up to seven steps to the lane, then one per block.
+                    // Both ends are divided by sin φ.
                     let bound =
                         (7.5 * (i / 8 + i % 8) as f64 + 12.0) * HALF_ULP / (2.0 * half).sin();
                     for (plane, truth) in [(0, angle.sin()), (2, angle.cos())] {
@@ -485,15 +496,15 @@ mod blocks {
         }
     }
 
-    /// Returns the lengths that fast Phong finds.
+    /// Returns the lengths that fast Phong computes.
     fn lengths(n: Line, steps: u32, pixels: usize) -> impl Iterator<Item = (Level, Vec<f32>)> {
         let start = start([0.0; 2], [0.0; 2], n);
         let all = walked("fast-phong", &[steps], &start, pixels).into_iter();
         all.map(|(level, mut planes)| (level, planes.swap_remove(2)))
     }
 
-    /// Whatever the angle and however few the pixels, blocks stay within what is allowed. A true root is one rounding from N·N,
-    /// whose roundings it halves, and N's own are added.
+    /// Blocks stay within the allowed error at every angle and number of pixels. A true root is one
+    /// rounding from N·N, whose roundings it halves, and N's own are added.
     #[test]
     fn lengths_are_never_far_off() {
         let allowed = f64::from(NewtonSteps::LARGEST_ERROR);
@@ -503,7 +514,8 @@ mod blocks {
                 for pixels in [8, 9, 16, 24, 40, 64, 200, 1000] {
                     let (n, truth) = turning(degrees, pixels);
                     for (level, found) in lengths(n, steps, pixels) {
-                        // N is off by a rounding for each block and two for the start; it is as short as cos(φ/2).
+                        // N is off by one rounding per block and two for the start. It is as short
+                        // as cos(φ/2).
                         let shortest = truth.iter().copied().fold(1.0, f64::min);
                         let rounding =
                             HALF_ULP * (6.0 + 2.0 * (pixels as f64 / 8.0 + 2.0) / shortest);
@@ -524,10 +536,11 @@ mod blocks {
         );
     }
 
-    /// 120° over 16 pixels: one pixel at a time one step is off by far more than a block may be, which has true roots there.
-    /// 15° over 64 pixels is safe, and blocks follow Newton's method, from above.
+    /// Blocks take true roots over 120° and 16 pixels. Pixel by pixel one step is off by far more
+    /// than blocks allow. Over 15° and 64 pixels Newton's method is safe, and blocks follow it from
+    /// above.
     #[test]
-    fn where_blocks_would_be_off_they_have_true_roots() {
+    fn blocks_take_true_roots_where_newton_fails() {
         let (n, truth) = turning(120.0, 16);
         let one = worst(&super::lengths(n, 1, 1e-3, 16), &truth);
         assert!(
@@ -540,15 +553,15 @@ mod blocks {
         }
         let (n, truth) = turning(15.0, 64);
         for (level, found) in lengths(n, 1, 64) {
-            // At the ends the length changes by sin 7.5° |ΔN| a pixel, |ΔN| = 2 sin 7.5° / 64, and a block is eight pixels
-            // away: e = 4.3e-3, of which a step leaves e²/2 = 9.1e-6, far above rounding; half a block inside of the end it
-            // is less.
+            // At the ends the length changes by sin 7.5° |ΔN| per pixel, |ΔN| = 2 sin 7.5° / 64,
+            // and the previous block is eight pixels away: e = 4.3e-3. A step leaves e²/2 = 9.1e-6
+            // of it, far above rounding. Half a block inside the end it is less.
             let error = worst(&found, &truth);
             assert!((4e-6..9.3e-6).contains(&error), "{level}: {error:.1e}");
         }
     }
 
-    /// A normal that vanishes inside of a span has length 0 there, by roots.
+    /// A normal that vanishes inside a span has length 0 there, computed by roots.
     #[test]
     fn normals_vanish_by_roots() {
         let vanishing = (vec3([-1.0f32, 0.0, 0.0]), vec3([1.0 / 8.0, 0.0, 0.0]));

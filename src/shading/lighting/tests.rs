@@ -1,4 +1,4 @@
-//! The light model: powers, highlights that are left out, and the fast path against the general one.
+//! The light model: powers, faint highlights, and the fast path compared with the general one.
 
 use super::*;
 use crate::mesh::Material;
@@ -7,8 +7,8 @@ use crate::scene::Light;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use glam::DVec3;
 
-/// Each multiplication rounds the factor once: n of them, however they are put together, are off by at most n · 2⁻²⁴ of
-/// the value, and a factor 1.1 covers the products of roundings.
+/// Whole powers are products. Each multiplication rounds the factor once, so n of them in any order
+/// are off by at most n · 2⁻²⁴ of the value. A factor 1.1 covers the products of roundings.
 #[test]
 fn whole_powers_are_products() {
     for n in (0..=70).chain([96, 127, 128, 129, 255, 256, 300, 512, 1000, 4096, 65_536]) {
@@ -27,7 +27,8 @@ fn whole_powers_are_products() {
     assert_eq!(Exponent::new(0.5), Exponent::Fractional(0.5));
 }
 
-/// The light behind a point, on the line from the eye or nearly so: L·V is rounded to −1, and 1 / |L + V| to infinity.
+/// A light behind a point, nearly opposite to the eye, makes no highlight: L·V is rounded to −1,
+/// and 1 / |L + V| to infinity.
 #[test]
 fn opposite_light_and_eye_have_no_highlight() {
     let material = Material {
@@ -45,8 +46,8 @@ fn opposite_light_and_eye_have_no_highlight() {
     };
     let uniforms = Uniforms::new(&lighting, 1.0);
     for i in 0..1000 {
-        // At (x, 0.3 x, −2) the light is seen under x/3 from the axis and the eye under x/2: |L + V| is below 1.05 · 5/6 x,
-        // and that below 2⁻¹⁰.
+        // At (x, 0.3 x, −2) the light is x/3 off the axis and the eye x/2: |L + V| is below
+        // 1.05 · 5/6 x, which is below 2⁻¹⁰.
         let x = i as f32 * 1e-6;
         let n = vec3([-0.6, 0.0, 0.8]); // on the side of L + V
         let point = [x, 0.3 * x, -2.0];
@@ -62,7 +63,7 @@ fn opposite_light_and_eye_have_no_highlight() {
     }
 }
 
-/// A block of two numbers whose products and powers must not be subnormal.
+/// A block of two numbers that asserts that products and powers are not subnormal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Normal([f32; 2]);
 
@@ -146,7 +147,8 @@ const EXPONENTS: [f32; 14] = [
     0.25, 0.5, 1.0, 1.5, 2.0, 7.5, 10.0, 32.0, 63.9, 100.0, 128.0, 1000.0, 1024.0, 65_536.0,
 ];
 
-/// One light along z, seen from there, whose highlight has this colour in every channel; nothing else shines.
+/// Returns one light along the line of sight, z, with a highlight of `colour` in every channel and
+/// nothing else.
 fn shining(colour: f32, shininess: f32, falloff: Falloff) -> Lighting {
     let material = Material {
         ambient: [0.0; 3],
@@ -164,7 +166,8 @@ fn shining(colour: f32, shininess: f32, falloff: Falloff) -> Lighting {
     Lighting::new(&material, [0.0; 3], &[light], DVec3::Z)
 }
 
-/// Cosines of 0..=1, nearly 1 many of them, and those around the one at which highlights begin.
+/// Returns cosines in 0..=1: evenly spread, many near 1, and around the one at which highlights
+/// begin.
 fn cosines(model: &LightModel) -> Vec<f32> {
     let near_one = (0..2000).map(|i| 1.0 - f32::powf(2.0, -12.0 * i as f32 / 1000.0));
     let even = (0..=4000).map(|i| i as f32 / 4000.0);
@@ -174,7 +177,8 @@ fn cosines(model: &LightModel) -> Vec<f32> {
     near_one.chain(even).chain(around).collect()
 }
 
-/// Returns the colour of points at distance 1 from the light, where L·N is `cosine` and R·V or N·H `highlight`.
+/// Returns the colour of a point at distance 1 from the light, where L·N is `cosine` and R·V or N·H
+/// is `highlight`.
 fn lit<F: Num>(uniforms: &Uniforms, cosine: F, highlight: F, general: bool) -> F {
     let Uniforms { model, lights } = uniforms;
     let nowhere = vec3([cosine.like(0.0); 3]);
@@ -183,8 +187,8 @@ fn lit<F: Num>(uniforms: &Uniforms, cosine: F, highlight: F, general: bool) -> F
     lit.add(lit.ambient(), &light, cosine, highlight).x
 }
 
-/// Whatever the exponent and the light, a pixel beside one with a highlight included: with powers of faint highlights this
-/// fails at once, as 0.25¹⁰⁰ is subnormal.
+/// No power is subnormal for any exponent and light, even if another pixel of the block has a
+/// highlight. With faint highlights this fails at once, because 0.25¹⁰⁰ is subnormal.
 #[test]
 fn no_power_is_subnormal() {
     for gate in [
@@ -222,9 +226,9 @@ fn no_power_is_subnormal() {
     }
 }
 
-/// Highlights of at most 2⁻²⁴ are left out, stronger ones are not. Both but for rounding: of 1/n by
-/// 2⁻²⁴ of its value, which the power multiplies by ln(k / 2⁻²⁴), below 86 here; of t by 2⁻²³, and its power by n times as
-/// much.
+/// Highlights of at most 2⁻²⁴ are left out and stronger ones are not, within rounding. 1/n is
+/// rounded by 2⁻²⁴ of its value, which the power multiplies by ln(k / 2⁻²⁴), below 86 here. t is
+/// rounded by 2⁻²³, which the power multiplies by n.
 #[test]
 fn faint_highlights_are_left_out_and_no_others() {
     for shininess in EXPONENTS {
@@ -255,7 +259,7 @@ fn faint_highlights_are_left_out_and_no_others() {
     }
 }
 
-/// Anything to the power 0 is 1, where the light is in front of the surface.
+/// Any base to the power 0 is 1 if the light is in front of the surface.
 #[test]
 fn no_highlight_of_power_zero_is_faint() {
     let colour = |gate, cosine: f32, highlight| {
@@ -278,7 +282,7 @@ fn no_highlight_of_power_zero_is_faint() {
     }
 }
 
-/// Highlights of N·H follow the same rule.
+/// Highlights by N·H follow the rule for faint highlights too.
 #[test]
 fn faint_highlights_by_the_halfway_vector_are_left_out() {
     let lighting = Lighting {
@@ -292,7 +296,7 @@ fn faint_highlights_by_the_halfway_vector_are_left_out() {
     assert!(colour(0.595) > 0.0);
 }
 
-/// Four lights from all sides on a surface of this shininess, seen along z.
+/// Returns four lights from all sides on a surface of this shininess, seen along z.
 fn four_lights(random: &mut Random, shininess: f32) -> Lighting {
     let lights: Vec<Light> = (0..4)
         .map(|i| {
@@ -307,12 +311,12 @@ fn four_lights(random: &mut Random, shininess: f32) -> Lighting {
     Lighting::new(&material, [1.0; 3], &lights, DVec3::Z)
 }
 
-/// Returns the colour at unit normals.
+/// Returns the colours at unit normals.
 fn at<F: Num>(uniforms: &Uniforms, n: Vec3<F>, general: bool) -> Vec3<F> {
     Lit::new(uniforms.model, &uniforms.lights, n, general).shade(n)
 }
 
-/// On the fast path colours are those of the general one, to the last bit.
+/// The fast path gives the colours of the general one to the last bit.
 #[test]
 fn the_fast_path_has_the_same_colours() {
     let mut random = Random::new(21);
@@ -332,7 +336,7 @@ fn the_fast_path_has_the_same_colours() {
     }
 }
 
-/// A power of two scales without rounding.
+/// A power of two scales colours without rounding.
 #[test]
 fn colours_are_scaled() {
     let lighting = four_lights(&mut Random::new(2), 32.0);
@@ -359,13 +363,14 @@ fn other_models_do_not_take_the_fast_path() {
     assert!(!is_fast(&|l| l.gate = SpecularGate::Weighted));
     assert!(!is_fast(&|l| l.view = Place::Local([0.0; 3])));
     assert!(!is_fast(&|l| l.lights[2].place = Place::Local([0.0; 3])));
-    // 255 times this is more than 32 bits hold.
+    // 255 times this overflows 32 bits.
     assert!(!is_fast(&|l| l.ambient[1] = 1e7));
     assert!(!is_fast(&|l| l.lights[3].specular[2] = 1e7));
     assert!(!is_fast(&|l| l.lights[0].diffuse[0] = f32::INFINITY));
 }
 
-/// The neighbours of a pixel decide which operations run, not their result: tiles are drawn into memory that others have used.
+/// A pixel's neighbours decide which operations run, but not its result, because tiles are drawn
+/// into used memory.
 #[cfg(feature = "simd")]
 #[test]
 fn pixels_do_not_depend_on_their_neighbours() {

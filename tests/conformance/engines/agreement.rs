@@ -1,4 +1,4 @@
-//! Engines and instruction sets against one another: the same picture to rounding.
+//! Compares engines and instruction sets with each other: their pictures agree to rounding.
 
 use super::frames::kinds;
 use crate::support::cases::{Case, cases};
@@ -8,12 +8,13 @@ use fastphong::picture::{Encoding, Picture};
 use fastphong::raster::Renderer;
 use fastphong::shading::{METHODS, Variant};
 
-/// What is wrong with a method's pictures of a frame, if anything.
+/// Compares a method's pictures of a frame, adds any failures, and returns the largest difference
+/// in grey levels.
 fn check(case: &Case, variant: &Variant, renderers: &[Renderer], failures: &mut Vec<String>) -> u8 {
     let (frame, decided) = (&case.frame, case.decided());
     let (linear, stored) = (variant.render_linear(frame), variant.render(frame));
     let own = variant.bound(frame);
-    // Below its bend the curve of sRGB rises by 12.92.
+    // Below its bend the sRGB curve has slope 12.92.
     let slope = if frame.encoding() == Encoding::Srgb {
         12.92
     } else {
@@ -21,14 +22,14 @@ fn check(case: &Case, variant: &Variant, renderers: &[Renderer], failures: &mut 
     };
     let mut most = 0;
     for &renderer in renderers {
-        // Both are within their bounds of one closed form.
+        // Both pictures are within their bounds of one closed form.
         let bound = 2.0 * own;
         let ours = variant.render_linear_with(frame, renderer);
         let (max, uncovered) = largest_difference(&linear, &ours, |x, y| decided.get(x, y));
         let mut picture = Picture::new(1, 1, [0; 4]);
         variant.render_with(frame, renderer, &mut picture);
         let (levels, _) = levels_apart(&stored, &picture, |x, y| decided.get(x, y));
-        // Values that are less than a level apart are stored as the same level or as neighbours.
+        // Values less than a level apart are stored as the same level or as neighbours.
         let allowed = f64::max((255.0 * slope * 2.0 * own).ceil(), 1.0);
         if max > bound || uncovered > 0 || f64::from(levels) > allowed {
             let who = format!(
@@ -46,8 +47,8 @@ fn check(case: &Case, variant: &Variant, renderers: &[Renderer], failures: &mut 
     most
 }
 
-/// What every kind of frame shows does not depend on who draws it: pixels left out are those where rounding decides which
-/// of two surfaces is nearer.
+/// Engines draw the same picture for every kind of frame. Pixels where rounding decides visibility
+/// are left out.
 #[test]
 fn engines_agree_on_every_kind_of_frame() {
     let mut failures = Vec::new();
@@ -61,7 +62,8 @@ fn engines_agree_on_every_kind_of_frame() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// Every shipped scene, a third of its size: no method's picture is more than one level from the lecture's.
+/// No engine's picture is more than one level from the scalar span engine's, on every scene at a
+/// third of its size.
 #[test]
 fn engines_agree_on_every_scene() {
     let mut failures = Vec::new();

@@ -1,4 +1,4 @@
-//! Which pixels engines cover: those of the lecture's form, bit for bit.
+//! All engines cover the same pixels as the scalar span engine, bit for bit.
 
 use crate::support::cases::cases;
 use crate::support::differences::covered;
@@ -10,10 +10,10 @@ use fastphong::scene::{HiddenSurfaces, Lighting};
 use fastphong::shading::Variant;
 use glam::DVec3;
 
-/// Heights around those of bands, 4, 8, 16 and 32 scanlines.
+/// Heights around those of bands: 4, 8, 16 and 32 scanlines.
 const HEIGHTS: [u32; 16] = [1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 32, 33, 48, 65];
 
-/// A triangle along a line, a few sub-pixels wide.
+/// Returns a triangle along a line, a few sub-pixels wide.
 fn sliver(random: &mut Random, width: i32, height: i32) -> Vec<Corner> {
     let mut at = |limit: i32| random.below(limit as u64 * 256) as i32;
     let (a, b) = ((at(width), at(height)), (at(width), at(height)));
@@ -34,7 +34,8 @@ fn sliver(random: &mut Random, width: i32, height: i32) -> Vec<Corner> {
         .to_vec()
 }
 
-/// A triangle with corners far outside of the picture, which holds all of it, a part of it, or nothing.
+/// Returns a triangle with corners far outside the picture. It covers all of it, a part, or
+/// nothing.
 fn far(random: &mut Random) -> Vec<Corner> {
     let reach = [300, 2000, 16_000][random.below(3) as usize];
     let mut corner = || {
@@ -50,7 +51,8 @@ fn far(random: &mut Random) -> Vec<Corner> {
     vec![corner(), corner(), corner()]
 }
 
-/// Polygons of all kinds: small triangles, slivers, triangles that reach far out, and polygons that cross themselves.
+/// Returns polygons of all kinds: small triangles, slivers, triangles that reach far out,
+/// self-intersecting polygons.
 fn soup(random: &mut Random, width: i32, height: i32) -> Vec<Vec<Corner>> {
     let count = 1 + random.below(90);
     let mut polygon = |_| match random.below(8) {
@@ -66,8 +68,8 @@ fn soup(random: &mut Random, width: i32, height: i32) -> Vec<Vec<Corner>> {
     (0..count).map(&mut polygon).collect()
 }
 
-/// A frame whose every polygon has a colour of its own, so that the picture tells which one is seen. The last one is, as
-/// there is no depth test.
+/// Builds a frame whose polygons have different colours, so that the picture identifies the visible
+/// one. This is the last one, because there is no depth test.
 fn numbered(width: u32, height: u32, polygons: &[Vec<Corner>]) -> Frame {
     let mut builder = FrameBuilder::new(width, height);
     builder.hidden_surfaces(HiddenSurfaces::DrawOrder);
@@ -104,8 +106,9 @@ fn variant(name: &str) -> Variant {
     Variant::parse(name).expect("a method")
 }
 
-/// Random polygons on pictures of 1 to 40 columns, of which most are no whole groups, and of heights around those of bands:
-/// the same polygon is seen at every pixel. Flat shading has triangles cut into planes, slerp follows their edges.
+/// Engines see the same polygon at every pixel of random soups. Widths of 1 to 40 pixels are mostly
+/// not whole blocks, heights are around those of bands. Flat shading uses plane equations of
+/// triangles, slerp follows their edges.
 #[test]
 fn random_polygons_are_covered_as_in_the_lecture() {
     let mut random = Random::new(29);
@@ -145,7 +148,8 @@ fn random_polygons_are_covered_as_in_the_lecture() {
     }
 }
 
-/// The shipped scenes, on pictures whose width is no whole number of groups, on one, two and three threads.
+/// Shipped scenes are covered alike on one, two and three threads. The width is not a whole number
+/// of blocks.
 #[test]
 fn shipped_scenes_are_covered_as_in_the_lecture() {
     for case in cases(Some((157, 115))) {

@@ -1,4 +1,4 @@
-//! Frames of every kind that engines draw in a way of its own.
+//! Frames of every kind for which engines have a path of their own.
 
 use fastphong::frame::Frame;
 use fastphong::mesh::Material;
@@ -10,8 +10,8 @@ use fastphong::scene::{
 };
 use glam::{DAffine3, DVec3};
 
-/// Two balls of different materials, of n-gons and of triangles, one partly behind the other, from near by: `width` ×
-/// `height` pixels.
+/// Builds a near view of two balls, `width` × `height` pixels. They differ in material, one is of
+/// n-gons, one of triangles, and one is partly behind the other.
 fn scene(width: u32, height: u32) -> Scene {
     let mut scene =
         Scene::of_mesh(builtin("sphere?rings=12&segments=24").expect("a built-in mesh"));
@@ -34,7 +34,7 @@ fn scene(width: u32, height: u32) -> Scene {
     scene
 }
 
-/// Lights in directions that do not repeat, together as bright as one.
+/// Returns lights from different directions whose total brightness is that of one.
 fn lights(count: usize) -> Vec<Light> {
     let light = |i: usize| {
         let angle = 2.399963 * i as f64; // the golden angle
@@ -57,7 +57,7 @@ fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
     HiddenSurfaces::ZBuffer(DepthBuffer { bits, source })
 }
 
-/// A kind of frame: its name, and what makes a scene one of it.
+/// A kind of frame: its name and the change of the scene that makes it.
 type Kind = (&'static str, fn(&mut Scene));
 
 const KINDS: [Kind; 20] = [
@@ -112,7 +112,7 @@ const KINDS: [Kind; 20] = [
     ("sRGB", |scene| scene.encoding = Encoding::Srgb),
 ];
 
-/// One frame of each kind.
+/// Returns one frame of each kind.
 pub fn kinds(width: u32, height: u32) -> impl Iterator<Item = (&'static str, Frame)> {
     KINDS.into_iter().map(move |(name, change)| {
         let mut scene = scene(width, height);

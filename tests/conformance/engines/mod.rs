@@ -1,4 +1,5 @@
-//! Every engine on every instruction set that this machine has, against the lecture's own form, on any number of threads.
+//! Every engine on every instruction set of this machine, compared with the scalar span engine, on
+//! any number of threads.
 
 mod agreement;
 mod coverage;

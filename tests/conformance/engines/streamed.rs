@@ -1,4 +1,4 @@
-//! Rows that are given away while others are not yet drawn make the same picture.
+//! Streaming finished rows while others are still being drawn gives the same picture.
 
 use super::frames::kinds;
 use crate::support::renderers::{name, on_threads, renderers};
@@ -8,10 +8,10 @@ use fastphong::raster::Renderer;
 use fastphong::shading::{METHODS, Variant};
 use std::convert::Infallible;
 
-/// More rows than either engine draws before it gives some away, on one thread and on two.
+/// A height at which every engine streams in parts, on one thread and on two.
 const HEIGHT: u32 = 270;
 
-/// The picture of the rows that are given away, and in how many parts they were.
+/// Returns the picture assembled from streamed rows, and the number of parts.
 fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, usize) {
     let (mut pixels, mut parts) = (Vec::new(), 0);
     let Ok(()) = variant.render_rows(frame, renderer, |rows| {
@@ -29,7 +29,7 @@ fn streamed(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, 
 }
 
 #[test]
-fn rows_make_the_picture() {
+fn streamed_rows_make_the_picture() {
     let mut in_parts = 0;
     for (kind, frame) in kinds(21, HEIGHT) {
         for variant in METHODS.iter().map(|entry| entry.variant()) {
@@ -54,7 +54,7 @@ fn rows_make_the_picture() {
 }
 
 #[test]
-fn nothing_is_drawn_for_a_taker_that_failed() {
+fn a_failed_receiver_stops_the_drawing() {
     for (kind, frame) in kinds(21, HEIGHT) {
         for renderer in renderers() {
             let mut calls = 0;

@@ -10,7 +10,7 @@ use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
 use fastphong::shading::{METHODS, Variant};
 
-/// The stored picture, drawn over one that was something else, and the linear one as bits.
+/// Returns the stored picture, drawn over an old one, and the bits of the linear picture.
 fn bytes(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, Picture<[u32; 4]>) {
     let mut stored = Picture::new(frame.picture_width(), frame.picture_height(), [7u8; 4]);
     variant.render_with(frame, renderer, &mut stored);
@@ -22,7 +22,7 @@ fn bytes(variant: &Variant, frame: &Frame, renderer: Renderer) -> (Picture8, Pic
     )
 }
 
-/// Every method on every kind of frame by every engine: 1, 2, 3 and 7 threads, and again, draw the same bytes.
+/// Every method, kind of frame and engine draws the same bytes on 1, 2, 3 and 7 threads.
 #[test]
 fn threads_change_no_byte() {
     let pools: Vec<_> = [2, 3, 7]
@@ -51,8 +51,8 @@ fn threads_change_no_byte() {
     }
 }
 
-/// Pictures that end where a band does, one line before and one after: covered as in the lecture's form, and the same
-/// bytes from any number of threads.
+/// Pictures around a band's end, one line more or less, have the span engine's coverage. Their
+/// bytes do not depend on the number of threads.
 #[test]
 fn bands_leave_no_seams() {
     for height in [1, 15, 16, 17, 31, 32, 33] {

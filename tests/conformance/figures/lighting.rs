@@ -6,9 +6,10 @@ use fastphong::lectures::Agreement;
 #[test]
 fn illumination_adds_its_terms_and_obeys_the_cosine() {
     let content = made("illumination");
-    // Each of the four pictures is within the bound of naive Phong shading, some 10⁻⁵ of 1: far below 0.01 levels.
+    // Each of the four pictures is within the bound of naive Phong shading, some 10⁻⁵ of 1: far
+    // below 0.01 levels.
     assert!(value(&content, "sum") < 0.01);
-    // The normal of the turned face is rounded to f32 once, its product with the light a few times.
+    // The turned face's normal is rounded to f32 once, its product with the light a few times.
     assert!((value(&content, "cube") - 0.5).abs() < 4.0 * f64::from(f32::EPSILON));
     assert!(
         value(&content, "cosine") < 4.0 * f64::from(f32::EPSILON) && value(&content, "kd") < 1e-6
@@ -22,10 +23,11 @@ fn exponents_narrow_the_highlight() {
     // cos^p is a half at cos⁻¹(2^(−1/p)).
     let half = |p: f64| (0.5f64.powf(1.0 / p)).acos().to_degrees();
     assert!((value(&content, "narrows") - half(1.0) / half(512.0)).abs() < 1e-9);
-    // The notes' text and their Figure 7 contradict each other.
+    // The text of the notes contradicts their Figure 7.
     assert_eq!(agreement(&content, "shiny"), Agreement::Contradicts);
-    // Light and eye are along z, so that R turns by twice the normal's angle and H stays: a half is left at half(20) / 2 of
-    // R·V, and at half(p) of N·H. A pixel is a quarter of a degree wide at the middle, and a line is put through two.
+    // Light and eye are along z, so R turns by twice the normal's angle and H stays. R·V falls to a
+    // half at half(20) / 2, N·H at half(p). A pixel is a quarter of a degree wide in the middle,
+    // and the value is interpolated between two.
     assert!((value(&content, "half-width") - half(20.0) / 2.0).abs() < 0.05);
     assert!((value(&content, "same-exponent") - 2.0).abs() < 0.02);
     assert!((value(&content, "converted") - 2.0 * half(80.0) / half(20.0)).abs() < 0.01);
@@ -33,28 +35,29 @@ fn exponents_narrow_the_highlight() {
 }
 
 #[test]
-fn attenuation_clips_or_blackens_where_theory_says() {
+fn attenuation_clips_and_blackens_as_predicted() {
     let content = made("attenuation");
-    // h / r³ ≥ 1, r² = h² + ρ², in a disc of π ρ² of 16; half of the pixels on its rim may count as either.
+    // h / r³ ≥ 1 with r² = h² + ρ² holds in a disc of area π ρ² of 16. Half of the pixels on its
+    // rim may count either way.
     let (h, pi) = (0.3f64, std::f64::consts::PI);
     let disc = |r: f64| (r * r - h * h, (r * r - h * h).sqrt());
     let rim = |radius: f64| 100.0 * pi * radius * (4.0 / 96.0) / 16.0;
     let (square, radius) = disc(h.cbrt());
     assert!((value(&content, "clipped") - 100.0 * pi * square / 16.0).abs() <= rim(radius));
     assert_eq!(value(&content, "clipped-notes"), 0.0);
-    // h³ / r³ < 1/255 outside of a disc.
+    // h³ / r³ < 1/255 outside a disc.
     let (square, radius) = disc(h * 255.0f64.cbrt());
     assert!((value(&content, "dark") - 100.0 * (1.0 - pi * square / 16.0)).abs() <= rim(radius));
 }
 
 #[test]
-fn constant_vectors_lose_what_six_products_keep() {
+fn constant_vectors_are_less_exact_than_six_products() {
     let content = made("constant-vectors");
     assert!(
         value(&content, "coarse") > 1.0 && agreement(&content, "coarse") == Agreement::Contradicts
     );
-    // The vectors are off by half of a polygon at most: an error of first order in its size, of which a smooth surface
-    // cancels nothing in the mean square.
+    // The vectors are off by at most half a polygon. The error is of first order in its size, and a
+    // smooth surface cancels none of it in the mean square.
     let order = value(&content, "order");
     assert!((0.7..1.6).contains(&order), "{order}");
     assert!(value(&content, "duff-naive") < 0.1);
@@ -66,7 +69,7 @@ fn gates_keep_light_from_behind_out() {
     let content = made("gates");
     assert!(value(&content, "behind") > 1.0 && value(&content, "behind-gated") == 0.0);
     assert_eq!(agreement(&content, "behind"), Agreement::Contradicts);
-    // A highlight of up to 0.8 · 255 levels that ends at once, while it is over a tenth of its height.
+    // A highlight of up to 0.8 · 255 levels ends abruptly while it is over a tenth of its height.
     assert!(value(&content, "line") > 20.0);
     assert!(value(&content, "clamped") > 1.0);
 }

@@ -1,4 +1,4 @@
-//! The lecture's figures, made anew: each is made, and what a claim of the lecture rests on is what theory says.
+//! Makes every figure of the lectures anew and compares the findings behind its claims with theory.
 #![cfg(feature = "cli")]
 
 mod lighting;
@@ -10,7 +10,7 @@ use fastphong::lectures::{Agreement, FIGURES, Figure, FigureBlock, FigureContent
 use fastphong::report::{Document, FigureData, Report};
 use std::collections::BTreeSet;
 
-/// A figure, made, with what every figure must have.
+/// Makes a figure and checks what every figure must have.
 #[track_caller]
 fn made(name: &str) -> FigureContent {
     let figure = Figure::find(name).expect("it stands in the table");
@@ -75,7 +75,7 @@ fn made(name: &str) -> FigureContent {
     document.figures.remove(0).content
 }
 
-/// The value of a finding.
+/// Returns the value of a finding.
 #[track_caller]
 fn value(content: &FigureContent, key: &str) -> f64 {
     content

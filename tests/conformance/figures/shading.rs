@@ -1,4 +1,4 @@
-//! Figures of what is interpolated, and how: exercises, squares, bands, Newton's root, great circles.
+//! Figures of interpolation: exercises, squares, Mach bands, Newton's root, great circles.
 
 use super::{agreement, made, value};
 use fastphong::lectures::Agreement;
@@ -6,21 +6,24 @@ use fastphong::lectures::Agreement;
 #[test]
 fn exercises() {
     let content = made("exercises");
-    // 0.40674 + 0.3 (0.42262 − 0.40674) = 0.411504; the engine adds three steps of an f32, each off by 2⁻²⁵ at most, to
-    // a start whose normal is off by as much: below 2⁻²².
+    // 0.40674 + 0.3 (0.42262 − 0.40674) = 0.411504. The engine adds three steps of an f32, each off
+    // by at most 2⁻²⁵, to a start whose normal is off by as much: below 2⁻²².
     let f32_error = 1.0 / f64::from(1 << 22);
     assert!((value(&content, "sine") - 0.411504).abs() < f32_error);
-    // The chord of one degree lies below the sine by at most sin 25° (1°)²/8 = 1.6e-5, and the table is off by 5e-6.
+    // The chord of one degree lies below the sine by at most sin 25° (1°)²/8 = 1.6e-5. The table is
+    // off by 5e-6.
     let error = value(&content, "sine-error");
     assert!(error > 0.0 && error < 1.6e-5 + 5e-6, "{error}");
     assert_eq!(value(&content, "multiplications"), 1.0);
-    // Two roundings of 2⁻²⁴ a pixel, over 1023 steps; and they do add up: a walk without drift is not a walk in f32.
+    // Each pixel adds two roundings of 2⁻²⁴ over 1023 steps. They do add up: a walk in f32 has
+    // drift.
     let drift = value(&content, "drift");
     assert!(
         drift > 1e-7 && drift < 2.0 * 1023.0 / f64::from(1 << 24),
         "{drift}"
     );
-    // The same over 230 pixels at most, and depth itself off by as many roundings, times the density 2.5.
+    // These roundings add up over at most 230 pixels. Depth is off by as many, times the density
+    // 2.5.
     let levels = value(&content, "fog");
     assert!(
         levels < 255.0 * (2.0 + 2.5) * 230.0 / f64::from(1 << 24),
@@ -35,10 +38,11 @@ fn exercises() {
 fn square() {
     let content = made("square");
     for method in ["gouraud", "naive-phong", "fast-phong", "slerp-phong"] {
-        // The middle of the square lies on the diagonal between two white corners at 0°, and between a white and the
-        // black one at 90°. Half-way, Gouraud's intensity is ½, that of a normal at 45° is √½: the picture changes by half
-        // of white, or by 0.29 of it. Both ways to cut differ there in the same way. The pixels beside the diagonal are
-        // half a pixel away, which is less than 3 %.
+        // The middle of the square lies on the diagonal between two white corners at 0°, and
+        // between a white and the black one at 90°. Half-way Gouraud's intensity is ½, and that of
+        // a normal at 45° is √½: the picture changes by half of white, or by 0.29 of it. Both
+        // triangulations differ there equally. Pixels beside the diagonal are half a pixel away,
+        // which is less than 3 %.
         let least = 255.0
             * (if method == "gouraud" {
                 0.5
@@ -56,9 +60,10 @@ fn square() {
         match method {
             // T24: great circles are not barycentric.
             "slerp-phong" => assert!(triangles > 1.0, "{triangles}"),
-            // Both orientations round an affine function, over 120 rows and 120 pixels: N, J and K are each off by
-            // 240 · 2⁻²⁴; a normal is not shorter than its z, 0.4 here, so that the intensity is off by √3 / 0.4 times that
-            // in each. Fast Phong adds e²/2 of the second step of Newton's, after a change of d by 2 % at most: 2e-8.
+            // Both orientations round an affine function over 120 rows and 120 pixels, so N, J and
+            // K are each off by 240 · 2⁻²⁴. A normal is at least as long as its z, 0.4 here, so the
+            // intensity is off by √3 / 0.4 times that in each. Fast Phong adds e²/2 of the second
+            // Newton step after a change of d by at most 2 %: 2e-8.
             _ => assert!(
                 triangles < 255.0 * 2.0 * 4.4 * 240.0 / f64::from(1 << 24),
                 "{method}: {triangles}"
@@ -75,7 +80,7 @@ fn square() {
         );
     }
     assert!(value(&content, "normals-square") > 10.0);
-    // As the intensities: 2 · 4.4 · 240 · 2⁻²⁴ = 1.26e-4 of a radian.
+    // As for intensities: 2 · 4.4 · 240 · 2⁻²⁴ = 1.26e-4 of a radian.
     assert!(value(&content, "normals-triangles") < 1.26e-4f64.to_degrees());
 }
 
@@ -84,15 +89,16 @@ fn mach_bands() {
     let content = made("mach-bands");
     let control = value(&content, "slope-cylinder");
     for method in ["gouraud", "naive-phong", "slerp-phong"] {
-        // Common edges have common normals, so that intensities agree; parabolas through pixels bring less than the
-        // third derivative, n³/R³ of 255 levels at most for the highlight, over 5³ pixels: 0.15.
+        // Common edges have common normals, so intensities agree. Parabolas through pixels
+        // contribute less than the third derivative, at most n³/R³ of 255 levels for the highlight,
+        // over 5³ pixels: 0.15.
         let jump = value(&content, &format!("value-{method}"));
         assert!(jump < 0.15, "{method}: {jump}");
         assert_eq!(
             agreement(&content, &format!("value-{method}")),
             Agreement::Confirms
         );
-        // T4: the slope jumps, by far more than what the measurement makes of the smooth cylinder.
+        // T4: the slope jumps by far more than the measurement finds on the smooth cylinder.
         let slope = value(&content, &format!("slope-{method}"));
         assert!(slope > 4.0 * control, "{method}: {slope} against {control}");
         assert_eq!(
@@ -104,7 +110,8 @@ fn mach_bands() {
         value(&content, "value-flat") > 10.0,
         "L21 2: discontinuities along edges"
     );
-    // Chords of intensities cut off the highlight, of which interpolated normals keep the shape: theirs bend less.
+    // Gouraud's chords of intensities cut off the highlight. Interpolated normals keep its shape,
+    // so their slope jumps less.
     assert!(value(&content, "slope-gouraud") > value(&content, "slope-naive-phong"));
 }
 
@@ -113,8 +120,9 @@ fn duff() {
     let content = made("duff");
     let [gouraud, naive, slerp] =
         ["gouraud", "naive-phong", "slerp-phong"].map(|key| value(&content, key));
-    // φ₁ = 90°, φ₂ = 20°, θ = 40°, two pixels a degree: 255 sin 40° (sin 20°/40 − 1/180) = 0.491. The parabolas through
-    // five pixels are off by their third derivative, which is 1e-4 of that over a facet of 40 pixels; 2 % are allowed.
+    // φ₁ = 90°, φ₂ = 20°, θ = 40°, two pixels per degree: 255 sin 40° (sin 20°/40 − 1/180) = 0.491.
+    // Parabolas through five pixels are off by their third derivative, 1e-4 of that over a facet of
+    // 40 pixels. The test allows 2 %.
     let expected =
         255.0 * 40f64.to_radians().sin() * (20f64.to_radians().sin() / 40.0 - 1.0 / 180.0);
     assert!((value(&content, "closed-form") - expected).abs() < 1e-9);
@@ -122,8 +130,9 @@ fn duff() {
         (naive - expected).abs() < 0.02 * expected,
         "{naive} instead of {expected}"
     );
-    // Gouraud: 255 ((cos 20° − cos 40°)/40 − cos 40°/180), as the far left corner is dark. Both sides are lines, and
-    // parabolas are exact on them; 64 + 240 roundings of 2⁻²⁴ · 255 levels over four pixels are below 0.002.
+    // Gouraud: 255 ((cos 20° − cos 40°)/40 − cos 40°/180), because the far left corner is dark.
+    // Both sides are lines, where parabolas are exact. 64 + 240 roundings of 2⁻²⁴ · 255 levels over
+    // four pixels are below 0.002.
     let chords = 255.0
         * ((20f64.to_radians().cos() - 40f64.to_radians().cos()) / 40.0
             - 40f64.to_radians().cos() / 180.0);
@@ -132,7 +141,8 @@ fn duff() {
         "{gouraud} instead of {chords}"
     );
     assert!(naive > 10.0 * gouraud.abs(), "Duff's surprise");
-    // The circle itself does not bend; the same roundings, and the third derivative of a cosine of two pixels a degree.
+    // The circle itself does not bend. There remain these roundings and a cosine's third derivative
+    // at two pixels per degree.
     assert!(slerp.abs() < 0.003, "{slerp}");
     assert_eq!(agreement(&content, "naive-phong"), Agreement::Contradicts);
 }
@@ -140,17 +150,19 @@ fn duff() {
 #[test]
 fn newton() {
     let content = made("newton");
-    // The root is rounded once, and N · N by four roundings, which the root halves: 3 · 2⁻²⁴.
+    // The root is rounded once. N · N has four roundings, which the root halves: 3 · 2⁻²⁴.
     assert!(value(&content, "first-pixel") < 3.0 / f64::from(1 << 24));
-    // Over 60°, d changes by less than 1.9 % a pixel (its relative rate is tan 30° · 2 sin 30° / 16 at the ends), plus
-    // what is left of the pixel before: e²/2 < 2.4e-4, then e²/2 < 3e-8 and rounding, 5 · 2⁻²⁴.
+    // Over 60° d changes by less than 1.9 % per pixel: its relative rate is tan 30° · 2 sin
+    // 30° / 16 at the ends. The previous pixel's error adds to this: e²/2 < 2.4e-4, then
+    // e²/2 < 3e-8 and rounding, 5 · 2⁻²⁴.
     let [one, two, three] = [1, 2, 3].map(|steps| value(&content, &format!("error-{steps}")));
     let rounding = 5.0 / f64::from(1 << 24);
     assert!(one > 1e-4 && one < 0.036f64.powi(2) / 2.0, "{one}");
     assert!(two < 2.4e-7 + rounding && three < rounding, "{two} {three}");
-    // Rounding of x and of N, over 16 pixels.
+    // Rounding of x and of N over 16 pixels.
     assert!(value(&content, "theory") < 16.0 / f64::from(1 << 24));
-    // T26: more steps are better everywhere, and none of one to three is enough near normals that cancel.
+    // T26: more steps are better everywhere, but one to three never suffice where normals nearly
+    // cancel.
     assert!(value(&content, "limit-1") < value(&content, "limit-2"));
     assert!(value(&content, "limit-2") <= value(&content, "limit-3"));
     let [one, two, three] = [1, 2, 3].map(|steps| value(&content, &format!("opposed-{steps}")));
@@ -164,25 +176,30 @@ fn newton() {
 #[test]
 fn slerp() {
     let content = made("slerp");
-    // A turn is 1.9° a pixel; each normal is off by about 130 roundings of 2⁻²⁴ at most, 8e-6 of 0.033.
+    // A pixel turns by 1.9°. Each normal is off by at most about 130 roundings of 2⁻²⁴: 8e-6 of
+    // 0.033.
     assert!(value(&content, "speed-slerp") < 1.0 + 2.0 * 130.0 / f64::from(1 << 24) / 0.0327);
-    // 1/cos² 60° = 4 between the ends and the middle; half a pixel of 64 away from them it is a little less.
+    // 1/cos² 60° = 4 is the ratio between ends and middle. Half a pixel of 64 from the ends it is
+    // slightly less.
     let ratio = value(&content, "speed-linear");
     assert!((3.8..4.0).contains(&ratio), "{ratio}");
     assert_eq!(value(&content, "step"), 12.0);
     assert_eq!(agreement(&content, "step"), Agreement::Confirms);
-    // Goldman's rotation: the amplitude drifts by 2⁻²³ a step; two of them, over sin 30°.
+    // Goldman's rotation: the amplitude drifts by 2⁻²³ per step. There are two, over sin 30°.
     let goldman = value(&content, "drift-goldman");
     assert!(goldman < 4.0 * 1024.0 / f64::from(1 << 23), "{goldman}");
-    // Chebyshev's recurrence turns a rounding ε of 2 cos δ into an angle ε / (2 δ) at each step: with ε up to 2⁻²⁴ and
-    // δ = 30°/1024 that is 6e-5 a pixel and up to 6e-2 in the end. The difference form keeps α to a relative 2⁻²⁴.
+    // Chebyshev's recurrence turns a rounding ε of 2 cos δ into an angle ε / (2 δ) at each step.
+    // With ε up to 2⁻²⁴ and δ = 30°/1024 that is 6e-5 per pixel and up to 6e-2 at the end. The
+    // difference form keeps α to a relative 2⁻²⁴.
     let [chebyshev, difference] =
         ["drift-chebyshev", "drift-difference"].map(|key| value(&content, key));
     assert!(chebyshev > 20.0 * goldman && chebyshev < 0.2, "{chebyshev}");
     assert!(difference < goldman, "{difference} {goldman}");
-    // T25: in f32 the cosine of 0.02° is 1 or its neighbour, 1 − 2⁻²⁴: the angle is 0 or at least 0.0198° · k.
+    // T25: in f32 the cosine of 0.02° is 1 or its neighbour, 1 − 2⁻²⁴. The angle is 0 or at least
+    // 0.0198° · k.
     assert!(value(&content, "printed-angle") > 0.01);
-    // The method itself is within its rounding of the reference: 2⁻²² a step of 64 in the cosines, times n = 20 and 2.
+    // The method is within its rounding of the reference: 2⁻²² per step of 64 in the cosines, times
+    // n = 20 and 2.
     let ends = value(&content, "ends");
     assert!(ends < 255.0 * 64.0 * 40.0 / f64::from(1 << 22), "{ends}");
 }
@@ -196,7 +213,8 @@ fn fast_vs_naive() {
     );
     assert!(value(&content, "one-step") > value(&content, "default"));
     assert!(value(&content, "one-step") >= value(&content, "one-step-sphere"));
-    // L21 4.1 and 4.2: one root a pixel, and none; (4.2), (3.6): three additions for a normal, one a channel.
+    // L21 4.1 and 4.2: one root per pixel, and none. (4.2), (3.6): three additions for a normal,
+    // one per channel.
     assert_eq!(
         (
             value(&content, "roots-naive"),
@@ -211,7 +229,7 @@ fn fast_vs_naive() {
         ),
         (3.0, 3.0)
     );
-    // L21 4.4: four additions and eight multiplications, and one and two more for each of J and K.
+    // L21 4.4: four additions and eight multiplications, plus one and two for each of J and K.
     assert_eq!(value(&content, "walk-slerp"), 18.0);
     assert_eq!(agreement(&content, "walk-slerp"), Agreement::Confirms);
 }
@@ -230,7 +248,8 @@ fn frequency() {
     for frequency in ["face", "vertex", "pixel"] {
         let [coarse, fine] =
             ["coarsest", "finest"].map(|end| value(&content, &format!("{frequency}-{end}")));
-        // Sixteen times as many bands: the error of one colour a face is at least in proportion to a face's size.
+        // There are sixteen times as many bands. One colour per face has an error at least
+        // proportional to the face's size.
         assert!(coarse > 8.0 * fine, "{frequency}: {coarse} {fine}");
     }
 }

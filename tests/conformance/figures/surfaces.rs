@@ -1,4 +1,4 @@
-//! Figures of normals, and of what hides what.
+//! Figures of normals and of hidden surfaces.
 
 use super::{agreement, made, value};
 use fastphong::lectures::Agreement;
@@ -6,7 +6,8 @@ use fastphong::lectures::Agreement;
 #[test]
 fn newell() {
     let content = made("newell");
-    // Corners are off by 2⁻²⁵ at most along each axis, over a polygon of radius 1 or more than half of it.
+    // Corners are off by at most 2⁻²⁵ along each axis. The polygon's radius is 1, or more than half
+    // of it.
     let bound = (3f64.sqrt() * 4.0 / f64::from(1 << 25)).to_degrees();
     assert!(
         value(&content, "newell") < bound,
@@ -16,7 +17,8 @@ fn newell() {
     assert!(value(&content, "area") < 3f64.sqrt() * 8.0 / f64::from(1 << 25));
     // The cross product of two edges of length 1 is off by a few roundings of 2⁻²⁴.
     assert!(value(&content, "hexagon") < 10.0 * bound);
-    // L21 1.1: edges of 1e-6 are 17 units of 2⁻²⁴ long, which turns the normal by degrees; collinear ones have none.
+    // L21 1.1: edges of 1e-6 are 17 units of 2⁻²⁴ long, which turns the normal by degrees.
+    // Collinear edges have no normal.
     for key in ["short", "collinear", "nearly"] {
         assert!(
             value(&content, key) > 1.0,
@@ -33,13 +35,15 @@ fn newell() {
 fn normals_are_averages_and_shorten_in_between() {
     let content = made("normals");
     assert_eq!(agreement(&content, "averaged"), Agreement::Confirms);
-    // Errors of averages are of the first order in a polygon's size at least, and that is halved twice.
+    // Averages have errors of at least first order in a polygon's size, which is halved twice.
     assert!(value(&content, "finer") > 4.0);
-    // Around a vertex of a torus polygons lie in pairs, whose errors cancel but for a higher order.
+    // Polygons around a torus vertex lie in pairs, whose errors cancel except for a higher order.
     assert!(value(&content, "regular") < 0.05 * value(&content, "averaged"));
-    // 32 steps of 3 half units, and as much from the rounded ends; the root of at least 1/4 doubles it.
+    // 32 steps of 3 half units, and as much from the rounded ends. The root of at least 1/4 doubles
+    // it.
     assert!(value(&content, "half-way") < 2.0 * (3.0 * 32.0 + 8.0) / f64::from(1 << 24));
-    // Cells of 45° by 30°: in the middle of one at most 1 − cos 22.5° cos 15° is lost, and most of it beside the equator.
+    // Cells are 45° by 30°: the middle of one loses at most 1 − cos 22.5° cos 15°, and most of it
+    // next to the equator.
     let largest = 100.0 * (1.0 - 22.5f64.to_radians().cos() * 15.0f64.to_radians().cos());
     let darkened = value(&content, "darkened");
     assert!(
@@ -51,7 +55,7 @@ fn normals_are_averages_and_shorten_in_between() {
 #[test]
 fn normals_want_the_inverse_transpose() {
     let content = made("inverse-transpose");
-    // At 45° of the circle: tan⁻¹ s − tan⁻¹ 1/s, which is the largest.
+    // The error is largest at 45° of the circle: tan⁻¹ s − tan⁻¹ 1/s.
     let s = 2.5f64;
     let largest = (s.atan() - (1.0 / s).atan()).to_degrees();
     assert!((value(&content, "matrix") - largest).abs() < 1e-9);
@@ -71,7 +75,7 @@ fn painter() {
         );
     }
     assert_eq!(value(&content, "ring-cycle"), 3.0);
-    // Three polygons, each of which meets the two others.
+    // Each of three polygons meets the two others.
     assert_eq!(value(&content, "cutting-pairs"), 3.0);
     assert_eq!(
         value(&content, "order"),
@@ -96,15 +100,16 @@ fn depth() {
     );
     // z(2n) in 0..1 is f/(f − n) · (1 − n/2n) = f/(2 (f − n)), and f is 500 n.
     assert!((value(&content, "half") - 0.5 * 500.0 / 499.0).abs() < 1e-12);
-    // z(f/2) = f/(f − n) (1 − 2n/f) = 498/499, and half-way is (f/2 − n)/(f − n) = 249/499; twice that in −1..1.
+    // z(f/2) = f/(f − n) (1 − 2n/f) = 498/499, and half-way is (f/2 − n)/(f − n) = 249/499. In
+    // −1..1 it is twice that.
     assert!((value(&content, "preserved") - 2.0 * 249.0 / 499.0).abs() < 1e-12);
 }
 
 #[test]
 fn supersampling() {
     let content = made("supersampling");
-    // One sample gives 0 or 1 for shares that are spread between: an error of √(1/12) = 0.29 at least for evenly spread
-    // shares. With n × n the error is that of the edge within a row of samples, below 1/n of it.
+    // One sample gives 0 or 1 for evenly spread shares: an error of at least √(1/12) = 0.29. With
+    // n × n samples only the edge within a row of samples is off, by less than 1/n of it.
     assert!(
         value(&content, "share") > 8.0,
         "{}",

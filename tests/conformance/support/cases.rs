@@ -1,4 +1,5 @@
-//! Frames with the reference's answers to them. Each answer is computed when a test first asks for it; all tests share it.
+//! Frames with the reference's answers. Each answer is computed when a test first asks for it, and
+//! shared by all tests.
 
 use super::{scene, shipped};
 use crate::support::renderers;
@@ -12,7 +13,7 @@ use std::sync::{Mutex, OnceLock};
 /// Width and height of a picture; `None` stands for the scene's own.
 pub type Size = Option<(i64, i64)>;
 
-/// A frame, and what its pictures are compared with.
+/// A frame and the reference pictures of it.
 pub struct Case {
     pub name: String,
     pub frame: Frame,
@@ -34,19 +35,19 @@ impl Case {
         }
     }
 
-    /// Returns which polygon the reference sees at each sample.
+    /// Returns the visible polygon at each sample, by the reference.
     pub fn visibility(&self) -> &Visibility {
         self.visibility
             .get_or_init(|| reference::visibility(&self.frame))
     }
 
-    /// Returns which polygon the scanline engine sees at each sample.
+    /// Returns the visible polygon at each sample, by the span engine.
     pub fn seen(&self) -> &Picture<u32> {
         self.seen
             .get_or_init(|| raster::polygon_numbers(&self.frame))
     }
 
-    /// Returns the pixels of which rounding cannot change the visible polygon.
+    /// Returns the pixels whose visible polygon rounding cannot change.
     pub fn decided(&self) -> &Picture<bool> {
         self.decided
             .get_or_init(|| renderers::decided(&self.frame, self.visibility()))
@@ -64,7 +65,7 @@ impl Case {
 pub fn case(name: &str, size: Size) -> &'static Case {
     static CASES: Mutex<BTreeMap<(String, Size), &'static OnceLock<Case>>> =
         Mutex::new(BTreeMap::new());
-    // The lock is held only while the cell is looked up: cases of different scenes are made at the same time.
+    // The lock is held only for the look-up, so cases of different scenes are made in parallel.
     let cell: &'static OnceLock<Case> = CASES
         .lock()
         .expect("no panic under the lock")
@@ -73,7 +74,7 @@ pub fn case(name: &str, size: Size) -> &'static Case {
     cell.get_or_init(|| Case::new(name, scene(name, size).frame().expect("a frame")))
 }
 
-/// Returns the cases of all shipped scenes at a size, each made when its turn comes.
+/// Returns the cases of all shipped scenes at a size. Each is made when its turn comes.
 pub fn cases(size: Size) -> impl Iterator<Item = &'static Case> {
     shipped().into_iter().map(move |name| case(&name, size))
 }

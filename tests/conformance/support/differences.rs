@@ -1,9 +1,11 @@
-//! Differences of two pictures, as far as tests ask for them: no means and no similarity, which take longer than drawing.
+//! Fast differences of two pictures for tests: no mean and no similarity, which would take longer
+//! than drawing.
 
 use fastphong::picture::{LinearPicture, Picture, Picture8};
 
-/// Returns the largest difference of a channel where `counts` holds, and at how many pixels in all alpha differs: only one of
-/// the pictures shows a polygon there. Numbers that are not finite are as far away as can be.
+/// Returns the largest difference of a channel where `counts` holds, and the number of all pixels
+/// whose alpha differs, which only one of the pictures covers. Differences that are not finite
+/// count as infinite.
 pub fn largest_difference(
     truth: &LinearPicture,
     ours: &LinearPicture,
@@ -29,8 +31,8 @@ pub fn largest_difference(
     (most, uncovered)
 }
 
-/// Returns the largest difference of a colour where `counts` holds, in grey levels, and at how many pixels in all alpha
-/// differs.
+/// Returns the largest difference of a colour where `counts` holds, in grey levels, and the number
+/// of all pixels whose alpha differs.
 pub fn levels_apart(
     expected: &Picture8,
     actual: &Picture8,
@@ -55,7 +57,7 @@ fn assert_equal_sizes<T: Copy>(a: &Picture<T>, b: &Picture<T>) {
     assert_eq!(size(a), size(b), "pictures of different sizes");
 }
 
-/// Returns which pixels are covered.
+/// Returns the covered pixels.
 pub fn covered(picture: &LinearPicture) -> Picture<bool> {
     picture.map(|pixel| pixel[3] > 0.0)
 }

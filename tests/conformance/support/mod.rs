@@ -1,4 +1,5 @@
-//! Shared by the tests: random numbers that are the same at every run, the shipped scenes, and frames of random shapes.
+//! Shared by the tests: reproducible random numbers, the shipped scenes, and frames of random
+//! shapes.
 
 pub mod cases;
 pub mod differences;
@@ -15,7 +16,7 @@ use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// xorshift64* (Vigna 2016).
+/// A xorshift64* generator (Vigna 2016).
 pub struct Random(u64);
 
 impl Random {
@@ -28,11 +29,11 @@ impl Random {
         self.0 ^= self.0 >> 27;
         self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
     }
-    /// 0..n
+    /// Returns an integer in 0..n.
     pub fn below(&mut self, n: u64) -> u64 {
         ((self.next() >> 32) * n) >> 32
     }
-    /// 0..1
+    /// Returns a number in 0..1.
     pub fn unit(&mut self) -> f32 {
         (self.next() >> 40) as f32 / (1u32 << 24) as f32
     }
@@ -79,7 +80,8 @@ pub fn scene(name: &str, size: Size) -> Scene {
     file.resolve(load).unwrap_or_else(|e| panic!("{e}")).scene
 }
 
-/// A light from straight ahead: the diffuse term of a normal (√(1−i²), 0, i) is i, and there is nothing else.
+/// Returns a lighting with one light from straight ahead. The colour of a normal (√(1−i²), 0, i) is
+/// i.
 pub fn plain_lighting() -> Lighting {
     let material = Material {
         ambient: [0.0; 3],
@@ -95,7 +97,7 @@ pub fn plain_lighting() -> Lighting {
     )
 }
 
-/// A normal whose colour under [`plain_lighting`] is `intensity`.
+/// Returns a normal whose colour under [`plain_lighting`] is `intensity`.
 pub fn normal_of(intensity: f32) -> [f32; 3] {
     [
         (1.0 - intensity * intensity).max(0.0).sqrt(),
@@ -113,7 +115,7 @@ pub struct Corner {
     pub intensity: f32,
 }
 
-/// Adds a polygon of such corners.
+/// Adds a polygon with these corners.
 pub fn add(builder: &mut FrameBuilder, material: u32, source: u32, corners: &[Corner]) {
     let vertices: Vec<u32> = corners
         .iter()
@@ -131,7 +133,7 @@ pub fn add(builder: &mut FrameBuilder, material: u32, source: u32, corners: &[Co
     builder.polygon(&vertices, [0.0, 0.0, 1.0], source);
 }
 
-/// A frame of polygons given by their corners.
+/// Builds a frame of polygons given by their corners.
 pub fn frame(width: u32, height: u32, depth_test: bool, polygons: &[Vec<Corner>]) -> Frame {
     let mut builder = FrameBuilder::new(width, height);
     builder.hidden_surfaces(if depth_test {
@@ -146,8 +148,8 @@ pub fn frame(width: u32, height: u32, depth_test: bool, polygons: &[Vec<Corner>]
     builder.finish().expect("corners inside the guard band")
 }
 
-/// A polygon of random corners, most of them crossing themselves; on the grid of pixel centres in one case of three,
-/// where ties are common.
+/// Returns a polygon of random corners, which mostly crosses itself. One case in three lies on the
+/// grid of pixel centres, where ties are common.
 pub fn random_polygon(random: &mut Random, width: i32, height: i32, corners: usize) -> Vec<Corner> {
     let grid = random.below(3) == 0;
     let reach = [40, 200, 2000][random.below(3) as usize];

@@ -1,4 +1,5 @@
-//! Every way in which this machine can draw a frame: the span engine, the row engine on each instruction set, threads.
+//! Every way in which this machine can draw a frame: the span engine, the row engine on each
+//! instruction set, threads.
 
 use fastphong::frame::Frame;
 use fastphong::picture::Picture;
@@ -7,14 +8,15 @@ use fastphong::reference::Visibility;
 use fastphong::scene::{DepthBuffer, HiddenSurfaces};
 use fastphong::shading::Variant;
 
-/// What this machine has, the lecture's own form first.
+/// Returns the renderers of this machine, the scalar span engine first.
 pub fn renderers() -> Vec<Renderer> {
     let all: Vec<Renderer> = Renderer::available().collect();
     assert_eq!(all[0], Renderer::LECTURE);
     all
 }
 
-/// Returns the renderers that draw `frame` in different ways, the lecture's own form first: of those with one plan the first.
+/// Returns the renderers that draw `frame` in different ways, the scalar span engine first. Of
+/// those with equal plans the first one stands.
 pub fn distinct(variant: &Variant, frame: &Frame) -> Vec<Renderer> {
     let mut plans = Vec::new();
     let mut all = renderers();
@@ -27,12 +29,12 @@ pub fn distinct(variant: &Variant, frame: &Frame) -> Vec<Renderer> {
     all
 }
 
-/// The name of a renderer, as the command line has it.
+/// Returns the name of a renderer as on the command line.
 pub fn name(renderer: Renderer) -> String {
     format!("{} on {}", renderer.engine(), renderer.level())
 }
 
-/// Does `work` on so many threads.
+/// Runs `work` on `count` threads.
 pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(count)
@@ -41,7 +43,7 @@ pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
     pool.install(work)
 }
 
-/// Pixels of which rounding cannot change the polygon that any sample shows: see [`is_decided`].
+/// Returns the pixels with [`is_decided`] true at all samples.
 pub fn decided(frame: &Frame, visibility: &Visibility) -> Picture<bool> {
     let n = frame.samples();
     let mut decided = Picture::new(frame.picture_width(), frame.picture_height(), true);
@@ -51,10 +53,10 @@ pub fn decided(frame: &Frame, visibility: &Visibility) -> Picture<bool> {
     decided
 }
 
-/// Where rounding cannot decide which polygon is seen: the next one is farther behind than depths are off by, whichever
-/// engine interpolates them.
+/// True if rounding cannot change the visible polygon: the next one is farther behind than the
+/// error of depths in any engine.
 pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) -> bool {
-    // A kept depth may fall on either side of the border between two levels.
+    // A stored depth may fall on either side of a border between two levels.
     let level = match frame.hidden_surfaces() {
         HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. }) => {
             bits.most().map_or(0.0, |most| 1.0 / f64::from(most))
@@ -64,12 +66,13 @@ pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) ->
     visibility.depth_gap.get(x, y) > depth_rounding(frame) + level
 }
 
-/// What the difference of two depths, both in 0..=1, may be off by.
+/// Returns the error bound of the difference of two depths in 0..=1.
 ///
-/// By edges, as derived in `coverage`: each depth is rounded twice at each of width + height steps, by half a unit in
-/// the last place, 2⁻²⁴ of 1 at most, and 32 times at the starts of its walks. By barycentric coordinates there are fewer
-/// roundings: an integer, the area, its inverse and their product are rounded, which is 4 · 2⁻²⁴ of a coordinate in 0..=1; so
-/// are two differences, two products and two sums, and a step of eight pixels is rounded once, not eight times.
+/// By edges, as derived in `coverage`: each depth is rounded twice at each of width + height
+/// steps, by half a unit in the last place, at most 2⁻²⁴ of 1, and 32 times at the starts of its
+/// walks. By barycentric coordinates there are fewer roundings. An integer, the area, its inverse
+/// and their product are rounded, 4 · 2⁻²⁴ of a coordinate in 0..=1, and so are two differences,
+/// two products and two sums. A step of eight pixels is rounded once, not eight times.
 pub fn depth_rounding(frame: &Frame) -> f64 {
     2.0 * (2 * (frame.width() + frame.height()) + 32) as f64 / f64::from(1 << 24)
 }

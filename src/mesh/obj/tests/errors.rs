@@ -1,4 +1,4 @@
-//! Files that are no mesh: each error with its line, and with what was expected.
+//! Invalid files: each error with its line and what was expected.
 
 use super::*;
 use crate::mesh::obj::prescan::MeshLimits;
@@ -7,7 +7,7 @@ use std::error::Error;
 use std::path::Path;
 use std::string::ToString;
 
-/// Line (0: none) and text after the place, of the error that `text` gives.
+/// Checks that `text` gives an error at `line` (0: none) with `message` after its place.
 #[track_caller]
 fn assert_error(text: impl AsRef<[u8]>, line: usize, message: &str) {
     let error = parse(text).unwrap_err();
@@ -21,14 +21,14 @@ fn assert_error(text: impl AsRef<[u8]>, line: usize, message: &str) {
     assert_eq!(error.to_string(), format!("{place}{message}"));
 }
 
-/// Checks the error that `text` gives after five points, so that the first line of `text` is line 6.
+/// Checks the error of `text` after five points, so that the first line of `text` is line 6.
 #[track_caller]
 fn assert_error_after_points(text: &str, line: usize, message: &str) {
     assert_error(format!("{POINTS}{text}"), line, message);
 }
 
 #[test]
-fn files_that_are_not_there_or_no_files() {
+fn missing_files_and_directories() {
     let missing = load_obj(Path::new("no/such/file.obj")).unwrap_err();
     assert!(
         missing
@@ -77,7 +77,7 @@ fn binary_data() {
     let message = "holds binary data: expected OBJ text with `v` and `f` lines";
     assert_error([0, 255, 3, 10, 200, 7], 1, message);
     assert_error_after_points("f 1 2 3\nf 1\0", 7, message);
-    // No NUL, no polygon.
+    // No NUL byte, but no polygon either.
     assert!(parse([0x89, b'P', b'N', b'G', 13, 10, 26, 10, 200]).is_err());
 }
 
@@ -160,7 +160,8 @@ fn indices() {
         1,
         "position index -1 is out of range: expected a position to be given first, there is none",
     );
-    // Backwards counts from its line, forwards is checked at the end: the first line that stays wrong is told.
+    // Negative indices are checked at their line, positive ones at the end. The first line that
+    // stays wrong is reported.
     let later = "f 1 2 6\nf 1 2 9\nf 1 2 8\nv 9 9 9\n";
     assert_error_after_points(
         later,
@@ -187,7 +188,8 @@ fn indices() {
         7,
         "normal index -5 is out of range: expected -1 to -1 at this line",
     );
-    // Normals that come later do not help who counts backwards, nor who counts too far; 0 names none in any file.
+    // Later normals fix neither negative indices nor indices beyond the end. 0 names no normal in
+    // any file.
     let none =
         "normal index -1 is out of range: expected a normal to be given first, there is none";
     assert_error_after_points("f 1//-1 2//1 3//1\nvn 0 0 1\n", 6, none);

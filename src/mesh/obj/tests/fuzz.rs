@@ -1,4 +1,4 @@
-//! Broken files: a fixed series of random changes to good ones. All must end in a mesh or an error.
+//! Broken files: a fixed series of random changes to good ones. All must give a mesh or an error.
 
 use super::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -12,7 +12,7 @@ const OBJ: &[&str] = &[
 ];
 const MTL: &str = "newmtl red\nKa 0.1\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\nillum 2\nmap_Kd a b.png\n\n\
                    newmtl blue # sky\nKd spectral f.rfl\nKs xyz 1 1 1\nNi 1.5\nTr 0\nd -halo 0.5\nillum 1\n";
-/// The tokens that readers of OBJ files stumble over; they are put in, besides single bytes.
+/// Tokens that confuse readers of OBJ files. They are inserted besides single bytes.
 const TOKENS: &[&str] = &[
     "\n",
     "\\\n",
@@ -43,7 +43,7 @@ const TOKENS: &[&str] = &[
     "-9223372036854775808",
 ];
 
-/// Marsaglia's xorshift64: a fixed series, so that a failure comes again.
+/// Marsaglia's xorshift64, a fixed series that makes failures reproducible.
 struct Series(u64);
 
 impl Series {
@@ -54,7 +54,7 @@ impl Series {
         (self.0 % n.max(1) as u64) as usize
     }
 
-    /// One change to `bytes`.
+    /// Makes one change to `bytes`.
     fn change(&mut self, bytes: &mut Vec<u8>) {
         let at = self.below(bytes.len());
         match self.below(6) {
@@ -100,7 +100,7 @@ fn changed_files_end_in_a_mesh_or_an_error() {
         match &parsed {
             Ok(loaded) => {
                 meshes += 1;
-                // Nothing that the checks let through may fail in the parser.
+                // The parser must not fail on anything that the checks let through.
                 assert!(
                     !loaded.warnings.iter().any(|w| w.contains("gave up")),
                     "{:?} {mtl:?}",
@@ -116,7 +116,7 @@ fn changed_files_end_in_a_mesh_or_an_error() {
             }
         }
     }
-    // Both ways are walked often, or the changes are too mild or too wild to find anything.
+    // Both outcomes must be frequent, or the changes are too mild or too wild to find anything.
     assert!(
         meshes > 2_000 && errors > 2_000,
         "{meshes} meshes, {errors} errors"

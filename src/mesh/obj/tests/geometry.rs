@@ -10,7 +10,7 @@ use std::vec;
 
 #[test]
 fn polygons_keep_all_their_sides() {
-    // A concave pentagon: nobody may make triangles of it.
+    // A concave pentagon must not be triangulated.
     let loaded =
         parse("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\nf 1 2 3\nf 1 3 4 5\n")
             .unwrap();
@@ -79,7 +79,8 @@ fn comments_continued_lines_and_line_ends() {
 
 #[test]
 fn byte_order_mark_and_latin_1() {
-    // With the mark in its first line the parser loses that position, and all indices shift by one.
+    // If the mark is in its first line, the parser loses that position and all indices shift by
+    // one.
     let loaded = parse(format!("\u{feff}{POINTS}f 2 3 4\n")).unwrap();
     assert_eq!(loaded.mesh.positions()[0], Vec3::X);
     let latin = [b"o Gr\xfcn \xa9\n", POINTS.as_bytes(), b"f 1 2 3 # \xe9\n"].concat();
@@ -88,7 +89,7 @@ fn byte_order_mark_and_latin_1() {
 
 #[test]
 fn weights_and_colours_do_not_move_positions() {
-    // The parser divides by a fourth number and refuses a colour that not every position has.
+    // The parser divides by a fourth number and rejects colours that some positions lack.
     let loaded = parse("v 2 4 6 2 # w\nv 1 0 0 1 0.5 0.5\nv 1 1 0 1\nf 1 2 3\n").unwrap();
     assert_eq!(
         loaded.mesh.positions(),
@@ -122,7 +123,8 @@ fn faces_without_area_by_their_indices() {
         loaded.warnings
     );
 
-    // A neighbour that repeats goes; a corner met twice on the way round (a bridge to a hole) stays.
+    // A repeated neighbour is removed. A corner met twice on the way round (a bridge to a hole)
+    // stays.
     let loaded = after_points("f 1 1 2 3 3 1\nf 1 2 3 1 4 5\n");
     assert_eq!(polygons(&loaded), [vec![0, 1, 2], vec![0, 1, 2, 0, 3, 4]]);
     assert_eq!(
@@ -159,7 +161,7 @@ fn tiny_and_huge_normals_have_a_direction() {
 
 #[test]
 fn normals_of_a_part_of_the_corners_are_not_used() {
-    // The parser repeats the last normal where there is none.
+    // The parser repeats the last normal for corners without one.
     for faces in [
         "f 1//1 2//2 3//1\nf 1 3 4\n",
         "f 1 3 4\nf 1//1 2//2 3//1\n",
@@ -177,7 +179,8 @@ fn normals_of_a_part_of_the_corners_are_not_used() {
     assert!(unused.mesh.given_normals().is_none() && unused.warnings.is_empty());
 }
 
-/// As other loaders do: faces may name normals and texture coordinates that the file does not have at all.
+/// Faces may name normals and texture coordinates that the file does not have at all, as in other
+/// loaders.
 #[test]
 fn normals_of_a_file_without_any_are_averaged() {
     for (faces, told) in [
@@ -258,11 +261,12 @@ fn unknown_and_free_form_statements_are_told_once() {
         "{:?}",
         loaded.warnings
     );
-    // The older word for a face.
+    // `fo` is an older keyword for faces.
     assert_eq!(polygons(&after_points("fo 1 2 3\n")), [[0, 1, 2]]);
 }
 
-/// The OBJ files that are shipped: closed (each edge once in each direction), without a warning, as large as said.
+/// The shipped OBJ files are closed (each edge once in each direction), give no warning, and have
+/// the expected size.
 #[test]
 fn shipped_meshes() {
     for (name, positions, polygon_count, sides, materials) in [
@@ -303,7 +307,8 @@ fn shipped_meshes() {
             edges.iter().all(|&(from, to)| edges.contains(&(to, from))),
             "{name} has a hole"
         );
-        // Six times the volume, as the sum over fans of triangles: positive when polygons face outward.
+        // Six times the volume, as the sum over fans of triangles. It is positive if polygons face
+        // outward.
         let volume = |a: u32, b: u32, c: u32| {
             let at = |i: u32| mesh.positions()[i as usize].as_dvec3();
             at(a).dot(at(b).cross(at(c)))
@@ -322,7 +327,7 @@ fn shipped_meshes() {
 
 #[test]
 fn colours_follow_their_positions() {
-    // Position 1 is not used, and the others are named in another order than they are given.
+    // Position 1 is unused, and the face names the others in another order than the file.
     let points = "v 9 9 9 0 0 0\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0 # green\nv 0 1 0 0 0.25 1\n";
     let loaded = parse(points.to_string() + "f 4 2 3\n").unwrap();
     assert_eq!(
@@ -330,7 +335,7 @@ fn colours_follow_their_positions() {
         [Vec3::new(0.0, 0.25, 1.0), Vec3::X, Vec3::Y]
     );
     assert_eq!(loaded.warnings, Vec::<String>::new());
-    // Faces may stand before positions.
+    // Faces may precede positions.
     let loaded = parse("f 4 2 3\n".to_string() + points).unwrap();
     assert_eq!(
         loaded.mesh.colours(),
@@ -357,7 +362,8 @@ fn colours_are_used_if_all_positions_have_one() {
     assert!(
         loaded.warnings[0].contains("not within 0 to 1") && loaded.warnings[0].contains("2 times")
     );
-    // Four numbers are a weight, seven are a weight and a colour, which no program writes: both without a colour.
+    // Four numbers are a position with a weight. Seven add a colour, which no program writes. Both
+    // give no colour.
     let loaded = parse("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1 0 0 1\nf 1 2 3\n").unwrap();
     assert!(loaded.mesh.colours().is_empty());
 }

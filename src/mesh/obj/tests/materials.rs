@@ -8,7 +8,7 @@ use std::path::Path;
 use std::string::ToString;
 use std::vec;
 
-/// Loads five points and `obj`, with the libraries of the list.
+/// Loads five points and `obj` with the given libraries.
 fn load(obj: &str, libraries: &[(&str, &str)]) -> LoadedObj {
     parse_obj("t.obj", format!("{POINTS}{obj}").as_bytes(), |name| {
         let found = libraries.iter().find(|(file, _)| *file == name);
@@ -19,7 +19,7 @@ fn load(obj: &str, libraries: &[(&str, &str)]) -> LoadedObj {
     .unwrap()
 }
 
-/// The material of one triangle with `usemtl m`, and the warnings, when the library is `mtl`.
+/// Returns the material of one triangle with `usemtl m` and library `mtl`, and the warnings.
 fn material(mtl: &str) -> (Option<Material>, Vec<String>) {
     let loaded = load("mtllib a.mtl\nusemtl m\nf 1 2 3\n", &[("a.mtl", mtl)]);
     (
@@ -39,7 +39,7 @@ const PLAIN: Material = Material {
 };
 
 #[test]
-fn what_a_material_says() {
+fn properties_of_materials() {
     let text = "newmtl m\nKa 0.1 0.2 0.3\nKd 0.4 0.5 0.6\nKs 0.7 0.8 0.9\nNs 96.5\nillum 2\nd 1\nmap_Kd\nTf 1 1 1\n";
     let expected = Material {
         ambient: [0.1, 0.2, 0.3],
@@ -55,9 +55,9 @@ fn what_a_material_says() {
 }
 
 #[test]
-fn what_a_material_does_not_say() {
+fn defaults_of_materials() {
     assert_eq!(material("newmtl m"), (Some(PLAIN), vec![]));
-    // No highlight in the illumination models 0 and 1.
+    // Illumination models 0 and 1 have no highlight.
     for (illum, specular) in [("0", 0.0), ("1", 0.0), ("2", 0.5), ("3", 0.5)] {
         let (found, warnings) = material(&format!("newmtl m\nKs 0.5 0.5 0.5\nillum {illum}\n"));
         assert_eq!(
@@ -70,7 +70,7 @@ fn what_a_material_does_not_say() {
 
 #[test]
 fn one_number_is_grey() {
-    // Legal, and a panic in the parser.
+    // This is legal, but makes the parser panic.
     assert_eq!(
         material("newmtl m\nKd 0.5 # grey\n"),
         (
@@ -138,7 +138,7 @@ fn lines_that_cannot_be_read_are_told_and_ignored() {
         warnings[1].starts_with("a.mtl:3: `newmtl ` is ignored: expected a name"),
         "{warnings:?}"
     );
-    // A file of other content does not fill the screen.
+    // A file with other content must not fill the screen.
     let (_, warnings) = material(&"Kd\n".repeat(1000));
     assert_eq!(warnings.len(), 8 + 2, "{warnings:?}");
     assert_eq!(warnings[8], "a.mtl: 992 more lines are ignored");
@@ -150,7 +150,7 @@ fn each_polygon_has_its_material() {
     let loaded = load(obj, &[("a.mtl", "newmtl blue\nnewmtl red\nKd 1 0 0\n")]);
     let of_polygons: Vec<_> = (0..5).map(|p| loaded.mesh.polygon_material(p)).collect();
     assert_eq!(of_polygons, [None, Some(0), Some(0), None, Some(0)]);
-    // Only what is used.
+    // Only used materials are kept.
     assert_eq!(
         loaded.mesh.materials(),
         [Material {
@@ -201,7 +201,7 @@ fn several_libraries() {
         "mtllib a.mtl\nmtllib b c.MTL",
         "mtllib \"a.mtl\" \"b c.MTL\"",
     ] {
-        // The library named first wins; a library may come after its use.
+        // The library named first wins. A library may come after its use.
         let loaded = load(
             &format!("usemtl m\nf 1 2 3\nusemtl n\nf 1 3 4\n{lines}\nmtllib a.mtl\n"),
             &files,
@@ -268,9 +268,9 @@ fn a_library_in_latin_1() {
 }
 
 #[test]
-fn where_libraries_are_looked_for() {
+fn paths_of_libraries() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    // Paths with either separator; the bare name when the path leads nowhere here.
+    // Paths have either separator. The bare name is tried if the path leads nowhere.
     for name in [
         "scenes/vase.mtl",
         "scenes\\vase.mtl",
@@ -279,7 +279,7 @@ fn where_libraries_are_looked_for() {
         assert!(read_library(root, name).is_ok(), "{name}");
     }
     assert!(read_library(&root.join("scenes"), "C:\\models\\vase.mtl").is_ok());
-    // Neither a directory nor, where there is one, a device that never ends.
+    // Reject directories, and devices that never end where they exist.
     for name in ["src", "/dev/zero", "", "..", "no.mtl"] {
         assert!(read_library(root, name).is_err(), "{name}");
     }

@@ -1,4 +1,5 @@
-//! Legal and illegal files on which the parser, `tobj` 4.0.5, goes wrong: a test for each case.
+//! Legal and illegal files that the parser, `tobj` 4.0.5, handles wrongly, with a test for each
+//! case.
 
 mod errors;
 mod fuzz;
@@ -19,7 +20,7 @@ fn parse(text: impl AsRef<[u8]>) -> Result<LoadedObj, ObjError> {
     })
 }
 
-/// Five points, then `text`.
+/// Loads five points, then `text`.
 fn after_points(text: &str) -> LoadedObj {
     parse(format!("{POINTS}{text}")).unwrap()
 }
@@ -28,7 +29,7 @@ fn polygons(loaded: &LoadedObj) -> Vec<Vec<u32>> {
     loaded.mesh.polygons().map(<[u32]>::to_vec).collect()
 }
 
-/// The only warning.
+/// Returns the only warning.
 fn warning(loaded: &LoadedObj) -> &String {
     assert_eq!(loaded.warnings.len(), 1, "{:?}", loaded.warnings);
     &loaded.warnings[0]

@@ -97,7 +97,7 @@ fn numbers_out_of_range() {
         "expected 0 or more",
         None,
     );
-    // Finite in 64 bits, not in 32.
+    // The value is finite in 64 bits, but not in 32.
     check(
         "[material]\nks = «1e39»\n",
         "`material.ks` is 1000000000000000000000000000000000000000",
@@ -226,7 +226,7 @@ fn cameras_that_cannot_be() {
         "expected more than near = 3",
         None,
     );
-    // The cube reaches from 4 to 6 along the line of sight, and 5 % of 2 farther.
+    // The cube reaches from 4 to 6 along the line of sight, and 5 % of 2 is added.
     check(
         &with_object(&format!("[camera]\n{eye}near = «7»\n")),
         "`camera.near` leaves nothing between near = 7 and far = 6.1",
@@ -392,7 +392,7 @@ fn scenes_as_a_whole() {
     );
 }
 
-/// A mesh that cannot be loaded is pointed at; reasons of several lines stand below.
+/// The error points at a mesh that cannot be loaded. Reasons of several lines follow below.
 #[test]
 fn meshes_that_cannot_be_loaded() {
     let file = SceneFile::parse("[[object]]\nmesh = \"vase.obj\"\n", "scene.toml").expect("valid");
@@ -423,7 +423,7 @@ fn meshes_that_cannot_be_loaded() {
     );
 }
 
-/// The whole text, once: two places, a hint, and no colour unless it is asked for.
+/// The full text of an error has two places, a hint, and colour only if asked for.
 #[test]
 fn the_text_of_an_error() {
     let conflict = error("[camera]\nhalf_height = 1\nfovy = 30\n");
@@ -454,7 +454,7 @@ error: unknown word `bakc`
     assert!(misspelt.render(true).contains('\u{1b}'));
 }
 
-/// Values from flags pass the same checks; the error names the flag and shows no file.
+/// Values from flags pass the checks of files. The error names the flag and shows no file.
 #[test]
 fn values_from_flags() {
     let file =
@@ -482,7 +482,7 @@ fn values_from_flags() {
         error.render(false),
         "error: `--light` has no length: expected a direction: not all numbers 0"
     );
-    // Not by `overlay`, in which `fit` takes the place of `half_height`.
+    // Set the value directly: `overlay` would replace `half_height` by `fit`.
     let mut flagged = file;
     let camera = flagged.table.table_mut("camera");
     camera.set("fit", Data::Number(0.5), flag("--fit"));

@@ -5,7 +5,7 @@ use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::SceneError;
 use std::format;
 
-/// The error that `text` leads to, in reading or in resolving.
+/// Returns the error of `text`, from parsing or resolving.
 pub(super) fn error(text: &str) -> SceneError {
     match SceneFile::parse(text, "scene.toml").and_then(|file| file.resolve(cubes)) {
         Ok(_) => panic!("no error in\n{text}"),
@@ -13,7 +13,8 @@ pub(super) fn error(text: &str) -> SceneError {
     }
 }
 
-/// One wrong scene: the mark `«…»` is taken out before it is read, and the caret must stand under what it held.
+/// Checks one wrong scene. The mark `«…»` is removed before parsing, and the caret must point at
+/// the marked text.
 pub(super) fn check(marked: &str, message: &str, expected: &str, hint: Option<&str>) {
     let start = marked.find('«').expect("a mark");
     let line = marked[..start].matches('\n').count() + 1;
@@ -37,7 +38,7 @@ pub(super) fn check(marked: &str, message: &str, expected: &str, hint: Option<&s
         shown.contains(&format!("--> scene.toml:{line}:{column}\n")),
         "{shown}"
     );
-    // A caret under each character of the first line of what is marked, from the same column on.
+    // There is a caret under each character of the first marked line, starting at its column.
     let carets = "^".repeat(
         inside
             .lines()

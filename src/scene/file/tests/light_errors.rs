@@ -66,7 +66,7 @@ fn positions_and_attenuations_out_of_range() {
     );
 }
 
-/// A light is at infinity or at a position; only at a position it has a distance.
+/// A light is either directional or positional. Only a positional one has a distance.
 #[test]
 fn a_light_is_in_one_place() {
     let message = "`light.position` and `light.direction` exclude each other";
@@ -105,7 +105,7 @@ fn a_light_is_in_one_place() {
     );
 }
 
-/// A light without a place is pointed at where its table begins.
+/// The error for a light without direction and position points at the start of its table.
 #[test]
 fn a_light_is_somewhere() {
     let expected = "expected one of them in every [[light]]";
@@ -142,7 +142,8 @@ fn a_light_is_somewhere() {
     );
 }
 
-/// The corners of the cube are ±1: the light is at one, or as near to one as `f32` can tell.
+/// A light must not be at a vertex, or as near as `f32` can resolve. The corners of the cube are
+/// ±1.
 #[test]
 fn a_light_at_a_vertex() {
     let expected =
@@ -171,7 +172,7 @@ fn a_light_at_a_vertex() {
         expected,
         None,
     );
-    // On a face, on an edge and inside the cube there is no vertex.
+    // Faces, edges and the inside of the cube have no vertex there.
     for place in ["[1, 0, 0]", "[1, 1, 0]", "[0, 0, 0]", "[1, -1, 1.00001]"] {
         let file = SceneFile::parse(
             &with_object(&format!("[[light]]\nposition = {place}\n")),

@@ -19,8 +19,8 @@ use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
-/// True if two vectors differ by a few roundings only: coordinates here are below 10, and each comes from fewer than 50
-/// operations with an error of 2^-53 each.
+/// True if two vectors differ by a few roundings only. Coordinates here are below 10, and each
+/// comes from fewer than 50 operations with an error of 2^-53 each.
 fn near(a: DVec3, b: DVec3) -> bool {
     (a - b).abs().max_element() < 10.0 * 50.0 * f64::EPSILON
 }
@@ -117,7 +117,7 @@ fn the_rest_of_visibility() {
     );
 }
 
-/// Each way of hiding surfaces with its own settings; those of another way are named in a warning.
+/// Each hidden-surface method has its own settings. A warning names settings of another method.
 #[test]
 fn every_way_of_hiding_surfaces() {
     let of = |text: &str| resolve(&with_object(text));
@@ -174,8 +174,8 @@ fn every_way_of_hiding_surfaces() {
     }
 }
 
-/// The unit sphere of 72 × 36 segments with its axis along z, of which the numbers in `fit_rule` were found by another
-/// program.
+/// Returns the unit sphere of 72 × 36 segments with its axis along z. Another program computed the
+/// numbers in `fit_rule` from it.
 fn sphere() -> PolygonMesh {
     let mut positions = vec![Vec3::Z];
     for ring in 1..36 {
@@ -200,7 +200,8 @@ fn sphere() -> PolygonMesh {
 
 #[test]
 fn fit_rule() {
-    // Positions are rounded to 2^-24, and a distance is at most 7 of them: below 1e-6; so are nine printed digits.
+    // Positions are rounded to 2^-24, and a distance is at most 7 of them: below 1e-6. So are nine
+    // printed digits.
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
     let sphere = |text: &str| {
         let file = SceneFile::parse(&with_object(text), "scene.toml").expect("valid");
@@ -266,7 +267,7 @@ fn camera_at_a_given_place() {
         (camera.projection, camera.up),
         (Projection::Perspective { fovy: 90.0 }, DVec3::X)
     );
-    // The cube from 4 to 6 before the eye, and 5 % of 2 more.
+    // The cube lies from 4 to 6 before the eye, and 5 % of 2 is added.
     assert!(
         near(
             DVec3::new(camera.near, camera.far, 0.0),
@@ -274,7 +275,8 @@ fn camera_at_a_given_place() {
         ),
         "{camera:?}"
     );
-    // Without a projection the cube fills 0.8 of the frame: in height here, in width when that is the narrower one.
+    // Without a projection the cube fills 0.8 of the frame: in height here, in width if that is
+    // smaller.
     for (size, half_height) in [("width = 640", 1.0 / 0.8), ("width = 240", 2.0 / 0.8)] {
         let text = format!("[image]\n{size}\n[camera]\neye = [0, 0, 5]");
         let Projection::Orthographic { half_height: found } =
@@ -339,7 +341,7 @@ fn lights() {
     assert!(resolve(&with_object("light = []")).scene.lights.is_empty());
 }
 
-/// The one object of a scene, and where it puts a point.
+/// Returns a point transformed by the only object of a scene.
 fn moved(keys: &str, point: [f64; 3]) -> DVec3 {
     resolve(&(with_object("") + keys)).scene.objects[0]
         .transform
@@ -353,7 +355,7 @@ fn transforms() {
         moved("scale = [2, -1, 1]\ntranslate = [0, 0, 5]", [1.0, 2.0, 3.0]),
         DVec3::new(2.0, -2.0, 8.0)
     );
-    // Scaled first (x to 2), then turned (x to y), then moved.
+    // Scaled first (x to 2), then rotated (x to y), then translated.
     let all =
         "translate = [10, 0, 0]\nrotate = { axis = [0, 0, 9], angle = 90 }\nscale = [2, 1, 1]";
     assert!(near(
@@ -366,7 +368,7 @@ fn transforms() {
     assert_eq!(moved("rotate = []", [1.0, 0.0, 0.0]), DVec3::X);
     let matrix = "matrix = [[0, 0, 2, 7], [1, 0, 0, 8], [0, 1, 0, 9]]";
     assert_eq!(moved(matrix, [1.0, 2.0, 3.0]), DVec3::new(13.0, 9.0, 11.0));
-    // Shear is no flattening, however strong; nor is a small scale.
+    // Strong shear is not degenerate, and neither is a small scale.
     assert_eq!(
         moved(
             "matrix = [[1, 1e6, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]",
@@ -378,7 +380,7 @@ fn transforms() {
     assert_eq!(moved("scale = 1e-9", [1.0, 0.0, 0.0]).x, 1e-9);
 }
 
-/// A cube whose first polygon has a material of its own, and whose others have none.
+/// Returns a cube whose first polygon has a material and whose others have none.
 fn painted() -> PolygonMesh {
     let plain = cube();
     let mut mesh = MeshBuilder::new(plain.positions().to_vec());
@@ -396,7 +398,7 @@ fn painted() -> PolygonMesh {
     mesh.finish().expect("valid")
 }
 
-/// The shininess of polygon `p` as the engine would see it.
+/// Returns the shininess of polygon `p` as the engine sees it.
 fn shininess(object: &Object, p: usize) -> f32 {
     match (object.material, object.mesh.polygon_material(p)) {
         (Some(material), _) => material.shininess,
@@ -439,7 +441,7 @@ fn materials() {
             (first, second),
             "{scene} {own}"
         );
-        // Settings other than materials stay.
+        // Materials change no other setting.
         assert_eq!(
             (object.mesh.positions(), object.mesh.corners()),
             (cube().positions(), cube().corners())
@@ -475,7 +477,7 @@ fn each_mesh_is_loaded_once_from_its_folder() {
         &resolved.scene.objects[0].mesh,
         &resolved.scene.objects[2].mesh
     ));
-    // A mesh named by a flag lies where the user is, not where the scene is.
+    // A mesh named by a flag is relative to the working directory, not to the scene.
     let flag = Origin::Flag("MESH".into());
     file.objects_mut()[2].set("mesh", Data::Text("a.obj".into()), flag);
     asked.clear();
@@ -495,7 +497,7 @@ fn each_mesh_is_loaded_once_from_its_folder() {
     );
 }
 
-/// The camera of `below` under the flags `over`.
+/// Returns the camera of `below` overlaid with the flags `over`.
 fn overlaid(below: &str, over: &str) -> crate::scene::Camera {
     let mut file =
         SceneFile::parse(&with_object(&format!("[camera]\n{below}")), "scene.toml").expect("valid");
@@ -523,7 +525,7 @@ fn flags_over_a_file() {
         SceneFile::parse(&with_object(merged), "c").expect("valid")
     );
 
-    // Flags win over the file; flags that say nothing change nothing.
+    // Flags override the file. Empty flags change nothing.
     let all = |n: u32, cull: &str, space: &str, encoding: &str| {
         let material = format!("ka = {n}\nkd = {n}\nks = {n}\nshininess = {n}");
         format!(

@@ -1,4 +1,4 @@
-//! Scene files: what each key means, what is refused and how it is said, and the scenes that are shipped.
+//! Scene files: the meaning of each key, errors and their texts, and the shipped scenes.
 
 mod errors;
 mod expect;
@@ -16,7 +16,7 @@ use std::string::String;
 use std::sync::Arc;
 use std::vec::Vec;
 
-/// The cube −1..=1, six quads counter-clockwise from outside.
+/// Returns the cube −1..=1 as six quads, counter-clockwise from outside.
 fn cube() -> PolygonMesh {
     let sign = |bit: u32| if bit == 0 { -1.0 } else { 1.0 };
     let corner = |i: u32| Vec3::new(sign(i & 1), sign(i & 2), sign(i & 4));
@@ -34,12 +34,12 @@ fn cube() -> PolygonMesh {
     mesh.finish().expect("a cube is a valid mesh")
 }
 
-/// A loader for which every mesh is a cube.
+/// Loads a cube for every mesh.
 fn cubes(_: &str, _: &Path) -> LoadedMesh {
     Ok((Arc::new(cube()), Vec::new()))
 }
 
-/// The scene of `text`, all meshes being cubes.
+/// Resolves the scene of `text`, with cubes for all meshes.
 fn resolve(text: &str) -> crate::scene::file::resolve::Resolved {
     let file = crate::scene::file::SceneFile::parse(text, "scene.toml")
         .unwrap_or_else(|error| panic!("{error}"));
@@ -47,7 +47,7 @@ fn resolve(text: &str) -> crate::scene::file::resolve::Resolved {
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// `text` with an object after it.
+/// Appends an object to `text`.
 fn with_object(text: &str) -> String {
     std::format!("{text}\n[[object]]\nmesh = \"builtin:cube\"\n")
 }

@@ -4,7 +4,7 @@ use crate::scene::file::SceneFile;
 use std::format;
 
 #[test]
-fn what_is_not_toml_or_has_no_such_key() {
+fn invalid_toml_and_unknown_keys() {
     check(
         "[«camra»]\nfit = 1\n",
         "unknown key `camra`",
@@ -90,7 +90,7 @@ fn what_is_not_toml_or_has_no_such_key() {
 }
 
 #[test]
-fn what_is_of_the_wrong_kind() {
+fn values_of_the_wrong_type() {
     check(
         "two_sided = «\"yes\"»\n",
         "expected true or false",
@@ -165,7 +165,7 @@ fn what_is_of_the_wrong_kind() {
     );
 }
 
-/// Text that is not TOML at all, of any kind, is an error with a place and never a panic.
+/// Text that is not TOML gives an error with a place, and never a panic.
 #[test]
 fn broken_text() {
     for (text, line, column) in [
@@ -189,7 +189,7 @@ fn broken_text() {
             "{error}"
         );
     }
-    // Every beginning of a scene, at every byte.
+    // Try every beginning of a scene, at every byte.
     let whole =
         with_object("title = 'ä'\n[camera]\neye = [0, 0, 5]\n[[light]]\ndirection = [1, 1, 1]");
     for end in (0..whole.len()).filter(|end| whole.is_char_boundary(*end)) {

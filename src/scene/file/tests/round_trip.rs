@@ -6,7 +6,7 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
-/// A fixed sequence of numbers that look random: splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
+/// A reproducible random sequence: splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
 struct Random(u64);
 
 impl Random {
@@ -18,7 +18,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Any finite double, all exponents alike; now and then a round one.
+    /// Returns any finite double, with all exponents equally likely, and sometimes a round one.
     fn number(&mut self) -> f64 {
         match self.next() % 4 {
             0 => [0.0, -0.0, 1.0, -2.0, 0.1, 1e300, 5e-324, 1e21][self.next() as usize % 8],
@@ -44,7 +44,7 @@ impl Random {
         (0..self.next() % 6).map(|_| self.choice(&pieces)).collect()
     }
 
-    /// A value of a kind.
+    /// Returns a value of a kind.
     fn data(&mut self, kind: ValueKind) -> Data {
         match kind {
             ValueKind::Text => Data::Text(self.text()),
@@ -68,7 +68,7 @@ impl Random {
         Data::Tables((0..count).map(|_| self.table(keys)).collect::<Vec<_>>())
     }
 
-    /// A table with each of its keys in half of all cases.
+    /// Returns a table in which each key is present half of the time.
     fn table(&mut self, keys: &[Key]) -> SceneTable {
         let mut table = SceneTable::default();
         for key in keys {
@@ -81,7 +81,7 @@ impl Random {
 
     fn scene(&mut self) -> SceneFile {
         let mut table = self.table(SCENE);
-        // An empty table says as much as none, but for the material of an object.
+        // An empty table equals a missing one, except for the material of an object.
         table
             .entries
             .retain(|_, value| !matches!(&value.data, Data::Table(t) if t.entries.is_empty()));
@@ -92,7 +92,7 @@ impl Random {
     }
 }
 
-/// A scene that is written reads back as the same scene, values bit for bit, however odd they are.
+/// A written scene reads back as the same scene, with equal bits of every value.
 #[test]
 fn written_scenes_read_back_equal() {
     let mut random = Random(21);
@@ -102,7 +102,7 @@ fn written_scenes_read_back_equal() {
         let back = SceneFile::parse(&text, "back.toml")
             .unwrap_or_else(|error| panic!("{round}: {error}\n{text}"));
         assert_eq!(back, scene, "{round}:\n{text}");
-        // `==` does not tell −0 from 0; the text does.
+        // `==` does not distinguish −0 from 0, but the text does.
         assert_eq!(back.to_toml(), text, "{round}");
     }
 }
@@ -137,7 +137,7 @@ direction = [0.4, 0.7, 0.9]
 mesh = \"teapot.obj\"
 "
     );
-    // Spelt out, and yet the defaults: a scene that says nothing but the mesh is the same scene.
+    // The written defaults equal a scene that names only the mesh.
     let bare = SceneFile::parse("[[object]]\nmesh = 'teapot.obj'", "bare.toml").expect("valid");
     let resolved = |file: &SceneFile| format!("{:?}", file.resolve(super::cubes).expect("valid"));
     assert_eq!(resolved(&scene), resolved(&bare));

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::string::String;
 use std::vec::Vec;
 
-/// Every scene in `scenes/` by its name.
+/// Returns every scene in `scenes/` by name.
 fn scenes() -> BTreeMap<String, SceneFile> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let paths = std::fs::read_dir(folder)
@@ -56,7 +56,7 @@ fn shipped_scenes_are_valid() {
     }
 }
 
-/// The README has a row for each scene and for no other, and each scene is different.
+/// The README has exactly one row per scene, and all scenes differ.
 #[test]
 fn shipped_scenes_are_listed() {
     let readme = include_str!("../../../../scenes/README.md");
