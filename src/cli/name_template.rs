@@ -3,7 +3,7 @@
 use super::CliError;
 use std::path::{Path, PathBuf};
 
-/// What a name may say about its picture.
+/// The facts about a picture that its name may hold.
 pub const PLACEHOLDERS: [&str; 5] = ["scene", "method", "engine", "width", "height"];
 
 /// Returns `path` with each `{placeholder}` replaced by the value that stands in its place in [`PLACEHOLDERS`]. Characters that

@@ -6,3 +6,4 @@ mod lectures;
 mod markdown;
 mod rooms;
 mod tidy;
+mod words;

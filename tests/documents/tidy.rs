@@ -512,3 +512,35 @@ fn check_usage(document: &str, command: &str, words: &[&str]) {
         _ => (),
     }
 }
+
+/// Every source file belongs to a program: its parent declares it. A file without declaration is never compiled, and its tests
+/// never run.
+#[test]
+fn every_file_is_compiled() {
+    let mut lost = Vec::new();
+    for file in ["src", "tests"]
+        .into_iter()
+        .flat_map(|folder| files(folder, "rs"))
+    {
+        let (Some(name), Some(folder)) = (file.file_stem(), file.parent()) else {
+            continue;
+        };
+        let name = name.to_string_lossy();
+        let (name, folder) = match (&*name, folder.file_name()) {
+            ("lib" | "main", _) => continue,
+            ("mod", Some(own)) => (own.to_string_lossy(), folder.parent().unwrap_or(folder)),
+            _ => (name, folder),
+        };
+        let parents = ["mod.rs", "main.rs", "lib.rs"].map(|parent| folder.join(parent));
+        let parents = parents.into_iter().chain([folder.with_extension("rs")]);
+        let declaration = format!("mod {name};");
+        let declares = |source: String| source.lines().any(|line| line.ends_with(&declaration));
+        if !parents
+            .filter(|parent| root().join(parent).is_file())
+            .any(|parent| declares(read(parent)))
+        {
+            lost.push(file.display().to_string());
+        }
+    }
+    assert!(lost.is_empty(), "no parent declares {lost:?}");
+}

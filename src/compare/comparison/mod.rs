@@ -7,33 +7,15 @@
 //! ```
 //! use fastphong::compare::comparison::{Input, TableKind, compare, table};
 //! use fastphong::mesh::builtin::builtin;
-//! use fastphong::mesh::vertex_normals::NormalSource;
 //! use fastphong::raster::Renderer;
-//! use fastphong::scene::{Camera, Fit, Light, Object, Scene};
+//! use fastphong::scene::Scene;
 //! use fastphong::shading::Variant;
-//! use glam::{DAffine3, DVec3};
-//!
-//! let mesh = builtin("sphere?rings=8&segments=16")?;
-//! let fit = Fit { direction: DVec3::Z, up: DVec3::Y, fraction: 0.9, fovy: None, aspect: 1.0 };
-//! let points = mesh.positions().iter().map(|p| p.as_dvec3());
-//! let camera = Camera::fit(points, &fit).ok_or("the mesh is empty")?;
-//! let scene = Scene {
-//!     width: 48,
-//!     height: 48,
-//!     lights: vec![Light::directional(DVec3::new(1.0, 1.0, 2.0).normalize(), [1.0; 3])],
-//!     objects: vec![Object {
-//!         mesh: mesh.into(),
-//!         transform: DAffine3::IDENTITY,
-//!         material: None,
-//!         normals: NormalSource::Averaged,
-//!     }],
-//!     ..Scene::new(camera)
-//! };
+//! let mut scene = Scene::of_mesh(builtin("sphere?rings=8&segments=16")?);
+//! (scene.width, scene.height) = (48, 48);
 //! let frame = scene.frame()?;
-//!
 //! let variants = [Variant::parse("gouraud")?, Variant::parse("fast-phong:steps=1")?];
 //! let input = Input { name: "sphere".into(), frame: &frame };
-//! // Errors only, without times.
+//! // Without time limits no times are taken.
 //! let comparison = compare(&input, &variants, Renderer::LECTURE, None, &mut |_, _| {});
 //! let [naive, gouraud, fast] = &comparison.rows[..] else { unreachable!("naive Phong is always among them") };
 //! assert!(naive.error.rms < fast.error.rms && fast.error.rms < gouraud.error.rms);

@@ -10,22 +10,6 @@
 //! mean, as more of it would flatter every method. All others are *compared*, with the colours that the two pictures
 //! store; a pixel that only one of them covers is counted as a coverage mismatch as well. Only PSNR, SSIM,
 //! ꟻLIP and `frame_rms` are taken over the whole frame, so that they equal what other tools report.
-//!
-//! ```
-//! use fastphong::compare::metrics::compare;
-//! use fastphong::picture::Picture8;
-//!
-//! let reference = Picture8::new(320, 240, [200, 120, 40, 255]);
-//! let mut actual = reference.clone();
-//! actual.row_mut(7)[30] = [200, 123, 40, 255];
-//!
-//! let difference = compare(&reference, &actual)?;
-//! assert_eq!(difference.max, 3.0 / 255.0);
-//! assert_eq!(difference.worst, Some([30, 7]));
-//! assert_eq!(difference.over_one_level, 1);
-//! assert!(difference.signed_mean > 0.0, "brighter than the reference");
-//! # Ok::<(), fastphong::compare::metrics::SizeMismatch>(())
-//! ```
 
 use alloc::vec::Vec;
 use core::fmt;

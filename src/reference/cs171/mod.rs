@@ -13,24 +13,6 @@
 //! | 6 Flat_Shading | [`flat_shading`] |
 //! | 7 Phong_Shading | [`phong_shading`] |
 //! | 8 the full one: depth buffer, back faces culled | [`full_shading`] |
-//!
-//! # Where the text is not followed
-//!
-//! * γ is `f_ab(p) / f_ab(c)`; the text divides by `f_ac(p)` ([`barycentric::printed_gamma`]).
-//! * "very shiny … p value close to 1" is the wrong way round: a large exponent gives the small highlight of a shiny
-//!   surface, as its own Figure 7 shows. The exponent is the material's.
-//! * Algorithm 4 hands the corners on where it means their places in NDC and their colours.
-//! * The text has a point inside where 0 < α, β, γ < 1, the algorithms where they are in [0, 1]: [`Inside`].
-//! * The text renders what is *less* deep than the buffer, Algorithm 8 what is *not deeper*: [`Ties`].
-//! * Algorithm 7 gives an interpolated normal to a lighting model that asks for a unit normal. [`Reading::normalise`]
-//!   makes it one; without it highlights are lost between the corners.
-//! * Colours, world coordinates and normals are interpolated linearly on the screen, which is right under an orthographic
-//!   camera only; NDC is right under both. A frame that asks for perspective interpolation gets it
-//!   ([`crate::frame::perspective`]).
-//! * The test against the cube is not clipping: a corner behind the eye has no place on the picture
-//!   ([`world_to_ndc`]). What comes from a frame is clipped, and tested besides.
-//! * `cross.z < 0` lets a triangle without area through, and then f_ij divides by zero: it is left out.
-//! * Pixels are tested at their centres, and only those of the grid.
 
 pub mod barycentric;
 mod lighting;
@@ -68,6 +50,24 @@ pub enum Ties {
 }
 
 /// A reading of the text where it can be read in two ways.
+///
+/// # Where the text is not followed
+///
+/// * γ is `f_ab(p) / f_ab(c)`; the text divides by `f_ac(p)` ([`barycentric::printed_gamma`]).
+/// * "very shiny … p value close to 1" is the wrong way round: a large exponent gives the small highlight of a shiny
+///   surface, as its own Figure 7 shows. The exponent is the material's.
+/// * Algorithm 4 hands the corners on where it means their places in NDC and their colours.
+/// * The text has a point inside where 0 < α, β, γ < 1, the algorithms where they are in [0, 1]: [`Inside`].
+/// * The text renders what is *less* deep than the buffer, Algorithm 8 what is *not deeper*: [`Ties`].
+/// * Algorithm 7 gives an interpolated normal to a lighting model that asks for a unit normal. [`Reading::normalise`]
+///   makes it one; without it highlights are lost between the corners.
+/// * Colours, world coordinates and normals are interpolated linearly on the screen, which is right under an orthographic
+///   camera only; NDC is right under both. A frame that asks for perspective interpolation gets it
+///   ([`crate::frame::perspective`]).
+/// * The test against the cube is not clipping: a corner behind the eye has no place on the picture
+///   ([`world_to_ndc`]). What comes from a frame is clipped, and tested besides.
+/// * `cross.z < 0` lets a triangle without area through, and then f_ij divides by zero: it is left out.
+/// * Pixels are tested at their centres, and only those of the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading {
     /// Pixels on edges.
