@@ -86,8 +86,8 @@ fn without_arguments_five_commands_are_suggested() {
 fn culled_polygons_are_not_silent() {
     let folder = Folder::new();
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    folder.write("back.obj", &format!("{corners}f 1 3 2\n"));
-    folder.write("both.obj", &format!("{corners}f 1 3 2\nf 1 2 3\n"));
+    folder.write("back.obj", format!("{corners}f 1 3 2\n"));
+    folder.write("both.obj", format!("{corners}f 1 3 2\nf 1 2 3\n"));
     let warning =
         "warning: nothing is drawn: 1 polygon is seen from the culled side; try --cull none";
     folder
