@@ -3,7 +3,7 @@
 use super::CliError;
 use super::values::number;
 use fastphong::number::suggest::nearest;
-use fastphong::number::{Level, LevelError};
+use fastphong::number::{Level, NameError};
 use fastphong::raster::{self, Edges, Renderer};
 use fastphong::reference::cs171::Shading;
 use fastphong::shading::{Info, METHODS};
@@ -200,7 +200,7 @@ pub fn simd(text: &str) -> Result<Simd, String> {
     if text == "auto" {
         return Ok(Simd::Auto);
     }
-    let level = text.parse().map_err(|error: LevelError| error.to_string());
+    let level = text.parse().map_err(|error: NameError| error.to_string());
     level.map(Simd::Level)
 }
 

@@ -2,7 +2,7 @@
 
 use super::simd::BLOCK;
 use fearless_simd::{
-    Bytes, Simd, SimdBase, SimdCvtTruncate, SimdFloat, SimdFrom, SimdMask, f32x8, i32x8, mask32x8,
+    Bytes, Simd, SimdBase, SimdCvtTruncate, SimdFloat, SimdFrom, SimdMask, f32x8, i32x8,
 };
 
 /// The instruction set of the row engine, as the maker of its lanes.
@@ -78,16 +78,12 @@ impl<S: Simd> Lanes<S> {
     /// True if any lane is 0 or more.
     #[inline(always)]
     pub fn any_not_negative(self, x: i32x8<S>) -> bool {
-        self.not_negative(x).any_true()
+        self.bits_not_negative(x) != 0
     }
     /// Returns a bit for each lane: 1 where it is 0 or more.
     #[inline(always)]
     pub fn bits_not_negative(self, x: i32x8<S>) -> u32 {
-        self.not_negative(x).to_bitmask() as u32
-    }
-    #[inline(always)]
-    fn not_negative(self, x: i32x8<S>) -> mask32x8<S> {
-        x.simd_gt(self.int(-1))
+        x.simd_gt(self.int(-1)).to_bitmask() as u32
     }
     /// Returns `new` where `a < b`, else 0.
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Instruction sets of the pixel loops, one of which is chosen at run time.
 
+use super::NameError;
 use super::suggest::nearest;
 use alloc::format;
 use alloc::string::String;
@@ -86,10 +87,10 @@ impl fmt::Display for Level {
 }
 
 impl FromStr for Level {
-    type Err = LevelError;
+    type Err = NameError;
 
     /// Reads the name of a level of this machine, or `auto` for the best one.
-    fn from_str(name: &str) -> Result<Level, LevelError> {
+    fn from_str(name: &str) -> Result<Level, NameError> {
         if name == "auto" {
             return Ok(Level::best());
         }
@@ -99,7 +100,7 @@ impl FromStr for Level {
             Some(level) => format!("this machine does not have `{level}`"),
             None if name == "sse4.2" => {
                 let reason = "`sse4.2` is no longer compiled for: use `scalar` for one pixel at a time, or `auto`";
-                return Err(LevelError(reason.into()));
+                return Err(NameError(reason.into()));
             }
             None => match nearest(name, names()) {
                 Some(near) => format!("unknown instruction set `{name}`: did you mean `{near}`?"),
@@ -108,21 +109,9 @@ impl FromStr for Level {
         };
         let here = Level::available().map(|level| format!(", `{level}`"));
         let expected: String = here.collect();
-        Err(LevelError(format!("{reason}: expected `auto`{expected}")))
+        Err(NameError(format!("{reason}: expected `auto`{expected}")))
     }
 }
-
-/// The reason why a name means no level of this machine, as a sentence.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LevelError(String);
-
-impl fmt::Display for LevelError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl core::error::Error for LevelError {}
 
 #[cfg(test)]
 mod tests {

@@ -65,11 +65,7 @@ pub(super) use x86::choose;
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use core::arch::x86_64::{
-        __m256, __m256i, __m512, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_packs_epi32,
-        _mm256_packus_epi16, _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_setr_epi8,
-        _mm256_shuffle_epi8, _mm512_rsqrt14_ps,
-    };
+    use core::arch::x86_64::*;
 
     fearless_simd::kernel!(
         /// Estimates 1/√x to 12 bits.

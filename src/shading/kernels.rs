@@ -11,7 +11,7 @@ use super::{LitAt, Pixel, Shader, Stepped};
 use crate::number::simd::{Block, Token, vectorize};
 use crate::number::{BLOCK, Level, Num, Vec3, vec3};
 #[cfg(feature = "simd")]
-use fearless_simd::{SimdBase, f32x8};
+use fearless_simd::*;
 
 /// The state that a span of a method starts from.
 pub type Span<S, F> = <<S as Shader>::Varying<F> as Varying<F>>::Span;
@@ -141,8 +141,8 @@ pub struct Kernels {
     pub(crate) vertices: VertexKernel,
     /// Shades runs: the scalar pixel loop.
     pub(crate) pixels: fn(&Pixels<'_>, &mut [[f32; 3]]),
-    /// The kernels of each instruction set.
-    pub(crate) simd: &'static [(Level, SimdKernels)],
+    /// Returns the kernels of an instruction set; `None` for scalar code.
+    pub(crate) simd: fn(Level) -> Option<&'static SimdKernels>,
 }
 
 /// The kernels of a method on one instruction set.
@@ -158,12 +158,6 @@ pub(crate) struct SimdKernels {
 }
 
 impl Kernels {
-    /// Returns the kernels of an instruction set; `None` for scalar code.
-    pub(crate) fn on(&self, level: Level) -> Option<&SimdKernels> {
-        let found = self.simd.iter().find(|(other, _)| *other == level);
-        found.map(|(_, kernels)| kernels)
-    }
-
     /// Compiles a method.
     pub const fn of<M: Shader>() -> Kernels {
         Kernels {
@@ -176,24 +170,15 @@ impl Kernels {
             passes_normal: M::PASSES_NORMAL,
             vertices: vertices::<M>,
             pixels: pixels::<M>,
-            #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-            simd: const {
-                use fearless_simd::{Avx2, Avx512};
-                &[
-                    (Level::Avx2, SimdKernels::of::<M, Avx2, Avx2>()),
-                    (Level::Avx512, SimdKernels::of::<M, Avx2, Avx512>()),
-                ]
+            simd: |level| match level {
+                #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+                Level::Avx2 => Some(const { &SimdKernels::of::<M, Avx2, Avx2>() }),
+                #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+                Level::Avx512 => Some(const { &SimdKernels::of::<M, Avx2, Avx512>() }),
+                #[cfg(all(feature = "simd", target_arch = "aarch64"))]
+                Level::Neon => Some(const { &SimdKernels::of::<M, Neon, Neon>() }),
+                _ => None,
             },
-            #[cfg(all(feature = "simd", target_arch = "aarch64"))]
-            simd: const {
-                use fearless_simd::Neon;
-                &[(Level::Neon, SimdKernels::of::<M, Neon, Neon>())]
-            },
-            #[cfg(not(all(
-                feature = "simd",
-                any(target_arch = "x86_64", target_arch = "aarch64")
-            )))]
-            simd: &[],
         }
     }
 }

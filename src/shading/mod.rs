@@ -66,7 +66,7 @@ use slerp_phong_vector::SlerpPhongVector;
 pub(crate) use span_bench::FACE;
 pub use span_bench::SpanBench;
 pub use table::{Entry, METHODS};
-pub use variant::{MethodError, Variant};
+pub use variant::Variant;
 pub use varying::{UnitNormal, Varying};
 
 use crate::number::{Num, Vec3};

@@ -121,6 +121,7 @@ impl Entry {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Level;
     use std::collections::BTreeSet;
 
     /// Returns the functions in the tables of these methods, each once: AVX-512 takes those of AVX2 but for its shading.
@@ -130,7 +131,7 @@ mod tests {
             kernels.extend(entry.count.map(|count| count as usize));
             for table in [entry.directional, entry.near].as_flattened() {
                 kernels.extend([table.vertices as usize, table.pixels as usize]);
-                for (_, simd) in table.simd {
+                for simd in Level::ALL.into_iter().filter_map(table.simd) {
                     kernels.insert(simd.shade as usize);
                     kernels.extend(simd.vertices.map(|vertices| vertices as usize));
                     kernels.extend(simd.walk.map(|walk| walk as usize));

@@ -124,7 +124,7 @@ fn instruction_sets_draw_the_lectures_picture() {
             let other = sphere(&format!("-m {method} --engine row --simd {level}"));
             assert!(sphere(&format!("-m {method} --simd {level}")) == other);
             let difference = compare(&lecture, &other).unwrap();
-            // At 64 columns and 48 rows neither is off its closed form by a tenth of a level (`Info::bound`), or, where a
+            // At 64 columns and 48 rows neither is off its closed form by a tenth of a level (`Variant::bound`), or, where a
             // root is followed, by a quarter (`Newton::LARGEST_ERROR`): what is stored differs by one at most.
             assert!(
                 255.0 * difference.max <= 1.0,

@@ -61,7 +61,7 @@ fn every_method_and_the_reference_draw_and_are_near_each_other() {
             sphere(&format!("-m reference:model={model}")),
         );
         let difference = fastphong::compare::metrics::compare(&a, &b).unwrap();
-        // At 64 columns and 48 rows no method is off by a tenth of a level (`Info::bound`), which moves what is stored by
+        // At 64 columns and 48 rows no method is off by a tenth of a level (`Variant::bound`), which moves what is stored by
         // one level at most.
         assert!(255.0 * difference.max <= 1.0, "{method}: {difference:?}");
     }

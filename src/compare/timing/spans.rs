@@ -131,7 +131,7 @@ impl Variant {
     pub fn shade_span_on(&self, level: Level, bench: &SpanBench, row: &mut SpanRow) {
         let pixels = row.bytes.len();
         let started = start(self, bench, &row.uniforms, pixels);
-        let Some(simd) = started.kernels.on(level) else {
+        let Some(simd) = (started.kernels.simd)(level) else {
             return;
         };
         let planes = row.walked.len() / pixels;
