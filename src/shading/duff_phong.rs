@@ -8,7 +8,8 @@ use super::{Info, Linear, Lit, PerLight, Pixel, Roundings, Shader, Span, Stepped
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
-const DUFF_PHONG: Info = Info {
+/// The description of [`DuffPhong`].
+pub const DUFF_PHONG: Info = Info {
     name: "duff-phong",
     title: "scalar products by forward differences: no vector on a span",
     formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = 1 / sqrt(D)\n\
@@ -93,9 +94,9 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
         let (mut ll, mut ln, mut lv) = (none, none, none);
         for (i, light) in lit.stored.iter().enumerate() {
             let (l, dl) = (toward(light.place, p, w), toward(light.place, dp, dw));
-            ll[i] = Quadratic::square(l, dl);
-            ln[i] = Quadratic::product(l, dl, n, dn);
-            lv[i] = Quadratic::product(l, dl, v, dv);
+            ll.values[i] = Quadratic::square(l, dl);
+            ln.values[i] = Quadratic::product(l, dl, n, dn);
+            lv.values[i] = Quadratic::product(l, dl, v, dv);
         }
         (((nn, vv), (nv, ww)), ((ll, ln), lv))
     }
@@ -107,10 +108,10 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
         let v_n = nv * over_n * over_v;
         let mut colour = lit.ambient();
         for index in 0..lit.stored.len() {
-            let over_l = one / ll[index].sqrt();
-            let l_n = ln[index] * (over_n * over_l); // L·N / √(N·N L·L)
-            let l_v = lv[index] * (over_v * over_l);
-            let light = lit.light(index, l_v, ll[index], ww);
+            let over_l = one / ll.values[index].sqrt();
+            let l_n = ln.values[index] * (over_n * over_l); // L·N / √(N·N L·L)
+            let l_v = lv.values[index] * (over_v * over_l);
+            let light = lit.light(index, l_v, ll.values[index], ww);
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n)); // 4.5
         }
         colour

@@ -1,5 +1,7 @@
 //! Kernels: a method as a table of plain functions with the loops over pixels in them. Engines are compiled once and call these.
 
+#![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
+
 use super::increments::{GreatCircle, Linear, Walk};
 #[cfg(feature = "simd")]
 use super::lighting::LightUniforms;
@@ -147,7 +149,6 @@ pub struct Kernels {
 
 /// The kernels of a method on one instruction set.
 #[derive(Clone, Copy)]
-#[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub(crate) struct SimdKernels {
     /// Computes the varyings of vertices, for methods that are lit there; others use the scalar kernel.
     pub vertices: Option<VertexKernel>,
@@ -217,11 +218,8 @@ fn light<M: Shader, F: Num>(
     let vertices = job.normals.chunks(F::WIDTH).zip(points);
     for ((normals, points), out) in vertices.zip(out.chunks_mut(F::WIDTH * job.stride)) {
         let (n, point) = (gather(normals), gather(points));
-        let varying = if F::WIDTH > 1 && model.is_fast {
-            method.vertex(&Lit::new(model, lights, point, false), n)
-        } else {
-            method.vertex(&Lit::new(model, lights, point, true), n)
-        };
+        let general = F::WIDTH == 1 || !model.is_fast;
+        let varying = method.vertex(&Lit::new(model, lights, point, general), n);
         each(
             varying,
             #[inline(always)]
@@ -307,7 +305,6 @@ fn shade_runs<'a, 'b, M: Shader>(
 
 /// A row of the G-buffer to be shaded.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub(crate) struct ShadeRow<'a> {
     pub parameters: &'a [u32],
     pub uniforms: &'a Uniforms,
@@ -318,7 +315,6 @@ pub(crate) struct ShadeRow<'a> {
 
 /// The memory for the colours of a row, block by block.
 #[derive(Debug)]
-#[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub enum RowColours<'a> {
     /// Bytes, and the background of pixels that nothing covers.
     Bytes(&'a mut [[u8; 4]], [u8; 4]),

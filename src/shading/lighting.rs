@@ -261,8 +261,38 @@ impl<'a, F: Num> Lit<'a, F> {
 
     /// Returns the lights as the point sees them.
     #[inline(always)]
-    pub fn lights(&self) -> Lights<'a, F> {
-        Lights(*self, 0)
+    pub fn lights(self) -> impl Iterator<Item = Seen<'a, F>> {
+        (0..self.stored.len()).map(
+            #[inline(always)]
+            move |index| self.seen(index),
+        )
+    }
+
+    #[inline(always)]
+    fn seen(&self, index: usize) -> Seen<'a, F> {
+        let (light, one) = (&self.stored[index], self.point.x.like(1.0));
+        let is_near = light.place.is_local();
+        let mut seen = Seen {
+            index,
+            to: vector(light.place).like(one),
+            l_v: one.like(light.l_v),
+            half: one.like(light.half),
+            strength: None,
+            light,
+        };
+        if self.general && is_near {
+            let to = seen.to - self.point;
+            let square = to.dot(to);
+            seen.to = to * (one / square.sqrt());
+            seen.strength = strength(is_near, light.falloff, square, one);
+        }
+        if self.general && (is_near || self.model.eye.is_local()) {
+            seen.l_v = seen.to.dot(self.view);
+            if self.is_halfway() {
+                seen.half = over_sum(seen.l_v);
+            }
+        }
+        seen
     }
 
     /// Returns a light seen along unit vectors whose L·V is `l_v`, from the squared distance `square`; both squared distances and
@@ -293,7 +323,7 @@ impl<'a, F: Num> Lit<'a, F> {
     pub fn products<const L: usize>(&self, n: Vec3<F>) -> (PerLight<F, L>, F) {
         let mut j = PerLight::new(self.stored.len(), n.x);
         for light in self.lights() {
-            j[light.index] = n.dot(light.to); // J = L · N
+            j.values[light.index] = n.dot(light.to); // J = L · N
         }
         (j, n.dot(self.view)) // K = V · N
     }
@@ -355,7 +385,7 @@ impl<'a, F: Num> Lit<'a, F> {
     pub fn shade_products<const L: usize>(&self, (j, k): (PerLight<F, L>, F)) -> Vec3<F> {
         let mut colour = self.ambient();
         for light in self.lights() {
-            let l_n = j[light.index];
+            let l_n = j.values[light.index];
             colour = self.add(colour, &light, l_n, self.highlight(&light, l_n, k)); // 4.5
         }
         colour
@@ -434,52 +464,12 @@ impl<F: Num> Seen<'_, F> {
     }
 }
 
-/// The lights that a point sees, one by one: the point, and the number of the next light.
-#[derive(Debug)]
-pub struct Lights<'a, F>(Lit<'a, F>, usize);
-
-impl<'a, F: Num> Iterator for Lights<'a, F> {
-    type Item = Seen<'a, F>;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<Seen<'a, F>> {
-        let Lights(lit, index) = *self;
-        if index >= lit.stored.len() {
-            return None;
-        }
-        self.1 += 1;
-        let light = &lit.stored[index];
-        let (is_near, one) = (light.place.is_local(), lit.point.x.like(1.0));
-        let mut seen = Seen {
-            index,
-            to: vector(light.place).like(one),
-            l_v: one.like(light.l_v),
-            half: one.like(light.half),
-            strength: None,
-            light,
-        };
-        if lit.general && is_near {
-            let to = seen.to - lit.point;
-            let square = to.dot(to);
-            seen.to = to * (one / square.sqrt());
-            seen.strength = strength(is_near, light.falloff, square, one);
-        }
-        if lit.general && (is_near || lit.model.eye.is_local()) {
-            seen.l_v = seen.to.dot(lit.view);
-            if lit.is_halfway() {
-                seen.half = over_sum(seen.l_v);
-            }
-        }
-        Some(seen)
-    }
-}
-
 /// The exponent n of a highlight, as it is best computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exponent {
     /// 1, 2, 4, … 128: by so many squarings.
     Squarings(u32),
-    /// Any other whole number: by repeated squaring, at most 2 log₂ n multiplications.
+    /// Any other whole number: by repeated squaring, at most 2 log₂ n + 2 multiplications.
     Whole(u32),
     /// Any other: by the backend's power function.
     Fractional(f32),
@@ -504,22 +494,16 @@ impl Exponent {
     pub fn of<F: Num>(self, base: F) -> F {
         let n = match self {
             Exponent::Squarings(times) => return squared_up_to_7(base, times),
-            Exponent::Whole(0) => return base.like(1.0),
             Exponent::Whole(n) => n,
             Exponent::Fractional(n) => return base.powf(n),
         };
-        let (mut square, mut left) = (base, n);
-        while left & 1 == 0 {
-            square = square * square;
-            left >>= 1;
-        }
-        let mut power = square;
-        while left > 1 {
-            square = square * square;
-            left >>= 1;
+        let (mut power, mut square, mut left) = (base.like(1.0), base, n);
+        while left > 0 {
             if left & 1 == 1 {
                 power = power * square;
             }
+            square = square * square;
+            left >>= 1;
         }
         power
     }

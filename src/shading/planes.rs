@@ -82,7 +82,8 @@ const MOST_UNROLLED: usize = 8;
 /// One value a light, for up to `L` lights; only the lights that exist are stored, or all `L` if they are few.
 #[derive(Clone, Copy, Debug)]
 pub struct PerLight<F, const L: usize> {
-    values: [F; L],
+    /// The value of each light; those after the last light are never read.
+    pub values: [F; L],
     pub(super) count: usize,
 }
 
@@ -103,21 +104,6 @@ impl<F: Copy, const L: usize> PerLight<F, L> {
     }
 }
 
-impl<F, const L: usize> core::ops::Index<usize> for PerLight<F, L> {
-    type Output = F;
-    #[inline(always)]
-    fn index(&self, light: usize) -> &F {
-        &self.values[light]
-    }
-}
-
-impl<F, const L: usize> core::ops::IndexMut<usize> for PerLight<F, L> {
-    #[inline(always)]
-    fn index_mut(&mut self, light: usize) -> &mut F {
-        &mut self.values[light]
-    }
-}
-
 impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
     #[inline(always)]
     fn filled(lights: usize, number: F) -> Self {
@@ -127,7 +113,7 @@ impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
     fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F)) {
         let mut i = 0;
         while i < self.len() {
-            self[i].each(next, to);
+            self.values[i].each(next, to);
             i += 1;
         }
     }
@@ -135,7 +121,7 @@ impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
     fn zip(&mut self, other: Self, of: impl Fn(F, F) -> F + Copy) {
         let mut i = 0;
         while i < self.len() {
-            self[i] = of(self[i], other[i]);
+            self.values[i] = of(self.values[i], other.values[i]);
             i += 1;
         }
     }

@@ -1,12 +1,18 @@
 //! The method table.
 
 use super::count::{OperationCounts, count};
+use super::duff_phong::{DuffPhong, DuffPhongNear};
+use super::fast_phong::FastPhong;
+use super::flat::Flat;
+use super::flat_average::FLAT_AVERAGE;
+use super::gouraud::Gouraud;
+use super::gouraud_separate::GouraudSeparate;
+use super::naive_phong::NaivePhong;
+use super::phong_rsqrt::PhongRsqrt;
+use super::slerp_phong::SlerpPhong;
+use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
-use super::{
-    DuffPhong, DuffPhongNear, Extras, FLAT_AVERAGE, FastPhong, Flat, Gouraud, GouraudSeparate,
-    Info, Kernels, Local, NaivePhong, Perspective, PhongRsqrt, Shader, SlerpPhong,
-    SlerpPhongVector, Variant,
-};
+use super::{Extras, Info, Kernels, Local, Perspective, Shader, Variant};
 use core::fmt;
 
 /// All shading methods. A method is one file beside this one, and one line here.

@@ -109,7 +109,7 @@ mod tests {
     fn there_is_a_number_for_each_light() {
         fn of<const L: usize>(lights: usize) -> Vec<f32> {
             let mut all = PerLight::<f32, L>::new(lights, 0.5);
-            (0..lights).for_each(|i| all[i] = i as f32);
+            (0..lights).for_each(|i| all.values[i] = i as f32);
             put_and_taken(lights, all)
         }
         assert_eq!(of::<1>(1), [0.0]);

@@ -41,10 +41,10 @@ impl<F: Num, W: Walk<F, Pixel = F>, const L: usize> Walk<F> for PerLight<W, L> {
 
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
-        let mut pixel = PerLight::new(self.count, self[0].next());
+        let mut pixel = PerLight::new(self.count, self.values[0].next());
         let mut i = 1;
         while i < self.len() {
-            pixel[i] = self[i].next();
+            pixel.values[i] = self.values[i].next();
             i += 1;
         }
         pixel
