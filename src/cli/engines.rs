@@ -6,7 +6,7 @@ use fastphong::number::suggest::nearest;
 use fastphong::number::{Level, NameError};
 use fastphong::raster::{self, Edges, Renderer};
 use fastphong::reference::cs171::Shading;
-use fastphong::shading::{Info, METHODS};
+use fastphong::shading::{Entry, Info, METHODS};
 use serde_json::{Value, json};
 
 /// An engine that a user can ask for, with its parameters.
@@ -73,7 +73,7 @@ impl EngineInfo {
 
     fn has(&self, info: &Info) -> bool {
         match self.name {
-            "barycentric" => info.barycentric,
+            "barycentric" => Entry::named(info.name).is_some_and(Entry::is_barycentric),
             "cs171" => cs171_shading(info).is_some(),
             _ => true,
         }

@@ -22,7 +22,6 @@ pub const DUFF_PHONG: Info = Info {
                  product too, off by 3, and divided by two roots: three times as much, and the lengths of the vectors vary \
                  by the square of the bound's spread",
     fails: "where normals cancel inside a span, D is a small difference of large sums",
-    barycentric: false,
     ..Info::OF_PIXELS
 };
 

@@ -46,7 +46,6 @@ impl<const L: usize> Shader for FastPhong<L> {
             }),
         }],
         local: Local::PerPolygon,
-        barycentric: false,
         ..Info::OF_PIXELS
     };
     type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>); // J of each light, K; N

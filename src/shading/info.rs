@@ -185,8 +185,6 @@ pub struct Info {
     pub local: Local,
     /// The rate at which it evaluates the light model.
     pub lit_at: LitAt,
-    /// True if the barycentric renderer has it: it needs a pixel without its neighbours.
-    pub barycentric: bool,
 }
 
 impl Info {
@@ -204,6 +202,5 @@ impl Info {
         perspective: Perspective::Free,
         local: Local::PerPixel,
         lit_at: LitAt::Pixel,
-        barycentric: true,
     };
 }

@@ -162,9 +162,8 @@ pub(super) fn strength<F: Num>(is_near: bool, falloff: Falloff, square: F, unit:
 /// Returns a direction or a position as the vector that it is.
 #[inline(always)]
 fn vector(place: Place<Vec3<f32>>) -> Vec3<f32> {
-    match place {
-        Place::Infinite(v) | Place::Local(v) => v,
-    }
+    let (Place::Infinite(v) | Place::Local(v)) = place;
+    v
 }
 
 /// Returns the vector from `point` toward a place, not normalised; both multiplied by `weight`, as under perspective.
@@ -421,25 +420,23 @@ impl<'a, F: Num> Lit<'a, F> {
     /// Returns the cosine of a highlight to the power n, gated and times the light's strength; `None` where no pixel has one,
     /// as most of a surface has none and highlights are half of the work. `diffuse` is L·N, 0 or more.
     #[inline(always)]
-    fn power(&self, light: &Seen<'a, F>, diffuse: F, cosine: F) -> Option<F> {
+    fn power(&self, light: &Seen<'a, F>, diffuse: F, mut cosine: F) -> Option<F> {
         let LightModel { gate, exponent, .. } = self.model;
         let gated = !self.general || gate == SpecularGate::Gated;
-        let cosine = match gated {
-            true => cosine.gate(diffuse, 0.0),
-            false => cosine,
-        };
+        if gated {
+            cosine = cosine.gate(diffuse, 0.0);
+        }
         if !cosine.any_over(self.model.faint) {
             return None;
         }
-        // The pixels of a block do not depend on one another: faint ones are none here too.
-        let bright = match F::WIDTH {
-            1 => cosine,
-            _ => cosine.gate(cosine, self.model.faint),
-        };
+        if F::WIDTH > 1 {
+            // The pixels of a block do not depend on one another: faint ones are none here too.
+            cosine = cosine.gate(cosine, self.model.faint);
+        }
         let mut power = match exponent {
-            Exponent::Squarings(times) => squared_up_to_7(bright, times),
+            Exponent::Squarings(times) => squared_up_to_7(cosine, times),
             _ if !self.general && F::WIDTH > 1 => return None, // the fast path has no other
-            _ => exponent.of(bright),
+            _ => exponent.of(cosine),
         };
         if self.general {
             if gated && exponent == Exponent::Whole(0) {
@@ -478,13 +475,11 @@ pub enum Exponent {
 impl Exponent {
     /// Makes the exponent for a shininess of 0 or more.
     pub fn new(shininess: f32) -> Self {
-        let whole = shininess as u32;
-        match whole {
-            _ if whole as f32 != shininess => Exponent::Fractional(shininess),
-            _ if whole.is_power_of_two() && whole <= 128 => {
-                Exponent::Squarings(whole.trailing_zeros())
-            }
-            _ => Exponent::Whole(whole),
+        let n = shininess as u32;
+        match n {
+            _ if n as f32 != shininess => Exponent::Fractional(shininess),
+            _ if n.is_power_of_two() && n <= 128 => Exponent::Squarings(n.trailing_zeros()),
+            _ => Exponent::Whole(n),
         }
     }
 

@@ -52,8 +52,6 @@ pub use kernels::{Kernels, Run, Span};
 pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, start_len};
 pub use lighting::{LightModel, Lit, Seen};
 pub use planes::{PerLight, Planes};
-#[cfg(feature = "cli")]
-pub(crate) use span_bench::FACE;
 pub use span_bench::SpanBench;
 pub use table::{Entry, METHODS};
 pub use variant::Variant;

@@ -13,7 +13,6 @@ use super::slerp_phong::SlerpPhong;
 use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
 use super::{Extras, Info, Kernels, Local, Perspective, Shader, Variant};
-use core::fmt;
 
 /// All shading methods. A method is one file beside this one, and one line here.
 pub static METHODS: &[Entry] = &[
@@ -43,22 +42,14 @@ pub static METHODS: &[Entry] = &[
 type ByLights = [&'static Kernels; 4];
 
 /// A row of the method table: the description of a method, and its kernels.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// The description of the method.
     pub info: &'static Info,
     directional: ByLights,
     near: ByLights,
     /// The functions that count operations: without a light or the eye at a position, and with one.
-    pub(super) count: [Count; 2],
-}
-
-type Count = fn(&SpanBench, &Variant) -> OperationCounts;
-
-impl fmt::Debug for Entry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Entry").field(&self.info.name).finish()
-    }
+    pub(super) count: [fn(&SpanBench, &Variant) -> OperationCounts; 2],
 }
 
 impl Entry {
@@ -99,6 +90,11 @@ impl Entry {
     /// Returns the row called `name`.
     pub fn named(name: &str) -> Option<&'static Entry> {
         METHODS.iter().find(|entry| entry.info.name == name)
+    }
+
+    /// True if the barycentric renderer has it: it needs a pixel without its neighbours.
+    pub fn is_barycentric(&self) -> bool {
+        self.directional[0].linear
     }
 
     /// Returns the varyings that kernels add to those of the method, under perspective or not, with a light or the eye at a
