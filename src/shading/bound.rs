@@ -43,7 +43,7 @@ pub enum Stepped {
 
 impl Variant {
     /// Returns the largest difference that rounding in `f32` can make between this method's picture of `frame` and its closed
-    /// form ([`Info::model`]), in a linear channel of 0..=1.
+    /// form ([`super::Info::model`]), in a linear channel of 0..=1.
     ///
     /// With s steps from a corner to a pixel, a cosine is off by `e = (start + step · s) · 2⁻²⁴`. The diffuse term passes
     /// that on times `I_p k_d`; `R·V = 2 (L·N)(N·V) − L·V` is off by up to 4 e, and the power multiplies that by n. Of

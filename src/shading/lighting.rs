@@ -466,7 +466,7 @@ impl<F: Num> Seen<'_, F> {
 pub enum Exponent {
     /// 1, 2, 4, … 128: by so many squarings.
     Squarings(u32),
-    /// Any other whole number: by repeated squaring, at most 2 log₂ n + 2 multiplications.
+    /// Any other whole number: by repeated squaring, at most 2 log₂ n multiplications.
     Whole(u32),
     /// Any other: by the backend's power function.
     Fractional(f32),
@@ -489,16 +489,22 @@ impl Exponent {
     pub fn of<F: Num>(self, base: F) -> F {
         let n = match self {
             Exponent::Squarings(times) => return squared_up_to_7(base, times),
+            Exponent::Whole(0) => return base.like(1.0),
             Exponent::Whole(n) => n,
             Exponent::Fractional(n) => return base.powf(n),
         };
-        let (mut power, mut square, mut left) = (base.like(1.0), base, n);
-        while left > 0 {
+        let (mut square, mut left) = (base, n);
+        while left & 1 == 0 {
+            square = square * square;
+            left >>= 1;
+        }
+        let mut power = square;
+        while left > 1 {
+            square = square * square;
+            left >>= 1;
             if left & 1 == 1 {
                 power = power * square;
             }
-            square = square * square;
-            left >>= 1;
         }
         power
     }

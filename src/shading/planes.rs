@@ -111,18 +111,14 @@ impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
     }
     #[inline(always)]
     fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F)) {
-        let mut i = 0;
-        while i < self.len() {
+        for i in 0..self.len() {
             self.values[i].each(next, to);
-            i += 1;
         }
     }
     #[inline(always)]
     fn zip(&mut self, other: Self, of: impl Fn(F, F) -> F + Copy) {
-        let mut i = 0;
-        while i < self.len() {
+        for i in 0..self.len() {
             self.values[i] = of(self.values[i], other.values[i]);
-            i += 1;
         }
     }
 }

@@ -42,10 +42,8 @@ impl<F: Num, W: Walk<F, Pixel = F>, const L: usize> Walk<F> for PerLight<W, L> {
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
         let mut pixel = PerLight::new(self.count, self.values[0].next());
-        let mut i = 1;
-        while i < self.len() {
+        for i in 1..self.len() {
             pixel.values[i] = self.values[i].next();
-            i += 1;
         }
         pixel
     }
