@@ -8,8 +8,7 @@ use super::{Info, Linear, Lit, PerLight, Pixel, Roundings, Shader, Span, Stepped
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
-/// The description of [`DuffPhong`].
-pub const DUFF_PHONG: Info = Info {
+const DUFF_PHONG: Info = Info {
     name: "duff-phong",
     title: "scalar products by forward differences: no vector on a span",
     formula: "J_next = J + dJ;  K_next = K + dK;  D_next = D + dD;  dD_next = dD + 2 dN.dN;  r = 1 / sqrt(D)\n\

@@ -1,6 +1,5 @@
 //! Fast Phong shading in the terms of today's hardware: the reciprocal root that processors have, D by second differences.
 
-use super::duff_phong::DUFF_PHONG;
 use super::{Info, Local, Roundings, Stepped};
 use crate::reference::Model;
 
@@ -20,6 +19,7 @@ pub const FAST_PHONG_RSQRT: Info = Info {
     roundings: Roundings::new(10.4, 2.0, Stepped::Products),
     derivation: "as duff-phong; the estimate of the root and its step are off by 6.4 roundings, where a root and a quotient \
                  are off by 2",
+    fails: "where normals cancel inside a span, D is a small difference of large sums",
     local: Local::PerPolygon,
-    ..DUFF_PHONG
+    ..Info::OF_PIXELS
 };
