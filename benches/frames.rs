@@ -41,7 +41,7 @@ fn frames(c: &mut Criterion) {
                     variant.render_with(black_box(&frame), Renderer::fastest(), &mut picture)
                 });
             });
-            if variant.info().barycentric {
+            if variant.entry().is_barycentric() {
                 group.bench_function(BenchmarkId::new("barycentric", &variant), |b| {
                     b.iter(|| variant.render_barycentric(black_box(&triangles), Edges::TopLeft));
                 });

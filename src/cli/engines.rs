@@ -3,10 +3,10 @@
 use super::CliError;
 use super::values::number;
 use fastphong::number::suggest::nearest;
-use fastphong::number::{Level, LevelError};
+use fastphong::number::{Level, NameError};
 use fastphong::raster::{self, Edges, Renderer};
 use fastphong::reference::cs171::Shading;
-use fastphong::shading::{Info, METHODS};
+use fastphong::shading::{Entry, Info, METHODS};
 use serde_json::{Value, json};
 
 /// An engine that a user can ask for, with its parameters.
@@ -73,7 +73,7 @@ impl EngineInfo {
 
     fn has(&self, info: &Info) -> bool {
         match self.name {
-            "barycentric" => info.barycentric,
+            "barycentric" => Entry::named(info.name).is_some_and(Entry::is_barycentric),
             "cs171" => cs171_shading(info).is_some(),
             _ => true,
         }
@@ -200,7 +200,7 @@ pub fn simd(text: &str) -> Result<Simd, String> {
     if text == "auto" {
         return Ok(Simd::Auto);
     }
-    let level = text.parse().map_err(|error: LevelError| error.to_string());
+    let level = text.parse().map_err(|error: NameError| error.to_string());
     level.map(Simd::Level)
 }
 

@@ -11,7 +11,7 @@ use fastphong::lectures::FIGURES;
 use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
 use fastphong::scene::input::SCENES;
-use fastphong::shading::{Info, METHODS, Roundings, Stepped};
+use fastphong::shading::{Entry, Info, METHODS, Roundings, Stepped};
 use serde_json::{Value, json};
 
 /// List methods, meshes, scenes, metrics, figures of the lectures, engines or instruction sets
@@ -176,7 +176,7 @@ pub fn method_json(info: &Info) -> Value {
         "roundings": { "start": start, "step": step, "of": stepped(of) },
         "perspective": info.perspective.sentence(),
         "local": info.local.sentence(),
-        "barycentric": info.barycentric,
+        "barycentric": Entry::named(info.name).is_some_and(Entry::is_barycentric),
         "parameters": info.parameters.iter().map(parameter).collect::<Vec<_>>(),
     })
 }

@@ -4,8 +4,8 @@ use crate::compare::metrics::SizeMismatch;
 use crate::frame::FrameError;
 use crate::mesh::MeshError;
 use crate::mesh::builtin::BuiltinError;
+use crate::number::NameError;
 use crate::scene::file::diagnostics::SceneError;
-use crate::shading::MethodError;
 
 /// The result of a part of a figure.
 pub(super) type Result<T = (), E = FigureError> = core::result::Result<T, E>;
@@ -23,7 +23,7 @@ pub enum FigureError {
     /// A frame is not one.
     Frame(#[from] FrameError),
     /// A method has no such name or parameter.
-    Method(#[from] MethodError),
+    Method(#[from] NameError),
     /// Pictures that are compared have different sizes.
     Size(#[from] SizeMismatch),
 }

@@ -95,10 +95,6 @@ impl Num for Counted<'_> {
     fn sqrt(self) -> Self {
         self.did(|c| &mut c.roots, Num::sqrt(self.value))
     }
-    fn rsqrt(self) -> Self {
-        self.did(|c| &mut c.roots, 0.0)
-            .did(|c| &mut c.divisions, Num::rsqrt(self.value))
-    }
     fn powf(self, exponent: f32) -> Self {
         self.did(|c| &mut c.powers, Num::powf(self.value, exponent))
     }

@@ -2,7 +2,7 @@
 
 use super::simd::BLOCK;
 use fearless_simd::{
-    Bytes, Simd, SimdBase, SimdCvtTruncate, SimdFloat, SimdFrom, SimdMask, f32x8, i32x8, mask32x8,
+    Bytes, Simd, SimdBase, SimdCvtTruncate, SimdFloat, SimdFrom, SimdMask, f32x8, i8x32, i32x8,
 };
 
 /// The instruction set of the row engine, as the maker of its lanes.
@@ -78,16 +78,12 @@ impl<S: Simd> Lanes<S> {
     /// True if any lane is 0 or more.
     #[inline(always)]
     pub fn any_not_negative(self, x: i32x8<S>) -> bool {
-        self.not_negative(x).any_true()
+        self.bits_not_negative(x) != 0
     }
     /// Returns a bit for each lane: 1 where it is 0 or more.
     #[inline(always)]
     pub fn bits_not_negative(self, x: i32x8<S>) -> u32 {
-        self.not_negative(x).to_bitmask() as u32
-    }
-    #[inline(always)]
-    fn not_negative(self, x: i32x8<S>) -> mask32x8<S> {
-        x.simd_gt(self.int(-1))
+        x.simd_gt(self.int(-1)).to_bitmask() as u32
     }
     /// Returns `new` where `a < b`, else 0.
     #[inline(always)]
@@ -109,12 +105,11 @@ impl<S: Simd> Lanes<S> {
     /// long (Zen 3). In this order what was in memory need not be loaded first.
     #[inline(always)]
     pub fn select(self, mask: i32x8<S>, old: f32x8<S>, new: f32x8<S>) -> f32x8<S> {
-        let (old, new): (i32x8<S>, i32x8<S>) = (Bytes::bitcast(old), Bytes::bitcast(new));
-        #[cfg(target_arch = "x86_64")]
-        if let Some(token) = self.0.level().as_avx2() {
-            let chosen = super::simd::choose(token, mask.into(), old.into(), new.into());
-            return Bytes::bitcast(i32x8::simd_from(self.0, chosen));
-        }
-        Bytes::bitcast(new ^ ((new ^ old) & mask))
+        let mask: i8x32<S> = Bytes::bitcast(mask);
+        let is_old = mask.simd_lt(i8x32::splat(self.0, 0));
+        Bytes::bitcast(
+            self.0
+                .select_i8x32(is_old, Bytes::bitcast(old), Bytes::bitcast(new)),
+        )
     }
 }

@@ -1,5 +1,6 @@
 //! Instruction sets of the pixel loops, one of which is chosen at run time.
 
+use super::NameError;
 use super::suggest::nearest;
 use alloc::format;
 use alloc::string::String;
@@ -86,43 +87,35 @@ impl fmt::Display for Level {
 }
 
 impl FromStr for Level {
-    type Err = LevelError;
+    type Err = NameError;
 
     /// Reads the name of a level of this machine, or `auto` for the best one.
-    fn from_str(name: &str) -> Result<Level, LevelError> {
+    fn from_str(name: &str) -> Result<Level, NameError> {
         if name == "auto" {
             return Ok(Level::best());
         }
-        let names = || Level::ALL.into_iter().map(Level::name).chain(["auto"]);
+        let mut names = Level::ALL.into_iter().map(Level::name).chain(["auto"]);
         let reason = match Level::ALL.into_iter().find(|level| level.name() == name) {
             Some(level) if level.is_available() => return Ok(level),
             Some(level) => format!("this machine does not have `{level}`"),
-            None if name == "sse4.2" => {
-                let reason = "`sse4.2` is no longer compiled for: use `scalar` for one pixel at a time, or `auto`";
-                return Err(LevelError(reason.into()));
-            }
-            None => match nearest(name, names()) {
-                Some(near) => format!("unknown instruction set `{name}`: did you mean `{near}`?"),
-                None => format!("unknown instruction set `{name}`"),
-            },
+            None => format!("unknown instruction set `{name}`"),
         };
-        let here = Level::available().map(|level| format!(", `{level}`"));
-        let expected: String = here.collect();
-        Err(LevelError(format!("{reason}: expected `auto`{expected}")))
+        let advice = match nearest(name, names.clone()) {
+            _ if name == "sse4.2" => {
+                "it is no longer compiled for; use `scalar` for one pixel at a time, or `auto`"
+                    .into()
+            }
+            Some(near) if names.all(|known| known != name) => format!("did you mean `{near}`?"),
+            _ => {
+                let here: String = Level::available()
+                    .map(|level| format!(", `{level}`"))
+                    .collect();
+                format!("expected `auto`{here}")
+            }
+        };
+        Err(NameError(format!("{reason}: {advice}")))
     }
 }
-
-/// The reason why a name means no level of this machine, as a sentence.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LevelError(String);
-
-impl fmt::Display for LevelError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl core::error::Error for LevelError {}
 
 #[cfg(test)]
 mod tests {

@@ -13,6 +13,7 @@ mod counting;
 #[cfg(feature = "simd")]
 pub(crate) mod lanes;
 mod level;
+mod name_error;
 pub(crate) mod parallel;
 #[cfg(feature = "simd")]
 mod powf;
@@ -26,7 +27,8 @@ mod vec3;
 pub(crate) mod vectorized;
 
 pub use counting::{Counted, Counter, Counts};
-pub use level::{Level, LevelError};
+pub use level::Level;
+pub use name_error::NameError;
 pub use vec3::{Vec3, vec3};
 pub(crate) use vectorized::vectorized;
 
@@ -64,7 +66,10 @@ pub trait Num:
     fn sqrt(self) -> Self;
     /// Returns 1/√x for x > 0: by the processor's estimate and one step of Newton's method where it has an estimate (off by
     /// less than 2⁻²¹ of the value), else by a root and a division.
-    fn rsqrt(self) -> Self;
+    #[inline(always)]
+    fn rsqrt(self) -> Self {
+        self.like(1.0) / self.sqrt()
+    }
     /// Returns `self`, 0 or more, to the power `exponent`.
     fn powf(self, exponent: f32) -> Self;
     /// Returns the larger of `self` and `least`; `least` where `self` is NaN.

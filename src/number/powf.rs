@@ -33,8 +33,8 @@ pub(super) fn powf<S: Simd>(x: f32x8<S>, n: f32) -> f32x8<S> {
     let s = (m - 1.0) / (m + 1.0);
     let z = s * s;
     let mut series = of(1.0 / 9.0);
-    for term in [1.0 / 7.0, 1.0 / 5.0, 1.0 / 3.0, 1.0] {
-        series = SimdFloat::mul_add(series, z, of(term));
+    for odd in [7.0, 5.0, 3.0, 1.0] {
+        series = SimdFloat::mul_add(series, z, of(1.0 / odd));
     }
     let exponent: f32x8<S> = fearless_simd::SimdCvtFloat::float_from(e);
     let log = SimdFloat::mul_add(s * series, of(2.0 * core::f32::consts::LOG2_E), exponent);
@@ -43,16 +43,8 @@ pub(super) fn powf<S: Simd>(x: f32x8<S>, n: f32) -> f32x8<S> {
     let nearest = y.round_ties_even();
     let f = (y - nearest) * core::f32::consts::LN_2;
     let mut power = of(1.0 / 5040.0);
-    for term in [
-        1.0 / 720.0,
-        1.0 / 120.0,
-        1.0 / 24.0,
-        1.0 / 6.0,
-        0.5,
-        1.0,
-        1.0,
-    ] {
-        power = SimdFloat::mul_add(power, f, of(term));
+    for factorial in [720.0, 120.0, 24.0, 6.0, 2.0, 1.0, 1.0] {
+        power = SimdFloat::mul_add(power, f, of(1.0 / factorial));
     }
     let shift: i32x8<S> = fearless_simd::SimdCvtTruncate::truncate_from(nearest);
     let scaled = power * number((shift + whole(127)) << 23);

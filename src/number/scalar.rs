@@ -20,10 +20,6 @@ impl Num for f32 {
         return libm::sqrtf(self);
     }
     #[inline(always)]
-    fn rsqrt(self) -> f32 {
-        1.0 / Num::sqrt(self)
-    }
-    #[inline(always)]
     fn powf(self, exponent: f32) -> f32 {
         libm::powf(self, exponent)
     }

@@ -36,40 +36,27 @@ token!("x86_64", Avx2, f32x16, as_avx2);
 token!("x86_64", Avx512, f32x16, as_avx512);
 token!("aarch64", Neon, f32x8, as_neon);
 
-/// Aligns the stack frame that it is inlined into.
+/// Does `work` with the instructions of `simd`, on an aligned stack. Only inlined code is compiled for them.
 ///
 /// LLVM does not align frames for registers that it spills: on a stack of 16-byte alignment they straddle cache lines, and the
 /// same loop takes up to twice as long, depending on the caller's frame. A local of this alignment makes it align the frame;
 /// `&mut`, as a shared reference would be promoted to a static.
 #[inline(always)]
-pub(crate) fn align_stack() {
+pub(crate) fn vectorize<S: Simd, T>(simd: S, work: impl FnOnce() -> T) -> T {
     #[repr(align(64))]
     struct Aligned(#[allow(dead_code)] u8); // only its address is used
-    core::hint::black_box(&mut Aligned(0));
-}
-
-/// Does `work` with the instructions of `simd`, on an aligned stack. Only inlined code is compiled for them.
-#[inline(always)]
-pub(crate) fn vectorize<S: Simd, T>(simd: S, work: impl FnOnce() -> T) -> T {
     simd.vectorize(
         #[inline(always)]
         || {
-            align_stack();
+            core::hint::black_box(&mut Aligned(0));
             work()
         },
     )
 }
 
 #[cfg(target_arch = "x86_64")]
-pub(super) use x86::choose;
-
-#[cfg(target_arch = "x86_64")]
 mod x86 {
-    use core::arch::x86_64::{
-        __m256, __m256i, __m512, _mm256_blendv_epi8, _mm256_cvtps_epi32, _mm256_packs_epi32,
-        _mm256_packus_epi16, _mm256_rsqrt_ps, _mm256_set1_epi32, _mm256_setr_epi8,
-        _mm256_shuffle_epi8, _mm512_rsqrt14_ps,
-    };
+    use core::arch::x86_64::*;
 
     fearless_simd::kernel!(
         /// Estimates 1/√x to 12 bits.
@@ -84,14 +71,6 @@ mod x86 {
         #[inline(always)]
         pub fn rsqrt16(_token: Avx512, x: __m512) -> __m512 {
             _mm512_rsqrt14_ps(x)
-        }
-    );
-
-    fearless_simd::kernel!(
-        /// Returns `new` where `mask` has all bits, `old` where it has none.
-        #[inline(always)]
-        pub fn choose(_token: Avx2, mask: __m256i, new: __m256i, old: __m256i) -> __m256i {
-            _mm256_blendv_epi8(old, new, mask)
         }
     );
 
@@ -223,15 +202,13 @@ impl<S: Simd> Block<S> for f32x8<S> {
     fn pack(levels: [Self; 3], depth: Self, background: [u8; 4], to: &mut [[u8; 4]]) {
         let simd = depth.simd;
         let empty = i32x8::splat(simd, i32::from_le_bytes(background));
-        let drawn: i32x8<S> = depth.simd_lt(f32x8::splat(simd, f32::INFINITY)).to_vector();
+        let drawn = depth.simd_lt(f32x8::splat(simd, f32::INFINITY));
         let to = &mut to[..8].as_flattened_mut()[..32];
         #[cfg(target_arch = "x86_64")]
         if let Some(token) = simd.level().as_avx2() {
             let [r, g, b] = levels;
-            let word = x86::rgba8(token, r.into(), g.into(), b.into());
-            let word = x86::choose(token, drawn.into(), word, empty.into());
-            Bytes::to_bytes(i32x8::simd_from(simd, word)).store_slice(to);
-            return;
+            let word = i32x8::simd_from(simd, x86::rgba8(token, r.into(), g.into(), b.into()));
+            return Bytes::to_bytes(simd.select_i32x8(drawn, word, empty)).store_slice(to);
         }
         // Adding 2²³ rounds, and the level stands in the lowest bits, below the bits of 2²³ itself.
         let (integers, most) = (f32x8::splat(simd, 8_388_608.0), f32x8::splat(simd, 255.0));
@@ -241,7 +218,7 @@ impl<S: Simd> Block<S> for f32x8<S> {
         let [r, g, b] = [bits(levels[0]), bits(levels[1]), bits(levels[2])];
         let opaque = i32x8::splat(simd, (0xFF00_0000u32 ^ 8_388_608f32.to_bits()) as i32);
         let word = (r ^ opaque) | (g << 8) | (b << 16);
-        Bytes::to_bytes(empty ^ ((empty ^ word) & drawn)).store_slice(to);
+        Bytes::to_bytes(simd.select_i32x8(drawn, word, empty)).store_slice(to);
     }
 }
 

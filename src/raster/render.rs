@@ -186,7 +186,7 @@ impl Variant {
         edges: Edges,
         mut picture: Picture<T>,
     ) -> Option<Picture<T>> {
-        if !self.info().barycentric {
+        if !self.entry().is_barycentric() {
             return None;
         }
         let setup = SetUp::new(self, frame, Level::Scalar, 1.0);

@@ -293,7 +293,7 @@ impl<'a> SetUp<'a> {
         points: &[[f32; 3]],
         to: &mut [f32],
     ) {
-        let simd = self.kernels.on(level).and_then(|simd| simd.vertices);
+        let simd = (self.kernels.simd)(level).and_then(|simd| simd.vertices);
         let vertices = Vertices {
             parameters: self.parameters,
             uniforms: &self.uniforms[uniforms as usize],

@@ -2,10 +2,9 @@
 
 use super::lighting::highlight_gain;
 use super::spread::Spread;
-use super::{Info, Perspective};
+use super::{Perspective, Variant};
 use crate::frame::{Frame, Polygon, ScreenVertex, SubPixel};
 use crate::scene::{Interpolation, LightTerm, Lighting, SpecularModel};
-use alloc::vec::Vec;
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
 const ROUNDING: f64 = 1.0 / (1u64 << 24) as f64;
@@ -42,9 +41,9 @@ pub enum Stepped {
     Products,
 }
 
-impl Info {
+impl Variant {
     /// Returns the largest difference that rounding in `f32` can make between this method's picture of `frame` and its closed
-    /// form ([`Info::model`]), in a linear channel of 0..=1.
+    /// form ([`super::Info::model`]), in a linear channel of 0..=1.
     ///
     /// With s steps from a corner to a pixel, a cosine is off by `e = (start + step · s) · 2⁻²⁴`. The diffuse term passes
     /// that on times `I_p k_d`; `R·V = 2 (L·N)(N·V) − L·V` is off by up to 4 e, and the power multiplies that by n. Of
@@ -65,15 +64,8 @@ impl Info {
     ///
     /// Other errors of the method itself, those of a given number of Newton's steps on short spans with large angles among
     /// them, are no part of this: where the difference is over this bound, the report says so.
-    ///
-    /// The parameters have their default values here; [`super::Variant::bound`] is for others.
     pub fn bound(&self, frame: &Frame) -> f64 {
-        let defaults: Vec<u32> = self.parameters.iter().map(|p| p.default).collect();
-        self.bound_with(frame, &defaults)
-    }
-
-    /// Returns [`Info::bound`] for these values of the parameters.
-    pub(super) fn bound_with(&self, frame: &Frame, parameters: &[u32]) -> f64 {
+        let info = self.info();
         let walks = frame.polygons().iter().map(|p| longest_walk(frame, p));
         let steps = walks.max().unwrap_or(0) as f64;
         let spread = Spread::of(frame);
@@ -83,7 +75,7 @@ impl Info {
             let highlight = highlight_gain(lighting.specular, lighting.shininess, lights.half);
             // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
             let falls = if lighting.is_attenuated() { 2.0 } else { 0.0 };
-            let diffuse_error = self.length_error(parameters, lighting);
+            let diffuse_error = self.length_error(lighting);
             let specular_error = match lighting.specular {
                 SpecularModel::Phong => 0.0,
                 SpecularModel::Blinn => f64::from(lighting.shininess) * diffuse_error,
@@ -102,9 +94,9 @@ impl Info {
                 allowed = f64::max(allowed, lost);
             }
         }
-        let Roundings { start, step, of } = self.roundings;
+        let Roundings { start, step, of } = info.roundings;
         // A rounding where the weight of perspective is largest counts for more where it is smallest.
-        let weights = match (self.perspective, frame.interpolation()) {
+        let weights = match (info.perspective, frame.interpolation()) {
             (Perspective::Free | Perspective::Divides, Interpolation::Perspective) => {
                 spread.weights
             }
@@ -130,8 +122,8 @@ impl Info {
     }
 
     /// Returns the relative error of lengths that the method allows itself on a material.
-    fn length_error(&self, parameters: &[u32], lighting: &Lighting) -> f64 {
-        let all = self.parameters.iter().zip(parameters);
+    fn length_error(&self, lighting: &Lighting) -> f64 {
+        let all = self.info().parameters.iter().zip(self.parameters());
         all.filter(|(parameter, value)| parameter.is_auto(**value))
             .filter_map(|(parameter, _)| parameter.auto)
             .map(|auto| f64::from((auto.length_error)(lighting)))

@@ -4,7 +4,6 @@ use super::increments::{GreatCircle, Walk};
 use super::kernels::{clamped, ramp};
 use super::lighting::{Lit, Uniforms};
 use super::planes::{Planes, each};
-use super::span_bench::FACE;
 use super::varying::Varying;
 use super::{LitAt, Local, Shader, Span, SpanBench, Variant};
 use crate::number::{Counted, Counter, Counts, vec3};
@@ -44,7 +43,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> Operatio
     let corners = [0, 1, 2].map(|i| {
         counter.take();
         let normal = match info.lit_at {
-            LitAt::Polygon => three(FACE),
+            LitAt::Polygon => three(SpanBench::FACE),
             LitAt::PolygonMean => {
                 let [a, b, c] = bench.normals.map(vec3);
                 three(((a + b + c) * (1.0 / 3.0)).array()).unit()
@@ -75,7 +74,7 @@ pub(super) fn count<M: Shader>(bench: &SpanBench, variant: &Variant) -> Operatio
     }
     counts.polygon = counter.take();
 
-    let (face, t0, dt) = (three(FACE), number(0.01), number(0.02));
+    let (face, t0, dt) = (three(SpanBench::FACE), number(0.01), number(0.02));
     let [a, b, c] = &corners;
     let (mut start, mut extra) = (Vec::new(), Vec::new());
     if <M::Varying<Counted<'_>> as Varying<Counted<'_>>>::GREAT_CIRCLE {

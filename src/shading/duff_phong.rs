@@ -21,7 +21,6 @@ const DUFF_PHONG: Info = Info {
                  product too, off by 3, and divided by two roots: three times as much, and the lengths of the vectors vary \
                  by the square of the bound's spread",
     fails: "where normals cancel inside a span, D is a small difference of large sums",
-    barycentric: false,
     ..Info::OF_PIXELS
 };
 
@@ -93,9 +92,9 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
         let (mut ll, mut ln, mut lv) = (none, none, none);
         for (i, light) in lit.stored.iter().enumerate() {
             let (l, dl) = (toward(light.place, p, w), toward(light.place, dp, dw));
-            ll[i] = Quadratic::square(l, dl);
-            ln[i] = Quadratic::product(l, dl, n, dn);
-            lv[i] = Quadratic::product(l, dl, v, dv);
+            ll.values[i] = Quadratic::square(l, dl);
+            ln.values[i] = Quadratic::product(l, dl, n, dn);
+            lv.values[i] = Quadratic::product(l, dl, v, dv);
         }
         (((nn, vv), (nv, ww)), ((ll, ln), lv))
     }
@@ -107,10 +106,10 @@ impl<const L: usize> Shader for DuffPhongNear<L> {
         let v_n = nv * over_n * over_v;
         let mut colour = lit.ambient();
         for index in 0..lit.stored.len() {
-            let over_l = one / ll[index].sqrt();
-            let l_n = ln[index] * (over_n * over_l); // L·N / √(N·N L·L)
-            let l_v = lv[index] * (over_v * over_l);
-            let light = lit.light(index, l_v, ll[index], ww);
+            let over_l = one / ll.values[index].sqrt();
+            let l_n = ln.values[index] * (over_n * over_l); // L·N / √(N·N L·L)
+            let l_v = lv.values[index] * (over_v * over_l);
+            let light = lit.light(index, l_v, ll.values[index], ww);
             colour = lit.add(colour, &light, l_n, lit.highlight(&light, l_n, v_n)); // 4.5
         }
         colour

@@ -46,7 +46,6 @@ impl<const L: usize> Shader for FastPhong<L> {
             }),
         }],
         local: Local::PerPolygon,
-        barycentric: false,
         ..Info::OF_PIXELS
     };
     type Varying<F: Num> = ((PerLight<F, L>, F), Vec3<F>); // J of each light, K; N
@@ -73,7 +72,7 @@ impl<const L: usize> Shader for FastPhong<L> {
         let (over_d, twice_k) = (d.like(1.0) / d, k * 2.0 / square);
         let mut colour = lit.ambient();
         for light in lit.lights() {
-            let j = j[light.index];
+            let j = j.values[light.index];
             let cosine = if lit.is_halfway() {
                 (j + k) * over_d * light.half // N·H
             } else {

@@ -21,6 +21,5 @@ pub const FAST_PHONG_RSQRT: Info = Info {
                  are off by 2",
     fails: "where normals cancel inside a span, D is a small difference of large sums",
     local: Local::PerPolygon,
-    barycentric: false,
     ..Info::OF_PIXELS
 };

@@ -1,8 +1,7 @@
 //! Gouraud shading with diffuse and specular light interpolated apart (L21 3; OpenGL's separate specular colour).
 
-use super::{
-    Info, Linear, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
-};
+use super::gouraud::Gouraud;
+use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
@@ -10,7 +9,7 @@ use crate::reference::Model;
 /// both interpolated, summed and clamped at each pixel.
 ///
 /// As interpolation is linear this is the unclamped sum of vertex colours, clamped last (trap T12): where lights add up to over
-/// 1 at a vertex, [`super::Gouraud`] shows a slope that starts at once, and this method a plateau first. Kept apart, the two
+/// 1 at a vertex, [`Gouraud`] shows a slope that starts at once, and this method a plateau first. Kept apart, the two
 /// colours can be treated apart: a texture would be multiplied by the first only.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GouraudSeparate;
@@ -25,10 +24,7 @@ impl Shader for GouraudSeparate {
         roundings: Roundings::new(6.0, 1.0, Stepped::Sums),
         derivation: "as Gouraud, with two colours that are stepped, added, and at most the sum of all light between them",
         fails: "as Gouraud",
-        perspective: Perspective::Divides,
-        local: Local::PerVertex,
-        lit_at: LitAt::Vertex,
-        ..Info::OF_PIXELS
+        ..Gouraud::INFO
     };
     type Varying<F: Num> = (Vec3<F>, Vec3<F>); // D, S
     type Walk<F: Num> = Linear<(Vec3<F>, Vec3<F>)>;

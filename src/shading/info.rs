@@ -1,6 +1,7 @@
 //! Descriptions of methods: the texts and bounds that the tool, the tests and the report share.
 
 use super::bound::{Roundings, Stepped};
+use crate::number::NameError;
 use crate::reference::Model;
 use crate::scene::Lighting;
 use alloc::format;
@@ -28,7 +29,7 @@ pub struct MethodParameter {
 pub struct Auto {
     /// The values that it takes, and when.
     pub meaning: &'static str,
-    /// The largest relative error of |N| that it leaves on a material: [`Info::bound`] has room for it.
+    /// The largest relative error of |N| that it leaves on a material: [`super::Variant::bound`] has room for it.
     pub length_error: fn(&Lighting) -> f32,
 }
 
@@ -54,12 +55,20 @@ impl MethodParameter {
         }
     }
 
-    /// Reads a value; `None` if it is neither in the range nor `auto` where that is allowed.
-    pub fn parse(&self, text: &str) -> Option<u32> {
-        let is_in_range = |value: &u32| (self.least..=self.most).contains(value);
-        match text {
-            "auto" if self.auto.is_some() => Some(MethodParameter::AUTO),
-            _ => text.parse().ok().filter(is_in_range),
+    /// Reads a value.
+    ///
+    /// # Errors
+    /// [`NameError`] when it is neither in the range nor `auto` where that is allowed.
+    pub fn parse(&self, text: &str) -> Result<u32, NameError> {
+        let (name, least, most) = (self.name, self.least, self.most);
+        match text.parse() {
+            _ if text == "auto" && self.auto.is_some() => Ok(MethodParameter::AUTO),
+            Ok(value) if (least..=most).contains(&value) => Ok(value),
+            _ => {
+                let auto = self.auto.map_or("", |_| "`auto` or ");
+                let expected = format!("{auto}a whole number from {least} to {most}");
+                Err(NameError(format!("`{name}={text}`: expected {expected}")))
+            }
         }
     }
 
@@ -162,7 +171,7 @@ pub struct Info {
     pub source: &'static str,
     /// The closed form that its picture is measured against.
     pub model: Model,
-    /// The roundings that its numbers gather. [`Info::bound`] derives the largest difference to the closed form from them.
+    /// The roundings that its numbers gather. [`super::Variant::bound`] derives the largest difference to the closed form from them.
     pub roundings: Roundings,
     /// The reason for so many roundings and no more.
     pub derivation: &'static str,
@@ -176,8 +185,6 @@ pub struct Info {
     pub local: Local,
     /// The rate at which it evaluates the light model.
     pub lit_at: LitAt,
-    /// True if the barycentric renderer has it: it needs a pixel without its neighbours.
-    pub barycentric: bool,
 }
 
 impl Info {
@@ -195,6 +202,5 @@ impl Info {
         perspective: Perspective::Free,
         local: Local::PerPixel,
         lit_at: LitAt::Pixel,
-        barycentric: true,
     };
 }

@@ -1,5 +1,7 @@
 //! Kernels: a method as a table of plain functions with the loops over pixels in them. Engines are compiled once and call these.
 
+#![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
+
 use super::increments::{GreatCircle, Linear, Walk};
 #[cfg(feature = "simd")]
 use super::lighting::LightUniforms;
@@ -11,7 +13,7 @@ use super::{LitAt, Pixel, Shader, Stepped};
 use crate::number::simd::{Block, Token, vectorize};
 use crate::number::{BLOCK, Level, Num, Vec3, vec3};
 #[cfg(feature = "simd")]
-use fearless_simd::{SimdBase, f32x8};
+use fearless_simd::*;
 
 /// The state that a span of a method starts from.
 pub type Span<S, F> = <<S as Shader>::Varying<F> as Varying<F>>::Span;
@@ -141,13 +143,12 @@ pub struct Kernels {
     pub(crate) vertices: VertexKernel,
     /// Shades runs: the scalar pixel loop.
     pub(crate) pixels: fn(&Pixels<'_>, &mut [[f32; 3]]),
-    /// The kernels of each instruction set.
-    pub(crate) simd: &'static [(Level, SimdKernels)],
+    /// Returns the kernels of an instruction set; `None` for scalar code.
+    pub(crate) simd: fn(Level) -> Option<&'static SimdKernels>,
 }
 
 /// The kernels of a method on one instruction set.
 #[derive(Clone, Copy)]
-#[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub(crate) struct SimdKernels {
     /// Computes the varyings of vertices, for methods that are lit there; others use the scalar kernel.
     pub vertices: Option<VertexKernel>,
@@ -158,12 +159,6 @@ pub(crate) struct SimdKernels {
 }
 
 impl Kernels {
-    /// Returns the kernels of an instruction set; `None` for scalar code.
-    pub(crate) fn on(&self, level: Level) -> Option<&SimdKernels> {
-        let found = self.simd.iter().find(|(other, _)| *other == level);
-        found.map(|(_, kernels)| kernels)
-    }
-
     /// Compiles a method.
     pub const fn of<M: Shader>() -> Kernels {
         Kernels {
@@ -176,24 +171,15 @@ impl Kernels {
             passes_normal: M::PASSES_NORMAL,
             vertices: vertices::<M>,
             pixels: pixels::<M>,
-            #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-            simd: const {
-                use fearless_simd::{Avx2, Avx512};
-                &[
-                    (Level::Avx2, SimdKernels::of::<M, Avx2, Avx2>()),
-                    (Level::Avx512, SimdKernels::of::<M, Avx2, Avx512>()),
-                ]
+            simd: |level| match level {
+                #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+                Level::Avx2 => Some(const { &SimdKernels::of::<M, Avx2, Avx2>() }),
+                #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+                Level::Avx512 => Some(const { &SimdKernels::of::<M, Avx2, Avx512>() }),
+                #[cfg(all(feature = "simd", target_arch = "aarch64"))]
+                Level::Neon => Some(const { &SimdKernels::of::<M, Neon, Neon>() }),
+                _ => None,
             },
-            #[cfg(all(feature = "simd", target_arch = "aarch64"))]
-            simd: const {
-                use fearless_simd::Neon;
-                &[(Level::Neon, SimdKernels::of::<M, Neon, Neon>())]
-            },
-            #[cfg(not(all(
-                feature = "simd",
-                any(target_arch = "x86_64", target_arch = "aarch64")
-            )))]
-            simd: &[],
         }
     }
 }
@@ -232,11 +218,8 @@ fn light<M: Shader, F: Num>(
     let vertices = job.normals.chunks(F::WIDTH).zip(points);
     for ((normals, points), out) in vertices.zip(out.chunks_mut(F::WIDTH * job.stride)) {
         let (n, point) = (gather(normals), gather(points));
-        let varying = if F::WIDTH > 1 && model.is_fast {
-            method.vertex(&Lit::new(model, lights, point, false), n)
-        } else {
-            method.vertex(&Lit::new(model, lights, point, true), n)
-        };
+        let general = F::WIDTH == 1 || !model.is_fast;
+        let varying = method.vertex(&Lit::new(model, lights, point, general), n);
         each(
             varying,
             #[inline(always)]
@@ -322,7 +305,6 @@ fn shade_runs<'a, 'b, M: Shader>(
 
 /// A row of the G-buffer to be shaded.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub(crate) struct ShadeRow<'a> {
     pub parameters: &'a [u32],
     pub uniforms: &'a Uniforms,
@@ -333,7 +315,6 @@ pub(crate) struct ShadeRow<'a> {
 
 /// The memory for the colours of a row, block by block.
 #[derive(Debug)]
-#[cfg_attr(not(feature = "simd"), allow(dead_code))] // only the row engine reads it
 pub enum RowColours<'a> {
     /// Bytes, and the background of pixels that nothing covers.
     Bytes(&'a mut [[u8; 4]], [u8; 4]),

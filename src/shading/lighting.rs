@@ -162,9 +162,8 @@ pub(super) fn strength<F: Num>(is_near: bool, falloff: Falloff, square: F, unit:
 /// Returns a direction or a position as the vector that it is.
 #[inline(always)]
 fn vector(place: Place<Vec3<f32>>) -> Vec3<f32> {
-    match place {
-        Place::Infinite(v) | Place::Local(v) => v,
-    }
+    let (Place::Infinite(v) | Place::Local(v)) = place;
+    v
 }
 
 /// Returns the vector from `point` toward a place, not normalised; both multiplied by `weight`, as under perspective.
@@ -261,8 +260,38 @@ impl<'a, F: Num> Lit<'a, F> {
 
     /// Returns the lights as the point sees them.
     #[inline(always)]
-    pub fn lights(&self) -> Lights<'a, F> {
-        Lights(*self, 0)
+    pub fn lights(self) -> impl Iterator<Item = Seen<'a, F>> {
+        (0..self.stored.len()).map(
+            #[inline(always)]
+            move |index| self.seen(index),
+        )
+    }
+
+    #[inline(always)]
+    fn seen(&self, index: usize) -> Seen<'a, F> {
+        let (light, one) = (&self.stored[index], self.point.x.like(1.0));
+        let is_near = light.place.is_local();
+        let mut seen = Seen {
+            index,
+            to: vector(light.place).like(one),
+            l_v: one.like(light.l_v),
+            half: one.like(light.half),
+            strength: None,
+            light,
+        };
+        if self.general && is_near {
+            let to = seen.to - self.point;
+            let square = to.dot(to);
+            seen.to = to * (one / square.sqrt());
+            seen.strength = strength(is_near, light.falloff, square, one);
+        }
+        if self.general && (is_near || self.model.eye.is_local()) {
+            seen.l_v = seen.to.dot(self.view);
+            if self.is_halfway() {
+                seen.half = over_sum(seen.l_v);
+            }
+        }
+        seen
     }
 
     /// Returns a light seen along unit vectors whose L·V is `l_v`, from the squared distance `square`; both squared distances and
@@ -293,7 +322,7 @@ impl<'a, F: Num> Lit<'a, F> {
     pub fn products<const L: usize>(&self, n: Vec3<F>) -> (PerLight<F, L>, F) {
         let mut j = PerLight::new(self.stored.len(), n.x);
         for light in self.lights() {
-            j[light.index] = n.dot(light.to); // J = L · N
+            j.values[light.index] = n.dot(light.to); // J = L · N
         }
         (j, n.dot(self.view)) // K = V · N
     }
@@ -355,7 +384,7 @@ impl<'a, F: Num> Lit<'a, F> {
     pub fn shade_products<const L: usize>(&self, (j, k): (PerLight<F, L>, F)) -> Vec3<F> {
         let mut colour = self.ambient();
         for light in self.lights() {
-            let l_n = j[light.index];
+            let l_n = j.values[light.index];
             colour = self.add(colour, &light, l_n, self.highlight(&light, l_n, k)); // 4.5
         }
         colour
@@ -391,25 +420,23 @@ impl<'a, F: Num> Lit<'a, F> {
     /// Returns the cosine of a highlight to the power n, gated and times the light's strength; `None` where no pixel has one,
     /// as most of a surface has none and highlights are half of the work. `diffuse` is L·N, 0 or more.
     #[inline(always)]
-    fn power(&self, light: &Seen<'a, F>, diffuse: F, cosine: F) -> Option<F> {
+    fn power(&self, light: &Seen<'a, F>, diffuse: F, mut cosine: F) -> Option<F> {
         let LightModel { gate, exponent, .. } = self.model;
         let gated = !self.general || gate == SpecularGate::Gated;
-        let cosine = match gated {
-            true => cosine.gate(diffuse, 0.0),
-            false => cosine,
-        };
+        if gated {
+            cosine = cosine.gate(diffuse, 0.0);
+        }
         if !cosine.any_over(self.model.faint) {
             return None;
         }
-        // The pixels of a block do not depend on one another: faint ones are none here too.
-        let bright = match F::WIDTH {
-            1 => cosine,
-            _ => cosine.gate(cosine, self.model.faint),
-        };
+        if F::WIDTH > 1 {
+            // The pixels of a block do not depend on one another: faint ones are none here too.
+            cosine = cosine.gate(cosine, self.model.faint);
+        }
         let mut power = match exponent {
-            Exponent::Squarings(times) => squared_up_to_7(bright, times),
+            Exponent::Squarings(times) => squared_up_to_7(cosine, times),
             _ if !self.general && F::WIDTH > 1 => return None, // the fast path has no other
-            _ => exponent.of(bright),
+            _ => exponent.of(cosine),
         };
         if self.general {
             if gated && exponent == Exponent::Whole(0) {
@@ -434,46 +461,6 @@ impl<F: Num> Seen<'_, F> {
     }
 }
 
-/// The lights that a point sees, one by one: the point, and the number of the next light.
-#[derive(Debug)]
-pub struct Lights<'a, F>(Lit<'a, F>, usize);
-
-impl<'a, F: Num> Iterator for Lights<'a, F> {
-    type Item = Seen<'a, F>;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<Seen<'a, F>> {
-        let Lights(lit, index) = *self;
-        if index >= lit.stored.len() {
-            return None;
-        }
-        self.1 += 1;
-        let light = &lit.stored[index];
-        let (is_near, one) = (light.place.is_local(), lit.point.x.like(1.0));
-        let mut seen = Seen {
-            index,
-            to: vector(light.place).like(one),
-            l_v: one.like(light.l_v),
-            half: one.like(light.half),
-            strength: None,
-            light,
-        };
-        if lit.general && is_near {
-            let to = seen.to - lit.point;
-            let square = to.dot(to);
-            seen.to = to * (one / square.sqrt());
-            seen.strength = strength(is_near, light.falloff, square, one);
-        }
-        if lit.general && (is_near || lit.model.eye.is_local()) {
-            seen.l_v = seen.to.dot(lit.view);
-            if lit.is_halfway() {
-                seen.half = over_sum(seen.l_v);
-            }
-        }
-        Some(seen)
-    }
-}
-
 /// The exponent n of a highlight, as it is best computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exponent {
@@ -488,13 +475,11 @@ pub enum Exponent {
 impl Exponent {
     /// Makes the exponent for a shininess of 0 or more.
     pub fn new(shininess: f32) -> Self {
-        let whole = shininess as u32;
-        match whole {
-            _ if whole as f32 != shininess => Exponent::Fractional(shininess),
-            _ if whole.is_power_of_two() && whole <= 128 => {
-                Exponent::Squarings(whole.trailing_zeros())
-            }
-            _ => Exponent::Whole(whole),
+        let n = shininess as u32;
+        match n {
+            _ if n as f32 != shininess => Exponent::Fractional(shininess),
+            _ if n.is_power_of_two() && n <= 128 => Exponent::Squarings(n.trailing_zeros()),
+            _ => Exponent::Whole(n),
         }
     }
 

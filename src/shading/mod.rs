@@ -44,12 +44,6 @@ mod slerp_phong_vector;
 
 pub use bound::{Roundings, Stepped};
 pub use count::OperationCounts;
-use duff_phong::{DuffPhong, DuffPhongNear};
-use fast_phong::FastPhong;
-use flat::Flat;
-use flat_average::FLAT_AVERAGE;
-use gouraud::Gouraud;
-use gouraud_separate::GouraudSeparate;
 pub use increments::{Constant, Linear, Walk};
 pub use info::{Auto, Info, LitAt, Local, MethodParameter, Perspective};
 pub(crate) use kernels::{Extras, Pixels, Vertices, ramp};
@@ -57,16 +51,10 @@ pub use kernels::{Kernels, Run, Span};
 #[cfg(feature = "simd")]
 pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, start_len};
 pub use lighting::{LightModel, Lit, Seen};
-use naive_phong::NaivePhong;
-use phong_rsqrt::PhongRsqrt;
 pub use planes::{PerLight, Planes};
-use slerp_phong::SlerpPhong;
-use slerp_phong_vector::SlerpPhongVector;
-#[cfg(feature = "cli")]
-pub(crate) use span_bench::FACE;
 pub use span_bench::SpanBench;
 pub use table::{Entry, METHODS};
-pub use variant::{MethodError, Variant};
+pub use variant::Variant;
 pub use varying::{UnitNormal, Varying};
 
 use crate::number::{Num, Vec3};

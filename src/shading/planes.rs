@@ -82,7 +82,8 @@ const MOST_UNROLLED: usize = 8;
 /// One value a light, for up to `L` lights; only the lights that exist are stored, or all `L` if they are few.
 #[derive(Clone, Copy, Debug)]
 pub struct PerLight<F, const L: usize> {
-    values: [F; L],
+    /// The value of each light; those after the last light are never read.
+    pub values: [F; L],
     pub(super) count: usize,
 }
 
@@ -103,21 +104,6 @@ impl<F: Copy, const L: usize> PerLight<F, L> {
     }
 }
 
-impl<F, const L: usize> core::ops::Index<usize> for PerLight<F, L> {
-    type Output = F;
-    #[inline(always)]
-    fn index(&self, light: usize) -> &F {
-        &self.values[light]
-    }
-}
-
-impl<F, const L: usize> core::ops::IndexMut<usize> for PerLight<F, L> {
-    #[inline(always)]
-    fn index_mut(&mut self, light: usize) -> &mut F {
-        &mut self.values[light]
-    }
-}
-
 impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
     #[inline(always)]
     fn filled(lights: usize, number: F) -> Self {
@@ -125,18 +111,14 @@ impl<F: Num, const L: usize> Planes<F> for PerLight<F, L> {
     }
     #[inline(always)]
     fn each(&mut self, next: &mut usize, to: &mut impl FnMut(usize, &mut F)) {
-        let mut i = 0;
-        while i < self.len() {
-            self[i].each(next, to);
-            i += 1;
+        for i in 0..self.len() {
+            self.values[i].each(next, to);
         }
     }
     #[inline(always)]
     fn zip(&mut self, other: Self, of: impl Fn(F, F) -> F + Copy) {
-        let mut i = 0;
-        while i < self.len() {
-            self[i] = of(self[i], other[i]);
-            i += 1;
+        for i in 0..self.len() {
+            self.values[i] = of(self.values[i], other.values[i]);
         }
     }
 }

@@ -27,7 +27,6 @@ impl<const L: usize> Shader for SlerpPhong<L> {
                 division each; on triangles the picture depends on how they lie; opposite normals have no great circle",
         perspective: Perspective::ScreenOnly,
         local: Local::PerPolygon,
-        barycentric: false,
         ..Info::OF_PIXELS
     };
     type Varying<F: Num> = UnitNormal<F>;

@@ -1,9 +1,9 @@
 //! Slerp Phong shading with vectors: unit normals by incremental sines and cosines (L21 4.4, steps i–iv).
 
 use super::increments::GreatCircle;
-use super::{Info, Lit, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped, UnitNormal};
+use super::slerp_phong::SlerpPhong;
+use super::{Info, Lit, Pixel, Shader, Span, UnitNormal};
 use crate::number::{Num, Vec3};
-use crate::reference::Model;
 
 /// Slerp Phong shading, vector form: unit normals walk great circles along edges *and* along spans, then eq 2.1 at every pixel,
 /// without renormalising (L21 4.4, steps i–iv).
@@ -16,14 +16,9 @@ impl Shader for SlerpPhongVector {
         title: "unit normals along great circles, by incremental sines and cosines",
         formula: "N(t) = sin((1-t)phi)/sin(phi) N1 + sin(t phi)/sin(phi) N2; sines by eq 4.9-4.12; eq 2.1",
         source: "L21 4.4, eq 4.7-4.12, steps i-iv",
-        model: Model::Slerp,
-        roundings: Roundings::new(4.0, 2.0, Stepped::Cosines),
         derivation: "as slerp-phong: the same sines carry the normals",
         fails: "as slerp-phong, at a higher price a pixel",
-        perspective: Perspective::ScreenOnly,
-        local: Local::PerPolygon,
-        barycentric: false,
-        ..Info::OF_PIXELS
+        ..SlerpPhong::<1>::INFO
     };
     type Varying<F: Num> = UnitNormal<F>;
     type Walk<F: Num> = GreatCircle<F>;

@@ -19,12 +19,12 @@ pub struct SpanBench {
     perspective: bool,
 }
 
-/// The unit normal of the triangle.
-pub(crate) const FACE: [f32; 3] = [0.0, 0.0, 1.0];
-
 const COLOUR: [f32; 3] = [0.9, 0.8, 0.7];
 
 impl SpanBench {
+    /// The unit normal of the triangle.
+    pub(crate) const FACE: [f32; 3] = [0.0, 0.0, 1.0];
+
     /// Makes a span whose end normals enclose `degrees`, facing the viewer, with one light in front of it (`lights` ≤ 1) or four,
     /// and the default material.
     pub fn new(degrees: f32, lights: usize) -> Self {
@@ -102,7 +102,6 @@ impl Variant {
 
     /// Returns the operations of each kind that the method takes on a span.
     pub fn operations_on(&self, bench: &SpanBench) -> OperationCounts {
-        let count = self.entry().count[usize::from(bench.is_near())];
-        count(bench, self)
+        (self.entry().count[usize::from(bench.is_near())])(bench, self)
     }
 }

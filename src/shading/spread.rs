@@ -56,10 +56,6 @@ impl Spread {
             (0..frame.lightings().len() as u32)
                 .for_each(|material| spread.add(frame, material, &Ball::default()));
         }
-        for seen in &mut spread.materials {
-            // Below this the bound is over 1 whatever the light: no bound at all.
-            seen.half = seen.half.max(1e-9);
-        }
         spread
     }
 
@@ -78,7 +74,8 @@ impl Spread {
             // |l + v| = 2 cos(θ/2) for unit vectors at the angle θ.
             let angle = libm::acos(to.direction.dot(view.direction).clamp(-1.0, 1.0));
             let widest = (angle + to.angle + view.angle).min(core::f64::consts::PI);
-            seen.half = seen.half.min(2.0 * libm::cos(widest / 2.0));
+            // Below 1e-9 the bound is over 1 whatever the light: no bound at all.
+            seen.half = seen.half.min(2.0 * libm::cos(widest / 2.0)).max(1e-9);
         }
     }
 }

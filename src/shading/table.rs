@@ -1,13 +1,18 @@
 //! The method table.
 
 use super::count::{OperationCounts, count};
+use super::duff_phong::{DuffPhong, DuffPhongNear};
+use super::fast_phong::FastPhong;
+use super::flat::Flat;
+use super::flat_average::FLAT_AVERAGE;
+use super::gouraud::Gouraud;
+use super::gouraud_separate::GouraudSeparate;
+use super::naive_phong::NaivePhong;
+use super::phong_rsqrt::PhongRsqrt;
+use super::slerp_phong::SlerpPhong;
+use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
-use super::{
-    DuffPhong, DuffPhongNear, Extras, FLAT_AVERAGE, FastPhong, Flat, Gouraud, GouraudSeparate,
-    Info, Kernels, Local, NaivePhong, Perspective, PhongRsqrt, Shader, SlerpPhong,
-    SlerpPhongVector, Variant,
-};
-use core::fmt;
+use super::{Extras, Info, Kernels, Local, Perspective, Shader, Variant};
 
 /// All shading methods. A method is one file beside this one, and one line here.
 pub static METHODS: &[Entry] = &[
@@ -37,22 +42,14 @@ pub static METHODS: &[Entry] = &[
 type ByLights = [&'static Kernels; 4];
 
 /// A row of the method table: the description of a method, and its kernels.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// The description of the method.
     pub info: &'static Info,
     directional: ByLights,
     near: ByLights,
     /// The functions that count operations: without a light or the eye at a position, and with one.
-    pub(super) count: [Count; 2],
-}
-
-type Count = fn(&SpanBench, &Variant) -> OperationCounts;
-
-impl fmt::Debug for Entry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Entry").field(&self.info.name).finish()
-    }
+    pub(super) count: [fn(&SpanBench, &Variant) -> OperationCounts; 2],
 }
 
 impl Entry {
@@ -95,6 +92,11 @@ impl Entry {
         METHODS.iter().find(|entry| entry.info.name == name)
     }
 
+    /// True if the barycentric renderer has it: it needs a pixel without its neighbours.
+    pub fn is_barycentric(&self) -> bool {
+        self.directional[0].linear
+    }
+
     /// Returns the varyings that kernels add to those of the method, under perspective or not, with a light or the eye at a
     /// position (`near`) or not.
     pub(crate) fn extras(&self, near: bool, perspective: bool) -> Extras {
@@ -121,6 +123,7 @@ impl Entry {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Level;
     use std::collections::BTreeSet;
 
     /// Returns the functions in the tables of these methods, each once: AVX-512 takes those of AVX2 but for its shading.
@@ -130,7 +133,7 @@ mod tests {
             kernels.extend(entry.count.map(|count| count as usize));
             for table in [entry.directional, entry.near].as_flattened() {
                 kernels.extend([table.vertices as usize, table.pixels as usize]);
-                for (_, simd) in table.simd {
+                for simd in Level::ALL.into_iter().filter_map(table.simd) {
                     kernels.insert(simd.shade as usize);
                     kernels.extend(simd.vertices.map(|vertices| vertices as usize));
                     kernels.extend(simd.walk.map(|walk| walk as usize));

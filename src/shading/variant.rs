@@ -1,7 +1,7 @@
 //! A method as a user names it.
 
-use super::{Entry, Info, METHODS, MethodParameter};
-use crate::frame::Frame;
+use super::{Entry, Info, METHODS};
+use crate::number::NameError;
 use crate::number::suggest::nearest;
 use alloc::format;
 use alloc::string::String;
@@ -30,20 +30,18 @@ impl Variant {
     /// Returns the variant that `text` names: `NAME` or `NAME:key=value`, further parameters after further colons.
     ///
     /// # Errors
-    /// [`MethodError`] when there is no such method or parameter, or the value is outside its range.
-    pub fn parse(text: &str) -> Result<Variant, MethodError> {
+    /// [`NameError`] when there is no such method or parameter, or the value is outside its range.
+    pub fn parse(text: &str) -> Result<Variant, NameError> {
         let mut parts = text.split(':');
         let name = parts.next().unwrap_or_default();
-        let entry = Entry::named(name).ok_or_else(|| MethodError::method(name))?;
+        let entry = Entry::named(name).ok_or_else(|| unknown_method(name))?;
         let parameters = entry.info.parameters;
         let mut variant = entry.variant();
         for part in parts {
             let (key, value) = part.split_once('=').unwrap_or((part, ""));
             let place = parameters.iter().position(|p| p.name == key);
-            let place = place.ok_or_else(|| MethodError::parameter(entry.info, key))?;
-            let number = parameters[place].parse(value);
-            variant.parameters[place] =
-                number.ok_or_else(|| MethodError::value(&parameters[place], value))?;
+            let place = place.ok_or_else(|| unknown_parameter(entry.info, key))?;
+            variant.parameters[place] = parameters[place].parse(value)?;
         }
         Ok(variant)
     }
@@ -67,11 +65,6 @@ impl Variant {
     pub fn is_default(&self) -> bool {
         self.parameters == self.entry.variant().parameters
     }
-
-    /// Returns [`Info::bound`] with these values of the parameters.
-    pub fn bound(&self, frame: &Frame) -> f64 {
-        self.info().bound_with(frame, &self.parameters)
-    }
 }
 
 impl fmt::Display for Variant {
@@ -87,49 +80,29 @@ impl fmt::Display for Variant {
     }
 }
 
-/// The reason why a text names no variant, as a sentence.
-#[derive(Clone, Debug)]
-pub struct MethodError(String);
+/// Says that there is no method `name`, with the nearest one or all of them.
+fn unknown_method(name: &str) -> NameError {
+    let names = || METHODS.iter().map(|entry| entry.info.name);
+    let advice = match nearest(name, names()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => one_of(names()),
+    };
+    NameError(format!("unknown method `{name}`: {advice}"))
+}
 
-impl MethodError {
-    fn method(name: &str) -> MethodError {
-        let names = || METHODS.iter().map(|entry| entry.info.name);
-        let advice = match nearest(name, names()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => one_of(names()),
-        };
-        MethodError(format!("unknown method `{name}`: {advice}"))
-    }
-
-    fn parameter(method: &Info, key: &str) -> MethodError {
-        let name = method.name;
-        MethodError(match method.parameters {
-            [] => format!("method `{name}` has no parameters, so `{key}` means nothing"),
-            all => {
-                let expected = one_of(all.iter().map(|p| p.name));
-                format!("method `{name}` has no parameter `{key}`: {expected}")
-            }
-        })
-    }
-
-    fn value(parameter: &MethodParameter, value: &str) -> MethodError {
-        let (name, least, most) = (parameter.name, parameter.least, parameter.most);
-        let auto = parameter.auto.map_or("", |_| "`auto` or ");
-        MethodError(format!(
-            "`{name}={value}`: expected {auto}a whole number from {least} to {most}"
-        ))
-    }
+/// Says that `method` has no parameter `key`.
+fn unknown_parameter(method: &Info, key: &str) -> NameError {
+    let name = method.name;
+    NameError(match method.parameters {
+        [] => format!("method `{name}` has no parameters, so `{key}` means nothing"),
+        all => {
+            let expected = one_of(all.iter().map(|p| p.name));
+            format!("method `{name}` has no parameter `{key}`: {expected}")
+        }
+    })
 }
 
 fn one_of<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
     format!("expected one of {}", names.join(", "))
 }
-
-impl fmt::Display for MethodError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl core::error::Error for MethodError {}

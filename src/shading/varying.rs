@@ -18,16 +18,10 @@ pub struct UnitNormal<F>(pub Vec3<F>);
 
 planes!([V] Linear<V>, { at: V, step: V }, |at, step| Linear { at, step });
 planes!([] UnitNormal<F>, { 0: Vec3<F> }, UnitNormal);
-planes!(
-    [] GreatCircle<F>,
-    { from: Vec3<F>, to: Vec3<F>, sines: Sines<F> },
-    |from, to, sines| GreatCircle { from, to, sines }
-);
-planes!([] Sines<F>, { t: (F, F), rest: (F, F), step: (F, F) }, |t, rest, step| Sines {
-    t,
-    rest,
-    step
-});
+planes!([] GreatCircle<F>, { from: Vec3<F>, to: Vec3<F>, sines: Sines<F> },
+    |from, to, sines| Self { from, to, sines });
+planes!([] Sines<F>, { t: (F, F), rest: (F, F), step: (F, F) },
+    |t, rest, step| Self { t, rest, step });
 
 impl<F: Num> Varying<F> for UnitNormal<F> {
     type Span = GreatCircle<F>;
@@ -109,7 +103,7 @@ mod tests {
     fn there_is_a_number_for_each_light() {
         fn of<const L: usize>(lights: usize) -> Vec<f32> {
             let mut all = PerLight::<f32, L>::new(lights, 0.5);
-            (0..lights).for_each(|i| all[i] = i as f32);
+            (0..lights).for_each(|i| all.values[i] = i as f32);
             put_and_taken(lights, all)
         }
         assert_eq!(of::<1>(1), [0.0]);

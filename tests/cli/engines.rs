@@ -168,7 +168,7 @@ fn mismatched_engines_and_instruction_sets_are_rejected() {
         refused(
             "--simd sse4.2",
             &[
-                "`sse4.2` is no longer compiled for",
+                "`sse4.2`: it is no longer compiled for",
                 "use `scalar`",
                 "or `auto`",
             ],

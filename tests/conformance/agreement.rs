@@ -76,7 +76,7 @@ fn equal_normals_make_all_methods_equal() {
         for entry in METHODS {
             let difference =
                 compare(&first, &entry.variant().render_linear(&frame)).expect("equal sizes");
-            let bound = METHODS[0].info.bound(&frame) + entry.info.bound(&frame);
+            let bound = METHODS[0].variant().bound(&frame) + entry.variant().bound(&frame);
             assert!(
                 difference.max <= bound,
                 "{} with {count} lights: {}",
@@ -98,7 +98,7 @@ fn any_number_of_lights() {
         for entry in METHODS {
             let ours = entry.variant().render_linear(&case.frame);
             let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
-            let bound = entry.info.bound(&case.frame);
+            let bound = entry.variant().bound(&case.frame);
             assert!(
                 max <= bound,
                 "{}, {count} lights: {max} over {bound}",
@@ -204,7 +204,7 @@ fn perspective_interpolation_agrees_with_the_reference() {
     for entry in METHODS {
         let ours = entry.variant().render_linear(space);
         let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
-        let bound = entry.info.bound(space);
+        let bound = entry.variant().bound(space);
         assert!(max <= bound, "{}: {max} over {bound}", entry.info.name);
     }
     let differs = |name: &str| {
@@ -243,7 +243,7 @@ fn barycentric_pictures_are_scanline_pictures_on_triangles() {
             compare(&theirs, &entry.variant().render_linear(&frame)).expect("equal sizes");
         // Both are within the bound of their closed form, and the forms are equal on triangles.
         assert!(
-            difference.max <= 2.0 * entry.info.bound(&frame),
+            difference.max <= 2.0 * entry.variant().bound(&frame),
             "{}: {}",
             entry.info.name,
             difference.max

@@ -87,7 +87,7 @@ fn every_mode_agrees_with_the_reference() {
                     for entry in METHODS {
                         let truth = case.truth(entry.info.model);
                         let error = most(truth, &entry.variant().render_linear(&case.frame));
-                        let bound = entry.info.bound(&case.frame);
+                        let bound = entry.variant().bound(&case.frame);
                         assert!(
                             bound < 3.0 / 255.0,
                             "{}: a bound of {bound:.2e} could hide a fault",
@@ -166,7 +166,7 @@ fn constant_light_vectors_differ_from_quadratics() {
     let naive = render("naive-phong");
     let exact = most(&naive, &render("duff-phong"));
     let bounds = ["naive-phong", "duff-phong"]
-        .map(|name| Variant::parse(name).expect("a method").info().bound(&frame));
+        .map(|name| Variant::parse(name).expect("a method").bound(&frame));
     assert!(exact <= bounds[0] + bounds[1], "{exact} over {bounds:?}");
     let constant = most(&naive, &render("fast-phong"));
     assert!(constant > 4.0 / 255.0, "constant vectors lose {constant}");
@@ -211,7 +211,7 @@ fn a_light_far_away_is_one_at_infinity() {
     for entry in METHODS {
         // Light vectors differ by the angle 2.5 / 1e6, because eye and sphere are within 2.5 of the
         // origin. The model amplifies it like any error of a cosine: 4 n k_s + k_d = 52.
-        let bound = 52.0 * 2.5e-6 + entry.info.bound(&far) + entry.info.bound(&infinite);
+        let bound = 52.0 * 2.5e-6 + entry.variant().bound(&far) + entry.variant().bound(&infinite);
         let error = most(
             &entry.variant().render_linear(&far),
             &entry.variant().render_linear(&infinite),
@@ -293,7 +293,7 @@ fn degenerate_light_positions_make_no_artefacts() {
             let picture = entry.variant().render_linear(&case.frame);
             // `most` rejects values that are not finite.
             let error = most(case.truth(entry.info.model), &picture);
-            let bound = entry.info.bound(&case.frame);
+            let bound = entry.variant().bound(&case.frame);
             println!("{name}, {}: {error:.1e} of {bound:.1e}", entry.info.name);
             assert!(
                 bound >= 1.0 || error <= bound,

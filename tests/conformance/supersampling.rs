@@ -244,7 +244,7 @@ fn supersampled_methods_are_within_their_bounds() {
             let ours = entry.variant().render_linear(&frame);
             let difference = compare_where(&truth, &ours, same).expect("equal sizes");
             // The reference's mean is rounded to f32 once more.
-            let bound = entry.info.bound(&frame) + 1.0 / f64::from(1 << 25);
+            let bound = entry.variant().bound(&frame) + 1.0 / f64::from(1 << 25);
             assert!(
                 difference.max <= bound,
                 "{name}, {}: {} over {bound}",

@@ -77,7 +77,7 @@ fn inside_and_outside_are_lit_alike() {
             let difference = compare(&draw(&ours), &draw(&exchanged)).expect("equal sizes");
             // Newell's sum and the averages are taken in another order, so normals differ by a
             // rounding. Both pictures are within the bound of the closed form.
-            let bound = 2.0 * entry.info.bound(&ours);
+            let bound = 2.0 * entry.variant().bound(&ours);
             assert!(
                 difference.max <= bound,
                 "{}, view {number}: {}",
@@ -150,7 +150,7 @@ fn methods_are_within_their_bounds() {
         for entry in METHODS {
             let ours = entry.variant().render_linear(&case.frame);
             let (max, _) = largest_difference(case.truth(entry.info.model), &ours, |_, _| true);
-            let bound = entry.info.bound(&case.frame);
+            let bound = entry.variant().bound(&case.frame);
             assert!(max <= bound, "{}: {max} over {bound}", entry.info.name);
         }
     }

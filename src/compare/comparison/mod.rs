@@ -177,7 +177,7 @@ pub struct MethodRow {
     /// The difference from its own closed form ([`crate::shading::Info::model`]): how well it does what it means to do. In
     /// the barycentric renderer that is the closed form on triangles.
     pub own: Difference,
-    /// The most that rounding can make of `own.max` on this frame: [`crate::shading::Info::bound`].
+    /// The most that rounding can make of `own.max` on this frame: [`crate::shading::Variant::bound`].
     pub bound: f64,
     /// True if `own.max` is at most `bound`. Newton's method on short spans with large angles may exceed it.
     pub within_bound: bool,
@@ -359,7 +359,7 @@ pub(crate) fn is_baseline(variant: &Variant) -> bool {
 
 /// Returns the name of the method that the barycentric renderer draws for a comparison with `variant`.
 fn counterpart(variant: &Variant) -> &'static str {
-    match variant.info().barycentric {
+    match variant.entry().is_barycentric() {
         true => variant.info().name,
         false => BASELINE,
     }

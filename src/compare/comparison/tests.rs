@@ -84,7 +84,7 @@ fn every_method_has_its_row_and_the_barycentric_renderer_its_own() {
             .map(|e| String::from(e.info.name))
             .collect::<Vec<_>>()
     );
-    let in_barycentric = METHODS.iter().filter(|e| e.info.barycentric);
+    let in_barycentric = METHODS.iter().filter(|e| e.is_barycentric());
     assert_eq!(
         names(&comparison.barycentric),
         in_barycentric

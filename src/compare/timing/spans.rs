@@ -4,7 +4,7 @@ use crate::number::Level;
 use crate::number::simd::BLOCK;
 use crate::shading::lighting::Uniforms;
 use crate::shading::{
-    Extras, FACE, Kernels, Pixels, RowColours, Run, ShadeRow, SpanBench, Variant, Vertices, ramp,
+    Extras, Kernels, Pixels, RowColours, Run, ShadeRow, SpanBench, Variant, Vertices, ramp,
     start_len,
 };
 use alloc::vec;
@@ -65,7 +65,7 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
         start[..3].copy_from_slice(&a[..3]);
         start[3..6].copy_from_slice(&b[..3]);
         (start[6], start[7]) = (0.5 * dt, dt);
-        start[8..11].copy_from_slice(&FACE);
+        start[8..11].copy_from_slice(&SpanBench::FACE);
     } else {
         for i in 0..varyings {
             [start[i], start[varyings + i]] = ramp(a[i], b[i], 0.5 * dt, dt);
@@ -131,7 +131,7 @@ impl Variant {
     pub fn shade_span_on(&self, level: Level, bench: &SpanBench, row: &mut SpanRow) {
         let pixels = row.bytes.len();
         let started = start(self, bench, &row.uniforms, pixels);
-        let Some(simd) = started.kernels.on(level) else {
+        let Some(simd) = (started.kernels.simd)(level) else {
             return;
         };
         let planes = row.walked.len() / pixels;

@@ -85,7 +85,7 @@ pub(super) fn draw(
     let is_scaled = is_bytes && frame.samples() == 1;
     let scale = if is_scaled { 255.0 } else { 1.0 };
     let setup = SetUp::new(variant, frame, level, scale);
-    let Some(kernels) = setup.kernels.on(level) else {
+    let Some(kernels) = (setup.kernels.simd)(level) else {
         return; // no plan asks for the row engine there
     };
     let [_, planes] = (setup.kernels.counts)(frame.light_count());

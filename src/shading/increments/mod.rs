@@ -41,11 +41,9 @@ impl<F: Num, W: Walk<F, Pixel = F>, const L: usize> Walk<F> for PerLight<W, L> {
 
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
-        let mut pixel = PerLight::new(self.count, self[0].next());
-        let mut i = 1;
-        while i < self.len() {
-            pixel[i] = self[i].next();
-            i += 1;
+        let mut pixel = PerLight::new(self.count, self.values[0].next());
+        for i in 1..self.len() {
+            pixel.values[i] = self.values[i].next();
         }
         pixel
     }

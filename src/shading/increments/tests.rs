@@ -410,8 +410,7 @@ mod blocks {
         Level::available()
             .skip(1)
             .map(|level| {
-                let walk = kernels
-                    .on(level)
+                let walk = (kernels.simd)(level)
                     .and_then(|simd| simd.walk)
                     .expect("a walk");
                 let mut out = vec![f32::NAN; before + planes * length + planes * 2 * BLOCK];
