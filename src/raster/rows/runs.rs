@@ -15,21 +15,11 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, f32x8, i32x8};
 
-/// The place of a run: its row in the tile, its pixels, depth at the first one and its growth.
-#[derive(Clone, Debug)]
+/// The place of a run: its row in the tile, depth at its first pixel and its growth.
+#[derive(Clone, Copy, Debug)]
 struct RunPlace {
     row: usize,
-    pixels: Range<usize>,
     depth: [f32; 2],
-}
-
-impl RunPlace {
-    /// Returns the place of a run, with the numbers at its first pixel and their growth.
-    #[inline(always)]
-    fn new(FoundRun { row, pixels, .. }: FoundRun, at: &Numbers, step: &Numbers) -> Self {
-        let depth = [at[0], step[0]];
-        RunPlace { row, pixels, depth }
-    }
 }
 
 /// Runs that wait to be walked along, all of them by one call.
@@ -43,7 +33,7 @@ pub(crate) struct RunQueue {
     walked: Vec<f32>,
     /// Blocks of all runs.
     blocks: usize,
-    /// The edges of a polygon that are still to come.
+    /// The edges of a polygon, from the top down, each with its first row.
     edges: Vec<(i32, TableEdge)>,
 }
 
@@ -55,14 +45,15 @@ pub(super) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 
 impl RunQueue {
     /// Adds a run, whose start stands at the end of `starts` already.
-    fn push(&mut self, uniforms: u32, place: RunPlace) {
-        self.blocks += place.pixels.len().div_ceil(BLOCK);
+    #[inline(always)]
+    fn push(&mut self, uniforms: u32, pixels: Range<usize>, place: RunPlace) {
+        self.blocks += pixels.len().div_ceil(BLOCK);
+        self.places.push(place);
         self.runs.push(Run {
             uniforms,
-            x: place.pixels.start as u32,
-            pixels: place.pixels.len() as u32,
+            x: pixels.start as u32,
+            pixels: pixels.len() as u32,
         });
-        self.places.push(place);
     }
 
     /// True if the runs are enough to be drawn.
@@ -126,7 +117,9 @@ impl RunQueue {
         self.starts.truncate(first + count);
         self.starts.extend_from_slice(&step[1..]);
         self.starts.truncate(first + 2 * count);
-        self.push(uniforms, RunPlace::new(run, at, step));
+        let FoundRun { row, pixels, .. } = run;
+        let depth = [at[0], step[0]];
+        self.push(uniforms, pixels, RunPlace { row, depth });
     }
 
     /// Adds the runs of polygon `number`, of any shape: its edges step what they carry from row to row.
@@ -139,30 +132,32 @@ impl RunQueue {
     ) {
         let frame = setup.frame;
         let (uniforms, width) = (setup.uniforms_of(number), frame.width() as u32);
-        self.edges.clear();
         let mut edges = core::mem::take(&mut self.edges);
+        edges.clear();
         let (top, bottom) = (rows.start as i32, rows.end as i32);
         for_each_edge(frame, top..bottom, number, |row, edge| {
             edges.push((row, edge))
         });
         edges.sort_by_key(|(row, _)| *row);
-        let mut next = 0;
+        let mut rest = &edges[..];
         for row in edges.first().map_or(bottom, |(row, _)| *row)..bottom {
-            let begin = edges[next..].iter().take_while(|(first, _)| *first == row);
-            let new = next..next + begin.count();
-            next = new.end;
-            active.next(edges[new].iter().map(|(_, edge)| edge), row);
-            if active.is_empty() && next == edges.len() {
+            let is_later = |(first, _): &(i32, TableEdge)| *first != row;
+            let count = rest.iter().position(is_later).unwrap_or(rest.len());
+            let (new, later) = rest.split_at(count);
+            rest = later;
+            if !(new.is_empty() && active.step(row)) {
+                active.next(new.iter().map(|(_, edge)| edge), row);
+            }
+            if active.is_empty() && rest.is_empty() {
                 break;
             }
             active.spans(width, |active, span| {
                 active.start(&span, 0, &mut self.starts);
                 let place = RunPlace {
                     row: row as usize - rows.start,
-                    pixels: span.start as usize..span.end as usize,
                     depth: [span.depth, span.depth_step],
                 };
-                self.push(uniforms, place);
+                self.push(uniforms, span.start as usize..span.end as usize, place);
             });
         }
         active.clear();
@@ -176,7 +171,8 @@ impl RunQueue {
 
     /// Reports the blocks of a tile that the runs may draw.
     pub fn extend(&self, tile: &mut Tile) {
-        for RunPlace { pixels, .. } in &self.places {
+        for run in &self.runs {
+            let pixels = pixels_of(run);
             tile.extend(pixels.start / BLOCK..pixels.end.div_ceil(BLOCK));
         }
     }
@@ -204,14 +200,14 @@ impl RunQueue {
     ) {
         let len = start_len(setup.varyings.great_circle, setup.varyings.count);
         let mut walked = BLOCK;
-        for (i, place) in self.places.iter().enumerate() {
-            let material = m.splat(self.runs[i].uniforms as f32);
+        for (i, (run, place)) in self.runs.iter().zip(&self.places).enumerate() {
+            let (material, pixels) = (m.splat(run.uniforms as f32), pixels_of(run));
             if is_walked {
-                let length = place.pixels.len().next_multiple_of(BLOCK);
+                let length = pixels.len().next_multiple_of(BLOCK);
                 let from = &self.walked[walked - BLOCK..walked + length * planes + BLOCK];
                 draw_run(
                     m,
-                    place,
+                    (*place, pixels),
                     &mut writer,
                     #[inline(always)]
                     |number, x| match number - 1 {
@@ -226,7 +222,7 @@ impl RunQueue {
                 let (at, step) = self.starts[i * len..][..len].split_at(planes);
                 draw_run(
                     m,
-                    place,
+                    (*place, pixels),
                     &mut writer,
                     #[inline(always)]
                     |number, x| match number - 1 {
@@ -242,20 +238,25 @@ impl RunQueue {
     }
 }
 
+/// Returns the pixels of a run.
+#[inline(always)]
+fn pixels_of(run: &Run) -> Range<usize> {
+    run.x as usize..(run.x + run.pixels) as usize
+}
+
 /// Draws a run. `number` returns each number but depth, at the block that begins `x` pixels after the run's first one.
 #[inline(always)]
 fn draw_run<S: Simd, const N: usize>(
     m: Lanes<S>,
-    place: &RunPlace,
+    (RunPlace { row, depth }, pixels): (RunPlace, Range<usize>),
     writer: &mut Writer<'_, S, N>,
     number: impl Fn(usize, isize) -> f32x8<S>,
 ) {
-    let RunPlace { row, pixels, depth } = place;
     for block in pixels.start / BLOCK..pixels.end.div_ceil(BLOCK) {
         let x = (block * BLOCK) as isize - pixels.start as isize;
         writer.put(
             (row * writer.blocks + block) * writer.stride(),
-            outside(m, block, pixels),
+            outside(m, block, &pixels),
             #[inline(always)]
             |i| match i {
                 0 => m.ramp(depth[0] + x as f32 * depth[1], depth[1]),
@@ -282,9 +283,11 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
         #[inline(always)]
         |step, run| {
             let at = batch.planes.at(m, k, count, run.weights);
+            let FoundRun { row, pixels, .. } = run;
+            let depth = [at[0], step[0]];
             draw_run(
                 m,
-                &RunPlace::new(run, &at, step),
+                (RunPlace { row, depth }, pixels),
                 writer,
                 #[inline(always)]
                 |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),

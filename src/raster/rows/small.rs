@@ -89,17 +89,15 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         let (m, k, [_, b, c]) = (self.m, self.k, &self.batch.edges);
         let [first, end] = self.blocks;
         let count = writer.count.get();
-        let growth = self.growth::<N>(count, [b.growth[k], c.growth[k]]);
-        let down = self.growth::<N>(count, [b.fall[k], c.fall[k]]);
+        let growth = self.growth(count, [b.growth[k], c.growth[k]]);
+        let down = self.growth(count, [b.fall[k], c.fall[k]]);
         let weights = [b.weight[k], c.weight[k]];
         let start = self.batch.planes.at(m, k, count, weights);
         let (counted, width) = (m.float(m.counted()), m.splat(BLOCK as f32));
         let (mut at, mut across) = (growth, growth);
-        let mut i = 0;
-        while i < count {
+        for i in 0..count {
             at[i] = growth[i].mul_add(counted, m.splat(start[i]));
             across[i] = growth[i] * width;
-            i += 1;
         }
         let first_of = |edge: usize| m.int(self.batch.edges[edge].at[k]);
         let mut functions = grown([first_of(0), first_of(1), first_of(2)], self.ramp);
@@ -121,10 +119,8 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
                 );
             }
             functions = grown(functions, self.down);
-            let mut i = 0;
-            while i < count {
+            for i in 0..count {
                 at[i] += down[i];
-                i += 1;
             }
             place += writer.blocks * stride;
         }
@@ -140,13 +136,11 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
     ) {
         let (m, [_, b, c]) = (self.m, &self.batch.edges);
         let (count, stride) = (writer.count.get(), writer.stride());
-        let mut across = self.growth::<N>(count, [b.growth[self.k], c.growth[self.k]]);
+        let mut across = self.growth(count, [b.growth[self.k], c.growth[self.k]]);
         let mut ramps = [m.splat(0.0); MOST];
         let (counted, width) = (m.float(m.counted()), m.splat(BLOCK as f32));
-        let mut i = 0;
-        while i < count {
+        for i in 0..count {
             (across[i], ramps[i]) = (across[i] * width, across[i] * counted);
-            i += 1;
         }
         let first_block = rows.start * writer.blocks + self.blocks[0];
         for row in 0..rows.len() {
@@ -157,10 +151,8 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
             let first_of = |edge: usize| m.int(starts.functions[edge][of_eight]);
             let mut functions = grown([first_of(0), first_of(1), first_of(2)], self.ramp);
             let mut at = ramps;
-            let mut i = 0;
-            while i < count {
+            for i in 0..count {
                 at[i] = m.splat(starts.numbers[i][of_eight]) + ramps[i];
-                i += 1;
             }
             let before = first_block + row * writer.blocks;
             let [from, to] = [starts.blocks[0][of_eight], starts.blocks[1][of_eight]];
@@ -173,10 +165,8 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
                     |i| at[i],
                 );
                 functions = grown(functions, self.across);
-                let mut i = 0;
-                while i < count {
+                for i in 0..count {
                     at[i] += across[i];
-                    i += 1;
                 }
                 place += stride;
             }
@@ -203,12 +193,10 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         }
         let off = |edge: usize| m.splat(edges[edge].off[k]);
         let weight = |edge: usize| m.float(start[edge]).mul_add(over_area, off(edge));
-        let weights = [weight(1), weight(2)];
-        let mut i = 0;
-        while i < count {
-            let number = self.batch.planes.number(m, k, i, weights);
-            m.store(number, &mut starts.numbers[i]);
-            i += 1;
+        let ([at, to_b, to_c], b, c) = (&self.batch.planes.0[k], weight(1), weight(2));
+        for i in 0..count {
+            let value = m.splat(to_b[i]).mul_add(b, m.splat(at[i]));
+            m.store(m.splat(to_c[i]).mul_add(c, value), &mut starts.numbers[i]);
         }
     }
 
@@ -240,13 +228,11 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
 
     /// Returns the growth of its numbers where the coordinates grow by `growth`.
     #[inline(always)]
-    fn growth<const N: usize>(&self, count: usize, growth: [f32; 2]) -> BlockNumbers<S> {
+    fn growth(&self, count: usize, growth: [f32; 2]) -> BlockNumbers<S> {
         let steps = self.batch.planes.growth(self.m, self.k, count, growth);
         let mut grown = [self.m.splat(0.0); MOST];
-        let mut i = 0;
-        while i < if N == 0 { count } else { N } {
+        for i in 0..count {
             grown[i] = self.m.splat(steps[i]);
-            i += 1;
         }
         grown
     }
@@ -260,6 +246,6 @@ fn outside<S: Simd>([a, b, c]: [i32x8<S>; 3]) -> i32x8<S> {
 
 /// Returns edge functions one step further.
 #[inline(always)]
-fn grown<S: Simd>(at: [i32x8<S>; 3], step: [i32x8<S>; 3]) -> [i32x8<S>; 3] {
+pub(super) fn grown<S: Simd>(at: [i32x8<S>; 3], step: [i32x8<S>; 3]) -> [i32x8<S>; 3] {
     [at[0] + step[0], at[1] + step[1], at[2] + step[2]]
 }

@@ -152,13 +152,11 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
             return;
         };
         let mask = m.depth_mask(outside, depth, m.load(values).max(self.least));
-        // A `while`: with `chunks_exact_mut` it depends on the rest of the crate whether the loop is unrolled.
-        let mut i = 0;
-        while i < self.count.get() {
+        // By number: with `chunks_exact_mut` it depends on the rest of the crate whether the loop is unrolled.
+        for i in 0..self.count.get() {
             let place = &mut values[i * BLOCK..(i + 1) * BLOCK];
             let new = if i == 0 { depth } else { number(i) };
             m.store(m.select(mask, m.load(place), new), place);
-            i += 1;
         }
     }
 
@@ -178,10 +176,8 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
         let numbers = &numbers[..count];
         if !self.test.hides || depth < values[0] {
             values[0] = depth;
-            let mut i = 1;
-            while i < count {
+            for i in 1..count {
                 values[i * BLOCK] = numbers[i];
-                i += 1;
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Tiny triangles: eight of them at a time, pixel by pixel of their boxes. Where a triangle has a pixel or two, setting up its
 //! rows is most of its cost; here nothing is set up for one triangle alone.
 
+use super::small::grown;
 use super::tile::{Tile, Writer};
 use super::triangles::{BATCH, Batch, CoveragePath, FoundRun, Ints, TINY_HEIGHT, TINY_WIDTH, bits};
 use crate::number::lanes::{Int, Lanes};
@@ -92,15 +93,11 @@ impl Fragments {
                 let c = m.float(here[2]).mul_add(over_area, back[1]);
                 m.store(b, &mut to_b.as_flattened_mut()[at..]);
                 m.store(c, &mut to_c.as_flattened_mut()[at..]);
-                here = [here[0] + down[0], here[1] + down[1], here[2] + down[2]];
+                here = grown(here, down);
                 (below, place, bit) = (below - one, place + next_row, bit + bit);
                 (at, row) = (at + BLOCK, row + 1);
             }
-            column = [
-                column[0] + right[0],
-                column[1] + right[1],
-                column[2] + right[2],
-            ];
+            column = grown(column, right);
             (beside, across_at) = (beside - one, across_at + one);
             slot += TINY_HEIGHT as usize;
         }

@@ -103,36 +103,16 @@ pub(super) type Numbers = [f32; LINE];
 pub(super) struct PlaneEquations(pub [[Numbers; 3]; BATCH]);
 
 impl PlaneEquations {
-    /// Returns number `number` over triangle `k` at pixels with these barycentric coordinates of the second and third corner.
-    #[inline(always)]
-    pub fn number<S: Simd>(
-        &self,
-        m: Lanes<S>,
-        k: usize,
-        number: usize,
-        [b, c]: [f32x8<S>; 2],
-    ) -> f32x8<S> {
-        let [at, to_b, to_c] = &self.0[k];
-        let value = m.splat(to_b[number]).mul_add(b, m.splat(at[number]));
-        m.splat(to_c[number]).mul_add(c, value)
-    }
-
     /// Returns the first `count` numbers of triangle `k` where its second and third corner have the coordinates `weights`.
     #[inline(always)]
     pub fn at<S: Simd>(&self, m: Lanes<S>, k: usize, count: usize, weights: [f32; 2]) -> Numbers {
         self.from(m, k, count, &self.0[k][0], weights)
     }
 
-    /// Returns the growth of the numbers where the coordinates grow by `weights`.
+    /// Returns the growth of the numbers where the coordinates grow `by` so much.
     #[inline(always)]
-    pub fn growth<S: Simd>(
-        &self,
-        m: Lanes<S>,
-        k: usize,
-        count: usize,
-        weights: [f32; 2],
-    ) -> Numbers {
-        self.from(m, k, count, &[0.0; LINE], weights)
+    pub fn growth<S: Simd>(&self, m: Lanes<S>, k: usize, count: usize, by: [f32; 2]) -> Numbers {
+        self.from(m, k, count, &[0.0; LINE], by)
     }
 
     /// Returns the numbers `at`, grown by the coordinates `weights`.
@@ -197,11 +177,9 @@ impl Batch {
         let mut k = 0;
         while k < most && polygons[k].is_triangle() {
             self.listed[k] = polygons[k];
-            let mut i = 0;
-            while i < 3 {
+            for i in 0..3 {
                 let vertex = &vertices[polygons[k].corners[i] as usize];
                 (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
-                i += 1;
             }
             k += 1;
         }
@@ -226,16 +204,12 @@ impl Batch {
             others |= here << first;
             left = left.min(bounded.columns[0]);
             right = right.max(bounded.columns[1]);
-            let mut edge = 0;
-            while edge < 3 {
+            for edge in 0..3 {
                 self.edge(m, first, edge, &bounded);
-                edge += 1;
             }
             first += BLOCK;
         }
-        let (mut lefts, mut rights) = ([0; BLOCK], [0; BLOCK]);
-        m.store_int(left, &mut lefts);
-        m.store_int(right, &mut rights);
+        let (lefts, rights): ([i32; BLOCK], [i32; BLOCK]) = (left.into(), right.into());
         let (left, right) = (lefts.iter().min(), rights.iter().max());
         let blocks = left.map_or(0, |left| *left as usize / BLOCK)
             ..right.map_or(0, |right| (*right as usize).div_ceil(BLOCK));

@@ -29,6 +29,18 @@ struct ActiveEdge {
     slot: u32,
 }
 
+impl ActiveEdge {
+    /// Steps to the next scanline, but for varyings in a slot.
+    #[inline(always)]
+    fn advance(&mut self) {
+        self.crossing.advance();
+        self.depth[0] += self.depth[1]; // 3.3
+        for i in 0..FEW {
+            self.at[i] += self.step[i]; // 3.6, 4.2
+        }
+    }
+}
+
 /// Varyings that are kept with the edge: a normal or a colour, and a weight.
 const FEW: usize = 4;
 
@@ -172,11 +184,7 @@ impl<'a> ActiveEdges<'a> {
                 }
                 continue;
             }
-            edge.crossing.advance();
-            edge.depth[0] += edge.depth[1]; // 3.3
-            for i in 0..FEW {
-                edge.at[i] += edge.step[i]; // 3.6, 4.2
-            }
+            edge.advance();
             if self.has_slots {
                 self.more.advance(edge.slot);
             }
@@ -271,6 +279,22 @@ impl<'a> ActiveEdges<'a> {
             self.varyings.of_corner(polygon, corners[0], edge.top),
             self.varyings.of_corner(polygon, corners[1], edge.bottom),
         ]
+    }
+
+    /// Steps the edges to scanline `row` where they are, if none of them ends before its centre. Returns false if one does.
+    #[cfg(feature = "simd")]
+    #[inline(always)]
+    pub fn step(&mut self, row: i32) -> bool {
+        if self.edges.iter().any(|edge| edge.end <= row) {
+            return false;
+        }
+        for edge in &mut self.edges {
+            edge.advance();
+            if self.has_slots {
+                self.more.advance(edge.slot);
+            }
+        }
+        true
     }
 
     /// Forgets all edges.
