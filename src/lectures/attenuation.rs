@@ -1,13 +1,7 @@
 //! Falloffs over the distance, and floors that they light (CS171 2, Attenuation; L5, Light
 //! falloff).
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, Series, draw, log, scene, share, stored, written,
-};
-use crate::picture::LinearPicture;
-use crate::scene::{Falloff, Light};
-use alloc::{format, vec, vec::Vec};
-use glam::{DAffine3, DVec3};
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "attenuation",

@@ -1,13 +1,12 @@
 //! Barycentric coordinates: the triangle from red to blue, the weights as colours, and two
 //! misprints drawn.
 
-use super::{Figure, FigureContent, Result, largest, percent, stored};
-use crate::picture::{LinearPicture, Picture};
+use super::prelude::*;
+use crate::picture::Picture;
 use crate::reference::cs171::barycentric::{
     Weights, centre_of_mass, printed_gamma, signed_area, unsigned_weights, weights,
 };
 use crate::reference::cs171::{Inside, Raster, raster_colored_triangle, raster_triangle};
-use glam::{DVec2, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "barycentric",

@@ -1,17 +1,10 @@
 //! L and V constant along each polygon, as the lecture assumes, against those of each pixel (L21 1;
 //! Duff 1979).
 
-use super::{
-    Figure, FigureContent, Plot, Result, Series, draw_each, grey, levels, log, max_and_rms, scene,
-    stored,
-};
-use crate::compare::metrics::{compare, difference_map};
+use super::prelude::*;
 use crate::number::Counts;
-use crate::reference::{self, Model};
-use crate::scene::{Falloff, Interpolation, Light, Scene};
-use crate::shading::{OperationCounts, SpanBench, Variant};
-use alloc::{format, string::ToString, vec, vec::Vec};
-use glam::DVec3;
+use crate::shading::{OperationCounts, SpanBench};
+use alloc::string::ToString;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "constant-vectors",

@@ -1,17 +1,12 @@
 //! CS171's red sphere under two coloured lights, by its three algorithms; the highlight that
 //! Algorithm 7 loses as it is printed; and the test against the NDC cube, which is not clipping.
 
-use super::{Figure, FigureContent, Result, bare, fitted, largest, written};
-use crate::frame::Frame;
+use super::prelude::*;
 use crate::frame::triangulate::triangulated;
-use crate::mesh::Material;
 use crate::picture::{Picture, Picture8};
 use crate::reference::cs171::{
     Raster, Reading, Shading, TriangleCorner, full_shading, render, world_to_ndc,
 };
-use crate::scene::{Camera, Light, Lighting, Projection, SpecularGate, SpecularModel};
-use alloc::{format, vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "cs171",

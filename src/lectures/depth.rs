@@ -1,12 +1,8 @@
 //! Depth buffers: two ways to compute depth, and the reach of 16, 24 and 32 bits (L5).
 
-use super::{
-    Agreement, Figure, FigureContent, FigureError, Plot, Result, Series, differing, draw, largest,
-    linear, log, shipped, stored, written,
-};
+use super::prelude::*;
 use crate::raster::depth;
-use crate::scene::{Camera, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Scene};
-use alloc::{format, vec::Vec};
+use crate::scene::{DepthBits, DepthBuffer, DepthSource, HiddenSurfaces};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "depth",

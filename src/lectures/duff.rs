@@ -5,12 +5,7 @@
 //! says that there are surfaces for which this is so. The example and its closed form are derived
 //! here.
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw_each, frame, jump,
-    linear, profile, stored, toward, written,
-};
-use crate::picture::LinearPicture;
-use alloc::format;
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "duff",

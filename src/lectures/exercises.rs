@@ -1,16 +1,9 @@
 //! The exercises of Lecture 21: a table of sines read between its lines, and e^t by one
 //! multiplication a pixel.
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, ScreenCorner, ScreenPolygon, Series, draw, frame,
-    grey, largest, linear, log, stored, written,
-};
+use super::prelude::*;
 use crate::number::{Counter, Num};
-use crate::picture::LinearPicture;
 use crate::raster::depth;
-use crate::shading::Walk;
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "exercises",

@@ -1,13 +1,7 @@
 //! The exponent of the highlight: cosine powers, spheres for k_s and p, and N·H against R·V (L5;
 //! CS171 2, Figure 7).
 
-use super::{
-    Figure, FigureContent, Plot, Result, Series, draw, grey, linear, scene, share, stored, written,
-};
-use crate::picture::LinearPicture;
-use crate::scene::{Scene, SpecularModel};
-use alloc::{format, vec::Vec};
-use glam::DVec3;
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "exponents",

@@ -1,12 +1,8 @@
 //! Fast Phong against naive Phong: the same picture for fewer operations (L21 4.2–4.4).
 
-use super::{
-    Figure, FigureContent, FigureError, Result, draw_each, fitted, map_caption, stored, written,
-};
-use crate::compare::metrics::{compare, difference_map};
+use super::prelude::*;
 use crate::number::Counts;
-use crate::shading::{METHODS, OperationCounts, Variant};
-use alloc::{format, vec::Vec};
+use crate::shading::{METHODS, OperationCounts};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "fast-vs-naive",

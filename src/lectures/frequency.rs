@@ -1,11 +1,7 @@
 //! Shading frequency against mesh resolution: faces, vertices, pixels, on six spheres (L5).
 
-use super::{Figure, FigureContent, Plot, Result, Series, draw, fitted, log, max_and_rms, stored};
+use super::prelude::*;
 use crate::compare::metrics::{Difference, compare_where};
-use crate::frame::Frame;
-use crate::reference::{self, Model};
-use crate::scene::Scene;
-use alloc::{format, string::String, vec::Vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "frequency",

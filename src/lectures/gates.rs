@@ -1,12 +1,6 @@
 //! Highlights from behind, and colours clamped at vertices or at pixels (CS171 2; L5; L21 3).
 
-use super::{Figure, FigureContent, Result, draw, draw_each, grey, levels, percent, scene, stored};
-use crate::compare::metrics::compare;
-use crate::mesh::Material;
-use crate::picture::LinearPicture;
-use crate::reference::{self, Model};
-use crate::scene::{SpecularGate, SpecularModel};
-use glam::DVec3;
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "gates",

@@ -1,17 +1,8 @@
 //! Ambient, diffuse and specular light apart and summed (L5, L21 2.1), and Lambert's law on a cube
 //! that turns.
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, Series, draw, grey, largest, levels, linear, scene,
-    stored, written,
-};
-use crate::frame::Frame;
-use crate::mesh::Material;
-use crate::mesh::vertex_normals::NormalSource;
-use crate::picture::LinearPicture;
+use super::prelude::*;
 use crate::raster::polygon_numbers;
-use alloc::{format, vec::Vec};
-use glam::{DAffine3, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "illumination",

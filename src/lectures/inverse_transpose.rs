@@ -1,17 +1,11 @@
 //! Normals under a transform that stretches: by the matrix of the points, and by its inverse
 //! transpose (CS171 2, Figure 4).
 
-use super::{
-    Figure, FigureContent, Plot, Result, Series, angle, draw, grey, largest, levels, linear, scene,
-    stored, written,
-};
+use super::prelude::*;
 use crate::mesh::builtin::builtin;
-use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
-use crate::picture::LinearPicture;
 use crate::scene::Object;
-use alloc::{format, sync::Arc, vec};
-use glam::{DAffine3, DVec3};
+use alloc::sync::Arc;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "inverse-transpose",

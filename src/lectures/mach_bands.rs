@@ -1,13 +1,6 @@
 //! Mach bands: jumps of the intensity and of its slope at the edges of polygons (L21 2–4).
 
-use super::{
-    Agreement, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw_each, frame, grey,
-    jump, largest, linear, profile, stored, toward, written,
-};
-use crate::frame::Frame;
-use crate::reference::{self, Model};
-use alloc::{format, vec::Vec};
-use glam::DVec3;
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "mach-bands",

@@ -43,6 +43,7 @@ mod newton;
 mod normals;
 mod painter;
 mod perspective;
+mod prelude;
 mod slerp;
 mod square;
 mod supersampling;
@@ -53,14 +54,6 @@ use error::Result;
 
 use crate::number::suggest::nearest;
 use alloc::{format, string::String, vec::Vec};
-use content::{linear, log, written};
-use fixture::{
-    DULL, ScreenCorner, ScreenPolygon, bare, draw, draw_each, ends, fitted, frame, grey,
-    map_caption, scene, shipped, stored, toward,
-};
-use measure::{
-    angle, covered_by_both, differing, jump, largest, levels, max_and_rms, percent, profile, share,
-};
 
 /// All figures, in the order of the lectures.
 pub static FIGURES: &[&Figure] = &[

@@ -1,13 +1,8 @@
 //! The normal of a polygon from two edges, and by Newell's formula (L21 1.1).
 
-use super::{
-    Agreement, Figure, FigureContent, Result, ScreenCorner, ScreenPolygon, angle, draw, frame,
-    grey, stored, written,
-};
+use super::prelude::*;
 use crate::mesh::newell::newell;
-use crate::picture::LinearPicture;
-use alloc::{format, vec::Vec};
-use glam::{DQuat, DVec2, DVec3, Vec3};
+use glam::{DQuat, Vec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "newell",

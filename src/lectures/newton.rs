@@ -1,15 +1,8 @@
 //! Newton's method along a span: the error after so many steps a pixel, and where the method breaks
 //! (L21 4.2).
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw, ends, frame, largest,
-    levels, linear, log, stored, written,
-};
-use crate::number::vec3;
-use crate::shading::Walk;
+use super::prelude::*;
 use crate::shading::increments::{Newton, NewtonSteps};
-use alloc::{format, string::String, vec, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "newton",

@@ -1,19 +1,10 @@
 //! Averaged vertex normals against those of the surface, and the length of interpolated ones (L5;
 //! L21 3.1).
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, Series, angle, covered_by_both, draw_each, ends,
-    largest, linear, log, scene, stored, written,
-};
-use crate::frame::Frame;
+use super::prelude::*;
 use crate::mesh::builtin::builtin;
-use crate::mesh::vertex_normals::NormalSource;
-use crate::number::vec3;
-use crate::scene::{Culling, Scene};
-use crate::shading::Walk;
+use crate::scene::Culling;
 use crate::shading::increments::Quadratic;
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "normals",

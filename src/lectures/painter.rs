@@ -1,10 +1,8 @@
 //! Hidden surfaces by the painter's algorithm, and by a depth buffer (L5).
 
-use super::{Figure, FigureContent, Result, differing, draw, shipped, stored};
-use crate::picture::LinearPicture;
+use super::prelude::*;
 use crate::raster::painter::conflicts;
-use crate::scene::{DepthBuffer, HiddenSurfaces, PainterKey, Scene};
-use alloc::{format, vec::Vec};
+use crate::scene::{DepthBuffer, HiddenSurfaces, PainterKey};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "painter",

@@ -1,17 +1,10 @@
 //! Perspective: Lecture 5's checkerboard wrong and right, the weight that makes it right, and the
 //! depth of a point.
 
-use super::{
-    Figure, FigureContent, Plot, Result, Series, bare, largest, linear, percent, stored, written,
-};
+use super::prelude::*;
 use crate::frame::perspective::{Frustum, printed_weight_in_space, weight_in_space};
 use crate::frame::{FrameBuilder, SubPixel, Vertex};
-use crate::mesh::Material;
-use crate::picture::LinearPicture;
 use crate::raster::{checkerboard, vertex_colours};
-use crate::scene::{Camera, Interpolation, Lighting, Projection};
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "perspective",

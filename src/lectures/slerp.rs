@@ -1,17 +1,9 @@
 //! Spherical linear interpolation: its speed, the drift of its recurrences, and its ends (L21 4.4).
 
-use super::{
-    Figure, FigureContent, Plot, Result, ScreenPolygon, Series, angle, draw, ends, frame, grey,
-    largest, linear, log, written,
-};
-use crate::frame::Frame;
-use crate::number::{Counter, vec3};
+use super::prelude::*;
+use crate::number::Counter;
 use crate::raster::normals;
-use crate::reference::{self, Model};
-use crate::shading::Walk;
 use crate::shading::increments::{GreatCircle, Sines};
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "slerp",

@@ -1,16 +1,7 @@
 //! The square of Figure 5: turning it, or cutting it into triangles, changes its shading (L21 3).
 
-use super::{
-    Agreement, DULL, Figure, FigureContent, Result, ScreenCorner, ScreenPolygon, angle,
-    covered_by_both, draw, frame, largest, levels, map_caption, stored, written,
-};
-use crate::compare::metrics::difference_map;
-use crate::frame::Frame;
-use crate::picture::LinearPicture;
+use super::prelude::*;
 use crate::raster::normals;
-use crate::shading::Variant;
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "square",

@@ -1,17 +1,10 @@
 //! Supersampling with a depth buffer: occlusion at each sample, and the edge that its filter gives
 //! (L5).
 
-use super::{
-    Figure, FigureContent, Plot, Result, ScreenCorner, ScreenPolygon, Series, draw, log, shipped,
-    written,
-};
-use crate::frame::{Frame, FrameBuilder};
-use crate::mesh::Material;
+use super::prelude::*;
+use crate::frame::FrameBuilder;
+use crate::picture::Encoding;
 use crate::picture::encoding::{srgb_encode, store};
-use crate::picture::{Encoding, LinearPicture};
-use crate::scene::Lighting;
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "supersampling",
