@@ -90,14 +90,12 @@ fn floors(content: &mut FigureContent) -> Result {
         rows,
     );
     content.confirms(
-        "clipped",
-        "share of the floor that 1/r² clips to white",
+        "clipped | share of the floor that 1/r² clips to white",
         (clipped[OF_LECTURE], "%", clipped[OF_LECTURE] > 1.0),
         "\"Tends to look bad\": near the light it is brighter than a picture can hold.",
     );
     content.confirms(
-        "clipped-notes",
-        "share of the floor that 1/(1 + d²) clips to white",
+        "clipped-notes | share of the floor that 1/(1 + d²) clips to white",
         (clipped[OF_NOTES], "%", clipped[OF_NOTES] == 0.0),
         "None: it is at most 1.",
     );
@@ -108,8 +106,7 @@ fn floors(content: &mut FigureContent) -> Result {
     );
     let unattenuated = below(1.0, &floor(Falloff::None, 1.0)?);
     content.confirms(
-        "dark",
-        "share of the floor under one level, 1/r² with a light too dim to clip anything",
+        "dark | share of the floor under one level, 1/r² with a light too dim to clip anything",
         (dark, "%", dark > 20.0 && dark > unattenuated),
         "Much of the floor is black: local shading has no light from elsewhere.",
     );

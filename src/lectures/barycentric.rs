@@ -97,23 +97,20 @@ fn misprints(content: &mut FigureContent) -> Result {
     let inside = count(&is_inside);
     let lost = percent(count(&|p| is_inside(p) && !is_in(as_printed(p))), inside);
     content.contradicts(
-        "printed-gamma",
-        "pixels of the triangle that the printed γ loses",
+        "printed-gamma | pixels of the triangle that the printed γ loses",
         (lost, "%", lost != 0.0),
         "f_ab(p) / f_ac(p) is −γ/β and no weight: divide by f_ab(c). The edge ab is left.",
     );
     let elsewhere = percent(count(&|p| !is_inside(p) && is_in(as_printed(p))), inside);
     content.contradicts(
-        "printed-gamma-outside",
-        "pixels outside that it fills, in parts of the triangle",
+        "printed-gamma-outside | pixels outside that it fills, in parts of the triangle",
         (elsewhere, "%", elsewhere != 0.0),
         "It fills another triangle, beyond the edge ab, where γ is below 0.",
     );
     let gained = count(&|p| !is_inside(p) && is_in(without_signs(p)));
     let gained = percent(gained, SIDE * SIDE - inside);
     content.contradicts(
-        "unsigned-areas",
-        "pixels outside that areas without signs call inside",
+        "unsigned-areas | pixels outside that areas without signs call inside",
         (gained, "%", gained != 0.0),
         "Without signs the quotients lie in 0..1 everywhere: only signs tell inside from outside.",
     );
@@ -155,8 +152,8 @@ fn other_formulas(content: &mut FigureContent) -> Result {
     ] {
         // Quotients of numbers below 2¹³ that round a few times each, about sums that cancel at
         // most their last 13 bits.
-        let label = alloc::format!("largest difference of {what}");
-        content.confirms(key, label, (value, "", value < 1e-12), says);
+        let head = format!("{key} | largest difference of {what}");
+        content.confirms(&head, (value, "", value < 1e-12), says);
     }
     Ok(())
 }

@@ -39,19 +39,15 @@ fn pictures(content: &mut FigureContent) -> Result {
     let [fast, duff, naive] = draw_each(&near, ["fast-phong", "duff-phong", "naive-phong"])?;
     let [fast_8, duff_8] = [&fast, &duff].map(stored);
     let map = difference_map(&duff_8, &fast_8, 64.0)?;
-    content.pictures(
-        3,
+    content.row(
         "A sphere with a light close to it, vectors",
-        [
-            ("constant along each polygon (fast-phong)", fast_8),
-            ("at each pixel (duff-phong)", duff_8),
-            ("their difference, to 64 levels", map),
-        ],
+        "constant along each polygon (fast-phong) | at each pixel (duff-phong) | their difference, \
+         to 64 levels",
+        [fast_8, duff_8, map],
     );
     let difference = levels(&naive, &duff);
     content.adds(
-        "duff-naive",
-        "six quadratics against vectors at each pixel, largest difference",
+        "duff-naive | six quadratics against vectors at each pixel, largest difference",
         (difference, "grey levels", difference < 0.5),
         "One picture: the products are exact, to rounding.",
     );
@@ -67,7 +63,7 @@ fn errors(content: &mut FigureContent) -> Result {
         let (mut row, mut curve) = (distance.to_string(), Vec::new());
         for (rings, polygons) in RINGS.into_iter().zip(polygons) {
             let frame = sphere(rings, distance)?.frame()?;
-            let truth = reference::render(&frame, Model::Phong).to_linear();
+            let truth = truth(&frame);
             let difference = compare(&truth, &fast.render_linear(&frame))?;
             row += &max_and_rms(&difference);
             curve.push((f64::from(polygons), 255.0 * difference.rms));
@@ -89,16 +85,14 @@ fn errors(content: &mut FigureContent) -> Result {
          its error.",
     ));
     content.contradicts(
-        "coarse",
-        "RMS error of constant vectors, coarsest sphere and nearest light",
+        "coarse | RMS error of constant vectors, coarsest sphere and nearest light",
         (coarse.1, "grey levels", coarse.1 > 1.0),
         "Every polygon shows: the assumption is for lights at infinity.",
     );
     let finer = f64::from(RINGS[RINGS.len() - 1]) / f64::from(RINGS[0]);
     let order = libm::log(coarse.1 / fine.1) / libm::log(finer);
     content.adds(
-        "order",
-        "power of the polygons' size by which the error falls, nearest light",
+        "order | power of the polygons' size by which the error falls, nearest light",
         (order, "", order > 0.5),
         "Finer polygons make up for it.",
     );
@@ -130,10 +124,9 @@ fn products(content: &mut FigureContent) -> Result {
     let [one, two] = [1, 2].map(|lights| counts("duff-phong", lights));
     let (one, two) = (one?.walk.additions, two?.walk.additions);
     content.adds(
-        "additions",
-        "additions a pixel that step the six products of one light, and 1/w²",
+        "additions | additions a pixel that step the six products of one light, and 1/w²",
         (f64::from(one), "", true),
-        format!(
+        &format!(
             "Two each; a further light takes {} more. A falloff needs 1/w².",
             two - one
         ),

@@ -1,6 +1,9 @@
 //! The data of a finished figure: texts, pictures, curves, tables and findings, without any layout.
 
-use crate::picture::Picture8;
+use super::error::Result;
+use super::fixture::stored;
+use crate::compare::metrics::difference_map;
+use crate::picture::{LinearPicture, Picture8};
 use alloc::string::{String, ToString};
 use alloc::{format, vec::Vec};
 use serde::{Serialize, Serializer};
@@ -44,6 +47,29 @@ impl FigureContent {
         self.blocks.push(FigureBlock::Pictures { columns, shown });
     }
 
+    /// Adds pictures of one subject in a row: ` | ` separates their captions.
+    pub fn row<const N: usize>(&mut self, subject: &str, captions: &str, pictures: [Picture8; N]) {
+        let captions: Vec<&str> = captions.split(" | ").collect();
+        assert_eq!(captions.len(), N, "a caption for each picture");
+        self.pictures(N, subject, captions.into_iter().zip(pictures));
+    }
+
+    /// Adds two pictures with their captions, and the map of their difference, whose yellow end
+    /// stands for `levels`.
+    pub(super) fn compared(
+        &mut self,
+        subject: &str,
+        captions: &str,
+        [a, b]: &[LinearPicture; 2],
+        levels: f32,
+    ) -> Result<()> {
+        let scale = format!("purple to yellow is up to {levels} grey levels");
+        let captions = format!("{captions} | their difference: {scale}, black none, magenta more");
+        let map = difference_map(a, b, levels)?;
+        self.row(subject, &captions, [stored(a), stored(b), map]);
+        Ok(())
+    }
+
     /// Adds curves.
     pub fn plot(&mut self, plot: Plot) {
         self.blocks.push(FigureBlock::Plot(plot));
@@ -58,50 +84,33 @@ impl FigureContent {
         });
     }
 
-    /// Adds a value with its unit. It confirms the lecture if `so`, and contradicts it otherwise.
-    pub fn confirms(
-        &mut self,
-        key: impl Into<String>,
-        label: impl Into<String>,
-        (value, unit, so): (impl Into<f64>, &str, bool),
-        says: impl Into<String>,
-    ) {
-        let agreement = Agreement::if_holds(so);
-        self.found(key, label, (value, unit, so), agreement, says);
+    /// Adds a finding that confirms the lecture if `so`, and contradicts it otherwise.
+    pub fn confirms(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
+        let agreement = Agreement::if_holds(value.2);
+        self.found(head, value, agreement, says);
     }
 
-    /// Adds a value with its unit. It contradicts the lecture if `so`, and confirms it otherwise.
-    pub fn contradicts(
-        &mut self,
-        key: impl Into<String>,
-        label: impl Into<String>,
-        (value, unit, so): (impl Into<f64>, &str, bool),
-        says: impl Into<String>,
-    ) {
-        let agreement = Agreement::if_holds(!so);
-        self.found(key, label, (value, unit, so), agreement, says);
+    /// Adds a finding that contradicts the lecture if `so`, and confirms it otherwise.
+    pub fn contradicts(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
+        let agreement = Agreement::if_holds(!value.2);
+        self.found(head, value, agreement, says);
     }
 
-    /// Adds a value with its unit that the lecture does not mention.
-    pub fn adds(
-        &mut self,
-        key: impl Into<String>,
-        label: impl Into<String>,
-        value: (impl Into<f64>, &str, bool),
-        says: impl Into<String>,
-    ) {
-        self.found(key, label, value, Agreement::Adds, says);
+    /// Adds a finding that the lecture does not mention.
+    pub fn adds(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
+        self.found(head, value, Agreement::Adds, says);
     }
 
-    /// Adds a value with its unit. The verdict is the sentence `says`, marked as false unless `so`.
+    /// Adds a finding: ` | ` separates key and label in its head. The verdict on the value, which
+    /// has a unit, is the sentence `says`, marked as false unless `so`.
     pub fn found(
         &mut self,
-        key: impl Into<String>,
-        label: impl Into<String>,
+        head: &str,
         (value, unit, so): (impl Into<f64>, &str, bool),
         agreement: Agreement,
-        says: impl Into<String>,
+        says: &str,
     ) {
+        let (key, label) = head.split_once(" | ").expect("a key and a label");
         let marked = if so { "" } else { "This does not hold: " };
         self.findings.push(Finding {
             key: key.into(),
@@ -109,7 +118,7 @@ impl FigureContent {
             value: value.into(),
             unit: unit.into(),
             agreement,
-            verdict: format!("{marked}{}", says.into()),
+            verdict: format!("{marked}{says}"),
         });
     }
 }

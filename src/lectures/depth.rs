@@ -55,10 +55,9 @@ fn fighting(content: &mut FigureContent) -> Result {
         let wrong = differing(picture, &pictures[2]);
         let enough = if wrong > 0 { "too few" } else { "enough" };
         content.adds(
-            format!("fighting-{bits}"),
-            format!("pixels that {bits} bits show differently than 32"),
+            &format!("fighting-{bits} | pixels that {bits} bits show differently than 32"),
             (wrong as f64, "pixels", true),
-            format!("{bits} bits are {enough} here."),
+            &format!("{bits} bits are {enough} here."),
         );
     }
     Ok(())
@@ -76,8 +75,7 @@ fn ways(content: &mut FigureContent) -> Result {
     // ways; the second scales 1/w by f/(f − n), which is close to 1.
     let bound = 4.0 * (f64::from(SIZE[0] + SIZE[1]) + 4.0) / f64::from(1 << 25);
     content.confirms(
-        "ways",
-        "largest difference of depth by both ways",
+        "ways | largest difference of depth by both ways",
         (difference, "", difference <= bound),
         "Both ways agree to rounding, as 1/z is linear on the screen.",
     );
@@ -114,10 +112,9 @@ fn curve(content: &mut FigureContent) -> Result {
     ));
     let half = 0.5 + 0.5 * lecture_depth(2.0 * near, near, far);
     content.adds(
-        "half",
-        "part of the depth range used up at twice the near distance",
+        "half | part of the depth range used up at twice the near distance",
         (half, "", true),
-        format!(
+        &format!(
             "Of distances up to {}, those below {} take {:.0} % of the levels.",
             written(far),
             written(2.0 * near),
@@ -129,8 +126,7 @@ fn curve(content: &mut FigureContent) -> Result {
     let middle = lecture_depth(0.5 * far, near, far);
     let moved = (middle - (0.5 * far - near) / (far - near) * 2.0 + 1.0).abs();
     content.found(
-        "preserved",
-        "distance of half-way to the far plane from half-way in depth, of 2",
+        "preserved | distance of half-way to the far plane from half-way in depth, of 2",
         (moved, "", true),
         Agreement::if_holds(moved < 1e-3),
         match (moved < 1e-3, is_ordered) {

@@ -91,23 +91,20 @@ fn curves(content: &mut FigureContent) -> Result {
 fn jumps(content: &mut FigureContent) -> Result {
     let [gouraud, naive, slerp] = slope_jumps(ANGLES)?;
     content.contradicts(
-        "naive-phong",
-        "naive Phong: jump of the slope at the joint",
+        "naive-phong | naive Phong: jump of the slope at the joint",
         (naive, "grey levels a pixel", naive.abs() > gouraud.abs()),
-        format!(
+        &format!(
             "Phong shading is worse here: {} times the jump of Gouraud shading.",
             written(naive.abs() / gouraud.abs())
         ),
     );
     content.adds(
-        "gouraud",
-        "Gouraud: jump of the slope at the joint",
+        "gouraud | Gouraud: jump of the slope at the joint",
         (gouraud, "grey levels a pixel", true),
         "Both chords are about equally steep, as the left facet reaches beyond the terminator.",
     );
     content.adds(
-        "slerp-phong",
-        "slerp Phong: jump of the slope at the joint",
+        "slerp-phong | slerp Phong: jump of the slope at the joint",
         (
             slerp,
             "grey levels a pixel",
@@ -118,8 +115,7 @@ fn jumps(content: &mut FigureContent) -> Result {
     let expected = closed_form(ANGLES);
     let is_near = (naive - expected).abs() < 0.02 * expected.abs();
     content.adds(
-        "closed-form",
-        "naive Phong: the same by 255 sin θ (sin φ₂ / l₂ − sin φ₁ / l₁)",
+        "closed-form | naive Phong: the same by 255 sin θ (sin φ₂ / l₂ − sin φ₁ / l₁)",
         (expected, "grey levels a pixel", is_near),
         "The engine draws what the formula says.",
     );

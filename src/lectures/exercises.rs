@@ -33,14 +33,12 @@ fn sine(content: &mut FigureContent) -> Result {
         written(0.5e-5)
     ));
     content.confirms(
-        "sine",
-        "sin 24.3° by linear interpolation",
+        "sine | sin 24.3° by linear interpolation",
         (found, "", (found - truth).abs() < 1.5e-5),
         "The estimate is as good as the table that it is read from.",
     );
     content.adds(
-        "sine-error",
-        "its distance from the sine",
+        "sine-error | its distance from the sine",
         (truth - found, "", true),
         "A chord lies below the sine, and the table is rounded.",
     );
@@ -86,8 +84,7 @@ fn exponential(content: &mut FigureContent) -> Result {
     let others = counts.additions + counts.divisions + counts.powers + counts.trigonometric;
     let all = counts.multiplications + others;
     content.confirms(
-        "multiplications",
-        "operations a pixel of e to the t",
+        "multiplications | operations a pixel of e to the t",
         (all, "", all == 1 && counts.multiplications == 1),
         "One multiplication and nothing else, counted.",
     );
@@ -117,8 +114,7 @@ fn exponential(content: &mut FigureContent) -> Result {
         ),
     ));
     content.confirms(
-        "drift",
-        "largest relative error over 1024 pixels",
+        "drift | largest relative error over 1024 pixels",
         (most, "", most <= bound),
         "Within two roundings a pixel: far below a grey level.",
     );
@@ -166,17 +162,13 @@ fn fog(content: &mut FigureContent) -> Result {
          two pictures differ by at most {} grey levels.",
         written(levels)
     ));
-    content.pictures(
-        2,
+    content.row(
         "A tilted plane that fades into white fog",
-        [
-            ("one multiplication a pixel", stored(&stepped)),
-            ("one exponential a pixel", stored(&exact)),
-        ],
+        "one multiplication a pixel | one exponential a pixel",
+        [&stepped, &exact].map(stored),
     );
     content.confirms(
-        "fog",
-        "largest difference of the fog by steps from that by exponentials",
+        "fog | largest difference of the fog by steps from that by exponentials",
         (levels, "grey levels", levels < 0.5),
         "The pictures cannot be told apart.",
     );

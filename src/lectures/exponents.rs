@@ -41,8 +41,7 @@ fn powers(content: &mut FigureContent) -> Result {
     ));
     let widths = EXPONENTS.map(|p| half_width(p.into()));
     content.confirms(
-        "narrows",
-        "half width at p = 1 over that at p = 512",
+        "narrows | half width at p = 1 over that at p = 512",
         (widest / narrowest, "", widths.is_sorted_by(|a, b| a > b)),
         "Increasing p narrows the lobe.",
     );
@@ -81,8 +80,7 @@ fn grid(content: &mut FigureContent) -> Result {
     let (matte, shiny) = (strongest[0], strongest[3]);
     let (low, high) = (EXPONENTS[0], EXPONENTS[3]);
     content.contradicts(
-        "shiny",
-        format!("share of the sphere in the highlight, p = {low} over p = {high}"),
+        &format!("shiny | share of the sphere in the highlight, p = {low} over p = {high}"),
         (matte / shiny.max(1e-4), "", matte >= shiny),
         "Very shiny surfaces have a large p, as Figure 7 of CS171 shows: its text says close to 1.",
     );
@@ -148,22 +146,19 @@ fn half_vector(content: &mut FigureContent) -> Result {
     let [phong, same, converted] = [0, 1, 2].map(|i| widths[i]);
     // Half of the angle, so that the width doubles where cos^p is a Gauss curve.
     content.contradicts(
-        "same-exponent",
-        "half width of N·H over that of R·V, same exponent",
+        "same-exponent | half width of N·H over that of R·V, same exponent",
         (same / phong, "", same / phong > 1.5),
         "CS171 says that the angle at H \"can also be used\": not with the same exponent.",
     );
     let ratio = converted / phong;
     content.adds(
-        "converted",
-        "half width of N·H with four times the exponent, over that of R·V",
+        "converted | half width of N·H with four times the exponent, over that of R·V",
         (ratio, "", (ratio - 1.0).abs() < 0.05),
         "Four times the exponent makes up for it.",
     );
     let expected = half_width(20.0) / 2.0;
     content.adds(
-        "half-width",
-        "half width of R·V for p = 20 on the sphere",
+        "half-width | half width of R·V for p = 20 on the sphere",
         (phong, "degrees", (phong - expected).abs() < 0.1),
         "Half of the half width of cos^20, as the normal turns half as fast as R.",
     );

@@ -39,7 +39,7 @@ fn sphere(rings: u32) -> Result<Frame> {
 
 fn spheres(content: &mut FigureContent) -> Result {
     let finest = sphere(FINEST)?;
-    let truth = reference::render(&finest, Model::Phong).to_linear();
+    let truth = truth(&finest);
     let frames = RINGS
         .map(sphere)
         .into_iter()
@@ -95,24 +95,21 @@ fn numbers(content: &mut FigureContent, errors: &[Vec<Difference>]) {
     ));
     for (i, (_, frequency)) in FREQUENCIES.iter().enumerate() {
         for (end, k) in [("coarsest", 0), ("finest", LAST)] {
-            let key = format!("{frequency}-{end}");
             let label = format!("once a {frequency}, {} polygons: RMS error", polygons[k]);
-            let rms_here = rms(i, k);
+            let (head, here) = (format!("{frequency}-{end} | {label}"), rms(i, k));
             if i == 0 {
-                let value = (rms_here, "grey levels", rms_here > 1.0);
-                content.adds(key, label, value, "Visible facets.");
+                content.adds(&head, (here, "grey levels", here > 1.0), "Visible facets.");
             } else {
-                let value = (rms_here, "grey levels", rms_here < rms(i - 1, k));
+                let is_less = here < rms(i - 1, k);
                 let says = format!("Less than once a {}.", FREQUENCIES[i - 1].1);
-                content.confirms(key, label, value, says);
+                content.confirms(&head, (here, "grey levels", is_less), &says);
             }
         }
     }
     let (many, few) = (polygons[LAST], polygons[1]);
     let (fine_faces, coarse_pixels) = (errors[0][LAST].rms, errors[2][1].rms);
     content.adds(
-        "trade",
-        format!("faces of {many} polygons by pixels of {few}: ratio of RMS errors"),
+        &format!("trade | faces of {many} polygons by pixels of {few}: ratio of RMS errors"),
         (fine_faces / coarse_pixels, "", fine_faces <= coarse_pixels),
         "Many faces make up for a low shading frequency.",
     );

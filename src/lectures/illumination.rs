@@ -30,15 +30,10 @@ fn terms(content: &mut FigureContent) -> Result {
     content.text(
         "The three terms of equation 2.1, each alone and together, on one sphere in one light.",
     );
-    content.pictures(
-        4,
+    content.row(
         "A sphere",
-        [
-            ("ambient", stored(&ambient)),
-            ("diffuse", stored(&diffuse)),
-            ("specular", stored(&specular)),
-            ("all three", stored(&all)),
-        ],
+        "ambient | diffuse | specular | all three",
+        [&ambient, &diffuse, &specular, &all].map(stored),
     );
     let mut sum = ambient;
     let others = diffuse.pixels().iter().zip(specular.pixels());
@@ -47,8 +42,7 @@ fn terms(content: &mut FigureContent) -> Result {
     }
     let difference = levels(&sum, &all);
     content.confirms(
-        "sum",
-        "three pictures added up against one with all terms, largest difference",
+        "sum | three pictures added up against one with all terms, largest difference",
         (difference, "grey levels", difference < 0.01),
         "The terms add, to rounding.",
     );
@@ -71,8 +65,7 @@ fn diffuse_series(content: &mut FigureContent) -> Result {
             .map(|ratio| f64::from((ratio / ratios[0] - 1.0).abs())),
     );
     content.confirms(
-        "kd",
-        "brightest pixel over k_d: largest relative change along the series",
+        "kd | brightest pixel over k_d: largest relative change along the series",
         (change, "", change < 1e-6),
         "Diffuse light is proportional to k_d.",
     );
@@ -140,8 +133,7 @@ fn cube(content: &mut FigureContent) -> Result {
     };
     let ratio = at(60.0) / at(0.0);
     content.confirms(
-        "cube",
-        "light on the top face at 60°, over that at 0°",
+        "cube | light on the top face at 60°, over that at 0°",
         (ratio, "", (ratio - 0.5).abs() < 1e-6),
         "Half the light, as the lecture says.",
     );
@@ -151,13 +143,12 @@ fn cube(content: &mut FigureContent) -> Result {
             .map(|(degrees, light)| (light - cosine(*degrees)).abs()),
     );
     content.confirms(
-        "cosine",
-        format!(
-            "largest distance from the cosine at {} angles",
+        &format!(
+            "cosine | largest distance from the cosine at {} angles",
             measured.len()
         ),
         (worst, "", worst < 1e-6),
-        format!("The cosine law, to rounding ({}).", written(worst)),
+        &format!("The cosine law, to rounding ({}).", written(worst)),
     );
     Ok(())
 }

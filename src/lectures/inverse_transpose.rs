@@ -45,16 +45,14 @@ fn ellipse(content: &mut FigureContent) -> Result {
     ));
     let wrong = largest(degrees().map(by_matrix));
     content.confirms(
-        "matrix",
-        "largest error of normals by the matrix of the points",
+        "matrix | largest error of normals by the matrix of the points",
         (wrong, "degrees", wrong > 1.0),
         "They are no normals, as the notes say.",
     );
     // Both vectors are computed from the same sine and cosine, in a few roundings of 2⁻⁵³ each.
     let right = largest(degrees().map(by_inverse_transpose));
     content.confirms(
-        "inverse-transpose",
-        "largest error of normals by the inverse transpose",
+        "inverse-transpose | largest error of normals by the inverse transpose",
         (right, "degrees", right < 1e-6),
         "They are at right angles to the surface, to rounding.",
     );
@@ -106,27 +104,22 @@ fn ellipsoid(content: &mut FigureContent) -> Result {
         "A sphere stretched into an ellipsoid. The engine transforms its normals by the inverse \
          transpose; the other picture transforms them by the matrix of the points.",
     );
-    content.pictures(
-        2,
+    content.row(
         "An ellipsoid with a highlight, normals",
-        [
-            ("by the inverse transpose", stored(&right)),
-            ("by the matrix", stored(&wrong)),
-        ],
+        "by the inverse transpose | by the matrix",
+        [&right, &wrong].map(stored),
     );
     let (near, far) = (levels(&right, &polygons), levels(&right, &wrong));
     content.confirms(
-        "engine",
-        "engine's normals against those averaged from its polygons, largest difference",
+        "engine | engine's normals against those averaged from its polygons, largest difference",
         (near, "grey levels", near < far / 4.0),
-        format!(
+        &format!(
             "The polygons confirm the inverse transpose: the matrix is off by {} levels.",
             written(far)
         ),
     );
     content.confirms(
-        "picture",
-        "by the matrix against by the inverse transpose, largest difference",
+        "picture | by the matrix against by the inverse transpose, largest difference",
         (far, "grey levels", far > 8.0),
         "The light is on the wrong part of the surface.",
     );

@@ -144,14 +144,12 @@ fn errors(content: &mut FigureContent) -> Result {
         rows,
     );
     content.confirms(
-        "newell",
-        "Newell's formula: largest error over all polygons",
+        "newell | Newell's formula: largest error over all polygons",
         (most, "degrees", most < 1e-4),
         "Rounding of the corners, and no more.",
     );
     content.confirms(
-        "area",
-        "|N| against 2 Area: largest relative difference",
+        "area | |N| against 2 Area: largest relative difference",
         (area, "", area < 1e-6),
         "|N| = 2 Area, rounding aside.",
     );
@@ -167,9 +165,9 @@ fn failure(content: &mut FigureContent, key: &str, what: &str, error: f64) {
         _ => Agreement::if_holds(fails),
     };
     content.found(
-        key,
-        format!("two edges at the worst corner, {what}: error (180 if there is no direction)"),
-        // Without a direction any may be taken: the opposite one at worst.
+        &format!(
+            "{key} | two edges at the worst corner, {what}: error (180 if there is no direction)"
+        ), // Without a direction any may be taken: the opposite one at worst.
         (error.min(180.0), "degrees", true),
         agreement,
         match error {

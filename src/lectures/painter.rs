@@ -86,26 +86,23 @@ fn ring(content: &mut FigureContent) -> Result {
     let ring = ThreeObjects::new("cyclic-triangles")?;
     let wrong = ring.by_both(content, "three triangles in a ring")?;
     content.confirms(
-        "ring-wrong",
-        "pixels of the ring that the painter draws wrongly",
+        "ring-wrong | pixels of the ring that the painter draws wrongly",
         (wrong as f64, "pixels", wrong > 0),
         "The painter cannot draw the ring.",
     );
     let orders = ring.by_orders(HiddenSurfaces::DrawOrder)?;
     let least = orders.into_iter().min().unwrap_or(0);
     content.confirms(
-        "ring-best-order",
-        "wrong pixels in the best of all six orders",
+        "ring-best-order | wrong pixels in the best of all six orders",
         (least as f64, "pixels", least > 0),
         "No order is right, all were tried.",
     );
     let cycles = conflicts(&ring.scene.frame()?).cycles;
     let members: usize = cycles.iter().map(Vec::len).sum();
     content.adds(
-        "ring-cycle",
-        "polygons that are found to hide each other in a ring",
+        "ring-cycle | polygons that are found to hide each other in a ring",
         (members as f64, "polygons", true),
-        format!(
+        &format!(
             "The program warns of {} such ring before it draws.",
             cycles.len()
         ),
@@ -117,15 +114,13 @@ fn cutting(content: &mut FigureContent) -> Result {
     let cutting = ThreeObjects::new("interpenetration")?;
     let wrong = cutting.by_both(content, "polygons that cut each other")?;
     content.confirms(
-        "cutting-wrong",
-        "pixels of polygons that cut each other which the painter draws wrongly",
+        "cutting-wrong | pixels of polygons that cut each other which the painter draws wrongly",
         (wrong as f64, "pixels", wrong > 0),
         "Only the depth buffer shows where they meet.",
     );
     let pairs = conflicts(&cutting.scene.frame()?).interpenetrating;
     content.adds(
-        "cutting-pairs",
-        "pairs of polygons that cut each other on the picture",
+        "cutting-pairs | pairs of polygons that cut each other on the picture",
         (pairs as f64, "pairs", true),
         "Each hides a part of the other, so that either order is wrong.",
     );
@@ -139,8 +134,7 @@ fn order(content: &mut FigureContent) -> Result {
         most = most.max(orders.into_iter().max().unwrap_or(0));
     }
     content.confirms(
-        "order",
-        "most pixels by which the depth buffer's pictures differ in any of six orders",
+        "order | most pixels by which the depth buffer's pictures differ in any of six orders",
         (most as f64, "pixels", most == 0),
         "The order of drawing does not matter to a depth buffer.",
     );

@@ -73,31 +73,25 @@ fn boards(content: &mut FigureContent) -> Result {
     let screen = board(whole, Interpolation::Screen)?;
     let cut = board(triangles, Interpolation::Screen)?;
     let space = board(triangles, Interpolation::Perspective)?;
-    content.pictures(
-        3,
+    content.row(
         "A checkerboard seen in perspective",
-        [
-            ("linear on the screen", stored(&screen)),
-            ("the same, cut into two triangles", stored(&cut)),
-            ("linear in space", stored(&space)),
-        ],
+        "linear on the screen | the same, cut into two triangles | linear in space",
+        [&screen, &cut, &space].map(stored),
     );
     let [screen, cut, space] = [screen, cut, space].map(wrong);
     content.confirms(
-        "wrong-screen",
-        "pixels of the floor in the wrong colour, linear on the screen",
+        "wrong-screen | pixels of the floor in the wrong colour, linear on the screen",
         (screen, "%", screen >= 0.5),
         "The board is wrong, as the slide shows it.",
     );
     content.confirms(
-        "wrong-screen-triangles",
-        "pixels of the floor in the wrong colour, the same, cut into two triangles",
+        "wrong-screen-triangles | pixels of the floor in the wrong colour, the same, cut into two \
+         triangles",
         (cut, "%", cut >= 0.5),
         "The board is wrong, as the slide shows it.",
     );
     content.confirms(
-        "wrong-space",
-        "pixels of the floor in the wrong colour, linear in space",
+        "wrong-space | pixels of the floor in the wrong colour, linear in space",
         (space, "%", space < 0.5),
         "The board is right: only pixels on the rim of a square may fall to either side.",
     );
@@ -167,14 +161,12 @@ fn weight(content: &mut FigureContent) -> Result {
         ),
     ));
     content.contradicts(
-        "printed-weight",
-        "largest difference of the printed weight from the engine's",
+        "printed-weight | largest difference of the printed weight from the engine's",
         (wrong, "", wrong >= 1e-3),
         "(1 − α) z_A / (z_B + (1 − α)(z_A − z_B)) weighs the other end.",
     );
     content.adds(
-        "weight",
-        "largest difference of the corrected weight from the engine's",
+        "weight | largest difference of the corrected weight from the engine's",
         (right, "", right < 1e-4),
         "The engine, which divides interpolated values by interpolated weights, has this weight.",
     );
@@ -195,10 +187,9 @@ fn depth(content: &mut FigureContent) -> Result {
     let middle = frustum.ndc_depth(-(near + far) / 2.0);
     let half = 2.0 * far * near / (far + near);
     content.contradicts(
-        "depth",
-        "NDC depth, −1 to 1, of the point half-way between near and far plane",
+        "depth | NDC depth, −1 to 1, of the point half-way between near and far plane",
         (middle, "", middle.abs() >= 0.01),
-        format!(
+        &format!(
             "Depth keeps its order, not its value: the first {} % of the way take half of the \
              range.",
             written(100.0 * (half - near) / (far - near))

@@ -11,7 +11,6 @@ pub(super) use crate::mesh::Material;
 pub(super) use crate::mesh::vertex_normals::NormalSource;
 pub(super) use crate::number::vec3;
 pub(super) use crate::picture::LinearPicture;
-pub(super) use crate::reference::{self, Model};
 pub(super) use crate::scene::{
     Camera, Falloff, Interpolation, Light, Lighting, Projection, Scene, SpecularGate, SpecularModel,
 };

@@ -3,6 +3,7 @@
 use super::prelude::*;
 use crate::number::Counter;
 use crate::raster::normals;
+use crate::reference::{self, Model};
 use crate::shading::increments::{GreatCircle, Sines};
 
 pub(super) static FIGURE: Figure = Figure {
@@ -74,17 +75,15 @@ fn speed(content: &mut FigureContent) -> Result {
     };
     let (slerp, lerp) = (ratio(slerp), ratio(lerp));
     content.confirms(
-        "speed-slerp",
-        "great circle: fastest turn by slowest turn",
+        "speed-slerp | great circle: fastest turn by slowest turn",
         (slerp, "", slerp < 1.001),
         "Uniform speed, as the lecture says.",
     );
     let cosine = libm::cos(DEGREES.to_radians() / 2.0);
     content.adds(
-        "speed-linear",
-        "linear, then normalised: fastest turn by slowest turn",
+        "speed-linear | linear, then normalised: fastest turn by slowest turn",
         (lerp, "", true),
-        format!(
+        &format!(
             "1 / cos² of half the angle would be {} over a whole span.",
             written(1.0 / libm::pow(cosine, 2.0))
         ),
@@ -104,8 +103,7 @@ fn operations(content: &mut FigureContent) -> Result {
     let others = step.divisions + step.roots + step.trigonometric;
     let is_as_said = (additions, multiplications, others) == (4, 8, 0);
     content.confirms(
-        "step",
-        "additions and multiplications of (4.9) to (4.12)",
+        "step | additions and multiplications of (4.9) to (4.12)",
         (additions + multiplications, "operations", is_as_said),
         "4 additions and 8 multiplications, counted by the method's own walk.",
     );
@@ -176,8 +174,7 @@ fn drift(content: &mut FigureContent) -> Result {
             false => "Not visible.",
         };
         content.adds(
-            format!("drift-{key}"),
-            format!("{name}: largest error over {LONG} pixels"),
+            &format!("drift-{key} | {name}: largest error over {LONG} pixels"),
             (most, "", true),
             verdict,
         );
@@ -226,14 +223,12 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
         rows,
     );
     content.contradicts(
-        "printed-angle",
-        "φ by the inverse cosine in f32, from 0.02° to 90°: largest relative error",
+        "printed-angle | φ by the inverse cosine in f32, from 0.02° to 90°: largest relative error",
         (printed_worst, "", printed_worst >= 1e-3),
         "The formula as printed loses the angle where surfaces are flat.",
     );
     content.adds(
-        "ends",
-        "slerp Phong from 0° to 180°: largest difference from the reference",
+        "ends | slerp Phong from 0° to 180°: largest difference from the reference",
         (worst, "grey levels", worst < 0.5),
         "Never visible, at neither end.",
     );

@@ -65,8 +65,7 @@ fn edge(content: &mut FigureContent) -> Result {
     content.pictures(SAMPLES.len(), "The edge of a green triangle", panels);
     let falls = points.is_sorted_by(|a, b| a.1 > b.1);
     content.confirms(
-        "share",
-        "error with one sample over error with 8 × 8",
+        "share | error with one sample over error with 8 × 8",
         (points[0].1 / points[3].1, "", falls),
         "More samples, better edges: the depth test works for each sample.",
     );
@@ -86,10 +85,9 @@ fn filtering(content: &mut FigureContent) -> Result {
     let level = f64::from(store(&picture, Encoding::Srgb).get(1, 0)[0]);
     let exact = f64::from(srgb_encode(0.5)) * 255.0;
     content.adds(
-        "linear",
-        "stored level of a pixel that is half white and half black, sRGB",
+        "linear | stored level of a pixel that is half white and half black, sRGB",
         (level, "of 255", (level - exact).abs() <= 0.5),
-        format!("The mean is taken before encoding: half of the light is level {exact:.0}."),
+        &format!("The mean is taken before encoding: half of the light is level {exact:.0}."),
     );
     Ok(())
 }
