@@ -26,6 +26,7 @@ fn powers(content: &mut FigureContent) -> Result {
         Series::sampled(format!("p = {p}"), (0..=90).map(f64::from), power)
     };
     let [widest, narrowest] = [1.0, 512.0].map(half_width);
+    let [wide, narrow] = [widest, narrowest].map(written);
     content.plot(Plot::new(
         "Cosine powers",
         [
@@ -33,11 +34,7 @@ fn powers(content: &mut FigureContent) -> Result {
             linear("highlight"),
         ],
         EXPONENTS.map(curve),
-        format!(
-            "Half of the height is left at {}° for p = 1 and at {}° for p = 512.",
-            written(widest),
-            written(narrowest)
-        ),
+        format!("Half of the height is left at {wide}° for p = 1 and at {narrow}° for p = 512."),
     ));
     let widths = EXPONENTS.map(|p| half_width(p.into()));
     content.confirms(

@@ -73,10 +73,8 @@ fn gates(content: &mut FigureContent) -> Result {
         (none, "%", none == 0.0),
         "None.",
     );
-    let (line, no_line) = (
-        largest_step(&gated, &weighted),
-        largest_step(&weighted, &gated),
-    );
+    let line = largest_step(&gated, &weighted);
+    let no_line = largest_step(&weighted, &gated);
     content.adds(
         "line | largest step between neighbouring pixels that the gate makes and the weight does \
          not",

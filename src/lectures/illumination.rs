@@ -59,11 +59,8 @@ fn diffuse_series(content: &mut FigureContent) -> Result {
         panels.push((format!("k_d = {kd}"), stored(&picture)));
     }
     content.pictures(4, "A sphere in diffuse light", panels);
-    let change = largest(
-        ratios
-            .iter()
-            .map(|ratio| f64::from((ratio / ratios[0] - 1.0).abs())),
-    );
+    let change = |ratio: &f32| f64::from((ratio / ratios[0] - 1.0).abs());
+    let change = largest(ratios.iter().map(change));
     content.confirms(
         "kd | brightest pixel over k_d: largest relative change along the series",
         (change, "", change < 1e-6),
@@ -125,28 +122,18 @@ fn cube(content: &mut FigureContent) -> Result {
         ],
         "Points are measured on the picture, the curve is the cosine.",
     ));
-    let at = |degrees| {
-        measured
-            .iter()
-            .find(|m| m.0 == degrees)
-            .map_or(f64::NAN, |m| m.1)
-    };
-    let ratio = at(60.0) / at(0.0);
+    let at = |degrees| measured.iter().find(|(turn, _)| *turn == degrees);
+    let [half, whole] = [60.0, 0.0].map(|degrees| at(degrees).map_or(f64::NAN, |m| m.1));
+    let ratio = half / whole;
     content.confirms(
         "cube | light on the top face at 60°, over that at 0°",
         (ratio, "", (ratio - 0.5).abs() < 1e-6),
         "Half the light, as the lecture says.",
     );
-    let worst = largest(
-        measured
-            .iter()
-            .map(|(degrees, light)| (light - cosine(*degrees)).abs()),
-    );
+    let error = |(degrees, light): &(f64, f64)| (light - cosine(*degrees)).abs();
+    let (count, worst) = (measured.len(), largest(measured.iter().map(error)));
     content.confirms(
-        &format!(
-            "cosine | largest distance from the cosine at {} angles",
-            measured.len()
-        ),
+        &format!("cosine | largest distance from the cosine at {count} angles"),
         (worst, "", worst < 1e-6),
         &format!("The cosine law, to rounding ({}).", written(worst)),
     );

@@ -110,13 +110,11 @@ fn ellipsoid(content: &mut FigureContent) -> Result {
         [&right, &wrong].map(stored),
     );
     let (near, far) = (levels(&right, &polygons), levels(&right, &wrong));
+    let off = written(far);
     content.confirms(
         "engine | engine's normals against those averaged from its polygons, largest difference",
         (near, "grey levels", near < far / 4.0),
-        &format!(
-            "The polygons confirm the inverse transpose: the matrix is off by {} levels.",
-            written(far)
-        ),
+        &format!("The polygons confirm the inverse transpose: the matrix is off by {off} levels."),
     );
     content.confirms(
         "picture | by the matrix against by the inverse transpose, largest difference",

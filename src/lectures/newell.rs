@@ -76,13 +76,6 @@ fn error(normal: DVec3) -> f64 {
     }
 }
 
-/// Returns twice the area in the plane, by the shoelace formula.
-fn twice_the_area(corners: &[DVec2]) -> f64 {
-    (0..corners.len())
-        .map(|k| corners[k].perp_dot(corners[(k + 1) % corners.len()]))
-        .sum()
-}
-
 /// Returns the normals from two edges at every corner, from the best one to the worst.
 fn by_two_edges(corners: &[Vec3]) -> Vec<DVec3> {
     let mut normals: Vec<_> = (0..corners.len()).map(|i| two_edges(corners, i)).collect();
@@ -103,17 +96,10 @@ fn pictures(content: &mut FigureContent) -> Result {
     );
     let names = examples().map(|(_, what, _)| what).join(", ");
     let edges = format!("lit by the normal from two edges, at its worst corner: {names}");
-    content.pictures(
-        1,
-        "Five polygons of one plane",
-        [
-            (&edges[..], stored(&lit_by(worst)?)),
-            (
-                "lit by the normal of Newell\u{2019}s formula",
-                stored(&lit_by(by_newell)?),
-            ),
-        ],
-    );
+    let newell = "lit by the normal of Newell\u{2019}s formula".into();
+    let panels = [(edges, &lit_by(worst)?), (newell, &lit_by(by_newell)?)];
+    let panels = panels.map(|(caption, picture)| (caption, stored(picture)));
+    content.pictures(1, "Five polygons of one plane", panels);
     Ok(())
 }
 
@@ -132,9 +118,9 @@ fn errors(content: &mut FigureContent) -> Result {
                 "no direction".into()
             }
         });
-        area = area.max((sum.length() / twice - 1.0).abs());
-        most = most.max(errors[2].min(180.0));
         let length = sum.length();
+        area = area.max((length / twice - 1.0).abs());
+        most = most.max(errors[2].min(180.0));
         let cells = format!("{best} | {worst} | {newell} | {length:.7} | {twice:.7}");
         rows.push(format!("{what} | {cells}"));
         failure(content, key, what, errors[1]);

@@ -75,14 +75,11 @@ fn sources(content: &mut FigureContent) -> Result {
         (torus, "degrees", torus < 1.0),
         "Polygons that lie evenly around a vertex make good averages, however large they are.",
     );
+    let falls = means.iter().all(|means| means.is_sorted_by(|a, b| a > b));
     content.adds(
         "finer | mean angle of the coarsest teapot over that of the finest, with cells a quarter \
          the size",
-        (
-            coarse / fine,
-            "",
-            means.iter().all(|means| means.is_sorted_by(|a, b| a > b)),
-        ),
+        (coarse / fine, "", falls),
         "Of each surface the finer mesh has the better averages.",
     );
     Ok(())
@@ -105,15 +102,13 @@ fn lengths(content: &mut FigureContent) -> Result {
         let points = shown.map(|k| (k as f64 / PIXELS as f64, lengths[k]));
         Series::new(format!("{degrees}° between the ends"), points)
     });
-    content.plot(
-        Plot::new(
-            "Length of the interpolated normal along a span",
-            [linear("part of the span"), linear("length")],
-            curves,
-            "The sum of two unit vectors is shortest in the middle: cos(φ/2).",
-        )
-        .marked([0.5]),
+    let plot = Plot::new(
+        "Length of the interpolated normal along a span",
+        [linear("part of the span"), linear("length")],
+        curves,
+        "The sum of two unit vectors is shortest in the middle: cos(φ/2).",
     );
+    content.plot(plot.marked([0.5]));
     // 32 steps of D by three half units of 2⁻²⁴ each, and a root of at least a half: see
     // `Quadratic`.
     content.adds(

@@ -41,14 +41,9 @@ impl ThreeObjects {
     /// differ.
     fn by_both(&self, content: &mut FigureContent, what: &str) -> Result<usize> {
         let by_painter = drawn(&self.scene, HiddenSurfaces::Painter(PainterKey::Mean))?;
-        content.pictures(
-            2,
-            "Hidden surfaces",
-            [
-                (format!("{what}: depth buffer"), stored(&self.by_depth)),
-                (format!("{what}: painter"), stored(&by_painter)),
-            ],
-        );
+        let captions = format!("{what}: depth buffer | {what}: painter");
+        let pictures = [&self.by_depth, &by_painter].map(stored);
+        content.row("Hidden surfaces", &captions, pictures);
         Ok(differing(&self.by_depth, &by_painter))
     }
 
@@ -98,14 +93,11 @@ fn ring(content: &mut FigureContent) -> Result {
         "No order is right, all were tried.",
     );
     let cycles = conflicts(&ring.scene.frame()?).cycles;
-    let members: usize = cycles.iter().map(Vec::len).sum();
+    let (rings, members) = (cycles.len(), cycles.iter().map(Vec::len).sum::<usize>());
     content.adds(
         "ring-cycle | polygons that are found to hide each other in a ring",
         (members as f64, "polygons", true),
-        &format!(
-            "The program warns of {} such ring before it draws.",
-            cycles.len()
-        ),
+        &format!("The program warns of {rings} such ring before it draws."),
     );
     Ok(())
 }

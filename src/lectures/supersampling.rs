@@ -32,9 +32,7 @@ fn frame(size: [u32; 2], samples: u32, polygons: &[Coloured<'_>]) -> Result<Fram
     for (number, (colour, depth, corners)) in polygons.iter().enumerate() {
         let material = Material {
             ambient: *colour,
-            diffuse: [0.0; 3],
-            specular: [0.0; 3],
-            shininess: 1.0,
+            ..DULL
         };
         let material = builder.lighting(Lighting::new(&material, [1.0; 3], &[], DVec3::Z));
         let corner = |corner: &[f64; 2]| ScreenCorner {
@@ -105,13 +103,13 @@ fn cutting(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Returns the part of the unit square at (`x`, `y`) that lies in the triangle: cut by its three
+/// Returns the part of the unit square at `corner` that lies in the triangle: cut by its three
 /// edges, then measured.
-fn share([x, y]: [f64; 2]) -> f64 {
-    let mut shape = Vec::from([[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]]);
+fn share(corner: DVec2) -> f64 {
+    let mut shape = Vec::from([DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|c| corner + c));
     for i in 0..3 {
-        let ([ax, ay], [bx, by]) = (TRIANGLE[i], TRIANGLE[(i + 1) % 3]);
-        let side = |[px, py]: [f64; 2]| (bx - ax) * (py - ay) - (by - ay) * (px - ax);
+        let [a, b] = [TRIANGLE[i], TRIANGLE[(i + 1) % 3]].map(DVec2::from);
+        let side = |p: DVec2| (b - a).perp_dot(p - a);
         let mut cut = Vec::new();
         for j in 0..shape.len() {
             let (p, q) = (shape[j], shape[(j + 1) % shape.len()]);
@@ -120,15 +118,12 @@ fn share([x, y]: [f64; 2]) -> f64 {
                 cut.push(p);
             }
             if (at_p >= 0.0) != (at_q >= 0.0) {
-                let t = at_p / (at_p - at_q);
-                cut.push([p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])]);
+                cut.push(p + at_p / (at_p - at_q) * (q - p));
             }
         }
         shape = cut;
     }
-    let following = shape.iter().cycle().skip(1);
-    let edges = shape.iter().zip(following);
-    0.5 * edges.map(|(p, q)| p[0] * q[1] - q[0] * p[1]).sum::<f64>()
+    0.5 * twice_the_area(&shape)
 }
 
 /// Returns the RMS error of the triangle's share of the pixels that its edges cross: 1 less red is
@@ -137,7 +132,7 @@ fn share_error(picture: &LinearPicture) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for y in 0..picture.height() {
         for x in 0..picture.width() {
-            let exact = share([x as f64, y as f64]);
+            let exact = share(DVec2::new(x as f64, y as f64));
             if exact > 0.0 && exact < 1.0 {
                 let found = 1.0 - f64::from(picture.get(x, y)[0]);
                 (sum, count) = (sum + (found - exact) * (found - exact), count + 1.0);
