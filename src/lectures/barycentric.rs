@@ -76,16 +76,11 @@ fn pictures(content: &mut FigureContent) -> Result {
     for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
         right.row_mut(centre.y as usize + dy)[centre.x as usize + dx] = [1.0; 4];
     }
-    let panels = [
-        ("from red to blue (Algorithm 2)", gradient),
-        ("the weights", right),
-        ("γ as printed", painted(as_printed)),
-        ("areas without signs", painted(without_signs)),
-    ];
-    content.pictures(
-        4,
+    let pictures = [gradient, right, painted(as_printed), painted(without_signs)];
+    content.row(
         "A right triangle",
-        panels.map(|(caption, picture)| (caption, stored(&picture))),
+        "from red to blue (Algorithm 2) | the weights | γ as printed | areas without signs",
+        pictures.each_ref().map(stored),
     );
     Ok(())
 }
@@ -135,25 +130,23 @@ fn other_formulas(content: &mut FigureContent) -> Result {
         },
     );
     let centre = largest(exact(centre_of_mass(TRIANGLE)).map(|w| (w - 1.0 / 3.0).abs()));
-    for (key, what, value, says) in [
-        ("area", "A_b / A from β", area, "Areas are the weights."),
-        (
-            "distance",
-            "the distance from ab from γ",
-            distance,
-            "Distances are the weights.",
-        ),
-        (
-            "centre",
-            "a weight at the centre of mass from ⅓",
-            centre,
-            "It weighs all corners alike.",
-        ),
-    ] {
-        // Quotients of numbers below 2¹³ that round a few times each, about sums that cancel at
-        // most their last 13 bits.
-        let head = format!("{key} | largest difference of {what}");
-        content.confirms(&head, (value, "", value < 1e-12), says);
-    }
+    // Quotients of numbers below 2¹³ that round a few times each, about sums that cancel at most
+    // their last 13 bits.
+    let rounded = |value: f64| (value, "", value < 1e-12);
+    content.confirms(
+        "area | largest difference of A_b / A from β",
+        rounded(area),
+        "Areas are the weights.",
+    );
+    content.confirms(
+        "distance | largest difference of the distance from ab from γ",
+        rounded(distance),
+        "Distances are the weights.",
+    );
+    content.confirms(
+        "centre | largest difference of a weight at the centre of mass from ⅓",
+        rounded(centre),
+        "It weighs all corners alike.",
+    );
     Ok(())
 }

@@ -121,15 +121,12 @@ fn products(content: &mut FigureContent) -> Result {
         "operations a pixel | + (1 light) | × | ÷ and √ | + (2 lights) | × | ÷ and √",
         rows,
     );
-    let [one, two] = [1, 2].map(|lights| counts("duff-phong", lights));
-    let (one, two) = (one?.walk.additions, two?.walk.additions);
+    let one = counts("duff-phong", 1)?.walk.additions;
+    let more = counts("duff-phong", 2)?.walk.additions - one;
     content.adds(
         "additions | additions a pixel that step the six products of one light, and 1/w²",
-        (f64::from(one), "", true),
-        &format!(
-            "Two each; a further light takes {} more. A falloff needs 1/w².",
-            two - one
-        ),
+        (one, "", true),
+        &format!("Two each; a further light takes {more} more. A falloff needs 1/w²."),
     );
     Ok(())
 }

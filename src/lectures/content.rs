@@ -277,10 +277,9 @@ impl Agreement {
     /// Returns [`Agreement::Confirms`] if the lecture's statement `holds`, else
     /// [`Agreement::Contradicts`].
     pub fn if_holds(holds: bool) -> Agreement {
-        if holds {
-            Agreement::Confirms
-        } else {
-            Agreement::Contradicts
+        match holds {
+            true => Agreement::Confirms,
+            false => Agreement::Contradicts,
         }
     }
 
@@ -324,14 +323,11 @@ pub(super) fn written(value: f64) -> String {
             digits.chars().filter_map(superscript).collect::<String>()
         );
     }
-    let decimals = (0..5)
-        .find(|&digits| size >= 100.0 / libm::pow(10.0, f64::from(digits)))
-        .unwrap_or(5);
-    let text = format!("{value:.*}", decimals as usize);
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').into()
-    } else {
-        text
+    let is_enough = |digits: &usize| size >= 100.0 / libm::pow(10.0, *digits as f64);
+    let text = format!("{value:.*}", (0..5).find(is_enough).unwrap_or(5));
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').into(),
+        false => text,
     }
 }
 

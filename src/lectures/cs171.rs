@@ -74,19 +74,18 @@ fn highlights(content: &mut FigureContent) -> Result {
     let [gouraud, phong, raw] = green.clone().map(largest);
     let [_, with_unit, as_printed] = green;
     let lost = largest(with_unit.zip(as_printed).map(|(unit, raw)| unit - raw));
-    let label = |how: &str| format!("brightest pixel of the highlight, its green, {how}");
     content.adds(
-        &format!("peak-phong | {}", label("Algorithm 7 with unit normals")),
+        "peak-phong | brightest pixel of the highlight, its green, Algorithm 7 with unit normals",
         (phong, "levels", true),
         "The others are measured against this one.",
     );
     content.confirms(
-        &format!("peak-gouraud | {}", label("Algorithm 4")),
+        "peak-gouraud | brightest pixel of the highlight, its green, Algorithm 4",
         (gouraud, "levels", gouraud < phong - 1.0),
         "The highlight is cut off between vertices: \"a bit pixelated\", where Phong's is smooth.",
     );
     content.adds(
-        &format!("peak-printed | {}", label("Algorithm 7 as printed")),
+        "peak-printed | brightest pixel of the highlight, its green, Algorithm 7 as printed",
         (raw, "levels", true),
         &format!(
             "Shorter normals have smaller cosines, and smaller powers: up to {} levels less.",

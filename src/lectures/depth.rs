@@ -21,36 +21,26 @@ const BITS: [(u32, DepthBits); 3] = [
     (32, DepthBits::ThirtyTwo),
 ];
 
-/// Loads a star a little above a floor, far from the eye.
-fn far_away() -> Result<Scene> {
-    shipped("z-fighting", SIZE)
-}
-
-fn with(scene: &Scene, bits: DepthBits, source: DepthSource) -> Scene {
-    Scene {
-        hidden_surfaces: HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }),
-        ..scene.clone()
-    }
+/// Makes a frame of a star a little above a floor, far from the eye.
+fn far_away(bits: DepthBits, source: DepthSource) -> Result<Frame> {
+    let mut scene = shipped("z-fighting", SIZE)?;
+    scene.hidden_surfaces = HiddenSurfaces::ZBuffer(DepthBuffer { bits, source });
+    Ok(scene.frame()?)
 }
 
 /// Draws a star a little above a floor: with too few bits both have one depth.
 fn fighting(content: &mut FigureContent) -> Result {
-    let scene = far_away()?;
     content.text(
         "A star a little above a floor, far from the eye. Where few bits round both depths to one \
          number, the floor shows through: z-fighting.",
     );
-    let mut pictures = Vec::new();
-    for (_, bits) in BITS {
-        let scene = with(&scene, bits, DepthSource::Interpolated);
-        pictures.push(draw(&scene.frame()?, "flat")?);
+    let (mut pictures, mut panels) = (Vec::new(), Vec::new());
+    for (count, bits) in BITS {
+        let picture = draw(&far_away(bits, DepthSource::Interpolated)?, "flat")?;
+        panels.push((format!("{count} bits"), stored(&picture)));
+        pictures.push(picture);
     }
-    let panels = BITS.iter().zip(&pictures);
-    content.pictures(
-        3,
-        "A star above a floor, depth",
-        panels.map(|((bits, _), picture)| (format!("{bits} bits"), stored(picture))),
-    );
+    content.pictures(3, "A star above a floor, depth", panels);
     for ((bits, _), picture) in BITS.iter().zip(&pictures[..2]) {
         let wrong = differing(picture, &pictures[2]);
         let enough = if wrong > 0 { "too few" } else { "enough" };
@@ -65,8 +55,7 @@ fn fighting(content: &mut FigureContent) -> Result {
 
 /// Compares depth interpolated between corners with depth computed at each sample.
 fn ways(content: &mut FigureContent) -> Result {
-    let scene = far_away()?;
-    let by = |source| Ok::<_, FigureError>(depth(&with(&scene, BITS[2].1, source).frame()?));
+    let by = |source| far_away(DepthBits::ThirtyTwo, source).map(|frame| depth(&frame));
     let (corners, samples) = (by(DepthSource::Interpolated)?, by(DepthSource::PerSample)?);
     let both = corners.pixels().iter().zip(samples.pixels());
     let both = both.filter(|(a, b)| a.is_finite() && b.is_finite());
@@ -90,35 +79,31 @@ fn lecture_depth(distance: f64, near: f64, far: f64) -> f64 {
 }
 
 fn curve(content: &mut FigureContent) -> Result {
-    let Camera { near, far, .. } = far_away()?.camera;
+    let Camera { near, far, .. } = shipped("z-fighting", SIZE)?.camera;
+    let reach = written(far);
     let curve = |near: f64| {
         let distances = (0..=60).map(|i| near * libm::pow(far / near, f64::from(i) / 60.0));
         let depth = |distance| 0.5 + 0.5 * lecture_depth(distance, near, far);
         Series::sampled(format!("near = {}", written(near)), distances, depth)
     };
+    let distance = log("distance from the eye");
     content.plot(Plot::new(
         "Depth over distance",
-        [
-            log("distance from the eye"),
-            linear("depth, 0 near to 1 far"),
-        ],
+        [distance, linear("depth, 0 near to 1 far")],
         [near, 5.0 * near, 25.0 * near].map(curve),
         format!(
-            "L5's formula, mapped to 0..1, for a far plane at {}. Only the order of z is \
+            "L5's formula, mapped to 0..1, for a far plane at {reach}. Only the order of z is \
              \"preserved after projection\": a nearer near plane leaves fewer levels for far \
-             surfaces.",
-            written(far)
+             surfaces."
         ),
     ));
     let half = 0.5 + 0.5 * lecture_depth(2.0 * near, near, far);
+    let (twice, share) = (written(2.0 * near), 100.0 * half);
     content.adds(
         "half | part of the depth range used up at twice the near distance",
         (half, "", true),
         &format!(
-            "Of distances up to {}, those below {} take {:.0} % of the levels.",
-            written(far),
-            written(2.0 * near),
-            100.0 * half
+            "Of distances up to {reach}, those below {twice} take {share:.0} % of the levels."
         ),
     );
     let at = |i: u32| lecture_depth(near + (far - near) * f64::from(i) / 1000.0, near, far);

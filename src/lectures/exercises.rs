@@ -25,12 +25,11 @@ fn sine(content: &mut FigureContent) -> Result {
     let found = f64::from(picture.get(3, 1)[0]);
     let truth = libm::sin(24.3_f64.to_radians());
     let [low, high] = TABLE;
+    let [error, half] = [truth - found, 0.5e-5].map(written);
     content.text(format!(
         "Exercise 1. Gouraud's method shades a span of ten pixels from {low} (sin 24°) to {high} \
          (sin 25°). Its fourth pixel, 0.3 of the way, holds {found:.6}; sin 24.3° is {truth:.6}. \
-         The error is {}; half a unit of the table's last decimal is {}.",
-        written(truth - found),
-        written(0.5e-5)
+         The error is {error}; half a unit of the table's last decimal is {half}.",
     ));
     content.confirms(
         "sine | sin 24.3° by linear interpolation",
@@ -99,6 +98,7 @@ fn exponential(content: &mut FigureContent) -> Result {
     let most = largest(errors.iter().flat_map(|(_, errors)| errors.iter().copied()));
     // Each of the products is rounded once, and the factor, rounded once, is in each of them.
     let bound = 2.0 * (PIXELS - 1) as f64 / (1 << 24) as f64;
+    let [allowed, measured] = [bound, most].map(written);
     content.plot(Plot::new(
         "Exponential by one multiplication a pixel: relative error over a span",
         [linear("pixel"), log("relative error")],
@@ -108,9 +108,7 @@ fn exponential(content: &mut FigureContent) -> Result {
         }),
         format!(
             "In f32, over {PIXELS} pixels. Two roundings of 2⁻²⁴ a pixel, of the product and of \
-             its factor, allow {} at the end; {} was the largest.",
-            written(bound),
-            written(most)
+             its factor, allow {allowed} at the end; {measured} was the largest."
         ),
     ));
     content.confirms(

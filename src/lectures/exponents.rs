@@ -29,10 +29,7 @@ fn powers(content: &mut FigureContent) -> Result {
     let [wide, narrow] = [widest, narrowest].map(written);
     content.plot(Plot::new(
         "Cosine powers",
-        [
-            linear("angle between R and V, degrees"),
-            linear("highlight"),
-        ],
+        ["angle between R and V, degrees", "highlight"].map(linear),
         EXPONENTS.map(curve),
         format!("Half of the height is left at {wide}° for p = 1 and at {narrow}° for p = 512."),
     ));
@@ -107,10 +104,9 @@ fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f6
     // Between the last pixel over a half and the next one, on the line through both.
     let last = points.iter().rposition(|p| p.1 >= 0.5).unwrap_or(0);
     let (a, b) = (points[last], points[(last + 1).min(points.len() - 1)]);
-    let part = if a.1 > b.1 {
-        (a.1 - 0.5) / (a.1 - b.1)
-    } else {
-        0.0
+    let part = match a.1 > b.1 {
+        true => (a.1 - 0.5) / (a.1 - b.1),
+        false => 0.0,
     };
     Ok((a.0 + part * (b.0 - a.0), points))
 }

@@ -33,10 +33,7 @@ fn ellipse(content: &mut FigureContent) -> Result {
     let degrees = || (0..=72).map(|i| 5.0 * f64::from(i));
     content.plot(Plot::new(
         format!("Normals around a circle stretched by {STRETCH}: angle from the true ones"),
-        [
-            linear("position on the circle, degrees"),
-            linear("error, degrees"),
-        ],
+        ["position on the circle, degrees", "error, degrees"].map(linear),
         [
             Series::sampled("by the matrix of the points", degrees(), by_matrix),
             Series::sampled("by its inverse transpose", degrees(), by_inverse_transpose),

@@ -77,10 +77,9 @@ fn curves(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
         let second = |i: usize| profile[i - 1] - 2.0 * profile[i] + profile[i + 1];
         Series::new(*name, inner.clone().map(|i| (i as f64 + 0.5, second(i))))
     };
-    let second = linear("second difference, grey levels");
     let bends = Plot::new(
         "Second difference along a scan line",
-        [linear("column, pixels"), second],
+        ["column, pixels", "second difference, grey levels"].map(linear),
         profiles[1..].iter().map(bend),
         "The spikes at the edges are jumps of the slope. The cylinder itself has none.",
     );

@@ -112,14 +112,14 @@ fn numbers(content: &mut FigureContent) -> Result {
         let name = plural(steps);
         let is_good = |degrees: &f64| largest_error(*degrees, steps) < INVISIBLE;
         let degrees = angles().take_while(is_good).last().unwrap_or(0.0);
+        let each = written(degrees / PIXELS as f64);
         content.adds(
             &format!(
                 "limit-{steps} | {name}: largest angle over {PIXELS} pixels without a visible error"
             ),
             (degrees, "degrees", true),
             &format!(
-                "That is {}° a pixel; in steps of 5°, half a grey level counts as visible.",
-                written(degrees / PIXELS as f64)
+                "That is {each}° a pixel; in steps of 5°, half a grey level counts as visible."
             ),
         );
     }

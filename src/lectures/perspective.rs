@@ -56,10 +56,9 @@ fn ray(x: usize, y: usize) -> Option<[f32; 3]> {
 /// Returns the percentage of the rays that meet the floor where the picture has the other colour.
 fn wrong(picture: LinearPicture) -> f64 {
     let pixels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
-    let met = pixels.filter_map(|(x, y)| Some(picture.get(x, y)[..3] == ray(x, y)?));
-    let is_right: Vec<bool> = met.collect();
-    let wrong = is_right.iter().filter(|is_right| !**is_right).count();
-    percent(wrong, is_right.len())
+    let met = pixels.filter_map(|(x, y)| Some(picture.get(x, y)[..3] != ray(x, y)?));
+    let is_wrong: Vec<bool> = met.collect();
+    percent(is_wrong.iter().filter(|is| **is).count(), is_wrong.len())
 }
 
 fn boards(content: &mut FigureContent) -> Result {
@@ -136,19 +135,17 @@ fn weight(content: &mut FigureContent) -> Result {
     let corrected = |alpha| weight_in_space(alpha, z_a, z_b);
     let printed = |alpha| printed_weight_in_space(alpha, z_a, z_b);
     let off = |weight: &dyn Fn(f64) -> f64| {
-        largest(
-            engine
-                .iter()
-                .map(|(alpha, drawn)| (drawn - weight(*alpha)).abs()),
-        )
+        let error = |(alpha, drawn): &(f64, f64)| (drawn - weight(*alpha)).abs();
+        largest(engine.iter().map(error))
     };
     let (right, wrong) = (off(&corrected), off(&printed));
     content.plot(Plot::new(
         "The weight in space of the end A of an edge",
         [
-            linear("α, the weight of A on the screen"),
-            linear("β, the weight of A in space"),
-        ],
+            "α, the weight of A on the screen",
+            "β, the weight of A in space",
+        ]
+        .map(linear),
         [
             Series::new("the engine", engine.into_iter().step_by(8)),
             Series::sampled("α z_B / (α z_B + (1 − α) z_A)", alphas(), corrected),
@@ -186,13 +183,13 @@ fn depth(content: &mut FigureContent) -> Result {
     };
     let middle = frustum.ndc_depth(-(near + far) / 2.0);
     let half = 2.0 * far * near / (far + near);
+    let part = written(100.0 * (half - near) / (far - near));
     content.contradicts(
         "depth | NDC depth, −1 to 1, of the point half-way between near and far plane",
         (middle, "", middle.abs() >= 0.01),
         &format!(
-            "Depth keeps its order, not its value: the first {} % of the way take half of the \
-             range.",
-            written(100.0 * (half - near) / (far - near))
+            "Depth keeps its order, not its value: the first {part} % of the way take half of the \
+             range."
         ),
     );
     Ok(())

@@ -29,10 +29,8 @@ fn strip(degrees: f64) -> Result<Frame> {
 /// Returns the angles from each vector to the next, in degrees.
 fn turns(vectors: Vec<DVec3>) -> Vec<f64> {
     let units: Vec<_> = vectors.iter().map(|v| v.normalize()).collect();
-    units
-        .windows(2)
-        .map(|pair| angle(pair[1], pair[0]))
-        .collect()
+    let turn = |pair: &[DVec3]| angle(pair[1], pair[0]);
+    units.windows(2).map(turn).collect()
 }
 
 /// Measures degrees a pixel of the two ways to interpolate.
@@ -53,19 +51,17 @@ fn speed(content: &mut FigureContent) -> Result {
         f64::from(s_from) * from + f64::from(s_to) * to
     });
     let [lerp, slerp] = [linear_normals.collect(), great_circle.collect()].map(turns);
-    let curve = |name: &str, turns: &[f64]| {
+    let curve = |(name, turns): (&str, &Vec<f64>)| {
         Series::new(name, (1..).map(f64::from).zip(turns.iter().copied()))
     };
     content.text(format!(
         "The turn a pixel of the unit normal, {SPAN} pixels between normals {DEGREES}° apart.",
     ));
+    let curves = [("linear, then normalised", &lerp), ("great circle", &slerp)];
     content.plot(Plot::new(
         "Speed of the normal along a span",
         [linear("column, pixels"), linear("turn, degrees a pixel")],
-        [
-            curve("linear, then normalised", &lerp),
-            curve("great circle", &slerp),
-        ],
+        curves.map(curve),
         "A chord walked at uniform speed turns fastest where it is nearest to the middle of the \
          circle.",
     ));
@@ -79,14 +75,11 @@ fn speed(content: &mut FigureContent) -> Result {
         (slerp, "", slerp < 1.001),
         "Uniform speed, as the lecture says.",
     );
-    let cosine = libm::cos(DEGREES.to_radians() / 2.0);
+    let whole = written(1.0 / libm::pow(libm::cos(DEGREES.to_radians() / 2.0), 2.0));
     content.adds(
         "speed-linear | linear, then normalised: fastest turn by slowest turn",
         (lerp, "", true),
-        &format!(
-            "1 / cos² of half the angle would be {} over a whole span.",
-            written(1.0 / libm::pow(cosine, 2.0))
-        ),
+        &format!("1 / cos² of half the angle would be {whole} over a whole span."),
     );
     Ok(())
 }
@@ -118,9 +111,8 @@ fn recurrences(degrees: f64) -> [Vec<f64>; 3] {
     // L stands 40° from the first normal, in the plane of both; J(k) = cos(kδ − 40°).
     let j = |k: f64| libm::cos(k * delta - 40f64.to_radians());
     let errors = |walk: &mut dyn FnMut() -> f32| {
-        (0..LONG)
-            .map(|k| (f64::from(walk()) - j(k as f64)).abs())
-            .collect()
+        let error = |k| (f64::from(walk()) - j(k as f64)).abs();
+        (0..LONG).map(error).collect()
     };
     let [first, last] = [0.0, LONG as f64].map(|k| (j(k) / libm::sin(phi)) as f32);
     let mut sines = Sines::new(phi as f32, 0.0, 1.0 / LONG as f32);

@@ -66,10 +66,9 @@ fn square(degrees: f64, polygons: Polygons, normals: Normals) -> Result<Frame> {
 
 /// Returns sine and cosine, exact at quarter turns.
 fn sine_and_cosine(degrees: f64) -> (f64, f64) {
-    if degrees == 90.0 {
-        (1.0, 0.0)
-    } else {
-        libm::sincos(degrees.to_radians())
+    match degrees {
+        90.0 => (1.0, 0.0),
+        _ => libm::sincos(degrees.to_radians()),
     }
 }
 
@@ -100,7 +99,7 @@ fn between(picture: &LinearPicture, position: [f64; 2]) -> Option<[f32; 4]> {
             (first + 1.0, if part < 1e-9 { 0.0 } else { part }),
         ]
     };
-    let mut sum = [0.0f64; 3];
+    let mut sum = DVec3::ZERO;
     for (y, part_y) in along(position[1]) {
         for (x, part_x) in along(position[0]) {
             let part = part_x * part_y;
@@ -112,13 +111,11 @@ fn between(picture: &LinearPicture, position: [f64; 2]) -> Option<[f32; 4]> {
             let pixel = is_inside
                 .then(|| picture.get(x as usize, y as usize))
                 .filter(|pixel| pixel[3] > 0.0)?;
-            for (sum, channel) in sum.iter_mut().zip(pixel) {
-                *sum += part * f64::from(channel);
-            }
+            let [r, g, b, _] = pixel.map(f64::from);
+            sum += part * DVec3::new(r, g, b);
         }
     }
-    let [r, g, b] = sum.map(|c| c as f32);
-    Some([r, g, b, 1.0])
+    Some(sum.as_vec3().extend(1.0).to_array())
 }
 
 /// Returns the largest angle between the normals of two pictures, which store them as (N + 1)/2, in
