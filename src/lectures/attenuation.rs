@@ -80,11 +80,8 @@ fn floors(content: &mut FigureContent) -> Result {
         clipped.push(white);
         panels.push((label, stored(&picture)));
     }
-    content.pictures(
-        3,
-        "A floor seen from above, a light close above its middle",
-        panels,
-    );
+    let subject = "A floor seen from above, a light close above its middle";
+    content.pictures(3, subject, panels);
     content.table(
         "falloff | clipped to white | under one level | under ten levels",
         rows,
@@ -100,10 +97,8 @@ fn floors(content: &mut FigureContent) -> Result {
         "None: it is at most 1.",
     );
     // 1/r² with a light so dim that nothing is clipped.
-    let dark = below(
-        1.0,
-        &floor(Falloff::InverseSquare, (HEIGHT * HEIGHT) as f32)?,
-    );
+    let dim = floor(Falloff::InverseSquare, (HEIGHT * HEIGHT) as f32)?;
+    let dark = below(1.0, &dim);
     let unattenuated = below(1.0, &floor(Falloff::None, 1.0)?);
     content.confirms(
         "dark | share of the floor under one level, 1/r² with a light too dim to clip anything",

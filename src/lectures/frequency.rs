@@ -30,20 +30,15 @@ fn sphere(rings: u32) -> Result<Frame> {
         let mesh = format!("sphere?rings={rings}&segments={}", 2 * rings);
         fitted(&mesh, [SIDE; 2])
     };
-    Ok(Scene {
-        objects: sphere(rings)?.objects,
-        ..sphere(FINEST)?
-    }
-    .frame()?)
+    let mut scene = sphere(FINEST)?;
+    scene.objects = sphere(rings)?.objects;
+    Ok(scene.frame()?)
 }
 
 fn spheres(content: &mut FigureContent) -> Result {
     let finest = sphere(FINEST)?;
     let truth = truth(&finest);
-    let frames = RINGS
-        .map(sphere)
-        .into_iter()
-        .collect::<Result<Vec<_>, _>>()?;
+    let frames: Vec<Frame> = RINGS.into_iter().map(sphere).collect::<Result<_>>()?;
     content.text(format!(
         "One sphere in six resolutions, shaded once a face, a vertex, and a pixel. Errors are \
          against the Phong reference on {} polygons, over pixels that both cover.",
@@ -71,18 +66,12 @@ fn spheres(content: &mut FigureContent) -> Result {
 fn numbers(content: &mut FigureContent, errors: &[Vec<Difference>]) {
     let polygons = RINGS.map(|rings| 2 * rings * rings);
     let rms = |i: usize, k: usize| 255.0 * errors[i][k].rms;
-    let rows = FREQUENCIES
-        .iter()
-        .zip(errors)
-        .map(|((_, frequency), errors)| {
-            let cells: String = errors.iter().map(max_and_rms).collect();
-            format!("{frequency}{cells}")
-        });
-    let head = polygons.map(|polygons| format!(" | {polygons}"));
-    content.table(
-        &format!("max / RMS in levels, by polygons{}", head.concat()),
-        rows,
-    );
+    let cells = |errors: &[Difference]| errors.iter().map(max_and_rms).collect::<String>();
+    let rows = FREQUENCIES.iter().zip(errors);
+    let rows = rows.map(|((_, frequency), errors)| format!("{frequency}{}", cells(errors)));
+    let columns = polygons.map(|polygons| format!(" | {polygons}"));
+    let head = format!("max / RMS in levels, by polygons{}", columns.concat());
+    content.table(&head, rows);
     let curve = |i: usize| {
         let points = (0..RINGS.len()).map(|k| (f64::from(polygons[k]), rms(i, k)));
         Series::new(format!("once a {}", FREQUENCIES[i].1), points)

@@ -139,13 +139,10 @@ fn weight(content: &mut FigureContent) -> Result {
         largest(engine.iter().map(error))
     };
     let (right, wrong) = (off(&corrected), off(&printed));
+    let on_screen = linear("α, the weight of A on the screen");
     content.plot(Plot::new(
         "The weight in space of the end A of an edge",
-        [
-            "α, the weight of A on the screen",
-            "β, the weight of A in space",
-        ]
-        .map(linear),
+        [on_screen, linear("β, the weight of A in space")],
         [
             Series::new("the engine", engine.into_iter().step_by(8)),
             Series::sampled("α z_B / (α z_B + (1 − α) z_A)", alphas(), corrected),
