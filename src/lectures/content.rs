@@ -48,6 +48,9 @@ impl FigureContent {
     }
 
     /// Adds pictures of one subject in a row: ` | ` separates their captions.
+    ///
+    /// # Panics
+    /// If there are not as many captions as pictures.
     pub fn row<const N: usize>(&mut self, subject: &str, captions: &str, pictures: [Picture8; N]) {
         let captions: Vec<&str> = captions.split(" | ").collect();
         assert_eq!(captions.len(), N, "a caption for each picture");
@@ -56,6 +59,9 @@ impl FigureContent {
 
     /// Adds two pictures with their captions, and the map of their difference, whose yellow end
     /// stands for `levels`.
+    ///
+    /// # Errors
+    /// If the sizes differ.
     pub(super) fn compared(
         &mut self,
         subject: &str,
@@ -84,25 +90,30 @@ impl FigureContent {
         });
     }
 
-    /// Adds a finding that confirms the lecture if `so`, and contradicts it otherwise.
+    /// Adds a [finding](Self::found) that confirms the lecture if `so`, and contradicts it
+    /// otherwise.
     pub fn confirms(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
         let agreement = Agreement::if_holds(value.2);
         self.found(head, value, agreement, says);
     }
 
-    /// Adds a finding that contradicts the lecture if `so`, and confirms it otherwise.
+    /// Adds a [finding](Self::found) that contradicts the lecture if `so`, and confirms it
+    /// otherwise.
     pub fn contradicts(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
         let agreement = Agreement::if_holds(!value.2);
         self.found(head, value, agreement, says);
     }
 
-    /// Adds a finding that the lecture does not mention.
+    /// Adds a [finding](Self::found) that the lecture does not mention.
     pub fn adds(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
         self.found(head, value, Agreement::Adds, says);
     }
 
-    /// Adds a finding: ` | ` separates key and label in its head. The verdict on the value, which
-    /// has a unit, is the sentence `says`, marked as false unless `so`.
+    /// Adds a finding: its head `key | label`, and its value with its unit. The verdict is the
+    /// sentence `says`, marked as false unless `so`.
+    ///
+    /// # Panics
+    /// If the head has no ` | `.
     pub fn found(
         &mut self,
         head: &str,

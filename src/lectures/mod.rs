@@ -6,8 +6,8 @@
 //! out. A finding is a key, a label, a value, a unit, a verdict and one sentence; the value decides
 //! whether the sentence holds.
 //!
-//! Start with `exercises.rs`, then `content.rs` (the data), `fixture.rs` (what figures draw) and
-//! `measure.rs` (numbers taken from pictures).
+//! Start with `exercises.rs`, then `content.rs` (the data), `fixture.rs` (what figures draw),
+//! `measure.rs` (numbers taken from pictures) and `prelude.rs` (the names that figures import).
 //!
 //! ```
 //! use fastphong::lectures::Figure;
