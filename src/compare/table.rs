@@ -49,26 +49,20 @@ impl Table {
 
     /// Writes it as an HTML table with a caption.
     pub fn html(&self) -> String {
-        let mut html = format!(
-            "<table><caption>{}</caption><thead><tr>",
-            html_text(&self.caption)
-        );
-        for cell in &self.head {
-            html += &format!("<th scope=\"col\">{}</th>", html_text(cell));
-        }
-        html += "</tr></thead><tbody>";
-        for row in &self.rows {
-            html += "<tr>";
-            for (i, cell) in row.iter().enumerate() {
-                let cell = html_text(cell);
-                html += &match i {
-                    0 => format!("<th scope=\"row\">{cell}</th>"),
-                    _ => format!("<td>{cell}</td>"),
-                };
-            }
-            html += "</tr>";
-        }
-        html + "</tbody></table>"
+        let head = |cell: &String| format!("<th scope=\"col\">{}</th>", html_text(cell));
+        let cell = |(i, cell): (usize, &String)| match i {
+            0 => format!("<th scope=\"row\">{}</th>", html_text(cell)),
+            _ => format!("<td>{}</td>", html_text(cell)),
+        };
+        let row = |row: &Vec<String>| {
+            let cells: String = row.iter().enumerate().map(cell).collect();
+            format!("<tr>{cells}</tr>")
+        };
+        let caption = html_text(&self.caption);
+        let head: String = self.head.iter().map(head).collect();
+        let head = format!("<caption>{caption}</caption><thead><tr>{head}</tr></thead>");
+        let rows: String = self.rows.iter().map(row).collect();
+        format!("<table>{head}<tbody>{rows}</tbody></table>")
     }
 
     /// Writes it as comma-separated values (RFC 4180).
@@ -108,39 +102,22 @@ pub fn aligned(lines: &[impl AsRef<[String]>], left: &[usize]) -> String {
 
 /// Escapes text for HTML, between tags and between the quotes of attributes.
 pub fn html_text(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            // HTML has no other control characters, not even by their number.
-            '\n' | '\t' => out.push(letter),
-            _ if letter.is_control() => out.push('\u{FFFD}'),
-            _ => out.push(letter),
-        }
-    }
-    out
+    // HTML has no other control characters, not even by their number.
+    let is_none = |letter: char| letter.is_control() && !matches!(letter, '\n' | '\t');
+    let text = text.replace(is_none, "\u{FFFD}").replace('&', "&amp;");
+    let text = text.replace('<', "&lt;").replace('>', "&gt;");
+    text.replace('"', "&quot;").replace('\'', "&#39;")
 }
 
 /// Escapes text for Markdown, also within a table.
 pub fn markdown_text(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '<' => out.push_str("&lt;"),
-            '&' => out.push_str("&amp;"),
-            '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '#' | '~' | '!' => {
-                out.push('\\');
-                out.push(letter);
-            }
-            _ if letter.is_control() => out.push(' '),
-            _ => out.push(letter),
-        }
+    let text = text.replace(char::is_control, " ");
+    let mut text = text.replace('&', "&amp;").replace('<', "&lt;");
+    // The backslash first, as the others are given one.
+    for letter in ['\\', '`', '*', '_', '[', ']', '|', '#', '~', '!'] {
+        text = text.replace(letter, &format!("\\{letter}"));
     }
-    out
+    text
 }
 
 #[cfg(test)]

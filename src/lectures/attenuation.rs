@@ -1,13 +1,7 @@
 //! Falloffs over the distance, and floors that they light (CS171 2, Attenuation; L5, Light
 //! falloff).
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, Series, draw, log, scene, share, stored, written,
-};
-use crate::picture::LinearPicture;
-use crate::scene::{Falloff, Light};
-use alloc::{format, vec, vec::Vec};
-use glam::{DAffine3, DVec3};
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "attenuation",
@@ -86,36 +80,28 @@ fn floors(content: &mut FigureContent) -> Result {
         clipped.push(white);
         panels.push((label, stored(&picture)));
     }
-    content.pictures(
-        3,
-        "A floor seen from above, a light close above its middle",
-        panels,
-    );
+    let subject = "A floor seen from above, a light close above its middle";
+    content.pictures(3, subject, panels);
     content.table(
         "falloff | clipped to white | under one level | under ten levels",
         rows,
     );
     content.confirms(
-        "clipped",
-        "share of the floor that 1/r² clips to white",
+        "clipped | share of the floor that 1/r² clips to white",
         (clipped[OF_LECTURE], "%", clipped[OF_LECTURE] > 1.0),
         "\"Tends to look bad\": near the light it is brighter than a picture can hold.",
     );
     content.confirms(
-        "clipped-notes",
-        "share of the floor that 1/(1 + d²) clips to white",
+        "clipped-notes | share of the floor that 1/(1 + d²) clips to white",
         (clipped[OF_NOTES], "%", clipped[OF_NOTES] == 0.0),
         "None: it is at most 1.",
     );
     // 1/r² with a light so dim that nothing is clipped.
-    let dark = below(
-        1.0,
-        &floor(Falloff::InverseSquare, (HEIGHT * HEIGHT) as f32)?,
-    );
+    let dim = floor(Falloff::InverseSquare, (HEIGHT * HEIGHT) as f32)?;
+    let dark = below(1.0, &dim);
     let unattenuated = below(1.0, &floor(Falloff::None, 1.0)?);
     content.confirms(
-        "dark",
-        "share of the floor under one level, 1/r² with a light too dim to clip anything",
+        "dark | share of the floor under one level, 1/r² with a light too dim to clip anything",
         (dark, "%", dark > 20.0 && dark > unattenuated),
         "Much of the floor is black: local shading has no light from elsewhere.",
     );

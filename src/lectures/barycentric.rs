@@ -1,13 +1,12 @@
 //! Barycentric coordinates: the triangle from red to blue, the weights as colours, and two
 //! misprints drawn.
 
-use super::{Figure, FigureContent, Result, largest, percent, stored};
-use crate::picture::{LinearPicture, Picture};
+use super::prelude::*;
+use crate::picture::Picture;
 use crate::reference::cs171::barycentric::{
     Weights, centre_of_mass, printed_gamma, signed_area, unsigned_weights, weights,
 };
 use crate::reference::cs171::{Inside, Raster, raster_colored_triangle, raster_triangle};
-use glam::{DVec2, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "barycentric",
@@ -77,16 +76,11 @@ fn pictures(content: &mut FigureContent) -> Result {
     for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
         right.row_mut(centre.y as usize + dy)[centre.x as usize + dx] = [1.0; 4];
     }
-    let panels = [
-        ("from red to blue (Algorithm 2)", gradient),
-        ("the weights", right),
-        ("γ as printed", painted(as_printed)),
-        ("areas without signs", painted(without_signs)),
-    ];
-    content.pictures(
-        4,
+    let pictures = [gradient, right, painted(as_printed), painted(without_signs)];
+    content.row(
         "A right triangle",
-        panels.map(|(caption, picture)| (caption, stored(&picture))),
+        "from red to blue (Algorithm 2) | the weights | γ as printed | areas without signs",
+        pictures.each_ref().map(stored),
     );
     Ok(())
 }
@@ -98,23 +92,20 @@ fn misprints(content: &mut FigureContent) -> Result {
     let inside = count(&is_inside);
     let lost = percent(count(&|p| is_inside(p) && !is_in(as_printed(p))), inside);
     content.contradicts(
-        "printed-gamma",
-        "pixels of the triangle that the printed γ loses",
+        "printed-gamma | pixels of the triangle that the printed γ loses",
         (lost, "%", lost != 0.0),
         "f_ab(p) / f_ac(p) is −γ/β and no weight: divide by f_ab(c). The edge ab is left.",
     );
     let elsewhere = percent(count(&|p| !is_inside(p) && is_in(as_printed(p))), inside);
     content.contradicts(
-        "printed-gamma-outside",
-        "pixels outside that it fills, in parts of the triangle",
+        "printed-gamma-outside | pixels outside that it fills, in parts of the triangle",
         (elsewhere, "%", elsewhere != 0.0),
         "It fills another triangle, beyond the edge ab, where γ is below 0.",
     );
     let gained = count(&|p| !is_inside(p) && is_in(without_signs(p)));
     let gained = percent(gained, SIDE * SIDE - inside);
     content.contradicts(
-        "unsigned-areas",
-        "pixels outside that areas without signs call inside",
+        "unsigned-areas | pixels outside that areas without signs call inside",
         (gained, "%", gained != 0.0),
         "Without signs the quotients lie in 0..1 everywhere: only signs tell inside from outside.",
     );
@@ -139,25 +130,23 @@ fn other_formulas(content: &mut FigureContent) -> Result {
         },
     );
     let centre = largest(exact(centre_of_mass(TRIANGLE)).map(|w| (w - 1.0 / 3.0).abs()));
-    for (key, what, value, says) in [
-        ("area", "A_b / A from β", area, "Areas are the weights."),
-        (
-            "distance",
-            "the distance from ab from γ",
-            distance,
-            "Distances are the weights.",
-        ),
-        (
-            "centre",
-            "a weight at the centre of mass from ⅓",
-            centre,
-            "It weighs all corners alike.",
-        ),
-    ] {
-        // Quotients of numbers below 2¹³ that round a few times each, about sums that cancel at
-        // most their last 13 bits.
-        let label = alloc::format!("largest difference of {what}");
-        content.confirms(key, label, (value, "", value < 1e-12), says);
-    }
+    // Quotients of numbers below 2¹³ that round a few times each, about sums that cancel at most
+    // their last 13 bits.
+    let rounded = |value: f64| (value, "", value < 1e-12);
+    content.confirms(
+        "area | largest difference of A_b / A from β",
+        rounded(area),
+        "Areas are the weights.",
+    );
+    content.confirms(
+        "distance | largest difference of the distance from ab from γ",
+        rounded(distance),
+        "Distances are the weights.",
+    );
+    content.confirms(
+        "centre | largest difference of a weight at the centre of mass from ⅓",
+        rounded(centre),
+        "It weighs all corners alike.",
+    );
     Ok(())
 }

@@ -1,17 +1,10 @@
 //! L and V constant along each polygon, as the lecture assumes, against those of each pixel (L21 1;
 //! Duff 1979).
 
-use super::{
-    Figure, FigureContent, Plot, Result, Series, draw_each, grey, levels, log, max_and_rms, scene,
-    stored,
-};
-use crate::compare::metrics::{compare, difference_map};
+use super::prelude::*;
 use crate::number::Counts;
-use crate::reference::{self, Model};
-use crate::scene::{Falloff, Interpolation, Light, Scene};
-use crate::shading::{OperationCounts, SpanBench, Variant};
-use alloc::{format, string::ToString, vec, vec::Vec};
-use glam::DVec3;
+use crate::shading::{OperationCounts, SpanBench};
+use alloc::string::ToString;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "constant-vectors",
@@ -46,19 +39,15 @@ fn pictures(content: &mut FigureContent) -> Result {
     let [fast, duff, naive] = draw_each(&near, ["fast-phong", "duff-phong", "naive-phong"])?;
     let [fast_8, duff_8] = [&fast, &duff].map(stored);
     let map = difference_map(&duff_8, &fast_8, 64.0)?;
-    content.pictures(
-        3,
+    content.row(
         "A sphere with a light close to it, vectors",
-        [
-            ("constant along each polygon (fast-phong)", fast_8),
-            ("at each pixel (duff-phong)", duff_8),
-            ("their difference, to 64 levels", map),
-        ],
+        "constant along each polygon (fast-phong) | at each pixel (duff-phong) | their difference, \
+         to 64 levels",
+        [fast_8, duff_8, map],
     );
     let difference = levels(&naive, &duff);
     content.adds(
-        "duff-naive",
-        "six quadratics against vectors at each pixel, largest difference",
+        "duff-naive | six quadratics against vectors at each pixel, largest difference",
         (difference, "grey levels", difference < 0.5),
         "One picture: the products are exact, to rounding.",
     );
@@ -74,7 +63,7 @@ fn errors(content: &mut FigureContent) -> Result {
         let (mut row, mut curve) = (distance.to_string(), Vec::new());
         for (rings, polygons) in RINGS.into_iter().zip(polygons) {
             let frame = sphere(rings, distance)?.frame()?;
-            let truth = reference::render(&frame, Model::Phong).to_linear();
+            let truth = truth(&frame);
             let difference = compare(&truth, &fast.render_linear(&frame))?;
             row += &max_and_rms(&difference);
             curve.push((f64::from(polygons), 255.0 * difference.rms));
@@ -96,16 +85,14 @@ fn errors(content: &mut FigureContent) -> Result {
          its error.",
     ));
     content.contradicts(
-        "coarse",
-        "RMS error of constant vectors, coarsest sphere and nearest light",
+        "coarse | RMS error of constant vectors, coarsest sphere and nearest light",
         (coarse.1, "grey levels", coarse.1 > 1.0),
         "Every polygon shows: the assumption is for lights at infinity.",
     );
     let finer = f64::from(RINGS[RINGS.len() - 1]) / f64::from(RINGS[0]);
     let order = libm::log(coarse.1 / fine.1) / libm::log(finer);
     content.adds(
-        "order",
-        "power of the polygons' size by which the error falls, nearest light",
+        "order | power of the polygons' size by which the error falls, nearest light",
         (order, "", order > 0.5),
         "Finer polygons make up for it.",
     );
@@ -134,16 +121,12 @@ fn products(content: &mut FigureContent) -> Result {
         "operations a pixel | + (1 light) | × | ÷ and √ | + (2 lights) | × | ÷ and √",
         rows,
     );
-    let [one, two] = [1, 2].map(|lights| counts("duff-phong", lights));
-    let (one, two) = (one?.walk.additions, two?.walk.additions);
+    let one = counts("duff-phong", 1)?.walk.additions;
+    let more = counts("duff-phong", 2)?.walk.additions - one;
     content.adds(
-        "additions",
-        "additions a pixel that step the six products of one light, and 1/w²",
-        (f64::from(one), "", true),
-        format!(
-            "Two each; a further light takes {} more. A falloff needs 1/w².",
-            two - one
-        ),
+        "additions | additions a pixel that step the six products of one light, and 1/w²",
+        (one, "", true),
+        &format!("Two each; a further light takes {more} more. A falloff needs 1/w²."),
     );
     Ok(())
 }

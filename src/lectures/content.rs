@@ -1,6 +1,9 @@
 //! The data of a finished figure: texts, pictures, curves, tables and findings, without any layout.
 
-use crate::picture::Picture8;
+use super::error::Result;
+use super::fixture::stored;
+use crate::compare::metrics::difference_map;
+use crate::picture::{LinearPicture, Picture8};
 use alloc::string::{String, ToString};
 use alloc::{format, vec::Vec};
 use serde::{Serialize, Serializer};
@@ -44,6 +47,35 @@ impl FigureContent {
         self.blocks.push(FigureBlock::Pictures { columns, shown });
     }
 
+    /// Adds pictures of one subject in a row: ` | ` separates their captions.
+    ///
+    /// # Panics
+    /// If there are not as many captions as pictures.
+    pub fn row<const N: usize>(&mut self, subject: &str, captions: &str, pictures: [Picture8; N]) {
+        let captions: Vec<&str> = captions.split(" | ").collect();
+        assert_eq!(captions.len(), N, "a caption for each picture");
+        self.pictures(N, subject, captions.into_iter().zip(pictures));
+    }
+
+    /// Adds two pictures with their captions, and the map of their difference, whose yellow end
+    /// stands for `levels`.
+    ///
+    /// # Errors
+    /// If the sizes differ.
+    pub(super) fn compared(
+        &mut self,
+        subject: &str,
+        captions: &str,
+        [a, b]: &[LinearPicture; 2],
+        levels: f32,
+    ) -> Result<()> {
+        let scale = format!("purple to yellow is up to {levels} grey levels");
+        let captions = format!("{captions} | their difference: {scale}, black none, magenta more");
+        let map = difference_map(a, b, levels)?;
+        self.row(subject, &captions, [stored(a), stored(b), map]);
+        Ok(())
+    }
+
     /// Adds curves.
     pub fn plot(&mut self, plot: Plot) {
         self.blocks.push(FigureBlock::Plot(plot));
@@ -58,50 +90,38 @@ impl FigureContent {
         });
     }
 
-    /// Adds a value with its unit. It confirms the lecture if `so`, and contradicts it otherwise.
-    pub fn confirms(
-        &mut self,
-        key: impl Into<String>,
-        label: impl Into<String>,
-        (value, unit, so): (impl Into<f64>, &str, bool),
-        says: impl Into<String>,
-    ) {
-        let agreement = Agreement::if_holds(so);
-        self.found(key, label, (value, unit, so), agreement, says);
+    /// Adds a [finding](Self::found) that confirms the lecture if `so`, and contradicts it
+    /// otherwise.
+    pub fn confirms(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
+        let agreement = Agreement::if_holds(value.2);
+        self.found(head, value, agreement, says);
     }
 
-    /// Adds a value with its unit. It contradicts the lecture if `so`, and confirms it otherwise.
-    pub fn contradicts(
-        &mut self,
-        key: impl Into<String>,
-        label: impl Into<String>,
-        (value, unit, so): (impl Into<f64>, &str, bool),
-        says: impl Into<String>,
-    ) {
-        let agreement = Agreement::if_holds(!so);
-        self.found(key, label, (value, unit, so), agreement, says);
+    /// Adds a [finding](Self::found) that contradicts the lecture if `so`, and confirms it
+    /// otherwise.
+    pub fn contradicts(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
+        let agreement = Agreement::if_holds(!value.2);
+        self.found(head, value, agreement, says);
     }
 
-    /// Adds a value with its unit that the lecture does not mention.
-    pub fn adds(
-        &mut self,
-        key: impl Into<String>,
-        label: impl Into<String>,
-        value: (impl Into<f64>, &str, bool),
-        says: impl Into<String>,
-    ) {
-        self.found(key, label, value, Agreement::Adds, says);
+    /// Adds a [finding](Self::found) that the lecture does not mention.
+    pub fn adds(&mut self, head: &str, value: (impl Into<f64>, &str, bool), says: &str) {
+        self.found(head, value, Agreement::Adds, says);
     }
 
-    /// Adds a value with its unit. The verdict is the sentence `says`, marked as false unless `so`.
+    /// Adds a finding: its head `key | label`, and its value with its unit. The verdict is the
+    /// sentence `says`, marked as false unless `so`.
+    ///
+    /// # Panics
+    /// If the head has no ` | `.
     pub fn found(
         &mut self,
-        key: impl Into<String>,
-        label: impl Into<String>,
+        head: &str,
         (value, unit, so): (impl Into<f64>, &str, bool),
         agreement: Agreement,
-        says: impl Into<String>,
+        says: &str,
     ) {
+        let (key, label) = head.split_once(" | ").expect("a key and a label");
         let marked = if so { "" } else { "This does not hold: " };
         self.findings.push(Finding {
             key: key.into(),
@@ -109,7 +129,7 @@ impl FigureContent {
             value: value.into(),
             unit: unit.into(),
             agreement,
-            verdict: format!("{marked}{}", says.into()),
+            verdict: format!("{marked}{says}"),
         });
     }
 }
@@ -268,10 +288,9 @@ impl Agreement {
     /// Returns [`Agreement::Confirms`] if the lecture's statement `holds`, else
     /// [`Agreement::Contradicts`].
     pub fn if_holds(holds: bool) -> Agreement {
-        if holds {
-            Agreement::Confirms
-        } else {
-            Agreement::Contradicts
+        match holds {
+            true => Agreement::Confirms,
+            false => Agreement::Contradicts,
         }
     }
 
@@ -315,14 +334,11 @@ pub(super) fn written(value: f64) -> String {
             digits.chars().filter_map(superscript).collect::<String>()
         );
     }
-    let decimals = (0..5)
-        .find(|&digits| size >= 100.0 / libm::pow(10.0, f64::from(digits)))
-        .unwrap_or(5);
-    let text = format!("{value:.*}", decimals as usize);
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').into()
-    } else {
-        text
+    let is_enough = |digits: &usize| size >= 100.0 / libm::pow(10.0, *digits as f64);
+    let text = format!("{value:.*}", (0..5).find(is_enough).unwrap_or(5));
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').into(),
+        false => text,
     }
 }
 

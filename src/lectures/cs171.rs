@@ -1,17 +1,12 @@
 //! CS171's red sphere under two coloured lights, by its three algorithms; the highlight that
 //! Algorithm 7 loses as it is printed; and the test against the NDC cube, which is not clipping.
 
-use super::{Figure, FigureContent, Result, bare, fitted, largest, written};
-use crate::frame::Frame;
+use super::prelude::*;
 use crate::frame::triangulate::triangulated;
-use crate::mesh::Material;
 use crate::picture::{Picture, Picture8};
 use crate::reference::cs171::{
     Raster, Reading, Shading, TriangleCorner, full_shading, render, world_to_ndc,
 };
-use crate::scene::{Camera, Light, Lighting, Projection, SpecularGate, SpecularModel};
-use alloc::{format, vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "cs171",
@@ -70,45 +65,35 @@ fn highlights(content: &mut FigureContent) -> Result {
         ..unit
     };
     let raw = draw(Shading::Phong, as_printed);
-    content.pictures(
-        4,
+    content.row(
         "A red sphere under two coloured lights",
-        [
-            ("flat (Algorithm 6)", eight_bits(&flat)),
-            ("Gouraud (Algorithm 4)", eight_bits(&gouraud)),
-            ("Phong (Algorithm 7)", eight_bits(&phong)),
-            ("Algorithm 7 as printed", eight_bits(&raw)),
-        ],
+        "flat (Algorithm 6) | Gouraud (Algorithm 4) | Phong (Algorithm 7) | Algorithm 7 as printed",
+        [&flat, &gouraud, &phong, &raw].map(eight_bits),
     );
     let green = [&gouraud, &phong, &raw].map(|p| p.pixels().iter().map(|pixel| 255.0 * pixel[1]));
     let [gouraud, phong, raw] = green.clone().map(largest);
     let [_, with_unit, as_printed] = green;
     let lost = largest(with_unit.zip(as_printed).map(|(unit, raw)| unit - raw));
-    let label = |how: &str| format!("brightest pixel of the highlight, its green, {how}");
     content.adds(
-        "peak-phong",
-        label("Algorithm 7 with unit normals"),
+        "peak-phong | brightest pixel of the highlight, its green, Algorithm 7 with unit normals",
         (phong, "levels", true),
         "The others are measured against this one.",
     );
     content.confirms(
-        "peak-gouraud",
-        label("Algorithm 4"),
+        "peak-gouraud | brightest pixel of the highlight, its green, Algorithm 4",
         (gouraud, "levels", gouraud < phong - 1.0),
         "The highlight is cut off between vertices: \"a bit pixelated\", where Phong's is smooth.",
     );
     content.adds(
-        "peak-printed",
-        label("Algorithm 7 as printed"),
+        "peak-printed | brightest pixel of the highlight, its green, Algorithm 7 as printed",
         (raw, "levels", true),
-        format!(
+        &format!(
             "Shorter normals have smaller cosines, and smaller powers: up to {} levels less.",
             written(lost)
         ),
     );
     content.contradicts(
-        "lost",
-        "largest loss of a pixel by normals that are not made unit vectors",
+        "lost | largest loss of a pixel by normals that are not made unit vectors",
         (lost, "levels", lost >= 1.0),
         "The lighting model asks for unit normals: make them so at each pixel.",
     );
@@ -172,36 +157,30 @@ fn cube(content: &mut FigureContent) -> Result {
          in front of the eye. Corners behind the eye are divided by a negative depth and stand \
          above the horizon: clipping must come first.",
     );
-    content.pictures(
-        4,
+    content.row(
         "A floor to the horizon",
-        [
-            ("up to the near plane, cube", eight_bits(&near)),
-            ("up to the near plane, clipped", eight_bits(&near_clipped)),
-            ("behind the eye, cube", eight_bits(&behind)),
-            ("behind the eye, clipped", eight_bits(&behind_clipped)),
-        ],
+        "up to the near plane, cube | up to the near plane, clipped | behind the eye, cube | \
+         behind the eye, clipped",
+        [&near, &near_clipped, &behind, &behind_clipped].map(eight_bits),
     );
     let differing = only(&near, &near_clipped) + only(&near_clipped, &near);
     // Clipping makes corners, which are snapped to 1/256 pixel: a pixel of the rim may fall to
     // either side.
     content.confirms(
-        "cube-in-front",
-        "pixels in which the cube's test and clipping differ, all corners in front of the eye",
+        "cube-in-front | pixels in which the cube's test and clipping differ, all corners in front \
+         of the eye",
         (differing as f64, "pixels", differing <= SIDE as usize),
         "\"Parts within the cube\" are rendered, as the notes say.",
     );
     let missing = only(&behind_clipped, &behind);
     content.contradicts(
-        "cube-missing",
-        "pixels that the cube's test loses, corners behind the eye",
+        "cube-missing | pixels that the cube's test loses, corners behind the eye",
         (missing as f64, "pixels", missing != 0),
         "The cube's test is no clipping: corners behind the eye have no place.",
     );
     let extra = only(&behind, &behind_clipped);
     content.contradicts(
-        "cube-extra",
-        "pixels that it draws where nothing is",
+        "cube-extra | pixels that it draws where nothing is",
         (extra as f64, "pixels", extra != 0),
         "The cube's test draws a part of the floor above the horizon.",
     );

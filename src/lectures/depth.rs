@@ -1,12 +1,8 @@
 //! Depth buffers: two ways to compute depth, and the reach of 16, 24 and 32 bits (L5).
 
-use super::{
-    Agreement, Figure, FigureContent, FigureError, Plot, Result, Series, differing, draw, largest,
-    linear, log, shipped, stored, written,
-};
+use super::prelude::*;
 use crate::raster::depth;
-use crate::scene::{Camera, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, Scene};
-use alloc::{format, vec::Vec};
+use crate::scene::{DepthBits, DepthBuffer, DepthSource, HiddenSurfaces};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "depth",
@@ -25,44 +21,33 @@ const BITS: [(u32, DepthBits); 3] = [
     (32, DepthBits::ThirtyTwo),
 ];
 
-/// Loads a star a little above a floor, far from the eye.
-fn far_away() -> Result<Scene> {
-    shipped("z-fighting", SIZE)
-}
-
-fn with(scene: &Scene, bits: DepthBits, source: DepthSource) -> Scene {
-    Scene {
-        hidden_surfaces: HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }),
-        ..scene.clone()
-    }
+/// Makes a frame of a star a little above a floor, far from the eye.
+fn far_away(bits: DepthBits, source: DepthSource) -> Result<Frame> {
+    let mut scene = shipped("z-fighting", SIZE)?;
+    scene.hidden_surfaces = HiddenSurfaces::ZBuffer(DepthBuffer { bits, source });
+    Ok(scene.frame()?)
 }
 
 /// Draws a star a little above a floor: with too few bits both have one depth.
 fn fighting(content: &mut FigureContent) -> Result {
-    let scene = far_away()?;
     content.text(
         "A star a little above a floor, far from the eye. Where few bits round both depths to one \
          number, the floor shows through: z-fighting.",
     );
-    let mut pictures = Vec::new();
-    for (_, bits) in BITS {
-        let scene = with(&scene, bits, DepthSource::Interpolated);
-        pictures.push(draw(&scene.frame()?, "flat")?);
+    let (mut pictures, mut panels) = (Vec::new(), Vec::new());
+    for (count, bits) in BITS {
+        let picture = draw(&far_away(bits, DepthSource::Interpolated)?, "flat")?;
+        panels.push((format!("{count} bits"), stored(&picture)));
+        pictures.push(picture);
     }
-    let panels = BITS.iter().zip(&pictures);
-    content.pictures(
-        3,
-        "A star above a floor, depth",
-        panels.map(|((bits, _), picture)| (format!("{bits} bits"), stored(picture))),
-    );
+    content.pictures(3, "A star above a floor, depth", panels);
     for ((bits, _), picture) in BITS.iter().zip(&pictures[..2]) {
         let wrong = differing(picture, &pictures[2]);
         let enough = if wrong > 0 { "too few" } else { "enough" };
         content.adds(
-            format!("fighting-{bits}"),
-            format!("pixels that {bits} bits show differently than 32"),
+            &format!("fighting-{bits} | pixels that {bits} bits show differently than 32"),
             (wrong as f64, "pixels", true),
-            format!("{bits} bits are {enough} here."),
+            &format!("{bits} bits are {enough} here."),
         );
     }
     Ok(())
@@ -70,8 +55,7 @@ fn fighting(content: &mut FigureContent) -> Result {
 
 /// Compares depth interpolated between corners with depth computed at each sample.
 fn ways(content: &mut FigureContent) -> Result {
-    let scene = far_away()?;
-    let by = |source| Ok::<_, FigureError>(depth(&with(&scene, BITS[2].1, source).frame()?));
+    let by = |source| far_away(DepthBits::ThirtyTwo, source).map(|frame| depth(&frame));
     let (corners, samples) = (by(DepthSource::Interpolated)?, by(DepthSource::PerSample)?);
     let both = corners.pixels().iter().zip(samples.pixels());
     let both = both.filter(|(a, b)| a.is_finite() && b.is_finite());
@@ -80,8 +64,7 @@ fn ways(content: &mut FigureContent) -> Result {
     // ways; the second scales 1/w by f/(f − n), which is close to 1.
     let bound = 4.0 * (f64::from(SIZE[0] + SIZE[1]) + 4.0) / f64::from(1 << 25);
     content.confirms(
-        "ways",
-        "largest difference of depth by both ways",
+        "ways | largest difference of depth by both ways",
         (difference, "", difference <= bound),
         "Both ways agree to rounding, as 1/z is linear on the screen.",
     );
@@ -96,36 +79,31 @@ fn lecture_depth(distance: f64, near: f64, far: f64) -> f64 {
 }
 
 fn curve(content: &mut FigureContent) -> Result {
-    let Camera { near, far, .. } = far_away()?.camera;
+    let Camera { near, far, .. } = shipped("z-fighting", SIZE)?.camera;
+    let reach = written(far);
     let curve = |near: f64| {
         let distances = (0..=60).map(|i| near * libm::pow(far / near, f64::from(i) / 60.0));
         let depth = |distance| 0.5 + 0.5 * lecture_depth(distance, near, far);
         Series::sampled(format!("near = {}", written(near)), distances, depth)
     };
+    let distance = log("distance from the eye");
     content.plot(Plot::new(
         "Depth over distance",
-        [
-            log("distance from the eye"),
-            linear("depth, 0 near to 1 far"),
-        ],
+        [distance, linear("depth, 0 near to 1 far")],
         [near, 5.0 * near, 25.0 * near].map(curve),
         format!(
-            "L5's formula, mapped to 0..1, for a far plane at {}. Only the order of z is \
+            "L5's formula, mapped to 0..1, for a far plane at {reach}. Only the order of z is \
              \"preserved after projection\": a nearer near plane leaves fewer levels for far \
-             surfaces.",
-            written(far)
+             surfaces."
         ),
     ));
     let half = 0.5 + 0.5 * lecture_depth(2.0 * near, near, far);
+    let (twice, share) = (written(2.0 * near), 100.0 * half);
     content.adds(
-        "half",
-        "part of the depth range used up at twice the near distance",
+        "half | part of the depth range used up at twice the near distance",
         (half, "", true),
-        format!(
-            "Of distances up to {}, those below {} take {:.0} % of the levels.",
-            written(far),
-            written(2.0 * near),
-            100.0 * half
+        &format!(
+            "Of distances up to {reach}, those below {twice} take {share:.0} % of the levels."
         ),
     );
     let at = |i: u32| lecture_depth(near + (far - near) * f64::from(i) / 1000.0, near, far);
@@ -133,8 +111,7 @@ fn curve(content: &mut FigureContent) -> Result {
     let middle = lecture_depth(0.5 * far, near, far);
     let moved = (middle - (0.5 * far - near) / (far - near) * 2.0 + 1.0).abs();
     content.found(
-        "preserved",
-        "distance of half-way to the far plane from half-way in depth, of 2",
+        "preserved | distance of half-way to the far plane from half-way in depth, of 2",
         (moved, "", true),
         Agreement::if_holds(moved < 1e-3),
         match (moved < 1e-3, is_ordered) {

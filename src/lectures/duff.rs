@@ -5,12 +5,7 @@
 //! says that there are surfaces for which this is so. The example and its closed form are derived
 //! here.
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw_each, frame, jump,
-    linear, profile, stored, toward, written,
-};
-use crate::picture::LinearPicture;
-use alloc::format;
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "duff",
@@ -71,60 +66,46 @@ fn curves(content: &mut FigureContent) -> Result {
          slower at the ends of a facet, the more so the larger its angle: there the rates differ.",
     ));
     let pictures = circle(ANGLES)?;
-    content.pictures(
-        2,
-        "Two facets",
-        NAMES.into_iter().zip(pictures.each_ref().map(stored)),
-    );
+    let panels = NAMES.into_iter().zip(pictures.each_ref().map(stored));
+    content.pictures(2, "Two facets", panels);
     let seen = (JOINT - PIXELS * left) as usize..(JOINT + PIXELS * right) as usize;
     let curve = |(name, picture): (&str, &LinearPicture)| {
         let line = profile(picture, MIDDLE);
         Series::new(name, seen.clone().map(|i| (i as f64 + 0.5, line[i])))
     };
-    content.plot(
-        Plot::new(
-            "Intensity over two facets of one circle",
-            [linear("column, pixels"), linear("intensity, grey levels")],
-            NAMES.into_iter().zip(&pictures).map(curve),
-            "Slerp Phong follows the circle itself: it turns at a uniform rate on both sides.",
-        )
-        .marked([JOINT]),
+    let plot = Plot::new(
+        "Intensity over two facets of one circle",
+        [linear("column, pixels"), linear("intensity, grey levels")],
+        NAMES.into_iter().zip(&pictures).map(curve),
+        "Slerp Phong follows the circle itself: it turns at a uniform rate on both sides.",
     );
+    content.plot(plot.marked([JOINT]));
     Ok(())
 }
 
 fn jumps(content: &mut FigureContent) -> Result {
     let [gouraud, naive, slerp] = slope_jumps(ANGLES)?;
+    let times = written(naive.abs() / gouraud.abs());
     content.contradicts(
-        "naive-phong",
-        "naive Phong: jump of the slope at the joint",
+        "naive-phong | naive Phong: jump of the slope at the joint",
         (naive, "grey levels a pixel", naive.abs() > gouraud.abs()),
-        format!(
-            "Phong shading is worse here: {} times the jump of Gouraud shading.",
-            written(naive.abs() / gouraud.abs())
-        ),
+        &format!("Phong shading is worse here: {times} times the jump of Gouraud shading."),
     );
     content.adds(
-        "gouraud",
-        "Gouraud: jump of the slope at the joint",
+        "gouraud | Gouraud: jump of the slope at the joint",
         (gouraud, "grey levels a pixel", true),
         "Both chords are about equally steep, as the left facet reaches beyond the terminator.",
     );
+    let has_none = slerp.abs() < 0.01 * naive.abs();
     content.adds(
-        "slerp-phong",
-        "slerp Phong: jump of the slope at the joint",
-        (
-            slerp,
-            "grey levels a pixel",
-            slerp.abs() < 0.01 * naive.abs(),
-        ),
+        "slerp-phong | slerp Phong: jump of the slope at the joint",
+        (slerp, "grey levels a pixel", has_none),
         "None: uniform speed follows the circle.",
     );
     let expected = closed_form(ANGLES);
     let is_near = (naive - expected).abs() < 0.02 * expected.abs();
     content.adds(
-        "closed-form",
-        "naive Phong: the same by 255 sin θ (sin φ₂ / l₂ − sin φ₁ / l₁)",
+        "closed-form | naive Phong: the same by 255 sin θ (sin φ₂ / l₂ − sin φ₁ / l₁)",
         (expected, "grey levels a pixel", is_near),
         "The engine draws what the formula says.",
     );

@@ -1,16 +1,9 @@
 //! The exercises of Lecture 21: a table of sines read between its lines, and e^t by one
 //! multiplication a pixel.
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, ScreenCorner, ScreenPolygon, Series, draw, frame,
-    grey, largest, linear, log, stored, written,
-};
+use super::prelude::*;
 use crate::number::{Counter, Num};
-use crate::picture::LinearPicture;
 use crate::raster::depth;
-use crate::shading::Walk;
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "exercises",
@@ -32,22 +25,19 @@ fn sine(content: &mut FigureContent) -> Result {
     let found = f64::from(picture.get(3, 1)[0]);
     let truth = libm::sin(24.3_f64.to_radians());
     let [low, high] = TABLE;
+    let [error, half] = [truth - found, 0.5e-5].map(written);
     content.text(format!(
         "Exercise 1. Gouraud's method shades a span of ten pixels from {low} (sin 24°) to {high} \
          (sin 25°). Its fourth pixel, 0.3 of the way, holds {found:.6}; sin 24.3° is {truth:.6}. \
-         The error is {}; half a unit of the table's last decimal is {}.",
-        written(truth - found),
-        written(0.5e-5)
+         The error is {error}; half a unit of the table's last decimal is {half}.",
     ));
     content.confirms(
-        "sine",
-        "sin 24.3° by linear interpolation",
+        "sine | sin 24.3° by linear interpolation",
         (found, "", (found - truth).abs() < 1.5e-5),
         "The estimate is as good as the table that it is read from.",
     );
     content.adds(
-        "sine-error",
-        "its distance from the sine",
+        "sine-error | its distance from the sine",
         (truth - found, "", true),
         "A chord lies below the sine, and the table is rounded.",
     );
@@ -93,8 +83,7 @@ fn exponential(content: &mut FigureContent) -> Result {
     let others = counts.additions + counts.divisions + counts.powers + counts.trigonometric;
     let all = counts.multiplications + others;
     content.confirms(
-        "multiplications",
-        "operations a pixel of e to the t",
+        "multiplications | operations a pixel of e to the t",
         (all, "", all == 1 && counts.multiplications == 1),
         "One multiplication and nothing else, counted.",
     );
@@ -109,6 +98,7 @@ fn exponential(content: &mut FigureContent) -> Result {
     let most = largest(errors.iter().flat_map(|(_, errors)| errors.iter().copied()));
     // Each of the products is rounded once, and the factor, rounded once, is in each of them.
     let bound = 2.0 * (PIXELS - 1) as f64 / (1 << 24) as f64;
+    let [allowed, measured] = [bound, most].map(written);
     content.plot(Plot::new(
         "Exponential by one multiplication a pixel: relative error over a span",
         [linear("pixel"), log("relative error")],
@@ -118,14 +108,11 @@ fn exponential(content: &mut FigureContent) -> Result {
         }),
         format!(
             "In f32, over {PIXELS} pixels. Two roundings of 2⁻²⁴ a pixel, of the product and of \
-             its factor, allow {} at the end; {} was the largest.",
-            written(bound),
-            written(most)
+             its factor, allow {allowed} at the end; {measured} was the largest."
         ),
     ));
     content.confirms(
-        "drift",
-        "largest relative error over 1024 pixels",
+        "drift | largest relative error over 1024 pixels",
         (most, "", most <= bound),
         "Within two roundings a pixel: far below a grey level.",
     );
@@ -173,17 +160,13 @@ fn fog(content: &mut FigureContent) -> Result {
          two pictures differ by at most {} grey levels.",
         written(levels)
     ));
-    content.pictures(
-        2,
+    content.row(
         "A tilted plane that fades into white fog",
-        [
-            ("one multiplication a pixel", stored(&stepped)),
-            ("one exponential a pixel", stored(&exact)),
-        ],
+        "one multiplication a pixel | one exponential a pixel",
+        [&stepped, &exact].map(stored),
     );
     content.confirms(
-        "fog",
-        "largest difference of the fog by steps from that by exponentials",
+        "fog | largest difference of the fog by steps from that by exponentials",
         (levels, "grey levels", levels < 0.5),
         "The pictures cannot be told apart.",
     );

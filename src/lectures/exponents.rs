@@ -1,13 +1,7 @@
 //! The exponent of the highlight: cosine powers, spheres for k_s and p, and N·H against R·V (L5;
 //! CS171 2, Figure 7).
 
-use super::{
-    Figure, FigureContent, Plot, Result, Series, draw, grey, linear, scene, share, stored, written,
-};
-use crate::picture::LinearPicture;
-use crate::scene::{Scene, SpecularModel};
-use alloc::{format, vec::Vec};
-use glam::DVec3;
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "exponents",
@@ -32,23 +26,16 @@ fn powers(content: &mut FigureContent) -> Result {
         Series::sampled(format!("p = {p}"), (0..=90).map(f64::from), power)
     };
     let [widest, narrowest] = [1.0, 512.0].map(half_width);
+    let [wide, narrow] = [widest, narrowest].map(written);
     content.plot(Plot::new(
         "Cosine powers",
-        [
-            linear("angle between R and V, degrees"),
-            linear("highlight"),
-        ],
+        ["angle between R and V, degrees", "highlight"].map(linear),
         EXPONENTS.map(curve),
-        format!(
-            "Half of the height is left at {}° for p = 1 and at {}° for p = 512.",
-            written(widest),
-            written(narrowest)
-        ),
+        format!("Half of the height is left at {wide}° for p = 1 and at {narrow}° for p = 512."),
     ));
     let widths = EXPONENTS.map(|p| half_width(p.into()));
     content.confirms(
-        "narrows",
-        "half width at p = 1 over that at p = 512",
+        "narrows | half width at p = 1 over that at p = 512",
         (widest / narrowest, "", widths.is_sorted_by(|a, b| a > b)),
         "Increasing p narrows the lobe.",
     );
@@ -87,8 +74,7 @@ fn grid(content: &mut FigureContent) -> Result {
     let (matte, shiny) = (strongest[0], strongest[3]);
     let (low, high) = (EXPONENTS[0], EXPONENTS[3]);
     content.contradicts(
-        "shiny",
-        format!("share of the sphere in the highlight, p = {low} over p = {high}"),
+        &format!("shiny | share of the sphere in the highlight, p = {low} over p = {high}"),
         (matte / shiny.max(1e-4), "", matte >= shiny),
         "Very shiny surfaces have a large p, as Figure 7 of CS171 shows: its text says close to 1.",
     );
@@ -118,10 +104,9 @@ fn measured(exponent: f32, specular: SpecularModel) -> Result<(f64, Vec<(f64, f6
     // Between the last pixel over a half and the next one, on the line through both.
     let last = points.iter().rposition(|p| p.1 >= 0.5).unwrap_or(0);
     let (a, b) = (points[last], points[(last + 1).min(points.len() - 1)]);
-    let part = if a.1 > b.1 {
-        (a.1 - 0.5) / (a.1 - b.1)
-    } else {
-        0.0
+    let part = match a.1 > b.1 {
+        true => (a.1 - 0.5) / (a.1 - b.1),
+        false => 0.0,
     };
     Ok((a.0 + part * (b.0 - a.0), points))
 }
@@ -154,22 +139,19 @@ fn half_vector(content: &mut FigureContent) -> Result {
     let [phong, same, converted] = [0, 1, 2].map(|i| widths[i]);
     // Half of the angle, so that the width doubles where cos^p is a Gauss curve.
     content.contradicts(
-        "same-exponent",
-        "half width of N·H over that of R·V, same exponent",
+        "same-exponent | half width of N·H over that of R·V, same exponent",
         (same / phong, "", same / phong > 1.5),
         "CS171 says that the angle at H \"can also be used\": not with the same exponent.",
     );
     let ratio = converted / phong;
     content.adds(
-        "converted",
-        "half width of N·H with four times the exponent, over that of R·V",
+        "converted | half width of N·H with four times the exponent, over that of R·V",
         (ratio, "", (ratio - 1.0).abs() < 0.05),
         "Four times the exponent makes up for it.",
     );
     let expected = half_width(20.0) / 2.0;
     content.adds(
-        "half-width",
-        "half width of R·V for p = 20 on the sphere",
+        "half-width | half width of R·V for p = 20 on the sphere",
         (phong, "degrees", (phong - expected).abs() < 0.1),
         "Half of the half width of cos^20, as the normal turns half as fast as R.",
     );

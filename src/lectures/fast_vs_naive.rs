@@ -1,12 +1,7 @@
 //! Fast Phong against naive Phong: the same picture for fewer operations (L21 4.2–4.4).
 
-use super::{
-    Figure, FigureContent, FigureError, Result, draw_each, fitted, map_caption, stored, written,
-};
-use crate::compare::metrics::{compare, difference_map};
-use crate::number::Counts;
-use crate::shading::{METHODS, OperationCounts, Variant};
-use alloc::{format, vec::Vec};
+use super::prelude::*;
+use crate::shading::{METHODS, OperationCounts};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "fast-vs-naive",
@@ -40,7 +35,7 @@ fn meshes(content: &mut FigureContent) -> Result {
         let cells = errors.map(|error| written(255.0 * error)).join(" | ");
         rows.push(format!("{mesh} | {} | {cells}", frame.polygons().len()));
         fewest = fewest.max(255.0 * by_default.max);
-        by_one.push((255.0 * with_one.max, mesh, naive, one));
+        by_one.push((255.0 * with_one.max, mesh, [naive, one]));
     }
     content.table(
         "difference from naive Phong, levels | polygons | fewest steps: max | fewest steps: RMS \
@@ -48,8 +43,8 @@ fn meshes(content: &mut FigureContent) -> Result {
         rows,
     );
     content.confirms(
-        "default",
-        "fast Phong with the fewest sufficient steps: largest difference from naive Phong",
+        "default | fast Phong with the fewest sufficient steps: largest difference from naive \
+         Phong",
         (fewest, "grey levels", fewest <= 1.0),
         "No pixel differs by more than a grey level.",
     );
@@ -59,35 +54,23 @@ fn meshes(content: &mut FigureContent) -> Result {
     };
     let coarse = by_one[0].0;
     content.adds(
-        "one-step-sphere",
-        "fast Phong with 1 step: largest difference on the coarse sphere",
+        "one-step-sphere | fast Phong with 1 step: largest difference on the coarse sphere",
         (coarse, "grey levels", true),
         verdict(coarse),
     );
     by_one.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let (error, mesh, naive, one) = &by_one[0];
+    let (error, mesh, pictures) = &by_one[0];
+    let head = "one-step | fast Phong with 1 step: largest difference over all meshes, on";
     content.adds(
-        "one-step",
-        format!("fast Phong with 1 step: largest difference over all meshes, on {mesh}"),
+        &format!("{head} {mesh}"),
         (*error, "grey levels", true),
         verdict(*error),
     );
     content.text(format!(
         "The mesh on which one step is farthest from naive Phong: {mesh}."
     ));
-    content.pictures(
-        3,
-        mesh,
-        [
-            ("naive Phong".into(), stored(naive)),
-            ("fast Phong, 1 step".into(), stored(one)),
-            (
-                map_caption(MAP_SCALE),
-                difference_map(naive, one, MAP_SCALE)?,
-            ),
-        ],
-    );
-    Ok(())
+    let captions = "naive Phong | fast Phong, 1 step";
+    content.compared(mesh, captions, pictures, MAP_SCALE)
 }
 
 /// Counts the operations a pixel for one light, of walk and shade.
@@ -100,12 +83,10 @@ fn operations(content: &mut FigureContent) -> Result {
     let rows = METHODS.iter().map(|entry| {
         let OperationCounts { walk, shade, .. } = entry.variant().operations(1);
         let cells = [walk, shade].map(|c| {
-            format!(
-                "{} | {} | {} | {}",
-                c.additions, c.multiplications, c.divisions, c.roots
-            )
+            let counts = [c.additions, c.multiplications, c.divisions, c.roots];
+            counts.map(|count| format!(" | {count}")).concat()
         });
-        format!("{} | {}", entry.info.name, cells.join(" | "))
+        format!("{}{}", entry.info.name, cells.concat())
     });
     content.table(
         "method | walk: + − | walk: × | walk: ÷ | walk: √ | shade: + − | shade: × | shade: ÷ \
@@ -116,41 +97,32 @@ fn operations(content: &mut FigureContent) -> Result {
     let (naive, fast) = (count("naive-phong")?, count("fast-phong")?);
     let roots = |counts: &OperationCounts| counts.walk.roots + counts.shade.roots;
     content.confirms(
-        "roots-naive",
-        "naive Phong: square roots a pixel",
+        "roots-naive | naive Phong: square roots a pixel",
         (roots(&naive), "", roots(&naive) == 1),
         "One, to normalise the interpolated normal.",
     );
     content.confirms(
-        "roots-fast",
-        "fast Phong: square roots a pixel",
+        "roots-fast | fast Phong: square roots a pixel",
         (roots(&fast), "", roots(&fast) == 0),
         "None: Newton\u{2019}s steps take their place.",
     );
     content.confirms(
-        "walk-naive",
-        "naive Phong: additions to step the normal (4.2)",
+        "walk-naive | naive Phong: additions to step the normal (4.2)",
         (naive.walk.additions, "", naive.walk.additions == 3),
         "Three additions a pixel.",
     );
     let gouraud = count("gouraud")?.walk.additions;
     content.confirms(
-        "walk-gouraud",
-        "Gouraud: additions a pixel, for three channels (3.6)",
+        "walk-gouraud | Gouraud: additions a pixel, for three channels (3.6)",
         (gouraud, "", gouraud == 3),
         "One addition a channel.",
     );
-    let Counts {
-        additions,
-        multiplications,
-        ..
-    } = count("slerp-phong")?.walk;
+    let slerp = count("slerp-phong")?.walk;
     // One addition and two multiplications each make J and K of the sines (4.8).
-    let is_as_said = (additions, multiplications) == (4 + 2, 8 + 4);
+    let is_as_said = (slerp.additions, slerp.multiplications) == (4 + 2, 8 + 4);
     content.confirms(
-        "walk-slerp",
-        "slerp Phong: additions and multiplications to step J and K (4.8)–(4.12)",
-        (additions + multiplications, "", is_as_said),
+        "walk-slerp | slerp Phong: additions and multiplications to step J and K (4.8)–(4.12)",
+        (slerp.additions + slerp.multiplications, "", is_as_said),
         "6 additions, 12 multiplications: 4 and 8 for the sines, as the lecture counts, 1 and 2 \
          for each of J and K.",
     );

@@ -9,10 +9,11 @@ use crate::mesh::builtin::builtin;
 use crate::mesh::{Material, MeshBuilder};
 use crate::picture::encoding::store;
 use crate::picture::{Encoding, LinearPicture, Picture8};
+use crate::reference::{self, Model};
 use crate::scene::input::{load, resolve};
 use crate::scene::{Camera, Culling, HiddenSurfaces, Light, Lighting, Projection, Scene};
 use crate::shading::Variant;
-use alloc::{format, string::String, vec, vec::Vec};
+use alloc::{vec, vec::Vec};
 use glam::DVec3;
 
 /// A corner of a polygon in screen space.
@@ -218,14 +219,12 @@ pub(super) fn draw_each<const N: usize>(
     Ok(core::array::from_fn(|i| variants[i].render_linear(frame)))
 }
 
+/// Draws a frame by the Phong reference.
+pub(super) fn truth(frame: &Frame) -> LinearPicture {
+    reference::render(frame, Model::Phong).to_linear()
+}
+
 /// Stores a picture in eight bits, without a transfer function.
 pub(super) fn stored(picture: &LinearPicture) -> Picture8 {
     store(picture, Encoding::Linear)
-}
-
-/// Returns the caption of a difference map whose yellow end stands for `levels`.
-pub(super) fn map_caption(levels: f32) -> String {
-    format!(
-        "their difference: purple to yellow is up to {levels} grey levels, black none, magenta more"
-    )
 }

@@ -1,11 +1,7 @@
 //! Shading frequency against mesh resolution: faces, vertices, pixels, on six spheres (L5).
 
-use super::{Figure, FigureContent, Plot, Result, Series, draw, fitted, log, max_and_rms, stored};
+use super::prelude::*;
 use crate::compare::metrics::{Difference, compare_where};
-use crate::frame::Frame;
-use crate::reference::{self, Model};
-use crate::scene::Scene;
-use alloc::{format, string::String, vec::Vec};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "frequency",
@@ -34,20 +30,15 @@ fn sphere(rings: u32) -> Result<Frame> {
         let mesh = format!("sphere?rings={rings}&segments={}", 2 * rings);
         fitted(&mesh, [SIDE; 2])
     };
-    Ok(Scene {
-        objects: sphere(rings)?.objects,
-        ..sphere(FINEST)?
-    }
-    .frame()?)
+    let mut scene = sphere(FINEST)?;
+    scene.objects = sphere(rings)?.objects;
+    Ok(scene.frame()?)
 }
 
 fn spheres(content: &mut FigureContent) -> Result {
     let finest = sphere(FINEST)?;
-    let truth = reference::render(&finest, Model::Phong).to_linear();
-    let frames = RINGS
-        .map(sphere)
-        .into_iter()
-        .collect::<Result<Vec<_>, _>>()?;
+    let truth = truth(&finest);
+    let frames: Vec<Frame> = RINGS.into_iter().map(sphere).collect::<Result<_>>()?;
     content.text(format!(
         "One sphere in six resolutions, shaded once a face, a vertex, and a pixel. Errors are \
          against the Phong reference on {} polygons, over pixels that both cover.",
@@ -75,18 +66,12 @@ fn spheres(content: &mut FigureContent) -> Result {
 fn numbers(content: &mut FigureContent, errors: &[Vec<Difference>]) {
     let polygons = RINGS.map(|rings| 2 * rings * rings);
     let rms = |i: usize, k: usize| 255.0 * errors[i][k].rms;
-    let rows = FREQUENCIES
-        .iter()
-        .zip(errors)
-        .map(|((_, frequency), errors)| {
-            let cells: String = errors.iter().map(max_and_rms).collect();
-            format!("{frequency}{cells}")
-        });
-    let head = polygons.map(|polygons| format!(" | {polygons}"));
-    content.table(
-        &format!("max / RMS in levels, by polygons{}", head.concat()),
-        rows,
-    );
+    let cells = |errors: &[Difference]| errors.iter().map(max_and_rms).collect::<String>();
+    let rows = FREQUENCIES.iter().zip(errors);
+    let rows = rows.map(|((_, frequency), errors)| format!("{frequency}{}", cells(errors)));
+    let columns = polygons.map(|polygons| format!(" | {polygons}"));
+    let head = format!("max / RMS in levels, by polygons{}", columns.concat());
+    content.table(&head, rows);
     let curve = |i: usize| {
         let points = (0..RINGS.len()).map(|k| (f64::from(polygons[k]), rms(i, k)));
         Series::new(format!("once a {}", FREQUENCIES[i].1), points)
@@ -99,24 +84,21 @@ fn numbers(content: &mut FigureContent, errors: &[Vec<Difference>]) {
     ));
     for (i, (_, frequency)) in FREQUENCIES.iter().enumerate() {
         for (end, k) in [("coarsest", 0), ("finest", LAST)] {
-            let key = format!("{frequency}-{end}");
             let label = format!("once a {frequency}, {} polygons: RMS error", polygons[k]);
-            let rms_here = rms(i, k);
+            let (head, here) = (format!("{frequency}-{end} | {label}"), rms(i, k));
             if i == 0 {
-                let value = (rms_here, "grey levels", rms_here > 1.0);
-                content.adds(key, label, value, "Visible facets.");
+                content.adds(&head, (here, "grey levels", here > 1.0), "Visible facets.");
             } else {
-                let value = (rms_here, "grey levels", rms_here < rms(i - 1, k));
+                let is_less = here < rms(i - 1, k);
                 let says = format!("Less than once a {}.", FREQUENCIES[i - 1].1);
-                content.confirms(key, label, value, says);
+                content.confirms(&head, (here, "grey levels", is_less), &says);
             }
         }
     }
     let (many, few) = (polygons[LAST], polygons[1]);
     let (fine_faces, coarse_pixels) = (errors[0][LAST].rms, errors[2][1].rms);
     content.adds(
-        "trade",
-        format!("faces of {many} polygons by pixels of {few}: ratio of RMS errors"),
+        &format!("trade | faces of {many} polygons by pixels of {few}: ratio of RMS errors"),
         (fine_faces / coarse_pixels, "", fine_faces <= coarse_pixels),
         "Many faces make up for a low shading frequency.",
     );

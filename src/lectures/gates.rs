@@ -1,12 +1,6 @@
 //! Highlights from behind, and colours clamped at vertices or at pixels (CS171 2; L5; L21 3).
 
-use super::{Figure, FigureContent, Result, draw, draw_each, grey, levels, percent, scene, stored};
-use crate::compare::metrics::compare;
-use crate::mesh::Material;
-use crate::picture::LinearPicture;
-use crate::reference::{self, Model};
-use crate::scene::{SpecularGate, SpecularModel};
-use glam::DVec3;
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "gates",
@@ -53,14 +47,10 @@ fn gates(content: &mut FigureContent) -> Result {
     let gated = torus(SHINY, SpecularGate::Gated)?;
     let ungated = torus(SHINY, SpecularGate::Ungated)?;
     let weighted = torus(SHINY, SpecularGate::Weighted)?;
-    content.pictures(
-        3,
+    content.row(
         "A torus lit from behind, highlights",
-        [
-            ("none where L·N ≤ 0 (default)", stored(&gated)),
-            ("as printed in CS171 and L5", stored(&ungated)),
-            ("weighted by L·N", stored(&weighted)),
-        ],
+        "none where L·N ≤ 0 (default) | as printed in CS171 and L5 | weighted by L·N",
+        [&gated, &ungated, &weighted].map(stored),
     );
     // A surface that has no more than ambient light is turned away from the light.
     let matte = torus(MATTE, SpecularGate::Gated)?;
@@ -73,25 +63,21 @@ fn gates(content: &mut FigureContent) -> Result {
     };
     let from_behind = behind(&ungated);
     content.contradicts(
-        "behind",
-        "share of the surface turned away from the light that shines, as printed",
+        "behind | share of the surface turned away from the light that shines, as printed",
         (from_behind, "%", from_behind > 1.0),
         "Light from behind shines through.",
     );
     let none = behind(&gated).max(behind(&weighted));
     content.adds(
-        "behind-gated",
-        "the same with a gate or a weight",
+        "behind-gated | the same with a gate or a weight",
         (none, "%", none == 0.0),
         "None.",
     );
-    let (line, no_line) = (
-        largest_step(&gated, &weighted),
-        largest_step(&weighted, &gated),
-    );
+    let line = largest_step(&gated, &weighted);
+    let no_line = largest_step(&weighted, &gated);
     content.adds(
-        "line",
-        "largest step between neighbouring pixels that the gate makes and the weight does not",
+        "line | largest step between neighbouring pixels that the gate makes and the weight does \
+         not",
         (line, "grey levels", line > 2.0 * no_line),
         "The gate ends highlights in a hard line; the weight does not.",
     );
@@ -104,33 +90,27 @@ fn clamping(content: &mut FigureContent) -> Result {
     let bright = grey(0.2, 1.0, 0.6, 10.0);
     let sphere = scene("sphere?rings=8&segments=16", bright, light, 1.1, [112, 112])?;
     let frame = sphere.frame()?;
-    let truth = reference::render(&frame, Model::Phong).to_linear();
+    let truth = truth(&frame);
     let [clamped, separate] = draw_each(&frame, ["gouraud", "gouraud-separate"])?;
     content.text(
         "An overexposed sphere: Gouraud's method clamped at the vertices, clamped at the pixels, \
          and shading at every pixel.",
     );
-    content.pictures(
-        3,
+    content.row(
         "An overexposed sphere",
-        [
-            ("clamped at the vertices", stored(&clamped)),
-            ("clamped at the pixels", stored(&separate)),
-            ("lit at each pixel", stored(&truth)),
-        ],
+        "clamped at the vertices | clamped at the pixels | lit at each pixel",
+        [&clamped, &separate, &truth].map(stored),
     );
     let difference = levels(&clamped, &separate);
     content.adds(
-        "clamped",
-        "clamped at vertices against clamped at pixels, largest difference",
+        "clamped | clamped at vertices against clamped at pixels, largest difference",
         (difference, "grey levels", difference > 1.0),
         "Clamping and interpolating cannot be exchanged.",
     );
     let (first, last) = (compare(&truth, &clamped)?, compare(&truth, &separate)?);
     let ratio = (255.0 * first.rms) / (255.0 * last.rms);
     content.adds(
-        "nearer",
-        "RMS error of clamping at vertices over that of clamping at pixels",
+        "nearer | RMS error of clamping at vertices over that of clamping at pixels",
         (ratio, "", ratio > 1.0),
         "Colours that are clamped last are nearer to shading at every pixel.",
     );

@@ -1,17 +1,8 @@
 //! Ambient, diffuse and specular light apart and summed (L5, L21 2.1), and Lambert's law on a cube
 //! that turns.
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, Series, draw, grey, largest, levels, linear, scene,
-    stored, written,
-};
-use crate::frame::Frame;
-use crate::mesh::Material;
-use crate::mesh::vertex_normals::NormalSource;
-use crate::picture::LinearPicture;
+use super::prelude::*;
 use crate::raster::polygon_numbers;
-use alloc::{format, vec::Vec};
-use glam::{DAffine3, DVec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "illumination",
@@ -39,15 +30,10 @@ fn terms(content: &mut FigureContent) -> Result {
     content.text(
         "The three terms of equation 2.1, each alone and together, on one sphere in one light.",
     );
-    content.pictures(
-        4,
+    content.row(
         "A sphere",
-        [
-            ("ambient", stored(&ambient)),
-            ("diffuse", stored(&diffuse)),
-            ("specular", stored(&specular)),
-            ("all three", stored(&all)),
-        ],
+        "ambient | diffuse | specular | all three",
+        [&ambient, &diffuse, &specular, &all].map(stored),
     );
     let mut sum = ambient;
     let others = diffuse.pixels().iter().zip(specular.pixels());
@@ -56,8 +42,7 @@ fn terms(content: &mut FigureContent) -> Result {
     }
     let difference = levels(&sum, &all);
     content.confirms(
-        "sum",
-        "three pictures added up against one with all terms, largest difference",
+        "sum | three pictures added up against one with all terms, largest difference",
         (difference, "grey levels", difference < 0.01),
         "The terms add, to rounding.",
     );
@@ -74,14 +59,10 @@ fn diffuse_series(content: &mut FigureContent) -> Result {
         panels.push((format!("k_d = {kd}"), stored(&picture)));
     }
     content.pictures(4, "A sphere in diffuse light", panels);
-    let change = largest(
-        ratios
-            .iter()
-            .map(|ratio| f64::from((ratio / ratios[0] - 1.0).abs())),
-    );
+    let change = |ratio: &f32| f64::from((ratio / ratios[0] - 1.0).abs());
+    let change = largest(ratios.iter().map(change));
     content.confirms(
-        "kd",
-        "brightest pixel over k_d: largest relative change along the series",
+        "kd | brightest pixel over k_d: largest relative change along the series",
         (change, "", change < 1e-6),
         "Diffuse light is proportional to k_d.",
     );
@@ -141,32 +122,20 @@ fn cube(content: &mut FigureContent) -> Result {
         ],
         "Points are measured on the picture, the curve is the cosine.",
     ));
-    let at = |degrees| {
-        measured
-            .iter()
-            .find(|m| m.0 == degrees)
-            .map_or(f64::NAN, |m| m.1)
-    };
-    let ratio = at(60.0) / at(0.0);
+    let at = |degrees| measured.iter().find(|(turn, _)| *turn == degrees);
+    let [half, whole] = [60.0, 0.0].map(|degrees| at(degrees).map_or(f64::NAN, |m| m.1));
+    let ratio = half / whole;
     content.confirms(
-        "cube",
-        "light on the top face at 60°, over that at 0°",
+        "cube | light on the top face at 60°, over that at 0°",
         (ratio, "", (ratio - 0.5).abs() < 1e-6),
         "Half the light, as the lecture says.",
     );
-    let worst = largest(
-        measured
-            .iter()
-            .map(|(degrees, light)| (light - cosine(*degrees)).abs()),
-    );
+    let error = |(degrees, light): &(f64, f64)| (light - cosine(*degrees)).abs();
+    let (count, worst) = (measured.len(), largest(measured.iter().map(error)));
     content.confirms(
-        "cosine",
-        format!(
-            "largest distance from the cosine at {} angles",
-            measured.len()
-        ),
+        &format!("cosine | largest distance from the cosine at {count} angles"),
         (worst, "", worst < 1e-6),
-        format!("The cosine law, to rounding ({}).", written(worst)),
+        &format!("The cosine law, to rounding ({}).", written(worst)),
     );
     Ok(())
 }

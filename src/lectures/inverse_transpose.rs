@@ -1,17 +1,11 @@
 //! Normals under a transform that stretches: by the matrix of the points, and by its inverse
 //! transpose (CS171 2, Figure 4).
 
-use super::{
-    Figure, FigureContent, Plot, Result, Series, angle, draw, grey, largest, levels, linear, scene,
-    stored, written,
-};
+use super::prelude::*;
 use crate::mesh::builtin::builtin;
-use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{GivenNormals, MeshBuilder, PolygonMesh};
-use crate::picture::LinearPicture;
 use crate::scene::Object;
-use alloc::{format, sync::Arc, vec};
-use glam::{DAffine3, DVec3};
+use alloc::sync::Arc;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "inverse-transpose",
@@ -39,10 +33,7 @@ fn ellipse(content: &mut FigureContent) -> Result {
     let degrees = || (0..=72).map(|i| 5.0 * f64::from(i));
     content.plot(Plot::new(
         format!("Normals around a circle stretched by {STRETCH}: angle from the true ones"),
-        [
-            linear("position on the circle, degrees"),
-            linear("error, degrees"),
-        ],
+        ["position on the circle, degrees", "error, degrees"].map(linear),
         [
             Series::sampled("by the matrix of the points", degrees(), by_matrix),
             Series::sampled("by its inverse transpose", degrees(), by_inverse_transpose),
@@ -51,16 +42,14 @@ fn ellipse(content: &mut FigureContent) -> Result {
     ));
     let wrong = largest(degrees().map(by_matrix));
     content.confirms(
-        "matrix",
-        "largest error of normals by the matrix of the points",
+        "matrix | largest error of normals by the matrix of the points",
         (wrong, "degrees", wrong > 1.0),
         "They are no normals, as the notes say.",
     );
     // Both vectors are computed from the same sine and cosine, in a few roundings of 2⁻⁵³ each.
     let right = largest(degrees().map(by_inverse_transpose));
     content.confirms(
-        "inverse-transpose",
-        "largest error of normals by the inverse transpose",
+        "inverse-transpose | largest error of normals by the inverse transpose",
         (right, "degrees", right < 1e-6),
         "They are at right angles to the surface, to rounding.",
     );
@@ -112,27 +101,20 @@ fn ellipsoid(content: &mut FigureContent) -> Result {
         "A sphere stretched into an ellipsoid. The engine transforms its normals by the inverse \
          transpose; the other picture transforms them by the matrix of the points.",
     );
-    content.pictures(
-        2,
+    content.row(
         "An ellipsoid with a highlight, normals",
-        [
-            ("by the inverse transpose", stored(&right)),
-            ("by the matrix", stored(&wrong)),
-        ],
+        "by the inverse transpose | by the matrix",
+        [&right, &wrong].map(stored),
     );
     let (near, far) = (levels(&right, &polygons), levels(&right, &wrong));
+    let off = written(far);
     content.confirms(
-        "engine",
-        "engine's normals against those averaged from its polygons, largest difference",
+        "engine | engine's normals against those averaged from its polygons, largest difference",
         (near, "grey levels", near < far / 4.0),
-        format!(
-            "The polygons confirm the inverse transpose: the matrix is off by {} levels.",
-            written(far)
-        ),
+        &format!("The polygons confirm the inverse transpose: the matrix is off by {off} levels."),
     );
     content.confirms(
-        "picture",
-        "by the matrix against by the inverse transpose, largest difference",
+        "picture | by the matrix against by the inverse transpose, largest difference",
         (far, "grey levels", far > 8.0),
         "The light is on the wrong part of the surface.",
     );

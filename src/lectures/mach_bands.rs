@@ -1,13 +1,6 @@
 //! Mach bands: jumps of the intensity and of its slope at the edges of polygons (L21 2–4).
 
-use super::{
-    Agreement, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw_each, frame, grey,
-    jump, largest, linear, profile, stored, toward, written,
-};
-use crate::frame::Frame;
-use crate::reference::{self, Model};
-use alloc::{format, vec::Vec};
-use glam::DVec3;
+use super::prelude::*;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "mach-bands",
@@ -47,7 +40,7 @@ fn cylinder(angles: &[f64]) -> Result<Frame> {
 
 fn bands(content: &mut FigureContent) -> Result {
     let fine: Vec<f64> = (0..=300).map(|i| -75.0 + 0.5 * f64::from(i)).collect();
-    let smooth = reference::render(&cylinder(&fine)?, Model::Phong).to_linear();
+    let smooth = truth(&cylinder(&fine)?);
     let drawn = draw_each(&cylinder(&FACETS)?, METHODS)?;
     let drawn = METHODS.into_iter().zip(drawn);
     let pictures: Vec<_> = drawn.chain([("the cylinder", smooth)]).collect();
@@ -56,14 +49,10 @@ fn bands(content: &mut FigureContent) -> Result {
          drawn on 300 facets. The eye exaggerates jumps of intensity and, less, of its slope: it \
          sees bands there although no intensity jumps (Mach; Phong 1975).",
     );
-    let panels = pictures
-        .iter()
-        .map(|(name, picture)| (*name, stored(picture)));
+    let panels = pictures.iter().map(|(name, drawn)| (*name, stored(drawn)));
     content.pictures(2, "A cylinder of five facets", panels);
-    let profiles: Vec<(&str, Vec<f64>)> = pictures
-        .iter()
-        .map(|(name, picture)| (*name, profile(picture, SIZE[1] as usize / 2)))
-        .collect();
+    let line = |(name, drawn)| (name, profile(&drawn, SIZE[1] as usize / 2));
+    let profiles: Vec<(&str, Vec<f64>)> = pictures.into_iter().map(line).collect();
     curves(content, &profiles);
     numbers(content, &profiles);
     Ok(())
@@ -77,31 +66,24 @@ fn curves(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
     let line = |(name, profile): &(&str, Vec<f64>)| {
         Series::new(*name, seen.clone().map(|i| (i as f64 + 0.5, profile[i])))
     };
-    content.plot(
-        Plot::new(
-            "Intensity along a scan line",
-            [linear("column, pixels"), linear("intensity, grey levels")],
-            profiles.iter().map(line),
-            "Flat shading jumps where facets meet; the others only bend.",
-        )
-        .marked(marks),
+    let intensity = Plot::new(
+        "Intensity along a scan line",
+        [linear("column, pixels"), linear("intensity, grey levels")],
+        profiles.iter().map(line),
+        "Flat shading jumps where facets meet; the others only bend.",
     );
+    content.plot(intensity.marked(marks));
     let bend = |(name, profile): &(&str, Vec<f64>)| {
         let second = |i: usize| profile[i - 1] - 2.0 * profile[i] + profile[i + 1];
         Series::new(*name, inner.clone().map(|i| (i as f64 + 0.5, second(i))))
     };
-    content.plot(
-        Plot::new(
-            "Second difference along a scan line",
-            [
-                linear("column, pixels"),
-                linear("second difference, grey levels"),
-            ],
-            profiles[1..].iter().map(bend),
-            "The spikes at the edges are jumps of the slope. The cylinder itself has none.",
-        )
-        .marked(marks),
+    let bends = Plot::new(
+        "Second difference along a scan line",
+        ["column, pixels", "second difference, grey levels"].map(linear),
+        profiles[1..].iter().map(bend),
+        "The spikes at the edges are jumps of the slope. The cylinder itself has none.",
     );
+    content.plot(bends.marked(marks));
 }
 
 /// Measures the largest jumps over the edges between facets.
@@ -116,8 +98,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
     };
     let (_, control) = jumps(smooth);
     content.adds(
-        "slope-cylinder",
-        "the cylinder itself: largest jump of the slope",
+        "slope-cylinder | the cylinder itself: largest jump of the slope",
         (control, "grey levels a pixel", true),
         "The measurement gives this much where nothing bends.",
     );
@@ -127,29 +108,24 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
         rows.push(format!("{name} | {} | {}", written(value), written(slope)));
         let is_flat = *name == "flat";
         content.confirms(
-            format!("value-{name}"),
-            format!("{name}: largest jump of the intensity"),
+            &format!("value-{name} | {name}: largest jump of the intensity"),
             (value, "grey levels", (value < 0.5) != is_flat),
-            if is_flat {
-                "The intensity jumps at edges."
-            } else {
-                "Intensities agree along common edges."
+            match is_flat {
+                true => "The intensity jumps at edges.",
+                false => "Intensities agree along common edges.",
             },
         );
         let is_smooth = slope < 4.0 * control;
         content.found(
-            format!("slope-{name}"),
-            format!("{name}: largest jump of the slope"),
+            &format!("slope-{name} | {name}: largest jump of the slope"),
             (slope, "grey levels a pixel", true),
-            if is_flat {
-                Agreement::Adds
-            } else {
-                Agreement::if_holds(is_smooth)
+            match is_flat {
+                true => Agreement::Adds,
+                false => Agreement::if_holds(is_smooth),
             },
-            if is_smooth {
-                "No more than the cylinder itself has."
-            } else {
-                "The slope jumps at edges: Mach bands are weakened, not eliminated."
+            match is_smooth {
+                true => "No more than the cylinder itself has.",
+                false => "The slope jumps at edges: Mach bands are weakened, not eliminated.",
             },
         );
     }

@@ -5,7 +5,7 @@ use super::content::written;
 use crate::compare::metrics::Difference;
 use crate::picture::LinearPicture;
 use alloc::{format, string::String, vec::Vec};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Pixels between the three of each side that a slope is taken from.
 const APART: usize = 2;
@@ -19,6 +19,12 @@ pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
 /// Returns the angle between two unit vectors, in degrees.
 pub(super) fn angle(a: DVec3, b: DVec3) -> f64 {
     (2.0 * libm::atan2((a - b).length(), (a + b).length())).to_degrees()
+}
+
+/// Returns twice the area of a polygon in the plane, by the shoelace formula.
+pub(super) fn twice_the_area(corners: &[DVec2]) -> f64 {
+    let edge = |k: usize| corners[k].perp_dot(corners[(k + 1) % corners.len()]);
+    (0..corners.len()).map(edge).sum()
 }
 
 /// Returns the pairs of pixels that both pictures cover.

@@ -6,8 +6,8 @@
 //! out. A finding is a key, a label, a value, a unit, a verdict and one sentence; the value decides
 //! whether the sentence holds.
 //!
-//! Start with `exercises.rs`, then `content.rs` (the data), `fixture.rs` (what figures draw) and
-//! `measure.rs` (numbers taken from pictures).
+//! Start with `exercises.rs`, then `content.rs` (the data), `fixture.rs` (what figures draw),
+//! `measure.rs` (numbers taken from pictures) and `prelude.rs` (the names that figures import).
 //!
 //! ```
 //! use fastphong::lectures::Figure;
@@ -43,6 +43,7 @@ mod newton;
 mod normals;
 mod painter;
 mod perspective;
+mod prelude;
 mod slerp;
 mod square;
 mod supersampling;
@@ -53,14 +54,6 @@ use error::Result;
 
 use crate::number::suggest::nearest;
 use alloc::{format, string::String, vec::Vec};
-use content::{linear, log, written};
-use fixture::{
-    DULL, ScreenCorner, ScreenPolygon, bare, draw, draw_each, ends, fitted, frame, grey,
-    map_caption, scene, shipped, stored, toward,
-};
-use measure::{
-    angle, covered_by_both, differing, jump, largest, levels, max_and_rms, percent, profile, share,
-};
 
 /// All figures, in the order of the lectures.
 pub static FIGURES: &[&Figure] = &[

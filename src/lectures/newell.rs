@@ -1,13 +1,8 @@
 //! The normal of a polygon from two edges, and by Newell's formula (L21 1.1).
 
-use super::{
-    Agreement, Figure, FigureContent, Result, ScreenCorner, ScreenPolygon, angle, draw, frame,
-    grey, stored, written,
-};
+use super::prelude::*;
 use crate::mesh::newell::newell;
-use crate::picture::LinearPicture;
-use alloc::{format, vec::Vec};
-use glam::{DQuat, DVec2, DVec3, Vec3};
+use glam::{DQuat, Vec3};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "newell",
@@ -81,13 +76,6 @@ fn error(normal: DVec3) -> f64 {
     }
 }
 
-/// Returns twice the area in the plane, by the shoelace formula.
-fn twice_the_area(corners: &[DVec2]) -> f64 {
-    (0..corners.len())
-        .map(|k| corners[k].perp_dot(corners[(k + 1) % corners.len()]))
-        .sum()
-}
-
 /// Returns the normals from two edges at every corner, from the best one to the worst.
 fn by_two_edges(corners: &[Vec3]) -> Vec<DVec3> {
     let mut normals: Vec<_> = (0..corners.len()).map(|i| two_edges(corners, i)).collect();
@@ -108,17 +96,10 @@ fn pictures(content: &mut FigureContent) -> Result {
     );
     let names = examples().map(|(_, what, _)| what).join(", ");
     let edges = format!("lit by the normal from two edges, at its worst corner: {names}");
-    content.pictures(
-        1,
-        "Five polygons of one plane",
-        [
-            (&edges[..], stored(&lit_by(worst)?)),
-            (
-                "lit by the normal of Newell\u{2019}s formula",
-                stored(&lit_by(by_newell)?),
-            ),
-        ],
-    );
+    let newell = "lit by the normal of Newell\u{2019}s formula".into();
+    let panels = [(edges, &lit_by(worst)?), (newell, &lit_by(by_newell)?)];
+    let panels = panels.map(|(caption, picture)| (caption, stored(picture)));
+    content.pictures(1, "Five polygons of one plane", panels);
     Ok(())
 }
 
@@ -137,9 +118,9 @@ fn errors(content: &mut FigureContent) -> Result {
                 "no direction".into()
             }
         });
-        area = area.max((sum.length() / twice - 1.0).abs());
-        most = most.max(errors[2].min(180.0));
         let length = sum.length();
+        area = area.max((length / twice - 1.0).abs());
+        most = most.max(errors[2].min(180.0));
         let cells = format!("{best} | {worst} | {newell} | {length:.7} | {twice:.7}");
         rows.push(format!("{what} | {cells}"));
         failure(content, key, what, errors[1]);
@@ -149,14 +130,12 @@ fn errors(content: &mut FigureContent) -> Result {
         rows,
     );
     content.confirms(
-        "newell",
-        "Newell's formula: largest error over all polygons",
+        "newell | Newell's formula: largest error over all polygons",
         (most, "degrees", most < 1e-4),
         "Rounding of the corners, and no more.",
     );
     content.confirms(
-        "area",
-        "|N| against 2 Area: largest relative difference",
+        "area | |N| against 2 Area: largest relative difference",
         (area, "", area < 1e-6),
         "|N| = 2 Area, rounding aside.",
     );
@@ -172,9 +151,9 @@ fn failure(content: &mut FigureContent, key: &str, what: &str, error: f64) {
         _ => Agreement::if_holds(fails),
     };
     content.found(
-        key,
-        format!("two edges at the worst corner, {what}: error (180 if there is no direction)"),
-        // Without a direction any may be taken: the opposite one at worst.
+        &format!(
+            "{key} | two edges at the worst corner, {what}: error (180 if there is no direction)"
+        ), // Without a direction any may be taken: the opposite one at worst.
         (error.min(180.0), "degrees", true),
         agreement,
         match error {

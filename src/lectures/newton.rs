@@ -1,15 +1,8 @@
 //! Newton's method along a span: the error after so many steps a pixel, and where the method breaks
 //! (L21 4.2).
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, ScreenPolygon, Series, draw, ends, frame, largest,
-    levels, linear, log, stored, written,
-};
-use crate::number::vec3;
-use crate::shading::Walk;
+use super::prelude::*;
 use crate::shading::increments::{Newton, NewtonSteps};
-use alloc::{format, string::String, vec, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "newton",
@@ -86,16 +79,14 @@ fn curves(content: &mut FigureContent) -> Result {
 fn numbers(content: &mut FigureContent) -> Result {
     let first = largest(STEPS.map(|steps| errors(150.0, steps)[0].abs()));
     content.adds(
-        "first-pixel",
-        "first pixel of a span: relative error of d",
+        "first-pixel | first pixel of a span: relative error of d",
         (first, "", first < 2e-7),
         "A true root, rounded.",
     );
     for steps in STEPS {
         let (name, error) = (plural(steps), largest_error(60.0, steps));
         content.confirms(
-            format!("error-{steps}"),
-            format!("span of 60°, {name}: largest relative error of d"),
+            &format!("error-{steps} | span of 60°, {name}: largest relative error of d"),
             (error, "", error < INVISIBLE),
             "A few iterations are enough: rounding to grey levels hides the error.",
         );
@@ -113,8 +104,7 @@ fn numbers(content: &mut FigureContent) -> Result {
         (pair[1] - e * e / (2.0 * (1.0 + e))).abs()
     }));
     content.adds(
-        "theory",
-        "the same with 1 step, against e² / (2 (1 + e)): largest difference",
+        "theory | the same with 1 step, against e² / (2 (1 + e)): largest difference",
         (off, "", off < 1e-6),
         "The error is as theory says, rounding aside.",
     );
@@ -122,13 +112,14 @@ fn numbers(content: &mut FigureContent) -> Result {
         let name = plural(steps);
         let is_good = |degrees: &f64| largest_error(*degrees, steps) < INVISIBLE;
         let degrees = angles().take_while(is_good).last().unwrap_or(0.0);
+        let each = written(degrees / PIXELS as f64);
         content.adds(
-            format!("limit-{steps}"),
-            format!("{name}: largest angle over {PIXELS} pixels without a visible error"),
+            &format!(
+                "limit-{steps} | {name}: largest angle over {PIXELS} pixels without a visible error"
+            ),
             (degrees, "degrees", true),
-            format!(
-                "That is {}° a pixel; in steps of 5°, half a grey level counts as visible.",
-                written(degrees / PIXELS as f64)
+            &format!(
+                "That is {each}° a pixel; in steps of 5°, half a grey level counts as visible."
             ),
         );
     }
@@ -156,8 +147,10 @@ fn opposed(content: &mut FigureContent) -> Result {
         let worst = levels(&fast, &naive);
         let name = plural(steps);
         content.contradicts(
-            format!("opposed-{steps}"),
-            format!("normals {DEGREES}° apart, {name}: largest difference from naive Phong"),
+            &format!(
+                "opposed-{steps} | normals {DEGREES}° apart, {name}: largest difference from naive \
+                 Phong"
+            ),
             (worst, "grey levels", worst > 1.0),
             "Few iterations are not enough where normals nearly cancel.",
         );
@@ -165,8 +158,7 @@ fn opposed(content: &mut FigureContent) -> Result {
     }
     content.pictures(2, "Almost opposed normals", panels);
     content.adds(
-        "not-finite",
-        "pixels there that are infinite or not a number",
+        "not-finite | pixels there that are infinite or not a number",
         (not_finite as f64, "pixels", not_finite == 0),
         "Wrong, but always a number.",
     );

@@ -1,19 +1,10 @@
 //! Averaged vertex normals against those of the surface, and the length of interpolated ones (L5;
 //! L21 3.1).
 
-use super::{
-    DULL, Figure, FigureContent, Plot, Result, Series, angle, covered_by_both, draw_each, ends,
-    largest, linear, log, scene, stored, written,
-};
-use crate::frame::Frame;
+use super::prelude::*;
 use crate::mesh::builtin::builtin;
-use crate::mesh::vertex_normals::NormalSource;
-use crate::number::vec3;
-use crate::scene::{Culling, Scene};
-use crate::shading::Walk;
+use crate::scene::Culling;
 use crate::shading::increments::Quadratic;
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "normals",
@@ -75,25 +66,20 @@ fn sources(content: &mut FigureContent) -> Result {
         return Ok(());
     };
     content.confirms(
-        "averaged",
-        "mean angle of averaged normals, teapot of fewest polygons",
+        "averaged | mean angle of averaged normals, teapot of fewest polygons",
         (coarse, "degrees", coarse > 1.0),
         "Averages are not the normals of the surface: take those where they are known.",
     );
     content.adds(
-        "regular",
-        "mean angle of averaged normals, torus of fewest polygons",
+        "regular | mean angle of averaged normals, torus of fewest polygons",
         (torus, "degrees", torus < 1.0),
         "Polygons that lie evenly around a vertex make good averages, however large they are.",
     );
+    let falls = means.iter().all(|means| means.is_sorted_by(|a, b| a > b));
     content.adds(
-        "finer",
-        "mean angle of the coarsest teapot over that of the finest, with cells a quarter the size",
-        (
-            coarse / fine,
-            "",
-            means.iter().all(|means| means.is_sorted_by(|a, b| a > b)),
-        ),
+        "finer | mean angle of the coarsest teapot over that of the finest, with cells a quarter \
+         the size",
+        (coarse / fine, "", falls),
         "Of each surface the finer mesh has the better averages.",
     );
     Ok(())
@@ -116,20 +102,17 @@ fn lengths(content: &mut FigureContent) -> Result {
         let points = shown.map(|k| (k as f64 / PIXELS as f64, lengths[k]));
         Series::new(format!("{degrees}° between the ends"), points)
     });
-    content.plot(
-        Plot::new(
-            "Length of the interpolated normal along a span",
-            [linear("part of the span"), linear("length")],
-            curves,
-            "The sum of two unit vectors is shortest in the middle: cos(φ/2).",
-        )
-        .marked([0.5]),
+    let plot = Plot::new(
+        "Length of the interpolated normal along a span",
+        [linear("part of the span"), linear("length")],
+        curves,
+        "The sum of two unit vectors is shortest in the middle: cos(φ/2).",
     );
+    content.plot(plot.marked([0.5]));
     // 32 steps of D by three half units of 2⁻²⁴ each, and a root of at least a half: see
     // `Quadratic`.
     content.adds(
-        "half-way",
-        "length half-way between two normals, largest distance from cos(φ/2)",
+        "half-way | length half-way between two normals, largest distance from cos(φ/2)",
         (worst, "", worst < 1e-5),
         "cos(φ/2), to rounding: between normals 120° apart half of the length is left.",
     );
@@ -146,21 +129,17 @@ fn darkened(content: &mut FigureContent) -> Result {
         "Gouraud's method on a dull surface shows normals that are not normalised, as L·N is \
          linear in N.",
     );
-    content.pictures(
-        2,
+    content.row(
         "A coarse sphere, interpolated normals",
-        [
-            ("as they are", stored(&shortened)),
-            ("normalised", stored(&unit)),
-        ],
+        "as they are | normalised",
+        [&shortened, &unit].map(stored),
     );
     // Where the light is in front of all corners of a polygon no clamp interferes; elsewhere
     // Gouraud's clamp brightens.
     let lit = covered_by_both(&shortened, &unit).filter(|(_, unit)| unit[0] > 0.5);
     let lost = largest(lit.map(|(shortened, unit)| f64::from(1.0 - shortened[0] / unit[0])));
     content.confirms(
-        "darkened",
-        "largest part of the light that is lost without normalising",
+        "darkened | largest part of the light that is lost without normalising",
         (100.0 * lost, "%", lost > 0.01),
         "The length of vectors is a problem: the middle of each polygon is dark.",
     );

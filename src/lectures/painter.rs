@@ -1,10 +1,8 @@
 //! Hidden surfaces by the painter's algorithm, and by a depth buffer (L5).
 
-use super::{Figure, FigureContent, Result, differing, draw, shipped, stored};
-use crate::picture::LinearPicture;
+use super::prelude::*;
 use crate::raster::painter::conflicts;
-use crate::scene::{DepthBuffer, HiddenSurfaces, PainterKey, Scene};
-use alloc::{format, vec::Vec};
+use crate::scene::{DepthBuffer, HiddenSurfaces, PainterKey};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "painter",
@@ -43,14 +41,9 @@ impl ThreeObjects {
     /// differ.
     fn by_both(&self, content: &mut FigureContent, what: &str) -> Result<usize> {
         let by_painter = drawn(&self.scene, HiddenSurfaces::Painter(PainterKey::Mean))?;
-        content.pictures(
-            2,
-            "Hidden surfaces",
-            [
-                (format!("{what}: depth buffer"), stored(&self.by_depth)),
-                (format!("{what}: painter"), stored(&by_painter)),
-            ],
-        );
+        let captions = format!("{what}: depth buffer | {what}: painter");
+        let pictures = [&self.by_depth, &by_painter].map(stored);
+        content.row("Hidden surfaces", &captions, pictures);
         Ok(differing(&self.by_depth, &by_painter))
     }
 
@@ -88,29 +81,23 @@ fn ring(content: &mut FigureContent) -> Result {
     let ring = ThreeObjects::new("cyclic-triangles")?;
     let wrong = ring.by_both(content, "three triangles in a ring")?;
     content.confirms(
-        "ring-wrong",
-        "pixels of the ring that the painter draws wrongly",
+        "ring-wrong | pixels of the ring that the painter draws wrongly",
         (wrong as f64, "pixels", wrong > 0),
         "The painter cannot draw the ring.",
     );
     let orders = ring.by_orders(HiddenSurfaces::DrawOrder)?;
     let least = orders.into_iter().min().unwrap_or(0);
     content.confirms(
-        "ring-best-order",
-        "wrong pixels in the best of all six orders",
+        "ring-best-order | wrong pixels in the best of all six orders",
         (least as f64, "pixels", least > 0),
         "No order is right, all were tried.",
     );
     let cycles = conflicts(&ring.scene.frame()?).cycles;
-    let members: usize = cycles.iter().map(Vec::len).sum();
+    let (rings, members) = (cycles.len(), cycles.iter().map(Vec::len).sum::<usize>());
     content.adds(
-        "ring-cycle",
-        "polygons that are found to hide each other in a ring",
+        "ring-cycle | polygons that are found to hide each other in a ring",
         (members as f64, "polygons", true),
-        format!(
-            "The program warns of {} such ring before it draws.",
-            cycles.len()
-        ),
+        &format!("The program warns of {rings} such ring before it draws."),
     );
     Ok(())
 }
@@ -119,15 +106,13 @@ fn cutting(content: &mut FigureContent) -> Result {
     let cutting = ThreeObjects::new("interpenetration")?;
     let wrong = cutting.by_both(content, "polygons that cut each other")?;
     content.confirms(
-        "cutting-wrong",
-        "pixels of polygons that cut each other which the painter draws wrongly",
+        "cutting-wrong | pixels of polygons that cut each other which the painter draws wrongly",
         (wrong as f64, "pixels", wrong > 0),
         "Only the depth buffer shows where they meet.",
     );
     let pairs = conflicts(&cutting.scene.frame()?).interpenetrating;
     content.adds(
-        "cutting-pairs",
-        "pairs of polygons that cut each other on the picture",
+        "cutting-pairs | pairs of polygons that cut each other on the picture",
         (pairs as f64, "pairs", true),
         "Each hides a part of the other, so that either order is wrong.",
     );
@@ -141,8 +126,7 @@ fn order(content: &mut FigureContent) -> Result {
         most = most.max(orders.into_iter().max().unwrap_or(0));
     }
     content.confirms(
-        "order",
-        "most pixels by which the depth buffer's pictures differ in any of six orders",
+        "order | most pixels by which the depth buffer's pictures differ in any of six orders",
         (most as f64, "pixels", most == 0),
         "The order of drawing does not matter to a depth buffer.",
     );

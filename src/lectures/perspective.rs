@@ -1,17 +1,10 @@
 //! Perspective: Lecture 5's checkerboard wrong and right, the weight that makes it right, and the
 //! depth of a point.
 
-use super::{
-    Figure, FigureContent, Plot, Result, Series, bare, largest, linear, percent, stored, written,
-};
+use super::prelude::*;
 use crate::frame::perspective::{Frustum, printed_weight_in_space, weight_in_space};
 use crate::frame::{FrameBuilder, SubPixel, Vertex};
-use crate::mesh::Material;
-use crate::picture::LinearPicture;
 use crate::raster::{checkerboard, vertex_colours};
-use crate::scene::{Camera, Interpolation, Lighting, Projection};
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "perspective",
@@ -63,10 +56,9 @@ fn ray(x: usize, y: usize) -> Option<[f32; 3]> {
 /// Returns the percentage of the rays that meet the floor where the picture has the other colour.
 fn wrong(picture: LinearPicture) -> f64 {
     let pixels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
-    let met = pixels.filter_map(|(x, y)| Some(picture.get(x, y)[..3] == ray(x, y)?));
-    let is_right: Vec<bool> = met.collect();
-    let wrong = is_right.iter().filter(|is_right| !**is_right).count();
-    percent(wrong, is_right.len())
+    let met = pixels.filter_map(|(x, y)| Some(picture.get(x, y)[..3] != ray(x, y)?));
+    let is_wrong: Vec<bool> = met.collect();
+    percent(is_wrong.iter().filter(|is| **is).count(), is_wrong.len())
 }
 
 fn boards(content: &mut FigureContent) -> Result {
@@ -80,31 +72,25 @@ fn boards(content: &mut FigureContent) -> Result {
     let screen = board(whole, Interpolation::Screen)?;
     let cut = board(triangles, Interpolation::Screen)?;
     let space = board(triangles, Interpolation::Perspective)?;
-    content.pictures(
-        3,
+    content.row(
         "A checkerboard seen in perspective",
-        [
-            ("linear on the screen", stored(&screen)),
-            ("the same, cut into two triangles", stored(&cut)),
-            ("linear in space", stored(&space)),
-        ],
+        "linear on the screen | the same, cut into two triangles | linear in space",
+        [&screen, &cut, &space].map(stored),
     );
     let [screen, cut, space] = [screen, cut, space].map(wrong);
     content.confirms(
-        "wrong-screen",
-        "pixels of the floor in the wrong colour, linear on the screen",
+        "wrong-screen | pixels of the floor in the wrong colour, linear on the screen",
         (screen, "%", screen >= 0.5),
         "The board is wrong, as the slide shows it.",
     );
     content.confirms(
-        "wrong-screen-triangles",
-        "pixels of the floor in the wrong colour, the same, cut into two triangles",
+        "wrong-screen-triangles | pixels of the floor in the wrong colour, the same, cut into two \
+         triangles",
         (cut, "%", cut >= 0.5),
         "The board is wrong, as the slide shows it.",
     );
     content.confirms(
-        "wrong-space",
-        "pixels of the floor in the wrong colour, linear in space",
+        "wrong-space | pixels of the floor in the wrong colour, linear in space",
         (space, "%", space < 0.5),
         "The board is right: only pixels on the rim of a square may fall to either side.",
     );
@@ -149,19 +135,14 @@ fn weight(content: &mut FigureContent) -> Result {
     let corrected = |alpha| weight_in_space(alpha, z_a, z_b);
     let printed = |alpha| printed_weight_in_space(alpha, z_a, z_b);
     let off = |weight: &dyn Fn(f64) -> f64| {
-        largest(
-            engine
-                .iter()
-                .map(|(alpha, drawn)| (drawn - weight(*alpha)).abs()),
-        )
+        let error = |(alpha, drawn): &(f64, f64)| (drawn - weight(*alpha)).abs();
+        largest(engine.iter().map(error))
     };
     let (right, wrong) = (off(&corrected), off(&printed));
+    let on_screen = linear("α, the weight of A on the screen");
     content.plot(Plot::new(
         "The weight in space of the end A of an edge",
-        [
-            linear("α, the weight of A on the screen"),
-            linear("β, the weight of A in space"),
-        ],
+        [on_screen, linear("β, the weight of A in space")],
         [
             Series::new("the engine", engine.into_iter().step_by(8)),
             Series::sampled("α z_B / (α z_B + (1 − α) z_A)", alphas(), corrected),
@@ -174,14 +155,12 @@ fn weight(content: &mut FigureContent) -> Result {
         ),
     ));
     content.contradicts(
-        "printed-weight",
-        "largest difference of the printed weight from the engine's",
+        "printed-weight | largest difference of the printed weight from the engine's",
         (wrong, "", wrong >= 1e-3),
         "(1 − α) z_A / (z_B + (1 − α)(z_A − z_B)) weighs the other end.",
     );
     content.adds(
-        "weight",
-        "largest difference of the corrected weight from the engine's",
+        "weight | largest difference of the corrected weight from the engine's",
         (right, "", right < 1e-4),
         "The engine, which divides interpolated values by interpolated weights, has this weight.",
     );
@@ -201,14 +180,13 @@ fn depth(content: &mut FigureContent) -> Result {
     };
     let middle = frustum.ndc_depth(-(near + far) / 2.0);
     let half = 2.0 * far * near / (far + near);
+    let part = written(100.0 * (half - near) / (far - near));
     content.contradicts(
-        "depth",
-        "NDC depth, −1 to 1, of the point half-way between near and far plane",
+        "depth | NDC depth, −1 to 1, of the point half-way between near and far plane",
         (middle, "", middle.abs() >= 0.01),
-        format!(
-            "Depth keeps its order, not its value: the first {} % of the way take half of the \
-             range.",
-            written(100.0 * (half - near) / (far - near))
+        &format!(
+            "Depth keeps its order, not its value: the first {part} % of the way take half of the \
+             range."
         ),
     );
     Ok(())

@@ -1,17 +1,10 @@
 //! Spherical linear interpolation: its speed, the drift of its recurrences, and its ends (L21 4.4).
 
-use super::{
-    Figure, FigureContent, Plot, Result, ScreenPolygon, Series, angle, draw, ends, frame, grey,
-    largest, linear, log, written,
-};
-use crate::frame::Frame;
-use crate::number::{Counter, vec3};
+use super::prelude::*;
+use crate::number::Counter;
 use crate::raster::normals;
 use crate::reference::{self, Model};
-use crate::shading::Walk;
 use crate::shading::increments::{GreatCircle, Sines};
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "slerp",
@@ -36,10 +29,8 @@ fn strip(degrees: f64) -> Result<Frame> {
 /// Returns the angles from each vector to the next, in degrees.
 fn turns(vectors: Vec<DVec3>) -> Vec<f64> {
     let units: Vec<_> = vectors.iter().map(|v| v.normalize()).collect();
-    units
-        .windows(2)
-        .map(|pair| angle(pair[1], pair[0]))
-        .collect()
+    let turn = |pair: &[DVec3]| angle(pair[1], pair[0]);
+    units.windows(2).map(turn).collect()
 }
 
 /// Measures degrees a pixel of the two ways to interpolate.
@@ -60,19 +51,17 @@ fn speed(content: &mut FigureContent) -> Result {
         f64::from(s_from) * from + f64::from(s_to) * to
     });
     let [lerp, slerp] = [linear_normals.collect(), great_circle.collect()].map(turns);
-    let curve = |name: &str, turns: &[f64]| {
+    let curve = |(name, turns): (&str, &Vec<f64>)| {
         Series::new(name, (1..).map(f64::from).zip(turns.iter().copied()))
     };
     content.text(format!(
         "The turn a pixel of the unit normal, {SPAN} pixels between normals {DEGREES}° apart.",
     ));
+    let curves = [("linear, then normalised", &lerp), ("great circle", &slerp)];
     content.plot(Plot::new(
         "Speed of the normal along a span",
         [linear("column, pixels"), linear("turn, degrees a pixel")],
-        [
-            curve("linear, then normalised", &lerp),
-            curve("great circle", &slerp),
-        ],
+        curves.map(curve),
         "A chord walked at uniform speed turns fastest where it is nearest to the middle of the \
          circle.",
     ));
@@ -82,20 +71,15 @@ fn speed(content: &mut FigureContent) -> Result {
     };
     let (slerp, lerp) = (ratio(slerp), ratio(lerp));
     content.confirms(
-        "speed-slerp",
-        "great circle: fastest turn by slowest turn",
+        "speed-slerp | great circle: fastest turn by slowest turn",
         (slerp, "", slerp < 1.001),
         "Uniform speed, as the lecture says.",
     );
-    let cosine = libm::cos(DEGREES.to_radians() / 2.0);
+    let whole = written(1.0 / libm::pow(libm::cos(DEGREES.to_radians() / 2.0), 2.0));
     content.adds(
-        "speed-linear",
-        "linear, then normalised: fastest turn by slowest turn",
+        "speed-linear | linear, then normalised: fastest turn by slowest turn",
         (lerp, "", true),
-        format!(
-            "1 / cos² of half the angle would be {} over a whole span.",
-            written(1.0 / libm::pow(cosine, 2.0))
-        ),
+        &format!("1 / cos² of half the angle would be {whole} over a whole span."),
     );
     Ok(())
 }
@@ -112,8 +96,7 @@ fn operations(content: &mut FigureContent) -> Result {
     let others = step.divisions + step.roots + step.trigonometric;
     let is_as_said = (additions, multiplications, others) == (4, 8, 0);
     content.confirms(
-        "step",
-        "additions and multiplications of (4.9) to (4.12)",
+        "step | additions and multiplications of (4.9) to (4.12)",
         (additions + multiplications, "operations", is_as_said),
         "4 additions and 8 multiplications, counted by the method's own walk.",
     );
@@ -128,9 +111,8 @@ fn recurrences(degrees: f64) -> [Vec<f64>; 3] {
     // L stands 40° from the first normal, in the plane of both; J(k) = cos(kδ − 40°).
     let j = |k: f64| libm::cos(k * delta - 40f64.to_radians());
     let errors = |walk: &mut dyn FnMut() -> f32| {
-        (0..LONG)
-            .map(|k| (f64::from(walk()) - j(k as f64)).abs())
-            .collect()
+        let error = |k| (f64::from(walk()) - j(k as f64)).abs();
+        (0..LONG).map(error).collect()
     };
     let [first, last] = [0.0, LONG as f64].map(|k| (j(k) / libm::sin(phi)) as f32);
     let mut sines = Sines::new(phi as f32, 0.0, 1.0 / LONG as f32);
@@ -184,8 +166,7 @@ fn drift(content: &mut FigureContent) -> Result {
             false => "Not visible.",
         };
         content.adds(
-            format!("drift-{key}"),
-            format!("{name}: largest error over {LONG} pixels"),
+            &format!("drift-{key} | {name}: largest error over {LONG} pixels"),
             (most, "", true),
             verdict,
         );
@@ -234,14 +215,12 @@ fn ends_of_range(content: &mut FigureContent) -> Result {
         rows,
     );
     content.contradicts(
-        "printed-angle",
-        "φ by the inverse cosine in f32, from 0.02° to 90°: largest relative error",
+        "printed-angle | φ by the inverse cosine in f32, from 0.02° to 90°: largest relative error",
         (printed_worst, "", printed_worst >= 1e-3),
         "The formula as printed loses the angle where surfaces are flat.",
     );
     content.adds(
-        "ends",
-        "slerp Phong from 0° to 180°: largest difference from the reference",
+        "ends | slerp Phong from 0° to 180°: largest difference from the reference",
         (worst, "grey levels", worst < 0.5),
         "Never visible, at neither end.",
     );

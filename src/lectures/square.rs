@@ -1,16 +1,7 @@
 //! The square of Figure 5: turning it, or cutting it into triangles, changes its shading (L21 3).
 
-use super::{
-    Agreement, DULL, Figure, FigureContent, Result, ScreenCorner, ScreenPolygon, angle,
-    covered_by_both, draw, frame, largest, levels, map_caption, stored, written,
-};
-use crate::compare::metrics::difference_map;
-use crate::frame::Frame;
-use crate::picture::LinearPicture;
+use super::prelude::*;
 use crate::raster::normals;
-use crate::shading::Variant;
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "square",
@@ -75,10 +66,9 @@ fn square(degrees: f64, polygons: Polygons, normals: Normals) -> Result<Frame> {
 
 /// Returns sine and cosine, exact at quarter turns.
 fn sine_and_cosine(degrees: f64) -> (f64, f64) {
-    if degrees == 90.0 {
-        (1.0, 0.0)
-    } else {
-        libm::sincos(degrees.to_radians())
+    match degrees {
+        90.0 => (1.0, 0.0),
+        _ => libm::sincos(degrees.to_radians()),
     }
 }
 
@@ -109,7 +99,7 @@ fn between(picture: &LinearPicture, position: [f64; 2]) -> Option<[f32; 4]> {
             (first + 1.0, if part < 1e-9 { 0.0 } else { part }),
         ]
     };
-    let mut sum = [0.0f64; 3];
+    let mut sum = DVec3::ZERO;
     for (y, part_y) in along(position[1]) {
         for (x, part_x) in along(position[0]) {
             let part = part_x * part_y;
@@ -121,13 +111,11 @@ fn between(picture: &LinearPicture, position: [f64; 2]) -> Option<[f32; 4]> {
             let pixel = is_inside
                 .then(|| picture.get(x as usize, y as usize))
                 .filter(|pixel| pixel[3] > 0.0)?;
-            for (sum, channel) in sum.iter_mut().zip(pixel) {
-                *sum += part * f64::from(channel);
-            }
+            let [r, g, b, _] = pixel.map(f64::from);
+            sum += part * DVec3::new(r, g, b);
         }
     }
-    let [r, g, b] = sum.map(|c| c as f32);
-    Some([r, g, b, 1.0])
+    Some(sum.as_vec3().extend(1.0).to_array())
 }
 
 /// Returns the largest angle between the normals of two pictures, which store them as (N + 1)/2, in
@@ -143,11 +131,18 @@ fn turned_both_ways(
     degrees: f64,
     polygons: Polygons,
     normals: Normals,
-    draw: impl Fn(&Frame) -> LinearPicture,
+    draw: impl Fn(&Frame) -> Result<LinearPicture>,
 ) -> Result<[LinearPicture; 2]> {
-    let upright = draw(&square(0.0, polygons, normals)?);
-    let turned = draw(&square(degrees, polygons, normals)?);
+    let upright = draw(&square(0.0, polygons, normals)?)?;
+    let turned = draw(&square(degrees, polygons, normals)?)?;
     Ok([upright, turned_back(&turned, degrees)])
+}
+
+/// Draws both ways to cut the square.
+fn both_cuts(method: &str) -> Result<[LinearPicture; 2]> {
+    let through = draw(&square(0.0, THROUGH_DARK, DARK_BELOW)?, method)?;
+    let past = draw(&square(0.0, PAST_DARK, DARK_BELOW)?, method)?;
+    Ok([through, past])
 }
 
 fn turns(content: &mut FigureContent) -> Result {
@@ -172,42 +167,41 @@ fn turns(content: &mut FigureContent) -> Result {
 fn numbers(content: &mut FigureContent) -> Result {
     let mut rows = Vec::new();
     for method in METHODS {
-        let variant = Variant::parse(method)?;
         let change = |degrees, polygons, normals| {
-            let draw = |frame: &Frame| variant.render_linear(frame);
-            turned_both_ways(degrees, polygons, normals, draw).map(|[a, b]| levels(&a, &b))
+            let pictures =
+                turned_both_ways(degrees, polygons, normals, |frame| draw(frame, method));
+            pictures.map(|[upright, back]| levels(&upright, &back))
         };
-        let square_90 = change(90.0, WHOLE, DARK_BELOW)?;
-        let triangles_90 = change(90.0, THROUGH_DARK, apart())?;
-        let through = draw(&square(0.0, THROUGH_DARK, DARK_BELOW)?, method)?;
-        let past = draw(&square(0.0, PAST_DARK, DARK_BELOW)?, method)?;
-        let diagonal = levels(&through, &past);
         let square_45 = change(45.0, WHOLE, DARK_BELOW)?;
+        let square_90 = change(90.0, WHOLE, DARK_BELOW)?;
         let triangles_45 = change(45.0, THROUGH_DARK, apart())?;
+        let triangles_90 = change(90.0, THROUGH_DARK, apart())?;
+        let [through, past] = both_cuts(method)?;
+        let diagonal = levels(&through, &past);
         let cells = [square_45, square_90, triangles_45, triangles_90, diagonal].map(written);
         rows.push(format!("{method} | {}", cells.join(" | ")));
         content.confirms(
-            format!("square-{method}"),
-            format!("{method}, square turned by 90°: largest difference"),
+            &format!("square-{method} | {method}, square turned by 90°: largest difference"),
             (square_90, "grey levels", square_90 > 1.0),
             "The shading depends on the orientation.",
         );
         // Half a grey level is the least that can be seen in a stored picture.
         let agrees = triangles_90 < 0.5;
         content.found(
-            format!("triangles-{method}"),
-            format!("{method}, triangles turned by 90°: largest difference"),
+            &format!("triangles-{method} | {method}, triangles turned by 90°: largest difference"),
             (triangles_90, "grey levels", true),
             Agreement::if_holds(agrees),
-            if agrees {
-                "Triangles do not depend on the orientation: only rounding is left."
-            } else {
-                "Triangles depend on the orientation too: great circles are not barycentric."
+            match agrees {
+                true => "Triangles do not depend on the orientation: only rounding is left.",
+                false => {
+                    "Triangles depend on the orientation too: great circles are not barycentric."
+                }
             },
         );
         content.confirms(
-            format!("diagonals-{method}"),
-            format!("{method}, one diagonal or the other: largest difference"),
+            &format!(
+                "diagonals-{method} | {method}, one diagonal or the other: largest difference"
+            ),
             (diagonal, "grey levels", diagonal > 1.0),
             "Different subdivisions give different pixels.",
         );
@@ -228,19 +222,19 @@ fn numbers(content: &mut FigureContent) -> Result {
 
 /// Compares the interpolated normals themselves.
 fn directions(content: &mut FigureContent) -> Result {
-    let [upright, turned] = turned_both_ways(90.0, WHOLE, DARK_BELOW, normals)?;
-    let square = angles(&upright, &turned);
+    let change = |polygons, normals_at| {
+        let pictures = turned_both_ways(90.0, polygons, normals_at, |frame| Ok(normals(frame)));
+        pictures.map(|[upright, back]| angles(&upright, &back))
+    };
+    let square = change(WHOLE, DARK_BELOW)?;
     content.confirms(
-        "normals-square",
-        "interpolated normals, square turned by 90°: largest angle",
+        "normals-square | interpolated normals, square turned by 90°: largest angle",
         (square, "degrees", square > 1.0),
         "Normals depend on the orientation as intensities do.",
     );
-    let [upright, turned] = turned_both_ways(90.0, THROUGH_DARK, apart(), normals)?;
-    let triangles = angles(&upright, &turned);
+    let triangles = change(THROUGH_DARK, apart())?;
     content.confirms(
-        "normals-triangles",
-        "interpolated normals, triangles turned by 90°: largest angle",
+        "normals-triangles | interpolated normals, triangles turned by 90°: largest angle",
         (triangles, "degrees", triangles < 0.1),
         "On triangles normals are barycentric as well.",
     );
@@ -253,19 +247,12 @@ fn diagonals(content: &mut FigureContent) -> Result {
         "Cut into triangles, the square depends on the diagonal in place of the orientation (L21 \
          3).",
     );
-    let one = draw(&square(0.0, THROUGH_DARK, DARK_BELOW)?, "gouraud")?;
-    let other = draw(&square(0.0, PAST_DARK, DARK_BELOW)?, "gouraud")?;
-    let map = difference_map(&one, &other, MAP_SCALES[0])?;
-    content.pictures(
-        3,
+    content.compared(
         "The square of two triangles",
-        [
-            ("Gouraud, cut from top to bottom".into(), stored(&one)),
-            ("cut from left to right".into(), stored(&other)),
-            (map_caption(MAP_SCALES[0]), map),
-        ],
-    );
-    Ok(())
+        "Gouraud, cut from top to bottom | cut from left to right",
+        &both_cuts("gouraud")?,
+        MAP_SCALES[0],
+    )
 }
 
 /// Turns triangles shaded by slerp Phong, turns them back, and compares.
@@ -274,20 +261,13 @@ fn great_circles(content: &mut FigureContent) -> Result {
         "Interpolation along great circles is not barycentric: it depends on the orientation of \
          triangles too.",
     );
-    let slerp = Variant::parse("slerp-phong")?;
-    let draw = |frame: &Frame| slerp.render_linear(frame);
-    let [upright, turned] = turned_both_ways(90.0, THROUGH_DARK, apart(), draw)?;
-    let map = difference_map(&upright, &turned, MAP_SCALES[1])?;
-    content.pictures(
-        3,
+    let slerp = |frame: &Frame| draw(frame, "slerp-phong");
+    content.compared(
         "The triangles by slerp Phong",
-        [
-            ("slerp Phong, triangles, 0°".into(), stored(&upright)),
-            ("90°, turned back".into(), stored(&turned)),
-            (map_caption(MAP_SCALES[1]), map),
-        ],
-    );
-    Ok(())
+        "slerp Phong, triangles, 0° | 90°, turned back",
+        &turned_both_ways(90.0, THROUGH_DARK, apart(), slerp)?,
+        MAP_SCALES[1],
+    )
 }
 
 #[cfg(test)]

@@ -1,17 +1,10 @@
 //! Supersampling with a depth buffer: occlusion at each sample, and the edge that its filter gives
 //! (L5).
 
-use super::{
-    Figure, FigureContent, Plot, Result, ScreenCorner, ScreenPolygon, Series, draw, log, shipped,
-    written,
-};
-use crate::frame::{Frame, FrameBuilder};
-use crate::mesh::Material;
+use super::prelude::*;
+use crate::frame::FrameBuilder;
+use crate::picture::Encoding;
 use crate::picture::encoding::{srgb_encode, store};
-use crate::picture::{Encoding, LinearPicture};
-use crate::scene::Lighting;
-use alloc::{format, vec::Vec};
-use glam::DVec3;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "supersampling",
@@ -39,9 +32,7 @@ fn frame(size: [u32; 2], samples: u32, polygons: &[Coloured<'_>]) -> Result<Fram
     for (number, (colour, depth, corners)) in polygons.iter().enumerate() {
         let material = Material {
             ambient: *colour,
-            diffuse: [0.0; 3],
-            specular: [0.0; 3],
-            shininess: 1.0,
+            ..DULL
         };
         let material = builder.lighting(Lighting::new(&material, [1.0; 3], &[], DVec3::Z));
         let corner = |corner: &[f64; 2]| ScreenCorner {
@@ -72,8 +63,7 @@ fn edge(content: &mut FigureContent) -> Result {
     content.pictures(SAMPLES.len(), "The edge of a green triangle", panels);
     let falls = points.is_sorted_by(|a, b| a.1 > b.1);
     content.confirms(
-        "share",
-        "error with one sample over error with 8 × 8",
+        "share | error with one sample over error with 8 × 8",
         (points[0].1 / points[3].1, "", falls),
         "More samples, better edges: the depth test works for each sample.",
     );
@@ -93,10 +83,9 @@ fn filtering(content: &mut FigureContent) -> Result {
     let level = f64::from(store(&picture, Encoding::Srgb).get(1, 0)[0]);
     let exact = f64::from(srgb_encode(0.5)) * 255.0;
     content.adds(
-        "linear",
-        "stored level of a pixel that is half white and half black, sRGB",
+        "linear | stored level of a pixel that is half white and half black, sRGB",
         (level, "of 255", (level - exact).abs() <= 0.5),
-        format!("The mean is taken before encoding: half of the light is level {exact:.0}."),
+        &format!("The mean is taken before encoding: half of the light is level {exact:.0}."),
     );
     Ok(())
 }
@@ -114,13 +103,13 @@ fn cutting(content: &mut FigureContent) -> Result {
     Ok(())
 }
 
-/// Returns the part of the unit square at (`x`, `y`) that lies in the triangle: cut by its three
+/// Returns the part of the unit square at `corner` that lies in the triangle: cut by its three
 /// edges, then measured.
-fn share([x, y]: [f64; 2]) -> f64 {
-    let mut shape = Vec::from([[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]]);
+fn share(corner: DVec2) -> f64 {
+    let mut shape = Vec::from([DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|c| corner + c));
     for i in 0..3 {
-        let ([ax, ay], [bx, by]) = (TRIANGLE[i], TRIANGLE[(i + 1) % 3]);
-        let side = |[px, py]: [f64; 2]| (bx - ax) * (py - ay) - (by - ay) * (px - ax);
+        let [a, b] = [TRIANGLE[i], TRIANGLE[(i + 1) % 3]].map(DVec2::from);
+        let side = |p: DVec2| (b - a).perp_dot(p - a);
         let mut cut = Vec::new();
         for j in 0..shape.len() {
             let (p, q) = (shape[j], shape[(j + 1) % shape.len()]);
@@ -129,15 +118,12 @@ fn share([x, y]: [f64; 2]) -> f64 {
                 cut.push(p);
             }
             if (at_p >= 0.0) != (at_q >= 0.0) {
-                let t = at_p / (at_p - at_q);
-                cut.push([p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])]);
+                cut.push(p + at_p / (at_p - at_q) * (q - p));
             }
         }
         shape = cut;
     }
-    let following = shape.iter().cycle().skip(1);
-    let edges = shape.iter().zip(following);
-    0.5 * edges.map(|(p, q)| p[0] * q[1] - q[0] * p[1]).sum::<f64>()
+    0.5 * twice_the_area(&shape)
 }
 
 /// Returns the RMS error of the triangle's share of the pixels that its edges cross: 1 less red is
@@ -146,7 +132,7 @@ fn share_error(picture: &LinearPicture) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for y in 0..picture.height() {
         for x in 0..picture.width() {
-            let exact = share([x as f64, y as f64]);
+            let exact = share(DVec2::new(x as f64, y as f64));
             if exact > 0.0 && exact < 1.0 {
                 let found = 1.0 - f64::from(picture.get(x, y)[0]);
                 (sum, count) = (sum + (found - exact) * (found - exact), count + 1.0);

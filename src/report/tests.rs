@@ -177,8 +177,7 @@ fn figure() -> FigureData {
     let series = [Series::new("s", [(0.0, 1.0 / 3.0), (1.0, f64::NAN)])];
     content.plot(Plot::new("plot", axes, series, "caption").marked([0.5]));
     content.confirms(
-        "key",
-        "label",
+        "key | label",
         (0.411504, "levels", true),
         "Exactly <right>.",
     );

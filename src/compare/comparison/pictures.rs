@@ -12,7 +12,6 @@ use core::cell::OnceCell;
 
 /// The references of one frame, and the polygons that renderers show.
 pub(super) struct References<'a> {
-    frame: &'a Frame,
     cut: &'a Triangulated,
     closed_forms: ClosedForms<'a>,
     /// The closed forms on triangles; `None` if the polygons are triangles.
@@ -50,7 +49,6 @@ impl<'a> References<'a> {
     pub fn new(frame: &'a Frame, cut: &'a Triangulated) -> Self {
         let is_cut = frame.polygons().iter().any(|polygon| polygon.count > 3);
         References {
-            frame,
             cut,
             closed_forms: ClosedForms::new(frame),
             on_triangles: is_cut.then(|| ClosedForms::new(&cut.frame)),
@@ -66,22 +64,17 @@ impl<'a> References<'a> {
 
     /// Draws a variant by `renderer` and compares it.
     pub fn scanline_row(&self, variant: &Variant, renderer: Renderer) -> MethodRow {
-        let drawn_by = DrawnBy::new(variant.plan(self.frame, renderer).renderer);
-        let linear = variant.render_linear_with(self.frame, renderer);
+        let (forms, shown) = (&self.closed_forms, &self.scanline);
+        let by = DrawnBy::new(variant.plan(forms.frame, renderer).renderer);
+        let linear = variant.render_linear_with(forms.frame, renderer);
         let mut picture = Picture::new(0, 0, [0; 4]);
-        variant.render_with(self.frame, renderer, &mut picture);
+        variant.render_with(forms.frame, renderer, &mut picture);
         let own = match variant.info().model {
             Model::Phong => None,
-            model => Some(self.closed_forms.difference(model, &linear, &self.scanline)),
+            model => Some(forms.difference(model, &linear, shown)),
         };
-        let bound = variant.bound(self.frame);
-        self.row(
-            variant,
-            drawn_by,
-            (picture, linear),
-            &self.scanline,
-            (own, bound),
-        )
+        let own = (own, variant.bound(forms.frame));
+        self.row(variant, by, (picture, linear), shown, own)
     }
 
     /// Draws a variant by the barycentric renderer and compares it; `None` if that does not have the method.
@@ -142,37 +135,26 @@ impl<'a> References<'a> {
 impl ClosedForms<'_> {
     /// Compares `actual` with a closed form where both show the same polygon.
     fn difference(&self, model: Model, actual: &LinearPicture, shown: &Picture<u32>) -> Difference {
-        difference(
-            self.picture(model),
-            actual,
-            &self.visibility.polygons,
-            shown,
-        )
+        let seen = &self.visibility.polygons;
+        difference(self.picture(model), actual, [seen, shown])
     }
 }
 
-/// True if all samples of a pixel of `picture` show the same polygon in both.
-fn same_polygons(
-    seen: &Picture<u32>,
-    shown: &Picture<u32>,
-    picture: &LinearPicture,
-    x: usize,
-    y: usize,
-) -> bool {
-    let side = seen.width() / picture.width();
+/// True if the pixel at `x` and `y` shows the same polygon in both, at each of its `side` × `side` samples.
+fn same_polygons([seen, shown]: [&Picture<u32>; 2], side: usize, x: usize, y: usize) -> bool {
     let columns = x * side..(x + 1) * side;
     (y * side..(y + 1) * side)
         .all(|row| seen.row(row)[columns.clone()] == shown.row(row)[columns.clone()])
 }
 
-/// Compares two pictures where `seen` and `shown` have the same polygon.
+/// Compares two pictures where those of their polygons have the same one.
 fn difference(
     reference: &LinearPicture,
     actual: &LinearPicture,
-    seen: &Picture<u32>,
-    shown: &Picture<u32>,
+    polygons: [&Picture<u32>; 2],
 ) -> Difference {
-    let is_same = |x, y| same_polygons(seen, shown, reference, x, y);
+    let side = polygons[0].width() / reference.width();
+    let is_same = |x, y| same_polygons(polygons, side, x, y);
     compare_where(reference, actual, is_same).expect("pictures of one frame have one size")
 }
 
@@ -189,12 +171,11 @@ mod tests {
 
     #[test]
     fn a_pixel_is_the_same_if_all_its_samples_are() {
-        let picture = Picture::new(2, 1, [0.0; 4]);
         let samples = Picture::from_pixels(4, 2, [1, 1, 2, 2, 1, 1, 2, 3].into()).unwrap();
         for changed in 0..8 {
             let mut other = samples.clone();
             other.pixels_mut()[changed] = 9;
-            let same = [0, 1].map(|x| same_polygons(&samples, &other, &picture, x, 0));
+            let same = [0, 1].map(|x| same_polygons([&samples, &other], 2, x, 0));
             assert_eq!(
                 same,
                 [changed % 4 >= 2, changed % 4 < 2],
@@ -210,9 +191,9 @@ mod tests {
         actual.row_mut(0)[1] = [0.9, 0.9, 0.9, 1.0];
         let seen = Picture::from_pixels(2, 1, [3, 4].into()).unwrap();
         let shown = Picture::from_pixels(2, 1, [3, 5].into()).unwrap();
-        let same = difference(&reference, &actual, &seen, &seen);
+        let same = difference(&reference, &actual, [&seen, &seen]);
         assert!(same.max > 0.39 && same.excluded == 0);
-        let masked = difference(&reference, &actual, &seen, &shown);
+        let masked = difference(&reference, &actual, [&seen, &shown]);
         assert!(masked.equal && masked.compared == 1 && masked.excluded == 1);
     }
 }

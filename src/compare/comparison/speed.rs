@@ -59,10 +59,7 @@ pub(super) fn time(
     let other = |row: &MethodRow| {
         let name = counterpart(&row.variant);
         let is_it = |other: &MethodRow| other.variant.info().name == name;
-        barycentric
-            .iter()
-            .position(is_it)
-            .map(|i| &of_barycentric[i])
+        Some(&of_barycentric[barycentric.iter().position(is_it)?])
     };
     let pixels = comparison.covered_pixels;
     let speed = |(row, timing): (&MethodRow, &Timing)| {

@@ -1,5 +1,7 @@
 //! Costs that add up to times: least squares of relative errors, with no cost below zero.
 
+use alloc::vec::Vec;
+
 /// An observed total, and the counts of the costs that make it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observation<const N: usize> {
@@ -75,49 +77,43 @@ fn cost_of<const N: usize>(observations: &[Observation<N>], costs: &[f64; N]) ->
     observations.iter().map(square).sum()
 }
 
-/// Solves ordinary least squares over the costs whose bits are in `subset`, the others 0: columns of unit length made orthogonal
-/// one after the other (modified Gram–Schmidt), then solved backward.
+/// Solves ordinary least squares over the costs whose bits are in `subset`, the others 0.
 fn solve<const N: usize>(observations: &[Observation<N>], subset: u32) -> Option<[f64; N]> {
-    use alloc::vec::Vec;
-    let chosen: Vec<usize> = (0..N).filter(|j| subset >> j & 1 == 1).collect();
-    let mut right: Vec<f64> = observations.iter().map(|o| o.total / o.scale).collect();
-    let (mut columns, mut lengths): (Vec<Vec<f64>>, Vec<f64>) = Default::default();
-    // Row k: the parts of each later column along the orthogonal column k, then that of the right-hand side.
-    let mut triangle: Vec<Vec<f64>> = Vec::new();
-    for &j in &chosen {
-        let column: Vec<f64> = observations.iter().map(|o| o.counts[j] / o.scale).collect();
-        let length = libm::sqrt(dot(&column, &column));
-        if length <= 0.0 || !length.is_finite() {
-            return None;
-        }
-        lengths.push(length);
-        columns.push(column.iter().map(|x| x / length).collect());
-    }
-    for k in 0..columns.len() {
-        let own = libm::sqrt(dot(&columns[k], &columns[k]));
-        if own < LEAST_OF_ITS_OWN {
-            return None;
-        }
-        let unit: Vec<f64> = columns[k].iter().map(|x| x / own).collect();
-        let mut row = alloc::vec![own];
-        for later in columns[k + 1..].iter_mut().chain([&mut right]) {
-            let part = dot(&unit, later);
-            row.push(part);
-            for (x, u) in later.iter_mut().zip(&unit) {
-                *x -= part * u;
-            }
-        }
-        triangle.push(row);
-    }
+    let chosen = || (0..N).filter(|j| subset >> j & 1 == 1);
+    let scaled = |j: usize| observations.iter().map(move |o| o.counts[j] / o.scale);
+    let column = |j| (scaled(j).map(|x| x * x).sum(), scaled(j).collect());
+    let right: Vec<f64> = observations.iter().map(|o| o.total / o.scale).collect();
     let mut costs = [0.0; N];
-    for k in (0..chosen.len()).rev() {
-        let row = &triangle[k];
-        let later: f64 = (k + 1..chosen.len())
-            .map(|l| row[l - k] * costs[chosen[l]] * lengths[l])
-            .sum();
-        costs[chosen[k]] = (row[row.len() - 1] - later) / row[0] / lengths[k];
-    }
+    let factors = nearest(&chosen().map(column).collect::<Vec<_>>(), &right)?;
+    chosen().zip(factors).for_each(|(j, cost)| costs[j] = cost);
     Some(costs)
+}
+
+/// Returns the factors of `columns` whose sum comes nearest to `right`. Before each column stands the square of its length
+/// before the first call.
+///
+/// Solves for the later columns where the first one has no part in anything, then for the first (Gram–Schmidt).
+fn nearest(columns: &[(f64, Vec<f64>)], right: &[f64]) -> Option<Vec<f64>> {
+    let Some(((whole, first), later)) = columns.split_first() else {
+        return Some(Vec::new());
+    };
+    let square = dot(first, first);
+    // Not of a column of zeros either, or of one too large for its square.
+    let is_of_its_own = square > LEAST_OF_ITS_OWN * LEAST_OF_ITS_OWN * whole;
+    if !is_of_its_own {
+        return None;
+    }
+    let rest = |column: &[f64]| -> Vec<f64> {
+        let part = dot(first, column) / square;
+        let pairs = column.iter().zip(first);
+        pairs.map(|(x, f)| x - part * f).collect()
+    };
+    let others: Vec<_> = later.iter().map(|(whole, c)| (*whole, rest(c))).collect();
+    let mut factors = nearest(&others, &rest(right))?;
+    let explained = |(factor, (_, column)): (&f64, &(f64, Vec<f64>))| factor * dot(first, column);
+    let explained: f64 = factors.iter().zip(later).map(explained).sum();
+    factors.insert(0, (dot(first, right) - explained) / square);
+    Some(factors)
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -63,37 +63,24 @@ struct Canvas(RefCell<(Frame, Picture8)>);
 
 impl Canvas {
     fn new(scene: &PreparedScene) -> Result<Canvas, FrameError> {
-        Ok(Canvas(RefCell::new((
-            scene.frame()?,
-            Picture8::new(0, 0, [0; 4]),
-        ))))
+        let picture = Picture8::new(0, 0, [0; 4]);
+        Ok(Canvas(RefCell::new((scene.frame()?, picture))))
     }
 
-    /// Returns a candidate that projects the scene.
-    fn projects<'a>(&'a self, scene: &'a PreparedScene) -> Candidate<'a> {
-        Box::new(move || {
-            let (frame, _) = &mut *self.0.borrow_mut();
-            black_box(scene)
-                .frame_into(frame)
-                .expect("a scene that was projected before");
-            black_box(frame);
-        })
-    }
-
-    /// Returns a candidate that projects the scene and draws it.
+    /// Returns a candidate that projects the scene, and draws it if a `method` is given.
     fn draws<'a>(
         &'a self,
         scene: &'a PreparedScene,
-        variant: &'a Variant,
-        renderer: Renderer,
+        method: Option<(&'a Variant, Renderer)>,
     ) -> Candidate<'a> {
         Box::new(move || {
             let (frame, picture) = &mut *self.0.borrow_mut();
-            black_box(scene)
-                .frame_into(frame)
-                .expect("a scene that was projected before");
-            variant.render_with(frame, renderer, picture);
-            black_box(picture);
+            let projected = black_box(scene).frame_into(frame);
+            projected.expect("a scene that was projected before");
+            if let Some((variant, renderer)) = method {
+                variant.render_with(frame, renderer, picture);
+            }
+            black_box((frame, picture));
         })
     }
 }

@@ -151,13 +151,8 @@ pub struct Scaling {
     pub curves: Vec<Curve>,
 }
 
-/// A method and a renderer that draw a curve, in the order of [`Scaling::curves`].
-struct Way {
-    variant: Variant,
-    renderer: Renderer,
-    /// The most triangles that it draws.
-    most: usize,
-}
+/// A method and a renderer that draw a curve, and the most triangles that they draw, in the order of [`Scaling::curves`].
+type Way = (Variant, Renderer, usize);
 
 /// A picture size, and true if the sphere is seen from afar.
 type SphereView = ([u32; 2], bool);
@@ -174,18 +169,11 @@ impl Scaling {
         options: &ScalingOptions,
         progress: &mut dyn FnMut(f32, &str),
     ) -> Result<Scaling, ExperimentError> {
-        let way = |renderer, most| {
-            move |variant| Way {
-                variant,
-                renderer,
-                most,
-            }
-        };
-        let fastest = way(Renderer::fastest(), usize::MAX);
-        let lecture = way(Renderer::LECTURE, options.lecture_up_to);
-        let ways = chosen(&METHODS, variants).into_iter().map(fastest);
-        let ways = ways.chain(chosen(&[BASELINE], &[]).into_iter().map(lecture));
-        let ways: Vec<Way> = ways.collect();
+        let fastest = |variant| (variant, Renderer::fastest(), usize::MAX);
+        let lecture = |variant| (variant, Renderer::LECTURE, options.lecture_up_to);
+        let mut ways: Vec<Way> = Vec::new();
+        ways.extend(chosen(&METHODS, variants).into_iter().map(fastest));
+        ways.extend(chosen(&[BASELINE], &[]).into_iter().map(lecture));
         let mut measured = Scaling {
             mesh: format!("builtin:{}", sphere("N")),
             at: options.at,
@@ -231,20 +219,36 @@ impl Scaling {
         }
         scene.set_camera(camera);
         let canvas = Canvas::new(scene)?;
-        let drawing = || ways.iter().filter(|way| asked <= way.most);
-        let mut candidates: Vec<Candidate<'_>> = Vec::from([canvas.projects(scene)]);
-        candidates.extend(drawing().map(|way| canvas.draws(scene, &way.variant, way.renderer)));
+        let mut candidates: Vec<Candidate<'_>> = Vec::from([canvas.draws(scene, None)]);
+        for (variant, renderer, most) in ways {
+            if asked <= *most {
+                candidates.push(canvas.draws(scene, Some((variant, *renderer))));
+            }
+        }
         let mut timings = time_interleaved(&mut candidates, limits, |_| ()).into_iter();
         drop(candidates);
         let (frame, _) = &*canvas.0.borrow();
         if self.curves.is_empty() {
-            self.curves = ways.iter().map(|way| way.curve(frame)).collect();
+            self.curves = ways.iter().map(|way| Curve::new(way, frame)).collect();
         }
-        let projection = timings.next().expect("a timing a candidate");
-        self.points
-            .push(ScalingPoint::new(frame, (asked, size, away), projection));
-        for (curve, way) in self.curves.iter_mut().zip(ways) {
-            let is_drawn = asked <= way.most;
+        let (mut spans, mut pixels) = (0, 0);
+        coverage(frame, |_, _, span| {
+            spans += usize::from(!span.is_empty());
+            pixels += span.len();
+        });
+        self.points.push(ScalingPoint {
+            asked,
+            size,
+            away,
+            vertices: frame.vertices().len(),
+            triangles: frame.stats().polygons,
+            drawn: frame.polygons().len(),
+            spans,
+            pixels,
+            projection: timings.next().expect("a timing a candidate"),
+        });
+        for (curve, (.., most)) in self.curves.iter_mut().zip(ways) {
+            let is_drawn = asked <= *most;
             curve.times.push(is_drawn.then(|| timings.next()).flatten());
         }
         scene.set_camera(near);
@@ -260,11 +264,11 @@ impl Scaling {
     }
 }
 
-impl Way {
-    fn curve(&self, frame: &Frame) -> Curve {
-        let renderer = self.variant.plan(frame, self.renderer).renderer;
+impl Curve {
+    fn new((variant, renderer, _): &Way, frame: &Frame) -> Curve {
+        let renderer = variant.plan(frame, *renderer).renderer;
         Curve {
-            method: self.variant.to_string(),
+            method: variant.to_string(),
             engine: renderer.engine().name(),
             level: renderer.level().name(),
             times: Vec::new(),
@@ -278,46 +282,19 @@ impl ScalingOptions {
     fn views(&self, triangles: usize) -> Vec<SphereView> {
         let mut views = Vec::from([(self.at, false)]);
         if triangles == self.of {
-            let others = self.sizes.iter().filter(|size| **size != self.at);
-            views.extend(others.clone().map(|size| (*size, false)));
+            let is_other = |size: &&[u32; 2]| **size != self.at;
+            let others = self.sizes.iter().filter(is_other);
+            views.extend(others.map(|size| (*size, false)));
             views.push((self.at, true));
             let pixels = |size: &&[u32; 2]| u64::from(size[0]) * u64::from(size[1]);
-            let largest = self.sizes.iter().max_by_key(pixels);
-            views.extend(
-                largest
-                    .filter(|size| **size != self.at)
-                    .map(|size| (*size, true)),
-            );
+            let largest = self.sizes.iter().max_by_key(pixels).filter(is_other);
+            views.extend(largest.map(|size| (*size, true)));
         }
         views
     }
 }
 
 impl ScalingPoint {
-    /// Counts all that costs in a frame.
-    fn new(
-        frame: &Frame,
-        (asked, size, away): (usize, [u32; 2], bool),
-        projection: Timing,
-    ) -> ScalingPoint {
-        let (mut spans, mut pixels) = (0, 0);
-        coverage(frame, |_, _, span| {
-            spans += usize::from(!span.is_empty());
-            pixels += span.len();
-        });
-        ScalingPoint {
-            asked,
-            size,
-            away,
-            vertices: frame.vertices().len(),
-            triangles: frame.stats().polygons,
-            drawn: frame.polygons().len(),
-            spans,
-            pixels,
-            projection,
-        }
-    }
-
     /// Returns how often each cost but that of vertices arises.
     fn counts(&self) -> [f64; 4] {
         let picture = f64::from(self.size[0]) * f64::from(self.size[1]);
@@ -360,10 +337,9 @@ fn costs(vertex_ns: f64, points: &[ScalingPoint], times: &[Option<Timing>]) -> O
         worst: 0.0,
         worst_point: 0,
     };
-    let errors = timed
-        .iter()
-        .map(|(i, point, ns)| (ns / costs.explain(point) - 1.0, *i));
-    let worst = errors.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-    (costs.worst, costs.worst_point) = worst;
+    let error =
+        |(i, point, ns): &(usize, &ScalingPoint, f64)| (ns / costs.explain(point) - 1.0, *i);
+    let errors = timed.iter().map(error);
+    (costs.worst, costs.worst_point) = errors.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
     Some(costs)
 }

@@ -130,12 +130,11 @@ impl Speedups {
         let levels_off = levels_off(&variants, &scene, &corners, options.span)?;
         let mut candidates: Vec<Candidate<'_>> = Vec::new();
         for corner in &corners {
+            let level = level(corner.scalar);
             for variant in &variants {
                 candidates.push(match corner.work {
-                    Work::Kernel => {
-                        kernel(variant, level(corner.scalar), corner.lights, options.span)
-                    }
-                    Work::Frame => canvas.draws(&scene, variant, renderer(corner.scalar)),
+                    Work::Kernel => kernel(variant, level, corner.lights, options.span),
+                    Work::Frame => canvas.draws(&scene, Some((variant, Renderer::on(level)))),
                 });
             }
         }
@@ -155,9 +154,7 @@ impl Speedups {
         let method = |(i, (variant, levels_off)): (usize, (&Variant, u8))| MethodSpeedups {
             method: variant.to_string(),
             levels_off,
-            corners: (0..corners.len())
-                .map(|corner| speedup(i, corner))
-                .collect(),
+            corners: (0..corners.len()).map(|at| speedup(i, at)).collect(),
         };
         let methods = variants.iter().zip(levels_off).enumerate();
         Ok(Speedups {
@@ -170,12 +167,7 @@ impl Speedups {
     }
 }
 
-/// Returns the renderer of frames in the corners of the lecture, or in those of today.
-fn renderer(scalar: bool) -> Renderer {
-    Renderer::on(level(scalar))
-}
-
-/// Returns the instruction set of the kernels.
+/// Returns the instruction set in the corners of the lecture, or in those of today.
 fn level(scalar: bool) -> Level {
     if scalar { Level::Scalar } else { Level::best() }
 }
@@ -229,7 +221,8 @@ fn levels_off(
             Work::Kernel => span_picture(variant, corner, span),
             Work::Frame => {
                 let mut picture = Picture8::new(0, 0, [0; 4]);
-                variant.render_with(&frame, renderer(corner.scalar), &mut picture);
+                let renderer = Renderer::on(level(corner.scalar));
+                variant.render_with(&frame, renderer, &mut picture);
                 picture
             }
         };
@@ -264,10 +257,7 @@ fn span_picture(variant: &Variant, corner: &SpeedCorner, length: usize) -> Pictu
 
 /// Returns the largest difference of a channel of two pictures of one size, in grey levels.
 fn farthest(a: &Picture8, b: &Picture8) -> u8 {
-    let channels = a
-        .pixels()
-        .as_flattened()
-        .iter()
-        .zip(b.pixels().as_flattened());
-    channels.map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
+    let [a, b] = [a, b].map(|picture| picture.pixels().as_flattened());
+    let differences = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b));
+    differences.max().unwrap_or(0)
 }

@@ -34,11 +34,11 @@ pub fn difference_map<A: Pixel, B: Pixel>(
     scale: f32,
 ) -> Result<Picture8, SizeMismatch> {
     paint(reference, actual, |r, a| {
-        let channels = channel_errors(r, a);
-        let error = channels.errors.into_iter().fold(0.0, f64::max);
-        match channels.not_finite {
-            true => BEYOND,
-            false => absolute_colour(error, f64::from(scale)),
+        let (errors, are_finite) = channel_errors(r, a);
+        let error = errors.into_iter().fold(0.0, f64::max);
+        match are_finite {
+            true => absolute_colour(error, f64::from(scale)),
+            false => BEYOND,
         }
     })
 }
@@ -57,10 +57,11 @@ pub fn signed_difference_map<A: Pixel, B: Pixel>(
     scale: f32,
 ) -> Result<Picture8, SizeMismatch> {
     paint(reference, actual, |r, a| {
-        if channel_errors(r, a).not_finite {
-            return BEYOND;
+        let (_, are_finite) = channel_errors(r, a);
+        match are_finite {
+            true => signed_colour(a.luminance() - r.luminance(), f64::from(scale)),
+            false => BEYOND,
         }
-        signed_colour(a.luminance() - r.luminance(), f64::from(scale))
     })
 }
 

@@ -206,17 +206,17 @@ impl ErrorSums {
         if !differs && reference.alpha() == 0.0 && actual.alpha() == 0.0 {
             return;
         }
-        let channels = channel_errors(reference, actual);
-        let error = channels.errors.into_iter().fold(0.0, f64::max);
+        let (errors, are_finite) = channel_errors(reference, actual);
+        let error = errors.into_iter().fold(0.0, f64::max);
         counts.differing += usize::from(differs);
-        counts.not_finite += usize::from(channels.not_finite);
+        counts.not_finite += usize::from(!are_finite);
         counts.over_half_level += usize::from(error > 0.5);
         counts.over_one_level += usize::from(error > 1.0);
         if error > counts.max {
             (counts.max, counts.worst) = (error, Some(at));
         }
-        self.absolute += channels.errors.iter().sum::<f64>();
-        self.squares += channels.errors.iter().map(|e| e * e).sum::<f64>();
+        self.absolute += errors.iter().sum::<f64>();
+        self.squares += errors.iter().map(|e| e * e).sum::<f64>();
         self.signed += actual.luminance() - reference.luminance();
         self.errors.push(error);
     }
@@ -244,25 +244,14 @@ impl ErrorSums {
     }
 }
 
-/// Absolute differences of three channels, in grey levels.
-struct ChannelErrors {
-    errors: [f64; 3],
-    not_finite: bool,
-}
-
-/// Returns the errors of one pixel; a channel that is not finite is off by the full range, so that no mean is lost or hides it.
-fn channel_errors(reference: Levels, actual: Levels) -> ChannelErrors {
+/// Returns the absolute differences of the channels of one pixel, in grey levels, and true if all are finite. One that is
+/// not is the full range, so that no mean is lost or hides it.
+fn channel_errors(reference: Levels, actual: Levels) -> ([f64; 3], bool) {
     let (r, a) = (reference.rgb(), actual.rgb());
-    let mut of = ChannelErrors {
-        errors: [0.0; 3],
-        not_finite: false,
-    };
-    for i in 0..3 {
-        let error = (a[i] - r[i]).abs();
-        of.not_finite |= !error.is_finite();
-        of.errors[i] = if error.is_finite() { error } else { 255.0 };
-    }
-    of
+    let errors = [0, 1, 2].map(|i| (a[i] - r[i]).abs());
+    let are_finite = errors.iter().all(|error| error.is_finite());
+    let finite = |error: f64| if error.is_finite() { error } else { 255.0 };
+    (errors.map(finite), are_finite)
 }
 
 /// Returns the smallest error that [`PERCENTILE`] of all do not exceed (nearest rank); 0 of none. Reorders the errors.

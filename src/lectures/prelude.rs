@@ -1,0 +1,19 @@
+//! The names that most figures use: what they draw, what they measure, and what they show.
+
+pub(super) use super::Figure;
+pub(super) use super::content::{Agreement, FigureContent, Plot, Series, linear, log, written};
+pub(super) use super::error::{FigureError, Result};
+pub(super) use super::fixture::*;
+pub(super) use super::measure::*;
+pub(super) use crate::compare::metrics::{compare, difference_map};
+pub(super) use crate::frame::Frame;
+pub(super) use crate::mesh::Material;
+pub(super) use crate::mesh::vertex_normals::NormalSource;
+pub(super) use crate::number::vec3;
+pub(super) use crate::picture::LinearPicture;
+pub(super) use crate::scene::{
+    Camera, Falloff, Interpolation, Light, Lighting, Projection, Scene, SpecularGate, SpecularModel,
+};
+pub(super) use crate::shading::{Variant, Walk};
+pub(super) use alloc::{format, string::String, vec, vec::Vec};
+pub(super) use glam::{DAffine3, DVec2, DVec3};
