@@ -89,10 +89,7 @@ impl SampleDepth {
     /// Returns the depth to store for a sample with the interpolated number `q`, if it passes the test against the stored `depth`.
     #[inline(always)]
     pub fn seen(&self, q: f32, depth: f32) -> Option<f32> {
-        let z = match self.quantity {
-            Quantity::Depth => q,
-            Quantity::InverseW | Quantity::Distance => (q - self.origin) * self.factor,
-        };
+        let z = (q - self.origin) * self.factor; // q itself where depth is interpolated
         // CS171 3, Algorithm 5, is the sample in the cube? The picture ends at the cube's other faces.
         let is_inside = !self.cube || (0.0..=1.0).contains(&z);
         let kept = self.kept(z);

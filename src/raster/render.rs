@@ -56,7 +56,6 @@ impl Variant {
     pub fn plan(&self, frame: &Frame, renderer: Renderer) -> Plan {
         let depth = SampleDepth::new(frame);
         let reason = match renderer {
-            Renderer::Span => None,
             Renderer::Row(level) if level == Level::Scalar || !level.is_available() => {
                 Some("this machine does not have these SIMD instructions")
             }
@@ -70,7 +69,7 @@ impl Variant {
             Renderer::Row(_) if frame.polygons().len() >= 1 << 24 => {
                 Some("the row engine takes less than 2^24 polygons")
             }
-            Renderer::Row(_) => None,
+            _ => None,
         };
         Plan {
             renderer: reason.map_or(renderer, |_| Renderer::Span),
@@ -166,7 +165,7 @@ impl Variant {
     /// Draws the triangles of `frame` with the barycentric renderer. Returns `None` if it does not have this method.
     pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
         match frame.encoding() {
-            Encoding::Linear => self.triangles(frame, edges, empty(frame)),
+            Encoding::Linear => self.triangles(frame, edges),
             Encoding::Srgb => Some(store(
                 &self.render_barycentric_linear(frame, edges)?,
                 Encoding::Srgb,
@@ -176,19 +175,15 @@ impl Variant {
 
     /// Draws as [`Variant::render_barycentric`], before rounding.
     pub fn render_barycentric_linear(&self, frame: &Frame, edges: Edges) -> Option<LinearPicture> {
-        self.triangles(frame, edges, empty(frame))
+        self.triangles(frame, edges)
     }
 
     /// Draws the triangles of `frame` over an empty picture.
-    fn triangles<T: Stored>(
-        &self,
-        frame: &Frame,
-        edges: Edges,
-        mut picture: Picture<T>,
-    ) -> Option<Picture<T>> {
+    fn triangles<T: Stored>(&self, frame: &Frame, edges: Edges) -> Option<Picture<T>> {
         if !self.entry().is_barycentric() {
             return None;
         }
+        let mut picture = empty(frame);
         let setup = SetUp::new(self, frame, Level::Scalar, 1.0);
         draw_anyhow(frame, picture.pixels_mut(), |target| {
             barycentric::draw(&setup, edges, target);

@@ -72,7 +72,6 @@ impl<'a> Varyings<'a> {
 }
 
 /// A method on a frame, ready to be drawn.
-#[derive(Clone, Debug)]
 pub(super) struct SetUp<'a> {
     pub frame: &'a Frame,
     pub kernels: &'static Kernels,
@@ -82,12 +81,6 @@ pub(super) struct SetUp<'a> {
     pub uniforms: Vec<Uniforms>,
     pub is_by_polygon: bool,
     pub varyings: Varyings<'a>,
-}
-
-impl core::fmt::Debug for Kernels {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str("Kernels")
-    }
 }
 
 /// Vertices that are lit by one call.
@@ -128,11 +121,11 @@ impl<'a> SetUp<'a> {
         };
         let is_weighted =
             is_perspective && matches!(info.perspective, Perspective::Free | Perspective::Divides);
-        match info.lit_at {
+        (all.varyings.values, all.varyings.per) = match info.lit_at {
             LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(level, info.lit_at),
             _ if is_by_polygon && !kernels.great_circle => all.light_corners(level, is_weighted),
             _ => all.light_vertices(level, is_weighted),
-        }
+        };
         all
     }
 
@@ -157,14 +150,13 @@ impl<'a> SetUp<'a> {
     }
 
     /// Lights every vertex, or borrows the frame's normals where a method interpolates nothing else.
-    fn light_vertices(&mut self, level: Level, is_weighted: bool) {
+    fn light_vertices(&self, level: Level, is_weighted: bool) -> (Cow<'a, [f32]>, Per) {
         let (frame, count, near) = (self.frame, self.varyings.count, self.frame.is_local());
         let has_one_material = frame.lightings().len() == 1;
         let normals = frame.normals_on_screen();
         let mut values = match normals.filter(|_| self.extras == Extras::default()) {
             Some(normals) if self.kernels.passes_normal => {
-                self.varyings.values = Cow::Borrowed(normals.as_flattened());
-                return;
+                return (normals.as_flattened().into(), Per::Vertex);
             }
             // Normals need not be gathered.
             Some(normals) if has_one_material && !near => {
@@ -195,11 +187,11 @@ impl<'a> SetUp<'a> {
                 varying.iter_mut().for_each(|value| *value *= vertex.inv_w);
             }
         }
-        self.varyings.values = Cow::Owned(values);
+        (values.into(), Per::Vertex)
     }
 
     /// Lights each polygon once.
-    fn light_polygons(&mut self, level: Level, at: LitAt) {
+    fn light_polygons(&self, level: Level, at: LitAt) -> (Cow<'a, [f32]>, Per) {
         let frame = self.frame;
         let item = |number: usize| {
             let polygon = &frame.polygons()[number];
@@ -210,12 +202,11 @@ impl<'a> SetUp<'a> {
             (self.uniforms_of(number as u32), normal, [0.0; 3])
         };
         let values = self.lit(level, frame.polygons().len(), &item);
-        self.varyings.values = Cow::Owned(values);
-        self.varyings.per = Per::Polygon;
+        (values.into(), Per::Polygon)
     }
 
     /// Lights the corners of each polygon by the light that the polygon sees.
-    fn light_corners(&mut self, level: Level, is_weighted: bool) {
+    fn light_corners(&self, level: Level, is_weighted: bool) -> (Cow<'a, [f32]>, Per) {
         let (frame, count) = (self.frame, self.varyings.count);
         let (mut first, mut corners) = (Vec::new(), Vec::new());
         for (number, polygon) in (0..).zip(frame.polygons()) {
@@ -234,8 +225,7 @@ impl<'a> SetUp<'a> {
                 to.iter_mut().for_each(|value| *value *= weight);
             }
         }
-        self.varyings.values = Cow::Owned(values);
-        self.varyings.per = Per::Corner(first);
+        (values.into(), Per::Corner(first))
     }
 
     /// Returns the varying of a vertex on polygon `number`: between the ends of the edge on which clipping made it, or lit.
@@ -306,9 +296,6 @@ impl<'a> SetUp<'a> {
 
     /// Stores the house's extras behind the varyings of the method.
     fn add_extras(&self, values: &mut [f32], points: &[[f32; 3]]) {
-        if self.extras == Extras::default() {
-            return;
-        }
         let count = self.varyings.count;
         let own = count - self.extras.count();
         for (values, point) in values.chunks_exact_mut(count).zip(points) {

@@ -4,21 +4,25 @@ use super::active::PolygonSpan;
 use crate::raster::depth::SampleDepth;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::mem::take;
 use core::ops::Range;
 
 /// The number of the span, or polygon, at a pixel where there is none.
 pub const NOTHING: u32 = u32::MAX;
 
+/// A pixel at which there is no span: infinitely far.
+const EMPTY: (f32, u32) = (f32::INFINITY, NOTHING);
+
 /// Steps depth along a span. Where `sees` returns a depth to store, span `number` is seen.
 #[inline(always)]
-fn walk<'a>(
+fn walk(
     span: &PolygonSpan,
-    line: impl Iterator<Item = (&'a mut f32, &'a mut u32)>,
+    pixels: &mut [(f32, u32)],
     number: u32,
     sees: impl Fn(f32, f32) -> Option<f32>,
 ) {
     let mut q = span.depth;
-    for (depth, seen) in line {
+    for (depth, seen) in pixels {
         if let Some(kept) = sees(q, *depth) {
             (*depth, *seen) = (kept, number);
         }
@@ -30,8 +34,8 @@ fn walk<'a>(
 #[derive(Debug)]
 pub(crate) struct VisibleLine {
     spans: Vec<PolygonSpan>,
-    depth: Vec<f32>,
-    seen: Vec<u32>,
+    /// Depth and number of the span at each pixel.
+    pixels: Vec<(f32, u32)>,
     drawn: Range<usize>,
     rule: SampleDepth,
 }
@@ -40,8 +44,7 @@ impl VisibleLine {
     pub fn new(width: usize, rule: SampleDepth) -> Self {
         VisibleLine {
             spans: Vec::new(),
-            depth: vec![f32::INFINITY; width],
-            seen: vec![NOTHING; width],
+            pixels: vec![EMPTY; width],
             drawn: 0..0,
             rule,
         }
@@ -50,9 +53,7 @@ impl VisibleLine {
     /// Empties the line.
     pub fn clear(&mut self) {
         self.spans.clear();
-        self.depth[self.drawn.clone()].fill(f32::INFINITY);
-        self.seen[self.drawn.clone()].fill(NOTHING);
-        self.drawn = 0..0;
+        self.pixels[take(&mut self.drawn)].fill(EMPTY);
     }
 
     /// Draws a span: it is seen where its depth is strictly less than what was drawn before.
@@ -64,28 +65,26 @@ impl VisibleLine {
         } else {
             self.drawn.start.min(pixels.start)..self.drawn.end.max(pixels.end)
         };
-        let line = self.depth[pixels.clone()]
-            .iter_mut()
-            .zip(&mut self.seen[pixels]);
+        let pixels = &mut self.pixels[pixels];
         let rule = self.rule;
         // The fast path has a loop of its own, without decisions.
         if rule.is_plain() {
-            walk(&span, line, number, |q, depth| (q < depth).then_some(q));
+            walk(&span, pixels, number, |q, depth| (q < depth).then_some(q));
         } else {
-            walk(&span, line, number, |q, depth| rule.seen(q, depth));
+            walk(&span, pixels, number, |q, depth| rule.seen(q, depth));
         }
         self.spans.push(span);
     }
 
     /// Returns the depth at each pixel, as finely as it is stored; infinite where nothing was drawn.
     pub fn depth(&self) -> impl Iterator<Item = f32> {
-        self.depth.iter().map(|kept| self.rule.shown(*kept))
+        self.pixels.iter().map(|(kept, _)| self.rule.shown(*kept))
     }
 
     /// Returns the polygon seen at pixel `x`, or [`NOTHING`].
     pub fn polygon(&self, x: usize) -> u32 {
         self.spans
-            .get(self.seen[x] as usize)
+            .get(self.pixels[x].1 as usize)
             .map_or(NOTHING, |span| span.polygon)
     }
 
@@ -99,10 +98,10 @@ impl VisibleLine {
     pub fn runs(&self, mut visit: impl FnMut(&PolygonSpan, Range<usize>)) {
         let mut x = self.drawn.start;
         while x < self.drawn.end {
-            let number = self.seen[x];
+            let number = self.pixels[x].1;
             let start = x;
             x += 1;
-            while x < self.drawn.end && self.seen[x] == number {
+            while x < self.drawn.end && self.pixels[x].1 == number {
                 x += 1;
             }
             if number != NOTHING {
