@@ -131,7 +131,7 @@ impl<'a> Pixels<'a> {
 type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
 
 /// A method compiled for one number of lights.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Kernels {
     /// Returns the numbers of a varying and of a pixel for so many lights.
     pub(crate) counts: fn(usize) -> [usize; 2],
@@ -148,7 +148,7 @@ pub struct Kernels {
 }
 
 /// The kernels of a method on one instruction set.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct SimdKernels {
     /// Computes the varyings of vertices, for methods that are lit there; others use the scalar kernel.
     pub vertices: Option<VertexKernel>,
