@@ -52,7 +52,7 @@ pub const ENGINES: [EngineInfo; 4] = [
     },
     EngineInfo {
         name: "barycentric",
-        title: "a bounding box a triangle, three edge functions a pixel: the lecture's way is measured against it",
+        title: "a bounding box per triangle, three edge functions per pixel: the lecture's way is measured against it",
         draws: "triangles, into which polygons are cut; :edges=top-left or :edges=closed",
         runs: "scalar, one thread",
     },

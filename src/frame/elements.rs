@@ -41,7 +41,7 @@ pub struct ScreenVertex {
 impl ScreenVertex {
     /// Packs column and row into one number, to be read and written at once: the bits of the column below those of the row.
     #[inline(always)]
-    pub(crate) fn place(&self) -> u64 {
+    pub(crate) fn packed(&self) -> u64 {
         u64::from(self.x.to_bits() as u32) | u64::from(self.y.to_bits() as u32) << 32
     }
 }

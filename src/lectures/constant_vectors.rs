@@ -118,13 +118,13 @@ fn products(content: &mut FigureContent) -> Result {
         rows.push(row);
     }
     content.table(
-        "operations a pixel | + (1 light) | × | ÷ and √ | + (2 lights) | × | ÷ and √",
+        "operations per pixel | + (1 light) | × | ÷ and √ | + (2 lights) | × | ÷ and √",
         rows,
     );
     let one = counts("duff-phong", 1)?.walk.additions;
     let more = counts("duff-phong", 2)?.walk.additions - one;
     content.adds(
-        "additions | additions a pixel that step the six products of one light, and 1/w²",
+        "additions | additions per pixel that step the six products of one light, and 1/w²",
         (one, "", true),
         &format!("Two each; a further light takes {more} more. A falloff needs 1/w²."),
     );

@@ -50,7 +50,7 @@ fn sphere() -> Result<Frame> {
 /// Measures the highlights by their green light, of which the sphere's own colour has nearly none.
 fn highlights(content: &mut FigureContent) -> Result {
     content.text(
-        "A red sphere under two lights at positions, by Algorithm 8: once a triangle (Figure 10), \
+        "A red sphere under two lights at positions, by Algorithm 8: once per triangle (Figure 10), \
          a vertex (Figure 9), a pixel (Figure 11). Algorithm 7 as printed does not normalise the \
          interpolated normal, though the lighting model asks for a unit normal.",
     );

@@ -41,7 +41,7 @@ fn circle([left, right]: [f64; 2]) -> Result<[LinearPicture; 3]> {
     draw_each(&frame(SIZE, DULL, toward(LIGHT), &facets)?, METHODS)
 }
 
-/// Returns the jump of the slope of naive Phong shading at the joint in grey levels a pixel. Linear
+/// Returns the jump of the slope of naive Phong shading at the joint in grey levels per pixel. Linear
 /// normals turn at the rate sin φ / length at both ends of a facet, and the intensity is the cosine
 /// of the angle to the light:
 ///
@@ -88,25 +88,25 @@ fn jumps(content: &mut FigureContent) -> Result {
     let times = written(naive.abs() / gouraud.abs());
     content.contradicts(
         "naive-phong | naive Phong: jump of the slope at the joint",
-        (naive, "grey levels a pixel", naive.abs() > gouraud.abs()),
+        (naive, "grey levels per pixel", naive.abs() > gouraud.abs()),
         &format!("Phong shading is worse here: {times} times the jump of Gouraud shading."),
     );
     content.adds(
         "gouraud | Gouraud: jump of the slope at the joint",
-        (gouraud, "grey levels a pixel", true),
+        (gouraud, "grey levels per pixel", true),
         "Both chords are about equally steep, as the left facet reaches beyond the terminator.",
     );
     let has_none = slerp.abs() < 0.01 * naive.abs();
     content.adds(
         "slerp-phong | slerp Phong: jump of the slope at the joint",
-        (slerp, "grey levels a pixel", has_none),
+        (slerp, "grey levels per pixel", has_none),
         "None: uniform speed follows the circle.",
     );
     let expected = closed_form(ANGLES);
     let is_near = (naive - expected).abs() < 0.02 * expected.abs();
     content.adds(
         "closed-form | naive Phong: the same by 255 sin θ (sin φ₂ / l₂ − sin φ₁ / l₁)",
-        (expected, "grey levels a pixel", is_near),
+        (expected, "grey levels per pixel", is_near),
         "The engine draws what the formula says.",
     );
     Ok(())
@@ -127,7 +127,7 @@ fn sweep(content: &mut FigureContent) -> Result {
     let angle = format!("angle of the left facet, degrees (the right one: {right}°)");
     content.plot(Plot::new(
         "Jump of the slope over the angle of the left facet",
-        [linear(angle), linear("jump of the slope, levels a pixel")],
+        [linear(angle), linear("jump of the slope, levels per pixel")],
         curves.into_iter().chain([formula]),
         "Equal angles: no jump for naive Phong. The jump of Gouraud shading comes from its chords; \
          it happens to vanish where the left facet reaches far beyond the terminator.",

@@ -1,5 +1,5 @@
 //! The exercises of Lecture 21: a table of sines read between its lines, and e^t by one
-//! multiplication a pixel.
+//! multiplication per pixel.
 
 use super::prelude::*;
 use crate::number::{Counter, Num};
@@ -7,7 +7,7 @@ use crate::raster::depth;
 
 pub(super) static FIGURE: Figure = Figure {
     name: "exercises",
-    title: "The exercises: a table of sines, and e to the t by one multiplication a pixel",
+    title: "The exercises: a table of sines, and e to the t by one multiplication per pixel",
     lecture: "L21, Exercises 1 and 2",
     parts: &[sine, exponential, fog],
 };
@@ -83,7 +83,7 @@ fn exponential(content: &mut FigureContent) -> Result {
     let others = counts.additions + counts.divisions + counts.powers + counts.trigonometric;
     let all = counts.multiplications + others;
     content.confirms(
-        "multiplications | operations a pixel of e to the t",
+        "multiplications | operations per pixel of e to the t",
         (all, "", all == 1 && counts.multiplications == 1),
         "One multiplication and nothing else, counted.",
     );
@@ -100,7 +100,7 @@ fn exponential(content: &mut FigureContent) -> Result {
     let bound = 2.0 * (PIXELS - 1) as f64 / (1 << 24) as f64;
     let [allowed, measured] = [bound, most].map(written);
     content.plot(Plot::new(
-        "Exponential by one multiplication a pixel: relative error over a span",
+        "Exponential by one multiplication per pixel: relative error over a span",
         [linear("pixel"), log("relative error")],
         errors.map(|(fall, errors)| {
             let shown = (8..PIXELS).step_by(8).map(|k| (k as f64, errors[k]));
@@ -162,7 +162,7 @@ fn fog(content: &mut FigureContent) -> Result {
     ));
     content.row(
         "A tilted plane that fades into white fog",
-        "one multiplication a pixel | one exponential a pixel",
+        "one multiplication per pixel | one exponential per pixel",
         [&stepped, &exact].map(stored),
     );
     content.confirms(

@@ -73,10 +73,10 @@ fn meshes(content: &mut FigureContent) -> Result {
     content.compared(mesh, captions, pictures, MAP_SCALE)
 }
 
-/// Counts the operations a pixel for one light, of walk and shade.
+/// Counts the operations per pixel for one light, of walk and shade.
 fn operations(content: &mut FigureContent) -> Result {
     content.text(
-        "Operations a pixel for one light and shininess 32, counted by running each method on \
+        "Operations per pixel for one light and shininess 32, counted by running each method on \
          counting numbers: walk steps from the previous pixel, shade computes the colour. The \
          power is five multiplications in every method but flat and Gouraud shading.",
     );
@@ -97,25 +97,25 @@ fn operations(content: &mut FigureContent) -> Result {
     let (naive, fast) = (count("naive-phong")?, count("fast-phong")?);
     let roots = |counts: &OperationCounts| counts.walk.roots + counts.shade.roots;
     content.confirms(
-        "roots-naive | naive Phong: square roots a pixel",
+        "roots-naive | naive Phong: square roots per pixel",
         (roots(&naive), "", roots(&naive) == 1),
         "One, to normalise the interpolated normal.",
     );
     content.confirms(
-        "roots-fast | fast Phong: square roots a pixel",
+        "roots-fast | fast Phong: square roots per pixel",
         (roots(&fast), "", roots(&fast) == 0),
         "None: Newton\u{2019}s steps take their place.",
     );
     content.confirms(
         "walk-naive | naive Phong: additions to step the normal (4.2)",
         (naive.walk.additions, "", naive.walk.additions == 3),
-        "Three additions a pixel.",
+        "Three additions per pixel.",
     );
     let gouraud = count("gouraud")?.walk.additions;
     content.confirms(
-        "walk-gouraud | Gouraud: additions a pixel, for three channels (3.6)",
+        "walk-gouraud | Gouraud: additions per pixel, for three channels (3.6)",
         (gouraud, "", gouraud == 3),
-        "One addition a channel.",
+        "One addition per channel.",
     );
     let slerp = count("slerp-phong")?.walk;
     // One addition and two multiplications each make J and K of the sines (4.8).

@@ -40,7 +40,7 @@ fn spheres(content: &mut FigureContent) -> Result {
     let truth = truth(&finest);
     let frames: Vec<Frame> = RINGS.into_iter().map(sphere).collect::<Result<_>>()?;
     content.text(format!(
-        "One sphere in six resolutions, shaded once a face, a vertex, and a pixel. Errors are \
+        "One sphere in six resolutions, shaded once per face, per vertex, and per pixel. Errors are \
          against the Phong reference on {} polygons, over pixels that both cover.",
         finest.polygons().len()
     ));

@@ -99,7 +99,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
     let (_, control) = jumps(smooth);
     content.adds(
         "slope-cylinder | the cylinder itself: largest jump of the slope",
-        (control, "grey levels a pixel", true),
+        (control, "grey levels per pixel", true),
         "The measurement gives this much where nothing bends.",
     );
     let mut rows = Vec::new();
@@ -118,7 +118,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
         let is_smooth = slope < 4.0 * control;
         content.found(
             &format!("slope-{name} | {name}: largest jump of the slope"),
-            (slope, "grey levels a pixel", true),
+            (slope, "grey levels per pixel", true),
             match is_flat {
                 true => Agreement::Adds,
                 false => Agreement::if_holds(is_smooth),
@@ -130,7 +130,7 @@ fn numbers(content: &mut FigureContent, profiles: &[(&str, Vec<f64>)]) {
         );
     }
     content.table(
-        "at the edges of facets | jump of intensity, levels | jump of slope, levels a pixel",
+        "at the edges of facets | jump of intensity, levels | jump of slope, levels per pixel",
         rows,
     );
 }

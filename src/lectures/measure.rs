@@ -80,7 +80,7 @@ pub(super) fn profile(picture: &LinearPicture, row: usize) -> Vec<f64> {
 pub(super) struct Jump {
     /// Of the value, in grey levels.
     pub value: f64,
-    /// Of the slope, in grey levels a pixel.
+    /// Of the slope, in grey levels per pixel.
     pub slope: f64,
 }
 

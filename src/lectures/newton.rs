@@ -1,4 +1,4 @@
-//! Newton's method along a span: the error after so many steps a pixel, and where the method breaks
+//! Newton's method along a span: the error after so many steps per pixel, and where the method breaks
 //! (L21 4.2).
 
 use super::prelude::*;

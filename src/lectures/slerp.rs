@@ -33,7 +33,7 @@ fn turns(vectors: Vec<DVec3>) -> Vec<f64> {
     units.windows(2).map(turn).collect()
 }
 
-/// Measures degrees a pixel of the two ways to interpolate.
+/// Measures degrees per pixel of the two ways to interpolate.
 fn speed(content: &mut FigureContent) -> Result {
     const DEGREES: f64 = 120.0;
     let picture = normals(&strip(DEGREES)?);
@@ -60,7 +60,7 @@ fn speed(content: &mut FigureContent) -> Result {
     let curves = [("linear, then normalised", &lerp), ("great circle", &slerp)];
     content.plot(Plot::new(
         "Speed of the normal along a span",
-        [linear("column, pixels"), linear("turn, degrees a pixel")],
+        [linear("column, pixels"), linear("turn, degrees per pixel")],
         curves.map(curve),
         "A chord walked at uniform speed turns fastest where it is nearest to the middle of the \
          circle.",

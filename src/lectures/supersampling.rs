@@ -24,7 +24,7 @@ const PLANE: [[f64; 2]; 4] = [[-1.0, -1.0], [25.0, -1.0], [25.0, 19.0], [-1.0, 1
 /// The colour, the depth and the corners of a polygon, in pixels.
 type Coloured<'a> = ([f32; 3], f64, &'a [[f64; 2]]);
 
-/// Makes a frame of polygons with so many samples a pixel along each side.
+/// Makes a frame of polygons with so many samples per pixel along each side.
 fn frame(size: [u32; 2], samples: u32, polygons: &[Coloured<'_>]) -> Result<Frame> {
     let [width, height] = size.map(|side| side * samples);
     let mut builder = FrameBuilder::new(width, height);
@@ -47,7 +47,7 @@ fn frame(size: [u32; 2], samples: u32, polygons: &[Coloured<'_>]) -> Result<Fram
 
 fn edge(content: &mut FigureContent) -> Result {
     content.text(
-        "A green triangle before a yellow plane, with n × n samples a pixel. Visibility and light \
+        "A green triangle before a yellow plane, with n × n samples per pixel. Visibility and light \
          are computed at each sample, and averaged in linear light.",
     );
     let (mut panels, mut points) = (Vec::new(), Vec::new());

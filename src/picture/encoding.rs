@@ -24,7 +24,7 @@ pub enum Encoding {
 /// shading in `f32` is off by.
 ///
 /// Tried and dropped: exact in `f64`, and a conversion by `as`, whose saturation keeps the loop from being vectorised:
-/// both took 4 ns a pixel, a quarter of a flat-shaded frame.
+/// both took 4 ns per pixel, a quarter of a flat-shaded frame.
 #[inline(always)]
 pub fn quantise(c: f32) -> u8 {
     quantise_level(255.0 * c)

@@ -1,10 +1,10 @@
 //! Pictures beside shaded colours: depth, normals, polygon numbers, coverage, and interpolated colours and checkerboards.
 //!
-//! A mean of depths or of polygon numbers means nothing: where a frame has several samples a pixel these pictures have
+//! A mean of depths or of polygon numbers means nothing: where a frame has several samples per pixel these pictures have
 //! [`Frame::width`] × [`Frame::height`] of them, not filtered.
 //!
 //! Colours of vertices and checkerboards (L5, Interpolation Across Triangles) are linear on the screen, or, if the frame asks for
-//! it, linear in space for one division a pixel. Under a perspective camera the first bends the squares of a board at every
+//! it, linear in space for one division per pixel. Under a perspective camera the first bends the squares of a board at every
 //! diagonal (L5, *What's wrong?*), the second does not.
 
 use super::barycentric::{self, Edges};
@@ -97,7 +97,7 @@ pub fn normals(frame: &Frame) -> LinearPicture {
     picture
 }
 
-/// Returns three numbers a vertex as varyings, followed by 1; all times the weight of perspective where the frame asks for it.
+/// Returns three numbers per vertex as varyings, followed by 1; all times the weight of perspective where the frame asks for it.
 fn of_vertices(frame: &Frame, of: impl Fn(u32) -> [f32; 3]) -> Varyings<'static> {
     let mut all: Vec<[f32; 3]> = (0..frame.vertices().len() as u32).map(of).collect();
     for corner in frame.clip_corners() {
@@ -161,7 +161,7 @@ fn board(frame: &Frame, edges: Option<Edges>, size: f64, colours: [Rgb; 2]) -> L
     })
 }
 
-/// Returns a picture of three numbers a vertex: `colour` of the interpolated numbers at each sample.
+/// Returns a picture of three numbers per vertex: `colour` of the interpolated numbers at each sample.
 fn shown(
     frame: &Frame,
     edges: Option<Edges>,

@@ -9,8 +9,8 @@ use core::ops::Range;
 /// A function that draws one band: takes its number, its scanlines, and the target of its rows, which count from its first.
 pub(super) type DrawBand<'a> = dyn Fn(usize, Range<usize>, &mut dyn Target) + Sync + 'a;
 
-/// A function that has a picture drawn, whatever its pixels are: takes the height of bands in scanlines of samples, and draws
-/// every band, in any order, on as many threads as the current pool has.
+/// A function that runs a [`DrawBand`] on every band of a picture, for any pixel format: takes the height of bands in scanlines
+/// of samples. Bands are drawn in any order, on as many threads as the current pool has.
 pub(super) type EachBand<'a> = dyn FnMut(usize, &DrawBand<'_>) + 'a;
 
 /// Bands that are drawn before they are given away, for each thread: some are done sooner than others.

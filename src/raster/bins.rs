@@ -14,8 +14,8 @@ const GROUP: usize = 64;
 /// A column and a row in sub-pixels.
 type Point = [i32; 2];
 
-/// A polygon with its corners, if it is a triangle: bands are read in a row, where polygons and their corner lists are spread
-/// over memory, two reads of which the second waits for the first.
+/// A polygon with its corners, if it is a triangle. Bands read these sequentially; polygons and their corner lists are scattered
+/// over memory, and would be two dependent reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Listed {
     /// The number of the polygon.
@@ -91,7 +91,7 @@ impl BinChunk {
                     entries.extend_from_slice(&read_entries[..polygons.len()]);
                     find_bands(frame, &points, height, &mut ranges, group * GROUP);
                 }
-                // First by how many polygons each band has more than the one before.
+                // A difference array of the polygons per band; prefix sums follow below.
                 let [from, end] = &ranges;
                 for (&from, &end) in from[..all.len()].iter().zip(end) {
                     starts[usize::from(from)] = starts[usize::from(from)].wrapping_add(1);

@@ -10,7 +10,7 @@ pub enum Engine {
     /// One pixel at a time: active edges, a depth buffer of one line, and visible runs that are walked and shaded once, the
     /// lecture's way.
     Span,
-    /// Sixteen pixels at a time: a deferred renderer, whose varyings are kept in a G-buffer until each row is shaded once.
+    /// SIMD: a deferred renderer, whose varyings are kept in a G-buffer until each row is shaded once.
     Row,
 }
 
@@ -90,7 +90,7 @@ impl Renderer {
     }
 }
 
-/// The renderer that draws a frame after all: see [`crate::shading::Variant::plan`].
+/// The renderer that is actually used: see [`crate::shading::Variant::plan`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
     /// The renderer.

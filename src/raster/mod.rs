@@ -4,7 +4,7 @@
 //! - `spans` is the lecture's, scalar: an edge table, active edges that step their varyings from scanline to scanline, a depth
 //!   buffer of one line, and visible runs that are walked and shaded once. Everything can be drawn by it.
 //! - `rows` (feature `simd`) is a deferred renderer: bands of scanlines, a G-buffer, each row shaded once.
-//! - `barycentric` is the bounding-box rasterizer that the span engine is measured against: three edge functions a pixel.
+//! - `barycentric` is the bounding-box rasterizer that the span engine is measured against: three edge functions per pixel.
 //!
 //! All of them have the same fill rule, and draw exactly the same pixels: those whose centres have an odd number of polygon edges
 //! to their left, counted in exact integers on corners snapped to 1/256 pixel. Polygons that share an edge share none of its

@@ -57,7 +57,7 @@ impl Variant {
         let depth = SampleDepth::new(frame);
         let reason = match renderer {
             Renderer::Row(level) if level == Level::Scalar || !level.is_available() => {
-                Some("this machine does not have these SIMD instructions")
+                Some("the row engine needs SIMD instructions that this machine does not have")
             }
             Renderer::Row(_) if !depth.is_interpolated() => {
                 Some("the row engine interpolates depth and does not compute it per sample")

@@ -1,4 +1,4 @@
-//! The set-up before the first scanline: uniforms once a material, varyings once a vertex, a corner or a polygon.
+//! The set-up before the first scanline: uniforms once per material, varyings once per vertex, corner or polygon.
 
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::number::parallel::for_each_chunk;
@@ -35,7 +35,7 @@ pub(super) struct Varyings<'a> {
 }
 
 impl<'a> Varyings<'a> {
-    /// Takes `count` numbers a vertex, interpolated linearly.
+    /// Takes `count` numbers per vertex, interpolated linearly.
     pub fn of_vertices(values: impl Into<Cow<'a, [f32]>>, count: usize) -> Self {
         Varyings {
             values: values.into(),

@@ -9,7 +9,7 @@ use super::{LitAt, Local, Shader, Span, SpanBench, Variant};
 use crate::number::{Counted, Counter, Counts, vec3};
 use alloc::vec::Vec;
 
-/// The operations of one method at each rate, for a material of shininess 32 (five multiplications a light).
+/// The operations of one method at each rate, for a material of shininess 32 (five multiplications per light).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OperationCounts {
     /// Once a vertex.

@@ -1,4 +1,4 @@
-//! Flat shading: one colour a polygon (L21 2).
+//! Flat shading: one colour per polygon (L21 2).
 
 use super::{
     Constant, Info, Lit, LitAt, Local, Perspective, Pixel, Roundings, Shader, Span, Stepped,
@@ -15,7 +15,7 @@ pub struct Flat;
 impl Shader for Flat {
     const INFO: Info = Info {
         name: "flat",
-        title: "one colour a polygon, from its own normal",
+        title: "one colour per polygon, from its own normal",
         formula: "I = Ia ka + Ip kd (L.N) + Ip ks (R.V)^n, N the polygon's normal by Newell's formula",
         source: "L21 2, eq 2.1 (Bouknight 1970)",
         model: Model::Flat,

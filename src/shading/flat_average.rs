@@ -1,4 +1,4 @@
-//! Flat shading in the other definition: one colour a polygon, from the mean of its vertices (CS171 3, Algorithm 6).
+//! Flat shading in the other definition: one colour per polygon, from the mean of its vertices (CS171 3, Algorithm 6).
 
 use super::flat::Flat;
 use super::{Info, LitAt, Roundings, Shader, Stepped};
@@ -10,7 +10,7 @@ use crate::reference::Model;
 /// The mean is normalised, which Algorithm 6 leaves out: the lighting model is for unit normals (trap T20).
 pub const FLAT_AVERAGE: Info = Info {
     name: "flat-average",
-    title: "one colour a polygon, from the mean of its vertex normals",
+    title: "one colour per polygon, from the mean of its vertex normals",
     formula: "N = (N1 + ... + Nn) / |N1 + ... + Nn|;  P = (P1 + ... + Pn) / n;  I = eq 2.1 of N at P",
     source: "CS171 3, Algorithm 6",
     model: Model::FlatAverage,

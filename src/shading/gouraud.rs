@@ -6,7 +6,7 @@ use super::{
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
-/// Gouraud shading: eq 2.1 at the vertices, then one addition a channel along edges and spans (L21 3.5–3.6).
+/// Gouraud shading: eq 2.1 at the vertices, then one addition per channel along edges and spans (L21 3.5–3.6).
 ///
 /// The vertex colours are clamped to 0..=1 before they are interpolated, so no pixel needs a clamp.
 #[derive(Clone, Copy, Debug, Default)]

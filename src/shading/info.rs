@@ -99,7 +99,7 @@ pub enum Perspective {
     Unaffected,
     /// Attributes are weighted at the corners; the unknown factor cancels, so a pixel costs no more.
     Free,
-    /// One division a pixel more.
+    /// One division per pixel more.
     Divides,
     /// Stays linear on the screen.
     ScreenOnly,

@@ -18,7 +18,7 @@ use fearless_simd::*;
 /// The state that a span of a method starts from.
 pub type Span<S, F> = <<S as Shader>::Varying<F> as Varying<F>>::Span;
 
-/// A run of pixels of one polygon on one scanline. Its start values stand in a list beside it, `start_len` numbers a run.
+/// A run of pixels of one polygon on one scanline. Its start values stand in a list beside it, `start_len` numbers per run.
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
     /// The uniforms that it is shaded with.

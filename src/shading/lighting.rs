@@ -5,7 +5,7 @@
 //! R = 2 (L·N) N − L
 //! ```
 //!
-//! [`Uniforms`] are made once a material; [`Lit`] is one point (or a block of points) that sees them. The power of
+//! [`Uniforms`] are made once per material; [`Lit`] is one point (or a block of points) that sees them. The power of
 //! the highlight is `Exponent::of`, for every method. Questions that the lecture leaves open are settled here, for every method:
 //! - `L·N` and `R·V` are clamped at 0 *before* the power (an even power of a negative number would light the far side);
 //! - there is no specular light where `L·N ≤ 0`, unless the scene asks for one of the other two forms of [`SpecularGate`];
@@ -29,7 +29,7 @@ const LEAST_SQUARE: f32 = 1e-30;
 /// The largest rounding of a colour of ½ or more: half a unit in the last place, 2⁻²⁴.
 const FAINT: f32 = 1.0 / (1 << 24) as f32;
 
-/// The light on one material, as kernels read it: plain numbers, made once a material.
+/// The light on one material, as kernels read it: plain numbers, made once per material.
 #[derive(Clone, Debug)]
 pub struct Uniforms {
     /// The part that all lights share.
@@ -241,8 +241,8 @@ pub struct Seen<'a, F> {
 }
 
 impl<'a, F: Num> Lit<'a, F> {
-    /// Prepares the view from `point`. `general` is a literal at each of the calls: loops without it decide nothing, and serve
-    /// materials whose model is not general.
+    /// Prepares the view from `point`. Pass a constant for `general`: `false` compiles the branch-free loop, which is valid only
+    /// for models that are not general.
     #[inline(always)]
     pub fn new(model: LightModel, all: &'a [LightUniforms], point: Vec3<F>, general: bool) -> Self {
         let mut view = vector(model.eye).like(point.x);
@@ -417,8 +417,8 @@ impl<'a, F: Num> Lit<'a, F> {
         (dull, bright)
     }
 
-    /// Returns the cosine of a highlight to the power n, gated and times the light's strength; `None` where no pixel has one,
-    /// as most of a surface has none and highlights are half of the work. `diffuse` is L·N, 0 or more.
+    /// Returns the cosine of a highlight to the power n, gated and times the light's strength; `None` where no pixel has one:
+    /// the early exit of most blocks, as highlights are half of the work. `diffuse` is L·N, 0 or more.
     #[inline(always)]
     fn power(&self, light: &Seen<'a, F>, diffuse: F, mut cosine: F) -> Option<F> {
         let LightModel { gate, exponent, .. } = self.model;
@@ -430,7 +430,7 @@ impl<'a, F: Num> Lit<'a, F> {
             return None;
         }
         if F::WIDTH > 1 {
-            // The pixels of a block do not depend on one another: faint ones are none here too.
+            // Faint lanes become 0 here too, so that a pixel does not depend on its block.
             cosine = cosine.gate(cosine, self.model.faint);
         }
         let mut power = match exponent {

@@ -1,4 +1,4 @@
-//! Shading methods: one trait, one table, one file a method.
+//! Shading methods: one trait, one table, one file per method.
 //!
 //! A method says what a vertex carries ([`Shader::vertex`]), how it is stepped along a span ([`Shader::walk`]) and how a pixel is
 //! shaded ([`Shader::shade`]), once, for every arithmetic backend. Kernels and engines do all else: positions of lights,
@@ -6,12 +6,12 @@
 //!
 //! ```text
 //! vertex ──► Varying ──► edges, spans ──► Walk ──► Pixel (G-buffer entry) ──► shade ──► colour
-//!   once a vertex         interpolated     stepped from pixel to pixel        a pure function
+//!   once per vertex       interpolated     stepped from pixel to pixel        a pure function
 //! ```
 //!
 //! **All memory of the previous pixel is in the walk.** So an engine may step one row and shade another time, in blocks of 16, or
 //! on another thread, and no method changes. [`Kernels`] is a method compiled: a table of plain functions, which engines
-//! call once a row, a batch of runs or a range of vertices. [`METHODS`] lists all methods: each is rendered, compared, timed,
+//! call once per row, batch of runs or range of vertices. [`METHODS`] lists all methods: each is rendered, compared, timed,
 //! counted, tested and drawn.
 //!
 //! Start with `gouraud.rs`, then `fast_phong.rs`, then [`lighting`], which holds all of equation 2.1.
@@ -59,7 +59,7 @@ pub use varying::{UnitNormal, Varying};
 
 use crate::number::{Num, Vec3};
 
-/// A shading method: what is computed once a vertex, along a span, and once a pixel.
+/// A shading method: what is computed once per vertex, along a span, and once per pixel.
 ///
 /// Fields are parameters; a method without any derives `Default` and leaves `new` out. Every function must be `#[inline(always)]`: without it a pixel costs 25 times as much.
 pub trait Shader: Copy + Default + 'static {
@@ -77,7 +77,7 @@ pub trait Shader: Copy + Default + 'static {
     fn new(_parameters: &[u32], _model: &LightModel) -> Self {
         Self::default()
     }
-    /// Returns the varyings of a vertex with the unit normal `n`; once a polygon for methods that are lit there.
+    /// Returns the varyings of a vertex with the unit normal `n`; once per polygon for methods that are lit there.
     fn vertex<F: Num>(self, lit: &Lit<'_, F>, n: Vec3<F>) -> Self::Varying<F>;
     /// Starts the walk along a span.
     fn walk<F: Num>(self, lit: &Lit<'_, F>, span: Span<Self, F>) -> Self::Walk<F>;

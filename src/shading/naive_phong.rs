@@ -4,7 +4,7 @@ use super::{Info, Linear, Lit, Pixel, Roundings, Shader, Span, Stepped};
 use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
-/// Naive Phong shading: N by three additions a pixel, then a root, a division and eq 2.1 (L21 4.1–4.2).
+/// Naive Phong shading: N by three additions per pixel, then a root, a division and eq 2.1 (L21 4.1–4.2).
 ///
 /// The interpolated normal and the unit normal are two variables, as in section 4.1. The lecture's summary feeds the unit normal
 /// back into the sum (`N_next = (N + ΔN)/|N + ΔN|`), which is not linear interpolation and never arrives at N_2. Where a light

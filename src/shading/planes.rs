@@ -2,7 +2,7 @@
 
 use crate::number::{Num, Vec3};
 
-/// A value that is made of numbers: a number, a vector, a tuple of them, or one a light.
+/// A value that is made of numbers: a number, a vector, a tuple of them, or one per light.
 pub trait Planes<F: Num>: Copy {
     /// Makes a value for `lights` lights of nothing but `number`.
     fn filled(lights: usize, number: F) -> Self;
@@ -79,7 +79,7 @@ planes!([A, B, C] (A, B, C), { 0: A, 1: B, 2: C }, |a, b, c| (a, b, c));
 /// For so many lights all numbers are stepped and stored, without a count: they stay in registers.
 const MOST_UNROLLED: usize = 8;
 
-/// One value a light, for up to `L` lights; only the lights that exist are stored, or all `L` if they are few.
+/// One value per light, for up to `L` lights; only the lights that exist are stored, or all `L` if they are few.
 #[derive(Clone, Copy, Debug)]
 pub struct PerLight<F, const L: usize> {
     /// The value of each light; those after the last light are never read.

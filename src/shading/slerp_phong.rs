@@ -8,7 +8,7 @@ use crate::number::{Num, Vec3};
 use crate::reference::Model;
 
 /// Slerp Phong shading, scalar form, for up to `L` lights: unit normals walk great circles along the edges; along a span only
-/// `J = L·N` and `K = V·N` are formed, from sines stepped by (4.9)–(4.12). No root and no division a pixel.
+/// `J = L·N` and `K = V·N` are formed, from sines stepped by (4.9)–(4.12). No root and no division per pixel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SlerpPhong<const L: usize>;
 

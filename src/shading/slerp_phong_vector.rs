@@ -17,7 +17,7 @@ impl Shader for SlerpPhongVector {
         formula: "N(t) = sin((1-t)phi)/sin(phi) N1 + sin(t phi)/sin(phi) N2; sines by eq 4.9-4.12; eq 2.1",
         source: "L21 4.4, eq 4.7-4.12, steps i-iv",
         derivation: "as slerp-phong: the same sines carry the normals",
-        fails: "as slerp-phong, at a higher price a pixel",
+        fails: "as slerp-phong, at a higher price per pixel",
         ..SlerpPhong::<1>::INFO
     };
     type Varying<F: Num> = UnitNormal<F>;

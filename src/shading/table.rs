@@ -58,7 +58,7 @@ impl Entry {
         Entry::by_lights::<M, M, M, M>()
     }
 
-    /// Makes the row of a method whose varyings hold a number a light: compiled for 1, 4, 8 and 64 of them.
+    /// Makes the row of a method whose varyings hold a number per light: compiled for 1, 4, 8 and 64 of them.
     pub const fn by_lights<A: Shader, B: Shader, C: Shader, D: Shader>() -> Entry {
         let all: ByLights = const {
             [

@@ -266,7 +266,7 @@ fn supersampled_pictures_have_the_size_of_the_scene() {
     assert!(
         refused
             .err
-            .contains("`--samples` is 4: expected at most 16384 samples a side"),
+            .contains("`--samples` is 4: expected at most 16384 samples per side"),
         "{}",
         refused.err
     );

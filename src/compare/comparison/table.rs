@@ -30,7 +30,7 @@ const METHOD: Column = ("method", |row| {
 const MAX: Column = ("max", |row| Some(levels(row.error.max)));
 const RMS: Column = ("RMS", |row| Some(levels(row.error.rms)));
 const TIME: Column = ("time, ms", |row| row.speed.as_ref().map(time));
-const PER_PIXEL: Column = ("ns a pixel", |row| {
+const PER_PIXEL: Column = ("ns per pixel", |row| {
     Some(significant(row.speed.as_ref()?.ns_per_covered_pixel?))
 });
 const NAIVE: Column = ("× naive-phong", |row| {

@@ -28,7 +28,7 @@ fn weights() -> [f64; WINDOW] {
     weights.map(|weight| weight / sum)
 }
 
-/// Returns the mean structural similarity of two rasters of values in 0..=1, each `width` values a row; `None` if the window does not fit.
+/// Returns the mean structural similarity of two rasters of values in 0..=1, each `width` values per row; `None` if the window does not fit.
 ///
 /// ```text
 /// SSIM = (2 μx μy + C1)(2 σxy + C2) / ((μx² + μy² + C1)(σx² + σy² + C2))

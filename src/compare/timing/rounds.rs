@@ -38,7 +38,7 @@ impl Default for TimeLimits {
 /// The least length of a sample, in ns: thousands of times the resolution of any clock and the cost of reading it.
 const LEAST_SAMPLE_NS: u64 = 200_000;
 
-/// The most calls a sample: a call that short is lost in the loop around it.
+/// The most calls per sample: a call that short is lost in the loop around it.
 const MOST_CALLS: u64 = 10_000;
 
 /// Times all candidates in rounds, until either limit is reached and [`TimeLimits::LEAST_ROUNDS`] are over. The timings are
@@ -46,7 +46,7 @@ const MOST_CALLS: u64 = 10_000;
 ///
 /// Every round samples each candidate once. The second round of a pair runs in the reverse order of the first
 /// (A B C, C B A), so that a drift during a pair cancels, and each pair begins with another candidate, so that none
-/// has a neighbour or a place of its own. A candidate too short for the clock is called several times a sample.
+/// has a neighbour or a place of its own. A candidate too short for the clock is called several times per sample.
 ///
 /// `progress` hears, between rounds only, the part of the limits that is used up, 0..=1; there is time to draw.
 pub fn time_interleaved(

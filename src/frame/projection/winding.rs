@@ -27,9 +27,9 @@ pub(super) fn of_triangles(
     #[allow(clippy::needless_range_loop)] // bounded once for all four arrays
     for k in 0..triangles.len().min(MOST) {
         let triangle = triangles[k];
-        places[0][k] = vertices[triangle[0] as usize].place();
-        places[1][k] = vertices[triangle[1] as usize].place();
-        places[2][k] = vertices[triangle[2] as usize].place();
+        places[0][k] = vertices[triangle[0] as usize].packed();
+        places[1][k] = vertices[triangle[1] as usize].packed();
+        places[2][k] = vertices[triangle[2] as usize].packed();
     }
     let [a, b, c, _] = &*places;
     signs([a, b], [a, c])
@@ -58,10 +58,10 @@ pub(super) fn of_polygons<'a>(
                 continue;
             }
         };
-        places[0][k] = vertices[a as usize].place();
-        places[1][k] = vertices[b as usize].place();
-        places[2][k] = vertices[c as usize].place();
-        places[3][k] = vertices[d as usize].place();
+        places[0][k] = vertices[a as usize].packed();
+        places[1][k] = vertices[b as usize].packed();
+        places[2][k] = vertices[c as usize].packed();
+        places[3][k] = vertices[d as usize].packed();
     }
     let [a, b, c, d] = &*places;
     // Twice the area is the cross product of the diagonals.

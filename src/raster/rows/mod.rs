@@ -3,22 +3,22 @@
 //! ```text
 //! bin ─► set up ─────────► rasterise ──────────────► G-buffer ─► shade ─► picture
 //!        triangles.rs      tiny.rs   pixel by pixel  tile.rs     shade.rs
-//!        8 in the lanes    small.rs  block by block  16 rows     a row by one
-//!        of a block        runs.rs   run by run      of blocks   call a material
+//!        8 in the lanes    small.rs  block by block  16 rows     one call per row
+//!        of a block        runs.rs   run by run      of blocks   and material
 //! ```
 //!
 //! Polygons are binned into tiles of 16 scanlines. Those of a tile are set up in batches and rasterised, in drawing order, with a
-//! depth test: what the method interpolates is written into the tile's G-buffer, beside depth and material. Then each row is shaded
-//! once. So shading costs the same for a pixel of a triangle of two pixels as in one of a thousand, and hidden pixels are never
-//! shaded. Tiles are independent: one is one unit of work for a thread.
+//! depth test: the method's varyings are written into the tile's G-buffer, beside depth and material. Then each row is shaded
+//! once. So the shading cost per pixel does not depend on the size of triangles, and hidden pixels are never shaded. Tiles are
+//! independent: each is one job for a thread.
 //!
 //! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
 //! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles by the crossings of their
 //! edges, n-gons by the active edges of the span engine, and the recurrences of fast, Duff's and slerp Phong by
 //! their walk kernels, many runs at a time.
 //!
-//! Nothing here knows a method or a light: a method is its [`Kernels`](crate::shading::Kernels), called once a row or a batch of
-//! runs, and all of this is compiled once an instruction set.
+//! Nothing here knows a method or a light: a method is its [`Kernels`](crate::shading::Kernels), called once per row or batch of
+//! runs. All of this is compiled once per instruction set.
 
 mod runs;
 mod shade;
@@ -46,7 +46,7 @@ use tile::{NumberCount, Tile};
 use tiny::Fragments;
 use triangles::{Batch, CoveragePath, LINE, bits};
 
-/// Scanlines of a tile: edges are seldom started anew, and every thread gets some.
+/// Scanlines of a tile: enough to amortise the restart of edges, few enough to give every thread work.
 const HEIGHT: usize = 16;
 
 /// Memory that a thread keeps from tile to tile.
@@ -65,9 +65,9 @@ struct RowEngine<'a> {
     setup: SetUp<'a>,
     kernels: &'a SimdKernels,
     test: SampleDepth,
-    /// The planes of a pixel: walked or interpolated numbers.
+    /// The varyings of a pixel in the G-buffer, in floats.
     planes: usize,
-    /// The numbers of a pixel: its depth, its planes, and its material if materials differ.
+    /// The floats of a pixel in the G-buffer: depth, varyings, and the material if materials differ.
     numbers: usize,
     /// The uniforms of all pixels, if they are the same.
     only: Option<u32>,
@@ -86,7 +86,7 @@ pub(super) fn draw(
     let scale = if is_scaled { 255.0 } else { 1.0 };
     let setup = SetUp::new(variant, frame, level, scale);
     let Some(kernels) = (setup.kernels.simd)(level) else {
-        return; // no plan asks for the row engine there
+        return; // unreachable: `Variant::plan` chose the span engine
     };
     let [_, planes] = (setup.kernels.counts)(frame.light_count());
     let planes = planes + setup.extras.count();
@@ -114,7 +114,7 @@ pub(super) fn draw(
                     }
                     #[cfg(target_arch = "aarch64")]
                     Level::Neon => rows.rasterise::<fearless_simd::Neon>(polygons, &band, scratch),
-                    _ => return, // no plan asks for it
+                    _ => return, // unreachable, as above
                 }
             }
             for row in 0..band.len() {

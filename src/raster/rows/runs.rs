@@ -177,11 +177,11 @@ impl RunQueue {
         }
     }
 
-    /// Walks along the runs, if the method has a walk: `planes` numbers a pixel.
+    /// Walks along the runs, if the method has a walk: `planes` numbers per pixel.
     pub fn walk(&mut self, setup: &SetUp<'_>, walk: Option<WalkKernel>, planes: usize) {
         let Some(walk) = walk else { return };
         let room = self.blocks * BLOCK * planes;
-        // A block before and after: numbers loaded from there are not written.
+        // Padding of a block before and after: block loads may overrun, and those lanes are masked.
         let len = self.walked.len().max(room + 2 * BLOCK);
         self.walked.resize(len, 0.0);
         let job = setup.pixels(&self.runs, &self.starts);

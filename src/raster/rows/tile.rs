@@ -8,11 +8,11 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, f32x8, i32x8};
 
-/// The most numbers of a pixel that is interpolated over triangles: depth, two colours and a weight, or a normal, a position and
+/// The most floats per pixel that are interpolated over triangles: depth, two colours and a weight, or a normal, a position and
 /// a weight, and the material.
 pub(super) const MOST: usize = 9;
 
-/// The number of numbers of a pixel: `N`, or for `N` = 0 the field.
+/// The floats per pixel in the G-buffer: `N`, or for `N` = 0 the field.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NumberCount<const N: usize>(pub usize);
 
@@ -23,15 +23,19 @@ impl<const N: usize> NumberCount<N> {
     }
 }
 
-/// A tile of pixels in blocks of 8: the depths of neighbouring pixels, their first plane, their second, and so on lie together.
-/// So a block is one place in memory, and numbers that the last triangle just wrote are read back as they were written, which
-/// processors do without waiting.
+/// A tile of pixels in blocks of 8. Each block is contiguous:
+///
+/// ```text
+/// depth × 8 | first varying × 8 | second varying × 8 | … | material × 8
+/// ```
+///
+/// Loads have the address and width of the last triangle's stores, so that store-to-load forwarding works.
 #[derive(Debug, Default)]
 pub(crate) struct Tile {
     rows: usize,
-    /// Blocks a row, an even number.
+    /// Blocks per row, an even number.
     blocks: usize,
-    /// Numbers a pixel: its depth, its planes, and its material if materials differ.
+    /// Floats per pixel: depth, varyings, and the material if materials differ.
     numbers: usize,
     values: Vec<f32>,
     /// The blocks of a row between which anything may have been drawn: see [`Tile::drawn`].
@@ -42,7 +46,7 @@ impl Tile {
     /// Makes room for `rows` rows of `width` pixels of `numbers` numbers, all of them empty.
     pub fn prepare(&mut self, rows: usize, width: usize, numbers: usize) {
         let blocks = width.div_ceil(2 * BLOCK) * 2;
-        // Tiles are empty after they were shaded: only another division of the memory has to be emptied.
+        // Shading leaves the tile cleared, so only a change of layout clears it here.
         if (self.rows, self.blocks, self.numbers) != (rows, blocks, numbers) {
             (self.rows, self.blocks, self.numbers) = (rows, blocks, numbers);
             self.values.clear();
@@ -116,9 +120,9 @@ impl Tile {
 pub(super) struct Writer<'a, S: Simd, const N: usize> {
     lanes: Lanes<S>,
     test: SampleDepth,
-    /// Stored depths count as no nearer than this: infinity where nearer pixels do not hide farther ones.
+    /// The least depth that stored ones count as: +∞ disables the test, and every new pixel passes.
     least: f32x8<S>,
-    /// Blocks a row.
+    /// Blocks per row.
     pub blocks: usize,
     pub count: NumberCount<N>,
     values: &'a mut [f32],

@@ -10,13 +10,12 @@ use fearless_simd::{Simd, SimdFloat};
 
 /// Pixels of a box.
 const SLOTS: usize = (TINY_WIDTH * TINY_HEIGHT) as usize;
-/// Pixels of a box that there is room for: one a bit.
+/// Pixels of a box that there is room for: one per bit.
 const ROOM: usize = 32;
 /// Pixels of the boxes of a batch.
 const ALL: usize = BATCH * ROOM;
 
-/// The pixels that the tiny triangles of a batch cover. Those of their boxes lie together for eight triangles after eight: by
-/// pixel, then by triangle.
+/// The pixels that the tiny triangles of a batch cover, laid out as [group of eight triangles][pixel of the box][triangle].
 #[derive(Debug, Default)]
 pub(crate) struct Fragments {
     /// The place of each pixel in the tile.

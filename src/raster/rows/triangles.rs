@@ -39,7 +39,7 @@ type Floats = [f32; BATCH];
 pub(super) enum CoveragePath {
     /// By edge functions, block by block.
     Small = 1,
-    /// By crossings, run by run: it is large, or not known to be small.
+    /// By crossings, run by run: it is too large for edge functions of 32 bits, or a sliver.
     Large = 2,
     /// By edge functions, pixel by pixel: it is at most [`TINY_WIDTH`] pixels wide and [`TINY_HEIGHT`] high.
     Tiny = 3,
@@ -78,9 +78,9 @@ pub(super) struct EdgeFunctions {
     pub weight: Floats,
     pub growth: Floats,
     pub fall: Floats,
-    /// The columns to the zero of a function that grows to the right, per value; else 0.
+    /// For left edges −1/slope: columns to the edge per unit of the edge function; else 0.
     pub begins: Floats,
-    /// The columns to the zero of a function that falls to the right, per value, and 0; else 0, and more columns than any has.
+    /// For right edges −1/slope, and 0; else 0, and more columns than any picture has.
     pub ends: [Floats; 2],
 }
 
@@ -328,7 +328,7 @@ impl Batch {
     }
 
     /// Sets up the plane equations of the triangles whose bits `drawn` has: depth, varyings, and the number of the uniforms if
-    /// pixels have one. Again in a loop of its own.
+    /// pixels have one. A separate loop, so that cache misses overlap.
     #[inline(always)]
     pub fn set_up_planes<S: Simd, const N: usize>(
         &mut self,
@@ -338,7 +338,7 @@ impl Batch {
         drawn: u32,
     ) {
         let (vertices, varyings) = (setup.frame.vertices(), &setup.varyings);
-        // The fast path: three numbers a vertex, without a loop over them.
+        // The fast path: three numbers per vertex, without a loop over them.
         if N == 4 && matches!(varyings.per, Per::Vertex) {
             let values = varyings.values.as_chunks::<3>().0;
             // Bounded once for both.

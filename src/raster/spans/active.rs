@@ -70,7 +70,7 @@ pub(crate) struct PolygonSpan {
 struct EdgeVaryings {
     /// Numbers of a varying, rounded up to whole groups of four, which are added at once; 0 where they are kept with the edge.
     padded: usize,
-    /// A slot an edge: the numbers here, then their steps.
+    /// A slot per edge: the numbers here, then their steps.
     values: Vec<f32>,
     circles: Vec<GreatCircle<f32>>,
     free: Vec<u32>,

@@ -3,7 +3,7 @@
 //! ```text
 //! edge table ─► active edges ─► spans ─► line of depth ─► visible runs ─► pixel kernel ─► picture
 //! (by first      ΔI along edges,          which span is      ΔI along spans,
-//!  scanline)     once a scanline          seen at a pixel    once a pixel
+//!  scanline)     once per scanline       seen at a pixel    once per pixel
 //! ```
 //!
 //! For each scanline the active edges give spans; a depth buffer of one line tells which span is seen at each pixel; each visible

@@ -64,7 +64,7 @@ pub(super) fn samples(image: &Section, [width, height]: [u32; 2]) -> Result<u32,
     let is_known = |samples| [1, 2, 4, 8].contains(&samples);
     let samples = image.whole("samples", is_known, "1, 2, 4 or 8")?;
     let (longest, most) = (width.max(height), Scene::MAX_SIDE);
-    let expected = format!("at most {most} samples a side, and there are {longest} pixels");
+    let expected = format!("at most {most} samples per side, and there are {longest} pixels");
     image.whole("samples", |samples| longest * samples <= most, &expected)?;
     Ok(samples.unwrap_or(1))
 }

@@ -1,4 +1,4 @@
-//! Linear interpolation by one addition a pixel.
+//! Linear interpolation by one addition per pixel.
 
 use super::Walk;
 use crate::number::Num;

@@ -1,4 +1,4 @@
-//! A quadratic by two additions a pixel.
+//! A quadratic by two additions per pixel.
 
 use super::Walk;
 use crate::number::{Num, Vec3};
@@ -10,7 +10,7 @@ use crate::number::{Num, Vec3};
 /// Q_next = Q + ΔQ,   ΔQ_next = ΔQ + 2 s,               ΔQ_0 = p + s
 /// ```
 ///
-/// Two additions a pixel and no multiplication. In `f32` ΔQ is off by at most k · 2⁻²⁴ · max|ΔQ| after k steps, and Q by the
+/// Two additions per pixel and no multiplication. In `f32` ΔQ is off by at most k · 2⁻²⁴ · max|ΔQ| after k steps, and Q by the
 /// sum of these: where Q runs from end to end of its range in n steps, max|ΔQ| is about 4 max|Q| / n, so that Q is off by at
 /// most about (1 + 2) k · 2⁻²⁴ · max|Q|.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@ use crate::number::{Num, Real, Vec3};
 use crate::shading::planes::Planes;
 
 /// The weights of spherical linear interpolation, `sin((1−t)φ)` and `sin(tφ)`, stepped by the addition theorems: four additions
-/// and eight multiplications a step.
+/// and eight multiplications per step.
 ///
 /// ```text
 /// sin((t + Δt)φ)     = sin(tφ) cos(Δtφ) + cos(tφ) sin(Δtφ)                 (L21 4.9)

@@ -108,7 +108,7 @@ const KINDS: [Kind; 20] = [
     ("clipped in the cube", |scene| {
         (scene.clipping, scene.camera.near) = (Clipping::NdcCube, 2.1)
     }),
-    ("four samples a pixel", |scene| scene.samples = 2),
+    ("four samples per pixel", |scene| scene.samples = 2),
     ("sRGB", |scene| scene.encoding = Encoding::Srgb),
 ];
 

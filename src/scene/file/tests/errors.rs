@@ -51,7 +51,7 @@ fn numbers_out_of_range() {
     check(
         "[image]\nwidth = 4097\nsamples = «4»\n",
         "`image.samples` is 4",
-        "expected at most 16384 samples a side, and there are 4097 pixels",
+        "expected at most 16384 samples per side, and there are 4097 pixels",
         None,
     );
     check(
