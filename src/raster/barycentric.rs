@@ -103,15 +103,10 @@ pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: 
             columns.clear();
             starts.clear();
             let y = 256 * row as i64 + 128;
-            let mut f = functions
-                .each_ref()
-                .map(|f| f.at(256 * x_range.start as i64 + 128, y));
             let nearest = &mut depth_buffer[row * frame.width()..][..frame.width()];
             for column in x_range.clone() {
-                let here = f;
-                for (f, function) in f.iter_mut().zip(&functions) {
-                    *f += 256 * function.across;
-                }
+                let x = 256 * column as i64 + 128;
+                let here = functions.each_ref().map(|f| f.at(x, y));
                 if here.iter().zip(&least).any(|(f, least)| f < least) {
                     continue;
                 }
