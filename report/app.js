@@ -15,7 +15,15 @@ function fill(el, markup) {
 	const key = el.contains(document.activeElement) ? document.activeElement.dataset.key : null;
 	el.innerHTML = markup;
 	if (key != null) $(`[data-key="${CSS.escape(key)}"]`, el)?.focus({ preventScroll: true });
+	delay("fade", 30, fadeEnds);
 }
+/* Fades the ends of lists and tables behind which there is more to scroll to. */
+function fadeEnd(el) {
+	el.classList.toggle("more-right", el.scrollLeft + el.clientWidth < el.scrollWidth - 2);
+	el.classList.toggle("more-below", el.scrollTop + el.clientHeight < el.scrollHeight - 2);
+}
+const fadeEnds = () => $$(".view.on :is(.scroll, .rail, .list, .choices)").forEach(fadeEnd);
+addEventListener("scroll", e => e.target.matches?.(".scroll, .rail, .list, .choices") && fadeEnd(e.target), true);
 /* Calls `choose` with the key of the button, mark or row that is chosen. */
 function onChoose(el, choose) {
 	el.onclick = e => {
@@ -92,6 +100,9 @@ function num(v, digits = 3) {
 	if (size < .001) return "<\u20090.001";
 	return v.toFixed(clamp(digits - 1 - Math.floor(Math.log10(size)), 0, 4));
 }
+const LEVELS = { sse2: "baseline x86-64", avx512: "AVX-512" };
+/* The instructions that drew, as readers know them. */
+const levelName = ({ level }) => level === "scalar" ? level : LEVELS[level] ?? level.toUpperCase();
 const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
 const ratioText = q => q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
 const csvCell = c => /[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : c ?? "";
@@ -559,21 +570,25 @@ ${far && line(x(ex) + 7, y(ey), at - 3, labels[n], "leader")}${text(at, labels[n
 		return s.href ? html`<a class="hit" href="${s.href}" aria-label="${s.tip}" style="${colour}">${body}</a>` : html`<g style="${colour}">${body}</g>`;
 	});
 }
-/* Places labels of points: none overlaps another; one without room is left out (`label` null). */
+/* Places labels of points: none overlaps another, and one far from its mark has a leader; one without room is left out (`label` null). */
 function place(points, box, bars) {
-	const done = [], overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
+	const done = [], leaders = [], square = o => [o.x - 9, o.y - 9, o.x + 9, o.y + 9], overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
 	for (const p of [...points].sort((a, b) => b.priority - a.priority || a.y - b.y)) {
 		let best = null;
-		for (let ring = 0; ring < 7; ring++) for (let turn = 0; turn < 16; turn += ring ? 1 : 4) {
-			const angle = turn * Math.PI / 8, r = 11 + ring * 13, cos = Math.cos(angle);
-			const cx = p.x + cos * (r + (Math.abs(cos) > .3 ? p.w / 2 - 2 : 0)), cy = p.y + Math.sin(angle) * (r + 2), q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
+		for (let ring = 0; ring < 9; ring++) for (let turn = 0; turn < 16; turn += ring ? 1 : 4) {
+			const angle = turn * Math.PI / 8, r = 13 + ring * 11, cos = Math.cos(angle);
+			const cx = p.x + cos * (r + (Math.abs(cos) > .3 ? p.w / 2 : 0)), cy = p.y + Math.sin(angle) * (r + 7), q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
 			if (q[0] < box[0] || q[1] < box[1] || q[2] > box[2] || q[3] > box[3] || done.some(d => overlap(q, d) > 0)) continue;
-			const crossed = sum(points.map(o => o === p ? 0 : 5 * overlap(q, [o.x - 7, o.y - 7, o.x + 7, o.y + 7]))) + sum(bars.map(d => 1.6 * overlap(q, d)));
-			const cost = ring * 26 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
-			if (!best || cost < best.cost) best = { cost, x: q[0], y: cy, ring, q };
+			const end = [clamp(p.x, q[0], q[2]), clamp(p.y, q[1] + 3, q[3] - 3)], leader = ring ? [.2, .4, .6, .8].map(t => [0, 1].map(i => (1 - t) * [p.x, p.y][i] + t * end[i])) : [];
+			const hits = (d, line) => line.some(([x, y]) => x > d[0] && x < d[2] && y > d[1] && y < d[3]);
+			const crossed = sum(points.map(o => o === p ? 0 : 5 * overlap(q, square(o)) + 60 * hits(square(o), leader))) + sum(bars.map(d => 1.6 * overlap(q, d))) + 90 * sum(done.map(d => hits(d, leader))) + 90 * hits(q, leaders);
+			const cost = ring * 22 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
+			if (!best || cost < best.cost) best = { cost, x: q[0], y: cy, q, end: ring && end, leader };
 		}
 		p.label = best && (best.cost < 420 || p.priority) ? best : null;
-		if (p.label) done.push(best.q);
+		if (!p.label) continue;
+		done.push(best.q);
+		leaders.push(...best.leader);
 	}
 }
 
@@ -592,7 +607,7 @@ function pareto(v) {
 	const timed = points.every(p => p.time);
 	if (!timed) points.forEach((p, i) => { p.time = i + 1; });
 	const times = points.map(p => p.time), x = scale(true, Math.min(...times) / 1.15, Math.max(...times) * 1.2, l, r);
-	const y = scale(true, clamp(Math.min(...points.map(p => p.error / 2.2)), .0005, .3), Math.max(2, ...points.map(p => p.error * 1.6)), b, t);
+	const y = scale(true, clamp(Math.min(...points.map(p => p.error / 2.2)), .0005, .3), Math.max(2, ...points.map(p => p.error * 4)), b, t);
 	for (const p of points) [p.x, p.y] = [x(p.time), y(Math.max(p.error, y.low * 1.1))];
 	const one = clamp(y(1), t, b), base = points.find(p => p.m === BASE), shown = [];
 	shown.push(html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`, axisY(y, l, r, y.ticks(60).filter(e => Math.log10(e) % 1 === 0)));
@@ -619,11 +634,10 @@ function pareto(v) {
 		Object.assign(p, { priority: 3 * left + 2 * right + !!p.front + MARKED.has(p.m), w: textWidth(nameOf(p.m) + "  " + p.value, true) + 6, left, right });
 	}
 	place(points, [l + 2, t, r, b - 1], [taken, ...steps.slice(1).map(([px, py], i) => [steps[i][0] - 2, steps[i][1] - 2, px + 2, py + 2])]);
-	for (const { label, x, y } of points) if (label?.ring) shown.push(line(x, y, clamp(x, label.q[0], label.q[2]), label.y, "leader"));
 	for (const p of points) {
 		const tip = `${nameOf(p.m)}: error ${num(p.error)} levels${timed ? `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}` : ""}`, faint = points.length > 14 && !p.priority;
-		shown.push(html`<g class="hit ${faint ? "faint" : ""}" tabindex="0" role="button" data-key="${p.m}" aria-pressed="${p.left}" aria-label="${tip}" style="color:${hue(p.m)}"><title>${tip}</title>
-${p.low && line(x(p.low), p.y, x(p.high), p.y, "whisker")}<circle class="ring ${p.left || p.right ? "on" : ""}" cx="${p.x}" cy="${p.y}" r="10.5"/>${shape(p.m, p.x, p.y, 5.8)}
+		shown.push(html`<g class="hit" tabindex="0" role="button" data-key="${p.m}" aria-pressed="${p.left}" aria-label="${tip}" style="color:${hue(p.m)}"><title>${tip}</title>
+${p.label?.end && line(p.x, p.y, ...p.label.end, "leader")}${p.low && line(x(p.low), p.y, x(p.high), p.y, "whisker")}<circle class="ring ${p.left || p.right ? "on" : ""}" cx="${p.x}" cy="${p.y}" r="10.5"/>${shape(p.m, p.x, p.y, faint ? 4 : 5.8)}
 ${p.label && text(p.label.x + 2, p.label.y + 4.3, [nameOf(p.m), html`<tspan dx="4" class="value">${p.value}</tspan>`], `label halo ${p.left ? "bold" : ""}`)}</g>`);
 	}
 	fill(el, svg(W, H, "Error against time of every method", shown, true));
@@ -647,9 +661,9 @@ function strip() {
 	rows.forEach((s, i) => {
 		const y = t + (i + .5) * high, here = few.filter(m => value(s, m)), at = here.map(m => x(value(s, m))), tip = `${s.title}: ${here.map(m => `${nameOf(m)} ${value(s, m).toFixed(2)} ×`).join(", ")}`;
 		shown.push(html`<a class="hit" href="#scenes/${s.id}" aria-label="${tip}"><title>${tip}</title><rect x="0" y="${y - high / 2}" width="${W}" height="${high}" fill="transparent"/>
-${text(l - 14, y + 4, short(s.title, narrow ? 19 : 34), "end")}${line(Math.min(...at), y, Math.max(...at), y, "range")}${here.map((m, n) => html`<g class="${s.rows[m].max > 1 ? "pale" : ""}">${shape(m, at[n], y, 4.6)}</g>`)}</a>`);
+${text(l - 14, y + 4, short(s.title, narrow ? 19 : 34), "end")}${line(Math.min(...at), y, Math.max(...at), y, "range")}${here.map((m, n) => shape(m, at[n], y, s.rows[m].max > 1 ? 2.8 : 4.6))}</a>`);
 	});
-	el.innerHTML = html`${svg(W, H, `Speed of ${few.length} methods in ${rows.length} scenes`, shown, true)}<p class="sub">Pale: off by more than one grey level there, another picture.</p>${more}`;
+	el.innerHTML = html`${svg(W, H, `Speed of ${few.length} methods in ${rows.length} scenes`, shown, true)}<p class="sub">Small: off by more than one grey level there, another picture.</p>${more}`;
 }
 const VERDICTS = { confirms: "✓", adds: "+", contradicts: "✗" };
 const counts = list => Object.keys(VERDICTS).map(k => [k, list.filter(x => x.agreement === k).length]).filter(([, n]) => n);
@@ -759,7 +773,7 @@ function sceneFacts(s) {
 	const left = Object.keys(reasons).filter(k => s.stats[k]).map(k => `${grouped(s.stats[k])} ${reasons[k]}`);
 	return [
 		`${plural(s.polygons, "polygon")} in view`, plural(s.lights, "light"), `${(s.covered_pixels / s.w / s.h * 100).toFixed(0)} % covered`, `${s.w} × ${s.h}`,
-		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct", `${s.renderer.level}, ${plural(s.renderer.threads, "thread")}`,
+		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct", `${levelName(s.renderer)} code, ${plural(s.renderer.threads, "thread")}`,
 		left.length && `left out: ${left.join(", ")}`, cut && `in triangles, the reference moves by up to ${num(cut.difference.max * 255)} levels`,
 		s.not_simple && `${plural(s.not_simple, "polygon")} crossing themselves: not drawn by barycentric`,
 	];
@@ -835,7 +849,7 @@ function sceneTable() {
 		over1: grouped, other: grouped, barycentric: ratioText,
 		psnr: v => v?.toFixed(1) ?? "∞",
 		ssim: v => v?.toFixed(4) ?? "–",
-		ratio: (r, q) => r ? html`<span class="speed"><svg style="color:${hue(q.variant)}" width="${width}" height="18" aria-hidden="true">${line(x(1), 0, x(1), 18)}${line(x(r.low), 9, x(r.high), 9, "whisker")}${shape(q.variant, x(r.median), 9, 4.4)}</svg><span class="${r.tie ? "" : r.median > 1 ? "good" : "bad"}" title="${r.low.toFixed(2)}–${r.high.toFixed(2)}">${ratioText(r)}</span></span>` : "–",
+		ratio: (r, q) => r ? html`<span class="speed"><svg style="color:${hue(q.variant)}" width="${width}" height="18" aria-hidden="true">${line(x(1), 0, x(1), 18)}${shape(q.variant, x(r.median), 9, 3.4)}${line(x(r.low), 9, x(r.high), 9, "whisker")}${[r.low, r.high].map(v => line(x(v), 3, x(v), 15, "whisker"))}</svg><span class="${r.tie ? "" : r.median > 1 ? "good" : "bad"}" title="${r.low.toFixed(2)}–${r.high.toFixed(2)}">${ratioText(r)}</span></span>` : "–",
 	};
 	const columns = COLUMNS.filter(([, , always]) => options.cols || always), all = [["name", "method"], ...columns], arrow = key => sort.key === key && (sort.up ? " ↑" : " ↓");
 	const name = q => html`<button class="name" data-key="row ${q.variant}">${mark(q.variant)}${nameOf(q.variant)}${q.bary && html` <small>barycentric</small>`}</button>`;
@@ -935,8 +949,8 @@ function article(m, most) {
 		return list.length ? html`<div class="stack" style="width:${Math.max(4, sum(counts) / most * 100)}%" role="img" aria-label="${list.map(([n, what]) => `${n} ${what}`).join(", ")}">${list.map(([n, what, i]) => html`<i class="o${i}" style="flex:${n} 0 ${i > 2 ? 13 : 0}px" title="${n} ${what}">${(n / most > .035 || i > 2) && n}</i>`)}</div>` : html`<div class="hint">none</div>`;
 	};
 	const figures = [
-		m.speed && [m.speed.toFixed(2) + TIMES, `${MANY ? `${SCENES.length} scenes, ` : ""}${SCENES[0].renderer.level}`],
-		frame && [frame.median.toFixed(2) + TIMES, `whole frame, ${levelName(corner)}`], worst && [num(worst.max), "worst error, levels", bad],
+		m.speed && [m.speed.toFixed(2) + TIMES, `${MANY ? `${SCENES.length} scenes, ` : ""}${levelName(SCENES[0].renderer)}`],
+		frame && [frame.median.toFixed(2) + TIMES, `whole picture of a sphere, ${levelName(corner)}`], worst && [num(worst.max), "worst error, levels", bad],
 	].filter(Boolean);
 	const verdict = bad ? html`<b>Fails</b> most in <a href="#scenes/${s.id}?left=${encodeURIComponent(m.name)}&right=reference">${s.title}</a>` : html`<b>No visible failure</b> ${MANY ? `in ${SCENES.length} scenes` : "in this scene"}`;
 	return html`<article class="method" id="m-${m.name}"><div><h2>${mark(m.name)}${m.label} <code>${m.name}</code></h2><p class="idea">${m.title}</p><div class="formula">${formula(m.formula)}</div><p class="hint">${m.source} · ${m.perspective} · ${m.local}</p></div>
@@ -958,29 +972,30 @@ function methods([id]) {
 /* ---------- speed */
 const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [], oneLight = CORNERS.filter(c => c.lights === 1);
 let cornerMode = "same";
-const studied = () => STUDY.methods.filter(m => cornerMode === "all" || m.levels_off <= 1);
-const levelName = c => c.level === "scalar" ? "scalar" : c.level.toUpperCase();
+/* True if a method draws naive Phong's picture in all scenes; without scenes, on the study's sphere. */
+const isSame = m => (M[m.method]?.max ?? m.levels_off) <= 1;
+const studied = () => STUDY.methods.filter(m => cornerMode === "all" || isSame(m));
+const WORKS = { kernel: "shading loop", frame: "whole picture" };
 const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
 /* The fastest method of a corner that draws naive Phong's picture. */
-const fastest = c => STUDY.methods.filter(m => m.levels_off <= 1 && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
+const fastest = c => STUDY.methods.filter(m => isSame(m) && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
 /* Methods as lines from place to place; a place has a name, a note and values [v, low, high]. */
 function slopes(id, label, list, panes, nameOf, format, gap = 20) {
-	const el = $(id), W = widthOf(el), part = (W + 20) / panes.length, l = 40, r = part - (part < 300 ? 122 : 190), t = 44, b = Math.max(430, t + list.length * 16.5), shown = [];
+	const el = $(id), W = widthOf(el), part = W < 460 ? W : W / panes.length, l = 40, t = 44, b = Math.max(430, t + list.length * 16.5);
 	if (!W || !list.length) return;
-	panes.forEach((places, k) => {
-		const all = list.flatMap(m => places.map(p => p.values(m)[0])), x = scale(false, 0, places.length - 1, k * part + l + 20, k * part + r), y = scale(true, Math.min(...all) * .9, Math.max(...all) * 1.1, b, t);
-		shown.push(axisY(y, k * part + l, k * part + r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]));
-		shown.push(curves(x, y, list.map(m => ({
-			method: m.method, name: nameOf(m.method), value: format(places[places.length - 1].values(m)[0]), bold: MARKED.has(m.method), kind: MARKED.has(m.method) ? "" : "thin", href: `#methods/${m.method}`,
+	el.innerHTML = html`${panes.map(places => {
+		const values = list.flatMap(m => places.flatMap(p => p.values(m))), last = m => format(places[places.length - 1].values(m)[0]), r = part - 34 - Math.max(...list.map(m => textWidth(`${nameOf(m.method)} ${last(m)}`, true)));
+		const x = scale(false, 0, places.length - 1, l + 30, r), y = scale(true, Math.min(...values) * .95, Math.max(...values) * 1.05, b, t);
+		return svg(part, b + 10, label, [axisY(y, l, r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]), curves(x, y, list.map(m => ({
+			method: m.method, name: nameOf(m.method), value: last(m), bold: MARKED.has(m.method), kind: MARKED.has(m.method) ? "" : "thin", href: `#methods/${m.method}`,
 			tip: `${nameOf(m.method)}: ${places.map(p => `${p.name} ${p.note} ${num(p.values(m)[0])}`).join(", ")}`, points: places.map((p, i) => [i, ...p.values(m)]),
-		})), { gap: 15.5, out: 22 }));
-	});
-	el.innerHTML = svg(W, b + 10, label, shown, true);
+		})), { gap: 15.5, out: 22 })], true);
+	})}`;
 }
 function corners(mode) {
 	cornerMode = mode;
 	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]), list = studied();
-	slopes("#corners", "Speed of methods in kernels and frames, scalar and SIMD", list.filter(m => oneLight.every(c => ratioIn(m, c))), [oneLight.map(c => ({ name: c.work, note: levelName(c), values: values(c) }))], nameOf, v => v.toFixed(2));
+	slopes("#corners", "Speed of methods in the shading loop and in whole pictures", list.filter(m => oneLight.every(c => ratioIn(m, c))), [oneLight.map(c => ({ name: WORKS[c.work], note: levelName(c), values: values(c) }))], nameOf, v => v.toFixed(2));
 	const kernels = [true, false].map(scalar => CORNERS.filter(c => c.work === "kernel" && c.scalar === scalar)).filter(pair => pair.length > 1);
 	slopes("#lights", "Nanoseconds a pixel with one and four lights", list.slice(0, 14), kernels.map(pair => pair.map(c => ({ name: levelName(c), note: plural(c.lights, "light"), values: m => ["median_ns", "p25_ns", "p75_ns"].map(k => m.corners[c.i].timing[k] / STUDY.span) }))), shortName, v => num(v, 2), 40);
 }
@@ -997,14 +1012,16 @@ function grow(id, keep, count, label) {
 	el.innerHTML = svg(W, 330, `Time of a frame by ${label}`, [axisY(y, l, r + 8, y.ticks(40), " ms"), axisX(x, b, x.ticks(70)), text((l + r) / 2, 324, label, "axis mid"), curves(x, y, series)]);
 }
 const COSTS = [["vertex_ns", "vertex"], ["triangle_ns", "triangle"], ["span_ns", "span"], ["pixel_ns", "pixel of a span"], ["background_ns", "pixel of the picture"]];
+/* The largest part by which a fit may miss a measured time: beyond it no figure is shown. */
+const MISFIT = .5;
 function costs() {
-	const list = D.scaling.curves.filter(c => c.costs), most = k => Math.max(...list.map(c => c.costs[k])) || 1, base = list.find(c => c.method === BASE && c.engine !== "span");
-	$("#costs").innerHTML = table(["", ...COSTS.map(([, name]) => name)], list.map(c => [curveName(c), ...COSTS.map(([k]) => bar(num(c.costs[k], 2), Math.max(1, c.costs[k] / most(k) * 100), curveHue(c)))]));
+	const all = D.scaling.curves.filter(c => c.costs), list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT), most = k => Math.max(...list.map(c => c.costs[k])) || 1, base = list.find(c => c.method === BASE && c.engine !== "span");
+	$("#costs").innerHTML = table(["", ...COSTS.map(([, name]) => name), "largest misfit"], all.map(c => [curveName(c), ...COSTS.map(([k]) => list.includes(c) ? bar(num(c.costs[k], 2), Math.max(1, c.costs[k] / most(k) * 100), curveHue(c)) : "–"), html`${(Math.abs(c.costs.worst) * 100).toFixed(0)} %${!list.includes(c) && html` <span class="bad">poor fit</span>`}`]));
 	const even = list.filter(c => base && c.method !== BASE && c.engine === base.engine).map(c => {
 		const saved = base.costs.pixel_ns - c.costs.pixel_ns, more = c.costs.span_ns - base.costs.span_ns;
 		return `${nameOf(c.method)} ${saved <= 0 ? "saves nothing a pixel" : more <= 0 ? "has cheaper spans" : `from ${num(more / saved, 2)} pixels a span`}`;
 	});
-	write({ breakeven: list.length ? `${even.length ? `Break-even with ${nameOf(BASE)}: ${even.join("; ")}. ` : ""}The largest misfit of a time is ${(Math.max(...list.map(c => Math.abs(c.costs.worst))) * 100).toFixed(0)} %.` : "" });
+	write({ breakeven: even.length ? `Break-even with ${nameOf(BASE)}: ${even.join("; ")}.` : "", misfit: MISFIT * 100 });
 }
 /* Documents side by side, a column each under its processor. */
 function beside() {
@@ -1024,8 +1041,8 @@ function beside() {
 function speed() {
 	if (STUDY) {
 		const lecture = STUDY.methods.find(m => m.method === "fast-phong"), entry = (m, c) => ratioIn(m, c) ? html`${nameOf(m.method)} <b>${ratioText(ratioIn(m, c))}</b>` : "–";
-		$("#speed-summary").innerHTML = table(["", ...oneLight.map(c => `${levelName(c)} ${c.work}`)], [["fastest with naive Phong’s picture", ...oneLight.map(c => entry(fastest(c), c))], ["the lecture’s fast Phong", ...oneLight.map(c => entry(lecture, c))]]);
-		write({ "study-span": grouped(STUDY.span), "study-frame": `${STUDY.mesh}, ${STUDY.size.join(" × ")}` });
+		$("#speed-summary").innerHTML = table(["", ...oneLight.map(c => `${WORKS[c.work]}, ${levelName(c)}`)], [["fastest with naive Phong’s picture", ...oneLight.map(c => entry(fastest(c), c))], ["the lecture’s fast Phong", ...oneLight.map(c => entry(lecture, c))]]);
+		write({ "same-where": !SCENES.length ? "on this sphere" : MANY ? `in all ${SCENES.length} scenes` : `in ${SCENES[0].title}`, "loop-span": grouped(STUDY.span), "study-span": grouped(STUDY.span), "study-frame": `${STUDY.mesh}, ${STUDY.size.join(" × ")}` });
 		segments($("#corner-mode"), () => cornerMode, corners);
 		corners(cornerMode);
 	}
@@ -1046,8 +1063,9 @@ function findingValue({ value, unit }) {
 	const size = Math.abs(value), [digits, power] = value.toExponential(1).replace(/-/g, "−").replace("+", "").split("e");
 	return html`${size && (size < .001 || size >= 1e6) ? html`${digits}·10<sup>${power}</sup>` : +value.toPrecision(4)} ${unit}`;
 }
-const findingTable = (list, where) => scrolling("Findings", table([where && "figure", "finding", "measured", "value", "verdict"].filter(Boolean), list.map(x => [
-	...(where ? [html`<a href="#lectures/${x.figure.name}">${topic(x.figure)}</a><small>${x.figure.lecture}</small>`] : []), x.verdict, x.label, html`<span title="${x.value}">${findingValue(x)}</span>`, chip(x.agreement, x.agreement),
+const findingTable = (list, where) => scrolling("Findings", table([where && "figure", "finding", "measured", "value", "verdict"].filter(Boolean), list.map((x, i) => [
+	// A figure, and a finding of several measurements, stand once.
+	...(where ? [x.figure !== list[i - 1]?.figure && html`<a href="#lectures/${x.figure.name}">${topic(x.figure)}</a><small>${x.figure.lecture}</small>`] : []), x.verdict !== list[i - 1]?.verdict && x.verdict, x.label, html`<span title="${x.value}">${findingValue(x)}</span>`, chip(x.agreement, x.agreement),
 ]), "findings" + (where ? " where" : "")));
 const PLOT_HUES = ["--base", "--h3", "--h2", "--h4", "--h1", "--h5"];
 /* Curves over one another, on axes unless the chart is a small one. */
@@ -1077,10 +1095,12 @@ function figureBody(f) {
 		return show[kind](content, at);
 	});
 }
-function drawPlots(f) { $$("[data-plot]").forEach(el => { 
-	const { plot: p } = f.blocks[el.dataset.plot];
-	el.innerHTML = html`${plot(p, widthOf(el) || 460, 300)}${legend(p.series)}`;
-});  }
+function drawPlots(f) {
+	for (const el of $$("[data-plot]")) {
+		const { plot: p } = f.blocks[el.dataset.plot];
+		el.innerHTML = html`${plot(p, widthOf(el) || 460, 300)}${legend(p.series)}`;
+	}
+}
 /* A figure in the gallery: its first pictures, or its first plot. */
 function preview(f) {
 	const first = f.blocks.find(b => b.plot)?.plot, shown = f.blocks.flatMap(b => b.pictures?.shown ?? []), files = figurePictures(f).slice(0, 3);
@@ -1107,8 +1127,8 @@ function measured() {
 	const command = D.command_line.map(quoted).join(" "), { machine } = D, [scene] = SCENES, rounds = ROWS.map(q => q.rounds).filter(Boolean);
 	const about = ({ cpu, os, arch, rustc, version, commit }) => `${cpu}, ${os} ${arch}; ${rustc}; fastphong ${version}${commit ? `, commit ${commit}` : ""}`;
 	const facts = [
-		["machine", about(machine)], ["logical processors", machine.cores], ["build", `${machine.profile}, opt-level ${machine.opt_level}, ${machine.target_features.join(", ")}`], ["date", D.date], ["whole run", D.seconds && `${num(D.seconds)} s`],
-		["rounds", rounds.length && `${Math.min(...rounds)} to ${Math.max(...rounds)} of every method in a scene`], ["drawn by", scene && `the ${scene.renderer.engine} engine, ${scene.renderer.level}, ${plural(scene.renderer.threads, "thread")}`],
+		["machine", about(machine)], ["logical processors", machine.cores], ["build", `${machine.profile}, opt-level ${machine.opt_level}, for ${machine.target_features.join() === "sse2" ? "baseline x86-64; wider instructions are chosen as it runs" : machine.target_features.join(", ")}`], ["date", D.date], ["whole run", D.seconds && `${num(D.seconds)} s`],
+		["rounds", rounds.length && `${Math.min(...rounds)} to ${Math.max(...rounds)} of every method in a scene`], ["drawn by", scene && `the ${scene.renderer.engine} engine, ${levelName(scene.renderer)} code, ${plural(scene.renderer.threads, "thread")}`],
 		["command", html`<code>${command}</code>`], ...DOCS.slice(1).map((d, i) => [`beside it, ${i + 1}`, about(d.machine)]),
 	];
 	const spreads = ROWS.filter(q => q.p75).map(q => (q.p75 - q.p25) / q.ms).sort(by(v => v)), typical = spreads[spreads.length >> 1] ?? 0;
@@ -1167,6 +1187,7 @@ function route(e) {
 	if (target) target.scrollIntoView();
 	else if (changed || e && name === "lectures") scrollTo(0, 0);
 	restoring = false;
+	fadeEnds();
 	document.title = `${name === "overview" ? "" : link.textContent + " · "}fastphong: Phong shading, measured`;
 }
 addEventListener("hashchange", route);
@@ -1195,6 +1216,7 @@ $("#big").onclick = e => {
 	route();
 };
 $$(".answer .m").forEach(a => a.style.setProperty("--c", hue(a.dataset.m)));
+$$("[data-scene]").forEach(a => { a.href = `#scenes/${SCENES[a.dataset.scene].id}?left=${a.dataset.of}&right=reference&mode=error`; });
 /* Parts of the page that have something to show. */
 const FILLED = {
 	scenes: SCENES.length, methods: IDS.length, lectures: FIGURES.length, findings: FINDINGS.length, overview: SCENES.length || FIGURES.length > 1, speed: STUDY || D.scaling || DOCS.length > 1, study: STUDY, growth: D.scaling,
