@@ -5,6 +5,7 @@
 const ROOT = document.documentElement;
 const $ = (selector, root = document) => root.querySelector(selector);
 const $$ = (selector, root = document) => [...root.querySelectorAll(selector)];
+const create = tag => document.createElement(tag);
 const ENTITIES = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" };
 class Markup extends String {}
 const put = v => v instanceof Markup ? v : Array.isArray(v) ? v.map(put).join("") : v == null || v === false ? "" : String(v).replace(/[&<>"']/g, c => ENTITIES[c]);
@@ -22,8 +23,8 @@ function fadeEnd(el) {
 	el.classList.toggle("more-right", el.scrollLeft + el.clientWidth < el.scrollWidth - 2);
 	el.classList.toggle("more-below", el.scrollTop + el.clientHeight < el.scrollHeight - 2);
 }
-const fadeEnds = () => $$(".view.on :is(.scroll, .rail, .list, .choices)").forEach(fadeEnd);
-addEventListener("scroll", e => e.target.matches?.(".scroll, .rail, .list, .choices") && fadeEnd(e.target), true);
+const SCROLLED = ".scroll, .rail, .list, .choices", fadeEnds = () => $$(SCROLLED).forEach(fadeEnd);
+addEventListener("scroll", e => e.target.matches?.(SCROLLED) && fadeEnd(e.target), true);
 /* Calls `choose` with the key of the button, mark or row that is chosen. */
 function onChoose(el, choose) {
 	el.onclick = e => {
@@ -58,6 +59,8 @@ function segments(el, pressed, choose) {
 	update();
 	return update;
 }
+/* Scrolls a chosen entry into sight. */
+const reveal = el => el?.scrollIntoView({ block: "nearest", inline: "center" });
 /* Writes texts into elements, by their ids. */
 function write(texts) { for (const id in texts) $("#" + id).textContent = texts[id]; }
 /* A table: heads, and rows of cells of which the first names the row. */
@@ -77,7 +80,7 @@ function toast(text) {
 	delay("toast", 1800, () => $("#toast").classList.remove("on"));
 }
 function save(name, content, type) {
-	const a = document.createElement("a");
+	const a = create("a");
 	a.download = name;
 	a.href = URL.createObjectURL(new Blob([content], { type }));
 	a.click();
@@ -146,7 +149,7 @@ ROOT.classList.toggle("nopictures", !PICTURES);
 
 /* Each family of methods has a hue and a shape, each member a filling; naive Phong is ink. */
 const HUES = 11, FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
-const SHAPES = ["square", "up", "circle", "plus", "down", "hexagon", "star", "pentagon"];
+const SHAPES = $$("[id^=mark-]:not(#mark-diamond)").map(path => path.id.slice(5));
 for (const m of METHODS) {
 	const family = FAMILIES.indexOf(m.family), members = METHODS.filter(o => o.family === m.family);
 	m.hue = family < 0 ? "var(--base)" : `var(--h${family % HUES})`;
@@ -176,8 +179,9 @@ function shape(m, x, y, size = 5) {
 }
 const mark = m => html`<svg width="13" height="13" viewBox="-7 -7 14 14" aria-hidden="true">${shape(m, 0, 0)}</svg>`;
 
+const named = m => html`${mark(m)}${nameOf(m)}`;
+
 /* ---------- pictures: planes with the row filters of PNG, deflated; each adds to the one most like it */
-const pictureData = s => memo(`json ${s.id}`, () => JSON.parse($(`#pictures-${s.number}`).textContent));
 /* Predicts a byte from its neighbours (PNG specification 9). */
 function predict(filter, left, up, corner) {
 	if (filter === 0) return 0;
@@ -210,14 +214,14 @@ function add(more, base) {
 	return more;
 }
 const planes = (s, m) => memo(`planes ${s.id} ${m}`, async () => {
-	const data = pictureData(s);
+	const data = memo(`json ${s.id}`, () => JSON.parse($(`#pictures-${s.number}`).textContent));
 	if (m === "reference") return unpack(data.reference, s, 3);
 	const { on = "reference", add: more } = data.rows[m], base = await planes(s, on);
 	return more ? add(await unpack(more, s, 3), base) : base;
 });
 /* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green and red of a pixel. */
 function canvasOf(s, word) {
-	const canvas = document.createElement("canvas"), image = new ImageData(s.w, s.h), words = new Uint32Array(image.data.buffer);
+	const canvas = create("canvas"), image = new ImageData(s.w, s.h), words = new Uint32Array(image.data.buffer);
 	[canvas.width, canvas.height] = [s.w, s.h];
 	for (let i = 0; i < words.length; i++) words[i] = word(i);
 	canvas.getContext("2d").putImageData(image, 0, 0);
@@ -238,7 +242,7 @@ const errors = (s, m) => memo(`errors ${s.id} ${m}`, async () => {
 /* Colours of the error map, and the place of an error on its scale: logarithmic for `top` 0, else linear up to `top`. */
 const STOPS = ["#000004", "#1c1044", "#4f127b", "#812581", "#b5367a", "#e55064", "#fb8761", "#fec287", "#fcfdbf"];
 const HEAT = (() => {
-	const pen = document.createElement("canvas").getContext("2d"), ramp = pen.createLinearGradient(0, 0, 256, 0);
+	const pen = create("canvas").getContext("2d"), ramp = pen.createLinearGradient(0, 0, 256, 0);
 	STOPS.forEach((colour, i) => ramp.addColorStop(i / (STOPS.length - 1), colour));
 	pen.fillStyle = ramp;
 	pen.fillRect(0, 0, 256, 1);
@@ -261,7 +265,11 @@ async function drawPart(canvas, s, m, part, size, smooth) {
 	pen.imageSmoothingQuality = "high";
 	pen.drawImage(image, ...part, 0, 0, ...size);
 }
-const thumb = (canvas, s) => { if (s.drawn) later(() => drawPart(canvas, s, "reference", [0, 0, s.w, s.h], [112, 112 * s.h / s.w], true)); };
+/* Draws the pictures on the buttons that choose a scene. */
+const thumbs = root => $$("button", root).forEach(b => {
+	const s = S[b.dataset.key];
+	if (s.drawn) later(() => drawPart($("canvas", b), s, "reference", [0, 0, s.w, s.h], [112, 112 * s.h / s.w], true));
+});
 /* Draws a part of a picture around a pixel, its pixels as squares. */
 function crop(canvas, s, m, worst, w, h) {
 	[w, h] = [Math.min(w, s.w), Math.min(h, s.h)];
@@ -273,7 +281,7 @@ function crop(canvas, s, m, worst, w, h) {
 const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
 const KEYS = {
 	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "=": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
-	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.slides && v.move(v.split - (e.shiftKey ? .1 : .02)), arrowright: (v, e) => v.slides && v.move(v.split + (e.shiftKey ? .1 : .02)),
+	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.slide(-1, e), arrowright: (v, e) => v.slide(1, e),
 };
 for (const key in MODES) KEYS[key] = v => v.set({ mode: MODES[key] });
 /* Compares the pictures of methods `a` and `b` on a scene; calls `change`, and `probe` with the pixel looked at. */
@@ -289,7 +297,7 @@ class Viewer {
 		$(".row", root).hidden = !this.row;
 		if (this.choices) {
 			$(".choices", root).innerHTML = html`${this.choices.map(s => html`<button data-key="${s.id}" title="${s.title}" aria-label="${s.title}"><canvas aria-hidden="true"></canvas></button>`)}`;
-			setTimeout(() => $$(".choices button", root).forEach(b => thumb($("canvas", b), S[b.dataset.key])), 300);
+			setTimeout(() => thumbs($(".choices", root)), 300);
 		}
 		this.listen();
 		new ResizeObserver(() => this.draw()).observe(this.stage);
@@ -395,6 +403,7 @@ class Viewer {
 		this.split = clamp(split, 0, 1);
 		this.draw();
 	}
+	slide(sign, { shiftKey }) { return this.slides && this.move(this.split + sign * (shiftKey ? .1 : .02)); }
 	/* A point of the window on the stage: in its pane, and as a part of its width. */
 	local({ clientX, clientY }) {
 		const box = this.stage.getBoundingClientRect(), view = this.view(), x = clientX - box.left;
@@ -520,7 +529,7 @@ const line = (x1, y1, x2, y2, kind = "grid") => html`<line x1="${round(x1)}" y1=
 const curve = (points, kind = "") => html`<path class="curve ${kind}" d="M${points.map(p => p.map(round).join(" ")).join("L")}"/>`;
 /* The width of a text in a chart. */
 const textWidth = (() => {
-	const pen = document.createElement("canvas").getContext("2d");
+	const pen = create("canvas").getContext("2d");
 	return (t, bold) => {
 		pen.font = `${bold ? 650 : 400} 12.5px ${textWidth.family ??= getComputedStyle(document.body).fontFamily}`;
 		return pen.measureText(t).width;
@@ -572,23 +581,21 @@ ${far && line(x(ex) + 7, y(ey), at - 3, labels[n], "leader")}${text(at, labels[n
 }
 /* Places labels of points: none overlaps another, and one far from its mark has a leader; one without room is left out (`label` null). */
 function place(points, box, bars) {
-	const done = [], leaders = [], square = o => [o.x - 9, o.y - 9, o.x + 9, o.y + 9], overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
+	const done = [], squares = points.map(o => [o.x - 9, o.y - 9, o.x + 9, o.y + 9]), overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
+	const hits = (d, list) => list.filter(([x, y]) => x > d[0] && x < d[2] && y > d[1] && y < d[3]).length;
 	for (const p of [...points].sort((a, b) => b.priority - a.priority || a.y - b.y)) {
 		let best = null;
 		for (let ring = 0; ring < 9; ring++) for (let turn = 0; turn < 16; turn += ring ? 1 : 4) {
 			const angle = turn * Math.PI / 8, r = 13 + ring * 11, cos = Math.cos(angle);
 			const cx = p.x + cos * (r + (Math.abs(cos) > .3 ? p.w / 2 : 0)), cy = p.y + Math.sin(angle) * (r + 7), q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
 			if (q[0] < box[0] || q[1] < box[1] || q[2] > box[2] || q[3] > box[3] || done.some(d => overlap(q, d) > 0)) continue;
-			const end = [clamp(p.x, q[0], q[2]), clamp(p.y, q[1] + 3, q[3] - 3)], leader = ring ? [.2, .4, .6, .8].map(t => [0, 1].map(i => (1 - t) * [p.x, p.y][i] + t * end[i])) : [];
-			const hits = (d, line) => line.some(([x, y]) => x > d[0] && x < d[2] && y > d[1] && y < d[3]);
-			const crossed = sum(points.map(o => o === p ? 0 : 5 * overlap(q, square(o)) + 60 * hits(square(o), leader))) + sum(bars.map(d => 1.6 * overlap(q, d))) + 90 * sum(done.map(d => hits(d, leader))) + 90 * hits(q, leaders);
+			const ex = clamp(p.x, q[0], q[2]), ey = clamp(p.y, q[1] + 3, q[3] - 3), leader = ring ? [.2, .4, .6, .8].map(t => [p.x + t * (ex - p.x), p.y + t * (ey - p.y)]) : [];
+			const crossed = sum(squares.map((d, i) => points[i] === p ? 0 : 5 * overlap(q, d) + 30 * hits(d, leader))) + sum(bars.map(d => 1.6 * overlap(q, d))) + sum(done.map(d => 40 * hits(d, leader)));
 			const cost = ring * 22 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
-			if (!best || cost < best.cost) best = { cost, x: q[0], y: cy, q, end: ring && end, leader };
+			if (!best || cost < best.cost) best = { cost, x: q[0], y: cy, q, end: ring && [ex, ey], leader };
 		}
 		p.label = best && (best.cost < 420 || p.priority) ? best : null;
-		if (!p.label) continue;
-		done.push(best.q);
-		leaders.push(...best.leader);
+		if (p.label) done.push(best.q, ...best.leader.map(([x, y]) => [x - 2, y - 2, x + 2, y + 2]));
 	}
 }
 
@@ -610,8 +617,7 @@ function pareto(v) {
 	const y = scale(true, clamp(Math.min(...points.map(p => p.error / 2.2)), .0005, .3), Math.max(2, ...points.map(p => p.error * 4)), b, t);
 	for (const p of points) [p.x, p.y] = [x(p.time), y(Math.max(p.error, y.low * 1.1))];
 	const one = clamp(y(1), t, b), base = points.find(p => p.m === BASE), shown = [];
-	shown.push(html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`, axisY(y, l, r, y.ticks(60).filter(e => Math.log10(e) % 1 === 0)));
-	if (timed) shown.push(axisX(x, b, x.ticks(40)));
+	shown.push(html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`, axisY(y, l, r, y.ticks(60).filter(e => Math.log10(e) % 1 === 0)), timed && axisX(x, b, x.ticks(40)));
 	shown.push(text((l + r) / 2, H - 8, timed ? `← faster   ·   ${all ? "time as a multiple of naive Phong’s" : "ms a frame"}` : "no times were taken", "axis mid"), text(l - 38, t - 9, `${all ? "worst error in any scene" : "max error"}, grey levels`, "axis"));
 	if (base && timed) shown.push(line(base.x, t, base.x, b, "dots"));
 	// The line goes down at each method that is more exact than all faster ones.
@@ -629,9 +635,10 @@ function pareto(v) {
 	const same = "below one grey level: the same picture", taken = [l, one + 3, l + textWidth(same), one + 20];
 	if (b - one > 24) shown.push(text(l + 8, one + 16, same, "tick halo washed"));
 	for (const p of points) {
-		const left = p.m === v.a, right = p.m === v.b;
-		p.value = p.ratio && (left || right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
-		Object.assign(p, { priority: 3 * left + 2 * right + !!p.front + MARKED.has(p.m), w: textWidth(nameOf(p.m) + "  " + p.value, true) + 6, left, right });
+		[p.left, p.right] = [p.m === v.a, p.m === v.b];
+		p.value = p.ratio && (p.left || p.right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
+		p.priority = 3 * p.left + 2 * p.right + !!p.front + MARKED.has(p.m);
+		p.w = textWidth(`${nameOf(p.m)}  ${p.value}`, true) + 6;
 	}
 	place(points, [l + 2, t, r, b - 1], [taken, ...steps.slice(1).map(([px, py], i) => [steps[i][0] - 2, steps[i][1] - 2, px + 2, py + 2])]);
 	for (const p of points) {
@@ -642,13 +649,12 @@ ${p.label && text(p.label.x + 2, p.label.y + 4.3, [nameOf(p.m), html`<tspan dx="
 	}
 	fill(el, svg(W, H, "Error against time of every method", shown, true));
 }
-const short = (t, most) => t.length > most ? t.slice(0, most - 1) + "…" : t;
 /* Speeds of a few methods in each scene, as a strip of marks. */
 function strip() {
 	const el = $("#strip"), W = widthOf(el), few = chosen(4), lead = few.find(m => m !== BEST) ?? few[0], value = (s, m) => s.rows[m]?.ratio?.median;
 	if (!W || !few.length) return;
 	const timed = SCENES.filter(s => few.some(m => value(s, m))).sort(by(s => -(value(s, lead) ?? 0))), [rows, more] = folded(timed, 24, "scenes");
-	const narrow = W < 520, l = narrow ? 132 : 208, t = 42, high = 20.5, H = t + rows.length * high + 26, values = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
+	const narrow = W < 520, most = narrow ? 19 : 34, l = narrow ? 132 : 208, t = 42, high = 20.5, H = t + rows.length * high + 26, values = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
 	const x = scale(true, Math.min(...values) / 1.06, Math.max(...values) * 1.06, l, W - 14), shown = [];
 	for (const g of x.ticks(30)) shown.push(line(x(g), t - 6, x(g), H - 22, g === 1 ? "one" : "grid"), text(x(g), H - 7, g + (g === 1 ? TIMES : ""), "tick mid"));
 	few.reduce((at, m) => {
@@ -656,14 +662,12 @@ function strip() {
 		shown.push(shape(m, at + 6, 10, 4.6), text(at + 16, 14, name));
 		return at + 32 + textWidth(name);
 	}, 0);
-	if (x(1) - l > 60) shown.push(text(x(1) - 8, t - 12, "slower", "tick end"));
-	if (W - 14 - x(1) > 150) shown.push(text(x(1) + 8, t - 12, "faster than naive Phong", "tick"));
 	rows.forEach((s, i) => {
 		const y = t + (i + .5) * high, here = few.filter(m => value(s, m)), at = here.map(m => x(value(s, m))), tip = `${s.title}: ${here.map(m => `${nameOf(m)} ${value(s, m).toFixed(2)} ×`).join(", ")}`;
 		shown.push(html`<a class="hit" href="#scenes/${s.id}" aria-label="${tip}"><title>${tip}</title><rect x="0" y="${y - high / 2}" width="${W}" height="${high}" fill="transparent"/>
-${text(l - 14, y + 4, short(s.title, narrow ? 19 : 34), "end")}${line(Math.min(...at), y, Math.max(...at), y, "range")}${here.map((m, n) => shape(m, at[n], y, s.rows[m].max > 1 ? 2.8 : 4.6))}</a>`);
+${text(l - 14, y + 4, s.title.length > most ? s.title.slice(0, most - 1) + "…" : s.title, "end")}${line(Math.min(...at), y, Math.max(...at), y, "range")}${here.map((m, n) => shape(m, at[n], y, s.rows[m].max > 1 ? 2.8 : 4.6))}</a>`);
 	});
-	el.innerHTML = html`${svg(W, H, `Speed of ${few.length} methods in ${rows.length} scenes`, shown, true)}<p class="sub">Small: off by more than one grey level there, another picture.</p>${more}`;
+	el.innerHTML = html`${svg(W, H, `Speed of ${few.length} methods in ${rows.length} scenes`, shown, true)}${more}`;
 }
 const VERDICTS = { confirms: "✓", adds: "+", contradicts: "✗" };
 const counts = list => Object.keys(VERDICTS).map(k => [k, list.filter(x => x.agreement === k).length]).filter(([, n]) => n);
@@ -728,7 +732,7 @@ const stepScene = d => openScene(SCENES[(v2.scene.number + d + SCENES.length) % 
 function startScenes(s) {
 	const rail = $("#rail");
 	rail.innerHTML = html`${SCENES.map(s => html`<button role="option" data-key="${s.id}"><canvas aria-hidden="true"></canvas><span>${s.title}</span></button>`)}`;
-	$$("button", rail).forEach(b => thumb($("canvas", b), S[b.dataset.key]));
+	thumbs(rail);
 	onChoose(rail, id => openScene(S[id]));
 	const change = (v, changed) => {
 		if (!changed.view) {
@@ -761,7 +765,7 @@ function scenes([id], query) {
 		b.tabIndex = on ? 0 : -1;
 		if (!on) continue;
 		if (held) b.focus({ preventScroll: true });
-		b.scrollIntoView({ block: "nearest", inline: "center" });
+		reveal(b);
 	}
 	const asked = { ...fromRoute(query, v2), scene: s };
 	v2.set(asked);
@@ -828,7 +832,7 @@ async function rowPlot(v) {
 		series: drawn.map(m => ({ label: nameOf(m), colour: hue(m), kind: `${bold(m) ? "" : "thin"} ${m === "reference" ? "dash1" : ""}`, points: values[list.indexOf(m)].map((g, x) => [x + .5, g]) })),
 	}, widthOf(el) || 700, H);
 	write({ "rowplot-title": `Row ${row} of ${s.title}` });
-	fill(el, html`${chart(greys, "grey level", 230)}${chart(slopes, "slope, levels a pixel", 170)}<div class="legend">${list.map(m => html`<button data-key="${m}" aria-pressed="${bold(m)}">${mark(m)}${nameOf(m)}</button>`)}</div>`);
+	fill(el, html`${chart(greys, "grey level", 230)}${chart(slopes, "slope, levels a pixel", 170)}<div class="legend">${list.map(m => html`<button data-key="${m}" aria-pressed="${bold(m)}">${named(m)}</button>`)}</div>`);
 	v.draw();
 }
 /* Columns of the table: key, head, a mark for those that are always shown. */
@@ -852,7 +856,7 @@ function sceneTable() {
 		ratio: (r, q) => r ? html`<span class="speed"><svg style="color:${hue(q.variant)}" width="${width}" height="18" aria-hidden="true">${line(x(1), 0, x(1), 18)}${shape(q.variant, x(r.median), 9, 3.4)}${line(x(r.low), 9, x(r.high), 9, "whisker")}${[r.low, r.high].map(v => line(x(v), 3, x(v), 15, "whisker"))}</svg><span class="${r.tie ? "" : r.median > 1 ? "good" : "bad"}" title="${r.low.toFixed(2)}–${r.high.toFixed(2)}">${ratioText(r)}</span></span>` : "–",
 	};
 	const columns = COLUMNS.filter(([, , always]) => options.cols || always), all = [["name", "method"], ...columns], arrow = key => sort.key === key && (sort.up ? " ↑" : " ↓");
-	const name = q => html`<button class="name" data-key="row ${q.variant}">${mark(q.variant)}${nameOf(q.variant)}${q.bary && html` <small>barycentric</small>`}</button>`;
+	const name = q => html`<button class="name" data-key="row ${q.variant}">${named(q.variant)}${q.bary && html` <small>barycentric</small>`}</button>`;
 	fill($("#table"), html`${table(all.map(([key, label]) => html`<button data-key="${key}">${label}${arrow(key)}</button>`), shown.map(q => [name(q), ...columns.map(([key]) => (cells[key] ?? num)(q[key], q))]), "choose")}${more}`);
 	$$("#table [scope=col]").forEach((th, i) => { th.ariaSort = all[i][0] !== sort.key ? "none" : sort.up ? "ascending" : "descending"; });
 	$$("#table tbody tr").forEach((tr, i) => {
@@ -974,7 +978,6 @@ const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [], oneLight = CO
 let cornerMode = "same";
 /* True if a method draws naive Phong's picture in all scenes; without scenes, on the study's sphere. */
 const isSame = m => (M[m.method]?.max ?? m.levels_off) <= 1;
-const studied = () => STUDY.methods.filter(m => cornerMode === "all" || isSame(m));
 const WORKS = { kernel: "shading loop", frame: "whole picture" };
 const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
 /* The fastest method of a corner that draws naive Phong's picture. */
@@ -986,7 +989,7 @@ function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 	el.innerHTML = html`${panes.map(places => {
 		const values = list.flatMap(m => places.flatMap(p => p.values(m))), last = m => format(places[places.length - 1].values(m)[0]), r = part - 34 - Math.max(...list.map(m => textWidth(`${nameOf(m.method)} ${last(m)}`, true)));
 		const x = scale(false, 0, places.length - 1, l + 30, r), y = scale(true, Math.min(...values) * .95, Math.max(...values) * 1.05, b, t);
-		return svg(part, b + 10, label, [axisY(y, l, r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]), curves(x, y, list.map(m => ({
+		return svg(part, b + 10, label, [axisY(y, l, r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, W < 460 ? p.name.split(" ").pop() : p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]), curves(x, y, list.map(m => ({
 			method: m.method, name: nameOf(m.method), value: last(m), bold: MARKED.has(m.method), kind: MARKED.has(m.method) ? "" : "thin", href: `#methods/${m.method}`,
 			tip: `${nameOf(m.method)}: ${places.map(p => `${p.name} ${p.note} ${num(p.values(m)[0])}`).join(", ")}`, points: places.map((p, i) => [i, ...p.values(m)]),
 		})), { gap: 15.5, out: 22 })], true);
@@ -994,7 +997,7 @@ function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 }
 function corners(mode) {
 	cornerMode = mode;
-	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]), list = studied();
+	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]), list = STUDY.methods.filter(m => cornerMode === "all" || isSame(m));
 	slopes("#corners", "Speed of methods in the shading loop and in whole pictures", list.filter(m => oneLight.every(c => ratioIn(m, c))), [oneLight.map(c => ({ name: WORKS[c.work], note: levelName(c), values: values(c) }))], nameOf, v => v.toFixed(2));
 	const kernels = [true, false].map(scalar => CORNERS.filter(c => c.work === "kernel" && c.scalar === scalar)).filter(pair => pair.length > 1);
 	slopes("#lights", "Nanoseconds a pixel with one and four lights", list.slice(0, 14), kernels.map(pair => pair.map(c => ({ name: levelName(c), note: plural(c.lights, "light"), values: m => ["median_ns", "p25_ns", "p75_ns"].map(k => m.corners[c.i].timing[k] / STUDY.span) }))), shortName, v => num(v, 2), 40);
@@ -1015,13 +1018,9 @@ const COSTS = [["vertex_ns", "vertex"], ["triangle_ns", "triangle"], ["span_ns",
 /* The largest part by which a fit may miss a measured time: beyond it no figure is shown. */
 const MISFIT = .5;
 function costs() {
-	const all = D.scaling.curves.filter(c => c.costs), list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT), most = k => Math.max(...list.map(c => c.costs[k])) || 1, base = list.find(c => c.method === BASE && c.engine !== "span");
+	const all = D.scaling.curves.filter(c => c.costs), list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT), most = k => Math.max(...list.map(c => c.costs[k])) || 1;
 	$("#costs").innerHTML = table(["", ...COSTS.map(([, name]) => name), "largest misfit"], all.map(c => [curveName(c), ...COSTS.map(([k]) => list.includes(c) ? bar(num(c.costs[k], 2), Math.max(1, c.costs[k] / most(k) * 100), curveHue(c)) : "–"), html`${(Math.abs(c.costs.worst) * 100).toFixed(0)} %${!list.includes(c) && html` <span class="bad">poor fit</span>`}`]));
-	const even = list.filter(c => base && c.method !== BASE && c.engine === base.engine).map(c => {
-		const saved = base.costs.pixel_ns - c.costs.pixel_ns, more = c.costs.span_ns - base.costs.span_ns;
-		return `${nameOf(c.method)} ${saved <= 0 ? "saves nothing a pixel" : more <= 0 ? "has cheaper spans" : `from ${num(more / saved, 2)} pixels a span`}`;
-	});
-	write({ breakeven: even.length ? `Break-even with ${nameOf(BASE)}: ${even.join("; ")}.` : "", misfit: MISFIT * 100 });
+	write({ misfit: MISFIT * 100 });
 }
 /* Documents side by side, a column each under its processor. */
 function beside() {
@@ -1036,7 +1035,7 @@ function beside() {
 	};
 	const heads = DOCS.map(({ machine, date }) => html`${machine.cpu}<br><small>${[machine.version, machine.commit?.slice(0, 9), date].filter(Boolean).join(" · ")}</small>`);
 	const variants = [...new Set(DOCS.flatMap(d => d.comparisons.flatMap(c => c.rows.map(r => r.variant))))];
-	$("#beside").innerHTML = table(["method", ...heads], variants.map(m => [html`<span class="name">${mark(m)}${nameOf(m)}</span>`, ...DOCS.map(d => cell(d, m))]));
+	$("#beside").innerHTML = table(["method", ...heads], variants.map(m => [html`<span class="name">${named(m)}</span>`, ...DOCS.map(d => cell(d, m))]));
 }
 function speed() {
 	if (STUDY) {
@@ -1114,7 +1113,7 @@ function lectures([part = ""]) {
 	else if (f) {
 		const links = html`<nav class="list" aria-label="Figures">${FIGURES.map(q => html`<a href="#lectures/${q.name}" ${q === f && html`aria-current="true"`}><span>${topic(q)}</span>${q.findings.some(x => x.agreement === "contradicts") && html`<span class="chip contradicts" title="contradicts">✗</span>`}</a>`)}</nav>`;
 		body.innerHTML = html`<div class="${FIGURES.length > 1 ? "detail" : ""}">${FIGURES.length > 1 && links}<article class="fig"><h2>${f.title}</h2><p class="facts">${f.lecture}</p>${chips(f, true)}${figureBody(f)}<h3>Findings</h3>${findingTable(f.findings)}</article></div>`;
-		$(".list [aria-current]", body)?.scrollIntoView({ block: "nearest", inline: "center" });
+		reveal($(".list [aria-current]", body));
 		drawPlots(f);
 	} else {
 		body.innerHTML = html`<div class="gallery">${FIGURES.map(q => html`<a class="fcard" href="#lectures/${q.name}"><span class="preview">${preview(q)}</span><span class="tx"><b>${q.title}</b><small>${q.lecture}</small>${chips(q)}</span></a>`)}</div>`;
@@ -1181,7 +1180,6 @@ function route(e) {
 	$$(".view").forEach(s => s.classList.toggle("on", s.id === name));
 	const link = $(`.top nav a[href="#${name}"]`);
 	$$(".top nav a").forEach(a => { a.ariaCurrent = a === link ? "page" : null; });
-	if (changed) link.scrollIntoView({ block: "nearest", inline: "center" });
 	VIEWS[name](parts.filter(Boolean), new URLSearchParams(query ?? ""));
 	const target = e && document.getElementById("m-" + parts[0]);
 	if (target) target.scrollIntoView();
