@@ -18,7 +18,7 @@ function fill(el, markup) {
 	if (key != null) $(`[data-key="${CSS.escape(key)}"]`, el)?.focus({ preventScroll: true });
 	delay("fade", 30, fadeEnds);
 }
-/* Fades the ends of lists and tables behind which there is more to scroll to. */
+/* Fades the end of a list or table that scrolls on. */
 function fadeEnd(el) {
 	el.classList.toggle("more-right", el.scrollLeft + el.clientWidth < el.scrollWidth - 2);
 	el.classList.toggle("more-below", el.scrollTop + el.clientHeight < el.scrollHeight - 2);
@@ -49,7 +49,7 @@ addEventListener("click", e => {
 	unfolded.add(what);
 	route();
 });
-/* Wires buttons of which one is pressed; returns the function that marks the pressed one. */
+/* Wires buttons of which one is pressed; returns what marks that one. */
 function segments(el, pressed, choose) {
 	const update = () => $$("button", el).forEach(b => { b.ariaPressed = b.dataset.key === pressed(); });
 	onChoose(el, key => {
@@ -148,11 +148,11 @@ const PICTURES = SCENES.some(s => s.drawn);
 ROOT.classList.toggle("nopictures", !PICTURES);
 
 /* Each family of methods has a hue and a shape, each member a filling; naive Phong is ink. */
-const HUES = 11, FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
+const FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
 const SHAPES = $$("[id^=mark-]:not(#mark-diamond)").map(path => path.id.slice(5));
 for (const m of METHODS) {
 	const family = FAMILIES.indexOf(m.family), members = METHODS.filter(o => o.family === m.family);
-	m.hue = family < 0 ? "var(--base)" : `var(--h${family % HUES})`;
+	m.hue = family < 0 ? "var(--base)" : `var(--h${family % 11})`;
 	m.shape = family < 0 ? "diamond" : SHAPES[family % SHAPES.length];
 	m.filling = members.indexOf(m) % 3;
 	m.head = members[0] === m;
@@ -163,13 +163,13 @@ for (const m of METHODS) {
 	m.max = m.worst?.max;
 	m.speed = ratios.length && ratios.length === drawn.length ? mean(ratios) : null;
 }
-/* Keys 1 to 9: the first of each family, then the most exact others; in the order of the list. */
+/* Keys 1 to 9: the first of each family, then the most exact others. */
 const order = m => IDS.indexOf(m.name);
 [...METHODS].sort(by(m => m.head ? order(m) : 1e6 + (m.max ?? 0))).slice(0, 9).sort(by(order)).forEach((m, i) => { m.key = String(i + 1); });
 const nameOf = m => M[m]?.label ?? m, shortName = m => nameOf(m).replace(" Phong", ""), hue = m => M[m]?.hue ?? "var(--ink3)";
 const keyOf = m => m === "reference" ? "0" : M[m].key;
 const NAMED = $$(".answer .m").map(a => a.dataset.m), BEST = NAMED[0] ?? IDS[IDS.length - 1], MARKED = new Set([BASE, BEST, ...NAMED]);
-/* Methods shown where there is room for few: those that the answer names, then the fastest. */
+/* A few methods: those that the answer names, then the fastest. */
 const chosen = n => IDS.filter(m => m !== BASE && M[m].speed).sort(by(m => -M[m].speed)).sort(by(m => Math.max(1, M[m].max))).sort(by(m => !MARKED.has(m))).slice(0, n);
 
 /* A method's mark around a point of an SVG. */
@@ -233,13 +233,13 @@ const picture = (s, m) => memo(`picture ${s.id} ${m}`, async () => {
 	return canvasOf(s, i => 255 << 24 | (blue[i] + green[i] & 255) << 16 | green[i] << 8 | red[i] + green[i] & 255);
 });
 const fromSrgb = c => c <= .04045 ? c / 12.92 : ((c + .055) / 1.055) ** 2.4;
-/* Error of each pixel: the largest difference of its channels from the reference's, in linear grey levels. */
+/* Error of each pixel: its channels' largest difference from the reference, in linear grey levels. */
 const errors = (s, m) => memo(`errors ${s.id} ${m}`, async () => {
 	const [{ px: here }, { px: there }] = await Promise.all([picture(s, m), picture(s, "reference")]);
 	const grey = Float32Array.from({ length: 256 }, (_, c) => s.encoding === "srgb" ? 255 * fromSrgb(c / 255) : c), apart = i => Math.abs(grey[here[i]] - grey[there[i]]);
 	return new Float32Array(s.w * s.h).map((_, i) => Math.max(apart(4 * i), apart(4 * i + 1), apart(4 * i + 2)));
 });
-/* Colours of the error map, and the place of an error on its scale: logarithmic for `top` 0, else linear up to `top`. */
+/* Colours of the error map; its scale is logarithmic for `top` 0, else linear up to `top`. */
 const STOPS = ["#000004", "#1c1044", "#4f127b", "#812581", "#b5367a", "#e55064", "#fb8761", "#fec287", "#fcfdbf"];
 const HEAT = (() => {
 	const pen = create("canvas").getContext("2d"), ramp = pen.createLinearGradient(0, 0, 256, 0);
@@ -280,11 +280,11 @@ function crop(canvas, s, m, worst, w, h) {
 /* ---------- the viewer */
 const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
 const KEYS = {
-	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "=": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
+	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
 	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.slide(-1, e), arrowright: (v, e) => v.slide(1, e),
 };
 for (const key in MODES) KEYS[key] = v => v.set({ mode: MODES[key] });
-/* Compares the pictures of methods `a` and `b` on a scene; calls `change`, and `probe` with the pixel looked at. */
+/* Compares the pictures of methods `a` and `b`; calls `change`, and `probe` with the pixel looked at. */
 class Viewer {
 	constructor(root, options) {
 		Object.assign(this, { root, mode: "slide", split: .5, z: 1, cx: .5, cy: .5, top: 0, side: "a", turn: 0 }, options);
@@ -296,7 +296,7 @@ class Viewer {
 		onChoose($(".vfoot", root), (key, e) => KEYS[key] ? KEYS[key](this, e) : this.set({ scene: S[key], pin: null }));
 		$(".row", root).hidden = !this.row;
 		if (this.choices) {
-			$(".choices", root).innerHTML = html`${this.choices.map(s => html`<button data-key="${s.id}" title="${s.title}" aria-label="${s.title}"><canvas aria-hidden="true"></canvas></button>`)}`;
+			$(".choices", root).innerHTML = html`${this.choices.map(s => html`<button data-key="${s.id}" title="${s.title}"><canvas aria-hidden="true"></canvas></button>`)}`;
 			setTimeout(() => thumbs($(".choices", root)), 300);
 		}
 		this.listen();
@@ -494,7 +494,7 @@ class Viewer {
 		this.side = this.side === "a" ? "b" : "a";
 		this.draw();
 	}
-	/* Shows a method on the left or the right; when flipping, turns to the right one. */
+	/* Shows a method on the left or the right. */
 	show(m, right) {
 		if (!this.scene.list.includes(m) && m !== "reference") return;
 		this.set(right ? { b: m } : this.mode === "flip" && m === this.b ? { side: "b" } : { a: m });
@@ -540,7 +540,9 @@ function scale(log, low, high, from, to) {
 	const f = log ? Math.log : v => v, k = (to - from) / (f(high) - f(low) || 1), at = v => from + (f(v) - f(low)) * k;
 	return Object.assign(at, { low, high, from, to, ticks: gap => (log ? logTicks : linearTicks)(at, gap) });
 }
-/* Round numbers on a scale, at least `gap` pixels apart; powers of ten before others where it is logarithmic. */
+/* A logarithmic scale of some values, with a margin. */
+const logScale = (values, margin, from, to) => scale(true, Math.min(...values) / margin, Math.max(...values) * margin, from, to);
+/* Round numbers on a scale, at least `gap` pixels apart. */
 function linearTicks({ low, high, from, to }, gap) {
 	const rough = (high - low) / Math.abs(to - from) * gap, power = 10 ** Math.floor(Math.log10(rough)), step = [1, 2, 5, 10].map(s => s * power).find(s => s >= rough), first = Math.ceil(low / step);
 	return Array.from({ length: Math.floor(high / step + 1e-6) - first + 1 }, (_, i) => +((first + i) * step).toPrecision(6));
@@ -566,8 +568,8 @@ function spread(wished, gap, low, high) {
 	list.reduceRight((most, p) => (p.y = Math.min(p.y, most)) - gap, high);
 	return list.sort(by(p => p.i)).map(p => p.y);
 }
-/* Curves over one another: marks and whiskers at their points, names at their right ends, none over another.
-   A series has points [x, y, low, high], a method or colour, a name, and may have a value behind it, a link and a tip. */
+/* Curves with marks and whiskers at their points and names at their ends.
+   A series has points [x, y, low, high], a method or colour, a name, and may have a value, a link and a tip. */
 function curves(x, y, series, { gap = 16, out = 9 } = {}) {
 	const end = s => s.points[s.points.length - 1], labels = spread(series.map(s => y(end(s)[1])), gap, y.to, y.from);
 	return series.map((s, n) => {
@@ -576,10 +578,10 @@ function curves(x, y, series, { gap = 16, out = 9 } = {}) {
 ${s.points.map(([px, py, low, high]) => [low && line(x(px), y(low), x(px), y(high), "whisker"), s.method && shape(s.method, x(px), y(py), 4.8)])}
 ${far && line(x(ex) + 7, y(ey), at - 3, labels[n], "leader")}${text(at, labels[n] + 4, [s.name, s.value && html`<tspan dx="5" class="value">${s.value}</tspan>`], `label halo ${s.bold ? "bold" : ""}`)}`;
 		const colour = `color:${s.colour ?? hue(s.method)}`;
-		return s.href ? html`<a class="hit" href="${s.href}" aria-label="${s.tip}" style="${colour}">${body}</a>` : html`<g style="${colour}">${body}</g>`;
+		return s.href ? html`<a class="hit" href="${s.href}" style="${colour}">${body}</a>` : html`<g style="${colour}">${body}</g>`;
 	});
 }
-/* Places labels of points: none overlaps another, and one far from its mark has a leader; one without room is left out (`label` null). */
+/* Places labels of points side by side, with a leader if far away; one without room is left out. */
 function place(points, box, bars) {
 	const done = [], squares = points.map(o => [o.x - 9, o.y - 9, o.x + 9, o.y + 9]), overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
 	const hits = (d, list) => list.filter(([x, y]) => x > d[0] && x < d[2] && y > d[1] && y < d[3]).length;
@@ -589,10 +591,10 @@ function place(points, box, bars) {
 			const angle = turn * Math.PI / 8, r = 13 + ring * 11, cos = Math.cos(angle);
 			const cx = p.x + cos * (r + (Math.abs(cos) > .3 ? p.w / 2 : 0)), cy = p.y + Math.sin(angle) * (r + 7), q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
 			if (q[0] < box[0] || q[1] < box[1] || q[2] > box[2] || q[3] > box[3] || done.some(d => overlap(q, d) > 0)) continue;
-			const ex = clamp(p.x, q[0], q[2]), ey = clamp(p.y, q[1] + 3, q[3] - 3), leader = ring ? [.2, .4, .6, .8].map(t => [p.x + t * (ex - p.x), p.y + t * (ey - p.y)]) : [];
+			const ex = clamp(p.x, q[0], q[2]), ey = clamp(p.y, q[1] + 3, q[3] - 3), apart = o => Math.hypot(o.x - clamp(o.x, q[0], q[2]), o.y - clamp(o.y, q[1], q[3])), tied = ring || points.some(o => apart(o) < apart(p) + 8), leader = tied ? [.2, .4, .6, .8].map(t => [p.x + t * (ex - p.x), p.y + t * (ey - p.y)]) : [];
 			const crossed = sum(squares.map((d, i) => points[i] === p ? 0 : 5 * overlap(q, d) + 30 * hits(d, leader))) + sum(bars.map(d => 1.6 * overlap(q, d))) + sum(done.map(d => 40 * hits(d, leader)));
 			const cost = ring * 22 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
-			if (!best || cost < best.cost) best = { cost, x: q[0], y: cy, q, end: ring && [ex, ey], leader };
+			if (!best || cost < best.cost) best = { cost, x: q[0], y: cy, q, end: tied && [ex, ey], leader };
 		}
 		p.label = best && (best.cost < 420 || p.priority) ? best : null;
 		if (p.label) done.push(best.q, ...best.leader.map(([x, y]) => [x - 2, y - 2, x + 2, y + 2]));
@@ -601,7 +603,7 @@ function place(points, box, bars) {
 
 /* ---------- overview */
 let basis = MANY ? "all" : "scene";
-/* Error against time: a mark for every method, and the line of those that nothing beats. */
+/* Error against time of every method, and the line of those that nothing beats. */
 function pareto(v) {
 	const el = $("#pareto"), s = v.scene, all = basis === "all";
 	write({ "pareto-sub": all ? `Worst error in ${SCENES.length} scenes, geometric mean of times.` : `${s.title}, ${s.w} × ${s.h}.` });
@@ -613,7 +615,7 @@ function pareto(v) {
 	});
 	const timed = points.every(p => p.time);
 	if (!timed) points.forEach((p, i) => { p.time = i + 1; });
-	const times = points.map(p => p.time), x = scale(true, Math.min(...times) / 1.15, Math.max(...times) * 1.2, l, r);
+	const x = logScale(points.flatMap(p => [p.time, p.low, p.high]).filter(Boolean), 1.2, l, r);
 	const y = scale(true, clamp(Math.min(...points.map(p => p.error / 2.2)), .0005, .3), Math.max(2, ...points.map(p => p.error * 4)), b, t);
 	for (const p of points) [p.x, p.y] = [x(p.time), y(Math.max(p.error, y.low * 1.1))];
 	const one = clamp(y(1), t, b), base = points.find(p => p.m === BASE), shown = [];
@@ -628,7 +630,7 @@ function pareto(v) {
 		steps.push([p.x, last?.[1] ?? t], [p.x, p.y]);
 		p.front = true;
 	}
-	if (steps.length) {
+	if (timed) {
 		steps.push([r, steps[steps.length - 1][1]]);
 		shown.push(curve(steps, "front"));
 	}
@@ -642,39 +644,33 @@ function pareto(v) {
 	}
 	place(points, [l + 2, t, r, b - 1], [taken, ...steps.slice(1).map(([px, py], i) => [steps[i][0] - 2, steps[i][1] - 2, px + 2, py + 2])]);
 	for (const p of points) {
-		const tip = `${nameOf(p.m)}: error ${num(p.error)} levels${timed ? `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}` : ""}`, faint = points.length > 14 && !p.priority;
-		shown.push(html`<g class="hit" tabindex="0" role="button" data-key="${p.m}" aria-pressed="${p.left}" aria-label="${tip}" style="color:${hue(p.m)}"><title>${tip}</title>
-${p.label?.end && line(p.x, p.y, ...p.label.end, "leader")}${p.low && line(x(p.low), p.y, x(p.high), p.y, "whisker")}<circle class="ring ${p.left || p.right ? "on" : ""}" cx="${p.x}" cy="${p.y}" r="10.5"/>${shape(p.m, p.x, p.y, faint ? 4 : 5.8)}
+		const tip = `${nameOf(p.m)}: error ${num(p.error)} levels${timed ? `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}` : ""}`;
+		shown.push(html`<g class="hit" tabindex="0" role="button" data-key="${p.m}" aria-pressed="${p.left}" style="color:${hue(p.m)}"><title>${tip}</title>
+${p.label?.end && line(p.x, p.y, ...p.label.end, "leader")}${p.low && line(x(p.low), p.y, x(p.high), p.y, "whisker")}<circle class="ring ${p.left || p.right ? "on" : ""}" cx="${p.x}" cy="${p.y}" r="10.5"/>${shape(p.m, p.x, p.y, 5.8)}
 ${p.label && text(p.label.x + 2, p.label.y + 4.3, [nameOf(p.m), html`<tspan dx="4" class="value">${p.value}</tspan>`], `label halo ${p.left ? "bold" : ""}`)}</g>`);
 	}
 	fill(el, svg(W, H, "Error against time of every method", shown, true));
 }
 /* Speeds of a few methods in each scene, as a strip of marks. */
 function strip() {
-	const el = $("#strip"), W = widthOf(el), few = chosen(4), lead = few.find(m => m !== BEST) ?? few[0], value = (s, m) => s.rows[m]?.ratio?.median;
+	const el = $("#strip"), W = widthOf(el), few = chosen(4), value = (s, m) => s.rows[m]?.ratio?.median;
 	if (!W || !few.length) return;
-	const timed = SCENES.filter(s => few.some(m => value(s, m))).sort(by(s => -(value(s, lead) ?? 0))), [rows, more] = folded(timed, 24, "scenes");
-	const narrow = W < 520, most = narrow ? 19 : 34, l = narrow ? 132 : 208, t = 42, high = 20.5, H = t + rows.length * high + 26, values = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
-	const x = scale(true, Math.min(...values) / 1.06, Math.max(...values) * 1.06, l, W - 14), shown = [];
+	const timed = SCENES.filter(s => few.some(m => value(s, m))).sort(by(s => -(value(s, few[0]) ?? 0))), [rows, more] = folded(timed, 24, "scenes");
+	const [most, l] = W < 520 ? [19, 132] : [34, 208], t = 8, high = 20.5, H = t + rows.length * high + 26, values = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
+	const x = logScale(values, 1.06, l, W - 14), shown = [];
 	for (const g of x.ticks(30)) shown.push(line(x(g), t - 6, x(g), H - 22, g === 1 ? "one" : "grid"), text(x(g), H - 7, g + (g === 1 ? TIMES : ""), "tick mid"));
-	few.reduce((at, m) => {
-		const name = narrow ? shortName(m) : nameOf(m);
-		shown.push(shape(m, at + 6, 10, 4.6), text(at + 16, 14, name));
-		return at + 32 + textWidth(name);
-	}, 0);
 	rows.forEach((s, i) => {
 		const y = t + (i + .5) * high, here = few.filter(m => value(s, m)), at = here.map(m => x(value(s, m))), tip = `${s.title}: ${here.map(m => `${nameOf(m)} ${value(s, m).toFixed(2)} ×`).join(", ")}`;
-		shown.push(html`<a class="hit" href="#scenes/${s.id}" aria-label="${tip}"><title>${tip}</title><rect x="0" y="${y - high / 2}" width="${W}" height="${high}" fill="transparent"/>
+		shown.push(html`<a class="hit" href="#scenes/${s.id}"><title>${tip}</title><rect x="0" y="${y - high / 2}" width="${W}" height="${high}" fill="transparent"/>
 ${text(l - 14, y + 4, s.title.length > most ? s.title.slice(0, most - 1) + "…" : s.title, "end")}${line(Math.min(...at), y, Math.max(...at), y, "range")}${here.map((m, n) => shape(m, at[n], y, s.rows[m].max > 1 ? 2.8 : 4.6))}</a>`);
 	});
-	el.innerHTML = html`${svg(W, H, `Speed of ${few.length} methods in ${rows.length} scenes`, shown, true)}${more}`;
+	el.innerHTML = html`<div class="legend">${few.map(m => html`<span>${named(m)}</span>`)}</div>${svg(W, H, `Speed of ${few.length} methods in ${rows.length} scenes`, shown, true)}${more}`;
 }
 const VERDICTS = { confirms: "✓", adds: "+", contradicts: "✗" };
 const counts = list => Object.keys(VERDICTS).map(k => [k, list.filter(x => x.agreement === k).length]).filter(([, n]) => n);
 const chip = (verdict, label) => html`<span class="chip ${verdict}">${VERDICTS[verdict]} ${label}</span>`;
 function waffle() {
-	write({ "waffle-sub": `${FINDINGS.length} statements measured in ${plural(FIGURES.length, "figure")}; each square is one.`, ...Object.fromEntries(counts(FINDINGS)) });
-	$("#waffle").innerHTML = html`${counts(FINDINGS).map(([k, n]) => Array(n).fill(html`<i class="${k}"></i>`))}`;
+	write({ "waffle-sub": `${FINDINGS.length} statements measured in ${plural(FIGURES.length, "figure")}.`, ...Object.fromEntries(counts(FINDINGS)) });
 }
 /* Shows where the lecture's fast method is worst. */
 function breakPair() {
@@ -696,7 +692,7 @@ function startOverview() {
 		basis = key;
 		pareto(v1);
 	});
-	// A mark under the mouse is shown on the left until the mouse leaves; one that is chosen stays.
+	// A mark under the mouse is shown until the mouse leaves; one that is chosen stays.
 	const el = $("#pareto");
 	onChoose(el, (m, e) => {
 		if (!e.shiftKey) v1.kept = m;
@@ -978,7 +974,7 @@ const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [], oneLight = CO
 let cornerMode = "same";
 /* True if a method draws naive Phong's picture in all scenes; without scenes, on the study's sphere. */
 const isSame = m => (M[m.method]?.max ?? m.levels_off) <= 1;
-const WORKS = { kernel: "shading loop", frame: "whole picture" };
+const WORKS = { kernel: "loop", frame: "picture" };
 const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
 /* The fastest method of a corner that draws naive Phong's picture. */
 const fastest = c => STUDY.methods.filter(m => isSame(m) && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
@@ -988,8 +984,8 @@ function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 	if (!W || !list.length) return;
 	el.innerHTML = html`${panes.map(places => {
 		const values = list.flatMap(m => places.flatMap(p => p.values(m))), last = m => format(places[places.length - 1].values(m)[0]), r = part - 34 - Math.max(...list.map(m => textWidth(`${nameOf(m.method)} ${last(m)}`, true)));
-		const x = scale(false, 0, places.length - 1, l + 30, r), y = scale(true, Math.min(...values) * .95, Math.max(...values) * 1.05, b, t);
-		return svg(part, b + 10, label, [axisY(y, l, r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, W < 460 ? p.name.split(" ").pop() : p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]), curves(x, y, list.map(m => ({
+		const x = scale(false, 0, places.length - 1, l + 30, r), y = logScale(values, 1.05, b, t);
+		return svg(part, b + 10, label, [axisY(y, l, r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]), curves(x, y, list.map(m => ({
 			method: m.method, name: nameOf(m.method), value: last(m), bold: MARKED.has(m.method), kind: MARKED.has(m.method) ? "" : "thin", href: `#methods/${m.method}`,
 			tip: `${nameOf(m.method)}: ${places.map(p => `${p.name} ${p.note} ${num(p.values(m)[0])}`).join(", ")}`, points: places.map((p, i) => [i, ...p.values(m)]),
 		})), { gap: 15.5, out: 22 })], true);
@@ -1011,11 +1007,11 @@ function grow(id, keep, count, label) {
 		method: c.method, name: curveName(c), colour: curveHue(c), kind: c.engine === "span" ? "dash1" : "", tip: curveName(c), points: chosen.filter(p => c.times[p.i]).map(p => [p.n, c.times[p.i].min_ns / 1e6]),
 	})).filter(s => s.points.length);
 	const ms = series.flatMap(s => s.points.map(p => p[1])), l = 48, r = W - (W < 480 ? 112 : 150), b = 286;
-	const x = scale(true, chosen[0].n, chosen[chosen.length - 1].n, l + 8, r), y = scale(true, Math.min(...ms) * .85, Math.max(...ms) * 1.15, b, 14);
+	const x = logScale(chosen.map(p => p.n), 1, l + 8, r), y = logScale(ms, 1.15, b, 14);
 	el.innerHTML = svg(W, 330, `Time of a frame by ${label}`, [axisY(y, l, r + 8, y.ticks(40), " ms"), axisX(x, b, x.ticks(70)), text((l + r) / 2, 324, label, "axis mid"), curves(x, y, series)]);
 }
 const COSTS = [["vertex_ns", "vertex"], ["triangle_ns", "triangle"], ["span_ns", "span"], ["pixel_ns", "pixel of a span"], ["background_ns", "pixel of the picture"]];
-/* The largest part by which a fit may miss a measured time: beyond it no figure is shown. */
+/* The largest misfit of a time, in parts of it, of fits whose figures are shown. */
 const MISFIT = .5;
 function costs() {
 	const all = D.scaling.curves.filter(c => c.costs), list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT), most = k => Math.max(...list.map(c => c.costs[k])) || 1;
@@ -1041,7 +1037,7 @@ function speed() {
 	if (STUDY) {
 		const lecture = STUDY.methods.find(m => m.method === "fast-phong"), entry = (m, c) => ratioIn(m, c) ? html`${nameOf(m.method)} <b>${ratioText(ratioIn(m, c))}</b>` : "–";
 		$("#speed-summary").innerHTML = table(["", ...oneLight.map(c => `${WORKS[c.work]}, ${levelName(c)}`)], [["fastest with naive Phong’s picture", ...oneLight.map(c => entry(fastest(c), c))], ["the lecture’s fast Phong", ...oneLight.map(c => entry(lecture, c))]]);
-		write({ "same-where": !SCENES.length ? "on this sphere" : MANY ? `in all ${SCENES.length} scenes` : `in ${SCENES[0].title}`, "loop-span": grouped(STUDY.span), "study-span": grouped(STUDY.span), "study-frame": `${STUDY.mesh}, ${STUDY.size.join(" × ")}` });
+		write({ "same-where": MANY ? `all ${SCENES.length} scenes` : SCENES[0]?.title ?? "this sphere", "loop-span": grouped(STUDY.span), "study-span": grouped(STUDY.span), "study-frame": `${STUDY.mesh}, ${STUDY.size.join(" × ")}` });
 		segments($("#corner-mode"), () => cornerMode, corners);
 		corners(cornerMode);
 	}
@@ -1134,7 +1130,7 @@ function measured() {
 	$("#busy").hidden = typical < .1;
 	// A mesh alone is lit by the report, not by `compare`.
 	const again = [command, scene && !/:|\.obj$/i.test(scene.name) && `fastphong compare ${quoted(scene.name)} --size ${scene.w}x${scene.h}`, `fastphong explain ${BEST ?? BASE}`];
-	$("#machine").innerHTML = html`${facts.filter(([, value]) => value).map(([name, value]) => html`<dt>${name}</dt><dd>${value}</dd>`)}`;
+	$("#machine").innerHTML = html`${facts.filter(fact => fact[1]).map(([name, value]) => html`<dt>${name}</dt><dd>${value}</dd>`)}`;
 	write({ timed: D.timed, compared: D.compared, typical: num(typical * 100, 2), again: again.filter(Boolean).join("\n") });
 	$("#get-json").onclick = () => save("fastphong-report.json", $("#fastphong-data").textContent, "application/json");
 	$("#get-csv").onclick = () => save("fastphong-report.csv", csv(ROWS.map(({ worst, ratio, barycentric, ...q }) => ({ ...q, x: worst?.[0], y: worst?.[1], speed: ratio?.median, low: ratio?.low, high: ratio?.high, barycentric: barycentric?.median }))), "text/csv");

@@ -40,6 +40,8 @@ pub(super) struct Overall<'a> {
     pub scene: usize,
     /// Scenes in which it is faster than the baseline, beyond chance.
     pub faster: usize,
+    /// Scenes in which it is slower, beyond chance.
+    pub slower: usize,
     /// Geometric mean of its speeds as a multiple of the baseline's; `None` without times in all scenes.
     pub speed: Option<f64>,
 }
@@ -55,7 +57,8 @@ pub(super) fn overall(data: &Value) -> Vec<Overall<'_>> {
 }
 
 fn in_all_scenes<'a>(name: &'a str, scenes: &'a [Value]) -> Option<Overall<'a>> {
-    let (mut worst, mut at, mut place, mut faster) = (0.0, "", 0, 0);
+    let (mut worst, mut at, mut place) = (0.0, "", 0);
+    let (mut faster, mut slower) = (0, 0);
     let mut logarithms = Some(0.0);
     for (i, scene) in scenes.iter().enumerate() {
         let mut rows = list(scene, "/rows").iter();
@@ -67,6 +70,7 @@ fn in_all_scenes<'a>(name: &'a str, scenes: &'a [Value]) -> Option<Overall<'a>> 
         let speed = number(row, "/speed/ratio_to_naive/median");
         let is_tie = row["speed"]["ratio_to_naive"]["tie"] == true;
         faster += usize::from(!is_tie && speed > Some(1.0));
+        slower += usize::from(!is_tie && speed.is_some_and(|speed| speed < 1.0));
         logarithms = logarithms.zip(speed).map(|(sum, s)| sum + libm::log(s));
     }
     Some(Overall {
@@ -75,6 +79,7 @@ fn in_all_scenes<'a>(name: &'a str, scenes: &'a [Value]) -> Option<Overall<'a>> 
         at,
         scene: place,
         faster,
+        slower,
         speed: logarithms.map(|sum: f64| libm::exp(sum / scenes.len() as f64)),
     })
 }
@@ -193,8 +198,8 @@ pub(super) fn remarks(data: &Value) -> Vec<Part> {
     if scenes > 1 {
         let scene = Part::Scene(best.scene, best.at.into(), best.name.into());
         let gains = format!(
-            "{name} is faster than naive Phong in {} of {scenes} scenes; its largest error is in ",
-            best.faster
+            "{name} is faster in {} of {scenes} scenes, slower in {}; its largest error is in ",
+            best.faster, best.slower
         );
         parts.extend([Part::Text(gains), scene, Part::Text(". ".into())]);
     }
@@ -211,14 +216,13 @@ pub(super) fn remarks(data: &Value) -> Vec<Part> {
             rest => format!(" and {rest} more"),
         };
         parts.push(Part::Text(format!(
-            "Faster, but left out for errors of {} grey levels and more: {}{rest}. ",
-            significant(nearest.worst),
-            names.join(", ")
+            "Left out though faster: {}{rest}, off by {} grey levels or more. ",
+            names.join(", "),
+            significant(nearest.worst)
         )));
     }
     parts.push(Part::Text(
-        "Scalar code shades one pixel per instruction, SIMD code (AVX2, AVX-512) several; \
-         rsqrt is 1/√x, estimated and refined."
+        "Scalar: one pixel per instruction; AVX: several; rsqrt: 1/√x, estimated and refined."
             .into(),
     ));
     parts

@@ -51,7 +51,7 @@ fn opening(data: &Value) -> String {
     if let Some(fast) = fails {
         let (worst, at) = (significant(fast.worst), markdown_text(fast.at));
         let fails = format!(
-            "The lecture’s {} is off by up to {worst} grey levels, most in {at}.",
+            "The lecture’s {} is off by up to {worst} grey levels, in {at}.",
             markdown_text(&label(fast.name))
         );
         points.push(("Where it fails", fails));
