@@ -130,7 +130,7 @@
       if (TIMED && MANY) {
         const { scene, worst } = M[BEST], counted = SCENES.filter(s => s.rows[BEST].ratio?.median > 1 && !s.rows[BEST].ratio.tie).length;
         check("overview: the worst scene of the answer is linked", remark?.textContent === scene.title && remark.getAttribute("href").startsWith(`#scenes/${scene.id}?left=${worst.variant}`));
-        check("overview: in how many scenes it gains", document.querySelector(".remarks").textContent.includes(` in ${counted} of ${scenes} scenes,`));
+        check("overview: in how many scenes it gains", document.querySelector(".remarks")?.textContent.includes(` in ${counted} of ${scenes} scenes,`));
       }
       accessible("overview");
       const words = [...document.querySelectorAll("#overview p")].filter(p => p.offsetParent).map(p => p.textContent.trim()).join(" ").split(/\s+/).length;
