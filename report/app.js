@@ -640,7 +640,7 @@ function pareto(v) {
 		[p.left, p.right] = [p.m === v.a, p.m === v.b];
 		p.value = p.ratio && (p.left || p.right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
 		p.priority = 3 * p.left + 2 * p.right + !!p.front + MARKED.has(p.m);
-		p.w = textWidth(`${nameOf(p.m)}  ${p.value}`, true) + 6;
+		p.w = textWidth(`${nameOf(p.m)}  ${p.value}`, p.left) + 6;
 	}
 	place(points, [l + 2, t, r, b - 1], [taken, ...steps.slice(1).map(([px, py], i) => [steps[i][0] - 2, steps[i][1] - 2, px + 2, py + 2])]);
 	for (const p of points) {
