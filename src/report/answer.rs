@@ -204,14 +204,14 @@ pub(super) fn remarks(data: &Value) -> Vec<Part> {
         parts.extend([Part::Text(gains), scene, Part::Text(". ".into())]);
     }
     let limit = best.worst.max(SAME);
-    let mut others: Vec<_> = all
-        .iter()
-        .filter(|o| o.speed > best.speed && o.worst > limit)
-        .collect();
-    others.sort_by(|a, b| a.worst.total_cmp(&b.worst));
-    if let [nearest, ..] = others[..] {
-        let names: Vec<_> = others.iter().take(3).map(|o| label(o.name)).collect();
-        let rest = match others.len() - names.len() {
+    let others = || {
+        all.iter()
+            .filter(|o| o.speed > best.speed && o.worst > limit)
+    };
+    if let Some(nearest) = others().min_by(|a, b| a.worst.total_cmp(&b.worst)) {
+        // The list of methods ends with the most exact ones.
+        let names: Vec<_> = others().rev().take(3).map(|o| label(o.name)).collect();
+        let rest = match others().count() - names.len() {
             0 => String::new(),
             rest => format!(" and {rest} more"),
         };
