@@ -5,6 +5,7 @@
 const ROOT = document.documentElement;
 const $ = (selector, root = document) => root.querySelector(selector);
 const $$ = (selector, root = document) => [...root.querySelectorAll(selector)];
+const create = tag => document.createElement(tag);
 const ENTITIES = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" };
 class Markup extends String {}
 const put = v => v instanceof Markup ? v : Array.isArray(v) ? v.map(put).join("") : v == null || v === false ? "" : String(v).replace(/[&<>"']/g, c => ENTITIES[c]);
@@ -15,7 +16,15 @@ function fill(el, markup) {
 	const key = el.contains(document.activeElement) ? document.activeElement.dataset.key : null;
 	el.innerHTML = markup;
 	if (key != null) $(`[data-key="${CSS.escape(key)}"]`, el)?.focus({ preventScroll: true });
+	delay("fade", 30, fadeEnds);
 }
+/* Fades the end of a list or table that scrolls on. */
+function fadeEnd(el) {
+	el.classList.toggle("more-right", el.scrollLeft + el.clientWidth < el.scrollWidth - 2);
+	el.classList.toggle("more-below", el.scrollTop + el.clientHeight < el.scrollHeight - 2);
+}
+const SCROLLED = ".scroll, .rail, .list, .choices", fadeEnds = () => $$(SCROLLED).forEach(fadeEnd);
+addEventListener("scroll", e => e.target.matches?.(SCROLLED) && fadeEnd(e.target), true);
 /* Calls `choose` with the key of the button, mark or row that is chosen. */
 function onChoose(el, choose) {
 	el.onclick = e => {
@@ -40,7 +49,7 @@ addEventListener("click", e => {
 	unfolded.add(what);
 	route();
 });
-/* Wires buttons of which one is pressed; returns the function that marks the pressed one. */
+/* Wires buttons of which one is pressed; returns what marks that one. */
 function segments(el, pressed, choose) {
 	const update = () => $$("button", el).forEach(b => { b.ariaPressed = b.dataset.key === pressed(); });
 	onChoose(el, key => {
@@ -50,6 +59,8 @@ function segments(el, pressed, choose) {
 	update();
 	return update;
 }
+/* Scrolls a chosen entry into sight. */
+const reveal = el => el?.scrollIntoView({ block: "nearest", inline: "center" });
 /* Writes texts into elements, by their ids. */
 function write(texts) { for (const id in texts) $("#" + id).textContent = texts[id]; }
 /* A table: heads, and rows of cells of which the first names the row. */
@@ -69,7 +80,7 @@ function toast(text) {
 	delay("toast", 1800, () => $("#toast").classList.remove("on"));
 }
 function save(name, content, type) {
-	const a = document.createElement("a");
+	const a = create("a");
 	a.download = name;
 	a.href = URL.createObjectURL(new Blob([content], { type }));
 	a.click();
@@ -92,6 +103,9 @@ function num(v, digits = 3) {
 	if (size < .001) return "<\u20090.001";
 	return v.toFixed(clamp(digits - 1 - Math.floor(Math.log10(size)), 0, 4));
 }
+const LEVELS = { sse2: "baseline x86-64", avx512: "AVX-512" };
+/* The instructions that drew, as readers know them. */
+const levelName = ({ level }) => level === "scalar" ? level : LEVELS[level] ?? level.toUpperCase();
 const plural = (n, one) => `${grouped(n)} ${one}${n === 1 ? "" : "s"}`;
 const ratioText = q => q ? `${q.tie && q.low !== q.high ? "= " : ""}${q.median.toFixed(2)}${TIMES}` : "–";
 const csvCell = c => /[",\r\n]/.test(c ?? "") ? `"${String(c).replace(/"/g, '""')}"` : c ?? "";
@@ -134,11 +148,11 @@ const PICTURES = SCENES.some(s => s.drawn);
 ROOT.classList.toggle("nopictures", !PICTURES);
 
 /* Each family of methods has a hue and a shape, each member a filling; naive Phong is ink. */
-const HUES = 11, FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
-const SHAPES = ["square", "up", "circle", "plus", "down", "hexagon", "star", "pentagon"];
+const FAMILIES = [...new Set(METHODS.map(m => m.family))].filter(f => f !== M[BASE]?.family);
+const SHAPES = $$("[id^=mark-]:not(#mark-diamond)").map(path => path.id.slice(5));
 for (const m of METHODS) {
 	const family = FAMILIES.indexOf(m.family), members = METHODS.filter(o => o.family === m.family);
-	m.hue = family < 0 ? "var(--base)" : `var(--h${family % HUES})`;
+	m.hue = family < 0 ? "var(--base)" : `var(--h${family % 11})`;
 	m.shape = family < 0 ? "diamond" : SHAPES[family % SHAPES.length];
 	m.filling = members.indexOf(m) % 3;
 	m.head = members[0] === m;
@@ -149,13 +163,13 @@ for (const m of METHODS) {
 	m.max = m.worst?.max;
 	m.speed = ratios.length && ratios.length === drawn.length ? mean(ratios) : null;
 }
-/* Keys 1 to 9: the first of each family, then the most exact others; in the order of the list. */
+/* Keys 1 to 9: the first of each family, then the most exact others. */
 const order = m => IDS.indexOf(m.name);
 [...METHODS].sort(by(m => m.head ? order(m) : 1e6 + (m.max ?? 0))).slice(0, 9).sort(by(order)).forEach((m, i) => { m.key = String(i + 1); });
 const nameOf = m => M[m]?.label ?? m, shortName = m => nameOf(m).replace(" Phong", ""), hue = m => M[m]?.hue ?? "var(--ink3)";
 const keyOf = m => m === "reference" ? "0" : M[m].key;
 const NAMED = $$(".answer .m").map(a => a.dataset.m), BEST = NAMED[0] ?? IDS[IDS.length - 1], MARKED = new Set([BASE, BEST, ...NAMED]);
-/* Methods shown where there is room for few: those that the answer names, then the fastest. */
+/* A few methods: those that the answer names, then the fastest. */
 const chosen = n => IDS.filter(m => m !== BASE && M[m].speed).sort(by(m => -M[m].speed)).sort(by(m => Math.max(1, M[m].max))).sort(by(m => !MARKED.has(m))).slice(0, n);
 
 /* A method's mark around a point of an SVG. */
@@ -165,8 +179,9 @@ function shape(m, x, y, size = 5) {
 }
 const mark = m => html`<svg width="13" height="13" viewBox="-7 -7 14 14" aria-hidden="true">${shape(m, 0, 0)}</svg>`;
 
+const named = m => html`${mark(m)}${nameOf(m)}`;
+
 /* ---------- pictures: planes with the row filters of PNG, deflated; each adds to the one most like it */
-const pictureData = s => memo(`json ${s.id}`, () => JSON.parse($(`#pictures-${s.number}`).textContent));
 /* Predicts a byte from its neighbours (PNG specification 9). */
 function predict(filter, left, up, corner) {
 	if (filter === 0) return 0;
@@ -199,14 +214,14 @@ function add(more, base) {
 	return more;
 }
 const planes = (s, m) => memo(`planes ${s.id} ${m}`, async () => {
-	const data = pictureData(s);
+	const data = memo(`json ${s.id}`, () => JSON.parse($(`#pictures-${s.number}`).textContent));
 	if (m === "reference") return unpack(data.reference, s, 3);
 	const { on = "reference", add: more } = data.rows[m], base = await planes(s, on);
 	return more ? add(await unpack(more, s, 3), base) : base;
 });
 /* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green and red of a pixel. */
 function canvasOf(s, word) {
-	const canvas = document.createElement("canvas"), image = new ImageData(s.w, s.h), words = new Uint32Array(image.data.buffer);
+	const canvas = create("canvas"), image = new ImageData(s.w, s.h), words = new Uint32Array(image.data.buffer);
 	[canvas.width, canvas.height] = [s.w, s.h];
 	for (let i = 0; i < words.length; i++) words[i] = word(i);
 	canvas.getContext("2d").putImageData(image, 0, 0);
@@ -218,16 +233,16 @@ const picture = (s, m) => memo(`picture ${s.id} ${m}`, async () => {
 	return canvasOf(s, i => 255 << 24 | (blue[i] + green[i] & 255) << 16 | green[i] << 8 | red[i] + green[i] & 255);
 });
 const fromSrgb = c => c <= .04045 ? c / 12.92 : ((c + .055) / 1.055) ** 2.4;
-/* Error of each pixel: the largest difference of its channels from the reference's, in linear grey levels. */
+/* Error of each pixel: its channels' largest difference from the reference, in linear grey levels. */
 const errors = (s, m) => memo(`errors ${s.id} ${m}`, async () => {
 	const [{ px: here }, { px: there }] = await Promise.all([picture(s, m), picture(s, "reference")]);
 	const grey = Float32Array.from({ length: 256 }, (_, c) => s.encoding === "srgb" ? 255 * fromSrgb(c / 255) : c), apart = i => Math.abs(grey[here[i]] - grey[there[i]]);
 	return new Float32Array(s.w * s.h).map((_, i) => Math.max(apart(4 * i), apart(4 * i + 1), apart(4 * i + 2)));
 });
-/* Colours of the error map, and the place of an error on its scale: logarithmic for `top` 0, else linear up to `top`. */
+/* Colours of the error map; its scale is logarithmic for `top` 0, else linear up to `top`. */
 const STOPS = ["#000004", "#1c1044", "#4f127b", "#812581", "#b5367a", "#e55064", "#fb8761", "#fec287", "#fcfdbf"];
 const HEAT = (() => {
-	const pen = document.createElement("canvas").getContext("2d"), ramp = pen.createLinearGradient(0, 0, 256, 0);
+	const pen = create("canvas").getContext("2d"), ramp = pen.createLinearGradient(0, 0, 256, 0);
 	STOPS.forEach((colour, i) => ramp.addColorStop(i / (STOPS.length - 1), colour));
 	pen.fillStyle = ramp;
 	pen.fillRect(0, 0, 256, 1);
@@ -250,7 +265,11 @@ async function drawPart(canvas, s, m, part, size, smooth) {
 	pen.imageSmoothingQuality = "high";
 	pen.drawImage(image, ...part, 0, 0, ...size);
 }
-const thumb = (canvas, s) => { if (s.drawn) later(() => drawPart(canvas, s, "reference", [0, 0, s.w, s.h], [112, 112 * s.h / s.w], true)); };
+/* Draws the pictures on the buttons that choose a scene. */
+const thumbs = root => $$("button", root).forEach(b => {
+	const s = S[b.dataset.key];
+	if (s.drawn) later(() => drawPart($("canvas", b), s, "reference", [0, 0, s.w, s.h], [112, 112 * s.h / s.w], true));
+});
 /* Draws a part of a picture around a pixel, its pixels as squares. */
 function crop(canvas, s, m, worst, w, h) {
 	[w, h] = [Math.min(w, s.w), Math.min(h, s.h)];
@@ -261,11 +280,11 @@ function crop(canvas, s, m, worst, w, h) {
 /* ---------- the viewer */
 const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
 const KEYS = {
-	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "=": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
-	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.slides && v.move(v.split - (e.shiftKey ? .1 : .02)), arrowright: (v, e) => v.slides && v.move(v.split + (e.shiftKey ? .1 : .02)),
+	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
+	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.slide(-1, e), arrowright: (v, e) => v.slide(1, e),
 };
 for (const key in MODES) KEYS[key] = v => v.set({ mode: MODES[key] });
-/* Compares the pictures of methods `a` and `b` on a scene; calls `change`, and `probe` with the pixel looked at. */
+/* Compares the pictures of methods `a` and `b`; calls `change`, and `probe` with the pixel looked at. */
 class Viewer {
 	constructor(root, options) {
 		Object.assign(this, { root, mode: "slide", split: .5, z: 1, cx: .5, cy: .5, top: 0, side: "a", turn: 0 }, options);
@@ -277,8 +296,8 @@ class Viewer {
 		onChoose($(".vfoot", root), (key, e) => KEYS[key] ? KEYS[key](this, e) : this.set({ scene: S[key], pin: null }));
 		$(".row", root).hidden = !this.row;
 		if (this.choices) {
-			$(".choices", root).innerHTML = html`${this.choices.map(s => html`<button data-key="${s.id}" title="${s.title}" aria-label="${s.title}"><canvas aria-hidden="true"></canvas></button>`)}`;
-			setTimeout(() => $$(".choices button", root).forEach(b => thumb($("canvas", b), S[b.dataset.key])), 300);
+			$(".choices", root).innerHTML = html`${this.choices.map(s => html`<button data-key="${s.id}" title="${s.title}"><canvas aria-hidden="true"></canvas></button>`)}`;
+			setTimeout(() => thumbs($(".choices", root)), 300);
 		}
 		this.listen();
 		new ResizeObserver(() => this.draw()).observe(this.stage);
@@ -384,6 +403,7 @@ class Viewer {
 		this.split = clamp(split, 0, 1);
 		this.draw();
 	}
+	slide(sign, { shiftKey }) { return this.slides && this.move(this.split + sign * (shiftKey ? .1 : .02)); }
 	/* A point of the window on the stage: in its pane, and as a part of its width. */
 	local({ clientX, clientY }) {
 		const box = this.stage.getBoundingClientRect(), view = this.view(), x = clientX - box.left;
@@ -474,7 +494,7 @@ class Viewer {
 		this.side = this.side === "a" ? "b" : "a";
 		this.draw();
 	}
-	/* Shows a method on the left or the right; when flipping, turns to the right one. */
+	/* Shows a method on the left or the right. */
 	show(m, right) {
 		if (!this.scene.list.includes(m) && m !== "reference") return;
 		this.set(right ? { b: m } : this.mode === "flip" && m === this.b ? { side: "b" } : { a: m });
@@ -509,7 +529,7 @@ const line = (x1, y1, x2, y2, kind = "grid") => html`<line x1="${round(x1)}" y1=
 const curve = (points, kind = "") => html`<path class="curve ${kind}" d="M${points.map(p => p.map(round).join(" ")).join("L")}"/>`;
 /* The width of a text in a chart. */
 const textWidth = (() => {
-	const pen = document.createElement("canvas").getContext("2d");
+	const pen = create("canvas").getContext("2d");
 	return (t, bold) => {
 		pen.font = `${bold ? 650 : 400} 12.5px ${textWidth.family ??= getComputedStyle(document.body).fontFamily}`;
 		return pen.measureText(t).width;
@@ -520,7 +540,9 @@ function scale(log, low, high, from, to) {
 	const f = log ? Math.log : v => v, k = (to - from) / (f(high) - f(low) || 1), at = v => from + (f(v) - f(low)) * k;
 	return Object.assign(at, { low, high, from, to, ticks: gap => (log ? logTicks : linearTicks)(at, gap) });
 }
-/* Round numbers on a scale, at least `gap` pixels apart; powers of ten before others where it is logarithmic. */
+/* A logarithmic scale of some values, with a margin. */
+const logScale = (values, margin, from, to) => scale(true, Math.min(...values) / margin, Math.max(...values) * margin, from, to);
+/* Round numbers on a scale, at least `gap` pixels apart. */
 function linearTicks({ low, high, from, to }, gap) {
 	const rough = (high - low) / Math.abs(to - from) * gap, power = 10 ** Math.floor(Math.log10(rough)), step = [1, 2, 5, 10].map(s => s * power).find(s => s >= rough), first = Math.ceil(low / step);
 	return Array.from({ length: Math.floor(high / step + 1e-6) - first + 1 }, (_, i) => +((first + i) * step).toPrecision(6));
@@ -546,8 +568,8 @@ function spread(wished, gap, low, high) {
 	list.reduceRight((most, p) => (p.y = Math.min(p.y, most)) - gap, high);
 	return list.sort(by(p => p.i)).map(p => p.y);
 }
-/* Curves over one another: marks and whiskers at their points, names at their right ends, none over another.
-   A series has points [x, y, low, high], a method or colour, a name, and may have a value behind it, a link and a tip. */
+/* Curves with marks and whiskers at their points and names at their ends.
+   A series has points [x, y, low, high], a method or colour, a name, and may have a value, a link and a tip. */
 function curves(x, y, series, { gap = 16, out = 9 } = {}) {
 	const end = s => s.points[s.points.length - 1], labels = spread(series.map(s => y(end(s)[1])), gap, y.to, y.from);
 	return series.map((s, n) => {
@@ -556,30 +578,32 @@ function curves(x, y, series, { gap = 16, out = 9 } = {}) {
 ${s.points.map(([px, py, low, high]) => [low && line(x(px), y(low), x(px), y(high), "whisker"), s.method && shape(s.method, x(px), y(py), 4.8)])}
 ${far && line(x(ex) + 7, y(ey), at - 3, labels[n], "leader")}${text(at, labels[n] + 4, [s.name, s.value && html`<tspan dx="5" class="value">${s.value}</tspan>`], `label halo ${s.bold ? "bold" : ""}`)}`;
 		const colour = `color:${s.colour ?? hue(s.method)}`;
-		return s.href ? html`<a class="hit" href="${s.href}" aria-label="${s.tip}" style="${colour}">${body}</a>` : html`<g style="${colour}">${body}</g>`;
+		return s.href ? html`<a class="hit" href="${s.href}" style="${colour}">${body}</a>` : html`<g style="${colour}">${body}</g>`;
 	});
 }
-/* Places labels of points: none overlaps another; one without room is left out (`label` null). */
+/* Places labels of points side by side, with a leader if far away; one without room is left out. */
 function place(points, box, bars) {
-	const done = [], overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
+	const done = [], squares = points.map(o => [o.x - 9, o.y - 9, o.x + 9, o.y + 9]), overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
+	const hits = (d, list) => list.filter(([x, y]) => x > d[0] && x < d[2] && y > d[1] && y < d[3]).length;
 	for (const p of [...points].sort((a, b) => b.priority - a.priority || a.y - b.y)) {
 		let best = null;
-		for (let ring = 0; ring < 7; ring++) for (let turn = 0; turn < 16; turn += ring ? 1 : 4) {
-			const angle = turn * Math.PI / 8, r = 11 + ring * 13, cos = Math.cos(angle);
-			const cx = p.x + cos * (r + (Math.abs(cos) > .3 ? p.w / 2 - 2 : 0)), cy = p.y + Math.sin(angle) * (r + 2), q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
+		for (let ring = 0; ring < 9; ring++) for (let turn = 0; turn < 16; turn += ring ? 1 : 4) {
+			const angle = turn * Math.PI / 8, r = 13 + ring * 11, cos = Math.cos(angle);
+			const cx = p.x + cos * (r + (Math.abs(cos) > .3 ? p.w / 2 : 0)), cy = p.y + Math.sin(angle) * (r + 7), q = [cx - p.w / 2, cy - 8, cx + p.w / 2, cy + 8];
 			if (q[0] < box[0] || q[1] < box[1] || q[2] > box[2] || q[3] > box[3] || done.some(d => overlap(q, d) > 0)) continue;
-			const crossed = sum(points.map(o => o === p ? 0 : 5 * overlap(q, [o.x - 7, o.y - 7, o.x + 7, o.y + 7]))) + sum(bars.map(d => 1.6 * overlap(q, d)));
-			const cost = ring * 26 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
-			if (!best || cost < best.cost) best = { cost, x: q[0], y: cy, ring, q };
+			const ex = clamp(p.x, q[0], q[2]), ey = clamp(p.y, q[1] + 3, q[3] - 3), apart = o => Math.hypot(o.x - clamp(o.x, q[0], q[2]), o.y - clamp(o.y, q[1], q[3])), tied = ring || points.some(o => apart(o) < apart(p) + 8), leader = tied ? [.2, .4, .6, .8].map(t => [p.x + t * (ex - p.x), p.y + t * (ey - p.y)]) : [];
+			const crossed = sum(squares.map((d, i) => points[i] === p ? 0 : 5 * overlap(q, d) + 30 * hits(d, leader))) + sum(bars.map(d => 1.6 * overlap(q, d))) + sum(done.map(d => 40 * hits(d, leader)));
+			const cost = ring * 22 + (turn === 0 ? 0 : turn === 8 && !ring ? 3 : 5) + crossed;
+			if (!best || cost < best.cost) best = { cost, x: q[0], y: cy, q, end: tied && [ex, ey], leader };
 		}
 		p.label = best && (best.cost < 420 || p.priority) ? best : null;
-		if (p.label) done.push(best.q);
+		if (p.label) done.push(best.q, ...best.leader.map(([x, y]) => [x - 2, y - 2, x + 2, y + 2]));
 	}
 }
 
 /* ---------- overview */
 let basis = MANY ? "all" : "scene";
-/* Error against time: a mark for every method, and the line of those that nothing beats. */
+/* Error against time of every method, and the line of those that nothing beats. */
 function pareto(v) {
 	const el = $("#pareto"), s = v.scene, all = basis === "all";
 	write({ "pareto-sub": all ? `Worst error in ${SCENES.length} scenes, geometric mean of times.` : `${s.title}, ${s.w} × ${s.h}.` });
@@ -591,12 +615,11 @@ function pareto(v) {
 	});
 	const timed = points.every(p => p.time);
 	if (!timed) points.forEach((p, i) => { p.time = i + 1; });
-	const times = points.map(p => p.time), x = scale(true, Math.min(...times) / 1.15, Math.max(...times) * 1.2, l, r);
-	const y = scale(true, clamp(Math.min(...points.map(p => p.error / 2.2)), .0005, .3), Math.max(2, ...points.map(p => p.error * 1.6)), b, t);
+	const x = logScale(points.flatMap(p => [p.time, p.low, p.high]).filter(Boolean), 1.2, l, r);
+	const y = scale(true, clamp(Math.min(...points.map(p => p.error / 2.2)), .0005, .3), Math.max(2, ...points.map(p => p.error * 4)), b, t);
 	for (const p of points) [p.x, p.y] = [x(p.time), y(Math.max(p.error, y.low * 1.1))];
 	const one = clamp(y(1), t, b), base = points.find(p => p.m === BASE), shown = [];
-	shown.push(html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`, axisY(y, l, r, y.ticks(60).filter(e => Math.log10(e) % 1 === 0)));
-	if (timed) shown.push(axisX(x, b, x.ticks(40)));
+	shown.push(html`<rect x="${l}" y="${one}" width="${r - l}" height="${b - one}" class="same"/>`, axisY(y, l, r, y.ticks(60).filter(e => Math.log10(e) % 1 === 0)), timed && axisX(x, b, x.ticks(40)));
 	shown.push(text((l + r) / 2, H - 8, timed ? `← faster   ·   ${all ? "time as a multiple of naive Phong’s" : "ms a frame"}` : "no times were taken", "axis mid"), text(l - 38, t - 9, `${all ? "worst error in any scene" : "max error"}, grey levels`, "axis"));
 	if (base && timed) shown.push(line(base.x, t, base.x, b, "dots"));
 	// The line goes down at each method that is more exact than all faster ones.
@@ -607,56 +630,47 @@ function pareto(v) {
 		steps.push([p.x, last?.[1] ?? t], [p.x, p.y]);
 		p.front = true;
 	}
-	if (steps.length) {
+	if (timed) {
 		steps.push([r, steps[steps.length - 1][1]]);
 		shown.push(curve(steps, "front"));
 	}
 	const same = "below one grey level: the same picture", taken = [l, one + 3, l + textWidth(same), one + 20];
 	if (b - one > 24) shown.push(text(l + 8, one + 16, same, "tick halo washed"));
 	for (const p of points) {
-		const left = p.m === v.a, right = p.m === v.b;
-		p.value = p.ratio && (left || right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
-		Object.assign(p, { priority: 3 * left + 2 * right + !!p.front + MARKED.has(p.m), w: textWidth(nameOf(p.m) + "  " + p.value, true) + 6, left, right });
+		[p.left, p.right] = [p.m === v.a, p.m === v.b];
+		p.value = p.ratio && (p.left || p.right || p.front) ? p.ratio.toFixed(2) + TIMES : "";
+		p.priority = 3 * p.left + 2 * p.right + !!p.front + MARKED.has(p.m);
+		p.w = textWidth(`${nameOf(p.m)}  ${p.value}`, p.left) + 6;
 	}
 	place(points, [l + 2, t, r, b - 1], [taken, ...steps.slice(1).map(([px, py], i) => [steps[i][0] - 2, steps[i][1] - 2, px + 2, py + 2])]);
-	for (const { label, x, y } of points) if (label?.ring) shown.push(line(x, y, clamp(x, label.q[0], label.q[2]), label.y, "leader"));
 	for (const p of points) {
-		const tip = `${nameOf(p.m)}: error ${num(p.error)} levels${timed ? `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}` : ""}`, faint = points.length > 14 && !p.priority;
-		shown.push(html`<g class="hit ${faint ? "faint" : ""}" tabindex="0" role="button" data-key="${p.m}" aria-pressed="${p.left}" aria-label="${tip}" style="color:${hue(p.m)}"><title>${tip}</title>
-${p.low && line(x(p.low), p.y, x(p.high), p.y, "whisker")}<circle class="ring ${p.left || p.right ? "on" : ""}" cx="${p.x}" cy="${p.y}" r="10.5"/>${shape(p.m, p.x, p.y, 5.8)}
+		const tip = `${nameOf(p.m)}: error ${num(p.error)} levels${timed ? `, ${num(p.time)} ${all ? "of naive Phong’s time" : "ms"}` : ""}`;
+		shown.push(html`<g class="hit" tabindex="0" role="button" data-key="${p.m}" aria-pressed="${p.left}" style="color:${hue(p.m)}"><title>${tip}</title>
+${p.label?.end && line(p.x, p.y, ...p.label.end, "leader")}${p.low && line(x(p.low), p.y, x(p.high), p.y, "whisker")}<circle class="ring ${p.left || p.right ? "on" : ""}" cx="${p.x}" cy="${p.y}" r="10.5"/>${shape(p.m, p.x, p.y, 5.8)}
 ${p.label && text(p.label.x + 2, p.label.y + 4.3, [nameOf(p.m), html`<tspan dx="4" class="value">${p.value}</tspan>`], `label halo ${p.left ? "bold" : ""}`)}</g>`);
 	}
 	fill(el, svg(W, H, "Error against time of every method", shown, true));
 }
-const short = (t, most) => t.length > most ? t.slice(0, most - 1) + "…" : t;
 /* Speeds of a few methods in each scene, as a strip of marks. */
 function strip() {
-	const el = $("#strip"), W = widthOf(el), few = chosen(4), lead = few.find(m => m !== BEST) ?? few[0], value = (s, m) => s.rows[m]?.ratio?.median;
+	const el = $("#strip"), W = widthOf(el), few = chosen(4), value = (s, m) => s.rows[m]?.ratio?.median;
 	if (!W || !few.length) return;
-	const timed = SCENES.filter(s => few.some(m => value(s, m))).sort(by(s => -(value(s, lead) ?? 0))), [rows, more] = folded(timed, 24, "scenes");
-	const narrow = W < 520, l = narrow ? 132 : 208, t = 42, high = 20.5, H = t + rows.length * high + 26, values = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
-	const x = scale(true, Math.min(...values) / 1.06, Math.max(...values) * 1.06, l, W - 14), shown = [];
+	const timed = SCENES.filter(s => few.some(m => value(s, m))).sort(by(s => -(value(s, few[0]) ?? 0))), [rows, more] = folded(timed, 24, "scenes");
+	const [most, l] = W < 520 ? [19, 132] : [34, 208], t = 8, high = 20.5, H = t + rows.length * high + 26, values = rows.flatMap(s => few.map(m => value(s, m)).filter(Boolean)).concat(1);
+	const x = logScale(values, 1.06, l, W - 14), shown = [];
 	for (const g of x.ticks(30)) shown.push(line(x(g), t - 6, x(g), H - 22, g === 1 ? "one" : "grid"), text(x(g), H - 7, g + (g === 1 ? TIMES : ""), "tick mid"));
-	few.reduce((at, m) => {
-		const name = narrow ? shortName(m) : nameOf(m);
-		shown.push(shape(m, at + 6, 10, 4.6), text(at + 16, 14, name));
-		return at + 32 + textWidth(name);
-	}, 0);
-	if (x(1) - l > 60) shown.push(text(x(1) - 8, t - 12, "slower", "tick end"));
-	if (W - 14 - x(1) > 150) shown.push(text(x(1) + 8, t - 12, "faster than naive Phong", "tick"));
 	rows.forEach((s, i) => {
 		const y = t + (i + .5) * high, here = few.filter(m => value(s, m)), at = here.map(m => x(value(s, m))), tip = `${s.title}: ${here.map(m => `${nameOf(m)} ${value(s, m).toFixed(2)} ×`).join(", ")}`;
-		shown.push(html`<a class="hit" href="#scenes/${s.id}" aria-label="${tip}"><title>${tip}</title><rect x="0" y="${y - high / 2}" width="${W}" height="${high}" fill="transparent"/>
-${text(l - 14, y + 4, short(s.title, narrow ? 19 : 34), "end")}${line(Math.min(...at), y, Math.max(...at), y, "range")}${here.map((m, n) => html`<g class="${s.rows[m].max > 1 ? "pale" : ""}">${shape(m, at[n], y, 4.6)}</g>`)}</a>`);
+		shown.push(html`<a class="hit" href="#scenes/${s.id}"><title>${tip}</title><rect x="0" y="${y - high / 2}" width="${W}" height="${high}" fill="transparent"/>
+${text(l - 14, y + 4, s.title.length > most ? s.title.slice(0, most - 1) + "…" : s.title, "end")}${line(Math.min(...at), y, Math.max(...at), y, "range")}${here.map((m, n) => shape(m, at[n], y, s.rows[m].max > 1 ? 2.8 : 4.6))}</a>`);
 	});
-	el.innerHTML = html`${svg(W, H, `Speed of ${few.length} methods in ${rows.length} scenes`, shown, true)}<p class="sub">Pale: off by more than one grey level there, another picture.</p>${more}`;
+	el.innerHTML = html`<div class="legend">${few.map(m => html`<span>${named(m)}</span>`)}</div>${svg(W, H, `Speed of ${few.length} methods in ${rows.length} scenes`, shown, true)}${more}`;
 }
 const VERDICTS = { confirms: "✓", adds: "+", contradicts: "✗" };
 const counts = list => Object.keys(VERDICTS).map(k => [k, list.filter(x => x.agreement === k).length]).filter(([, n]) => n);
 const chip = (verdict, label) => html`<span class="chip ${verdict}">${VERDICTS[verdict]} ${label}</span>`;
 function waffle() {
-	write({ "waffle-sub": `${FINDINGS.length} statements measured in ${plural(FIGURES.length, "figure")}; each square is one.`, ...Object.fromEntries(counts(FINDINGS)) });
-	$("#waffle").innerHTML = html`${counts(FINDINGS).map(([k, n]) => Array(n).fill(html`<i class="${k}"></i>`))}`;
+	write({ "waffle-sub": `${FINDINGS.length} statements measured in ${plural(FIGURES.length, "figure")}.`, ...Object.fromEntries(counts(FINDINGS)) });
 }
 /* Shows where the lecture's fast method is worst. */
 function breakPair() {
@@ -678,7 +692,7 @@ function startOverview() {
 		basis = key;
 		pareto(v1);
 	});
-	// A mark under the mouse is shown on the left until the mouse leaves; one that is chosen stays.
+	// A mark under the mouse is shown until the mouse leaves; one that is chosen stays.
 	const el = $("#pareto");
 	onChoose(el, (m, e) => {
 		if (!e.shiftKey) v1.kept = m;
@@ -714,7 +728,7 @@ const stepScene = d => openScene(SCENES[(v2.scene.number + d + SCENES.length) % 
 function startScenes(s) {
 	const rail = $("#rail");
 	rail.innerHTML = html`${SCENES.map(s => html`<button role="option" data-key="${s.id}"><canvas aria-hidden="true"></canvas><span>${s.title}</span></button>`)}`;
-	$$("button", rail).forEach(b => thumb($("canvas", b), S[b.dataset.key]));
+	thumbs(rail);
 	onChoose(rail, id => openScene(S[id]));
 	const change = (v, changed) => {
 		if (!changed.view) {
@@ -747,7 +761,7 @@ function scenes([id], query) {
 		b.tabIndex = on ? 0 : -1;
 		if (!on) continue;
 		if (held) b.focus({ preventScroll: true });
-		b.scrollIntoView({ block: "nearest", inline: "center" });
+		reveal(b);
 	}
 	const asked = { ...fromRoute(query, v2), scene: s };
 	v2.set(asked);
@@ -759,7 +773,7 @@ function sceneFacts(s) {
 	const left = Object.keys(reasons).filter(k => s.stats[k]).map(k => `${grouped(s.stats[k])} ${reasons[k]}`);
 	return [
 		`${plural(s.polygons, "polygon")} in view`, plural(s.lights, "light"), `${(s.covered_pixels / s.w / s.h * 100).toFixed(0)} % covered`, `${s.w} × ${s.h}`,
-		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct", `${s.renderer.level}, ${plural(s.renderer.threads, "thread")}`,
+		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct", `${levelName(s.renderer)} code, ${plural(s.renderer.threads, "thread")}`,
 		left.length && `left out: ${left.join(", ")}`, cut && `in triangles, the reference moves by up to ${num(cut.difference.max * 255)} levels`,
 		s.not_simple && `${plural(s.not_simple, "polygon")} crossing themselves: not drawn by barycentric`,
 	];
@@ -814,7 +828,7 @@ async function rowPlot(v) {
 		series: drawn.map(m => ({ label: nameOf(m), colour: hue(m), kind: `${bold(m) ? "" : "thin"} ${m === "reference" ? "dash1" : ""}`, points: values[list.indexOf(m)].map((g, x) => [x + .5, g]) })),
 	}, widthOf(el) || 700, H);
 	write({ "rowplot-title": `Row ${row} of ${s.title}` });
-	fill(el, html`${chart(greys, "grey level", 230)}${chart(slopes, "slope, levels a pixel", 170)}<div class="legend">${list.map(m => html`<button data-key="${m}" aria-pressed="${bold(m)}">${mark(m)}${nameOf(m)}</button>`)}</div>`);
+	fill(el, html`${chart(greys, "grey level", 230)}${chart(slopes, "slope, levels a pixel", 170)}<div class="legend">${list.map(m => html`<button data-key="${m}" aria-pressed="${bold(m)}">${named(m)}</button>`)}</div>`);
 	v.draw();
 }
 /* Columns of the table: key, head, a mark for those that are always shown. */
@@ -835,10 +849,10 @@ function sceneTable() {
 		over1: grouped, other: grouped, barycentric: ratioText,
 		psnr: v => v?.toFixed(1) ?? "∞",
 		ssim: v => v?.toFixed(4) ?? "–",
-		ratio: (r, q) => r ? html`<span class="speed"><svg style="color:${hue(q.variant)}" width="${width}" height="18" aria-hidden="true">${line(x(1), 0, x(1), 18)}${line(x(r.low), 9, x(r.high), 9, "whisker")}${shape(q.variant, x(r.median), 9, 4.4)}</svg><span class="${r.tie ? "" : r.median > 1 ? "good" : "bad"}" title="${r.low.toFixed(2)}–${r.high.toFixed(2)}">${ratioText(r)}</span></span>` : "–",
+		ratio: (r, q) => r ? html`<span class="speed"><svg style="color:${hue(q.variant)}" width="${width}" height="18" aria-hidden="true">${line(x(1), 0, x(1), 18)}${shape(q.variant, x(r.median), 9, 3.4)}${line(x(r.low), 9, x(r.high), 9, "whisker")}${[r.low, r.high].map(v => line(x(v), 3, x(v), 15, "whisker"))}</svg><span class="${r.tie ? "" : r.median > 1 ? "good" : "bad"}" title="${r.low.toFixed(2)}–${r.high.toFixed(2)}">${ratioText(r)}</span></span>` : "–",
 	};
 	const columns = COLUMNS.filter(([, , always]) => options.cols || always), all = [["name", "method"], ...columns], arrow = key => sort.key === key && (sort.up ? " ↑" : " ↓");
-	const name = q => html`<button class="name" data-key="row ${q.variant}">${mark(q.variant)}${nameOf(q.variant)}${q.bary && html` <small>barycentric</small>`}</button>`;
+	const name = q => html`<button class="name" data-key="row ${q.variant}">${named(q.variant)}${q.bary && html` <small>barycentric</small>`}</button>`;
 	fill($("#table"), html`${table(all.map(([key, label]) => html`<button data-key="${key}">${label}${arrow(key)}</button>`), shown.map(q => [name(q), ...columns.map(([key]) => (cells[key] ?? num)(q[key], q))]), "choose")}${more}`);
 	$$("#table [scope=col]").forEach((th, i) => { th.ariaSort = all[i][0] !== sort.key ? "none" : sort.up ? "ascending" : "descending"; });
 	$$("#table tbody tr").forEach((tr, i) => {
@@ -935,8 +949,8 @@ function article(m, most) {
 		return list.length ? html`<div class="stack" style="width:${Math.max(4, sum(counts) / most * 100)}%" role="img" aria-label="${list.map(([n, what]) => `${n} ${what}`).join(", ")}">${list.map(([n, what, i]) => html`<i class="o${i}" style="flex:${n} 0 ${i > 2 ? 13 : 0}px" title="${n} ${what}">${(n / most > .035 || i > 2) && n}</i>`)}</div>` : html`<div class="hint">none</div>`;
 	};
 	const figures = [
-		m.speed && [m.speed.toFixed(2) + TIMES, `${MANY ? `${SCENES.length} scenes, ` : ""}${SCENES[0].renderer.level}`],
-		frame && [frame.median.toFixed(2) + TIMES, `whole frame, ${levelName(corner)}`], worst && [num(worst.max), "worst error, levels", bad],
+		m.speed && [m.speed.toFixed(2) + TIMES, `${MANY ? `${SCENES.length} scenes, ` : ""}${levelName(SCENES[0].renderer)}`],
+		frame && [frame.median.toFixed(2) + TIMES, `whole picture of a sphere, ${levelName(corner)}`], worst && [num(worst.max), "worst error, levels", bad],
 	].filter(Boolean);
 	const verdict = bad ? html`<b>Fails</b> most in <a href="#scenes/${s.id}?left=${encodeURIComponent(m.name)}&right=reference">${s.title}</a>` : html`<b>No visible failure</b> ${MANY ? `in ${SCENES.length} scenes` : "in this scene"}`;
 	return html`<article class="method" id="m-${m.name}"><div><h2>${mark(m.name)}${m.label} <code>${m.name}</code></h2><p class="idea">${m.title}</p><div class="formula">${formula(m.formula)}</div><p class="hint">${m.source} · ${m.perspective} · ${m.local}</p></div>
@@ -958,29 +972,29 @@ function methods([id]) {
 /* ---------- speed */
 const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [], oneLight = CORNERS.filter(c => c.lights === 1);
 let cornerMode = "same";
-const studied = () => STUDY.methods.filter(m => cornerMode === "all" || m.levels_off <= 1);
-const levelName = c => c.level === "scalar" ? "scalar" : c.level.toUpperCase();
+/* True if a method draws naive Phong's picture in all scenes; without scenes, on the study's sphere. */
+const isSame = m => (M[m.method]?.max ?? m.levels_off) <= 1;
+const WORKS = { kernel: "loop", frame: "picture" };
 const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
 /* The fastest method of a corner that draws naive Phong's picture. */
-const fastest = c => STUDY.methods.filter(m => m.levels_off <= 1 && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
+const fastest = c => STUDY.methods.filter(m => isSame(m) && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
 /* Methods as lines from place to place; a place has a name, a note and values [v, low, high]. */
 function slopes(id, label, list, panes, nameOf, format, gap = 20) {
-	const el = $(id), W = widthOf(el), part = (W + 20) / panes.length, l = 40, r = part - (part < 300 ? 122 : 190), t = 44, b = Math.max(430, t + list.length * 16.5), shown = [];
+	const el = $(id), W = widthOf(el), part = W < 460 ? W : W / panes.length, l = 40, t = 44, b = Math.max(430, t + list.length * 16.5);
 	if (!W || !list.length) return;
-	panes.forEach((places, k) => {
-		const all = list.flatMap(m => places.map(p => p.values(m)[0])), x = scale(false, 0, places.length - 1, k * part + l + 20, k * part + r), y = scale(true, Math.min(...all) * .9, Math.max(...all) * 1.1, b, t);
-		shown.push(axisY(y, k * part + l, k * part + r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]));
-		shown.push(curves(x, y, list.map(m => ({
-			method: m.method, name: nameOf(m.method), value: format(places[places.length - 1].values(m)[0]), bold: MARKED.has(m.method), kind: MARKED.has(m.method) ? "" : "thin", href: `#methods/${m.method}`,
+	el.innerHTML = html`${panes.map(places => {
+		const values = list.flatMap(m => places.flatMap(p => p.values(m))), last = m => format(places[places.length - 1].values(m)[0]), r = part - 34 - Math.max(...list.map(m => textWidth(`${nameOf(m.method)} ${last(m)}`, true)));
+		const x = scale(false, 0, places.length - 1, l + 30, r), y = logScale(values, 1.05, b, t);
+		return svg(part, b + 10, label, [axisY(y, l, r, y.ticks(gap)), places.map((p, i) => [line(x(i), t, x(i), b), text(x(i), 14, p.name, "bold mid"), text(x(i), 30, p.note, "tick mid")]), curves(x, y, list.map(m => ({
+			method: m.method, name: nameOf(m.method), value: last(m), bold: MARKED.has(m.method), kind: MARKED.has(m.method) ? "" : "thin", href: `#methods/${m.method}`,
 			tip: `${nameOf(m.method)}: ${places.map(p => `${p.name} ${p.note} ${num(p.values(m)[0])}`).join(", ")}`, points: places.map((p, i) => [i, ...p.values(m)]),
-		})), { gap: 15.5, out: 22 }));
-	});
-	el.innerHTML = svg(W, b + 10, label, shown, true);
+		})), { gap: 15.5, out: 22 })], true);
+	})}`;
 }
 function corners(mode) {
 	cornerMode = mode;
-	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]), list = studied();
-	slopes("#corners", "Speed of methods in kernels and frames, scalar and SIMD", list.filter(m => oneLight.every(c => ratioIn(m, c))), [oneLight.map(c => ({ name: c.work, note: levelName(c), values: values(c) }))], nameOf, v => v.toFixed(2));
+	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]), list = STUDY.methods.filter(m => cornerMode === "all" || isSame(m));
+	slopes("#corners", "Speed of methods in the shading loop and in whole pictures", list.filter(m => oneLight.every(c => ratioIn(m, c))), [oneLight.map(c => ({ name: WORKS[c.work], note: levelName(c), values: values(c) }))], nameOf, v => v.toFixed(2));
 	const kernels = [true, false].map(scalar => CORNERS.filter(c => c.work === "kernel" && c.scalar === scalar)).filter(pair => pair.length > 1);
 	slopes("#lights", "Nanoseconds a pixel with one and four lights", list.slice(0, 14), kernels.map(pair => pair.map(c => ({ name: levelName(c), note: plural(c.lights, "light"), values: m => ["median_ns", "p25_ns", "p75_ns"].map(k => m.corners[c.i].timing[k] / STUDY.span) }))), shortName, v => num(v, 2), 40);
 }
@@ -993,18 +1007,16 @@ function grow(id, keep, count, label) {
 		method: c.method, name: curveName(c), colour: curveHue(c), kind: c.engine === "span" ? "dash1" : "", tip: curveName(c), points: chosen.filter(p => c.times[p.i]).map(p => [p.n, c.times[p.i].min_ns / 1e6]),
 	})).filter(s => s.points.length);
 	const ms = series.flatMap(s => s.points.map(p => p[1])), l = 48, r = W - (W < 480 ? 112 : 150), b = 286;
-	const x = scale(true, chosen[0].n, chosen[chosen.length - 1].n, l + 8, r), y = scale(true, Math.min(...ms) * .85, Math.max(...ms) * 1.15, b, 14);
+	const x = logScale(chosen.map(p => p.n), 1, l + 8, r), y = logScale(ms, 1.15, b, 14);
 	el.innerHTML = svg(W, 330, `Time of a frame by ${label}`, [axisY(y, l, r + 8, y.ticks(40), " ms"), axisX(x, b, x.ticks(70)), text((l + r) / 2, 324, label, "axis mid"), curves(x, y, series)]);
 }
 const COSTS = [["vertex_ns", "vertex"], ["triangle_ns", "triangle"], ["span_ns", "span"], ["pixel_ns", "pixel of a span"], ["background_ns", "pixel of the picture"]];
+/* The largest misfit of a time, in parts of it, of fits whose figures are shown. */
+const MISFIT = .5;
 function costs() {
-	const list = D.scaling.curves.filter(c => c.costs), most = k => Math.max(...list.map(c => c.costs[k])) || 1, base = list.find(c => c.method === BASE && c.engine !== "span");
-	$("#costs").innerHTML = table(["", ...COSTS.map(([, name]) => name)], list.map(c => [curveName(c), ...COSTS.map(([k]) => bar(num(c.costs[k], 2), Math.max(1, c.costs[k] / most(k) * 100), curveHue(c)))]));
-	const even = list.filter(c => base && c.method !== BASE && c.engine === base.engine).map(c => {
-		const saved = base.costs.pixel_ns - c.costs.pixel_ns, more = c.costs.span_ns - base.costs.span_ns;
-		return `${nameOf(c.method)} ${saved <= 0 ? "saves nothing a pixel" : more <= 0 ? "has cheaper spans" : `from ${num(more / saved, 2)} pixels a span`}`;
-	});
-	write({ breakeven: list.length ? `${even.length ? `Break-even with ${nameOf(BASE)}: ${even.join("; ")}. ` : ""}The largest misfit of a time is ${(Math.max(...list.map(c => Math.abs(c.costs.worst))) * 100).toFixed(0)} %.` : "" });
+	const all = D.scaling.curves.filter(c => c.costs), list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT), most = k => Math.max(...list.map(c => c.costs[k])) || 1;
+	$("#costs").innerHTML = table(["", ...COSTS.map(([, name]) => name), "largest misfit"], all.map(c => [curveName(c), ...COSTS.map(([k]) => list.includes(c) ? bar(num(c.costs[k], 2), Math.max(1, c.costs[k] / most(k) * 100), curveHue(c)) : "–"), html`${(Math.abs(c.costs.worst) * 100).toFixed(0)} %${!list.includes(c) && html` <span class="bad">poor fit</span>`}`]));
+	write({ misfit: MISFIT * 100 });
 }
 /* Documents side by side, a column each under its processor. */
 function beside() {
@@ -1019,13 +1031,13 @@ function beside() {
 	};
 	const heads = DOCS.map(({ machine, date }) => html`${machine.cpu}<br><small>${[machine.version, machine.commit?.slice(0, 9), date].filter(Boolean).join(" · ")}</small>`);
 	const variants = [...new Set(DOCS.flatMap(d => d.comparisons.flatMap(c => c.rows.map(r => r.variant))))];
-	$("#beside").innerHTML = table(["method", ...heads], variants.map(m => [html`<span class="name">${mark(m)}${nameOf(m)}</span>`, ...DOCS.map(d => cell(d, m))]));
+	$("#beside").innerHTML = table(["method", ...heads], variants.map(m => [html`<span class="name">${named(m)}</span>`, ...DOCS.map(d => cell(d, m))]));
 }
 function speed() {
 	if (STUDY) {
 		const lecture = STUDY.methods.find(m => m.method === "fast-phong"), entry = (m, c) => ratioIn(m, c) ? html`${nameOf(m.method)} <b>${ratioText(ratioIn(m, c))}</b>` : "–";
-		$("#speed-summary").innerHTML = table(["", ...oneLight.map(c => `${levelName(c)} ${c.work}`)], [["fastest with naive Phong’s picture", ...oneLight.map(c => entry(fastest(c), c))], ["the lecture’s fast Phong", ...oneLight.map(c => entry(lecture, c))]]);
-		write({ "study-span": grouped(STUDY.span), "study-frame": `${STUDY.mesh}, ${STUDY.size.join(" × ")}` });
+		$("#speed-summary").innerHTML = table(["", ...oneLight.map(c => `${WORKS[c.work]}, ${levelName(c)}`)], [["fastest with naive Phong’s picture", ...oneLight.map(c => entry(fastest(c), c))], ["the lecture’s fast Phong", ...oneLight.map(c => entry(lecture, c))]]);
+		write({ "same-where": MANY ? `all ${SCENES.length} scenes` : SCENES[0]?.title ?? "this sphere", "loop-span": grouped(STUDY.span), "study-span": grouped(STUDY.span), "study-frame": `${STUDY.mesh}, ${STUDY.size.join(" × ")}` });
 		segments($("#corner-mode"), () => cornerMode, corners);
 		corners(cornerMode);
 	}
@@ -1046,8 +1058,9 @@ function findingValue({ value, unit }) {
 	const size = Math.abs(value), [digits, power] = value.toExponential(1).replace(/-/g, "−").replace("+", "").split("e");
 	return html`${size && (size < .001 || size >= 1e6) ? html`${digits}·10<sup>${power}</sup>` : +value.toPrecision(4)} ${unit}`;
 }
-const findingTable = (list, where) => scrolling("Findings", table([where && "figure", "finding", "measured", "value", "verdict"].filter(Boolean), list.map(x => [
-	...(where ? [html`<a href="#lectures/${x.figure.name}">${topic(x.figure)}</a><small>${x.figure.lecture}</small>`] : []), x.verdict, x.label, html`<span title="${x.value}">${findingValue(x)}</span>`, chip(x.agreement, x.agreement),
+const findingTable = (list, where) => scrolling("Findings", table([where && "figure", "finding", "measured", "value", "verdict"].filter(Boolean), list.map((x, i) => [
+	// A figure, and a finding of several measurements, stand once.
+	...(where ? [x.figure !== list[i - 1]?.figure && html`<a href="#lectures/${x.figure.name}">${topic(x.figure)}</a><small>${x.figure.lecture}</small>`] : []), x.verdict !== list[i - 1]?.verdict && x.verdict, x.label, html`<span title="${x.value}">${findingValue(x)}</span>`, chip(x.agreement, x.agreement),
 ]), "findings" + (where ? " where" : "")));
 const PLOT_HUES = ["--base", "--h3", "--h2", "--h4", "--h1", "--h5"];
 /* Curves over one another, on axes unless the chart is a small one. */
@@ -1077,10 +1090,12 @@ function figureBody(f) {
 		return show[kind](content, at);
 	});
 }
-function drawPlots(f) { $$("[data-plot]").forEach(el => { 
-	const { plot: p } = f.blocks[el.dataset.plot];
-	el.innerHTML = html`${plot(p, widthOf(el) || 460, 300)}${legend(p.series)}`;
-});  }
+function drawPlots(f) {
+	for (const el of $$("[data-plot]")) {
+		const { plot: p } = f.blocks[el.dataset.plot];
+		el.innerHTML = html`${plot(p, widthOf(el) || 460, 300)}${legend(p.series)}`;
+	}
+}
 /* A figure in the gallery: its first pictures, or its first plot. */
 function preview(f) {
 	const first = f.blocks.find(b => b.plot)?.plot, shown = f.blocks.flatMap(b => b.pictures?.shown ?? []), files = figurePictures(f).slice(0, 3);
@@ -1094,7 +1109,7 @@ function lectures([part = ""]) {
 	else if (f) {
 		const links = html`<nav class="list" aria-label="Figures">${FIGURES.map(q => html`<a href="#lectures/${q.name}" ${q === f && html`aria-current="true"`}><span>${topic(q)}</span>${q.findings.some(x => x.agreement === "contradicts") && html`<span class="chip contradicts" title="contradicts">✗</span>`}</a>`)}</nav>`;
 		body.innerHTML = html`<div class="${FIGURES.length > 1 ? "detail" : ""}">${FIGURES.length > 1 && links}<article class="fig"><h2>${f.title}</h2><p class="facts">${f.lecture}</p>${chips(f, true)}${figureBody(f)}<h3>Findings</h3>${findingTable(f.findings)}</article></div>`;
-		$(".list [aria-current]", body)?.scrollIntoView({ block: "nearest", inline: "center" });
+		reveal($(".list [aria-current]", body));
 		drawPlots(f);
 	} else {
 		body.innerHTML = html`<div class="gallery">${FIGURES.map(q => html`<a class="fcard" href="#lectures/${q.name}"><span class="preview">${preview(q)}</span><span class="tx"><b>${q.title}</b><small>${q.lecture}</small>${chips(q)}</span></a>`)}</div>`;
@@ -1107,15 +1122,15 @@ function measured() {
 	const command = D.command_line.map(quoted).join(" "), { machine } = D, [scene] = SCENES, rounds = ROWS.map(q => q.rounds).filter(Boolean);
 	const about = ({ cpu, os, arch, rustc, version, commit }) => `${cpu}, ${os} ${arch}; ${rustc}; fastphong ${version}${commit ? `, commit ${commit}` : ""}`;
 	const facts = [
-		["machine", about(machine)], ["logical processors", machine.cores], ["build", `${machine.profile}, opt-level ${machine.opt_level}, ${machine.target_features.join(", ")}`], ["date", D.date], ["whole run", D.seconds && `${num(D.seconds)} s`],
-		["rounds", rounds.length && `${Math.min(...rounds)} to ${Math.max(...rounds)} of every method in a scene`], ["drawn by", scene && `the ${scene.renderer.engine} engine, ${scene.renderer.level}, ${plural(scene.renderer.threads, "thread")}`],
+		["machine", about(machine)], ["logical processors", machine.cores], ["build", `${machine.profile}, opt-level ${machine.opt_level}, for ${machine.target_features.join() === "sse2" ? "baseline x86-64; wider instructions are chosen as it runs" : machine.target_features.join(", ")}`], ["date", D.date], ["whole run", D.seconds && `${num(D.seconds)} s`],
+		["rounds", rounds.length && `${Math.min(...rounds)} to ${Math.max(...rounds)} of every method in a scene`], ["drawn by", scene && `the ${scene.renderer.engine} engine, ${levelName(scene.renderer)} code, ${plural(scene.renderer.threads, "thread")}`],
 		["command", html`<code>${command}</code>`], ...DOCS.slice(1).map((d, i) => [`beside it, ${i + 1}`, about(d.machine)]),
 	];
 	const spreads = ROWS.filter(q => q.p75).map(q => (q.p75 - q.p25) / q.ms).sort(by(v => v)), typical = spreads[spreads.length >> 1] ?? 0;
 	$("#busy").hidden = typical < .1;
 	// A mesh alone is lit by the report, not by `compare`.
 	const again = [command, scene && !/:|\.obj$/i.test(scene.name) && `fastphong compare ${quoted(scene.name)} --size ${scene.w}x${scene.h}`, `fastphong explain ${BEST ?? BASE}`];
-	$("#machine").innerHTML = html`${facts.filter(([, value]) => value).map(([name, value]) => html`<dt>${name}</dt><dd>${value}</dd>`)}`;
+	$("#machine").innerHTML = html`${facts.filter(fact => fact[1]).map(([name, value]) => html`<dt>${name}</dt><dd>${value}</dd>`)}`;
 	write({ timed: D.timed, compared: D.compared, typical: num(typical * 100, 2), again: again.filter(Boolean).join("\n") });
 	$("#get-json").onclick = () => save("fastphong-report.json", $("#fastphong-data").textContent, "application/json");
 	$("#get-csv").onclick = () => save("fastphong-report.csv", csv(ROWS.map(({ worst, ratio, barycentric, ...q }) => ({ ...q, x: worst?.[0], y: worst?.[1], speed: ratio?.median, low: ratio?.low, high: ratio?.high, barycentric: barycentric?.median }))), "text/csv");
@@ -1161,12 +1176,12 @@ function route(e) {
 	$$(".view").forEach(s => s.classList.toggle("on", s.id === name));
 	const link = $(`.top nav a[href="#${name}"]`);
 	$$(".top nav a").forEach(a => { a.ariaCurrent = a === link ? "page" : null; });
-	if (changed) link.scrollIntoView({ block: "nearest", inline: "center" });
 	VIEWS[name](parts.filter(Boolean), new URLSearchParams(query ?? ""));
 	const target = e && document.getElementById("m-" + parts[0]);
 	if (target) target.scrollIntoView();
 	else if (changed || e && name === "lectures") scrollTo(0, 0);
 	restoring = false;
+	fadeEnds();
 	document.title = `${name === "overview" ? "" : link.textContent + " · "}fastphong: Phong shading, measured`;
 }
 addEventListener("hashchange", route);
@@ -1195,6 +1210,7 @@ $("#big").onclick = e => {
 	route();
 };
 $$(".answer .m").forEach(a => a.style.setProperty("--c", hue(a.dataset.m)));
+$$("[data-scene]").forEach(a => { a.href = `#scenes/${SCENES[a.dataset.scene].id}?left=${a.dataset.of}&right=reference&mode=error`; });
 /* Parts of the page that have something to show. */
 const FILLED = {
 	scenes: SCENES.length, methods: IDS.length, lectures: FIGURES.length, findings: FINDINGS.length, overview: SCENES.length || FIGURES.length > 1, speed: STUDY || D.scaling || DOCS.length > 1, study: STUDY, growth: D.scaling,

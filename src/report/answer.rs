@@ -10,10 +10,10 @@ use alloc::vec::Vec;
 use serde_json::Value;
 
 /// The lecture's own fast method, which every answer mentions.
-const FAST: &str = "fast-phong";
+pub(super) const FAST: &str = "fast-phong";
 
 /// Largest error, in grey levels, of a picture that passes for the reference.
-const SAME: f64 = 1.0;
+pub(super) const SAME: f64 = 1.0;
 
 /// Part of a sentence.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +24,8 @@ pub(super) enum Part {
     Strong(String),
     /// A method, by its variant's name.
     Method(String),
+    /// A scene, by its place and its title, to be seen as a method draws it.
+    Scene(usize, String, String),
 }
 
 /// A method over all scenes.
@@ -33,8 +35,13 @@ pub(super) struct Overall<'a> {
     pub name: &'a str,
     /// Largest error in any scene, in grey levels.
     pub worst: f64,
-    /// The scene of that.
+    /// The title of the scene of that, and its place.
     pub at: &'a str,
+    pub scene: usize,
+    /// Scenes in which it is faster than the baseline, beyond chance.
+    pub faster: usize,
+    /// Scenes in which it is slower, beyond chance.
+    pub slower: usize,
     /// Geometric mean of its speeds as a multiple of the baseline's; `None` without times in all scenes.
     pub speed: Option<f64>,
 }
@@ -50,21 +57,29 @@ pub(super) fn overall(data: &Value) -> Vec<Overall<'_>> {
 }
 
 fn in_all_scenes<'a>(name: &'a str, scenes: &'a [Value]) -> Option<Overall<'a>> {
-    let (mut worst, mut at, mut logarithms) = (0.0, "", Some(0.0));
-    for scene in scenes {
+    let (mut worst, mut at, mut place) = (0.0, "", 0);
+    let (mut faster, mut slower) = (0, 0);
+    let mut logarithms = Some(0.0);
+    for (i, scene) in scenes.iter().enumerate() {
         let mut rows = list(scene, "/rows").iter();
         let row = rows.find(|row| text(row, "/variant") == name)?;
         let error = 255.0 * number(row, "/error/max")?;
         if error >= worst {
-            (worst, at) = (error, title(scene));
+            (worst, at, place) = (error, title(scene), i);
         }
         let speed = number(row, "/speed/ratio_to_naive/median");
+        let is_tie = row["speed"]["ratio_to_naive"]["tie"] == true;
+        faster += usize::from(!is_tie && speed > Some(1.0));
+        slower += usize::from(!is_tie && speed.is_some_and(|speed| speed < 1.0));
         logarithms = logarithms.zip(speed).map(|(sum, s)| sum + libm::log(s));
     }
     Some(Overall {
         name,
         worst,
         at,
+        scene: place,
+        faster,
+        slower,
         speed: logarithms.map(|sum: f64| libm::exp(sum / scenes.len() as f64)),
     })
 }
@@ -89,18 +104,18 @@ pub(super) fn answer(data: &Value) -> Vec<Part> {
         w => format!("off by up to {} grey levels", significant(w)),
     };
     let scenes = match scenes.len() {
-        1 => "this scene".to_string(),
-        scenes => format!("{scenes} scenes"),
+        1 => "in this scene".to_string(),
+        scenes => format!("over {scenes} scenes"),
     };
     let level = text(data, "/comparisons/0/renderer/level");
     parts.extend([
-        plain("For naive Phong’s picture at the least time on this machine, use "),
+        plain("For naive Phong’s picture in the least time on this machine, use "),
         Part::Method(best.name.into()),
         plain(&format!(" {} (", on(level))),
         Part::Strong(times(best.speed)),
-        plain(&format!(" naive Phong in {scenes}, {worst})")),
+        plain(&format!(" as fast as naive Phong {scenes}, {worst})")),
     ]);
-    let wide = wide_frames(&data["speedups"]);
+    let wide = wide_frames(&data["speedups"], &all);
     if let Some((corner, name, ratio)) = wide {
         let level = text(&data["speedups"]["corners"][corner], "/level");
         parts.extend([
@@ -140,12 +155,16 @@ fn fastest<'a>(all: &'a [Overall<'a>]) -> Option<&'a Overall<'a>> {
 }
 
 /// Returns the corner of whole frames by SIMD, the fastest method there that draws naive Phong's picture, and its speed.
-fn wide_frames(speedups: &Value) -> Option<(usize, &str, f64)> {
+///
+/// The picture is judged in all scenes; of a method that was not drawn there, on the study's sphere.
+fn wide_frames<'a>(speedups: &'a Value, all: &[Overall<'_>]) -> Option<(usize, &'a str, f64)> {
     let is_it =
         |c: &Value| c["work"] == "frame" && c["scalar"] == false && text(c, "/level") != "scalar";
     let corner = list(speedups, "/corners").iter().position(is_it)?;
     let methods = list(speedups, "/methods").iter();
-    let same = methods.filter(|m| number(m, "/levels_off").is_some_and(|off| off <= 1.0));
+    let drawn = |m: &Value| all.iter().find(|o| o.name == text(m, "/method"));
+    let off = |m: &Value| drawn(m).map_or(number(m, "/levels_off"), |o| Some(o.worst));
+    let same = methods.filter(|m| off(m).is_some_and(|off| off <= SAME));
     let timed = same.filter_map(|m| Some((corner, text(m, "/method"), in_corner(m, corner)?)));
     timed.max_by(|a, b| a.2.total_cmp(&b.2))
 }
@@ -159,12 +178,54 @@ fn times(ratio: Option<f64>) -> String {
     ratio.map_or_else(|| "–".into(), |ratio| format!("{ratio:.2}\u{A0}×"))
 }
 
-/// Says how pixels were drawn: `one pixel at a time`, `on AVX2`.
+/// Says by which instructions pixels were drawn: `in scalar code`, `in AVX2 code`.
 fn on(level: &str) -> String {
     match level {
-        "scalar" => "one pixel at a time".into(),
-        level => format!("on {}", level.to_uppercase()),
+        "scalar" => "in scalar code".into(),
+        "sse2" => "in baseline x86-64 code".into(),
+        "avx512" => "in AVX-512 code".into(),
+        level => format!("in {} code", level.to_uppercase()),
     }
+}
+
+/// Says where the answer gains nothing and where it errs most, and why faster methods are left out.
+pub(super) fn remarks(data: &Value) -> Vec<Part> {
+    let (all, scenes) = (overall(data), list(data, "/comparisons").len());
+    let Some(best) = fastest(&all) else {
+        return Vec::new();
+    };
+    let (name, mut parts) = (label(best.name), Vec::new());
+    if scenes > 1 {
+        let scene = Part::Scene(best.scene, best.at.into(), best.name.into());
+        let gains = format!(
+            "{name} is faster in {} of {scenes} scenes, slower in {}; its largest error is in ",
+            best.faster, best.slower
+        );
+        parts.extend([Part::Text(gains), scene, Part::Text(". ".into())]);
+    }
+    let limit = best.worst.max(SAME);
+    let others = || {
+        all.iter()
+            .filter(|o| o.speed > best.speed && o.worst > limit)
+    };
+    if let Some(nearest) = others().min_by(|a, b| a.worst.total_cmp(&b.worst)) {
+        // The list of methods ends with the most exact ones.
+        let names: Vec<_> = others().rev().take(3).map(|o| label(o.name)).collect();
+        let rest = match others().count() - names.len() {
+            0 => String::new(),
+            rest => format!(" and {rest} more"),
+        };
+        parts.push(Part::Text(format!(
+            "Left out though faster: {}{rest}, off by {} grey levels or more. ",
+            names.join(", "),
+            significant(nearest.worst)
+        )));
+    }
+    parts.push(Part::Text(
+        "Scalar: one pixel per instruction; AVX: several; rsqrt: 1/√x, estimated and refined."
+            .into(),
+    ));
+    parts
 }
 
 /// Returns the answer without times.
@@ -208,6 +269,10 @@ pub(super) fn html(parts: &[Part]) -> String {
             let (name, label) = (html_text(name), html_text(&label(name)));
             format!("<a class=\"m\" data-m=\"{name}\" href=\"#methods/{name}\">{label}</a>")
         }
+        Part::Scene(place, title, of) => {
+            let (title, of) = (html_text(title), html_text(of));
+            format!("<a data-scene=\"{place}\" data-of=\"{of}\">{title}</a>")
+        }
     };
     parts.iter().map(part).collect()
 }
@@ -215,7 +280,7 @@ pub(super) fn html(parts: &[Part]) -> String {
 /// Writes a sentence in Markdown.
 pub(super) fn markdown(parts: &[Part]) -> String {
     let part = |part: &Part| match part {
-        Part::Text(text) | Part::Strong(text) => markdown_text(text),
+        Part::Text(text) | Part::Strong(text) | Part::Scene(_, text, _) => markdown_text(text),
         Part::Method(name) => markdown_text(&label(name)),
     };
     parts.iter().map(part).collect()

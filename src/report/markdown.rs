@@ -1,8 +1,9 @@
 //! The report in short, for the front page of a repository.
 
-use super::document::{list, text, title};
+use super::document::{label, list, text, title};
 use super::page::{command, machine};
 use super::{Report, ScenePictures, answer, tables};
+use crate::compare::comparison::table::significant;
 use crate::compare::comparison::{WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::table::markdown_text;
 use alloc::format;
@@ -23,8 +24,7 @@ pub struct Markdown {
 pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     let data = &report.data;
     let mut images = Vec::new();
-    let (answer, made) = (answer::markdown(&answer::answer(data)), made(data));
-    let mut text = format!("# Shading methods compared\n\n{answer}\n\n{made}\n\n");
+    let mut text = format!("# Shading methods compared\n\n{}", opening(data));
     let scenes = list(data, "/comparisons");
     for table in tables::all(data) {
         text += &format!("## {}\n\n", markdown_text(&table.caption));
@@ -39,27 +39,62 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     Markdown { text, images }
 }
 
-/// Says how and on which machine the report was made.
-fn made(data: &Value) -> String {
+/// Says in a few points what was found, on which machine and by which command, and how to read the tables.
+fn opening(data: &Value) -> String {
+    let [answer, remarks] = [answer::answer(data), answer::remarks(data)];
+    let [answer, remarks] = [answer, remarks].map(|parts| answer::markdown(&parts));
+    let mut points = Vec::from([("Answer", answer), ("Limits", remarks)]);
+    let all = answer::overall(data);
+    let fails = all
+        .iter()
+        .find(|o| o.name == answer::FAST && o.worst > answer::SAME);
+    if let Some(fast) = fails {
+        let (worst, at) = (significant(fast.worst), markdown_text(fast.at));
+        let fails = format!(
+            "The lecture’s {} is off by up to {worst} grey levels, in {at}.",
+            markdown_text(&label(fast.name))
+        );
+        points.push(("Where it fails", fails));
+    }
     let is_unfit = |c: char| c == '`' || c.is_control();
     let command = command(data).replace(is_unfit, "\u{FFFD}");
     let date = match text(data, "/date") {
         "" => String::new(),
         date => format!(" on {date}"),
     };
-    let machine = markdown_text(&machine(data));
-    format!(
-        "Made by `{command}`{date}, on {machine}. A time is {WHAT_IS_TIMED}. An error is of {WHAT_IS_COMPARED}; a level \
-         is 1/255. Speeds stand with their 95 % interval; = is a tie."
-    )
+    points.extend([
+        ("Machine", format!("{}.", markdown_text(&machine(data)))),
+        ("Command", format!("Made by `{command}`{date}.")),
+        ("Times", format!("A time is {WHAT_IS_TIMED}.")),
+        (
+            "Errors",
+            format!("An error is of {WHAT_IS_COMPARED}; a level is 1/255."),
+        ),
+        (
+            "Tables",
+            "A table sums up all scenes, then each scene has its own; costs, operations and findings follow. Speeds are \
+             multiples of naive Phong’s, more is faster, with their 95 % interval; = is a tie."
+                .into(),
+        ),
+    ]);
+    let points = points.iter().filter(|(_, text)| !text.is_empty());
+    let lines = points.map(|(head, text)| format!("- **{head}:** {}\n", text.trim()));
+    lines.collect::<String>() + "\n"
 }
 
 /// Describes a scene in a few words and numbers.
 fn about(scene: &Value) -> String {
-    let fields = ["width", "height", "polygons", "lights", "covered_pixels"];
-    let [width, height, polygons, lights, covered] = fields.map(|field| &scene[field]);
+    let plural = |field: &str, one: &str| {
+        let s = if scene[field] == 1 { "" } else { "s" };
+        format!("{} {one}{s}", scene[field])
+    };
     let facts = format!(
-        "{width} × {height} pixels, {polygons} polygons, {lights} lights, {covered} pixels covered.\n\n"
+        "{} × {} pixels, {} in view, {}, {} covered.\n\n",
+        scene["width"],
+        scene["height"],
+        plural("polygons", "polygon"),
+        plural("lights", "light"),
+        plural("covered_pixels", "pixel")
     );
     match text(scene, "/description") {
         "" => facts,

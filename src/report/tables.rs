@@ -133,15 +133,23 @@ fn growth(scaling: &Value) -> Table {
         "span",
         "pixel of a span",
         "pixel of the picture",
+        "largest misfit, %",
     ];
-    let caption = format!("What one of each costs in frames of {mesh}, in nanoseconds");
+    let caption = format!(
+        "What one of each costs in frames of {mesh}, in nanoseconds; – where the fit misses a time by more than 50 %"
+    );
     let mut table = Table::new(caption, &head);
     for curve in list(scaling, "/curves") {
         let engine = format!("{}, {}", text(curve, "/engine"), text(curve, "/level"));
         let mut row = Vec::from([label(text(curve, "/method")), engine]);
         let costs = ["vertex", "triangle", "span", "pixel", "background"];
-        let costs = costs.map(|of| cell(curve, &format!("/costs/{of}_ns"), significant));
-        row.extend(costs);
+        let misfit = number(curve, "/costs/worst").map(f64::abs);
+        let fits = misfit.is_some_and(|misfit| misfit <= 0.5);
+        row.extend(costs.map(|of| match fits {
+            true => cell(curve, &format!("/costs/{of}_ns"), significant),
+            false => NONE.into(),
+        }));
+        row.push(misfit.map_or(NONE.into(), |misfit| format!("{:.0}", 100.0 * misfit)));
         table.rows.push(row);
     }
     table

@@ -17,7 +17,22 @@
         const over = Math.min(p.right, q.right) - Math.max(p.left, q.left) > 1 && Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top) > 4;
         if (over) failed.push(`${where}: "${a}" lies over "${b}"`);
       }));
+      const frame = svg.getBoundingClientRect();
+      for (const el of svg.querySelectorAll("text.label, .whisker")) {
+        const box = el.getBoundingClientRect();
+        check(`${where}: cut off in a chart: ${el.textContent || "a whisker"}`, box.left > frame.left - 2 && box.right < frame.right + 2 && box.top > frame.top - 2 && box.bottom < frame.bottom + 2);
+      }
     }
+    for (const el of document.querySelectorAll(".view.on :is(.scroll, .rail, .list, .choices)")) {
+      if (el.scrollWidth - el.scrollLeft > el.clientWidth + 2) check(`${where}: no sign that ${el.id || el.className} scrolls`, el.classList.contains("more-right") && getComputedStyle(el).maskImage !== "none");
+      if (el.scrollHeight - el.scrollTop > el.clientHeight + 2) check(`${where}: no sign that ${el.id || el.className} scrolls down`, el.classList.contains("more-below") && getComputedStyle(el).maskImage !== "none");
+    }
+    const nav = document.querySelector(".top nav"), tools = document.querySelector(".tools").getBoundingClientRect();
+    check(`${where}: the navigation is cut off`, nav.scrollWidth <= nav.clientWidth + 1 && [...nav.children].every(a => a.hidden || a.getBoundingClientRect().right <= tools.left + 1));
+    const stage = document.querySelector(".view.on .viewer .vfoot"), below = stage && stage.getBoundingClientRect().bottom + scrollY;
+    if (below && innerWidth >= 1400) check(`${where}: buttons of the viewer end at ${Math.round(below)} of ${innerHeight}`, below <= innerHeight);
+    const jargon = /\bkernels?\b|four corners|one pixel at a time|avx512/i.exec(document.querySelector(".view.on:not(#lectures)")?.innerText);
+    check(`${where}: a word that nobody explains: ${jargon?.[0]}`, !jargon);
     check(`${where}: wider than the window`, document.documentElement.scrollWidth <= innerWidth + 1);
     check(`${where}: a picture without an alternative`, ![...document.images].some(i => !i.hasAttribute("alt")));
   };
@@ -54,11 +69,29 @@
       if (ratio < 4.5) failed.push(`${where}: contrast ${ratio.toFixed(2)} of "${node.data.trim().slice(0, 30)}" (${el.tagName}.${el.getAttribute("class") ?? ""})`);
     }
   };
+  /* Marks in charts stand out from their ground. */
+  const marks = where => {
+    for (const el of document.querySelectorAll(".view.on .chartbox .mark")) {
+      const under = background(el), ink = over(rgba(getComputedStyle(el).color), under, opacity(el)), [low, high] = [luminance(ink), luminance(under)].sort((a, b) => a - b);
+      count++;
+      if ((high + .05) / (low + .05) < 3) failed.push(`${where}: contrast ${((high + .05) / (low + .05)).toFixed(2)} of a mark of ${getComputedStyle(el).color}`);
+    }
+  };
+  /* The label of a point is nearest to its own mark, or tied to it; it lies over no other. */
+  const owned = where => {
+    const points = [...document.querySelectorAll("#pareto .hit")].map(g => ({ g, mark: g.querySelector(".mark").getBoundingClientRect(), label: g.querySelector(".label")?.getBoundingClientRect() }));
+    const far = ({ left, right, top, bottom }, { mark: m }) => Math.hypot(Math.max(0, left - (m.left + m.right) / 2, (m.left + m.right) / 2 - right), Math.max(0, top - (m.top + m.bottom) / 2, (m.top + m.bottom) / 2 - bottom));
+    for (const p of points) if (p.label) for (const o of points) if (o !== p) {
+      check(`${where}: the label ${p.g.dataset.key} lies on the mark of ${o.g.dataset.key}`, far(p.label, o) > 1 || points.length > 14);
+      check(`${where}: the label ${p.g.dataset.key} is nearer to the mark of ${o.g.dataset.key}`, p.g.querySelector(".leader") || far(p.label, o) >= far(p.label, p) - 1);
+    }
+  };
   const accessible = where => {
     const { dataset } = document.documentElement, before = dataset.theme;
     for (const theme of ["light", "dark"]) {
       dataset.theme = theme;
       contrasts(`${where}, ${theme}`);
+      marks(`${where}, ${theme}`);
     }
     if (before) dataset.theme = before; else delete dataset.theme;
     const headings = [...document.querySelectorAll("h1, h2, h3, h4, h5, h6")].filter(seen).map(h => +h.tagName[1]);
@@ -89,13 +122,19 @@
           document.querySelector(`#pareto .hit[data-key="${CSS.escape(m)}"]`).dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
           await until(`overview: ${m} is shown when its mark is chosen`, () => shown(v1).split("|")[1] === m);
         }
-        document.querySelectorAll("#pareto-basis button").forEach(b => b.click());
+        for (const b of document.querySelectorAll("#pareto-basis button")) { b.click(); owned(`overview, ${b.textContent}`); labels(`overview, ${b.textContent}`); }
         for (const b of document.querySelectorAll("#v1 .choices button")) { b.click(); await until("overview: a scene is chosen", () => shown(v1).startsWith(b.dataset.key + "|")); }
       }
       labels("overview");
+      const remark = document.querySelector("[data-scene]");
+      if (TIMED && MANY) {
+        const { scene, worst } = M[BEST], counted = SCENES.filter(s => s.rows[BEST].ratio?.median > 1 && !s.rows[BEST].ratio.tie).length;
+        check("overview: the worst scene of the answer is linked", remark?.textContent === scene.title && remark.getAttribute("href").startsWith(`#scenes/${scene.id}?left=${worst.variant}`));
+        check("overview: in how many scenes it gains", document.querySelector(".remarks")?.textContent.includes(` in ${counted} of ${scenes} scenes,`));
+      }
       accessible("overview");
       const words = [...document.querySelectorAll("#overview p")].filter(p => p.offsetParent).map(p => p.textContent.trim()).join(" ").split(/\s+/).length;
-      check(`overview: ${words} words of running text`, words < 120);
+      check(`overview: ${words} words of running text`, words < 160);
       for (const s of [SCENES[0], SCENES[scenes - 1]]) {
         await visit(`scenes/${s.id}`);
         check(`${s.id}: title`, document.querySelector("#t-scenes").textContent === s.title);
@@ -104,6 +143,7 @@
         check(`${s.id}: more columns and rows`, document.querySelectorAll("#table thead th").length === 13 && (document.querySelector("#table .bary") || !s.barycentric.length || document.querySelector("#table .fold")));
         accessible(`${s.id}: table`);
         for (const b of ["cols", "bary"]) document.getElementById(b).click();
+        if (TIMED) check(`${s.id}: speeds have whiskers`, [...document.querySelectorAll("#table .speed")].every(el => el.querySelectorAll(".whisker").length === 3) && document.querySelector(".tablebox .sub").textContent.includes("logarithmic"));
         for (const k of ["name", "max", "rms", "ms", "ratio", "ratio"]) document.querySelector(`#table thead [data-key=${k}]`).click();
         if (!drawn) continue;
         await until(`${s.id}: the viewer shows`, () => shown(v2).startsWith(s.id + "|"));
@@ -132,7 +172,8 @@
         for (const b of document.querySelectorAll("#v2 .zoom button")) b.click();
         const { px } = await picture(s, s.list[0]), there = (await picture(s, "reference")).px;
         check(`${s.id}: a colour a pixel`, px.length === 4 * s.w * s.h);
-        for (const m of s.list) {
+        // Maps do not depend on the width.
+        if (innerWidth < 800) for (const m of s.list) {
           const map = await errors(s, m), most = map.reduce((a, e) => Math.max(a, e), 0);
           check(`${s.id}: an error a pixel of ${m}`, map.length === s.w * s.h);
           // Rounding moves each of two linear pictures by half a level.
@@ -159,12 +200,26 @@
     if (STUDY || D.scaling || DOCS.length > 1) {
       await visit("speed");
       labels("speed");
+      if (STUDY) check("speed: the same picture is the Overview's", [...document.querySelectorAll("#corners .hit")].map(a => a.getAttribute("href").slice(9)).every(m => !M[m] || M[m].max === undefined || M[m].max <= 1));
+      if (D.scaling) [...document.querySelectorAll("#costs tbody tr")].forEach((tr, i) => {
+        const { worst } = D.scaling.curves.filter(c => c.costs)[i].costs;
+        check(`speed: figures of a fit that misses by ${worst}`, tr.querySelectorAll(".bar").length === (Math.abs(worst) > .5 ? 0 : 5) && /poor fit/.test(tr.textContent) === Math.abs(worst) > .5);
+      });
       document.querySelectorAll("#corner-mode button").forEach(b => b.click());
       labels("speed, all");
       accessible("speed");
     }
     if (FIGURES.length) {
       for (const h of ["lectures", "lectures/wrong", "lectures/all"]) { await visit(h); check(h, document.querySelector("#lecture-body").textContent.length > 200); labels(h); accessible(h); }
+      const tabs = document.querySelector("#lecture-tabs").getBoundingClientRect();
+      check("lectures: the title touches the tabs", tabs.top - document.querySelector("#t-lectures").getBoundingClientRect().bottom >= 8);
+      await visit("lectures/all");
+      let before = [];
+      for (const tr of document.querySelectorAll(".findings tbody tr")) {
+        const [figure, finding] = [...tr.cells].map(c => c.textContent);
+        check(`lectures: repeated: ${figure || finding}`, (!figure || figure !== before[0]) && (!finding || figure || finding !== before[1]));
+        before = [figure || before[0], finding || before[1]];
+      }
       for (const f of FIGURES) { await visit("lectures/" + f.name); check(`figure ${f.name}`, document.querySelector(".fig h2")?.textContent === f.title && document.querySelectorAll(".findings tbody tr").length === f.findings.length); labels(f.name); if (f === FIGURES[0] || f.name === "slerp") accessible(f.name); }
     }
     await visit("measured");
