@@ -5,7 +5,7 @@ use super::output::Output;
 use super::reference_check::{SCALE, largest_difference};
 use super::{CliError, Outcome, values};
 use fastphong::compare::metrics::{
-    Difference, METRICS, Perceived, compare, difference_map, flip_colours, mean_flip,
+    Difference, METRICS, MetricInfo, Perceived, compare, difference_map, flip_colours, mean_flip,
     signed_difference_map,
 };
 use fastphong::compare::table::aligned;
@@ -82,12 +82,8 @@ impl DiffArgs {
     /// Returns the numbers as data.
     fn json(&self, difference: &Difference, [width, height]: [usize; 2]) -> Value {
         // JSON has neither infinity nor NaN: they become null.
-        let values = METRICS
-            .iter()
-            .map(|m| (m.name, json!((m.value)(difference))));
-        let metrics: Map<_, _> = values
-            .map(|(name, value)| (name.to_owned(), value))
-            .collect();
+        let metric = |m: &MetricInfo| (m.name.to_owned(), json!((m.value)(difference)));
+        let metrics: Map<_, _> = METRICS.iter().map(metric).collect();
         json!({
             "schema": "fastphong.diff/1",
             "reference": self.reference.display().to_string(),

@@ -12,7 +12,7 @@ use fastphong::number::suggest::nearest;
 use fastphong::picture::encoding::store;
 use fastphong::picture::image_file::{FilePicture, FilePixels};
 use fastphong::picture::{Encoding, Picture, Picture8};
-use fastphong::raster::{self, Edges, Renderer};
+use fastphong::raster::{self, Edges, Plan, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
 use fastphong::shading::{METHODS, Variant};
@@ -131,33 +131,37 @@ impl RenderJob {
         job(frame, content)
     }
 
-    /// Logs which loops draw the picture: as a note where they are not those that were asked for.
-    pub fn log(&self, threads: Option<usize>, log: Log) {
-        let (mut used, mut reason, mut is_other) = (1, None, false);
-        let drawn_by = match &self.content {
-            PictureContent::Aov(..) => "the span engine, scalar, 1 thread".to_owned(),
-            PictureContent::Shaded(_, EngineFlag::Barycentric(_), ..) => {
-                "the barycentric engine, scalar, 1 thread".to_owned()
-            }
-            PictureContent::Shaded(_, EngineFlag::Cs171 { .. }, ..) => {
-                "the cs171 engine, f64, 1 thread".to_owned()
-            }
-            PictureContent::Shaded(Method::Reference(_), ..) => {
-                "the reference, f64, 1 thread".to_owned()
-            }
+    /// Returns the renderer of a method that is drawn by scanlines, with the reason if it is not the one asked for.
+    fn plan(&self) -> Option<Plan> {
+        match &self.content {
             PictureContent::Shaded(
                 Method::Variant(variant),
-                EngineFlag::Scanlines(asked),
-                simd,
+                EngineFlag::Scanlines(_),
+                _,
                 renderer,
-            ) => {
-                let plan = variant.plan(&self.frame, *renderer);
-                is_other = asked.is_some_and(|asked| asked != plan.renderer.engine())
-                    || matches!(simd, Simd::Level(asked) if *asked != plan.renderer.level());
-                (used, reason) = (plan.renderer.threads(), plan.reason);
-                DrawnBy::new(plan.renderer).to_string()
-            }
+            ) => Some(variant.plan(&self.frame, *renderer)),
+            _ => None,
+        }
+    }
+
+    /// Logs which loops draw the picture: as a note where they are not those that were asked for.
+    pub fn log(&self, threads: Option<usize>, log: Log) {
+        let plan = self.plan();
+        let drawn_by = match (&plan, self.engine()) {
+            (Some(plan), _) => DrawnBy::new(plan.renderer).to_string(),
+            (None, REFERENCE) => "the reference, f64, 1 thread".to_owned(),
+            (None, "cs171") => "the cs171 engine, f64, 1 thread".to_owned(),
+            (None, engine) => format!("the {engine} engine, scalar, 1 thread"),
         };
+        let used = plan.as_ref().map_or(1, |plan| plan.renderer.threads());
+        let is_other = match (&self.content, &plan) {
+            (PictureContent::Shaded(_, EngineFlag::Scanlines(asked), simd, _), Some(plan)) => {
+                asked.is_some_and(|asked| asked != plan.renderer.engine())
+                    || matches!(simd, Simd::Level(asked) if *asked != plan.renderer.level())
+            }
+            _ => false,
+        };
+        let reason = plan.and_then(|plan| plan.reason);
         let reason = reason.map_or(String::new(), |reason| format!(": {reason}"));
         match is_other && !reason.is_empty() {
             true => log.note(&format!("drawn by {drawn_by}{reason}")),
@@ -201,16 +205,10 @@ impl RenderJob {
             PictureContent::Shaded(Method::Reference(_), ..) => REFERENCE,
             PictureContent::Shaded(_, EngineFlag::Barycentric(_), ..) => "barycentric",
             PictureContent::Shaded(_, EngineFlag::Cs171 { .. }, ..) => "cs171",
-            PictureContent::Shaded(
-                Method::Variant(variant),
-                EngineFlag::Scanlines(_),
-                _,
-                renderer,
-            ) => variant
-                .plan(&self.frame, *renderer)
-                .renderer
-                .engine()
-                .name(),
+            PictureContent::Shaded(_, EngineFlag::Scanlines(_), _, renderer) => {
+                let plan = self.plan();
+                plan.map_or(*renderer, |plan| plan.renderer).engine().name()
+            }
         }
     }
 
@@ -324,16 +322,12 @@ fn by_scanlines(frame: &Frame, variant: &Variant, renderer: Renderer, linear: bo
 }
 
 fn barycentric(frame: &Frame, variant: &Variant, edges: Edges, linear: bool) -> FilePicture {
-    let stored = || {
-        variant
-            .render_barycentric(frame, edges)
-            .map(FilePicture::stored)
-    };
-    let picture = match linear {
-        true => variant
-            .render_barycentric_linear(frame, edges)
-            .map(FilePicture::linear),
-        false => stored(),
+    let picture = if linear {
+        let picture = variant.render_barycentric_linear(frame, edges);
+        picture.map(FilePicture::linear)
+    } else {
+        let picture = variant.render_barycentric(frame, edges);
+        picture.map(FilePicture::stored)
     };
     // `RenderJob::new` checked that the barycentric renderer has the method; without it the span engine would draw.
     picture.unwrap_or_else(|| by_scanlines(frame, variant, Renderer::LECTURE, linear))

@@ -71,11 +71,10 @@ impl ExplainArgs {
         for (p, value) in info.parameters.iter().zip(self.method.parameters()) {
             let (value, default) = (p.text(*value), p.text(p.default));
             let (name, meaning, range) = (p.name, p.meaning, p.range());
-            let auto = p.auto.map_or("", |auto| auto.meaning);
             let text = format!("{name}={value}: {meaning}; {range}, default {default}");
             parameters += &wrapped(&text, 2);
-            if !auto.is_empty() {
-                parameters += &wrapped(&format!("auto: {auto}"), 2);
+            if let Some(auto) = p.auto {
+                parameters += &wrapped(&format!("auto: {}", auto.meaning), 2);
             }
         }
         if parameters.is_empty() {

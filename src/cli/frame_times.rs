@@ -29,24 +29,17 @@ const MOST_FRAMES: usize = 1_000_000;
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct FrameCount {
     /// Frames of each method that are timed, 1 to 1000000
-    #[arg(long, value_name = "N", default_value = "60", value_parser = frames, allow_hyphen_values = true, requires = "frame_times")]
+    #[arg(long, value_name = "N", default_value = "60", value_parser = |text: &str| frames(text, 1), allow_hyphen_values = true, requires = "frame_times")]
     frames: usize,
     /// Frames of each method that are drawn before those, 0 to 1000000, until caches and the clock frequency have settled
-    #[arg(long, value_name = "N", default_value = "5", value_parser = warm_up, allow_hyphen_values = true, requires = "frame_times")]
+    #[arg(long, value_name = "N", default_value = "5", value_parser = |text: &str| frames(text, 0), allow_hyphen_values = true, requires = "frame_times")]
     warmup: usize,
 }
 
-fn count(text: &str, least: usize) -> Result<usize, String> {
+/// Reads a number of frames, at least `least`.
+fn frames(text: &str, least: usize) -> Result<usize, String> {
     let expected = format!("a number of frames from {least} to {MOST_FRAMES}");
     number(text, expected, |n| (least..=MOST_FRAMES).contains(n))
-}
-
-fn frames(text: &str) -> Result<usize, String> {
-    count(text, 1)
-}
-
-fn warm_up(text: &str) -> Result<usize, String> {
-    count(text, 0)
 }
 
 /// The frames of one method.

@@ -61,25 +61,37 @@ impl InfoArgs {
         let frame = scene.frame()?;
         let choices = auto_choices(&frame);
         let method = Variant::auto(&frame, Renderer::fastest());
+        let facts = SceneFacts {
+            input: &self.input,
+            file: &file,
+            scene,
+            objects,
+            choices,
+            method,
+        };
         match self.json {
-            true => json_to_stdout(&self.scene_json(&file, scene, &objects, &choices, &method)),
-            false => to_stdout(
-                self.scene_text(&file, scene, &objects, &choices, &method)
-                    .as_bytes(),
-            ),
+            true => json_to_stdout(&facts.json()),
+            false => to_stdout(facts.text().as_bytes()),
         }?;
         Ok(Outcome::Done)
     }
+}
 
+/// A scene: its file, its objects, and the methods chosen for it.
+struct SceneFacts<'a> {
+    input: &'a str,
+    file: &'a SceneFile,
+    scene: &'a Scene,
+    objects: Vec<ObjectFacts<'a>>,
+    choices: Vec<AutoChoice>,
+    /// The method that `auto` takes, and why.
+    method: (Variant, &'static str),
+}
+
+impl SceneFacts<'_> {
     /// Describes the scene as data.
-    fn scene_json(
-        &self,
-        file: &SceneFile,
-        scene: &Scene,
-        objects: &[ObjectFacts],
-        choices: &[AutoChoice],
-        (method, why): &(Variant, &str),
-    ) -> Value {
+    fn json(&self) -> Value {
+        let (scene, file, (method, why)) = (self.scene, self.file, &self.method);
         let camera = &scene.camera;
         let (half_height, fovy) = match camera.projection {
             Projection::Orthographic { half_height } => (Some(half_height), None),
@@ -98,23 +110,17 @@ impl InfoArgs {
             },
             "lights": scene.lights.len(),
             "method": { "name": method.to_string(), "reason": why },
-            "auto": choices.iter().map(AutoChoice::json).collect::<Vec<_>>(),
-            "objects": objects,
+            "auto": self.choices.iter().map(AutoChoice::json).collect::<Vec<_>>(),
+            "objects": self.objects,
         })
     }
 
     /// Describes the scene in text.
-    fn scene_text(
-        &self,
-        file: &SceneFile,
-        scene: &Scene,
-        objects: &[ObjectFacts],
-        choices: &[AutoChoice],
-        (method, why): &(Variant, &str),
-    ) -> String {
-        let title = file
-            .title()
-            .map_or(String::new(), |title| format!(": {title}"));
+    fn text(&self) -> String {
+        let (scene, file, (method, why)) = (self.scene, self.file, &self.method);
+        let objects = &self.objects;
+        let title = file.title().map(|title| format!(": {title}"));
+        let title = title.unwrap_or_default();
         let description = wrapped(file.description().unwrap_or_default(), 2);
         let camera = &scene.camera;
         let projection = match camera.projection {
@@ -133,18 +139,10 @@ impl InfoArgs {
             row("objects", format!("{}, {polygons} in all", objects.len())),
             row("method", format!("{method} (chosen by auto: {why})")),
         ];
-        let names = ["auto"].into_iter().chain(std::iter::repeat(""));
-        rows.extend(
-            choices
-                .iter()
-                .zip(names)
-                .map(|(choice, name)| row(name, choice.text())),
-        );
-        let mut text = format!(
-            "{}{title}\n{description}{}",
-            self.input,
-            aligned(&rows, &[0, 1])
-        );
+        for (i, choice) in self.choices.iter().enumerate() {
+            rows.push(row(if i == 0 { "auto" } else { "" }, choice.text()));
+        }
+        let mut text = format!("{}{title}\n{description}", self.input) + &aligned(&rows, &[0, 1]);
         for object in objects {
             text += &format!("\n{}\n{}", object.mesh, object.text());
         }

@@ -10,7 +10,7 @@ use fastphong::compare::table::aligned;
 use fastphong::lectures::FIGURES;
 use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
-use fastphong::scene::input::SCENES;
+use fastphong::scene::input::{SCENES, ShippedScene};
 use fastphong::shading::{Entry, Info, METHODS, Roundings, Stepped};
 use serde_json::{Value, json};
 
@@ -225,18 +225,15 @@ struct SceneEntry {
 
 /// Reads the titles and descriptions of the shipped scenes.
 fn scenes() -> Result<Vec<SceneEntry>, CliError> {
-    let mut scenes = Vec::new();
-    for scene in SCENES {
+    let entry = |scene: &ShippedScene| {
         let file = scene.load()?;
-        let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
-        let (title, description) = (text(file.title()), text(file.description()));
-        scenes.push(SceneEntry {
+        Ok(SceneEntry {
             name: scene.name,
-            title,
-            description,
-        });
-    }
-    Ok(scenes)
+            title: file.title().unwrap_or_default().to_owned(),
+            description: file.description().unwrap_or_default().to_owned(),
+        })
+    };
+    SCENES.iter().map(entry).collect()
 }
 
 fn engine_text(engine: &EngineInfo) -> String {

@@ -21,21 +21,17 @@ impl Output {
     /// # Errors
     /// When neither names a format, or standard output is a terminal.
     pub fn new(path: &Path, format: Option<Format>) -> Result<Output, CliError> {
-        if path.as_os_str() != "-" {
-            let format = format.map_or_else(|| Format::of_path(path), Ok)?;
-            return Ok(Output {
-                path: Some(path.to_owned()),
-                format,
-            });
-        }
-        if std::io::stdout().is_terminal() {
+        let path = (path.as_os_str() != "-").then(|| path.to_owned());
+        if path.is_none() && io::stdout().is_terminal() {
             let expected = "expected `-o FILE`, or `-o -` into a pipe or a file";
             return Err(format!("a picture is not for a terminal: {expected}").into());
         }
-        Ok(Output {
-            path: None,
-            format: format.unwrap_or(Format::Png),
-        })
+        let format = match (format, &path) {
+            (Some(format), _) => format,
+            (None, Some(path)) => Format::of_path(path)?,
+            (None, None) => Format::Png,
+        };
+        Ok(Output { path, format })
     }
 
     /// Writes `picture`; a file whole or not at all.

@@ -19,27 +19,24 @@ pub(super) struct WrittenCorner {
 impl WrittenCorner {
     /// Reads a word of an `f` statement.
     pub(super) fn read(word: &str) -> Result<Self, ObjProblem> {
-        // A position alone needs no splitting.
-        if let Ok(position) = word.parse() {
-            return Ok(WrittenCorner {
-                position,
-                texture: None,
-                normal: None,
-            });
-        }
         let bad = || ObjProblem::BadCorner(quote(word));
-        let index = |part: Option<&str>| match part {
-            None | Some("") => Ok(None),
-            Some(part) => part.parse().map(Some).map_err(|_| bad()),
+        let mut rest = Some(word);
+        let mut index = || {
+            let part = rest.unwrap_or_default();
+            // Words are short: looking at every byte is faster than a search made for long texts.
+            let slash = part.bytes().position(|byte| byte == b'/');
+            rest = slash.map(|at| &part[at + 1..]);
+            match &part[..slash.unwrap_or(part.len())] {
+                "" => Ok(None),
+                number => number.parse().map(Some).map_err(|_| bad()),
+            }
         };
-        // A list of characters: the search for a single one is made for long texts, and slower in words.
-        let mut parts = word.split(['/']);
         let corner = WrittenCorner {
-            position: index(parts.next())?.ok_or_else(bad)?,
-            texture: index(parts.next())?,
-            normal: index(parts.next())?,
+            position: index()?.ok_or_else(bad)?,
+            texture: index()?,
+            normal: index()?,
         };
-        parts.next().map_or(Ok(corner), |_| Err(bad()))
+        rest.map_or(Ok(corner), |_| Err(bad()))
     }
 }
 
@@ -85,7 +82,8 @@ impl Entries {
         Some((line, self.out_of_range(entry as i64 + 1)))
     }
 
-    fn out_of_range(&self, index: i64) -> ObjProblem {
+    /// Makes the error for `index`, which names no entry.
+    pub(super) fn out_of_range(&self, index: i64) -> ObjProblem {
         let (what, count) = (self.what, self.count);
         ObjProblem::IndexOutOfRange { what, index, count }
     }

@@ -19,8 +19,9 @@ mod tests;
 
 pub use error::{ObjError, ObjProblem};
 
+use super::newell::unit_normal;
 use super::{GivenNormals, Material, MeshBuilder, PolygonMesh};
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use mtl::Library;
 use prescan::{MeshLimits, Prescan};
 use std::collections::HashMap;
@@ -167,13 +168,7 @@ fn vectors(flat: &[f32]) -> Vec<Vec3> {
 /// Returns `normal` with length one, or zero when it has no direction.
 fn unit_or_zero(normal: Vec3) -> Vec3 {
     // In f64 the squares of f32 numbers neither overflow nor, unless the normal is zero, vanish.
-    let wide = DVec3::new(normal.x.into(), normal.y.into(), normal.z.into());
-    let length = libm::sqrt(wide.length_squared());
-    if length > 0.0 {
-        (wide / length).as_vec3()
-    } else {
-        Vec3::ZERO
-    }
+    unit_normal(normal.as_dvec3()).map_or(Vec3::ZERO, |unit| unit.as_vec3())
 }
 
 /// Returns the materials that polygons use, and for each polygon the index of its own, `u32::MAX` for none.

@@ -78,8 +78,8 @@ pub(super) struct Prescan {
     positions: Entries,
     normals: Entries,
     texture_coordinates: usize,
-    /// The first line that counts normals backwards before there is one, and its index.
-    early_normal: Option<(usize, i64)>,
+    /// The first line that counts normals backwards before there is one, and the error about it.
+    early_normal: Option<(usize, ObjProblem)>,
     corners_with_normal: usize,
     /// The number of positions with a colour.
     colours: usize,
@@ -116,21 +116,10 @@ pub(super) fn prescan(
     }
     // As for other loaders, a file without any normal may name them.
     let undeclared = scan.normals.count == 0;
-    let early = scan.early_normal.map(|(line, index)| {
-        let what = "normal";
-        (
-            line,
-            ObjProblem::IndexOutOfRange {
-                what,
-                index,
-                count: 0,
-            },
-        )
-    });
     let missing = [
         scan.positions.missing(),
         scan.normals.missing().filter(|_| !undeclared),
-        early.filter(|_| !undeclared),
+        scan.early_normal.take().filter(|_| !undeclared),
     ];
     if let Some((line, problem)) = missing.into_iter().flatten().min_by_key(|(line, _)| *line) {
         return Err((Some(line), problem));
@@ -362,7 +351,8 @@ impl Prescan {
         }
         let normal = match written.normal {
             Some(index @ ..0) if self.normals.count == 0 => {
-                self.early_normal.get_or_insert((line, index));
+                let problem = || (line, self.normals.out_of_range(index));
+                self.early_normal.get_or_insert_with(problem);
                 None
             }
             Some(index) => Some(self.normals.resolve(line, index)?),
