@@ -1,5 +1,5 @@
 "use strict";
-/* Draws the page from one JSON document (#fastphong-data) and packed pictures. Nothing is loaded. */
+/* Draws the page from one JSON document (#fastphong-data) and packed pictures. */
 
 /* ---------- markup */
 const ROOT = document.documentElement;
@@ -219,7 +219,7 @@ const planes = (s, m) => memo(`planes ${s.id} ${m}`, async () => {
 	const { on = "reference", add: more } = data.rows[m], base = await planes(s, on);
 	return more ? add(await unpack(more, s, 3), base) : base;
 });
-/* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green and red of a pixel. */
+/* A canvas of a scene's size, and its pixels; `word` gives alpha, blue, green, red. */
 function canvasOf(s, word) {
 	const canvas = create("canvas"), image = new ImageData(s.w, s.h), words = new Uint32Array(image.data.buffer);
 	[canvas.width, canvas.height] = [s.w, s.h];
@@ -280,11 +280,11 @@ function crop(canvas, s, m, worst, w, h) {
 /* ---------- the viewer */
 const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
 const KEYS = {
-	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
+	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "=": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
 	r: v => v.row?.(v), png: v => v.save(), p: v => v.hold(v.pin ? null : v.hover ?? v.rest), arrowleft: (v, e) => v.slide(-1, e), arrowright: (v, e) => v.slide(1, e),
 };
 for (const key in MODES) KEYS[key] = v => v.set({ mode: MODES[key] });
-/* Compares the pictures of methods `a` and `b`; calls `change`, and `probe` with the pixel looked at. */
+/* Compares the pictures of methods `a` and `b`. */
 class Viewer {
 	constructor(root, options) {
 		Object.assign(this, { root, mode: "slide", split: .5, z: 1, cx: .5, cy: .5, top: 0, side: "a", turn: 0 }, options);
@@ -302,7 +302,7 @@ class Viewer {
 		this.listen();
 		new ResizeObserver(() => this.draw()).observe(this.stage);
 	}
-	/* Changes scene, pictures or mode, and shows them as soon as they are unpacked. */
+	/* Changes scene, pictures or mode. */
 	async set(change) {
 		Object.assign(this, change);
 		const { root, scene: s } = this, error = this.mode === "error", known = (m, otherwise) => m === "reference" || s.list.includes(m) ? m : otherwise;
@@ -692,7 +692,7 @@ function startOverview() {
 		basis = key;
 		pareto(v1);
 	});
-	// A mark under the mouse is shown until the mouse leaves; one that is chosen stays.
+	// Hovering shows a mark; choosing keeps it.
 	const el = $("#pareto");
 	onChoose(el, (m, e) => {
 		if (!e.shiftKey) v1.kept = m;
@@ -779,7 +779,7 @@ function sceneFacts(s) {
 	];
 }
 let probing = 0;
-/* Shows every method at the pixel under the pointer, held, or worst of the left. */
+/* Shows every method at the pixel pointed at, held, or worst. */
 async function probe(v) {
 	const s = v.scene, turn = ++probing, of = v.a === "reference" ? v.b : v.a, rest = v.rest = !v.hover && !v.pin && s.rows[of]?.worst || null, pixel = v.hover ?? v.pin ?? rest;
 	if (!s.drawn) return;
@@ -978,7 +978,7 @@ const WORKS = { kernel: "loop", frame: "picture" };
 const ratioIn = (m, c) => m?.corners[c.i].ratio_to_naive;
 /* The fastest method of a corner that draws naive Phong's picture. */
 const fastest = c => STUDY.methods.filter(m => isSame(m) && ratioIn(m, c)).sort(by(m => -ratioIn(m, c).median))[0];
-/* Methods as lines from place to place; a place has a name, a note and values [v, low, high]. */
+/* Methods as lines; a place has a name, a note and values [v, low, high]. */
 function slopes(id, label, list, panes, nameOf, format, gap = 20) {
 	const el = $(id), W = widthOf(el), part = W < 460 ? W : W / panes.length, l = 40, t = 44, b = Math.max(430, t + list.length * 16.5);
 	if (!W || !list.length) return;
@@ -1011,11 +1011,15 @@ function grow(id, keep, count, label) {
 	el.innerHTML = svg(W, 330, `Time of a frame by ${label}`, [axisY(y, l, r + 8, y.ticks(40), " ms"), axisX(x, b, x.ticks(70)), text((l + r) / 2, 324, label, "axis mid"), curves(x, y, series)]);
 }
 const COSTS = [["vertex_ns", "vertex"], ["triangle_ns", "triangle"], ["span_ns", "span"], ["pixel_ns", "pixel of a span"], ["background_ns", "pixel of the picture"]];
-/* The largest misfit of a time, in parts of it, of fits whose figures are shown. */
+/* The largest misfit of fits that are shown. */
 const MISFIT = .5;
 function costs() {
 	const all = D.scaling.curves.filter(c => c.costs), list = all.filter(c => Math.abs(c.costs.worst) <= MISFIT), most = k => Math.max(...list.map(c => c.costs[k])) || 1;
-	$("#costs").innerHTML = table(["", ...COSTS.map(([, name]) => name), "largest misfit"], all.map(c => [curveName(c), ...COSTS.map(([k]) => list.includes(c) ? bar(num(c.costs[k], 2), Math.max(1, c.costs[k] / most(k) * 100), curveHue(c)) : "–"), html`${(Math.abs(c.costs.worst) * 100).toFixed(0)} %${!list.includes(c) && html` <span class="bad">poor fit</span>`}`]));
+	const even = c => {
+		const base = list.find(o => o.method === BASE && o.engine === c.engine)?.costs, more = c.costs.span_ns - base?.span_ns, saved = base?.pixel_ns - c.costs.pixel_ns;
+		return saved > 0 && list.includes(c) ? more > 0 ? num(more / saved, 2) : "0" : "–";
+	};
+	$("#costs").innerHTML = table(["", ...COSTS.map(([, name]) => name), "break-even span, pixels", "largest misfit"], all.map(c => [curveName(c), ...COSTS.map(([k]) => list.includes(c) ? bar(num(c.costs[k], 2), Math.max(1, c.costs[k] / most(k) * 100), curveHue(c)) : "–"), even(c), html`${(Math.abs(c.costs.worst) * 100).toFixed(0)} %${!list.includes(c) && html` <span class="bad">poor fit</span>`}`]));
 	write({ misfit: MISFIT * 100 });
 }
 /* Documents side by side, a column each under its processor. */
@@ -1144,7 +1148,7 @@ function go(hash) {
 	clearTimeout(timers.remember);
 	location.hash = hash;
 }
-/* Reads the state of a viewer from the query of an address; the viewer mends it. */
+/* Reads a viewer's state from an address. */
 function fromRoute(query, v) {
 	const given = Object.fromEntries(query), whole = key => given[key] && isFinite(given[key]) ? Math.floor(given[key]) : null, s = S[given.scene] ?? v.scene, state = { scene: s };
 	if (given.left) state.a = given.left;
@@ -1158,7 +1162,7 @@ function fromRoute(query, v) {
 	if (v.row && given.row) state.line = whole("row") ?? 0;
 	return state;
 }
-/* Keeps the address in step with a viewer, so that a link shows what its sender saw. */
+/* Keeps the address in step with a viewer. */
 function remember(v) {
 	if (restoring) return;
 	delay("remember", 60, () => {

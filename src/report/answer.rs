@@ -198,7 +198,7 @@ pub(super) fn remarks(data: &Value) -> Vec<Part> {
     if scenes > 1 {
         let scene = Part::Scene(best.scene, best.at.into(), best.name.into());
         let gains = format!(
-            "{name} is faster in {} of {scenes} scenes, slower in {}; its largest error is in ",
+            "{name} is faster in {} of {scenes} scenes, slower in {}; worst in ",
             best.faster, best.slower
         );
         parts.extend([Part::Text(gains), scene, Part::Text(". ".into())]);
@@ -210,21 +210,19 @@ pub(super) fn remarks(data: &Value) -> Vec<Part> {
     };
     if let Some(nearest) = others().min_by(|a, b| a.worst.total_cmp(&b.worst)) {
         // The list of methods ends with the most exact ones.
-        let names: Vec<_> = others().rev().take(3).map(|o| label(o.name)).collect();
+        let names: Vec<_> = others().rev().take(1).map(|o| label(o.name)).collect();
         let rest = match others().count() - names.len() {
             0 => String::new(),
             rest => format!(" and {rest} more"),
         };
         parts.push(Part::Text(format!(
-            "Left out though faster: {}{rest}, off by {} grey levels or more. ",
+            "Faster but off by {2} levels or more: {0}{1}. ",
             names.join(", "),
+            rest,
             significant(nearest.worst)
         )));
     }
-    parts.push(Part::Text(
-        "Scalar: one pixel per instruction; AVX: several; rsqrt: 1/√x, estimated and refined."
-            .into(),
-    ));
+    parts.push(Part::Text("Scalar: one pixel per instruction.".into()));
     parts
 }
 

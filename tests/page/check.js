@@ -134,7 +134,7 @@
       }
       accessible("overview");
       const words = [...document.querySelectorAll("#overview p")].filter(p => p.offsetParent).map(p => p.textContent.trim()).join(" ").split(/\s+/).length;
-      check(`overview: ${words} words of running text`, words < 160);
+      check(`overview: ${words} words of running text`, words < 120);
       for (const s of [SCENES[0], SCENES[scenes - 1]]) {
         await visit(`scenes/${s.id}`);
         check(`${s.id}: title`, document.querySelector("#t-scenes").textContent === s.title);
