@@ -606,7 +606,7 @@ let basis = MANY ? "all" : "scene";
 /* Error against time of every method, and the line of those that nothing beats. */
 function pareto(v) {
 	const el = $("#pareto"), s = v.scene, all = basis === "all";
-	write({ "pareto-sub": all ? `Worst error in ${SCENES.length} scenes, geometric mean of times.` : `${s.title}, ${s.w} × ${s.h}.` });
+	write({ "pareto-sub": all ? `Worst error in ${SCENES.length} scenes, mean time.` : `${s.title}, ${s.w} × ${s.h}.` });
 	const W = widthOf(el), H = Math.max(340, el.clientHeight / zoomOf()), l = 46, r = W - 14, t = 24, b = H - 48;
 	if (!W) return;
 	const points = IDS.filter(m => all ? M[m].max != null : s.rows[m]).map(m => {
@@ -670,7 +670,7 @@ const VERDICTS = { confirms: "✓", adds: "+", contradicts: "✗" };
 const counts = list => Object.keys(VERDICTS).map(k => [k, list.filter(x => x.agreement === k).length]).filter(([, n]) => n);
 const chip = (verdict, label) => html`<span class="chip ${verdict}">${VERDICTS[verdict]} ${label}</span>`;
 function waffle() {
-	write({ "waffle-sub": `${FINDINGS.length} statements measured in ${plural(FIGURES.length, "figure")}.`, ...Object.fromEntries(counts(FINDINGS)) });
+	write({ "waffle-sub": `${FINDINGS.length} statements, ${plural(FIGURES.length, "figure")}.`, ...Object.fromEntries(counts(FINDINGS)) });
 }
 /* Shows where the lecture's fast method is worst. */
 function breakPair() {
