@@ -285,8 +285,8 @@ fn remarks_count_gains_and_losses_and_name_what_was_left_out() {
     let text = answer::markdown(&parts);
     assert!(
         text.starts_with(
-            "Duff Phong is faster in 2 of 3 scenes, slower in 1; its largest error is in prism. \
-             Left out though faster: Gouraud, off by 90.0 grey levels or more. Scalar:"
+            "Duff Phong is faster in 2 of 3 scenes, slower in 1; worst in prism. \
+             Faster but off by 90.0 levels or more: Gouraud. Scalar:"
         ),
         "{text}"
     );
