@@ -769,12 +769,12 @@ function scenes([id], query) {
 	else if (v2.line != null && query.has("left")) showRow(v2, null);
 }
 function sceneFacts(s) {
-	const cut = s.triangulation, reasons = { culled: "seen from the culled side", outside: "outside the view", zero_area: "without area", unprojected: "at the plane of the eye" };
+	const cut = s.triangulation, reasons = { culled: "facing away", outside: "outside the view", zero_area: "without area", unprojected: "at the plane of the eye" };
 	const left = Object.keys(reasons).filter(k => s.stats[k]).map(k => `${grouped(s.stats[k])} ${reasons[k]}`);
 	return [
 		`${plural(s.polygons, "polygon")} in view`, plural(s.lights, "light"), `${(s.covered_pixels / s.w / s.h * 100).toFixed(0)} % covered`, `${s.w} × ${s.h}`,
 		s.interpolation === "screen" ? "linear on the screen" : "perspective-correct", `${levelName(s.renderer)} code, ${plural(s.renderer.threads, "thread")}`,
-		left.length && `left out: ${left.join(", ")}`, cut && `in triangles, the reference moves by up to ${num(cut.difference.max * 255)} levels`,
+		left.length && `left out: ${left.join(", ")}`, cut && `split into triangles, the reference changes by up to ${num(cut.difference.max * 255)} levels`,
 		s.not_simple && `${plural(s.not_simple, "polygon")} crossing themselves: not drawn by barycentric`,
 	];
 }
@@ -828,13 +828,13 @@ async function rowPlot(v) {
 		series: drawn.map(m => ({ label: nameOf(m), colour: hue(m), kind: `${bold(m) ? "" : "thin"} ${m === "reference" ? "dash1" : ""}`, points: values[list.indexOf(m)].map((g, x) => [x + .5, g]) })),
 	}, widthOf(el) || 700, H);
 	write({ "rowplot-title": `Row ${row} of ${s.title}` });
-	fill(el, html`${chart(greys, "grey level", 230)}${chart(slopes, "slope, levels a pixel", 170)}<div class="legend">${list.map(m => html`<button data-key="${m}" aria-pressed="${bold(m)}">${named(m)}</button>`)}</div>`);
+	fill(el, html`${chart(greys, "grey level", 230)}${chart(slopes, "slope, levels per pixel", 170)}<div class="legend">${list.map(m => html`<button data-key="${m}" aria-pressed="${bold(m)}">${named(m)}</button>`)}</div>`);
 	v.draw();
 }
 /* Columns of the table: key, head, a mark for those that are always shown. */
 const COLUMNS = [
 	["max", "max error", 1], ["rms", "RMS", 1], ["p99", "99 %"], ["own", "own max"], ["over1", "pixels > 1 level"], ["other", "other polygon"], ["psnr", "PSNR, dB"], ["ssim", "SSIM"],
-	["ms", "ms", 1], ["ns", "ns a pixel"], ["ratio", "speed, × naive Phong", 1], ["barycentric", "× barycentric"],
+	["ms", "ms", 1], ["ns", "ns per pixel"], ["ratio", "speed, × naive Phong", 1], ["barycentric", "× barycentric"],
 ];
 const DESCENDING = ["ratio", "barycentric", "psnr", "ssim"];
 function sceneTable() {
@@ -940,7 +940,7 @@ const formula = source => source.split(/[;\n]|,(?![^(]*\))/).map(part => part.tr
 	return html`<div><math>${mathematics(tokens)}</math></div>`;
 });
 const OPERATIONS = ["additions", "multiplications", "comparisons", "divisions", "roots", "sines, arctangents", "powers"];
-const RATES = [["a pixel", o => o.walk.map((n, i) => n + o.shade[i])], ["a span", o => o.span], ["an edge", o => o.edge], ["a scanline of an edge", o => o.edge_step], ["a vertex", o => o.vertex], ["a polygon", o => o.polygon]];
+const RATES = [["pixel", o => o.walk.map((n, i) => n + o.shade[i])], ["span", o => o.span], ["edge", o => o.edge], ["edge, per scanline", o => o.edge_step], ["vertex", o => o.vertex], ["polygon", o => o.polygon]];
 function article(m, most) {
 	const { worst, scene: s } = m, corner = CORNERS.find(c => c.work === "frame" && !c.scalar), frame = corner && ratioIn(STUDY.methods.find(q => q.method === m.name), corner);
 	const bad = worst?.max >= 1, rates = RATES.map(([label, of]) => [label, of(m.operations[0])]).filter(([, counts], i) => !i || sum(counts));
@@ -996,7 +996,7 @@ function corners(mode) {
 	const values = c => m => ["median", "low", "high"].map(k => ratioIn(m, c)[k]), list = STUDY.methods.filter(m => cornerMode === "all" || isSame(m));
 	slopes("#corners", "Speed of methods in the shading loop and in whole pictures", list.filter(m => oneLight.every(c => ratioIn(m, c))), [oneLight.map(c => ({ name: WORKS[c.work], note: levelName(c), values: values(c) }))], nameOf, v => v.toFixed(2));
 	const kernels = [true, false].map(scalar => CORNERS.filter(c => c.work === "kernel" && c.scalar === scalar)).filter(pair => pair.length > 1);
-	slopes("#lights", "Nanoseconds a pixel with one and four lights", list.slice(0, 14), kernels.map(pair => pair.map(c => ({ name: levelName(c), note: plural(c.lights, "light"), values: m => ["median_ns", "p25_ns", "p75_ns"].map(k => m.corners[c.i].timing[k] / STUDY.span) }))), shortName, v => num(v, 2), 40);
+	slopes("#lights", "Nanoseconds per pixel with one and four lights", list.slice(0, 14), kernels.map(pair => pair.map(c => ({ name: levelName(c), note: plural(c.lights, "light"), values: m => ["median_ns", "p25_ns", "p75_ns"].map(k => m.corners[c.i].timing[k] / STUDY.span) }))), shortName, v => num(v, 2), 40);
 }
 const curveName = c => c.engine === "span" ? "lecture’s form" : nameOf(c.method), curveHue = c => c.engine === "span" ? "var(--ink3)" : hue(c.method);
 /* Times of whole frames against a count of the measured points. */
