@@ -1065,7 +1065,7 @@ function findingValue({ value, unit }) {
 const findingTable = (list, where) => scrolling("Findings", table([where && "figure", "finding", "measured", "value", "verdict"].filter(Boolean), list.map((x, i) => [
 	// A figure, and a finding of several measurements, stand once.
 	...(where ? [x.figure !== list[i - 1]?.figure && html`<a href="#lectures/${x.figure.name}">${topic(x.figure)}</a><small>${x.figure.lecture}</small>`] : []), x.verdict !== list[i - 1]?.verdict && x.verdict, x.label, html`<span title="${x.value}">${findingValue(x)}</span>`, chip(x.agreement, x.agreement),
-]), "findings" + (where ? " where" : "")));
+]), "findings"));
 const PLOT_HUES = ["--base", "--h3", "--h2", "--h4", "--h1", "--h5"];
 /* Curves over one another, on axes unless the chart is a small one. */
 function plot(p, W, H) {
@@ -1106,10 +1106,10 @@ function preview(f) {
 	return files.length ? files.map((src, i) => html`<img src="${src}" alt="${shown[i].alt}">`) : first && plot(first, 260, 112);
 }
 function lectures([part = ""]) {
-	const body = $("#lecture-body"), lists = { wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS }, list = lists[part];
+	const body = $("#lecture-body"), lists = { wrong: FINDINGS.filter(x => x.agreement === "contradicts"), all: FINDINGS }, list = lists[part], [shown, more] = folded(list ?? [], 40, "findings");
 	segments($("#lecture-tabs"), () => part, key => go(key ? "lectures/" + key : "lectures"));
 	const f = FIGURES.find(q => q.name === part) ?? (FIGURES.length === 1 ? FIGURES[0] : null);
-	if (list) body.innerHTML = html`${part === "wrong" && html`<p class="lead">${list.length} measurements disagree with what is printed, most under conditions that the text does not name.</p>`}${findingTable(list, true)}`;
+	if (list) body.innerHTML = html`${part === "wrong" && html`<p class="lead">${list.length} measurements disagree with what is printed, most under conditions that the text does not name.</p>`}${findingTable(shown, true)}${more}`;
 	else if (f) {
 		const links = html`<nav class="list" aria-label="Figures">${FIGURES.map(q => html`<a href="#lectures/${q.name}" ${q === f && html`aria-current="true"`}><span>${topic(q)}</span>${q.findings.some(x => x.agreement === "contradicts") && html`<span class="chip contradicts" title="contradicts">✗</span>`}</a>`)}</nav>`;
 		body.innerHTML = html`<div class="${FIGURES.length > 1 ? "detail" : ""}">${FIGURES.length > 1 && links}<article class="fig"><h2>${f.title}</h2><p class="facts">${f.lecture}</p>${chips(f, true)}${figureBody(f)}<h3>Findings</h3>${findingTable(f.findings)}</article></div>`;

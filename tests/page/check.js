@@ -214,6 +214,8 @@
       const tabs = document.querySelector("#lecture-tabs").getBoundingClientRect();
       check("lectures: the title touches the tabs", tabs.top - document.querySelector("#t-lectures").getBoundingClientRect().bottom >= 8);
       await visit("lectures/all");
+      document.querySelector("#lecture-body .fold")?.click();
+      check("lectures: all findings", document.querySelectorAll(".findings tbody tr").length === FINDINGS.length);
       let before = [];
       for (const tr of document.querySelectorAll(".findings tbody tr")) {
         const [figure, finding] = [...tr.cells].map(c => c.textContent);
