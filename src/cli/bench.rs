@@ -1,11 +1,10 @@
 //! `fastphong bench`: times only, method by method, in interleaved rounds; or of whole frames, one method after the other.
 
-use super::engines::{self, ScanlineEngine, SimdList, ThreadFlags, renderer};
+use super::engines::{self, ScanlineEngine, SimdList, ThreadFlags, renderer, renderers};
 use super::frame_times::{FrameCount, frame_times};
-use super::log::{Log, to_stdout};
 use super::measured::{Measurement, TimingFlags, command_line, named_or_shipped};
 use super::scene_flags::SceneFlags;
-use super::{CliError, Outcome};
+use super::{CliError, Log, Outcome, done};
 use fastphong::compare::comparison::{TableKind, table};
 use fastphong::compare::timing::Machine;
 use fastphong::picture::image_file::write_file;
@@ -55,8 +54,7 @@ impl BenchArgs {
             log,
         };
         let (text, json) = if self.frame_times {
-            let times = frame_times(&measurement, &self.timing.methods.0, self.count)?;
-            (times.text(), times.json())
+            frame_times(&measurement, &self.timing.methods, self.count)?
         } else {
             let comparisons = self.timing.compare(&measurement)?;
             let tables = comparisons.iter().map(|c| table(c, TableKind::Bench));
@@ -65,14 +63,11 @@ impl BenchArgs {
             (text, Document::new(command_line(), comparisons).to_text())
         };
         match &self.json {
-            Some(path) if path.as_os_str() == "-" => to_stdout(json.as_bytes())?,
-            Some(path) => {
-                write_file(path, json.as_bytes())?;
-                to_stdout(text.as_bytes())?;
-            }
-            None => to_stdout(text.as_bytes())?,
+            Some(path) if path.as_os_str() == "-" => return done(&json),
+            Some(path) => write_file(path, json.as_bytes())?,
+            None => {}
         }
-        Ok(Outcome::Done)
+        done(&text)
     }
 
     /// Returns a renderer for each instruction set that was asked for. Without one, methods are compared by the lecture's
@@ -87,7 +82,7 @@ impl BenchArgs {
         };
         Ok(match &self.simd {
             None => vec![renderer(self.engine, None, default)?],
-            Some(levels) => levels.renderers(self.engine)?,
+            Some(list) => renderers(self.engine, list)?,
         })
     }
 }

@@ -1,9 +1,8 @@
 //! `fastphong diff`: two picture files, in numbers and as a map.
 
-use super::log::{Log, to_stderr, to_stdout};
-use super::output::Output;
+use super::output::{Output, print_beside};
 use super::reference_check::{SCALE, largest_difference};
-use super::{CliError, Outcome, values};
+use super::{CliError, Log, Outcome, values};
 use fastphong::compare::metrics::{
     Difference, METRICS, MetricInfo, Perceived, compare, difference_map, flip_colours, mean_flip,
     signed_difference_map,
@@ -65,10 +64,7 @@ impl DiffArgs {
             true => format!("{:#}\n", self.json(&difference, reference.size())),
             false => table(&difference),
         };
-        match output {
-            Some(Output { path: None, .. }) => to_stderr(&text),
-            _ => to_stdout(text.as_bytes())?,
-        }
+        print_beside(output.as_ref(), &text)?;
         let found = largest_difference(&difference);
         let Some(most) = self.fail_above.filter(|most| found > *most) else {
             return Ok(Outcome::Done);

@@ -2,16 +2,15 @@
 
 use super::engines::engines_with;
 use super::list::{exactness, method_json};
-use super::log::{json_to_stdout, to_stdout};
 use super::text::wrapped;
-use super::{CliError, Outcome};
+use super::{CliError, Outcome, done};
 use fastphong::compare::comparison::parameter_json;
 use fastphong::compare::table::aligned;
 use fastphong::number::Counts;
 use fastphong::report::{OPERATIONS, RATES};
 use fastphong::scene::{Falloff, Interpolation, input};
 use fastphong::shading::{OperationCounts, SpanBench, Variant};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 /// Explain a shading method: formula, source, cost, tolerance, where it fails
 #[derive(clap::Args, Debug)]
@@ -36,11 +35,10 @@ const LIGHTS_AT_POSITIONS: [usize; 2] = [1, 2];
 impl ExplainArgs {
     /// Prints the explanation.
     pub fn run(&self) -> Result<Outcome, CliError> {
-        match self.json {
-            true => json_to_stdout(&self.json()?)?,
-            false => to_stdout(self.text()?.as_bytes())?,
-        }
-        Ok(Outcome::Done)
+        done(&match self.json {
+            true => format!("{:#}\n", self.json()?),
+            false => self.text()?,
+        })
     }
 
     /// Explains the method in text.
@@ -52,21 +50,25 @@ impl ExplainArgs {
         let formula = info.formula.lines().map(|line| format!("  {line}\n"));
         section("formula", &formula.collect::<String>());
         section("source", &wrapped(info.source, 2));
-        let s = |lights| if lights == 1 { "" } else { "s" };
+        let mut operations = |lights: usize, and_eye: &str, counts: &OperationCounts| {
+            let s = if lights == 1 { "" } else { "s" };
+            let title = format!("operations with {lights} light{s}{and_eye}, as counted");
+            section(&title, &costs(counts));
+        };
         for lights in &LIGHTS[..if self.all { 2 } else { 1 }] {
-            let title = format!("operations with {lights} light{}, as counted", s(*lights));
-            section(&title, &costs(&self.method.operations(*lights)));
+            operations(*lights, "", &self.method.operations(*lights));
         }
         for lights in LIGHTS_AT_POSITIONS.into_iter().filter(|_| self.all) {
-            let lights_and_eye = format!("{lights} light{} and eye at positions", s(lights));
-            let title = format!("operations with {lights_and_eye}, as counted");
-            section(&title, &costs(&self.at_positions(lights)));
+            operations(lights, " and eye at positions", &self.at_positions(lights));
         }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
         section("lights at positions", &wrapped(info.local.sentence(), 2));
-        section("engines", &format!("  {}\n", engines_with(info)));
+        section(
+            "engines",
+            &format!("  {}\n", engines_with(self.method.entry())),
+        );
         let mut parameters = String::new();
         for (p, value) in info.parameters.iter().zip(self.method.parameters()) {
             let (value, default) = (p.text(*value), p.text(p.default));
@@ -103,10 +105,10 @@ impl ExplainArgs {
     /// Returns the explanation as data.
     fn json(&self) -> Result<Value, CliError> {
         let info = self.method.info();
-        let mut json = method_json(info);
+        let mut json = method_json(self.method.entry());
         let by_lights = |lights: [usize; 2], of: &dyn Fn(usize) -> OperationCounts| -> Value {
             let costs = lights.map(|n| (n.to_string(), costs_json(&of(n))));
-            costs.into_iter().collect::<Map<_, _>>().into()
+            costs.into_iter().collect()
         };
         json["variant"] = self.method.to_string().into();
         let values = info.parameters.iter().zip(self.method.parameters());
@@ -150,15 +152,14 @@ fn costs(counts: &OperationCounts) -> String {
 /// Returns counted operations as data.
 fn costs_json(counts: &OperationCounts) -> Value {
     let operations = |counts: Counts| -> Value {
-        let counts = OPERATIONS.iter().map(|(name, _, of)| (*name, of(&counts)));
-        counts
-            .map(|(name, n)| (name.to_owned(), json!(n)))
-            .collect::<Map<_, _>>()
-            .into()
+        let operations = OPERATIONS.iter();
+        operations
+            .map(|(name, _, of)| (*name, of(&counts)))
+            .collect()
     };
     let rates = RATES.iter().map(|(_, rate, of)| {
         let name = rate.replace(": ", "_").replace(' ', "_");
         (name, operations(of(counts)))
     });
-    rates.collect::<Map<_, _>>().into()
+    rates.collect()
 }

@@ -1,17 +1,16 @@
 //! `fastphong info`: the parts of a scene or a mesh, with their facts.
 
-use super::auto::{AutoChoice, auto_choices};
-use super::log::{Log, json_to_stdout, to_stdout};
 use super::mesh_facts::{MeshFacts, PLANAR};
 use super::scene_flags::SceneFlags;
 use super::text::{counted, grouped, wrapped};
-use super::{CliError, Outcome};
+use super::{CliError, Log, Outcome, done};
 use fastphong::compare::table::aligned;
+use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::raster::Renderer;
+use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{Object, Projection, Scene, input};
-use fastphong::shading::Variant;
+use fastphong::shading::{METHODS, Variant};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -59,21 +58,18 @@ impl InfoArgs {
         let objects = scene.objects.iter().zip(file.meshes());
         let objects: Vec<ObjectFacts> = objects.map(&mut object).collect();
         let frame = scene.frame()?;
-        let choices = auto_choices(&frame);
-        let method = Variant::auto(&frame, Renderer::fastest());
         let facts = SceneFacts {
             input: &self.input,
             file: &file,
             scene,
             objects,
-            choices,
-            method,
+            choices: auto_choices(&frame),
+            method: Variant::auto(&frame, Renderer::fastest()),
         };
-        match self.json {
-            true => json_to_stdout(&facts.json()),
-            false => to_stdout(facts.text().as_bytes()),
-        }?;
-        Ok(Outcome::Done)
+        done(&match self.json {
+            true => format!("{:#}\n", facts.json()),
+            false => facts.text(),
+        })
     }
 }
 
@@ -175,13 +171,10 @@ impl ObjectFacts<'_> {
             (facts.reversed_edges, "between polygons wound differently"),
         ];
         let odd = odd.iter().filter(|(count, _)| *count > 0);
-        let odd: Vec<String> = odd
-            .map(|(count, kind)| format!("{} {kind}", grouped(*count)))
-            .collect();
-        let closed = if facts.closed {
-            "closed"
-        } else {
-            &odd.join(", ")
+        let odd = odd.map(|(count, kind)| format!("{} {kind}", grouped(*count)));
+        let closed = match facts.closed {
+            true => "closed".to_owned(),
+            false => odd.collect::<Vec<_>>().join(", "),
         };
         let materials = match (facts.materials, facts.polygons_without_material) {
             (0, _) => "none of its own".to_owned(),
@@ -226,5 +219,42 @@ fn normals(source: NormalSource, given: bool) -> String {
         (NormalSource::Crease(degrees), _) => {
             format!("averaged up to a crease of {degrees} degrees")
         }
+    }
+}
+
+/// An engine and an instruction set that `auto` chooses, and the methods that it chooses them for.
+pub struct AutoChoice {
+    plan: Plan,
+    methods: Vec<&'static str>,
+}
+
+/// Returns the choices of `--engine auto --simd auto` on this machine: each once, in the order of the methods.
+pub fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
+    let mut choices: Vec<AutoChoice> = Vec::new();
+    for entry in METHODS {
+        let plan = entry.variant().plan(frame, Renderer::fastest());
+        let methods = vec![entry.info.name];
+        match choices.iter_mut().find(|choice| choice.plan == plan) {
+            Some(choice) => choice.methods.extend(methods),
+            None => choices.push(AutoChoice { plan, methods }),
+        }
+    }
+    choices
+}
+
+impl AutoChoice {
+    /// Writes the choice in words.
+    pub fn text(&self) -> String {
+        let Plan { renderer, reason } = self.plan;
+        let (engine, level) = (renderer.engine(), renderer.level());
+        let reason = reason.map_or(String::new(), |reason| format!(" ({reason})"));
+        format!("{engine}, {level}: {}{reason}", self.methods.join(", "))
+    }
+
+    /// Returns the choice as data.
+    pub fn json(&self) -> Value {
+        let Plan { renderer, reason } = self.plan;
+        let (engine, level) = (renderer.engine().name(), renderer.level().name());
+        json!({ "engine": engine, "level": level, "reason": reason, "methods": self.methods })
     }
 }

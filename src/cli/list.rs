@@ -1,9 +1,8 @@
 //! `fastphong list`: everything that has a name, each from its own table.
 
 use super::engines::{ENGINES, EngineInfo, engines_with};
-use super::log::{json_to_stdout, to_stdout};
 use super::text::wrapped;
-use super::{CliError, Outcome};
+use super::{CliError, Outcome, done};
 use fastphong::compare::comparison::parameter_json;
 use fastphong::compare::metrics::METRICS;
 use fastphong::compare::table::aligned;
@@ -46,21 +45,17 @@ enum Subject {
 impl ListArgs {
     /// Prints the list.
     pub fn run(&self) -> Result<Outcome, CliError> {
-        match self.json {
-            true => json_to_stdout(&json(self.subject)?)?,
-            false => to_stdout(text(self.subject)?.as_bytes())?,
-        }
-        Ok(Outcome::Done)
+        done(&match self.json {
+            true => format!("{:#}\n", json(self.subject)?),
+            false => text(self.subject)?,
+        })
     }
 }
 
 /// Returns the list as text.
 fn text(subject: Subject) -> Result<String, CliError> {
     Ok(match subject {
-        Subject::Methods => METHODS
-            .iter()
-            .map(|entry| method_text(entry.info))
-            .collect(),
+        Subject::Methods => METHODS.iter().map(method_text).collect(),
         Subject::Meshes => BUILTINS.iter().map(mesh_text).collect(),
         Subject::Scenes => {
             let scenes = scenes()?;
@@ -68,15 +63,12 @@ fn text(subject: Subject) -> Result<String, CliError> {
             scenes.iter().map(entry).collect()
         }
         Subject::Metrics => {
-            let rows = METRICS.iter().map(|metric| {
+            let mut rows = vec![["metric", "unit", "better", "meaning"].map(str::to_owned)];
+            rows.extend(METRICS.iter().map(|metric| {
                 let better = word(metric.better);
                 [metric.name, metric.unit, &better, metric.meaning].map(str::to_owned)
-            });
-            let head = ["metric", "unit", "better", "meaning"].map(str::to_owned);
-            aligned(
-                &std::iter::once(head).chain(rows).collect::<Vec<_>>(),
-                &[0, 1, 2, 3],
-            )
+            }));
+            aligned(&rows, &[0, 1, 2, 3])
         }
         Subject::Figures => FIGURES
             .iter()
@@ -100,10 +92,7 @@ fn text(subject: Subject) -> Result<String, CliError> {
 /// Returns the list as data.
 fn json(subject: Subject) -> Result<Value, CliError> {
     Ok(match subject {
-        Subject::Methods => METHODS
-            .iter()
-            .map(|entry| method_json(entry.info))
-            .collect(),
+        Subject::Methods => METHODS.iter().map(method_json).collect(),
         Subject::Meshes => BUILTINS.iter().map(mesh_json).collect(),
         Subject::Scenes => json!(scenes()?),
         Subject::Metrics => json!(METRICS),
@@ -123,13 +112,14 @@ fn word(value: impl std::fmt::Debug) -> String {
     format!("{value:?}").to_lowercase()
 }
 
-fn method_text(info: &Info) -> String {
+fn method_text(method: &Entry) -> String {
+    let info = method.info;
     let mut about = vec![
         info.title.to_owned(),
         format!("perspective: {}", info.perspective.sentence()),
         format!("positions: {}", info.local.sentence()),
         exactness(info),
-        format!("engines: {}", engines_with(info)),
+        format!("engines: {}", engines_with(method)),
     ];
     for p in info.parameters {
         let (name, range, default) = (p.name, p.range(), p.text(p.default));
@@ -160,13 +150,14 @@ fn stepped(of: Stepped) -> &'static str {
 }
 
 /// Describes a method as data, without its texts of more than one line.
-pub fn method_json(info: &Info) -> Value {
-    let parameter = |p: &fastphong::shading::MethodParameter| {
+pub fn method_json(method: &Entry) -> Value {
+    let info = method.info;
+    let parameters = info.parameters.iter().map(|p| {
         json!({
             "name": p.name, "meaning": p.meaning, "default": parameter_json(p, p.default),
             "least": p.least, "most": p.most, "auto": p.auto.map(|auto| auto.meaning),
         })
-    };
+    });
     let Roundings { start, step, of } = info.roundings;
     json!({
         "name": info.name,
@@ -176,8 +167,8 @@ pub fn method_json(info: &Info) -> Value {
         "roundings": { "start": start, "step": step, "of": stepped(of) },
         "perspective": info.perspective.sentence(),
         "local": info.local.sentence(),
-        "barycentric": Entry::named(info.name).is_some_and(Entry::is_barycentric),
-        "parameters": info.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "barycentric": method.is_barycentric(),
+        "parameters": parameters.collect::<Value>(),
     })
 }
 
@@ -205,13 +196,13 @@ fn mesh_text(shape: &Builtin) -> String {
 }
 
 fn mesh_json(shape: &Builtin) -> Value {
-    let parameter = |p: &ShapeParameter| {
+    let parameters = shape.all_parameters().map(|p| {
         json!({
             "name": p.name, "kind": word(p.kind), "default": default_json(p),
             "min": p.min, "max": p.max, "meaning": p.doc,
         })
-    };
-    let parameters: Vec<Value> = shape.all_parameters().map(parameter).collect();
+    });
+    let parameters: Value = parameters.collect();
     json!({ "name": shape.name, "meaning": shape.doc, "parameters": parameters })
 }
 

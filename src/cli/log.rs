@@ -2,7 +2,7 @@
 //!
 //! A reader that went away is no error. `println!` would panic then, so that nothing here uses it.
 
-use super::CliError;
+use super::{CliError, Outcome};
 use std::io::{self, IsTerminal, Write};
 
 /// The messages that are written to standard error.
@@ -63,8 +63,8 @@ pub fn to_stderr(text: &str) {
 ///
 /// # Errors
 /// When it cannot be written for another reason, such as a full disk.
-pub fn to_stdout(bytes: &[u8]) -> Result<(), CliError> {
-    to_stdout_by(|out| out.write_all(bytes))
+pub fn to_stdout(text: &str) -> Result<(), CliError> {
+    to_stdout_by(|out| out.write_all(text.as_bytes()))
 }
 
 /// Writes the result of `write` to standard output, as [`to_stdout`] does.
@@ -81,10 +81,11 @@ pub fn to_stdout_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Res
     }
 }
 
-/// Writes `value` to standard output as indented JSON.
+/// Writes the whole result of a sub-command to standard output.
 ///
 /// # Errors
 /// As [`to_stdout`].
-pub fn json_to_stdout(value: &serde_json::Value) -> Result<(), CliError> {
-    to_stdout(format!("{value:#}\n").as_bytes())
+pub fn done(text: &str) -> Result<Outcome, CliError> {
+    to_stdout(text)?;
+    Ok(Outcome::Done)
 }

@@ -4,7 +4,7 @@ use fastphong::mesh::newell::{polygon_normal, unit_normal};
 use fastphong::mesh::weld::weld;
 use fastphong::mesh::{Material, PolygonMesh};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// The distance from its plane up to which a polygon counts as planar, in parts of its extent.
 pub const PLANAR: f64 = 1e-3;
@@ -55,9 +55,11 @@ impl MeshFacts {
     /// Finds out the facts about `mesh`.
     pub fn of(mesh: &PolygonMesh) -> MeshFacts {
         let (vertex, _) = weld(mesh.positions());
+        let used = mesh.corners().iter().map(|&corner| vertex[corner as usize]);
         let bounds = mesh.bounds().map(|(low, high)| [low, high]);
         let mut facts = MeshFacts {
             polygons: mesh.polygon_count(),
+            vertices: used.collect::<HashSet<_>>().len(),
             positions: mesh.positions().len(),
             bounds: bounds.map(|ends| ends.map(|p| p.as_dvec3().to_array())),
             materials: mesh.materials().len(),
@@ -65,11 +67,6 @@ impl MeshFacts {
             bytes: bytes(mesh),
             ..MeshFacts::default()
         };
-        let mut used = vec![false; mesh.positions().len()];
-        for &corner in mesh.corners() {
-            used[vertex[corner as usize] as usize] = true;
-        }
-        facts.vertices = used.iter().filter(|used| **used).count();
         for (p, corners) in mesh.polygons().enumerate() {
             *facts.polygons_by_sides.entry(corners.len()).or_default() += 1;
             facts.polygons_without_material += usize::from(mesh.polygon_material(p).is_none());

@@ -1,7 +1,7 @@
 //! The destination of a picture: a file, or standard output.
 
 use super::CliError;
-use super::log::to_stdout_by;
+use super::log::{to_stderr, to_stdout, to_stdout_by};
 use fastphong::picture::image_file::{FilePicture, Format, PpmWriter, write_file_by};
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -66,6 +66,20 @@ impl Output {
             Some(path) => Ok(write_file_by(path, write)?),
             None => to_stdout_by(write),
         }
+    }
+}
+
+/// Prints text beside a picture: to standard error if that goes to standard output.
+///
+/// # Errors
+/// As [`to_stdout`].
+pub fn print_beside(picture: Option<&Output>, text: &str) -> Result<(), CliError> {
+    match picture {
+        Some(Output { path: None, .. }) => {
+            to_stderr(text);
+            Ok(())
+        }
+        _ => to_stdout(text),
     }
 }
 

@@ -1,8 +1,7 @@
 //! Flags that change the scene: each gives values to keys of a scene file. They replace those of the file, and are checked
 //! together with the rest.
 
-use super::CliError;
-use super::log::Log;
+use super::{CliError, Log};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::SceneFile;
