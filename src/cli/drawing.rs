@@ -9,13 +9,14 @@ use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
 use fastphong::number::suggest::nearest;
 use fastphong::picture::encoding::store;
-use fastphong::picture::image_file::{FilePicture, FilePixels};
+use fastphong::picture::image_file::{FilePicture, FilePixels, PpmWriter};
 use fastphong::picture::{Encoding, Picture, Picture8};
 use fastphong::raster::{Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
 use fastphong::shading::{METHODS, Variant};
 use std::fmt;
+use std::io::{self, Write};
 
 /// The name under which the reference picture can be asked for like a method.
 const REFERENCE: &str = "reference";
@@ -210,18 +211,20 @@ impl RenderJob {
         }
     }
 
-    /// Passes the pixels of the picture, as stored in 8 bits, to `take`: row by row from the top, and where possible while it
-    /// is drawn.
+    /// Writes the picture as a PPM file: row by row, and where possible while others are not yet drawn.
     ///
     /// # Errors
-    /// Those of `take`.
-    pub fn rows<E>(&self, mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>) -> Result<(), E> {
+    /// Those of `out`.
+    pub fn write_ppm(&self, out: &mut dyn Write) -> io::Result<()> {
+        let [width, height] = self.size();
+        let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
         match &self.content {
             PictureContent::Scanlines(variant, renderer) => {
-                variant.render_rows(&self.frame, *renderer, take)
+                variant.render_rows(&self.frame, *renderer, |pixels| file.pixels(pixels))?;
             }
-            _ => take(self.picture(false).to_stored().pixels()),
+            _ => file.pixels(self.picture(false).to_stored().pixels())?,
         }
+        file.finish()
     }
 
     /// Returns width and height of the picture in pixels.

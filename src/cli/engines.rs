@@ -90,10 +90,8 @@ impl EngineInfo {
 /// Lists the names of the engines that have a method.
 pub fn engines_with(method: &Entry) -> String {
     let engines = ENGINES.iter().filter(|engine| engine.has(method));
-    engines
-        .map(|engine| engine.name)
-        .collect::<Vec<_>>()
-        .join(", ")
+    let names: Vec<&str> = engines.map(|engine| engine.name).collect();
+    names.join(", ")
 }
 
 /// Returns CS171's name of a method, if it has it.

@@ -26,11 +26,8 @@ pub struct ExplainArgs {
     json: bool,
 }
 
-/// The numbers of lights that operations are counted for.
-const LIGHTS: [usize; 2] = [1, 4];
-
-/// The numbers of lights at positions that operations are counted for, with the eye at a position, too.
-const LIGHTS_AT_POSITIONS: [usize; 2] = [1, 2];
+/// The cases that operations are counted for: the number of lights; true if these and the eye are at positions.
+const CASES: [(usize, bool); 4] = [(1, false), (4, false), (1, true), (2, true)];
 
 impl ExplainArgs {
     /// Prints the explanation.
@@ -50,25 +47,22 @@ impl ExplainArgs {
         let formula = info.formula.lines().map(|line| format!("  {line}\n"));
         section("formula", &formula.collect::<String>());
         section("source", &wrapped(info.source, 2));
-        let mut operations = |lights: usize, and_eye: &str, counts: &OperationCounts| {
+        for &(lights, at_positions) in &CASES[..if self.all { CASES.len() } else { 1 }] {
             let s = if lights == 1 { "" } else { "s" };
-            let title = format!("operations with {lights} light{s}{and_eye}, as counted");
-            section(&title, &costs(counts));
-        };
-        for lights in &LIGHTS[..if self.all { 2 } else { 1 }] {
-            operations(*lights, "", &self.method.operations(*lights));
-        }
-        for lights in LIGHTS_AT_POSITIONS.into_iter().filter(|_| self.all) {
-            operations(lights, " and eye at positions", &self.at_positions(lights));
+            let eye = if at_positions {
+                " and eye at positions"
+            } else {
+                ""
+            };
+            let title = format!("operations with {lights} light{s}{eye}, as counted");
+            section(&title, &costs(&self.operations(lights, at_positions)));
         }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
         section("lights at positions", &wrapped(info.local.sentence(), 2));
-        section(
-            "engines",
-            &format!("  {}\n", engines_with(self.method.entry())),
-        );
+        let engines = engines_with(self.method.entry());
+        section("engines", &format!("  {engines}\n"));
         let mut parameters = String::new();
         for (p, value) in info.parameters.iter().zip(self.method.parameters()) {
             let (value, default) = (p.text(*value), p.text(p.default));
@@ -86,8 +80,11 @@ impl ExplainArgs {
         Ok(text)
     }
 
-    /// Counts the operations with `lights` lights and the eye at positions, no falloff, varyings linear on the screen.
-    fn at_positions(&self, lights: usize) -> OperationCounts {
+    /// Counts the operations with `lights` lights. At positions, they have no falloff, and varyings are linear on the screen.
+    fn operations(&self, lights: usize, at_positions: bool) -> OperationCounts {
+        if !at_positions {
+            return self.method.operations(lights);
+        }
         // The angle of the span's normals does not change the counts.
         let span = SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
         self.method.operations_on(&span)
@@ -106,9 +103,10 @@ impl ExplainArgs {
     fn json(&self) -> Result<Value, CliError> {
         let info = self.method.info();
         let mut json = method_json(self.method.entry());
-        let by_lights = |lights: [usize; 2], of: &dyn Fn(usize) -> OperationCounts| -> Value {
-            let costs = lights.map(|n| (n.to_string(), costs_json(&of(n))));
-            costs.into_iter().collect()
+        let by_lights = |at_positions: bool| -> Value {
+            let cases = CASES.iter().filter(|(_, there)| *there == at_positions);
+            let costs = cases.map(|(n, there)| (n, costs_json(&self.operations(*n, *there))));
+            costs.map(|(n, costs)| (n.to_string(), costs)).collect()
         };
         json["variant"] = self.method.to_string().into();
         let values = info.parameters.iter().zip(self.method.parameters());
@@ -117,9 +115,8 @@ impl ExplainArgs {
         json["derivation"] = info.derivation.into();
         json["fails"] = info.fails.into();
         json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(&self.method)? });
-        json["operations_by_lights"] = by_lights(LIGHTS, &|lights| self.method.operations(lights));
-        json["operations_by_lights_at_positions"] =
-            by_lights(LIGHTS_AT_POSITIONS, &|lights| self.at_positions(lights));
+        json["operations_by_lights"] = by_lights(false);
+        json["operations_by_lights_at_positions"] = by_lights(true);
         Ok(json)
     }
 }

@@ -101,9 +101,7 @@ pub fn page_folder(page: &Path) -> Result<PathBuf, CliError> {
         let reason = "it is a folder: expected a file, such as report/index.html";
         return Err(refused(reason).into());
     }
-    if !folder.as_os_str().is_empty() {
-        std::fs::create_dir_all(&folder).map_err(|error| refused(&error.to_string()))?;
-    }
+    std::fs::create_dir_all(&folder).map_err(|error| refused(&error.to_string()))?;
     Ok(folder)
 }
 

@@ -57,11 +57,7 @@ fn text(subject: Subject) -> Result<String, CliError> {
     Ok(match subject {
         Subject::Methods => METHODS.iter().map(method_text).collect(),
         Subject::Meshes => BUILTINS.iter().map(mesh_text).collect(),
-        Subject::Scenes => {
-            let scenes = scenes()?;
-            let entry = |s: &SceneEntry| entry(s.name, &[&s.title, &s.description]);
-            scenes.iter().map(entry).collect()
-        }
+        Subject::Scenes => scenes(|name, title, about| entry(name, &[title, about]))?,
         Subject::Metrics => {
             let mut rows = vec![["metric", "unit", "better", "meaning"].map(str::to_owned)];
             rows.extend(METRICS.iter().map(|metric| {
@@ -70,10 +66,12 @@ fn text(subject: Subject) -> Result<String, CliError> {
             }));
             aligned(&rows, &[0, 1, 2, 3])
         }
-        Subject::Figures => FIGURES
-            .iter()
-            .map(|f| entry(f.name, &[f.title, f.lecture]))
-            .collect(),
+        Subject::Figures => {
+            let figures = FIGURES.iter();
+            figures
+                .map(|f| entry(f.name, &[f.title, f.lecture]))
+                .collect()
+        }
         Subject::Engines => ENGINES.iter().map(engine_text).collect(),
         Subject::Simd => {
             let rows = Level::ALL.map(|level| {
@@ -94,7 +92,9 @@ fn json(subject: Subject) -> Result<Value, CliError> {
     Ok(match subject {
         Subject::Methods => METHODS.iter().map(method_json).collect(),
         Subject::Meshes => BUILTINS.iter().map(mesh_json).collect(),
-        Subject::Scenes => json!(scenes()?),
+        Subject::Scenes => scenes(
+            |name, title, about| json!({ "name": name, "title": title, "description": about }),
+        )?,
         Subject::Metrics => json!(METRICS),
         Subject::Figures => json!(FIGURES),
         Subject::Engines => ENGINES.iter().map(EngineInfo::json).collect(),
@@ -206,25 +206,17 @@ fn mesh_json(shape: &Builtin) -> Value {
     json!({ "name": shape.name, "meaning": shape.doc, "parameters": parameters })
 }
 
-/// A shipped scene.
-#[derive(serde::Serialize)]
-struct SceneEntry {
-    name: &'static str,
-    title: String,
-    description: String,
-}
-
-/// Reads the titles and descriptions of the shipped scenes.
-fn scenes() -> Result<Vec<SceneEntry>, CliError> {
-    let entry = |scene: &ShippedScene| {
+/// Describes each shipped scene by its name, title and description.
+fn scenes<T, List: FromIterator<T>>(
+    describe: impl Fn(&str, &str, &str) -> T,
+) -> Result<List, CliError> {
+    let describe = |scene: &ShippedScene| {
         let file = scene.load()?;
-        Ok(SceneEntry {
-            name: scene.name,
-            title: file.title().unwrap_or_default().to_owned(),
-            description: file.description().unwrap_or_default().to_owned(),
-        })
+        let [title, description] =
+            [file.title(), file.description()].map(Option::unwrap_or_default);
+        Ok(describe(scene.name, title, description))
     };
-    SCENES.iter().map(entry).collect()
+    SCENES.iter().map(describe).collect()
 }
 
 fn engine_text(engine: &EngineInfo) -> String {

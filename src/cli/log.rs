@@ -4,6 +4,7 @@
 
 use super::{CliError, Outcome};
 use std::io::{self, IsTerminal, Write};
+use std::time::Instant;
 
 /// The messages that are written to standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +47,12 @@ impl Log {
         if self == Log::Verbose {
             to_stderr(&format!("{text}\n"));
         }
+    }
+
+    /// Writes how long a step took since it `started`, for `--verbose` only.
+    pub fn duration(self, done: &str, started: Instant) {
+        let milliseconds = 1e3 * started.elapsed().as_secs_f64();
+        self.detail(&format!("{done} in {milliseconds:.1} ms"));
     }
 }
 

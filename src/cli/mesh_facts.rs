@@ -74,10 +74,10 @@ impl MeshFacts {
                 facts.degenerate += 1;
                 continue;
             };
-            let points: Vec<DVec3> = corners
+            let points = corners
                 .iter()
-                .map(|&c| mesh.positions()[c as usize].as_dvec3())
-                .collect();
+                .map(|&c| mesh.positions()[c as usize].as_dvec3());
+            let points: Vec<DVec3> = points.collect();
             facts.concave += usize::from(is_concave(&points, normal));
             facts.not_planar += usize::from(!is_planar(&points, normal));
         }
@@ -126,9 +126,8 @@ fn is_planar(points: &[DVec3], normal: DVec3) -> bool {
     let middle = points.iter().sum::<DVec3>() / points.len() as f64;
     let lengths = points.iter().map(|p| (*p - middle).length());
     let height = PLANAR * lengths.fold(0.0, f64::max);
-    points
-        .iter()
-        .all(|p| (*p - middle).dot(normal).abs() <= height)
+    let mut heights = points.iter().map(|p| (*p - middle).dot(normal).abs());
+    heights.all(|h| h <= height)
 }
 
 /// Returns the bytes that a mesh takes in memory.

@@ -94,7 +94,12 @@ impl RenderArgs {
     /// Loads, draws, writes and compares.
     fn draw(&self, log: Log) -> Result<Outcome, CliError> {
         let mut output = self.output()?;
-        let renderer = self.renderer()?;
+        let renderer = match self.engine {
+            EngineFlag::Scanlines(engine) => {
+                renderer(Some(engine), Some(self.simd), Renderer::fastest())?
+            }
+            EngineFlag::Barycentric(_) | EngineFlag::Cs171 { .. } => Renderer::LECTURE,
+        };
         let shows = self.aov.is_none();
         let mut file = match shows {
             true => self.scene.load_to_show(&self.input)?,
@@ -109,11 +114,11 @@ impl RenderArgs {
         };
         if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
             // The mean of depths, normals or polygon numbers has no meaning.
-            progress.aside(|| log.note("--aov shows single samples: one a pixel, in its middle"));
+            progress.aside(|| log.note("--aov shows single samples: one per pixel, in its middle"));
         }
         progress.aside(|| {
             self.scene.warn(&resolved, log);
-            log.detail(&format!("loaded in {:.1} ms", milliseconds(started)));
+            log.duration("loaded", started);
         });
         if self.print_scene {
             input::make_paths_relative_to_current_folder(&mut file);
@@ -126,7 +131,7 @@ impl RenderArgs {
         let started = Instant::now();
         let frame = resolved.scene.frame()?;
         progress.aside(|| {
-            log.detail(&format!("projected in {:.1} ms", milliseconds(started)));
+            log.duration("projected", started);
             warn_of_polygons_left_out(frame.stats(), log);
             if self.stats {
                 return print_beside(output.as_ref(), &stats_text(&frame));
@@ -208,13 +213,11 @@ impl RenderArgs {
     ) -> Result<(), CliError> {
         let started = Instant::now();
         if output.format == Format::Ppm {
-            // Rows of PPM can be written while others are not yet drawn.
-            output.write_ppm(job.size(), |take| job.rows(take))?;
-            let spent = milliseconds(started);
-            progress.aside(|| log.detail(&format!("shaded and written in {spent:.1} ms")));
+            output.write_by(|out| job.write_ppm(out))?;
+            progress.aside(|| log.duration("shaded and written", started));
         } else {
             let picture = job.picture(output.format == Format::Pfm);
-            progress.aside(|| log.detail(&format!("shaded in {:.1} ms", milliseconds(started))));
+            progress.aside(|| log.duration("shaded", started));
             progress.at(0.75, "writing");
             output.write(&picture)?;
         }
@@ -223,15 +226,6 @@ impl RenderArgs {
             progress.aside(|| log.note(&format!("{path}: {width}x{height}, {shown}")));
         }
         Ok(())
-    }
-
-    fn renderer(&self) -> Result<Renderer, CliError> {
-        Ok(match self.engine {
-            EngineFlag::Scanlines(engine) => {
-                renderer(Some(engine), Some(self.simd), Renderer::fastest())?
-            }
-            EngineFlag::Barycentric(_) | EngineFlag::Cs171 { .. } => Renderer::LECTURE,
-        })
     }
 
     /// Prepares the drawing of `frame`; logs which method `auto` takes.
@@ -262,26 +256,22 @@ fn same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
-fn milliseconds(started: Instant) -> f64 {
-    1e3 * started.elapsed().as_secs_f64()
-}
-
 /// Warns of polygons that cannot be drawn.
 pub fn warn_of_polygons_left_out(stats: FrameStats, log: Log) {
-    let flat = match stats.zero_area {
-        0 => None,
-        1 => Some("polygons has no area and is left out"),
-        _ => Some("polygons have no area and are left out"),
-    };
-    if let Some(words) = flat {
+    if stats.zero_area > 0 {
         let [flat, all] = [stats.zero_area, stats.polygons].map(grouped);
-        log.warning(&format!("{flat} of {all} {words}"));
+        let one = stats.zero_area == 1;
+        let are = if one {
+            "has no area and is"
+        } else {
+            "have no area and are"
+        };
+        log.warning(&format!("{flat} of {all} polygons {are} left out"));
     }
     if stats.culled > 0 && stats.culled + stats.zero_area + stats.outside == stats.polygons {
         let culled = counted(stats.culled, "polygon is seen", "polygons are seen");
-        log.warning(&format!(
-            "nothing is drawn: {culled} from the culled side; try --cull none"
-        ));
+        let problem = format!("nothing is drawn: {culled} from the culled side");
+        log.warning(&(problem + "; try --cull none"));
     }
     if stats.unprojected > 0 {
         let one = "polygon has a corner at the plane of the eye and is left out";

@@ -280,13 +280,11 @@ impl SceneFlags {
     /// Returns `file` with the changes of the flags.
     pub fn over(&self, mut file: SceneFile) -> SceneFile {
         file.overlay(self.over.clone());
+        let is_of_normals = |key: &&str| matches!(*key, "normals" | "crease");
+        let gives_normals = self.every_object.entries.keys().any(is_of_normals);
         for object in file.objects_mut() {
-            let normals = ["normals", "crease"];
-            if normals
-                .iter()
-                .any(|key| self.every_object.get(key).is_some())
-            {
-                object.entries.retain(|key, _| !normals.contains(key));
+            if gives_normals {
+                object.entries.retain(|key, _| !is_of_normals(key));
             }
             object.overlay(self.every_object.clone());
         }
