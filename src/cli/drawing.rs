@@ -304,11 +304,9 @@ fn in_triangles(frame: Frame, engine: &str, log: Log) -> Frame {
     let done = format!("{of} polygons of more than three corners are cut into triangles");
     log.note(&format!("{done} for {engine}: {into} in all"));
     if cut.not_simple > 0 {
-        log.warning(&counted(
-            cut.not_simple,
-            "polygon crosses or overlaps itself and is left out",
-            "polygons cross or overlap themselves and are left out",
-        ));
+        let one = "polygon crosses or overlaps itself and is left out";
+        let more = "polygons cross or overlap themselves and are left out";
+        log.warning(&counted(cut.not_simple, one, more));
     }
     cut.frame
 }

@@ -275,8 +275,7 @@ impl ThreadFlags {
         // 0 stands for as many as there are processors.
         let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
         let pool = builder.stack_size(STACK).build().map_err(|error| {
-            let threads = self.threads.map(|threads| format!("{threads} "));
-            let threads = threads.unwrap_or_default();
+            let threads = self.threads.map_or_else(String::new, |n| format!("{n} "));
             format!("{threads}threads cannot be started: {error}")
         })?;
         Ok(pool.install(work))

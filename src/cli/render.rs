@@ -305,16 +305,13 @@ fn painter_text(conflicts: &Conflicts) -> Option<String> {
 /// Returns the numbers of polygons as a table.
 fn stats_text(frame: &Frame) -> String {
     let (s, drawn) = (frame.stats(), frame.polygons().len());
+    let no_area = "left out: no area, in space or on the picture";
     let no_place = "left out: a corner has no place on the picture (--clipping ndc-cube)";
     let cut = "cut by the near plane, the far plane or the guard band";
     let rows = [
         ("polygons", s.polygons, "of the scene"),
         ("culled", s.culled, "left out: seen from the culled side"),
-        (
-            "zero-area",
-            s.zero_area,
-            "left out: no area, in space or on the picture",
-        ),
+        ("zero-area", s.zero_area, no_area),
         ("outside", s.outside, "left out: outside the view"),
         ("clipped", s.clipped, cut),
         ("unprojected", s.unprojected, no_place),

@@ -84,11 +84,7 @@ fn figures(text: &str) -> Result<Figures, String> {
 const IMAGES: &str = "images";
 
 /// A scene that was drawn, and is not yet timed.
-struct DrawnScene {
-    frame: Frame,
-    comparison: Comparison,
-    pictures: ScenePictures,
-}
+type DrawnScene = (Frame, Comparison, ScenePictures);
 
 impl ReportArgs {
     /// Compares, times, and writes the page.
@@ -154,12 +150,12 @@ impl ReportArgs {
         (document.speedups, document.scaling) =
             experiments.make(&self.timing, &|part, next| progress(2, part, next))?;
         let mut pictures = Vec::new();
-        for (number, mut scene) in drawn.into_iter().enumerate() {
+        for (number, (frame, mut comparison, drawn)) in drawn.into_iter().enumerate() {
             let next = format!("{}: timing", names[number]);
             let progress = |part| progress(3, (number as f32 + part) / scenes, &next);
-            self.time(number, &mut scene, &progress)?;
-            pictures.push(scene.pictures);
-            document.comparisons.push(scene.comparison);
+            self.time(number, &frame, &mut comparison, &progress)?;
+            pictures.push(drawn);
+            document.comparisons.push(comparison);
         }
         document.describe_methods();
         let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
@@ -221,18 +217,15 @@ impl ReportArgs {
         let pictures = ScenePictures::new(&comparison);
         let pictures = pictures.map_err(|error| format!("{name}: {error}"))?;
         comparison.drop_pictures();
-        Ok(DrawnScene {
-            frame,
-            comparison,
-            pictures,
-        })
+        Ok((frame, comparison, pictures))
     }
 
     /// Times a scene that was drawn.
     fn time(
         &self,
         number: usize,
-        scene: &mut DrawnScene,
+        frame: &Frame,
+        comparison: &mut Comparison,
         progress: &(dyn Fn(f32) + Sync),
     ) -> Result<(), CliError> {
         let is_long = self.full || number < TIMED_LONG;
@@ -241,7 +234,7 @@ impl ReportArgs {
             warm_up_rounds: 1,
             ..TimeLimits::default()
         };
-        let time = || scene.comparison.time(&scene.frame, limits, progress);
+        let time = || comparison.time(frame, limits, progress);
         let renderer = self.drawn.renderer()?;
         self.drawn.threads.install_for(renderer, time)
     }
