@@ -1,12 +1,13 @@
 //! `fastphong bench`: times only, method by method, in interleaved rounds; or of whole frames, one method after the other.
 
-use super::engines::{self, ScanlineEngine, SimdList, ThreadFlags, renderer, renderers};
+use super::engines::{self, ScanlineEngine, Simd, SimdList, ThreadFlags, renderer};
 use super::frame_times::{FrameCount, frame_times};
 use super::measured::{Measurement, TimingFlags, command_line, named_or_shipped};
 use super::scene_flags::SceneFlags;
 use super::{CliError, Log, Outcome, done};
 use fastphong::compare::comparison::{TableKind, table};
 use fastphong::compare::timing::Machine;
+use fastphong::number::Level;
 use fastphong::picture::image_file::write_file;
 use fastphong::raster::Renderer;
 use fastphong::report::Document;
@@ -70,7 +71,7 @@ impl BenchArgs {
         done(&text)
     }
 
-    /// Returns a renderer for each instruction set that was asked for. Without one, methods are compared by the lecture's
+    /// Returns a renderer for each instruction set that was asked for, each once. Without one, methods are compared by the lecture's
     /// span engine; whole frames are drawn the fastest way.
     ///
     /// # Errors
@@ -80,9 +81,25 @@ impl BenchArgs {
             true => Renderer::fastest(),
             false => Renderer::LECTURE,
         };
-        Ok(match &self.simd {
-            None => vec![renderer(self.engine, None, default)?],
-            Some(list) => renderers(self.engine, list)?,
-        })
+        let Some(list) = &self.simd else {
+            return Ok(vec![renderer(self.engine, None, default)?]);
+        };
+        let on = |simd: &Simd| renderer(self.engine, Some(*simd), default);
+        let levels = Level::available().map(Some);
+        let possible: SimdList = levels.filter(|simd| on(simd).is_ok()).collect();
+        let asked = match (&list[..], &possible[..]) {
+            // A machine without any of them gives the error of `auto`.
+            ([], []) => &[None],
+            ([], all) => all,
+            (named, _) => named,
+        };
+        let mut renderers = Vec::new();
+        for simd in asked {
+            let renderer = on(simd)?;
+            if !renderers.contains(&renderer) {
+                renderers.push(renderer);
+            }
+        }
+        Ok(renderers)
     }
 }

@@ -198,29 +198,6 @@ pub fn simd_list(text: &str) -> Result<SimdList, NameError> {
     }
 }
 
-/// Returns the [`renderer`] of each instruction set with an engine, each once.
-///
-/// # Errors
-/// As [`renderer`].
-pub fn renderers(engine: Option<ScanlineEngine>, list: &SimdList) -> Result<Vec<Renderer>, String> {
-    let is_possible = |simd: &Simd| renderer(engine, Some(*simd), Renderer::LECTURE).is_ok();
-    let all: SimdList = Level::available().map(Some).filter(is_possible).collect();
-    let asked = match (&list[..], &all[..]) {
-        // A machine without any of them gives the error of `auto`.
-        ([], []) => &[None],
-        ([], all) => all,
-        (named, _) => named,
-    };
-    let mut renderers = Vec::new();
-    for simd in asked {
-        let renderer = renderer(engine, Some(*simd), Renderer::LECTURE)?;
-        if !renderers.contains(&renderer) {
-            renderers.push(renderer);
-        }
-    }
-    Ok(renderers)
-}
-
 /// Flags for drawing methods that are compared with the lecture.
 #[derive(clap::Args, Clone, Debug)]
 pub struct LectureFlags {

@@ -5,8 +5,7 @@ use super::list::{exactness, method_json};
 use super::text::wrapped;
 use super::{CliError, Outcome, done};
 use fastphong::compare::comparison::parameter_json;
-use fastphong::compare::table::aligned;
-use fastphong::number::Counts;
+use fastphong::compare::table::Table;
 use fastphong::report::{OPERATIONS, RATES};
 use fastphong::scene::{Falloff, Interpolation, input};
 use fastphong::shading::{OperationCounts, SpanBench, Variant};
@@ -49,11 +48,8 @@ impl ExplainArgs {
         section("source", &wrapped(info.source, 2));
         for &(lights, at_positions) in &CASES[..if self.all { CASES.len() } else { 1 }] {
             let s = if lights == 1 { "" } else { "s" };
-            let eye = if at_positions {
-                " and eye at positions"
-            } else {
-                ""
-            };
+            let there = " and eye at positions";
+            let eye = if at_positions { there } else { "" };
             let title = format!("operations with {lights} light{s}{eye}, as counted");
             section(&title, &costs(&self.operations(lights, at_positions)));
         }
@@ -131,9 +127,9 @@ fn example_bound(method: &Variant) -> Result<f64, CliError> {
 
 /// Returns counted operations as a table.
 fn costs(counts: &OperationCounts) -> String {
+    let mut table = Table::new("", &["  per"]);
     let names = OPERATIONS.iter().map(|(name, ..)| (*name).to_owned());
-    let head = std::iter::once("  per".to_owned()).chain(names);
-    let mut lines: Vec<Vec<String>> = vec![head.collect()];
+    table.head.extend(names);
     for (_, rate, of) in RATES {
         let counts = of(counts);
         // Dots in place of zeros: the operations that are done stand out.
@@ -141,22 +137,18 @@ fn costs(counts: &OperationCounts) -> String {
             0 => ".".to_owned(),
             n => n.to_string(),
         });
-        lines.push(std::iter::once(format!("  {rate}")).chain(cells).collect());
+        let row = std::iter::once(format!("  {rate}")).chain(cells);
+        table.rows.push(row.collect());
     }
-    aligned(&lines, &[0])
+    table.text()
 }
 
 /// Returns counted operations as data.
 fn costs_json(counts: &OperationCounts) -> Value {
-    let operations = |counts: Counts| -> Value {
-        let operations = OPERATIONS.iter();
-        operations
-            .map(|(name, _, of)| (*name, of(&counts)))
-            .collect()
-    };
     let rates = RATES.iter().map(|(_, rate, of)| {
-        let name = rate.replace(": ", "_").replace(' ', "_");
-        (name, operations(of(counts)))
+        let (rate, counts) = (rate.replace(": ", "_").replace(' ', "_"), of(counts));
+        let operations = OPERATIONS.iter().map(|(name, _, of)| (*name, of(&counts)));
+        (rate, operations.collect::<Value>())
     });
     rates.collect()
 }

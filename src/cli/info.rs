@@ -157,10 +157,10 @@ impl ObjectFacts<'_> {
         let sides = facts.polygons_by_sides.iter();
         let sides = sides.map(|(sides, count)| format!("{} of {sides} sides", grouped(*count)));
         let sides = sides.collect::<Vec<_>>().join(", ");
-        let of_three_or_more = "non-manifold (three polygons or more)";
+        let shared = "non-manifold (three polygons or more)";
         let odd = [
             (facts.open_edges, "open"),
-            (facts.non_manifold_edges, of_three_or_more),
+            (facts.non_manifold_edges, shared),
             (facts.reversed_edges, "between polygons wound differently"),
         ];
         let odd = odd.iter().filter(|(count, _)| *count > 0);
@@ -174,15 +174,11 @@ impl ObjectFacts<'_> {
             (n, 0) => n.to_string(),
             (n, without) => format!("{n}; {} polygons have none of them", grouped(without)),
         };
-        let [polygons, degenerate, concave, bent] = [
-            facts.polygons,
-            facts.degenerate,
-            facts.concave,
-            facts.not_planar,
-        ]
-        .map(grouped);
-        let [vertices, positions, edges, bytes] =
-            [facts.vertices, facts.positions, facts.edges, facts.bytes].map(grouped);
+        let [polygons, degenerate, bent] =
+            [facts.polygons, facts.degenerate, facts.not_planar].map(grouped);
+        let [vertices, positions, edges] =
+            [facts.vertices, facts.positions, facts.edges].map(grouped);
+        let [concave, bytes] = [facts.concave, facts.bytes].map(grouped);
         let bounds = facts.bounds.map_or_else(String::new, |[low, high]| {
             format!("\n  bounds      {} to {}", point(low), point(high))
         });
@@ -215,13 +211,13 @@ fn normals(source: NormalSource, given: bool) -> String {
 }
 
 /// An engine and an instruction set that `auto` chooses, and the methods that it chooses them for.
-pub struct AutoChoice {
+struct AutoChoice {
     plan: Plan,
     methods: Vec<&'static str>,
 }
 
 /// Returns the choices of `--engine auto --simd auto` on this machine: each once, in the order of the methods.
-pub fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
+fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
     let mut choices: Vec<AutoChoice> = Vec::new();
     for entry in METHODS {
         let plan = entry.variant().plan(frame, Renderer::fastest());
@@ -236,7 +232,7 @@ pub fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
 
 impl AutoChoice {
     /// Writes the choice in words.
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         let Plan { renderer, reason } = self.plan;
         let (engine, level) = (renderer.engine(), renderer.level());
         let reason = reason.map_or(String::new(), |reason| format!(" ({reason})"));
@@ -244,7 +240,7 @@ impl AutoChoice {
     }
 
     /// Returns the choice as data.
-    pub fn json(&self) -> Value {
+    fn json(&self) -> Value {
         let Plan { renderer, reason } = self.plan;
         let (engine, level) = (renderer.engine().name(), renderer.level().name());
         json!({ "engine": engine, "level": level, "reason": reason, "methods": self.methods })

@@ -6,7 +6,7 @@ use super::{CliError, Outcome, done};
 use fastphong::compare::comparison::parameter_json;
 use fastphong::compare::metrics::METRICS;
 use fastphong::compare::table::aligned;
-use fastphong::lectures::FIGURES;
+use fastphong::lectures::{FIGURES, Figure};
 use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
 use fastphong::scene::input::{SCENES, ShippedScene};
@@ -67,10 +67,8 @@ fn text(subject: Subject) -> Result<String, CliError> {
             aligned(&rows, &[0, 1, 2, 3])
         }
         Subject::Figures => {
-            let figures = FIGURES.iter();
-            figures
-                .map(|f| entry(f.name, &[f.title, f.lecture]))
-                .collect()
+            let text = |figure: &&Figure| entry(figure.name, &[figure.title, figure.lecture]);
+            FIGURES.iter().map(text).collect()
         }
         Subject::Engines => ENGINES.iter().map(engine_text).collect(),
         Subject::Simd => {

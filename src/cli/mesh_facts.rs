@@ -1,8 +1,8 @@
 //! Facts about a mesh: counts, closedness, flatness.
 
+use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::newell::{polygon_normal, unit_normal};
 use fastphong::mesh::weld::weld;
-use fastphong::mesh::{Material, PolygonMesh};
 use glam::DVec3;
 use std::collections::{BTreeMap, HashSet};
 
@@ -136,12 +136,10 @@ fn bytes(mesh: &PolygonMesh) -> usize {
         let corners = normals.corners.as_deref().map_or(0, size_of_val);
         size_of_val(&normals.values[..]) + corners
     });
-    let materials = match mesh.materials() {
-        [] => 0,
-        materials => size_of_val::<[Material]>(materials) + mesh.polygon_count() * size_of::<u32>(),
-    };
-    let ends = mesh.polygon_count() * size_of::<u32>();
-    let colours = size_of_val(mesh.colours());
+    // Of each polygon the end of its corners, and its material if the mesh has some.
+    let numbers = if mesh.materials().is_empty() { 1 } else { 2 };
+    let polygons = numbers * mesh.polygon_count() * size_of::<u32>();
     let places = size_of_val(mesh.positions()) + size_of_val(mesh.corners());
-    size_of::<PolygonMesh>() + places + ends + normals + colours + materials
+    let looks = size_of_val(mesh.colours()) + size_of_val(mesh.materials());
+    size_of::<PolygonMesh>() + places + polygons + normals + looks
 }

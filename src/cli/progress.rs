@@ -46,10 +46,7 @@ impl Progress {
 
     /// Moves the bar to `share` (0 to 1) of the work, of which `stage` comes next.
     pub fn at(&self, share: f32, stage: &str) {
-        if !self.allowed {
-            return;
-        }
-        if self.bar.is_hidden() && self.bar.elapsed() > PATIENCE {
+        if self.allowed && self.bar.is_hidden() && self.bar.elapsed() > PATIENCE {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
         let position = share.clamp(0.0, 1.0) * STEPS as f32;

@@ -158,7 +158,7 @@ impl RenderArgs {
         })?;
         if let Some(output) = &mut output {
             self.name(output, &job)?;
-            self.write(&job, output, &progress, log)?;
+            write(&job, output, &progress, log)?;
         }
         let Some(reference) = &self.reference else {
             return Ok(Outcome::Done);
@@ -203,31 +203,6 @@ impl RenderArgs {
         }
     }
 
-    /// Writes the picture, and logs it.
-    fn write(
-        &self,
-        job: &RenderJob,
-        output: &Output,
-        progress: &Progress,
-        log: Log,
-    ) -> Result<(), CliError> {
-        let started = Instant::now();
-        if output.format == Format::Ppm {
-            output.write_by(|out| job.write_ppm(out))?;
-            progress.aside(|| log.duration("shaded and written", started));
-        } else {
-            let picture = job.picture(output.format == Format::Pfm);
-            progress.aside(|| log.duration("shaded", started));
-            progress.at(0.75, "writing");
-            output.write(&picture)?;
-        }
-        if let Some(path) = &output.path {
-            let ([width, height], path, shown) = (job.size(), path.display(), &job.name);
-            progress.aside(|| log.note(&format!("{path}: {width}x{height}, {shown}")));
-        }
-        Ok(())
-    }
-
     /// Prepares the drawing of `frame`; logs which method `auto` takes.
     fn job(&self, frame: Frame, renderer: Renderer, log: Log) -> Result<RenderJob, CliError> {
         if let Some(aov) = self.aov {
@@ -248,12 +223,29 @@ impl RenderArgs {
     }
 }
 
-/// True if both paths lead to one file that is there.
-fn same_file(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => a == b,
+/// Writes the picture, and logs it.
+fn write(job: &RenderJob, output: &Output, progress: &Progress, log: Log) -> Result<(), CliError> {
+    let started = Instant::now();
+    if output.format == Format::Ppm {
+        output.write_by(|out| job.write_ppm(out))?;
+        progress.aside(|| log.duration("shaded and written", started));
+    } else {
+        let picture = job.picture(output.format == Format::Pfm);
+        progress.aside(|| log.duration("shaded", started));
+        progress.at(0.75, "writing");
+        output.write(&picture)?;
     }
+    if let Some(path) = &output.path {
+        let ([width, height], path, shown) = (job.size(), path.display(), &job.name);
+        progress.aside(|| log.note(&format!("{path}: {width}x{height}, {shown}")));
+    }
+    Ok(())
+}
+
+/// True if both paths lead to one file, or would if there were one.
+fn same_file(a: &Path, b: &Path) -> bool {
+    let [a, b] = [a, b].map(|path| path.canonicalize().unwrap_or_else(|_| path.to_owned()));
+    a == b
 }
 
 /// Warns of polygons that cannot be drawn.

@@ -16,7 +16,7 @@ use fastphong::report::{Document, Report, ScenePictures, utc_date};
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
-use fastphong::scene::file::value::{Data, SceneTable, Value};
+use fastphong::scene::file::value::{Data, SceneTable};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -109,11 +109,8 @@ impl ReportArgs {
         let load = |name: &&str| self.scene.load_to_show(name).map(|file| self.shown(file));
         let files = names.iter().map(load).collect::<Result<Vec<_>, _>>()?;
         // Everything is made with the shipped scenes.
-        let default = if self.inputs.is_empty() {
-            "all"
-        } else {
-            "none"
-        };
+        let is_default = self.inputs.is_empty();
+        let default = if is_default { "all" } else { "none" };
         let figures = self.figures.clone().map_or_else(|| figures(default), Ok)?;
         let experiments = self.studies.map_or_else(|| experiments(default), Ok)?;
         warn_of_debug_build(log);
@@ -150,11 +147,11 @@ impl ReportArgs {
         (document.speedups, document.scaling) =
             experiments.make(&self.timing, &|part, next| progress(2, part, next))?;
         let mut pictures = Vec::new();
-        for (number, (frame, mut comparison, drawn)) in drawn.into_iter().enumerate() {
+        for (number, (frame, mut comparison, shown)) in drawn.into_iter().enumerate() {
             let next = format!("{}: timing", names[number]);
             let progress = |part| progress(3, (number as f32 + part) / scenes, &next);
             self.time(number, &frame, &mut comparison, &progress)?;
-            pictures.push(drawn);
+            pictures.push(shown);
             document.comparisons.push(comparison);
         }
         document.describe_methods();
@@ -170,11 +167,8 @@ impl ReportArgs {
             return file;
         }
         let image = file.table().table("image");
-        let side = |key: &str, default: u32| match image.and_then(|image| image.get(key)) {
-            Some(Value {
-                data: Data::Whole(side),
-                ..
-            }) => *side,
+        let side = |key, default: u32| match image.and_then(|image| Some(&image.get(key)?.data)) {
+            Some(Data::Whole(side)) => *side,
             _ => i64::from(default),
         };
         let (width, height) = Scene::DEFAULT_SIZE;
