@@ -71,8 +71,8 @@ impl BenchArgs {
         done(&text)
     }
 
-    /// Returns a renderer for each instruction set that was asked for, each once. Without one, methods are compared by the lecture's
-    /// span engine; whole frames are drawn the fastest way.
+    /// Returns a renderer for each instruction set that was asked for, each once. Without one, methods are compared by the
+    /// lecture's span engine; whole frames are drawn the fastest way.
     ///
     /// # Errors
     /// When engine and instruction sets contradict each other.

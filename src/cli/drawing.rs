@@ -251,7 +251,10 @@ impl RenderJob {
                 FilePicture::linear(variant.render_linear_with(frame, *renderer))
             }
             PictureContent::Scanlines(variant, renderer) => {
-                let mut picture = Picture8::new(0, 0, [0; 4]);
+                // Every pixel is drawn or becomes background. Zeroed memory is untouched until the threads that draw write
+                // to it, each in rows of its own.
+                let [width, height] = self.size();
+                let mut picture = Picture8::new(width, height, [0; 4]);
                 variant.render_with(frame, *renderer, &mut picture);
                 FilePicture::stored(picture)
             }

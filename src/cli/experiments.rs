@@ -52,13 +52,14 @@ impl Experiments {
         speedups.limits.time_budget = timing.time_budget.saturating_mul(3);
         scaling.limits.time_budget = timing.time_budget / 8;
         let speedups = || {
-            let hear = |part, next: &str| progress(3.0 * part / all, &format!("speedups: {next}"));
-            Speedups::measure(methods, &speedups, &mut { hear })
+            let mut hear =
+                |part, next: &str| progress(3.0 * part / all, &format!("speedups: {next}"));
+            Speedups::measure(methods, &speedups, &mut hear)
         };
         let scaling = || {
             let part = |part| 1.0 - 6.0 / all * (1.0 - part);
-            let hear = |done, next: &str| progress(part(done), &format!("scaling: {next}"));
-            Scaling::measure(methods, &scaling, &mut { hear })
+            let mut hear = |done, next: &str| progress(part(done), &format!("scaling: {next}"));
+            Scaling::measure(methods, &scaling, &mut hear)
         };
         ThreadFlags { threads: Some(1) }.install(|| {
             let speedups = self.speedups.then(speedups).transpose()?;

@@ -101,8 +101,10 @@ impl ExplainArgs {
         let mut json = method_json(self.method.entry());
         let by_lights = |at_positions: bool| -> Value {
             let cases = CASES.iter().filter(|(_, there)| *there == at_positions);
-            let costs = cases.map(|(n, there)| (n, costs_json(&self.operations(*n, *there))));
-            costs.map(|(n, costs)| (n.to_string(), costs)).collect()
+            let costs = |&(n, there): &(usize, bool)| costs_json(&self.operations(n, there));
+            cases
+                .map(|case| (case.0.to_string(), costs(case)))
+                .collect()
         };
         json["variant"] = self.method.to_string().into();
         let values = info.parameters.iter().zip(self.method.parameters());

@@ -252,11 +252,9 @@ fn same_file(a: &Path, b: &Path) -> bool {
 pub fn warn_of_polygons_left_out(stats: FrameStats, log: Log) {
     if stats.zero_area > 0 {
         let [flat, all] = [stats.zero_area, stats.polygons].map(grouped);
-        let one = stats.zero_area == 1;
-        let are = if one {
-            "has no area and is"
-        } else {
-            "have no area and are"
+        let are = match stats.zero_area {
+            1 => "has no area and is",
+            _ => "have no area and are",
         };
         log.warning(&format!("{flat} of {all} polygons {are} left out"));
     }

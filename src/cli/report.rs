@@ -233,7 +233,7 @@ impl ReportArgs {
         self.drawn.threads.install_for(renderer, time)
     }
 
-    /// Writes the page and the files beside it; returns their paths, a line each.
+    /// Writes the page and the files beside it; returns their paths, one per line.
     fn write(&self, report: &Report, folder: &Path) -> Result<String, CliError> {
         let mut written = String::new();
         let mut write = |path: &Path, text: &str| -> Result<(), CliError> {
