@@ -26,8 +26,7 @@ const BOARD: [[f32; 3]; 2] = [[0.9; 3], [0.1, 0.15, 0.35]];
 impl Aov {
     /// Returns the name on the command line.
     pub fn name(self) -> String {
-        let value = clap::ValueEnum::to_possible_value(&self);
-        value.map_or_else(String::new, |value| value.get_name().to_owned())
+        format!("{self:?}").to_lowercase()
     }
 
     /// Returns the quantity as floats. Depth is infinite where nothing is seen. `square` is the side of a square, in world units.

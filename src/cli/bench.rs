@@ -1,13 +1,13 @@
 //! `fastphong bench`: times only, method by method, in interleaved rounds; or of whole frames, one method after the other.
 
-use super::engines::{self, ScanlineEngine, SimdList, ThreadFlags, renderer};
+use super::engines::{self, ScanlineEngine, Simd, SimdList, ThreadFlags, renderer};
 use super::frame_times::{FrameCount, frame_times};
-use super::log::{Log, to_stdout};
 use super::measured::{Measurement, TimingFlags, command_line, named_or_shipped};
 use super::scene_flags::SceneFlags;
-use super::{CliError, Outcome};
+use super::{CliError, Log, Outcome, done};
 use fastphong::compare::comparison::{TableKind, table};
 use fastphong::compare::timing::Machine;
+use fastphong::number::Level;
 use fastphong::picture::image_file::write_file;
 use fastphong::raster::Renderer;
 use fastphong::report::Document;
@@ -55,8 +55,7 @@ impl BenchArgs {
             log,
         };
         let (text, json) = if self.frame_times {
-            let times = frame_times(&measurement, &self.timing.methods.0, self.count)?;
-            (times.text(), times.json())
+            frame_times(&measurement, &self.timing.methods, self.count)?
         } else {
             let comparisons = self.timing.compare(&measurement)?;
             let tables = comparisons.iter().map(|c| table(c, TableKind::Bench));
@@ -65,18 +64,15 @@ impl BenchArgs {
             (text, Document::new(command_line(), comparisons).to_text())
         };
         match &self.json {
-            Some(path) if path.as_os_str() == "-" => to_stdout(json.as_bytes())?,
-            Some(path) => {
-                write_file(path, json.as_bytes())?;
-                to_stdout(text.as_bytes())?;
-            }
-            None => to_stdout(text.as_bytes())?,
+            Some(path) if path.as_os_str() == "-" => return done(&json),
+            Some(path) => write_file(path, json.as_bytes())?,
+            None => {}
         }
-        Ok(Outcome::Done)
+        done(&text)
     }
 
-    /// Returns a renderer for each instruction set that was asked for. Without one, methods are compared by the lecture's
-    /// span engine; whole frames are drawn the fastest way.
+    /// Returns a renderer for each instruction set that was asked for, each once. Without one, methods are compared by the
+    /// lecture's span engine; whole frames are drawn the fastest way.
     ///
     /// # Errors
     /// When engine and instruction sets contradict each other.
@@ -85,9 +81,25 @@ impl BenchArgs {
             true => Renderer::fastest(),
             false => Renderer::LECTURE,
         };
-        Ok(match &self.simd {
-            None => vec![renderer(self.engine, None, default)?],
-            Some(levels) => levels.renderers(self.engine)?,
-        })
+        let Some(list) = &self.simd else {
+            return Ok(vec![renderer(self.engine, None, default)?]);
+        };
+        let on = |simd: &Simd| renderer(self.engine, Some(*simd), default);
+        let levels = Level::available().map(Some);
+        let possible: SimdList = levels.filter(|simd| on(simd).is_ok()).collect();
+        let asked = match (&list[..], &possible[..]) {
+            // A machine without any of them gives the error of `auto`.
+            ([], []) => &[None],
+            ([], all) => all,
+            (named, _) => named,
+        };
+        let mut renderers = Vec::new();
+        for simd in asked {
+            let renderer = on(simd)?;
+            if !renderers.contains(&renderer) {
+                renderers.push(renderer);
+            }
+        }
+        Ok(renderers)
     }
 }

@@ -1,10 +1,9 @@
 //! `fastphong compare`: error and speed of every method on one scene, as a table.
 
 use super::engines::LectureFlags;
-use super::log::{Log, to_stdout};
 use super::measured::{Measurement, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
-use super::{CliError, Outcome};
+use super::{CliError, Log, Outcome, done};
 use fastphong::compare::comparison::{Comparison, TableKind, table};
 use fastphong::raster::Renderer;
 use fastphong::report::Document;
@@ -50,10 +49,10 @@ impl CompareArgs {
             true => Document::new(command_line(), comparisons).to_text(),
             false => comparisons.iter().map(|c| table(c, kind)).collect(),
         };
-        to_stdout(text.as_bytes())?;
+        let outcome = done(&text)?;
         if renderer == Renderer::LECTURE {
             log.note("note: drawn as in the lecture, by scalar code; --simd auto compares what `render` uses");
         }
-        Ok(Outcome::Done)
+        Ok(outcome)
     }
 }

@@ -1,16 +1,15 @@
 //! `fastphong diff`: two picture files, in numbers and as a map.
 
-use super::log::{Log, to_stderr, to_stdout};
-use super::output::Output;
+use super::output::{Output, print_beside};
 use super::reference_check::{SCALE, largest_difference};
-use super::{CliError, Outcome, values};
+use super::{CliError, Log, Outcome, values};
 use fastphong::compare::metrics::{
-    Difference, METRICS, MetricInfo, Perceived, compare, difference_map, flip_colours, mean_flip,
+    Difference, METRICS, Perceived, compare, difference_map, flip_colours, mean_flip,
     signed_difference_map,
 };
 use fastphong::compare::table::aligned;
 use fastphong::picture::image_file::{FilePicture, comparable, read_picture};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Compare two picture files
@@ -65,25 +64,22 @@ impl DiffArgs {
             true => format!("{:#}\n", self.json(&difference, reference.size())),
             false => table(&difference),
         };
-        match output {
-            Some(Output { path: None, .. }) => to_stderr(&text),
-            _ => to_stdout(text.as_bytes())?,
-        }
+        print_beside(output.as_ref(), &text)?;
         let found = largest_difference(&difference);
         let Some(most) = self.fail_above.filter(|most| found > *most) else {
             return Ok(Outcome::Done);
         };
-        log.note(&format!(
-            "the pictures differ by {found:.4} grey levels, more than {most}"
-        ));
+        let by = format!("{found:.4} grey levels, more than {most}");
+        log.note(&format!("the pictures differ by {by}"));
         Ok(Outcome::Differs)
     }
 
     /// Returns the numbers as data.
     fn json(&self, difference: &Difference, [width, height]: [usize; 2]) -> Value {
         // JSON has neither infinity nor NaN: they become null.
-        let metric = |m: &MetricInfo| (m.name.to_owned(), json!((m.value)(difference)));
-        let metrics: Map<_, _> = METRICS.iter().map(metric).collect();
+        let metrics = METRICS
+            .iter()
+            .map(|m| (m.name, json!((m.value)(difference))));
         json!({
             "schema": "fastphong.diff/1",
             "reference": self.reference.display().to_string(),
@@ -92,7 +88,7 @@ impl DiffArgs {
             "height": height,
             "equal": difference.equal,
             "worst": difference.worst,
-            "metrics": metrics,
+            "metrics": metrics.collect::<Value>(),
             "fail_above": self.fail_above,
             "failed": self.fail_above.map(|most| largest_difference(difference) > most),
         })

@@ -1,22 +1,22 @@
 //! Render jobs: from a frame to a picture, by a method and an engine.
 
-use super::engines::{ENGINES, EngineFlag, Simd, cs171_shading};
-use super::log::Log;
+use super::engines::{ENGINES, EngineFlag, EngineInfo, Simd, cs171_shading};
 use super::text::{counted, grouped};
-use super::{CliError, aov::Aov};
+use super::{CliError, Log, aov::Aov};
 use fastphong::compare::comparison::DrawnBy;
 use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
 use fastphong::number::suggest::nearest;
 use fastphong::picture::encoding::store;
-use fastphong::picture::image_file::{FilePicture, FilePixels};
+use fastphong::picture::image_file::{FilePicture, FilePixels, PpmWriter};
 use fastphong::picture::{Encoding, Picture, Picture8};
-use fastphong::raster::{self, Edges, Plan, Renderer};
+use fastphong::raster::{Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
 use fastphong::shading::{METHODS, Variant};
 use std::fmt;
+use std::io::{self, Write};
 
 /// The name under which the reference picture can be asked for like a method.
 const REFERENCE: &str = "reference";
@@ -33,34 +33,35 @@ pub enum Method {
     Reference(Model),
 }
 
-/// Reads `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
-pub fn method(text: &str) -> Result<Method, String> {
+/// The method that was asked for; `None` is `auto`, which is chosen once the frame is there.
+pub type AskedMethod = Option<Method>;
+
+/// Reads `auto`, `NAME`, `NAME:key=value`, `reference` or `reference:model=NAME`.
+pub fn method(text: &str) -> Result<AskedMethod, String> {
     let (name, rest) = text.split_once(':').unwrap_or((text, ""));
     if name == REFERENCE {
         let named = Model::ALL.map(|model| (format!("model={}", model.name()), model));
         return match named.iter().find(|(name, _)| name == rest) {
-            _ if rest.is_empty() => Ok(Method::Reference(Model::Phong)),
-            Some((_, model)) => Ok(Method::Reference(*model)),
+            _ if rest.is_empty() => Ok(Some(Method::Reference(Model::Phong))),
+            Some((_, model)) => Ok(Some(Method::Reference(*model))),
             None => {
                 let names = named.map(|(name, _)| name).join(", ");
                 Err(format!("`{rest}`: expected one of {names}"))
             }
         };
     }
-    let means_method = nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some();
     let error = match Variant::parse(text) {
-        Ok(variant) => return Ok(Method::Variant(variant)),
+        Ok(variant) => return Ok(Some(Method::Variant(variant))),
+        Err(_) if text == AUTO => return Ok(None),
         Err(error) => error.to_string(),
     };
-    match nearest(name, [REFERENCE, AUTO]) {
-        Some(near) if !means_method => {
-            Err(format!("unknown method `{name}`: did you mean `{near}`?"))
-        }
-        None if !means_method && Variant::parse(name).is_err() => {
-            Err(format!("{error}, `{AUTO}`, `{REFERENCE}`"))
-        }
-        _ => Err(error),
+    if nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some() {
+        return Err(error);
     }
+    Err(match nearest(name, [REFERENCE, AUTO]) {
+        Some(near) => format!("unknown method `{name}`: did you mean `{near}`?"),
+        None => format!("{error}, `{AUTO}`, `{REFERENCE}`"),
+    })
 }
 
 impl fmt::Display for Method {
@@ -73,11 +74,16 @@ impl fmt::Display for Method {
     }
 }
 
-/// The quantity that a picture shows.
-#[derive(Clone, Debug)]
-pub enum PictureContent {
-    /// Colours; the engine and the instruction set asked for, and the renderer that they name.
-    Shaded(Method, EngineFlag, Simd, Renderer),
+/// The quantity that a picture shows, and the engine that draws it.
+enum PictureContent {
+    /// Colours, by scanlines.
+    Scanlines(Variant, Renderer),
+    /// Colours, by the barycentric renderer.
+    Barycentric(Variant, Edges),
+    /// Colours, by CS171's algorithms.
+    Cs171(Shading, Reading),
+    /// Colours of the closed form.
+    Reference(Model),
     /// Another quantity; the side of a square of the checkerboard, in world units.
     Aov(Aov, f64),
 }
@@ -86,130 +92,139 @@ pub enum PictureContent {
 pub struct RenderJob {
     frame: Frame,
     content: PictureContent,
+    /// The name of the method, or of the quantity that is shown instead of colours.
+    pub name: String,
     /// True if alpha is full everywhere, whatever is covered.
     pub opaque: bool,
 }
 
 impl RenderJob {
-    /// Prepares `frame` for the engine: the barycentric renderer and CS171's algorithms take triangles.
+    fn new(frame: Frame, content: PictureContent, name: String) -> RenderJob {
+        RenderJob {
+            frame,
+            content,
+            name,
+            opaque: false,
+        }
+    }
+
+    /// Makes a job that shows another quantity than colours; `square` is the side of a square of the checkerboard, in world
+    /// units.
+    pub fn aov(frame: Frame, aov: Aov, square: f64) -> RenderJob {
+        RenderJob::new(frame, PictureContent::Aov(aov, square), aov.name())
+    }
+
+    /// Makes a job that shows colours, by scanlines with `renderer`. The barycentric renderer and CS171's algorithms take
+    /// the frame cut into triangles.
     ///
     /// # Errors
     /// When the engine does not have the method or the instruction set.
-    pub fn new(frame: Frame, content: PictureContent, log: Log) -> Result<RenderJob, CliError> {
-        let job = |frame, content| {
-            Ok(RenderJob {
-                frame,
-                content,
-                opaque: false,
-            })
-        };
-        let PictureContent::Shaded(method, engine, simd, _) = &content else {
-            return job(frame, content);
-        };
-        let (name, title) = match (engine, method) {
-            (EngineFlag::Barycentric(_), _) => ("barycentric", "the barycentric renderer"),
-            (EngineFlag::Cs171 { .. }, _) => ("cs171", "CS171"),
+    pub fn shaded(
+        frame: Frame,
+        method: &Method,
+        engine: EngineFlag,
+        simd: Simd,
+        renderer: Renderer,
+        log: Log,
+    ) -> Result<RenderJob, CliError> {
+        let name = method.to_string();
+        let (title, content) = match (engine, method) {
+            (EngineFlag::Scanlines(_), Method::Variant(variant)) => {
+                let content = PictureContent::Scanlines(variant.clone(), renderer);
+                return Ok(RenderJob::new(frame, content, name));
+            }
             (EngineFlag::Scanlines(Some(engine)), Method::Reference(_)) => {
                 let problem = format!("`{method}` is not drawn by the {engine} engine");
                 return Err(format!("{problem}: leave out --engine").into());
             }
-            (EngineFlag::Scanlines(None), Method::Reference(_)) => {
-                refuse_simd("the reference", *simd)?;
-                return job(frame, content);
+            (EngineFlag::Scanlines(None), Method::Reference(model)) => {
+                ("the reference", PictureContent::Reference(*model))
             }
-            _ => return job(frame, content),
-        };
-        let engine = ENGINES.iter().filter(|engine| engine.name == name);
-        let has: Vec<&str> = engine.flat_map(|engine| engine.methods()).collect();
-        let is_known = |variant: &Variant| has.contains(&variant.info().name);
-        if !matches!(method, Method::Variant(variant) if is_known(variant)) {
-            let problem = format!("{title} does not support the method `{method}`");
-            return Err(format!("{problem}: expected one of {}", has.join(", ")).into());
-        }
-        refuse_simd(title, *simd)?;
-        let frame = in_triangles(frame, title, log);
-        job(frame, content)
-    }
-
-    /// Returns the renderer of a method that is drawn by scanlines, with the reason if it is not the one asked for.
-    fn plan(&self) -> Option<Plan> {
-        match &self.content {
-            PictureContent::Shaded(
-                Method::Variant(variant),
-                EngineFlag::Scanlines(_),
-                _,
-                renderer,
-            ) => Some(variant.plan(&self.frame, *renderer)),
-            _ => None,
-        }
-    }
-
-    /// Logs which loops draw the picture: as a note where they are not those that were asked for.
-    pub fn log(&self, threads: Option<usize>, log: Log) {
-        let plan = self.plan();
-        let drawn_by = match (&plan, self.engine()) {
-            (Some(plan), _) => DrawnBy::new(plan.renderer).to_string(),
-            (None, REFERENCE) => "the reference, f64, 1 thread".to_owned(),
-            (None, "cs171") => "the cs171 engine, f64, 1 thread".to_owned(),
-            (None, engine) => format!("the {engine} engine, scalar, 1 thread"),
-        };
-        let used = plan.as_ref().map_or(1, |plan| plan.renderer.threads());
-        let is_other = match (&self.content, &plan) {
-            (PictureContent::Shaded(_, EngineFlag::Scanlines(asked), simd, _), Some(plan)) => {
-                asked.is_some_and(|asked| asked != plan.renderer.engine())
-                    || matches!(simd, Simd::Level(asked) if *asked != plan.renderer.level())
+            (EngineFlag::Barycentric(edges), method) => {
+                let title = "the barycentric renderer";
+                let variant = supported(method, "barycentric", title)?.clone();
+                (title, PictureContent::Barycentric(variant, edges))
             }
-            _ => false,
+            (EngineFlag::Cs171 { normalise }, method) => {
+                let variant = supported(method, "cs171", "CS171")?;
+                let shading = cs171_shading(variant.info()).expect("a method of CS171");
+                // The frame has decided which sides are left out.
+                let reading = Reading {
+                    normalise,
+                    cull: false,
+                    ..Reading::default()
+                };
+                ("CS171", PictureContent::Cs171(shading, reading))
+            }
         };
-        let reason = plan.and_then(|plan| plan.reason);
-        let reason = reason.map_or(String::new(), |reason| format!(": {reason}"));
-        match is_other && !reason.is_empty() {
-            true => log.note(&format!("drawn by {drawn_by}{reason}")),
-            false => log.detail(&format!("drawn by {drawn_by}{reason}")),
+        if let Some(level) = simd.filter(|level| *level != Level::Scalar) {
+            let problem = format!("{title} goes pixel by pixel and has no `{level}`");
+            return Err(format!("{problem}: expected --simd auto or scalar").into());
         }
-        if let (Some(threads @ 2..), 1) = (threads, used) {
-            let text = format!("--threads {threads} leaves the pixels on one thread");
-            log.note(&format!("{text}: drawn by {drawn_by}"));
-        }
+        let frame = match content {
+            PictureContent::Reference(_) => frame,
+            _ => in_triangles(frame, title, log),
+        };
+        Ok(RenderJob::new(frame, content, name))
     }
 
-    /// Passes the pixels of the picture, as stored in 8 bits, to `take`: row by row from the top, and where possible while it
-    /// is drawn.
-    ///
-    /// # Errors
-    /// Those of `take`.
-    pub fn rows<E>(&self, mut take: impl FnMut(&[[u8; 4]]) -> Result<(), E>) -> Result<(), E> {
-        match &self.content {
-            PictureContent::Shaded(
-                Method::Variant(variant),
-                EngineFlag::Scanlines(_),
-                _,
-                renderer,
-            ) => variant.render_rows(&self.frame, *renderer, take),
-            _ => take(self.picture(false).to_stored().pixels()),
-        }
-    }
-
-    /// Returns the name of the method, or of the quantity that is shown instead of colours.
-    pub fn name(&self) -> String {
-        match &self.content {
-            PictureContent::Shaded(method, ..) => method.to_string(),
-            PictureContent::Aov(aov, _) => aov.name(),
-        }
+    /// Returns the loops that draw the picture, with the reason if they are not those that were asked for.
+    fn drawn_by(&self) -> (DrawnBy, Option<&'static str>) {
+        let in_f64 = |engine| DrawnBy {
+            engine,
+            level: "f64",
+            threads: 1,
+        };
+        let drawn_by = match &self.content {
+            PictureContent::Scanlines(variant, renderer) => {
+                let plan = variant.plan(&self.frame, *renderer);
+                return (DrawnBy::new(plan.renderer), plan.reason);
+            }
+            PictureContent::Barycentric(..) => DrawnBy::BARYCENTRIC,
+            PictureContent::Cs171(..) => in_f64("cs171"),
+            PictureContent::Reference(_) => in_f64(REFERENCE),
+            PictureContent::Aov(..) => DrawnBy::new(Renderer::LECTURE),
+        };
+        (drawn_by, None)
     }
 
     /// Returns the name of the engine that draws.
     pub fn engine(&self) -> &'static str {
-        match &self.content {
-            PictureContent::Aov(..) => raster::Engine::Span.name(),
-            PictureContent::Shaded(Method::Reference(_), ..) => REFERENCE,
-            PictureContent::Shaded(_, EngineFlag::Barycentric(_), ..) => "barycentric",
-            PictureContent::Shaded(_, EngineFlag::Cs171 { .. }, ..) => "cs171",
-            PictureContent::Shaded(_, EngineFlag::Scanlines(_), _, renderer) => {
-                let plan = self.plan();
-                plan.map_or(*renderer, |plan| plan.renderer).engine().name()
-            }
+        self.drawn_by().0.engine
+    }
+
+    /// Logs which loops draw the picture: as a note if an engine or instruction set was `asked` for and others draw it.
+    pub fn log(&self, asked: bool, threads: Option<usize>, log: Log) {
+        let (drawn_by, reason) = self.drawn_by();
+        let shown = match drawn_by.engine {
+            REFERENCE => "the reference, f64, 1 thread".to_owned(),
+            _ => drawn_by.to_string(),
+        };
+        match reason {
+            Some(reason) if asked => log.note(&format!("drawn by {shown}: {reason}")),
+            Some(reason) => log.detail(&format!("drawn by {shown}: {reason}")),
+            None => log.detail(&format!("drawn by {shown}")),
         }
+        if let (Some(threads @ 2..), 1) = (threads, drawn_by.threads) {
+            let text = format!("--threads {threads} leaves the pixels on one thread");
+            log.note(&format!("{text}: drawn by {shown}"));
+        }
+    }
+
+    /// Writes the picture as a PPM file: row by row, and where possible while others are not yet drawn.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_ppm(&self, out: &mut dyn Write) -> io::Result<()> {
+        let [width, height] = self.size();
+        let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
+        match &self.content {
+            PictureContent::Scanlines(variant, renderer) => {
+                variant.render_rows(&self.frame, *renderer, |pixels| file.pixels(pixels))?;
+            }
+            _ => file.pixels(self.picture(false).to_stored().pixels())?,
+        }
+        file.finish()
     }
 
     /// Returns width and height of the picture in pixels.
@@ -223,56 +238,59 @@ impl RenderJob {
         if self.opaque
             && let FilePixels::Stored(stored) = &mut picture.pixels
         {
-            stored
-                .pixels_mut()
-                .iter_mut()
-                .for_each(|pixel| pixel[3] = 255);
+            stored.pixels_mut().iter_mut().for_each(|p| p[3] = 255);
         }
         picture
     }
 
     fn drawn(&self, linear: bool) -> FilePicture {
+        const HAS_METHOD: &str = "a method of the barycentric renderer";
         let frame = &self.frame;
-        let (variant, engine, renderer) = match &self.content {
-            PictureContent::Aov(aov, square) if linear => {
-                return FilePicture::linear(aov.linear(frame, *square));
+        match &self.content {
+            PictureContent::Scanlines(variant, renderer) if linear => {
+                FilePicture::linear(variant.render_linear_with(frame, *renderer))
             }
-            PictureContent::Aov(aov, square) => {
-                return FilePicture::stored(aov.stored(frame, *square));
+            PictureContent::Scanlines(variant, renderer) => {
+                // Every pixel is drawn or becomes background. Zeroed memory is untouched until the threads that draw write
+                // to it, each in rows of its own.
+                let [width, height] = self.size();
+                let mut picture = Picture8::new(width, height, [0; 4]);
+                variant.render_with(frame, *renderer, &mut picture);
+                FilePicture::stored(picture)
             }
-            PictureContent::Shaded(Method::Reference(model), ..) => {
-                let picture = reference::render(frame, *model).picture;
-                return from_f64(&picture, frame.encoding(), linear);
+            PictureContent::Barycentric(variant, edges) if linear => {
+                let picture = variant.render_barycentric_linear(frame, *edges);
+                FilePicture::linear(picture.expect(HAS_METHOD))
             }
-            PictureContent::Shaded(Method::Variant(variant), engine, _, renderer) => {
-                (variant, engine, *renderer)
+            PictureContent::Barycentric(variant, edges) => {
+                let picture = variant.render_barycentric(frame, *edges);
+                FilePicture::stored(picture.expect(HAS_METHOD))
             }
-        };
-        match engine {
-            EngineFlag::Scanlines(_) => by_scanlines(frame, variant, renderer, linear),
-            EngineFlag::Barycentric(edges) => barycentric(frame, variant, *edges, linear),
-            EngineFlag::Cs171 { normalise } => {
-                // `RenderJob::new` checked that CS171 has the method. The frame has decided which sides are left out.
-                let shading = cs171_shading(variant.info()).unwrap_or(Shading::Phong);
-                let reading = Reading {
-                    normalise: *normalise,
-                    cull: false,
-                    ..Reading::default()
-                };
-                let picture = cs171::render(frame, shading, reading);
+            PictureContent::Cs171(shading, reading) => {
+                let picture = cs171::render(frame, *shading, *reading);
                 from_f64(&picture.filtered(frame.samples()), frame.encoding(), linear)
             }
+            PictureContent::Reference(model) => {
+                let picture = reference::render(frame, *model).picture;
+                from_f64(&picture, frame.encoding(), linear)
+            }
+            PictureContent::Aov(aov, square) if linear => {
+                FilePicture::linear(aov.linear(frame, *square))
+            }
+            PictureContent::Aov(aov, square) => FilePicture::stored(aov.stored(frame, *square)),
         }
     }
 }
 
-/// Refuses an instruction set for an engine that shades one pixel at a time.
-fn refuse_simd(engine: &str, simd: Simd) -> Result<(), CliError> {
-    match simd {
-        Simd::Auto | Simd::Level(Level::Scalar) => Ok(()),
-        Simd::Level(level) => {
-            let problem = format!("{engine} goes pixel by pixel and has no `{level}`");
-            Err(format!("{problem}: expected --simd auto or scalar").into())
+/// Returns the variant, if `method` is one that the engine called `name` has.
+fn supported<'a>(method: &'a Method, name: &str, title: &str) -> Result<&'a Variant, CliError> {
+    let engine = ENGINES.iter().filter(|engine| engine.name == name);
+    let has: Vec<&str> = engine.flat_map(EngineInfo::methods).collect();
+    match method {
+        Method::Variant(variant) if has.contains(&variant.info().name) => Ok(variant),
+        _ => {
+            let problem = format!("{title} does not support the method `{method}`");
+            Err(format!("{problem}: expected one of {}", has.join(", ")).into())
         }
     }
 }
@@ -289,11 +307,9 @@ fn in_triangles(frame: Frame, engine: &str, log: Log) -> Frame {
     let done = format!("{of} polygons of more than three corners are cut into triangles");
     log.note(&format!("{done} for {engine}: {into} in all"));
     if cut.not_simple > 0 {
-        log.warning(&counted(
-            cut.not_simple,
-            "polygon crosses or overlaps itself and is left out",
-            "polygons cross or overlap themselves and are left out",
-        ));
+        let one = "polygon crosses or overlaps itself and is left out";
+        let more = "polygons cross or overlap themselves and are left out";
+        log.warning(&counted(cut.not_simple, one, more));
     }
     cut.frame
 }
@@ -308,27 +324,4 @@ fn from_f64(picture: &Picture<[f64; 4]>, encoding: Encoding, linear: bool) -> Fi
         }
         (false, Encoding::Srgb) => FilePicture::stored(store(&single(), Encoding::Srgb)),
     }
-}
-
-fn by_scanlines(frame: &Frame, variant: &Variant, renderer: Renderer, linear: bool) -> FilePicture {
-    if linear {
-        return FilePicture::linear(variant.render_linear_with(frame, renderer));
-    }
-    // Every pixel is drawn or becomes background. Zeroed memory is untouched until the threads that draw write to it, each
-    // in rows of its own.
-    let mut picture = Picture8::new(frame.picture_width(), frame.picture_height(), [0; 4]);
-    variant.render_with(frame, renderer, &mut picture);
-    FilePicture::stored(picture)
-}
-
-fn barycentric(frame: &Frame, variant: &Variant, edges: Edges, linear: bool) -> FilePicture {
-    let picture = if linear {
-        let picture = variant.render_barycentric_linear(frame, edges);
-        picture.map(FilePicture::linear)
-    } else {
-        let picture = variant.render_barycentric(frame, edges);
-        picture.map(FilePicture::stored)
-    };
-    // `RenderJob::new` checked that the barycentric renderer has the method; without it the span engine would draw.
-    picture.unwrap_or_else(|| by_scanlines(frame, variant, Renderer::LECTURE, linear))
 }

@@ -4,7 +4,7 @@ use super::CliError;
 use super::values::number;
 use fastphong::number::suggest::nearest;
 use fastphong::number::{Level, NameError};
-use fastphong::raster::{self, Edges, Renderer};
+use fastphong::raster::{Edges, Engine, Renderer};
 use fastphong::reference::cs171::Shading;
 use fastphong::shading::{Entry, Info, METHODS};
 use serde_json::{Value, json};
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EngineFlag {
     /// Scanlines, by spans or by rows; `None` is the one that suits method and frame.
-    Scanlines(Option<raster::Engine>),
+    Scanlines(ScanlineEngine),
     /// Bounding boxes and edge functions.
     Barycentric(Edges),
     /// CS171's algorithms as printed, in `f64`.
@@ -67,14 +67,14 @@ pub const ENGINES: [EngineInfo; 4] = [
 impl EngineInfo {
     /// Returns the names of the methods that it has.
     pub fn methods(&self) -> impl Iterator<Item = &'static str> {
-        let all = METHODS.iter().map(|entry| entry.info);
-        all.filter(|info| self.has(info)).map(|info| info.name)
+        let methods = METHODS.iter().filter(|method| self.has(method));
+        methods.map(|method| method.info.name)
     }
 
-    fn has(&self, info: &Info) -> bool {
+    fn has(&self, method: &Entry) -> bool {
         match self.name {
-            "barycentric" => Entry::named(info.name).is_some_and(Entry::is_barycentric),
-            "cs171" => cs171_shading(info).is_some(),
+            "barycentric" => method.is_barycentric(),
+            "cs171" => cs171_shading(method.info).is_some(),
             _ => true,
         }
     }
@@ -88,12 +88,10 @@ impl EngineInfo {
 }
 
 /// Lists the names of the engines that have a method.
-pub fn engines_with(info: &Info) -> String {
-    let names = ENGINES
-        .iter()
-        .filter(|engine| engine.has(info))
-        .map(|engine| engine.name);
-    names.collect::<Vec<_>>().join(", ")
+pub fn engines_with(method: &Entry) -> String {
+    let engines = ENGINES.iter().filter(|engine| engine.has(method));
+    let names: Vec<&str> = engines.map(|engine| engine.name).collect();
+    names.join(", ")
 }
 
 /// Returns CS171's name of a method, if it has it.
@@ -112,8 +110,8 @@ pub fn engine(text: &str) -> Result<EngineFlag, String> {
     const NAMES: [&str; 6] = ["auto", "span", "scanline", "row", "barycentric", "cs171"];
     match text {
         "auto" => return Ok(EngineFlag::Scanlines(None)),
-        "span" | "scanline" => return Ok(EngineFlag::Scanlines(Some(raster::Engine::Span))),
-        "row" => return Ok(EngineFlag::Scanlines(Some(raster::Engine::Row))),
+        "span" | "scanline" => return Ok(EngineFlag::Scanlines(Some(Engine::Span))),
+        "row" => return Ok(EngineFlag::Scanlines(Some(Engine::Row))),
         "barycentric" | "barycentric:edges=top-left" => {
             return Ok(EngineFlag::Barycentric(Edges::TopLeft));
         }
@@ -122,7 +120,6 @@ pub fn engine(text: &str) -> Result<EngineFlag, String> {
         "cs171:normals=as-printed" => return Ok(EngineFlag::Cs171 { normalise: false }),
         _ => {}
     }
-    let expected = "expected `auto`, `span`, `row`, `barycentric` or `cs171`";
     Err(match (text.split_once(':'), nearest(text, NAMES)) {
         (Some(("barycentric", _)), _) => "expected edges=top-left or edges=closed".to_owned(),
         (Some(("cs171", _)), _) => "expected normals=unit or normals=as-printed".to_owned(),
@@ -130,31 +127,32 @@ pub fn engine(text: &str) -> Result<EngineFlag, String> {
             format!("the engine `{name}` has no parameters")
         }
         (_, Some(near)) => format!("unknown engine: did you mean `{near}`?"),
-        (_, None) => format!("unknown engine: {expected}"),
+        _ => "unknown engine: expected `auto`, `span`, `row`, `barycentric` or `cs171`".to_owned(),
     })
 }
 
 /// A scanline engine, which can be compared with the barycentric renderer; `None` is `auto`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ScanlineEngine(pub Option<raster::Engine>);
+pub type ScanlineEngine = Option<Engine>;
 
 /// Reads `auto`, `span` (or `scanline`) or `row`.
 pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
     let problem = match engine(text) {
-        Ok(EngineFlag::Scanlines(engine)) => return Ok(ScanlineEngine(engine)),
+        Ok(EngineFlag::Scanlines(engine)) => return Ok(engine),
         Ok(EngineFlag::Barycentric(_)) => "every comparison has it already",
         Ok(EngineFlag::Cs171 { .. }) | Err(_) => "unknown engine",
     };
     Err(format!("{problem}: expected `auto`, `span` or `row`"))
 }
 
-/// An instruction set that a user can ask for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Simd {
-    /// The best that this machine has.
-    Auto,
-    /// This one, which the machine has.
-    Level(Level),
+/// An instruction set of this machine; `None` is `auto`, the best.
+pub type Simd = Option<Level>;
+
+/// Reads `auto`, or an instruction set of this machine.
+pub fn simd(text: &str) -> Result<Simd, NameError> {
+    match text {
+        "auto" => Ok(None),
+        name => name.parse().map(Some),
+    }
 }
 
 /// Returns the renderer that an engine and an instruction set name together; `default` if neither is named.
@@ -168,78 +166,35 @@ pub fn renderer(
     simd: Option<Simd>,
     default: Renderer,
 ) -> Result<Renderer, String> {
-    use raster::Engine::{Row, Span};
-    let level = match simd {
-        None if engine.is_none() => return Ok(default),
-        Some(Simd::Level(level)) => Some(level),
-        _ => None,
-    };
-    let problem = match (engine.and_then(|engine| engine.0), level) {
-        (None, None) => return Ok(Renderer::fastest()),
-        (None, Some(level)) => return Ok(Renderer::on(level)),
-        (Some(Span), None | Some(Level::Scalar)) => return Ok(Renderer::Span),
-        (Some(Span), Some(level)) => &*format!(
+    if engine.is_none() && simd.is_none() {
+        return Ok(default);
+    }
+    let problem = match (engine.flatten(), simd.flatten()) {
+        (Some(Engine::Span), None | Some(Level::Scalar)) => return Ok(Renderer::Span),
+        (Some(Engine::Span), Some(level)) => &*format!(
             "the span engine goes one pixel at a time: use `--engine row --simd {level}`, or `--engine span --simd scalar`"
         ),
-        (Some(Row), Some(Level::Scalar)) => {
+        (Some(Engine::Row), Some(Level::Scalar)) => {
             "the row engine runs on SIMD: use `--engine span --simd scalar` for one pixel at a time, or `--simd auto`"
         }
-        (Some(Row), Some(level)) => return Ok(Renderer::Row(level)),
-        (Some(Row), None) => match Renderer::fastest() {
-            row @ Renderer::Row(_) => return Ok(row),
-            Renderer::Span => {
+        (engine, level) => match (engine, Renderer::on(level.unwrap_or_else(Level::best))) {
+            (Some(Engine::Row), Renderer::Span) => {
                 "the row engine runs on SIMD, which this machine does not have: use `--engine span`"
             }
+            (_, renderer) => return Ok(renderer),
         },
     };
     Err(problem.to_owned())
 }
 
-/// Reads `auto`, or an instruction set of this machine.
-pub fn simd(text: &str) -> Result<Simd, String> {
-    if text == "auto" {
-        return Ok(Simd::Auto);
-    }
-    let level = text.parse().map_err(|error: NameError| error.to_string());
-    level.map(Simd::Level)
-}
-
 /// Instruction sets; empty for all that the engine runs on.
-#[derive(Clone, Debug)]
-pub struct SimdList(Vec<Simd>);
+pub type SimdList = Vec<Simd>;
 
 /// Reads instruction sets of this machine between commas, or `all` that it has.
-pub fn simd_list(text: &str) -> Result<SimdList, String> {
-    if text == "all" {
-        return Ok(SimdList(Vec::new()));
-    }
-    let levels: Result<_, _> = text.split(',').map(|name| simd(name.trim())).collect();
-    levels.map(SimdList)
-}
-
-impl SimdList {
-    /// Returns the [`renderer`] of each instruction set with an engine, each once.
-    ///
-    /// # Errors
-    /// As [`renderer`].
-    pub fn renderers(&self, engine: Option<ScanlineEngine>) -> Result<Vec<Renderer>, String> {
-        let asked = engine.and_then(|engine| engine.0);
-        let is_asked = |renderer: &Renderer| asked.is_none_or(|e| e == renderer.engine());
-        let mut renderers: Vec<Renderer> = Renderer::available().filter(is_asked).collect();
-        let named = match &self.0[..] {
-            // A machine without any of them gives the error of `auto`.
-            [] if renderers.is_empty() => &[Simd::Auto],
-            [] => return Ok(renderers),
-            named => named,
-        };
-        renderers.clear();
-        for simd in named {
-            let renderer = renderer(engine, Some(*simd), Renderer::LECTURE)?;
-            if !renderers.contains(&renderer) {
-                renderers.push(renderer);
-            }
-        }
-        Ok(renderers)
+pub fn simd_list(text: &str) -> Result<SimdList, NameError> {
+    match text {
+        "all" => Ok(Vec::new()),
+        names => names.split(',').map(|name| simd(name.trim())).collect(),
     }
 }
 
@@ -271,7 +226,7 @@ impl LectureFlags {
 /// The number of threads.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ThreadFlags {
-    /// Threads, 1 to 1024 [default: one a processor]; comparisons by the lecture's span engine take one
+    /// Threads, 1 to 1024 [default: one per processor]; comparisons by the lecture's span engine take one
     #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
     pub threads: Option<usize>,
 }
@@ -297,8 +252,7 @@ impl ThreadFlags {
         // 0 stands for as many as there are processors.
         let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
         let pool = builder.stack_size(STACK).build().map_err(|error| {
-            let threads = self.threads.map(|threads| format!("{threads} "));
-            let threads = threads.unwrap_or_default();
+            let threads = self.threads.map_or_else(String::new, |n| format!("{n} "));
             format!("{threads}threads cannot be started: {error}")
         })?;
         Ok(pool.install(work))

@@ -3,10 +3,7 @@
 use super::CliError;
 use super::engines::ThreadFlags;
 use super::measured::TimingFlags;
-use fastphong::compare::experiments::{
-    ExperimentError, Scaling, ScalingOptions, SpeedupOptions, Speedups,
-};
-use fastphong::compare::timing::TimeLimits;
+use fastphong::compare::experiments::{Scaling, ScalingOptions, SpeedupOptions, Speedups};
 use fastphong::number::suggest::nearest;
 
 /// The experiments to make.
@@ -18,32 +15,23 @@ pub struct Experiments {
 
 /// Reads experiments between commas, `all` or `none`.
 pub fn experiments(text: &str) -> Result<Experiments, String> {
-    let mut experiments = Experiments::default();
-    for name in text.split(',').map(str::trim) {
-        match name {
-            "speedups" => experiments.speedups = true,
-            "scaling" => experiments.scaling = true,
-            "all" if text == "all" => return Ok(Experiments::ALL),
-            "none" if text == "none" => {}
-            _ => {
-                let expected = match nearest(name, ["speedups", "scaling"]) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => "expected `speedups` or `scaling`".to_owned(),
-                };
-                return Err(format!("unknown study `{name}`: {expected}"));
-            }
-        }
+    const NAMES: [&str; 2] = ["speedups", "scaling"];
+    let names = match text {
+        "all" => NAMES.to_vec(),
+        "none" => Vec::new(),
+        names => names.split(',').map(str::trim).collect(),
+    };
+    let [speedups, scaling] = NAMES.map(|name| names.contains(&name));
+    match names.iter().find(|name| !NAMES.contains(name)) {
+        None => Ok(Experiments { speedups, scaling }),
+        Some(unknown) => Err(match nearest(unknown, NAMES) {
+            Some(near) => format!("unknown study `{unknown}`: did you mean `{near}`?"),
+            None => format!("unknown study `{unknown}`: expected `speedups` or `scaling`"),
+        }),
     }
-    Ok(experiments)
 }
 
 impl Experiments {
-    /// Both.
-    pub const ALL: Experiments = Experiments {
-        speedups: true,
-        scaling: true,
-    };
-
     /// Returns how many scenes take as long, about.
     pub fn scenes(self) -> f32 {
         3.0 * f32::from(self.speedups) + 6.0 * f32::from(self.scaling)
@@ -59,38 +47,24 @@ impl Experiments {
         timing: &TimingFlags,
         progress: &(dyn Fn(f32, &str) + Sync),
     ) -> Result<(Option<Speedups>, Option<Scaling>), CliError> {
-        let (methods, all) = (&timing.methods.0, self.scenes());
+        let (methods, all) = (&timing.methods, self.scenes());
+        let (mut speedups, mut scaling) = (SpeedupOptions::default(), ScalingOptions::default());
+        speedups.limits.time_budget = timing.time_budget.saturating_mul(3);
+        scaling.limits.time_budget = timing.time_budget / 8;
         let speedups = || {
-            let defaults = SpeedupOptions::default();
-            let limits = TimeLimits {
-                time_budget: timing.time_budget.saturating_mul(3),
-                ..defaults.limits
-            };
-            Speedups::measure(
-                methods,
-                &SpeedupOptions { limits, ..defaults },
-                &mut |part, next| progress(3.0 * part / all, &format!("speedups: {next}")),
-            )
+            let mut hear =
+                |part, next: &str| progress(3.0 * part / all, &format!("speedups: {next}"));
+            Speedups::measure(methods, &speedups, &mut hear)
         };
         let scaling = || {
-            let defaults = ScalingOptions::default();
-            let limits = TimeLimits {
-                time_budget: timing.time_budget / 8,
-                ..defaults.limits
-            };
-            Scaling::measure(
-                methods,
-                &ScalingOptions { limits, ..defaults },
-                &mut |part, next| {
-                    progress(1.0 - 6.0 / all * (1.0 - part), &format!("scaling: {next}"))
-                },
-            )
+            let part = |part| 1.0 - 6.0 / all * (1.0 - part);
+            let mut hear = |done, next: &str| progress(part(done), &format!("scaling: {next}"));
+            Scaling::measure(methods, &scaling, &mut hear)
         };
-        let made = ThreadFlags { threads: Some(1) }.install(|| {
+        ThreadFlags { threads: Some(1) }.install(|| {
             let speedups = self.speedups.then(speedups).transpose()?;
             let scaling = self.scaling.then(scaling).transpose()?;
-            Ok::<_, ExperimentError>((speedups, scaling))
-        })?;
-        made.map_err(|error| error.to_string().into())
+            Ok((speedups, scaling))
+        })?
     }
 }

@@ -2,16 +2,14 @@
 
 use super::engines::engines_with;
 use super::list::{exactness, method_json};
-use super::log::{json_to_stdout, to_stdout};
 use super::text::wrapped;
-use super::{CliError, Outcome};
+use super::{CliError, Outcome, done};
 use fastphong::compare::comparison::parameter_json;
-use fastphong::compare::table::aligned;
-use fastphong::number::Counts;
+use fastphong::compare::table::Table;
 use fastphong::report::{OPERATIONS, RATES};
 use fastphong::scene::{Falloff, Interpolation, input};
 use fastphong::shading::{OperationCounts, SpanBench, Variant};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 /// Explain a shading method: formula, source, cost, tolerance, where it fails
 #[derive(clap::Args, Debug)]
@@ -27,20 +25,16 @@ pub struct ExplainArgs {
     json: bool,
 }
 
-/// The numbers of lights that operations are counted for.
-const LIGHTS: [usize; 2] = [1, 4];
-
-/// The numbers of lights at positions that operations are counted for, with the eye at a position, too.
-const LIGHTS_AT_POSITIONS: [usize; 2] = [1, 2];
+/// The cases that operations are counted for: the number of lights; true if these and the eye are at positions.
+const CASES: [(usize, bool); 4] = [(1, false), (4, false), (1, true), (2, true)];
 
 impl ExplainArgs {
     /// Prints the explanation.
     pub fn run(&self) -> Result<Outcome, CliError> {
-        match self.json {
-            true => json_to_stdout(&self.json()?)?,
-            false => to_stdout(self.text()?.as_bytes())?,
-        }
-        Ok(Outcome::Done)
+        done(&match self.json {
+            true => format!("{:#}\n", self.json()?),
+            false => self.text()?,
+        })
     }
 
     /// Explains the method in text.
@@ -52,21 +46,19 @@ impl ExplainArgs {
         let formula = info.formula.lines().map(|line| format!("  {line}\n"));
         section("formula", &formula.collect::<String>());
         section("source", &wrapped(info.source, 2));
-        let s = |lights| if lights == 1 { "" } else { "s" };
-        for lights in &LIGHTS[..if self.all { 2 } else { 1 }] {
-            let title = format!("operations with {lights} light{}, as counted", s(*lights));
-            section(&title, &costs(&self.method.operations(*lights)));
-        }
-        for lights in LIGHTS_AT_POSITIONS.into_iter().filter(|_| self.all) {
-            let lights_and_eye = format!("{lights} light{} and eye at positions", s(lights));
-            let title = format!("operations with {lights_and_eye}, as counted");
-            section(&title, &costs(&self.at_positions(lights)));
+        for &(lights, at_positions) in &CASES[..if self.all { CASES.len() } else { 1 }] {
+            let s = if lights == 1 { "" } else { "s" };
+            let there = " and eye at positions";
+            let eye = if at_positions { there } else { "" };
+            let title = format!("operations with {lights} light{s}{eye}, as counted");
+            section(&title, &costs(&self.operations(lights, at_positions)));
         }
         section("tolerance", &wrapped(&self.tolerance()?, 2));
         section("where it fails", &wrapped(info.fails, 2));
         section("perspective", &wrapped(info.perspective.sentence(), 2));
         section("lights at positions", &wrapped(info.local.sentence(), 2));
-        section("engines", &format!("  {}\n", engines_with(info)));
+        let engines = engines_with(self.method.entry());
+        section("engines", &format!("  {engines}\n"));
         let mut parameters = String::new();
         for (p, value) in info.parameters.iter().zip(self.method.parameters()) {
             let (value, default) = (p.text(*value), p.text(p.default));
@@ -84,8 +76,11 @@ impl ExplainArgs {
         Ok(text)
     }
 
-    /// Counts the operations with `lights` lights and the eye at positions, no falloff, varyings linear on the screen.
-    fn at_positions(&self, lights: usize) -> OperationCounts {
+    /// Counts the operations with `lights` lights. At positions, they have no falloff, and varyings are linear on the screen.
+    fn operations(&self, lights: usize, at_positions: bool) -> OperationCounts {
+        if !at_positions {
+            return self.method.operations(lights);
+        }
         // The angle of the span's normals does not change the counts.
         let span = SpanBench::local(20.0, lights, Falloff::None, Interpolation::Screen);
         self.method.operations_on(&span)
@@ -103,10 +98,13 @@ impl ExplainArgs {
     /// Returns the explanation as data.
     fn json(&self) -> Result<Value, CliError> {
         let info = self.method.info();
-        let mut json = method_json(info);
-        let by_lights = |lights: [usize; 2], of: &dyn Fn(usize) -> OperationCounts| -> Value {
-            let costs = lights.map(|n| (n.to_string(), costs_json(&of(n))));
-            costs.into_iter().collect::<Map<_, _>>().into()
+        let mut json = method_json(self.method.entry());
+        let by_lights = |at_positions: bool| -> Value {
+            let cases = CASES.iter().filter(|(_, there)| *there == at_positions);
+            let costs = |&(n, there): &(usize, bool)| costs_json(&self.operations(n, there));
+            cases
+                .map(|case| (case.0.to_string(), costs(case)))
+                .collect()
         };
         json["variant"] = self.method.to_string().into();
         let values = info.parameters.iter().zip(self.method.parameters());
@@ -115,9 +113,8 @@ impl ExplainArgs {
         json["derivation"] = info.derivation.into();
         json["fails"] = info.fails.into();
         json["example_bound"] = json!({ "scene": EXAMPLE, "bound": example_bound(&self.method)? });
-        json["operations_by_lights"] = by_lights(LIGHTS, &|lights| self.method.operations(lights));
-        json["operations_by_lights_at_positions"] =
-            by_lights(LIGHTS_AT_POSITIONS, &|lights| self.at_positions(lights));
+        json["operations_by_lights"] = by_lights(false);
+        json["operations_by_lights_at_positions"] = by_lights(true);
         Ok(json)
     }
 }
@@ -132,9 +129,9 @@ fn example_bound(method: &Variant) -> Result<f64, CliError> {
 
 /// Returns counted operations as a table.
 fn costs(counts: &OperationCounts) -> String {
+    let mut table = Table::new("", &["  per"]);
     let names = OPERATIONS.iter().map(|(name, ..)| (*name).to_owned());
-    let head = std::iter::once("  per".to_owned()).chain(names);
-    let mut lines: Vec<Vec<String>> = vec![head.collect()];
+    table.head.extend(names);
     for (_, rate, of) in RATES {
         let counts = of(counts);
         // Dots in place of zeros: the operations that are done stand out.
@@ -142,23 +139,18 @@ fn costs(counts: &OperationCounts) -> String {
             0 => ".".to_owned(),
             n => n.to_string(),
         });
-        lines.push(std::iter::once(format!("  {rate}")).chain(cells).collect());
+        let row = std::iter::once(format!("  {rate}")).chain(cells);
+        table.rows.push(row.collect());
     }
-    aligned(&lines, &[0])
+    table.text()
 }
 
 /// Returns counted operations as data.
 fn costs_json(counts: &OperationCounts) -> Value {
-    let operations = |counts: Counts| -> Value {
-        let counts = OPERATIONS.iter().map(|(name, _, of)| (*name, of(&counts)));
-        counts
-            .map(|(name, n)| (name.to_owned(), json!(n)))
-            .collect::<Map<_, _>>()
-            .into()
-    };
     let rates = RATES.iter().map(|(_, rate, of)| {
-        let name = rate.replace(": ", "_").replace(' ', "_");
-        (name, operations(of(counts)))
+        let (rate, counts) = (rate.replace(": ", "_").replace(' ', "_"), of(counts));
+        let operations = OPERATIONS.iter().map(|(name, _, of)| (*name, of(&counts)));
+        (rate, operations.collect::<Value>())
     });
-    rates.collect::<Map<_, _>>().into()
+    rates.collect()
 }

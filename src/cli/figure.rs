@@ -1,13 +1,13 @@
 //! `fastphong figure`: figures of the lectures, made anew, as one page.
 
-use super::log::{Log, to_stdout};
 use super::measured::command_line;
 use super::progress::Progress;
-use super::{CliError, Outcome};
+use super::{CliError, Log, Outcome, done};
 use fastphong::lectures::{FIGURES, Figure};
 use fastphong::picture::image_file::write_file;
 use fastphong::report::{Document, FigureData, Report};
 use rayon::prelude::*;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -34,7 +34,7 @@ impl FigureArgs {
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let figures = match self.all {
             true => FIGURES.to_vec(),
-            false => distinct(self.names.iter().copied()),
+            false => distinct(self.names.clone()),
         };
         let page = match (&self.output, &figures[..]) {
             (Some(file), _) => file.clone(),
@@ -59,20 +59,18 @@ impl FigureArgs {
                 written += &format!("{}\n", path.display());
             }
         }
-        to_stdout(written.as_bytes())?;
-        Ok(Outcome::Done)
+        done(&written)
     }
 }
 
+/// Figures of the lectures.
+pub type Figures = Vec<&'static Figure>;
+
 /// Returns each of `figures` once.
-pub fn distinct(figures: impl Iterator<Item = &'static Figure>) -> Vec<&'static Figure> {
-    let mut distinct: Vec<&'static Figure> = Vec::new();
-    for figure in figures {
-        if distinct.iter().all(|other| other.name != figure.name) {
-            distinct.push(figure);
-        }
-    }
-    distinct
+pub fn distinct(mut figures: Figures) -> Figures {
+    let mut names = HashSet::new();
+    figures.retain(|figure| names.insert(figure.name));
+    figures
 }
 
 /// Draws `figures` on all threads of the current pool; `progress` hears which part is done and which was drawn.
@@ -85,13 +83,11 @@ pub fn draw_figures(
 ) -> Result<Vec<FigureData>, CliError> {
     let done = AtomicUsize::new(0);
     let draw = |figure: &&'static Figure| {
-        let content = figure.make();
-        let content = content.map_err(|error| format!("figure {}: {error}", figure.name))?;
+        let failed = |error| format!("figure {}: {error}", figure.name);
+        let content = figure.make().map_err(failed)?;
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress(
-            done as f32 / figures.len() as f32,
-            &format!("figure {}", figure.name),
-        );
+        let part = done as f32 / figures.len() as f32;
+        progress(part, &format!("figure {}", figure.name));
         Ok(FigureData { figure, content })
     };
     figures.par_iter().map(draw).collect()
@@ -105,9 +101,7 @@ pub fn page_folder(page: &Path) -> Result<PathBuf, CliError> {
         let reason = "it is a folder: expected a file, such as report/index.html";
         return Err(refused(reason).into());
     }
-    if !folder.as_os_str().is_empty() {
-        std::fs::create_dir_all(&folder).map_err(|error| refused(&error.to_string()))?;
-    }
+    std::fs::create_dir_all(&folder).map_err(|error| refused(&error.to_string()))?;
     Ok(folder)
 }
 

@@ -26,7 +26,7 @@ const WHAT_IS_TIMED: &str = "from the prepared scene to the stored picture in RG
 const MOST_FRAMES: usize = 1_000_000;
 
 /// The numbers of frames.
-#[derive(clap::Args, Clone, Copy, Debug)]
+#[derive(clap::Args, Clone, Copy, Debug, Serialize)]
 pub struct FrameCount {
     /// Frames of each method that are timed, 1 to 1000000
     #[arg(long, value_name = "N", default_value = "60", value_parser = |text: &str| frames(text, 1), allow_hyphen_values = true, requires = "frame_times")]
@@ -53,16 +53,13 @@ struct FrameTime {
     level: &'static str,
     threads: usize,
     reason: Option<&'static str>,
-    frames: usize,
-    warmup: usize,
+    #[serde(flatten)]
+    count: FrameCount,
     ms_median: f64,
     ms_min: f64,
 }
 
-/// The frames of all methods on all scenes.
-pub struct FrameTimes(Vec<FrameTime>);
-
-/// Draws and times, one method after the other, by each renderer.
+/// Draws and times, one method after the other, by each renderer; returns the times as text and as JSON.
 ///
 /// # Errors
 /// When an input cannot be loaded or drawn.
@@ -70,7 +67,7 @@ pub fn frame_times(
     of: &Measurement<'_>,
     methods: &[Variant],
     count: FrameCount,
-) -> Result<FrameTimes, CliError> {
+) -> Result<(String, String), CliError> {
     let turns = of.inputs.len() * of.renderers.len() * methods.len();
     let mut times: Vec<FrameTime> = Vec::with_capacity(turns);
     of.each_scene(|name, scene, progress| {
@@ -92,7 +89,7 @@ pub fn frame_times(
         }
         Ok(())
     })?;
-    Ok(FrameTimes(times))
+    Ok((times.iter().map(FrameTime::line).collect(), json(&times)))
 }
 
 impl FrameTime {
@@ -102,19 +99,19 @@ impl FrameTime {
         scene: &PreparedScene,
         variant: &Variant,
         renderer: Renderer,
-        FrameCount { frames, warmup }: FrameCount,
+        count: FrameCount,
     ) -> Result<FrameTime, FrameError> {
         let mut frame = scene.frame()?;
         let plan = variant.plan(&frame, renderer);
         let mut picture = Picture8::new(0, 0, [0; 4]);
-        let mut samples = Vec::with_capacity(frames);
-        for number in 0..warmup + frames {
+        let mut samples = Vec::with_capacity(count.frames);
+        for number in 0..count.warmup + count.frames {
             let started = Instant::now();
             black_box(scene).frame_into(&mut frame)?;
             variant.render_with(&frame, renderer, &mut picture);
             let spent = started.elapsed();
             black_box(&mut picture);
-            if number >= warmup {
+            if number >= count.warmup {
                 samples.push(spent.as_nanos() as f64);
             }
         }
@@ -128,48 +125,33 @@ impl FrameTime {
             level: plan.renderer.level().name(),
             threads: rayon::current_num_threads(),
             reason: plan.reason,
-            frames,
-            warmup,
+            count,
             ms_median: timing.median_ns / 1e6,
             ms_min: timing.min_ns / 1e6,
         })
     }
 
+    /// Writes the line of a method.
     fn line(&self) -> String {
-        let drawn = format!(
-            "{} {}x{} {}",
-            self.input, self.width, self.height, self.method
-        );
-        let by = format!(
-            "engine {} level {} threads {}",
-            self.engine, self.level, self.threads
-        );
-        let times = format!("ms_median {:.4} ms_min {:.4}", self.ms_median, self.ms_min);
-        format!("{drawn} {by} frames {} {times}\n", self.frames)
+        let (input, method, engine, level) = (&self.input, &self.method, self.engine, self.level);
+        let (width, height, threads) = (self.width, self.height, self.threads);
+        let (frames, median, least) = (self.count.frames, self.ms_median, self.ms_min);
+        let drawn = format!("{input} {width}x{height} {method} engine {engine} level {level}");
+        let times = format!("ms_median {median:.4} ms_min {least:.4}");
+        format!("{drawn} threads {threads} frames {frames} {times}\n")
     }
 }
 
-impl FrameTimes {
-    /// Writes a line a method.
-    pub fn text(&self) -> String {
-        self.0.iter().map(FrameTime::line).collect()
-    }
-
-    /// Writes JSON, in which each method stands on a line of its own, too.
-    pub fn json(&self) -> String {
-        let head = [
-            ("schema", json!(SCHEMA)),
-            ("command_line", json!(command_line())),
-            ("machine", json!(Machine::this())),
-            ("timed", json!(WHAT_IS_TIMED)),
-        ];
-        let head = head.map(|(name, value)| format!("  \"{name}\": {value},\n"));
-        let lines: Vec<String> = self
-            .0
-            .iter()
-            .map(|time| format!("    {}", json!(time)))
-            .collect();
-        let (head, lines) = (head.concat(), lines.join(",\n"));
-        format!("{{\n{head}  \"frame_times\": [\n{lines}\n  ]\n}}\n")
-    }
+/// Writes JSON, in which each method stands on a line of its own, too.
+fn json(times: &[FrameTime]) -> String {
+    let head = [
+        ("schema", json!(SCHEMA)),
+        ("command_line", json!(command_line())),
+        ("machine", json!(Machine::this())),
+        ("timed", json!(WHAT_IS_TIMED)),
+    ];
+    let head = head.map(|(name, value)| format!("  \"{name}\": {value},\n"));
+    let lines = times.iter().map(|time| format!("    {}", json!(time)));
+    let (head, lines) = (head.concat(), lines.collect::<Vec<_>>().join(",\n"));
+    format!("{{\n{head}  \"frame_times\": [\n{lines}\n  ]\n}}\n")
 }

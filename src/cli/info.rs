@@ -1,17 +1,15 @@
 //! `fastphong info`: the parts of a scene or a mesh, with their facts.
 
-use super::auto::{AutoChoice, auto_choices};
-use super::log::{Log, json_to_stdout, to_stdout};
 use super::mesh_facts::{MeshFacts, PLANAR};
 use super::scene_flags::SceneFlags;
 use super::text::{counted, grouped, wrapped};
-use super::{CliError, Outcome};
-use fastphong::compare::table::aligned;
+use super::{CliError, Log, Outcome, done};
+use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
-use fastphong::raster::Renderer;
+use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{Object, Projection, Scene, input};
-use fastphong::shading::Variant;
+use fastphong::shading::{METHODS, Variant};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -59,21 +57,18 @@ impl InfoArgs {
         let objects = scene.objects.iter().zip(file.meshes());
         let objects: Vec<ObjectFacts> = objects.map(&mut object).collect();
         let frame = scene.frame()?;
-        let choices = auto_choices(&frame);
-        let method = Variant::auto(&frame, Renderer::fastest());
         let facts = SceneFacts {
             input: &self.input,
             file: &file,
             scene,
             objects,
-            choices,
-            method,
+            choices: auto_choices(&frame),
+            method: Variant::auto(&frame, Renderer::fastest()),
         };
-        match self.json {
-            true => json_to_stdout(&facts.json()),
-            false => to_stdout(facts.text().as_bytes()),
-        }?;
-        Ok(Outcome::Done)
+        done(&match self.json {
+            true => format!("{:#}\n", facts.json()),
+            false => facts.text(),
+        })
     }
 }
 
@@ -117,10 +112,10 @@ impl SceneFacts<'_> {
 
     /// Describes the scene in text.
     fn text(&self) -> String {
-        let (scene, file, (method, why)) = (self.scene, self.file, &self.method);
-        let objects = &self.objects;
-        let title = file.title().map(|title| format!(": {title}"));
-        let title = title.unwrap_or_default();
+        let (input, scene, file, (method, why)) = (self.input, self.scene, self.file, &self.method);
+        let title = file
+            .title()
+            .map_or_else(String::new, |title| format!(": {title}"));
         let description = wrapped(file.description().unwrap_or_default(), 2);
         let camera = &scene.camera;
         let projection = match camera.projection {
@@ -130,28 +125,24 @@ impl SceneFacts<'_> {
             Projection::Perspective { fovy } => format!("perspective, {fovy} degrees"),
         };
         let [eye, target] = [camera.eye, camera.target].map(|p| point(p.to_array()));
-        let polygons = objects.iter().map(|o| o.facts.polygons).sum();
+        let (width, height, lights) = (scene.width, scene.height, scene.lights.len());
+        let count = self.objects.len();
+        let polygons = self.objects.iter().map(|o| o.facts.polygons).sum();
         let polygons = counted(polygons, "polygon", "polygons");
-        let mut rows = vec![
-            row("picture", format!("{} x {}", scene.width, scene.height)),
-            row("camera", format!("at {eye}, toward {target}; {projection}")),
-            row("lights", scene.lights.len().to_string()),
-            row("objects", format!("{}, {polygons} in all", objects.len())),
-            row("method", format!("{method} (chosen by auto: {why})")),
-        ];
-        for (i, choice) in self.choices.iter().enumerate() {
-            rows.push(row(if i == 0 { "auto" } else { "" }, choice.text()));
-        }
-        let mut text = format!("{}{title}\n{description}", self.input) + &aligned(&rows, &[0, 1]);
-        for object in objects {
-            text += &format!("\n{}\n{}", object.mesh, object.text());
-        }
-        text
+        let choices = self.choices.iter().map(AutoChoice::text);
+        let choices = choices.collect::<Vec<_>>().join("\n           ");
+        let objects: String = self.objects.iter().map(ObjectFacts::text).collect();
+        format!(
+            "{input}{title}
+{description}  picture  {width} x {height}
+  camera   at {eye}, toward {target}; {projection}
+  lights   {lights}
+  objects  {count}, {polygons} in all
+  method   {method} (chosen by auto: {why})
+  auto     {choices}
+{objects}"
+        )
     }
-}
-
-fn row(name: &str, value: impl Into<String>) -> [String; 2] {
-    [format!("  {name}"), value.into()]
 }
 
 fn point(p: [f64; 3]) -> String {
@@ -166,22 +157,17 @@ impl ObjectFacts<'_> {
         let sides = facts.polygons_by_sides.iter();
         let sides = sides.map(|(sides, count)| format!("{} of {sides} sides", grouped(*count)));
         let sides = sides.collect::<Vec<_>>().join(", ");
+        let shared = "non-manifold (three polygons or more)";
         let odd = [
             (facts.open_edges, "open"),
-            (
-                facts.non_manifold_edges,
-                "non-manifold (three polygons or more)",
-            ),
+            (facts.non_manifold_edges, shared),
             (facts.reversed_edges, "between polygons wound differently"),
         ];
         let odd = odd.iter().filter(|(count, _)| *count > 0);
-        let odd: Vec<String> = odd
-            .map(|(count, kind)| format!("{} {kind}", grouped(*count)))
-            .collect();
-        let closed = if facts.closed {
-            "closed"
-        } else {
-            &odd.join(", ")
+        let odd = odd.map(|(count, kind)| format!("{} {kind}", grouped(*count)));
+        let closed = match facts.closed {
+            true => "closed".to_owned(),
+            false => odd.collect::<Vec<_>>().join(", "),
         };
         let materials = match (facts.materials, facts.polygons_without_material) {
             (0, _) => "none of its own".to_owned(),
@@ -192,28 +178,25 @@ impl ObjectFacts<'_> {
             [facts.polygons, facts.degenerate, facts.not_planar].map(grouped);
         let [vertices, positions, edges] =
             [facts.vertices, facts.positions, facts.edges].map(grouped);
-        let share = 100.0 * PLANAR;
-        let mut rows = vec![
-            row("polygons", format!("{polygons}: {sides}")),
-            row("degenerate", format!("{degenerate} without area")),
-            row("concave", grouped(facts.concave)),
-            row(
-                "not planar",
-                format!("{bent} by more than {share} % of their extent"),
-            ),
-            row(
-                "vertices",
-                format!("{vertices} places, {positions} positions"),
-            ),
-            row("edges", format!("{edges}: {closed}")),
-        ];
-        if let Some([low, high]) = facts.bounds {
-            rows.push(row("bounds", format!("{} to {}", point(low), point(high))));
-        }
-        rows.push(row("materials", materials));
-        rows.push(row("normals", &*self.normals));
-        rows.push(row("memory", format!("{} bytes", grouped(facts.bytes))));
-        aligned(&rows, &[0, 1])
+        let [concave, bytes] = [facts.concave, facts.bytes].map(grouped);
+        let bounds = facts.bounds.map_or_else(String::new, |[low, high]| {
+            format!("\n  bounds      {} to {}", point(low), point(high))
+        });
+        let (mesh, normals, share) = (self.mesh, &self.normals, 100.0 * PLANAR);
+        format!(
+            "
+{mesh}
+  polygons    {polygons}: {sides}
+  degenerate  {degenerate} without area
+  concave     {concave}
+  not planar  {bent} by more than {share} % of their extent
+  vertices    {vertices} places, {positions} positions
+  edges       {edges}: {closed}{bounds}
+  materials   {materials}
+  normals     {normals}
+  memory      {bytes} bytes
+"
+        )
     }
 }
 
@@ -223,8 +206,43 @@ fn normals(source: NormalSource, given: bool) -> String {
         (NormalSource::Given, true) => "given with the mesh".to_owned(),
         (NormalSource::Given, false) => "averaged: the mesh has none".to_owned(),
         (NormalSource::Averaged, _) => "averaged".to_owned(),
-        (NormalSource::Crease(degrees), _) => {
-            format!("averaged up to a crease of {degrees} degrees")
+        (NormalSource::Crease(angle), _) => format!("averaged up to a crease of {angle} degrees"),
+    }
+}
+
+/// An engine and an instruction set that `auto` chooses, and the methods that it chooses them for.
+struct AutoChoice {
+    plan: Plan,
+    methods: Vec<&'static str>,
+}
+
+/// Returns the choices of `--engine auto --simd auto` on this machine: each once, in the order of the methods.
+fn auto_choices(frame: &Frame) -> Vec<AutoChoice> {
+    let mut choices: Vec<AutoChoice> = Vec::new();
+    for entry in METHODS {
+        let plan = entry.variant().plan(frame, Renderer::fastest());
+        let methods = vec![entry.info.name];
+        match choices.iter_mut().find(|choice| choice.plan == plan) {
+            Some(choice) => choice.methods.extend(methods),
+            None => choices.push(AutoChoice { plan, methods }),
         }
+    }
+    choices
+}
+
+impl AutoChoice {
+    /// Writes the choice in words.
+    fn text(&self) -> String {
+        let Plan { renderer, reason } = self.plan;
+        let (engine, level) = (renderer.engine(), renderer.level());
+        let reason = reason.map_or(String::new(), |reason| format!(" ({reason})"));
+        format!("{engine}, {level}: {}{reason}", self.methods.join(", "))
+    }
+
+    /// Returns the choice as data.
+    fn json(&self) -> Value {
+        let Plan { renderer, reason } = self.plan;
+        let (engine, level) = (renderer.engine().name(), renderer.level().name());
+        json!({ "engine": engine, "level": level, "reason": reason, "methods": self.methods })
     }
 }

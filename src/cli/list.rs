@@ -1,13 +1,12 @@
 //! `fastphong list`: everything that has a name, each from its own table.
 
 use super::engines::{ENGINES, EngineInfo, engines_with};
-use super::log::{json_to_stdout, to_stdout};
 use super::text::wrapped;
-use super::{CliError, Outcome};
+use super::{CliError, Outcome, done};
 use fastphong::compare::comparison::parameter_json;
 use fastphong::compare::metrics::METRICS;
 use fastphong::compare::table::aligned;
-use fastphong::lectures::FIGURES;
+use fastphong::lectures::{FIGURES, Figure};
 use fastphong::mesh::builtin::{BUILTINS, Builtin, ParameterKind, ShapeParameter};
 use fastphong::number::Level;
 use fastphong::scene::input::{SCENES, ShippedScene};
@@ -46,42 +45,31 @@ enum Subject {
 impl ListArgs {
     /// Prints the list.
     pub fn run(&self) -> Result<Outcome, CliError> {
-        match self.json {
-            true => json_to_stdout(&json(self.subject)?)?,
-            false => to_stdout(text(self.subject)?.as_bytes())?,
-        }
-        Ok(Outcome::Done)
+        done(&match self.json {
+            true => format!("{:#}\n", json(self.subject)?),
+            false => text(self.subject)?,
+        })
     }
 }
 
 /// Returns the list as text.
 fn text(subject: Subject) -> Result<String, CliError> {
     Ok(match subject {
-        Subject::Methods => METHODS
-            .iter()
-            .map(|entry| method_text(entry.info))
-            .collect(),
+        Subject::Methods => METHODS.iter().map(method_text).collect(),
         Subject::Meshes => BUILTINS.iter().map(mesh_text).collect(),
-        Subject::Scenes => {
-            let scenes = scenes()?;
-            let entry = |s: &SceneEntry| entry(s.name, &[&s.title, &s.description]);
-            scenes.iter().map(entry).collect()
-        }
+        Subject::Scenes => scenes(|name, title, about| entry(name, &[title, about]))?,
         Subject::Metrics => {
-            let rows = METRICS.iter().map(|metric| {
+            let mut rows = vec![["metric", "unit", "better", "meaning"].map(str::to_owned)];
+            rows.extend(METRICS.iter().map(|metric| {
                 let better = word(metric.better);
                 [metric.name, metric.unit, &better, metric.meaning].map(str::to_owned)
-            });
-            let head = ["metric", "unit", "better", "meaning"].map(str::to_owned);
-            aligned(
-                &std::iter::once(head).chain(rows).collect::<Vec<_>>(),
-                &[0, 1, 2, 3],
-            )
+            }));
+            aligned(&rows, &[0, 1, 2, 3])
         }
-        Subject::Figures => FIGURES
-            .iter()
-            .map(|f| entry(f.name, &[f.title, f.lecture]))
-            .collect(),
+        Subject::Figures => {
+            let text = |figure: &&Figure| entry(figure.name, &[figure.title, figure.lecture]);
+            FIGURES.iter().map(text).collect()
+        }
         Subject::Engines => ENGINES.iter().map(engine_text).collect(),
         Subject::Simd => {
             let rows = Level::ALL.map(|level| {
@@ -100,12 +88,11 @@ fn text(subject: Subject) -> Result<String, CliError> {
 /// Returns the list as data.
 fn json(subject: Subject) -> Result<Value, CliError> {
     Ok(match subject {
-        Subject::Methods => METHODS
-            .iter()
-            .map(|entry| method_json(entry.info))
-            .collect(),
+        Subject::Methods => METHODS.iter().map(method_json).collect(),
         Subject::Meshes => BUILTINS.iter().map(mesh_json).collect(),
-        Subject::Scenes => json!(scenes()?),
+        Subject::Scenes => scenes(
+            |name, title, about| json!({ "name": name, "title": title, "description": about }),
+        )?,
         Subject::Metrics => json!(METRICS),
         Subject::Figures => json!(FIGURES),
         Subject::Engines => ENGINES.iter().map(EngineInfo::json).collect(),
@@ -123,13 +110,14 @@ fn word(value: impl std::fmt::Debug) -> String {
     format!("{value:?}").to_lowercase()
 }
 
-fn method_text(info: &Info) -> String {
+fn method_text(method: &Entry) -> String {
+    let info = method.info;
     let mut about = vec![
         info.title.to_owned(),
         format!("perspective: {}", info.perspective.sentence()),
         format!("positions: {}", info.local.sentence()),
         exactness(info),
-        format!("engines: {}", engines_with(info)),
+        format!("engines: {}", engines_with(method)),
     ];
     for p in info.parameters {
         let (name, range, default) = (p.name, p.range(), p.text(p.default));
@@ -160,13 +148,14 @@ fn stepped(of: Stepped) -> &'static str {
 }
 
 /// Describes a method as data, without its texts of more than one line.
-pub fn method_json(info: &Info) -> Value {
-    let parameter = |p: &fastphong::shading::MethodParameter| {
+pub fn method_json(method: &Entry) -> Value {
+    let info = method.info;
+    let parameters = info.parameters.iter().map(|p| {
         json!({
             "name": p.name, "meaning": p.meaning, "default": parameter_json(p, p.default),
             "least": p.least, "most": p.most, "auto": p.auto.map(|auto| auto.meaning),
         })
-    };
+    });
     let Roundings { start, step, of } = info.roundings;
     json!({
         "name": info.name,
@@ -176,8 +165,8 @@ pub fn method_json(info: &Info) -> Value {
         "roundings": { "start": start, "step": step, "of": stepped(of) },
         "perspective": info.perspective.sentence(),
         "local": info.local.sentence(),
-        "barycentric": Entry::named(info.name).is_some_and(Entry::is_barycentric),
-        "parameters": info.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "barycentric": method.is_barycentric(),
+        "parameters": parameters.collect::<Value>(),
     })
 }
 
@@ -205,35 +194,27 @@ fn mesh_text(shape: &Builtin) -> String {
 }
 
 fn mesh_json(shape: &Builtin) -> Value {
-    let parameter = |p: &ShapeParameter| {
+    let parameters = shape.all_parameters().map(|p| {
         json!({
             "name": p.name, "kind": word(p.kind), "default": default_json(p),
             "min": p.min, "max": p.max, "meaning": p.doc,
         })
-    };
-    let parameters: Vec<Value> = shape.all_parameters().map(parameter).collect();
+    });
+    let parameters: Value = parameters.collect();
     json!({ "name": shape.name, "meaning": shape.doc, "parameters": parameters })
 }
 
-/// A shipped scene.
-#[derive(serde::Serialize)]
-struct SceneEntry {
-    name: &'static str,
-    title: String,
-    description: String,
-}
-
-/// Reads the titles and descriptions of the shipped scenes.
-fn scenes() -> Result<Vec<SceneEntry>, CliError> {
-    let entry = |scene: &ShippedScene| {
+/// Describes each shipped scene by its name, title and description.
+fn scenes<T, List: FromIterator<T>>(
+    describe: impl Fn(&str, &str, &str) -> T,
+) -> Result<List, CliError> {
+    let describe = |scene: &ShippedScene| {
         let file = scene.load()?;
-        Ok(SceneEntry {
-            name: scene.name,
-            title: file.title().unwrap_or_default().to_owned(),
-            description: file.description().unwrap_or_default().to_owned(),
-        })
+        let [title, description] =
+            [file.title(), file.description()].map(Option::unwrap_or_default);
+        Ok(describe(scene.name, title, description))
     };
-    SCENES.iter().map(entry).collect()
+    SCENES.iter().map(describe).collect()
 }
 
 fn engine_text(engine: &EngineInfo) -> String {

@@ -2,8 +2,9 @@
 //!
 //! A reader that went away is no error. `println!` would panic then, so that nothing here uses it.
 
-use super::CliError;
+use super::{CliError, Outcome};
 use std::io::{self, IsTerminal, Write};
+use std::time::Instant;
 
 /// The messages that are written to standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +48,12 @@ impl Log {
             to_stderr(&format!("{text}\n"));
         }
     }
+
+    /// Writes how long a step took since it `started`, for `--verbose` only.
+    pub fn duration(self, done: &str, started: Instant) {
+        let milliseconds = 1e3 * started.elapsed().as_secs_f64();
+        self.detail(&format!("{done} in {milliseconds:.1} ms"));
+    }
 }
 
 /// True if standard error may be coloured: a terminal, and `NO_COLOR` not set (<https://no-color.org>).
@@ -63,8 +70,8 @@ pub fn to_stderr(text: &str) {
 ///
 /// # Errors
 /// When it cannot be written for another reason, such as a full disk.
-pub fn to_stdout(bytes: &[u8]) -> Result<(), CliError> {
-    to_stdout_by(|out| out.write_all(bytes))
+pub fn to_stdout(text: &str) -> Result<(), CliError> {
+    to_stdout_by(|out| out.write_all(text.as_bytes()))
 }
 
 /// Writes the result of `write` to standard output, as [`to_stdout`] does.
@@ -81,10 +88,11 @@ pub fn to_stdout_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Res
     }
 }
 
-/// Writes `value` to standard output as indented JSON.
+/// Writes the whole result of a sub-command to standard output.
 ///
 /// # Errors
 /// As [`to_stdout`].
-pub fn json_to_stdout(value: &serde_json::Value) -> Result<(), CliError> {
-    to_stdout(format!("{value:#}\n").as_bytes())
+pub fn done(text: &str) -> Result<Outcome, CliError> {
+    to_stdout(text)?;
+    Ok(Outcome::Done)
 }

@@ -1,39 +1,34 @@
 //! Shared parts of the commands that compare and time methods.
 
-use super::CliError;
 use super::engines::ThreadFlags;
-use super::log::Log;
 use super::progress::Progress;
 use super::render::warn_of_polygons_left_out;
 use super::scene_flags::SceneFlags;
 use super::values::number;
+use super::{CliError, Log};
 use fastphong::compare::comparison::{Comparison, Input, compare};
 use fastphong::compare::timing::{Machine, TimeLimits};
+use fastphong::number::NameError;
 use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
 use fastphong::scene::input::{self, SCENES};
-use fastphong::shading::{METHODS, Variant};
+use fastphong::shading::{Entry, METHODS, Variant};
+use std::collections::HashSet;
 use std::time::Duration;
 
 /// The methods to compare.
-#[derive(Clone, Debug)]
-pub struct Methods(pub Vec<Variant>);
+pub type Methods = Vec<Variant>;
 
 /// Reads methods between commas, each once, or `all`.
-pub fn methods(text: &str) -> Result<Methods, String> {
+pub fn methods(text: &str) -> Result<Methods, NameError> {
     if text == "all" {
-        let all = METHODS.iter().map(|entry| entry.variant());
-        return Ok(Methods(all.collect()));
+        return Ok(METHODS.iter().map(Entry::variant).collect());
     }
-    let mut variants: Vec<Variant> = Vec::new();
-    for name in text.split(',') {
-        let variant = Variant::parse(name.trim()).map_err(|error| error.to_string())?;
-        let name = variant.to_string();
-        if variants.iter().all(|other| other.to_string() != name) {
-            variants.push(variant);
-        }
-    }
-    Ok(Methods(variants))
+    let methods = text.split(',').map(|name| Variant::parse(name.trim()));
+    let mut methods = methods.collect::<Result<Methods, _>>()?;
+    let mut names = HashSet::new();
+    methods.retain(|method| names.insert(method.to_string()));
+    Ok(methods)
 }
 
 /// Reads a length of time in seconds.
@@ -62,12 +57,8 @@ impl Measurement<'_> {
         mut measure: impl FnMut(&str, Scene, &Progress) -> Result<(), CliError>,
     ) -> Result<(), CliError> {
         warn_of_debug_build(self.log);
-        let load = |name: &&str| self.scene.load(name);
-        let files = self
-            .inputs
-            .iter()
-            .map(load)
-            .collect::<Result<Vec<_>, _>>()?;
+        let files = self.inputs.iter().map(|name| self.scene.load(name));
+        let files = files.collect::<Result<Vec<_>, _>>()?;
         let progress = Progress::silent_between_moves(self.log);
         for (name, file) in self.inputs.iter().zip(&files) {
             let resolved = input::resolve(file)?;
@@ -111,7 +102,7 @@ impl TimingFlags {
                 let progress = &mut |part: f32, next: &str| {
                     progress.at((turn + part) / turns, &format!("{name}: {next}"));
                 };
-                let compare = || compare(&input, &self.methods.0, *renderer, limits, progress);
+                let compare = || compare(&input, &self.methods, *renderer, limits, progress);
                 comparisons.push(of.threads.install_for(*renderer, compare)?);
             }
             Ok(())
@@ -137,9 +128,8 @@ pub fn named_or_shipped(inputs: &[String]) -> Vec<&str> {
 
 /// Returns the command line as typed, with the program's name in place of its path.
 pub fn command_line() -> Vec<String> {
-    let typed = std::env::args_os().skip(1);
-    let typed = typed.map(|word| word.to_string_lossy().into_owned());
-    std::iter::once("fastphong".to_owned())
-        .chain(typed)
+    let words = std::iter::once("fastphong".into()).chain(std::env::args_os().skip(1));
+    words
+        .map(|word| word.to_string_lossy().into_owned())
         .collect()
 }

@@ -1,10 +1,10 @@
 //! Facts about a mesh: counts, closedness, flatness.
 
+use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::newell::{polygon_normal, unit_normal};
 use fastphong::mesh::weld::weld;
-use fastphong::mesh::{Material, PolygonMesh};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// The distance from its plane up to which a polygon counts as planar, in parts of its extent.
 pub const PLANAR: f64 = 1e-3;
@@ -55,9 +55,11 @@ impl MeshFacts {
     /// Finds out the facts about `mesh`.
     pub fn of(mesh: &PolygonMesh) -> MeshFacts {
         let (vertex, _) = weld(mesh.positions());
+        let used = mesh.corners().iter().map(|&corner| vertex[corner as usize]);
         let bounds = mesh.bounds().map(|(low, high)| [low, high]);
         let mut facts = MeshFacts {
             polygons: mesh.polygon_count(),
+            vertices: used.collect::<HashSet<_>>().len(),
             positions: mesh.positions().len(),
             bounds: bounds.map(|ends| ends.map(|p| p.as_dvec3().to_array())),
             materials: mesh.materials().len(),
@@ -65,11 +67,6 @@ impl MeshFacts {
             bytes: bytes(mesh),
             ..MeshFacts::default()
         };
-        let mut used = vec![false; mesh.positions().len()];
-        for &corner in mesh.corners() {
-            used[vertex[corner as usize] as usize] = true;
-        }
-        facts.vertices = used.iter().filter(|used| **used).count();
         for (p, corners) in mesh.polygons().enumerate() {
             *facts.polygons_by_sides.entry(corners.len()).or_default() += 1;
             facts.polygons_without_material += usize::from(mesh.polygon_material(p).is_none());
@@ -77,10 +74,10 @@ impl MeshFacts {
                 facts.degenerate += 1;
                 continue;
             };
-            let points: Vec<DVec3> = corners
+            let points = corners
                 .iter()
-                .map(|&c| mesh.positions()[c as usize].as_dvec3())
-                .collect();
+                .map(|&c| mesh.positions()[c as usize].as_dvec3());
+            let points: Vec<DVec3> = points.collect();
             facts.concave += usize::from(is_concave(&points, normal));
             facts.not_planar += usize::from(!is_planar(&points, normal));
         }
@@ -129,9 +126,8 @@ fn is_planar(points: &[DVec3], normal: DVec3) -> bool {
     let middle = points.iter().sum::<DVec3>() / points.len() as f64;
     let lengths = points.iter().map(|p| (*p - middle).length());
     let height = PLANAR * lengths.fold(0.0, f64::max);
-    points
-        .iter()
-        .all(|p| (*p - middle).dot(normal).abs() <= height)
+    let mut heights = points.iter().map(|p| (*p - middle).dot(normal).abs());
+    heights.all(|h| h <= height)
 }
 
 /// Returns the bytes that a mesh takes in memory.
@@ -140,12 +136,10 @@ fn bytes(mesh: &PolygonMesh) -> usize {
         let corners = normals.corners.as_deref().map_or(0, size_of_val);
         size_of_val(&normals.values[..]) + corners
     });
-    let materials = match mesh.materials() {
-        [] => 0,
-        materials => size_of_val::<[Material]>(materials) + mesh.polygon_count() * size_of::<u32>(),
-    };
-    let ends = mesh.polygon_count() * size_of::<u32>();
-    let colours = size_of_val(mesh.colours());
+    // Of each polygon the end of its corners, and its material if the mesh has some.
+    let numbers = if mesh.materials().is_empty() { 1 } else { 2 };
+    let polygons = numbers * mesh.polygon_count() * size_of::<u32>();
     let places = size_of_val(mesh.positions()) + size_of_val(mesh.corners());
-    size_of::<PolygonMesh>() + places + ends + normals + colours + materials
+    let looks = size_of_val(mesh.colours()) + size_of_val(mesh.materials());
+    size_of::<PolygonMesh>() + places + polygons + normals + looks
 }

@@ -1,10 +1,9 @@
-//! The command line: one file a sub-command, each a variant of [`Command`] with its flags and a `run`.
+//! The command line: one file per sub-command, each a variant of [`Command`] with its flags and a `run`.
 //!
 //! Results go to standard output, messages to standard error (`log.rs`). Flags that several commands share are in
 //! `scene_flags.rs`, `engines.rs` and `measured.rs`. Start reading in `compare.rs`.
 
 mod aov;
-mod auto;
 mod bench;
 mod compare;
 mod diff;
@@ -14,14 +13,12 @@ mod error;
 mod experiments;
 mod explain;
 mod figure;
-mod first_steps;
 mod frame_times;
 mod info;
 mod list;
 pub mod log;
 mod measured;
 mod mesh_facts;
-mod method_flag;
 mod name_template;
 mod output;
 mod progress;
@@ -36,8 +33,7 @@ mod values;
 mod watch;
 
 pub use error::{CliError, Outcome};
-pub use first_steps::FIRST_STEPS;
-use log::Log;
+use log::{Log, done};
 
 /// Phong shading on a scanline rasterizer: eleven methods to run, time, look at and check against an f64 reference.
 #[derive(clap::Parser, Debug)]
@@ -55,6 +51,19 @@ pub struct Cli {
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 a comparison failed, 2 wrong usage or input.\n\
     INPUT is a scene file (.toml), a mesh file (.obj), builtin:NAME?key=value&key=value, or the name of a shipped scene.";
+
+/// Five commands to try, and where help is: what the program says when it is given nothing to do.
+pub const FIRST_STEPS: &str = "\
+Draw, time and check eleven ways to shade polygons, from flat to Phong. Five things to try:
+
+  fastphong render builtin:teapot -o teapot.png          a picture; or use your own bunny.obj
+  fastphong render two-lights -m fast-phong -o fast.png  lights nearby: fast Phong shows facets
+  fastphong compare teapot                               one row per method: error and time
+  fastphong explain fast-phong                           formula, cost, where it fails
+  fastphong report                                       all of it on one page, in half a minute
+
+fastphong --help lists all commands, fastphong list scenes the scenes.
+";
 
 #[derive(clap::Subcommand, Debug)]
 enum Command {

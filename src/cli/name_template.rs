@@ -38,8 +38,6 @@ pub fn named(path: &Path, values: [&str; PLACEHOLDERS.len()]) -> Result<PathBuf,
 /// Returns the name of what `input` shows: of a file its name without ending.
 pub fn scene_name(input: &str) -> &str {
     let stem = Path::new(input).file_stem().and_then(|stem| stem.to_str());
-    match stem {
-        Some(stem) if !input.starts_with("builtin:") => stem,
-        _ => input,
-    }
+    let stem = stem.filter(|_| !input.starts_with("builtin:"));
+    stem.unwrap_or(input)
 }

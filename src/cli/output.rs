@@ -1,8 +1,8 @@
 //! The destination of a picture: a file, or standard output.
 
 use super::CliError;
-use super::log::to_stdout_by;
-use fastphong::picture::image_file::{FilePicture, Format, PpmWriter, write_file_by};
+use super::log::{to_stderr, to_stdout, to_stdout_by};
+use fastphong::picture::image_file::{FilePicture, Format, write_file_by};
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
@@ -42,23 +42,11 @@ impl Output {
         self.write_by(|out| picture.write_to(self.format, out))
     }
 
-    /// Writes a PPM file whose pixels `rows` gives from the top; a file whole or not at all.
+    /// Writes the bytes that `write` writes; a file whole or not at all.
     ///
     /// # Errors
-    /// When it cannot be written.
-    pub fn write_ppm(
-        &self,
-        [width, height]: [usize; 2],
-        rows: impl FnOnce(&mut dyn FnMut(&[[u8; 4]]) -> io::Result<()>) -> io::Result<()>,
-    ) -> Result<(), CliError> {
-        self.write_by(|out| {
-            let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
-            rows(&mut |pixels| file.pixels(pixels))?;
-            file.finish()
-        })
-    }
-
-    fn write_by(
+    /// When they cannot be written.
+    pub fn write_by(
         &self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), CliError> {
@@ -66,6 +54,20 @@ impl Output {
             Some(path) => Ok(write_file_by(path, write)?),
             None => to_stdout_by(write),
         }
+    }
+}
+
+/// Prints text beside a picture: to standard error if that goes to standard output.
+///
+/// # Errors
+/// As [`to_stdout`].
+pub fn print_beside(picture: Option<&Output>, text: &str) -> Result<(), CliError> {
+    match picture {
+        Some(Output { path: None, .. }) => {
+            to_stderr(text);
+            Ok(())
+        }
+        _ => to_stdout(text),
     }
 }
 

@@ -1,11 +1,10 @@
 //! A progress bar, on a terminal and for work that takes longer than a second.
 
-use super::log::Log;
+use super::Log;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The time for which nothing is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -15,26 +14,22 @@ const STEPS: u64 = 1000;
 /// A progress bar that is gone when this is dropped.
 pub struct Progress {
     bar: ProgressBar,
-    started: Instant,
     allowed: bool,
-    /// Dropped to stop the thread that shows the bar while nobody moves it.
-    _watcher: Option<Sender<()>>,
 }
 
 impl Progress {
     /// Makes a bar that is shown when work takes long, also if it is not moved until then.
     pub fn watched(log: Log) -> Progress {
-        let mut progress = Progress::silent_between_moves(log);
+        let progress = Progress::silent_between_moves(log);
         if progress.allowed {
-            let (sender, receiver) = channel();
             let bar = progress.bar.clone();
             thread::spawn(move || {
-                if receiver.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                thread::sleep(PATIENCE);
+                if !bar.is_finished() {
                     bar.set_draw_target(ProgressDrawTarget::stderr());
                     bar.enable_steady_tick(Duration::from_millis(100));
                 }
             });
-            progress._watcher = Some(sender);
         }
         progress
     }
@@ -42,30 +37,20 @@ impl Progress {
     /// Makes a bar that is drawn only when it is moved: it disturbs no measurement between two moves.
     pub fn silent_between_moves(log: Log) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
-        if let Ok(style) =
-            ProgressStyle::with_template("{spinner} [{bar:30}] {elapsed}, {eta} left: {msg}")
-        {
-            bar.set_style(style.progress_chars("=> "));
-        }
+        let style =
+            ProgressStyle::with_template("{spinner} [{bar:30}] {elapsed}, {eta} left: {msg}");
+        bar.set_style(style.expect("a template").progress_chars("=> "));
         let allowed = log != Log::Quiet && std::io::stderr().is_terminal();
-        Progress {
-            bar,
-            started: Instant::now(),
-            allowed,
-            _watcher: None,
-        }
+        Progress { bar, allowed }
     }
 
     /// Moves the bar to `share` (0 to 1) of the work, of which `stage` comes next.
     pub fn at(&self, share: f32, stage: &str) {
-        if !self.allowed {
-            return;
-        }
-        if self.bar.is_hidden() && self.started.elapsed() > PATIENCE {
+        if self.allowed && self.bar.is_hidden() && self.bar.elapsed() > PATIENCE {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        self.bar
-            .set_position((share.clamp(0.0, 1.0) * STEPS as f32) as u64);
+        let position = share.clamp(0.0, 1.0) * STEPS as f32;
+        self.bar.set_position(position as u64);
         self.bar.set_message(stage.to_owned());
     }
 

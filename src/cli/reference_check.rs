@@ -15,10 +15,9 @@ pub const SCALE: f32 = 16.0;
 
 /// Returns the largest difference of a channel in grey levels; coverage is a channel too, which is either all there or not.
 pub fn largest_difference(difference: &Difference) -> f64 {
-    if difference.coverage_mismatches > 0 {
-        255.0
-    } else {
-        255.0 * difference.max
+    match difference.coverage_mismatches {
+        0 => 255.0 * difference.max,
+        _ => 255.0,
     }
 }
 
@@ -51,24 +50,22 @@ impl ReferenceCheck<'_> {
         }
         let accepted = read_picture(reference)?;
         let [r, a] = comparable(&accepted, &actual);
-        let difference = compare(&r, &a);
-        let largest = difference
-            .as_ref()
-            .map_or(f64::INFINITY, largest_difference);
-        if largest <= self.threshold {
-            let within = format!("equal within {} grey levels", self.threshold);
-            let text = format!("{shown}: {within}: largest difference {largest}\n");
-            return Ok((Outcome::Done, text));
-        }
-        let candidate = self.keep(&actual, format)?;
-        let text = match difference {
+        let text = match compare(&r, &a) {
+            Ok(difference) if largest_difference(&difference) <= self.threshold => {
+                let within = format!("equal within {} grey levels", self.threshold);
+                let largest = largest_difference(&difference);
+                let text = format!("{shown}: {within}: largest difference {largest}\n");
+                return Ok((Outcome::Done, text));
+            }
             Ok(difference) => {
+                let candidate = self.keep(&actual, format)?;
                 let map = difference_map(&r, &a, SCALE)?;
                 let map_path = sibling(&candidate, reference, "diff", Format::Png);
                 write_picture(&map_path, &FilePicture::stored(map))?;
                 self.difference_text(&difference, &candidate, &map_path)
             }
             Err(sizes) => {
+                let candidate = self.keep(&actual, format)?;
                 let ([rw, rh], [aw, ah]) = (sizes.reference, sizes.actual);
                 let sizes = format!("the reference has {rw}x{rh} pixels, the picture {aw}x{ah}");
                 let candidate = candidate.display();

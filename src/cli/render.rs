@@ -1,24 +1,23 @@
 //! `fastphong render`: from an input to a picture.
 
 use super::aov::Aov;
-use super::drawing::{AUTO, PictureContent, RenderJob};
-use super::engines::{self, EngineFlag, ScanlineEngine, Simd, ThreadFlags, renderer};
-use super::log::{Log, to_stderr, to_stdout};
-use super::method_flag::{AskedMethod, asked_method};
+use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
+use super::engines::{self, EngineFlag, Simd, ThreadFlags, renderer};
 use super::name_template::{named, scene_name};
-use super::output::{self, Output};
+use super::output::{self, Output, print_beside};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
 use super::text::{counted, grouped};
 use super::watch::watch;
-use super::{CliError, Outcome, values};
+use super::{CliError, Log, Outcome, values};
 use fastphong::compare::table::aligned;
 use fastphong::frame::{Frame, FrameStats};
 use fastphong::picture::image_file::Format;
 use fastphong::raster::Renderer;
 use fastphong::raster::painter::{Conflicts, conflicts};
 use fastphong::scene::{HiddenSurfaces, input};
+use fastphong::shading::Variant;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -42,7 +41,7 @@ pub struct RenderArgs {
     /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `auto` draws naive Phong's
     /// picture in the least time: `fastphong info` shows which method that is. `reference` is the closed form in f64,
     /// `reference:model=flat|gouraud|phong|slerp`
-    #[arg(short, long, default_value = AUTO, value_parser = asked_method)]
+    #[arg(short, long, default_value = AUTO, value_parser = drawing::method)]
     method: AskedMethod,
     /// Engine that finds the pixels: `span` (or `scanline`), as in the lecture, one pixel at a time; `row` (SIMD); `auto`: `row` if
     /// it supports the scene, else `span`; `barycentric`, also with `:edges=top-left|closed`; or `cs171`, also with
@@ -95,15 +94,12 @@ impl RenderArgs {
     /// Loads, draws, writes and compares.
     fn draw(&self, log: Log) -> Result<Outcome, CliError> {
         let mut output = self.output()?;
-        // Text goes to standard error where the picture goes to standard output.
-        let print: fn(&str) -> Result<(), CliError> = match &output {
-            Some(Output { path: None, .. }) => |text| {
-                to_stderr(text);
-                Ok(())
-            },
-            _ => |text| to_stdout(text.as_bytes()),
+        let renderer = match self.engine {
+            EngineFlag::Scanlines(engine) => {
+                renderer(Some(engine), Some(self.simd), Renderer::fastest())?
+            }
+            EngineFlag::Barycentric(_) | EngineFlag::Cs171 { .. } => Renderer::LECTURE,
         };
-        let renderer = self.renderer()?;
         let shows = self.aov.is_none();
         let mut file = match shows {
             true => self.scene.load_to_show(&self.input)?,
@@ -118,15 +114,15 @@ impl RenderArgs {
         };
         if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
             // The mean of depths, normals or polygon numbers has no meaning.
-            progress.aside(|| log.note("--aov shows single samples: one a pixel, in its middle"));
+            progress.aside(|| log.note("--aov shows single samples: one per pixel, in its middle"));
         }
         progress.aside(|| {
             self.scene.warn(&resolved, log);
-            log.detail(&format!("loaded in {:.1} ms", milliseconds(started)));
+            log.duration("loaded", started);
         });
         if self.print_scene {
             input::make_paths_relative_to_current_folder(&mut file);
-            progress.aside(|| print(&file.to_toml()))?;
+            progress.aside(|| print_beside(output.as_ref(), &file.to_toml()))?;
         }
         if output.is_none() && self.reference.is_none() && !self.stats {
             return Ok(Outcome::Done);
@@ -135,10 +131,10 @@ impl RenderArgs {
         let started = Instant::now();
         let frame = resolved.scene.frame()?;
         progress.aside(|| {
-            log.detail(&format!("projected in {:.1} ms", milliseconds(started)));
+            log.duration("projected", started);
             warn_of_polygons_left_out(frame.stats(), log);
             if self.stats {
-                return print(&stats_text(&frame));
+                return print_beside(output.as_ref(), &stats_text(&frame));
             }
             log.detail(stats_text(&frame).trim_end());
             Ok(())
@@ -153,16 +149,16 @@ impl RenderArgs {
         }
         progress.at(0.5, "shading");
         let job = progress.aside(|| {
-            let content = self.content(&frame, renderer, log);
-            let mut job = RenderJob::new(frame, content, log)?;
+            let mut job = self.job(frame, renderer, log)?;
             let image = file.table().table("image");
             job.opaque = image.and_then(|image| image.text("alpha")) == Some("opaque");
-            job.log(self.threads.threads, log);
+            let asked = matches!(self.engine, EngineFlag::Scanlines(Some(_)));
+            job.log(asked || self.simd.is_some(), self.threads.threads, log);
             Ok::<_, CliError>(job)
         })?;
         if let Some(output) = &mut output {
             self.name(output, &job)?;
-            self.write(&job, output, &progress, log)?;
+            write(&job, output, &progress, log)?;
         }
         let Some(reference) = &self.reference else {
             return Ok(Outcome::Done);
@@ -173,7 +169,7 @@ impl RenderArgs {
             written: output.as_ref(),
         };
         let (outcome, text) = check.run(&job)?;
-        progress.aside(|| print(&text))?;
+        progress.aside(|| print_beside(output.as_ref(), &text))?;
         Ok(outcome)
     }
 
@@ -196,8 +192,8 @@ impl RenderArgs {
             return Ok(());
         };
         let [width, height] = job.size().map(|side| side.to_string());
-        let (scene, method) = (scene_name(&self.input), job.name());
-        *path = named(path, [scene, &method, job.engine(), &width, &height])?;
+        let scene = scene_name(&self.input);
+        *path = named(path, [scene, &job.name, job.engine(), &width, &height])?;
         match &self.reference {
             Some(reference) if same_file(path, reference) => {
                 let problem = format!("is the reference itself, {}", reference.display());
@@ -207,84 +203,65 @@ impl RenderArgs {
         }
     }
 
-    /// Writes the picture, and logs it.
-    fn write(
-        &self,
-        job: &RenderJob,
-        output: &Output,
-        progress: &Progress,
-        log: Log,
-    ) -> Result<(), CliError> {
-        let started = Instant::now();
-        if output.format == Format::Ppm {
-            // Rows of PPM can be written while others are not yet drawn.
-            output.write_ppm(job.size(), |take| job.rows(take))?;
-            let spent = milliseconds(started);
-            progress.aside(|| log.detail(&format!("shaded and written in {spent:.1} ms")));
-        } else {
-            let picture = job.picture(output.format == Format::Pfm);
-            progress.aside(|| log.detail(&format!("shaded in {:.1} ms", milliseconds(started))));
-            progress.at(0.75, "writing");
-            output.write(&picture)?;
-        }
-        if let Some(path) = &output.path {
-            let ([width, height], path, shown) = (job.size(), path.display(), job.name());
-            progress.aside(|| log.note(&format!("{path}: {width}x{height}, {shown}")));
-        }
-        Ok(())
-    }
-
-    fn renderer(&self) -> Result<Renderer, CliError> {
-        Ok(match self.engine {
-            EngineFlag::Scanlines(engine) => {
-                let engine = Some(ScanlineEngine(engine));
-                renderer(engine, Some(self.simd), Renderer::fastest())?
-            }
-            EngineFlag::Barycentric(_) | EngineFlag::Cs171 { .. } => Renderer::LECTURE,
-        })
-    }
-
-    /// Returns what to draw of `frame`; logs which method `auto` takes.
-    fn content(&self, frame: &Frame, renderer: Renderer, log: Log) -> PictureContent {
+    /// Prepares the drawing of `frame`; logs which method `auto` takes.
+    fn job(&self, frame: Frame, renderer: Renderer, log: Log) -> Result<RenderJob, CliError> {
         if let Some(aov) = self.aov {
-            return PictureContent::Aov(aov, self.square);
+            return Ok(RenderJob::aov(frame, aov, self.square));
         }
-        let (method, why) = self.method.choose(frame, self.engine, renderer);
-        if let Some(why) = why {
-            log.detail(&format!("method {method}, by {AUTO}: {why}"));
-        }
-        PictureContent::Shaded(method, self.engine, self.simd, renderer)
+        let method = self.method.clone().unwrap_or_else(|| {
+            let (variant, why) = match self.engine {
+                EngineFlag::Cs171 { .. } => {
+                    let variant = Variant::parse("naive-phong").expect("a method of the table");
+                    (variant, "CS171 has no other that lights each pixel")
+                }
+                _ => Variant::auto(&frame, renderer),
+            };
+            log.detail(&format!("method {variant}, by {AUTO}: {why}"));
+            Method::Variant(variant)
+        });
+        RenderJob::shaded(frame, &method, self.engine, self.simd, renderer, log)
     }
 }
 
-/// True if both paths lead to one file that is there.
+/// Writes the picture, and logs it.
+fn write(job: &RenderJob, output: &Output, progress: &Progress, log: Log) -> Result<(), CliError> {
+    let started = Instant::now();
+    if output.format == Format::Ppm {
+        output.write_by(|out| job.write_ppm(out))?;
+        progress.aside(|| log.duration("shaded and written", started));
+    } else {
+        let picture = job.picture(output.format == Format::Pfm);
+        progress.aside(|| log.duration("shaded", started));
+        progress.at(0.75, "writing");
+        output.write(&picture)?;
+    }
+    if let Some(path) = &output.path {
+        let ([width, height], path, shown) = (job.size(), path.display(), &job.name);
+        progress.aside(|| log.note(&format!("{path}: {width}x{height}, {shown}")));
+    }
+    Ok(())
+}
+
+/// True if both paths lead to one file, or would if there were one.
 fn same_file(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => a == b,
-    }
-}
-
-fn milliseconds(started: Instant) -> f64 {
-    1e3 * started.elapsed().as_secs_f64()
+    let [a, b] = [a, b].map(|path| path.canonicalize().unwrap_or_else(|_| path.to_owned()));
+    a == b
 }
 
 /// Warns of polygons that cannot be drawn.
 pub fn warn_of_polygons_left_out(stats: FrameStats, log: Log) {
-    let flat = match stats.zero_area {
-        0 => None,
-        1 => Some("polygons has no area and is left out"),
-        _ => Some("polygons have no area and are left out"),
-    };
-    if let Some(words) = flat {
+    if stats.zero_area > 0 {
         let [flat, all] = [stats.zero_area, stats.polygons].map(grouped);
-        log.warning(&format!("{flat} of {all} {words}"));
+        let are = match stats.zero_area {
+            1 => "has no area and is",
+            _ => "have no area and are",
+        };
+        log.warning(&format!("{flat} of {all} polygons {are} left out"));
     }
     if stats.culled > 0 && stats.culled + stats.zero_area + stats.outside == stats.polygons {
         let culled = counted(stats.culled, "polygon is seen", "polygons are seen");
-        log.warning(&format!(
-            "nothing is drawn: {culled} from the culled side; try --cull none"
-        ));
+        let problem = format!("nothing is drawn: {culled} from the culled side");
+        log.warning(&(problem + "; try --cull none"));
     }
     if stats.unprojected > 0 {
         let one = "polygon has a corner at the plane of the eye and is left out";
@@ -315,31 +292,21 @@ fn painter_text(conflicts: &Conflicts) -> Option<String> {
     Some(format!("{problem}; {wrong}{cutting}"))
 }
 
-/// The counts of polygons that `--stats` prints, and their meanings.
-const STATS: [[&str; 2]; 7] = [
-    ["polygons", "of the scene"],
-    ["culled", "left out: seen from the culled side"],
-    ["zero-area", "left out: no area, in space or on the picture"],
-    ["outside", "left out: outside the view"],
-    [
-        "clipped",
-        "cut by the near plane, the far plane or the guard band",
-    ],
-    [
-        "unprojected",
-        "left out: a corner has no place on the picture (--clipping ndc-cube)",
-    ],
-    ["drawn", "left, pieces of cut ones counted each"],
-];
-
 /// Returns the numbers of polygons as a table.
 fn stats_text(frame: &Frame) -> String {
     let (s, drawn) = (frame.stats(), frame.polygons().len());
-    let first = [s.polygons, s.culled, s.zero_area, s.outside];
-    let counts = first.into_iter().chain([s.clipped, s.unprojected, drawn]);
-    let row = |([name, meaning], count): (&[&str; 2], usize)| {
-        [(*name).to_owned(), grouped(count), (*meaning).to_owned()]
-    };
-    let rows: Vec<_> = STATS.iter().zip(counts).map(row).collect();
+    let no_area = "left out: no area, in space or on the picture";
+    let no_place = "left out: a corner has no place on the picture (--clipping ndc-cube)";
+    let cut = "cut by the near plane, the far plane or the guard band";
+    let rows = [
+        ("polygons", s.polygons, "of the scene"),
+        ("culled", s.culled, "left out: seen from the culled side"),
+        ("zero-area", s.zero_area, no_area),
+        ("outside", s.outside, "left out: outside the view"),
+        ("clipped", s.clipped, cut),
+        ("unprojected", s.unprojected, no_place),
+        ("drawn", drawn, "left, pieces of cut ones counted each"),
+    ];
+    let rows = rows.map(|(name, count, about)| [name.into(), grouped(count), about.into()]);
     aligned(&rows, &[0, 2])
 }

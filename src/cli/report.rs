@@ -2,12 +2,11 @@
 
 use super::engines::LectureFlags;
 use super::experiments::{Experiments, experiments};
-use super::figure::{distinct, draw_figures, make_folder, page_folder};
-use super::log::{Log, to_stdout};
+use super::figure::{Figures, distinct, draw_figures, make_folder, page_folder};
 use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
-use super::{CliError, Outcome};
+use super::{CliError, Log, Outcome, done};
 use fastphong::compare::comparison::{self, Comparison, Input};
 use fastphong::compare::timing::TimeLimits;
 use fastphong::frame::Frame;
@@ -69,32 +68,23 @@ const SHOWN: [i64; 2] = [480, 360];
 /// Scenes that are timed for the whole of `--time-budget`.
 const TIMED_LONG: usize = 3;
 
-/// The figures of the lectures to show.
-#[derive(Clone, Debug)]
-struct Figures(Vec<&'static Figure>);
-
 /// Reads figures between commas, each once, `all` or `none`.
 fn figures(text: &str) -> Result<Figures, String> {
-    let figures = match text {
-        "all" => FIGURES.to_vec(),
-        "none" => Vec::new(),
+    match text {
+        "all" => Ok(FIGURES.to_vec()),
+        "none" => Ok(Vec::new()),
         names => {
             let figures = names.split(',').map(|name| Figure::find(name.trim()));
-            distinct(figures.collect::<Result<Vec<_>, _>>()?.into_iter())
+            figures.collect::<Result<_, _>>().map(distinct)
         }
-    };
-    Ok(Figures(figures))
+    }
 }
 
 /// The folder of the small pictures, beside the text that shows them.
 const IMAGES: &str = "images";
 
 /// A scene that was drawn, and is not yet timed.
-struct DrawnScene {
-    frame: Frame,
-    comparison: Comparison,
-    pictures: ScenePictures,
-}
+type DrawnScene = (Frame, Comparison, ScenePictures);
 
 impl ReportArgs {
     /// Compares, times, and writes the page.
@@ -109,8 +99,7 @@ impl ReportArgs {
             None => self.make(log)?,
         };
         read.for_each(|other| report.lay_beside(other));
-        to_stdout(self.write(&report, &folder)?.as_bytes())?;
-        Ok(Outcome::Done)
+        done(&self.write(&report, &folder)?)
     }
 
     fn make(&self, log: Log) -> Result<Report, CliError> {
@@ -118,20 +107,12 @@ impl ReportArgs {
         let names = named_or_shipped(&self.inputs);
         // Every input is loaded first, so that a bad one fails at once.
         let load = |name: &&str| self.scene.load_to_show(name).map(|file| self.shown(file));
-        let files = names
-            .iter()
-            .map(load)
-            .collect::<Result<Vec<_>, CliError>>()?;
+        let files = names.iter().map(load).collect::<Result<Vec<_>, _>>()?;
         // Everything is made with the shipped scenes.
-        let (all_figures, all_experiments) = match self.inputs.is_empty() {
-            true => (FIGURES.to_vec(), Experiments::ALL),
-            false => (Vec::new(), Experiments::default()),
-        };
-        let figures = self
-            .figures
-            .as_ref()
-            .map_or(all_figures, |figures| figures.0.clone());
-        let experiments = self.studies.unwrap_or(all_experiments);
+        let is_default = self.inputs.is_empty();
+        let default = if is_default { "all" } else { "none" };
+        let figures = self.figures.clone().map_or_else(|| figures(default), Ok)?;
+        let experiments = self.studies.map_or_else(|| experiments(default), Ok)?;
         warn_of_debug_build(log);
         let bar = Progress::silent_between_moves(log);
         // The times of scenes drawn, figures, experiments and scenes timed, as measured with the shipped scenes.
@@ -166,11 +147,11 @@ impl ReportArgs {
         (document.speedups, document.scaling) =
             experiments.make(&self.timing, &|part, next| progress(2, part, next))?;
         let mut pictures = Vec::new();
-        for (number, scene) in drawn.into_iter().enumerate() {
+        for (number, (frame, mut comparison, shown)) in drawn.into_iter().enumerate() {
             let next = format!("{}: timing", names[number]);
             let progress = |part| progress(3, (number as f32 + part) / scenes, &next);
-            pictures.push(scene.pictures);
-            let comparison = self.time(number, scene.frame, scene.comparison, &progress)?;
+            self.time(number, &frame, &mut comparison, &progress)?;
+            pictures.push(shown);
             document.comparisons.push(comparison);
         }
         document.describe_methods();
@@ -186,12 +167,9 @@ impl ReportArgs {
             return file;
         }
         let image = file.table().table("image");
-        let side = |key: &str, default: u32| {
-            let given = image.and_then(|image| image.get(key));
-            match given.map(|value| &value.data) {
-                Some(Data::Whole(side)) => *side,
-                _ => i64::from(default),
-            }
+        let side = |key, default: u32| match image.and_then(|image| Some(&image.get(key)?.data)) {
+            Some(Data::Whole(side)) => *side,
+            _ => i64::from(default),
         };
         let (width, height) = Scene::DEFAULT_SIZE;
         let size = [side("width", width), side("height", height)];
@@ -202,11 +180,8 @@ impl ReportArgs {
             let image = over.table_mut("image");
             for (key, side) in ["width", "height"].into_iter().zip(size) {
                 let side = ((side as f64 * part).round() as i64).max(1);
-                image.set(
-                    key,
-                    Data::Whole(side),
-                    Origin::Flag("--resolution".to_owned()),
-                );
+                let origin = Origin::Flag("--resolution".to_owned());
+                image.set(key, Data::Whole(side), origin);
             }
             file.overlay(over);
         }
@@ -229,42 +204,36 @@ impl ReportArgs {
             name: name.to_owned(),
             frame: &frame,
         };
-        let (methods, renderer) = (&self.timing.methods.0, self.drawn.renderer()?);
+        let (methods, renderer) = (&self.timing.methods, self.drawn.renderer()?);
         let mut comparison = comparison::draw(&input, methods, renderer, &mut |_, _| {});
         comparison.title = file.title().unwrap_or_default().to_owned();
         comparison.description = file.description().unwrap_or_default().to_owned();
         let pictures = ScenePictures::new(&comparison);
         let pictures = pictures.map_err(|error| format!("{name}: {error}"))?;
         comparison.drop_pictures();
-        Ok(DrawnScene {
-            frame,
-            comparison,
-            pictures,
-        })
+        Ok((frame, comparison, pictures))
     }
 
     /// Times a scene that was drawn.
     fn time(
         &self,
         number: usize,
-        frame: Frame,
-        mut comparison: Comparison,
+        frame: &Frame,
+        comparison: &mut Comparison,
         progress: &(dyn Fn(f32) + Sync),
-    ) -> Result<Comparison, CliError> {
+    ) -> Result<(), CliError> {
         let is_long = self.full || number < TIMED_LONG;
         let limits = TimeLimits {
             time_budget: self.timing.time_budget / if is_long { 1 } else { 10 },
             warm_up_rounds: 1,
             ..TimeLimits::default()
         };
+        let time = || comparison.time(frame, limits, progress);
         let renderer = self.drawn.renderer()?;
-        self.drawn.threads.install_for(renderer, move || {
-            comparison.time(&frame, limits, progress);
-            comparison
-        })
+        self.drawn.threads.install_for(renderer, time)
     }
 
-    /// Writes the page and the files beside it; returns their paths, a line each.
+    /// Writes the page and the files beside it; returns their paths, one per line.
     fn write(&self, report: &Report, folder: &Path) -> Result<String, CliError> {
         let mut written = String::new();
         let mut write = |path: &Path, text: &str| -> Result<(), CliError> {

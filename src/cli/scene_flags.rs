@@ -1,8 +1,7 @@
 //! Flags that change the scene: each gives values to keys of a scene file. They replace those of the file, and are checked
 //! together with the rest.
 
-use super::CliError;
-use super::log::Log;
+use super::{CliError, Log};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::SceneFile;
@@ -226,6 +225,8 @@ impl clap::FromArgMatches for SceneFlags {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let mut flags = SceneFlags::default();
         let mut lights: Vec<SceneTable> = Vec::new();
+        // The keys that every light at a position gets.
+        let mut near = SceneTable::default();
         for flag in FLAGS {
             let origin = Origin::Flag(format!("--{}", flag.name));
             let given = matches.get_many::<Vec<Setting>>(flag.name);
@@ -234,23 +235,21 @@ impl clap::FromArgMatches for SceneFlags {
                     lights.push(SceneTable::default());
                 }
                 for (path, data) in settings.clone() {
-                    let origin = origin.clone();
-                    match path.split_once('.') {
-                        None => flags.over.set(path, data, origin),
-                        Some(("light", key)) if flag.name.starts_with("light") => {
-                            lights.last_mut().expect("a light").set(key, data, origin);
-                        }
-                        Some(("light", key)) => {
-                            let is_near = |light: &&mut SceneTable| light.get("position").is_some();
-                            for light in lights.iter_mut().filter(is_near) {
-                                light.set(key, data.clone(), origin.clone());
-                            }
-                        }
-                        Some(("object", key)) => flags.every_object.set(key, data, origin),
-                        Some((table, key)) => flags.over.table_mut(table).set(key, data, origin),
-                    }
+                    let (table, key) = path.split_once('.').unwrap_or(("", path));
+                    let table = match (table, flag.name) {
+                        ("", _) => &mut flags.over,
+                        ("light", "light" | "light-at") => lights.last_mut().expect("a light"),
+                        ("light", _) => &mut near,
+                        ("object", _) => &mut flags.every_object,
+                        (table, _) => flags.over.table_mut(table),
+                    };
+                    table.set(key, data, origin.clone());
                 }
             }
+        }
+        let has_position = |light: &&mut SceneTable| light.get("position").is_some();
+        for light in lights.iter_mut().filter(has_position) {
+            light.overlay(near.clone());
         }
         if let Some(material) = flags.over.get("material") {
             let entries = &mut flags.every_object.entries;
@@ -281,13 +280,11 @@ impl SceneFlags {
     /// Returns `file` with the changes of the flags.
     pub fn over(&self, mut file: SceneFile) -> SceneFile {
         file.overlay(self.over.clone());
+        let is_of_normals = |key: &&str| matches!(*key, "normals" | "crease");
+        let gives_normals = self.every_object.entries.keys().any(is_of_normals);
         for object in file.objects_mut() {
-            let normals = ["normals", "crease"];
-            if normals
-                .iter()
-                .any(|key| self.every_object.get(key).is_some())
-            {
-                object.entries.retain(|key, _| !normals.contains(key));
+            if gives_normals {
+                object.entries.retain(|key, _| !is_of_normals(key));
             }
             object.overlay(self.every_object.clone());
         }

@@ -26,7 +26,7 @@ const LIGHTS: [([f64; 3], [f64; 3]); 2] = [
     ([1.0, -0.15, 0.55], [0.1, 0.14, 0.2]),
 ];
 
-/// The most polygons times pixels that are drawn with 2 × 2 samples a pixel: 220,000 polygons on 640 × 480 pixels.
+/// The most polygons times pixels that are drawn with 2 × 2 samples per pixel: 220,000 polygons on 640 × 480 pixels.
 const SMOOTH: u64 = 1 << 36;
 
 impl SceneFlags {
@@ -49,16 +49,16 @@ impl SceneFlags {
     /// As [`input::resolve`].
     pub fn resolve_to_show(&self, file: &mut SceneFile) -> Result<Resolved, CliError> {
         let Resolved { scene, warnings } = input::resolve(file)?;
+        if !is_mesh_alone(file) {
+            return Ok(Resolved { scene, warnings });
+        }
         let mut over = SceneTable::default();
-        if is_mesh_alone(file) && !self.gives(None, "light") {
+        if !self.gives(None, "light") {
             over.set("light", lights(&scene.camera), Origin::Program);
         }
-        if is_mesh_alone(file) && !self.gives(Some("image"), "samples") && is_quick(&scene) {
+        if !self.gives(Some("image"), "samples") && is_quick(&scene) {
             let image = over.table_mut("image");
             image.set("samples", Data::Whole(2), Origin::Program);
-        }
-        if over.entries.is_empty() {
-            return Ok(Resolved { scene, warnings });
         }
         file.overlay(over);
         let mesh = &scene.objects[0].mesh;
@@ -89,7 +89,7 @@ fn lights(camera: &Camera) -> Data {
     Data::Tables(LIGHTS.map(light).to_vec())
 }
 
-/// True if four samples a pixel are drawn in no time, and fit into the largest picture.
+/// True if four samples per pixel are drawn in no time, and fit into the largest picture.
 fn is_quick(scene: &Scene) -> bool {
     let polygons: usize = scene.objects.iter().map(|o| o.mesh.polygon_count()).sum();
     let pixels = u64::from(scene.width) * u64::from(scene.height);

@@ -14,9 +14,8 @@ pub fn number<T: FromStr>(
 
 /// Reads grey levels of a threshold: 0 or more.
 pub fn grey_levels(text: &str) -> Result<f64, String> {
-    number(text, "grey levels: a number, 0 or more", |levels| {
-        *levels >= 0.0
-    })
+    let is_valid = |levels: &f64| *levels >= 0.0;
+    number(text, "grey levels: a number, 0 or more", is_valid)
 }
 
 /// Reads a scale of grey levels: more than 0.

@@ -71,9 +71,8 @@ fn files(input: &str) -> Vec<PathBuf> {
 fn libraries(mesh: &Path) -> Vec<PathBuf> {
     let text = std::fs::read(mesh).unwrap_or_default();
     let text = String::from_utf8_lossy(&text);
-    let rest = text
-        .lines()
-        .filter_map(|line| line.trim().strip_prefix("mtllib "));
+    let lines = text.lines().map(str::trim);
+    let rest = lines.filter_map(|line| line.strip_prefix("mtllib "));
     let names = rest.flat_map(|rest| [rest.trim()].into_iter().chain(rest.split_whitespace()));
     let mut libraries: Vec<PathBuf> = names.map(|name| mesh.with_file_name(name)).collect();
     libraries.dedup();

@@ -126,3 +126,25 @@ fn unknown_methods_are_answered_with_names() {
         .run("render teapot -o out.png -m pong")
         .refused(&["`slerp-phong-vector`, `auto`, `reference`"]);
 }
+
+/// The usage of `render` names the flags of which one is needed, so that no line of it is refused.
+#[test]
+fn usage_of_render_says_what_is_needed() {
+    let folder = Folder::new();
+    folder
+        .run("render --help")
+        .done()
+        .prints("[OPTIONS] --output <FILE> <INPUT>")
+        .prints("[OPTIONS] --reference <FILE> <INPUT>")
+        .prints("[OPTIONS] <--stats|--print-scene> <INPUT>");
+    folder.run("render teapot").refused(&["--output <FILE>"]);
+    for needed in [
+        "--output a.png",
+        "--reference a.png",
+        "--stats",
+        "--print-scene",
+    ] {
+        let run = folder.run(&format!("render teapot --size 8x8 {needed}"));
+        assert!(run.code != Some(2), "{needed}: {}", run.err);
+    }
+}
