@@ -5,9 +5,7 @@ use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::picture::LinearPicture;
-use fastphong::raster::{
-    Edges, barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours,
-};
+use fastphong::raster::{Edges, checkerboard, vertex_colours};
 use fastphong::scene::{Camera, Culling, Interpolation, Object, Projection, Scene};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -126,8 +124,9 @@ const BOARD: [[f32; 3]; 2] = [[1.0; 3], [0.0; 3]];
 /// screen it is wrong, and wrong differently if the floor is cut into triangles.
 #[test]
 fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
-    let board =
-        |triangles, interpolation| checkerboard(&seen(floor(triangles), interpolation), 1.0, BOARD);
+    let board = |triangles, interpolation| {
+        checkerboard(&seen(floor(triangles), interpolation), None, 1.0, BOARD)
+    };
     for triangles in [false, true] {
         let (off, all) = wrong(&board(triangles, Interpolation::Perspective));
         assert!(off == 0 && all > 1000, "{off} of {all}");
@@ -155,7 +154,7 @@ fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
 fn squares_have_their_size_and_place() {
     let frame = seen(floor(false), Interpolation::Perspective);
     for size in [0.5, 1.0, 3.0] {
-        let picture = checkerboard(&frame, size, BOARD);
+        let picture = checkerboard(&frame, None, size, BOARD);
         let (mut wrong, mut all) = (0, 0);
         for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
             let Some(([wx, wz], off)) = on_floor(x, y) else {
@@ -186,8 +185,8 @@ fn squares_have_their_size_and_place() {
 fn vertex_colours_are_linear_on_the_surface() {
     let frame = seen(floor(true), Interpolation::Perspective);
     for picture in [
-        vertex_colours(&frame),
-        barycentric_vertex_colours(&frame, Edges::TopLeft),
+        vertex_colours(&frame, None),
+        vertex_colours(&frame, Some(Edges::TopLeft)),
     ] {
         let mut compared = 0;
         for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
@@ -204,8 +203,8 @@ fn vertex_colours_are_linear_on_the_surface() {
         }
         assert!(compared > 1000);
     }
-    let bent = vertex_colours(&seen(floor(true), Interpolation::Screen));
-    let straight = vertex_colours(&frame);
+    let bent = vertex_colours(&seen(floor(true), Interpolation::Screen), None);
+    let straight = vertex_colours(&frame, None);
     let most = bent
         .pixels()
         .iter()

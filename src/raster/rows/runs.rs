@@ -80,46 +80,24 @@ impl RunQueue {
     ) {
         let uniforms = setup.uniforms_of(batch.listed[k].number);
         let count = setup.varyings.count;
-        let Some(fragments) = tiny else {
-            return large_runs(
-                (batch, k),
-                top,
-                #[inline(always)]
-                |across| batch.planes.growth(m, k, 1 + count, across),
-                #[inline(always)]
-                |step, run| {
-                    let at = batch.planes.at(m, k, 1 + count, run.weights);
-                    self.add(uniforms, run, count, [&at, step]);
-                },
-            );
-        };
-        let [_, b, c] = &batch.edges;
-        let across = [b, c].map(|f| f.right[k] as f32 * batch.over_area[k]);
-        let step = batch.planes.growth(m, k, 1 + count, across);
-        fragments.runs(
-            batch,
-            k,
+        triangle_runs(
+            m,
+            (batch, k, tiny),
             top,
+            1 + count,
             #[inline(always)]
-            |run| {
+            |step, run| {
                 let at = batch.planes.at(m, k, 1 + count, run.weights);
-                self.add(uniforms, run, count, [&at, &step]);
+                // Whole lines: the numbers past the last are cut off.
+                let first = self.starts.len();
+                self.starts.extend_from_slice(&at[1..]);
+                self.starts.truncate(first + count);
+                self.starts.extend_from_slice(&step[1..]);
+                self.starts.truncate(first + 2 * count);
+                let (row, depth) = (run.row, [at[0], step[0]]);
+                self.push(uniforms, run.pixels, RunPlace { row, depth });
             },
         );
-    }
-
-    /// Adds a run of a triangle, with depth and `count` varyings at its first pixel, and their growth.
-    #[inline(always)]
-    fn add(&mut self, uniforms: u32, run: FoundRun, count: usize, [at, step]: [&Numbers; 2]) {
-        // Whole lines: the numbers past the last are cut off.
-        let first = self.starts.len();
-        self.starts.extend_from_slice(&at[1..]);
-        self.starts.truncate(first + count);
-        self.starts.extend_from_slice(&step[1..]);
-        self.starts.truncate(first + 2 * count);
-        let FoundRun { row, pixels, .. } = run;
-        let depth = [at[0], step[0]];
-        self.push(uniforms, pixels, RunPlace { row, depth });
     }
 
     /// Adds the runs of polygon `number`, of any shape: its edges step what they carry from row to row.
@@ -275,19 +253,18 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
     writer: &mut Writer<'_, S, N>,
 ) {
     let count = writer.count.get();
-    large_runs(
-        (batch, k),
+    triangle_runs(
+        m,
+        (batch, k, None),
         top,
-        #[inline(always)]
-        |across| batch.planes.growth(m, k, count, across),
+        count,
         #[inline(always)]
         |step, run| {
             let at = batch.planes.at(m, k, count, run.weights);
-            let FoundRun { row, pixels, .. } = run;
-            let depth = [at[0], step[0]];
+            let (row, depth) = (run.row, [at[0], step[0]]);
             draw_run(
                 m,
-                (RunPlace { row, depth }, pixels),
+                (RunPlace { row, depth }, run.pixels),
                 writer,
                 #[inline(always)]
                 |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),
@@ -303,14 +280,15 @@ fn outside<S: Simd>(m: Lanes<S>, block: usize, pixels: &Range<usize>) -> i32x8<S
     (k - m.int(pixels.start as i32 - first)) | (m.int(pixels.end as i32 - 1 - first) - k)
 }
 
-/// Calls `visit` with the runs of triangle `k` of a batch, of any size, by the crossings of its edges with the scanlines of the
-/// tile that begins with row `top`. `grow` turns the growth of its barycentric coordinates from pixel to pixel into that of its
-/// numbers.
+/// Calls `visit` with the runs of triangle `k` of a batch in the tile that begins with row `top`, and with the growth of its
+/// first `count` numbers from pixel to pixel. The runs of a `tiny` one are those of its fragments; any other, however large,
+/// has the crossings of its edges with the scanlines.
 #[inline(always)]
-fn large_runs(
-    (batch, k): (&Batch, usize),
+fn triangle_runs<S: Simd>(
+    m: Lanes<S>,
+    (batch, k, tiny): (&Batch, usize, Option<&Fragments>),
     top: usize,
-    grow: impl FnOnce([f32; 2]) -> Numbers,
+    count: usize,
     mut visit: impl FnMut(&Numbers, FoundRun),
 ) {
     let [x, y] = [&batch.x, &batch.y].map(|at| [at[0][k], at[1][k], at[2][k]]);
@@ -326,7 +304,17 @@ fn large_runs(
     }
     let over_area = 1.0 / area as f32;
     let scale = 256.0 * over_area;
-    let step = grow([(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale]);
+    let across = [(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale];
+    let step = batch.planes.growth(m, k, count, across);
+    if let Some(fragments) = tiny {
+        return fragments.runs(
+            batch,
+            k,
+            top,
+            #[inline(always)]
+            |run| visit(&step, run),
+        );
+    }
     // From the top corner two edges go down; the third one follows one of them.
     let mut order = [0usize, 1, 2];
     order.sort_unstable_by_key(|&i| y[i]);
