@@ -8,13 +8,12 @@
 //! diagonal (L5, *What's wrong?*), the second does not.
 
 use super::barycentric::{self, Edges};
-use super::setup::{Varyings, unit};
+use super::setup::{Varyings, finish, unit};
 use super::spans::{NOTHING, scan};
 use super::target::{Target, draw_anyhow, draw_rows, empty, linear_samples};
-use crate::frame::{Frame, ScreenVertex};
+use crate::frame::Frame;
 use crate::picture::{LinearPicture, Picture, Rgb};
 use crate::scene::Interpolation;
-use crate::shading::ramp;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -99,18 +98,11 @@ pub fn normals(frame: &Frame) -> LinearPicture {
 
 /// Returns three numbers per vertex as varyings, followed by 1; all times the weight of perspective where the frame asks for it.
 fn of_vertices(frame: &Frame, of: impl Fn(u32) -> [f32; 3]) -> Varyings<'static> {
-    let mut all: Vec<[f32; 3]> = (0..frame.vertices().len() as u32).map(of).collect();
-    for corner in frame.clip_corners() {
-        let (a, b) = (all[corner.a as usize], all[corner.b as usize]);
-        all[corner.vertex as usize] = core::array::from_fn(|i| ramp(a[i], b[i], corner.t, 0.0)[0]);
-    }
-    let weighted = |([x, y, z], vertex): (&[f32; 3], &ScreenVertex)| {
-        let is_weighted = frame.interpolation() == Interpolation::Perspective;
-        let weight = if is_weighted { vertex.inv_w } else { 1.0 };
-        [*x, *y, *z, 1.0].map(|value| value * weight)
-    };
-    let values = all.iter().zip(frame.vertices()).flat_map(weighted);
-    Varyings::of_vertices(values.collect::<Vec<f32>>(), 4)
+    let all = (0..frame.vertices().len() as u32).map(of);
+    let mut values: Vec<f32> = all.flat_map(|[x, y, z]| [x, y, z, 1.0]).collect();
+    let is_weighted = frame.interpolation() == Interpolation::Perspective;
+    finish(frame, &mut values, (4, false), is_weighted);
+    Varyings::of_vertices(values, 4)
 }
 
 /// Returns the colours of the vertices ([`Frame::colour`]), interpolated: linear, clamped to 0..=1; alpha 0 where nothing is

@@ -61,13 +61,6 @@ impl RunQueue {
         self.blocks >= MOST_BLOCKS
     }
 
-    fn clear(&mut self) {
-        self.places.clear();
-        self.runs.clear();
-        self.starts.clear();
-        self.blocks = 0;
-    }
-
     /// Adds the runs of triangle `k` of a batch, in the tile that begins with row `top`, for a method that is walked along: its
     /// varyings are linear over the triangle. With `tiny` it is one of these fragments' triangles.
     #[inline(always)]
@@ -155,32 +148,30 @@ impl RunQueue {
         }
     }
 
-    /// Walks along the runs, if the method has a walk: `planes` numbers per pixel.
-    pub fn walk(&mut self, setup: &SetUp<'_>, walk: Option<WalkKernel>, planes: usize) {
-        let Some(walk) = walk else { return };
-        let room = self.blocks * BLOCK * planes;
-        // Padding of a block before and after: block loads may overrun, and those lanes are masked.
-        let len = self.walked.len().max(room + 2 * BLOCK);
-        self.walked.resize(len, 0.0);
-        let job = setup.pixels(&self.runs, &self.starts);
-        walk(&job, &mut self.walked[BLOCK..BLOCK + room]);
-    }
-
-    /// Draws the runs, in order. Their pixels are the walked ones, or the varyings themselves.
+    /// Draws the runs, in order, with `planes` varyings per pixel: those that `walk` returns, if the method has a walk, else those
+    /// that it interpolates.
     #[inline(always)]
     pub fn draw<S: Simd>(
         &mut self,
         m: Lanes<S>,
         setup: &SetUp<'_>,
-        is_walked: bool,
+        walk: Option<WalkKernel>,
         planes: usize,
         mut writer: Writer<'_, S, 0>,
     ) {
+        if let Some(walk) = walk {
+            let room = self.blocks * BLOCK * planes;
+            // Padding of a block before and after: block loads may overrun, and those lanes are masked.
+            let len = self.walked.len().max(room + 2 * BLOCK);
+            self.walked.resize(len, 0.0);
+            let job = setup.pixels(&self.runs, &self.starts);
+            walk(&job, &mut self.walked[BLOCK..BLOCK + room]);
+        }
         let len = start_len(setup.varyings.great_circle, setup.varyings.count);
         let mut walked = BLOCK;
         for (i, (run, place)) in self.runs.iter().zip(&self.places).enumerate() {
             let (material, pixels) = (m.splat(run.uniforms as f32), pixels_of(run));
-            if is_walked {
+            if walk.is_some() {
                 let length = pixels.len().next_multiple_of(BLOCK);
                 let from = &self.walked[walked - BLOCK..walked + length * planes + BLOCK];
                 draw_run(
@@ -212,7 +203,10 @@ impl RunQueue {
                 );
             }
         }
-        self.clear();
+        self.places.clear();
+        self.runs.clear();
+        self.starts.clear();
+        self.blocks = 0;
     }
 }
 
