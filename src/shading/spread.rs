@@ -51,11 +51,9 @@ impl Spread {
                 spread.add(frame, polygon.material, &Ball::around(frame, polygon));
             }
         }
-        if !frame.is_local() {
-            // All points see the same.
-            (0..frame.lightings().len() as u32)
-                .for_each(|material| spread.add(frame, material, &Ball::default()));
-        }
+        // All points see the same directional lights.
+        let materials = frame.lightings().len() as u32 * u32::from(!frame.is_local());
+        (0..materials).for_each(|material| spread.add(frame, material, &Ball::default()));
         spread
     }
 

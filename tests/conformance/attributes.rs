@@ -139,12 +139,8 @@ fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
         "the diagonal shows"
     );
     let frame = seen(floor(true), Interpolation::Perspective);
-    let (off, all) = wrong(&barycentric_checkerboard(
-        &frame,
-        Edges::TopLeft,
-        1.0,
-        BOARD,
-    ));
+    let by_barycentric = checkerboard(&frame, Some(Edges::TopLeft), 1.0, BOARD);
+    let (off, all) = wrong(&by_barycentric);
     assert!(off == 0 && all > 1000, "{off} of {all}");
 }
 
@@ -223,10 +219,8 @@ fn colours_are_one_a_position_or_none() {
     let triangle = [Vec3::ZERO, Vec3::X, Vec3::Z];
     let mut builder = MeshBuilder::new(triangle.to_vec());
     builder.polygon(&[0, 2, 1]);
-    let picture = vertex_colours(&seen(
-        builder.clone().finish().expect("a mesh"),
-        Interpolation::Screen,
-    ));
+    let mesh = builder.clone().finish().expect("a mesh");
+    let picture = vertex_colours(&seen(mesh, Interpolation::Screen), None);
     assert!(picture.pixels().contains(&[1.0; 4]));
     assert!(
         picture
