@@ -51,9 +51,11 @@ impl Spread {
                 spread.add(frame, polygon.material, &Ball::around(frame, polygon));
             }
         }
-        // All points see the same directional lights.
-        let materials = frame.lightings().len() as u32 * u32::from(!frame.is_local());
-        (0..materials).for_each(|material| spread.add(frame, material, &Ball::default()));
+        if !frame.is_local() {
+            // All points see the same.
+            (0..frame.lightings().len() as u32)
+                .for_each(|material| spread.add(frame, material, &Ball::default()));
+        }
         spread
     }
 
