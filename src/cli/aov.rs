@@ -33,8 +33,8 @@ impl Aov {
     pub fn linear(self, frame: &Frame, square: f64) -> LinearPicture {
         let grey = |value: f32, seen: bool| [value, value, value, f32::from(u8::from(seen))];
         match self {
-            Aov::Colours => raster::vertex_colours(frame),
-            Aov::Checkerboard => raster::checkerboard(frame, square, BOARD),
+            Aov::Colours => raster::vertex_colours(frame, None),
+            Aov::Checkerboard => raster::checkerboard(frame, None, square, BOARD),
             Aov::Normal => raster::normals(frame),
             Aov::Depth => raster::depth(frame).map(|depth| grey(depth, depth.is_finite())),
             Aov::Polygon => raster::polygon_numbers(frame).map(|number| {

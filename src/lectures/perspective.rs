@@ -37,7 +37,7 @@ fn board(polygons: &[&[u32]], interpolation: Interpolation) -> Result<LinearPict
     let corners = corners.map(|(x, z)| REACH * DVec3::new(x, 0.0, z));
     let mut scene = bare(&corners, polygons, CAMERA, [WIDTH as u32, HEIGHT as u32])?;
     scene.interpolation = interpolation;
-    Ok(checkerboard(&scene.frame()?, SQUARE, BOARD))
+    Ok(checkerboard(&scene.frame()?, None, SQUARE, BOARD))
 }
 
 /// Returns the colour of the board where the ray of a pixel meets the floor.
@@ -121,7 +121,7 @@ fn strip() -> Result<LinearPicture> {
         number
     });
     builder.polygon(&corners, [0.0, 0.0, 1.0], 0);
-    Ok(vertex_colours(&builder.finish()?))
+    Ok(vertex_colours(&builder.finish()?, None))
 }
 
 /// Compares the weight of A along an edge in the engine with the corrected and with the printed

@@ -13,8 +13,6 @@ pub(crate) struct Lanes<S>(pub S);
 pub(crate) trait Int: Sized {
     /// Returns −1 (all bits) where `self < other`, else 0.
     fn less(self, other: Self) -> Self;
-    /// Returns `a` where `self` has all bits, `b` where it has none.
-    fn choose(self, a: Self, b: Self) -> Self;
 }
 
 impl<S: Simd> Int for i32x8<S> {
@@ -22,13 +20,7 @@ impl<S: Simd> Int for i32x8<S> {
     fn less(self, other: Self) -> Self {
         self.simd_lt(other).to_vector()
     }
-    #[inline(always)]
-    fn choose(self, a: Self, b: Self) -> Self {
-        b ^ ((a ^ b) & self)
-    }
 }
-
-const COUNTED: [i32; BLOCK] = [0, 1, 2, 3, 4, 5, 6, 7];
 
 impl<S: Simd> Lanes<S> {
     #[inline(always)]
@@ -42,7 +34,7 @@ impl<S: Simd> Lanes<S> {
     /// Returns 0, 1, 2, … 7.
     #[inline(always)]
     pub fn counted(self) -> i32x8<S> {
-        i32x8::simd_from(self.0, COUNTED)
+        i32x8::simd_from(self.0, [0, 1, 2, 3, 4, 5, 6, 7])
     }
     /// Returns `at + k · step` in lane k.
     #[inline(always)]

@@ -8,13 +8,12 @@
 //! diagonal (L5, *What's wrong?*), the second does not.
 
 use super::barycentric::{self, Edges};
-use super::setup::{Varyings, unit};
+use super::setup::{Varyings, finish, unit};
 use super::spans::{NOTHING, scan};
 use super::target::{Target, draw_anyhow, draw_rows, empty, linear_samples};
-use crate::frame::{Frame, ScreenVertex};
+use crate::frame::Frame;
 use crate::picture::{LinearPicture, Picture, Rgb};
 use crate::scene::Interpolation;
-use crate::shading::ramp;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -99,54 +98,31 @@ pub fn normals(frame: &Frame) -> LinearPicture {
 
 /// Returns three numbers per vertex as varyings, followed by 1; all times the weight of perspective where the frame asks for it.
 fn of_vertices(frame: &Frame, of: impl Fn(u32) -> [f32; 3]) -> Varyings<'static> {
-    let mut all: Vec<[f32; 3]> = (0..frame.vertices().len() as u32).map(of).collect();
-    for corner in frame.clip_corners() {
-        let (a, b) = (all[corner.a as usize], all[corner.b as usize]);
-        let between = |i: usize| ramp(a[i], b[i], corner.t, 0.0)[0];
-        all[corner.vertex as usize] = [between(0), between(1), between(2)];
-    }
-    let weighted = |([x, y, z], vertex): (&[f32; 3], &ScreenVertex)| {
-        let is_weighted = frame.interpolation() == Interpolation::Perspective;
-        let weight = if is_weighted { vertex.inv_w } else { 1.0 };
-        [*x, *y, *z, 1.0].map(|value| value * weight)
-    };
-    let values = all.iter().zip(frame.vertices()).flat_map(weighted);
-    Varyings::of_vertices(values.collect::<Vec<f32>>(), 4)
+    let all = (0..frame.vertices().len() as u32).map(of);
+    let mut values: Vec<f32> = all.flat_map(|[x, y, z]| [x, y, z, 1.0]).collect();
+    let is_weighted = frame.interpolation() == Interpolation::Perspective;
+    finish(frame, &mut values, (4, false), is_weighted);
+    Varyings::of_vertices(values, 4)
 }
 
 /// Returns the colours of the vertices ([`Frame::colour`]), interpolated: linear, clamped to 0..=1; alpha 0 where nothing is
-/// seen.
-pub fn vertex_colours(frame: &Frame) -> LinearPicture {
-    shown(frame, None, |vertex| frame.colour(vertex), |colour| colour)
-}
-
-/// Returns the picture of [`vertex_colours`] by the barycentric renderer (CS171 1, Algorithm 2), which passes over polygons of
-/// more than three corners.
-pub fn barycentric_vertex_colours(frame: &Frame, edges: Edges) -> LinearPicture {
-    shown(frame, Some(edges), |v| frame.colour(v), |colour| colour)
+/// seen. The span engine draws them, or with `edges` the barycentric renderer (CS171 1, Algorithm 2), which passes over
+/// polygons of more than three corners.
+pub fn vertex_colours(frame: &Frame, edges: Option<Edges>) -> LinearPicture {
+    shown(frame, edges, |vertex| frame.colour(vertex), |colour| colour)
 }
 
 /// Returns a checkerboard on the world's x and z, the plane of a floor: alpha 0 where nothing is seen.
 /// ```text
 /// C(x, z) = c_1 if ⌊x/s⌋ + ⌊z/s⌋ is even, else c_2      (L5, Image Function, whose plane is x, y)
 /// ```
-/// `size` is s, in world units, over 0; `colours` are c_1 and c_2.
-pub fn checkerboard(frame: &Frame, size: f64, colours: [Rgb; 2]) -> LinearPicture {
-    board(frame, None, size, colours)
-}
-
-/// Returns the picture of [`checkerboard`] by the barycentric renderer, which passes over polygons of more than three corners.
-pub fn barycentric_checkerboard(
+/// `size` is s, in world units, over 0; `colours` are c_1 and c_2. It is drawn as [`vertex_colours`] are.
+pub fn checkerboard(
     frame: &Frame,
-    edges: Edges,
+    edges: Option<Edges>,
     size: f64,
     colours: [Rgb; 2],
 ) -> LinearPicture {
-    board(frame, Some(edges), size, colours)
-}
-
-/// Draws a checkerboard by the span engine, or by the barycentric renderer with `edges`.
-fn board(frame: &Frame, edges: Option<Edges>, size: f64, colours: [Rgb; 2]) -> LinearPicture {
     let eye = frame.eye();
     // The position of a vertex in the world, rounded once.
     let world = |vertex: u32| {

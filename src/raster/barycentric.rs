@@ -8,7 +8,7 @@ use super::depth::SampleDepth;
 use super::setup::{SetUp, Varyings};
 use super::spans::NOTHING;
 use super::target::Target;
-use crate::frame::{Frame, ScreenVertex};
+use crate::frame::Frame;
 use crate::picture::Picture;
 use crate::shading::Run;
 use alloc::vec;
@@ -37,9 +37,7 @@ struct EdgeFunction {
 }
 
 impl EdgeFunction {
-    fn new(i: &ScreenVertex, j: &ScreenVertex) -> Self {
-        let bits = |v: &ScreenVertex| (i64::from(v.x.to_bits()), i64::from(v.y.to_bits()));
-        let ((xi, yi), (xj, yj)) = (bits(i), bits(j));
+    fn new([xi, yi]: [i64; 2], [xj, yj]: [i64; 2]) -> Self {
         EdgeFunction {
             across: yi - yj,
             down: xj - xi,
@@ -48,12 +46,8 @@ impl EdgeFunction {
     }
 
     #[inline(always)]
-    fn at(&self, x: i64, y: i64) -> i64 {
+    fn at(&self, [x, y]: [i64; 2]) -> i64 {
         self.across * x + self.down * y + self.constant // f_ij
-    }
-
-    fn at_vertex(&self, v: &ScreenVertex) -> i64 {
-        self.at(i64::from(v.x.to_bits()), i64::from(v.y.to_bits()))
     }
 
     /// True if pixels on the edge itself are inside a triangle whose inside is where f ≥ 0: left and top edges.
@@ -78,27 +72,24 @@ pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: 
         };
         let mut order = [(0, a), (1, b), (2, c)];
         let vertex = |v: u32| &frame.vertices()[v as usize];
-        let doubled_area = EdgeFunction::new(vertex(a), vertex(b)).at_vertex(vertex(c));
+        let point = |v: u32| [vertex(v).x, vertex(v).y].map(|at| i64::from(at.to_bits()));
+        let doubled_area = EdgeFunction::new(point(a), point(b)).at(point(c));
         if doubled_area == 0 {
             continue;
         }
         if doubled_area < 0 {
             order.swap(1, 2);
         }
-        let corners = order.map(|(_, v)| vertex(v));
-        let functions = [
-            EdgeFunction::new(corners[1], corners[2]),
-            EdgeFunction::new(corners[2], corners[0]),
-            EdgeFunction::new(corners[0], corners[1]),
-        ];
+        let [a, b, c] = order.map(|(_, v)| point(v));
+        let functions = [(b, c), (c, a), (a, b)].map(|(i, j)| EdgeFunction::new(i, j));
         // f ≥ 1 is f > 0 in integers: the edges that do not own their pixels need that.
         let disowns = |f: &EdgeFunction| edges == Edges::TopLeft && !f.owns_its_pixels();
         let least = functions.each_ref().map(|f| i64::from(disowns(f)));
         let scale = 1.0 / doubled_area.abs() as f32;
-        let depths = corners.map(|corner| depth.of_corner(frame, corner));
+        let depths = order.map(|(_, v)| depth.of_corner(frame, vertex(v)));
         let values = order.map(|(corner, v)| varyings.of_corner(number, corner, v));
-        let x_range = pixels(corners.map(|v| v.x.to_bits()), frame.width());
-        let y_range = pixels(corners.map(|v| v.y.to_bits()), frame.height());
+        let x_range = pixels([a[0], b[0], c[0]], frame.width());
+        let y_range = pixels([a[1], b[1], c[1]], frame.height());
         for row in y_range {
             columns.clear();
             starts.clear();
@@ -106,7 +97,7 @@ pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: 
             let nearest = &mut depth_buffer[row * frame.width()..][..frame.width()];
             for column in x_range.clone() {
                 let x = 256 * column as i64 + 128;
-                let here = functions.each_ref().map(|f| f.at(x, y));
+                let here = functions.each_ref().map(|f| f.at([x, y]));
                 if here.iter().zip(&least).any(|(f, least)| f < least) {
                     continue;
                 }
@@ -169,7 +160,7 @@ pub fn barycentric_polygon_numbers(frame: &Frame, edges: Edges) -> Picture<u32> 
 }
 
 /// Returns the pixels of 0 to `limit` whose centres lie between the least and the largest of three coordinates.
-fn pixels([a, b, c]: [i32; 3], limit: usize) -> Range<usize> {
+fn pixels([a, b, c]: [i64; 3], limit: usize) -> Range<usize> {
     // Centres at 256 p + 128, both ends included for closed edges.
     let first = (a.min(b).min(c) + 127).div_euclid(256).max(0) as usize;
     let end = (a.max(b).max(c) - 128).div_euclid(256) + 1;

@@ -160,21 +160,14 @@ fn find_bands(
         begin.as_flattened_mut()[i] = ((least + 127) >> 8).max(0);
         stop.as_flattened_mut()[i] = ((most + 127) >> 8).min(limit.as_flattened()[i]);
     }
-    let (log_height, nowhere) = (
-        height.trailing_zeros(),
-        frame.height().div_ceil(height) as i32,
-    );
+    let log_height = height.trailing_zeros();
+    let nowhere = frame.height().div_ceil(height) as i32;
     let (from, end) = (&mut from[first..][..GROUP], &mut end[first..][..GROUP]);
     for k in 0..GROUP {
         let ([left, top], [right, bottom]) = (begin[k], stop[k]);
         let is_there = (left < right) & (top < bottom);
-        from[k] = if is_there { top >> log_height } else { nowhere } as u16;
-        end[k] = if is_there {
-            (bottom - 1) >> log_height
-        } else {
-            nowhere
-        } as u16
-            + 1;
+        let band = |row: i32| if is_there { row >> log_height } else { nowhere } as u16;
+        (from[k], end[k]) = (band(top), band(bottom - 1) + 1);
     }
 }
 

@@ -30,10 +30,7 @@ mod setup;
 mod spans;
 mod target;
 
-pub use aov::{
-    barycentric_checkerboard, barycentric_vertex_colours, checkerboard, coverage, depth, normals,
-    polygon_numbers, vertex_colours,
-};
+pub use aov::{checkerboard, coverage, depth, normals, polygon_numbers, vertex_colours};
 pub use barycentric::{Edges, barycentric_polygon_numbers};
 pub use engine::{Engine, Plan, Renderer};
 pub use spans::{EdgeCrossing, NOTHING};

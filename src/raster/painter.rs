@@ -13,7 +13,9 @@
 //! assert!(found.interpenetrating > 0 && !found.cycles.is_empty());
 //! ```
 
-use super::coverage;
+use super::setup::Varyings;
+use super::spans::active::PolygonSpan;
+use super::spans::scan;
 use crate::frame::Frame;
 use crate::reference::coverage::Scanline;
 use crate::scene::Clipping;
@@ -21,7 +23,6 @@ use alloc::collections::BTreeSet;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::mem::replace;
-use core::ops::Range;
 
 /// The conflicts of drawing the polygons of a frame in their order, without a depth test.
 ///
@@ -61,51 +62,39 @@ pub fn conflicts(frame: &Frame) -> Conflicts {
 /// Returns all pairs (a, b) of which a hides b.
 fn relation(frame: &Frame) -> BTreeSet<(u32, u32)> {
     let mut hides = BTreeSet::new();
-    let mut row = 0;
-    let mut spans: Vec<(Range<usize>, u32)> = Vec::new();
-    coverage(frame, |polygon, y, pixels| {
-        if y != row {
-            compare(frame, row, &mut spans, &mut hides);
-            spans.clear();
-            row = y;
-        }
-        spans.push((pixels, polygon));
+    scan(frame, &Varyings::none(), &mut |row, line, _| {
+        compare(frame, row, line.spans().to_vec(), &mut hides);
     });
-    compare(frame, row, &mut spans, &mut hides);
     hides
 }
 
 /// Adds the pairs that the spans of row `y` show to `hides`.
-fn compare(
-    frame: &Frame,
-    y: usize,
-    spans: &mut [(Range<usize>, u32)],
-    hides: &mut BTreeSet<(u32, u32)>,
-) {
+fn compare(frame: &Frame, y: usize, mut spans: Vec<PolygonSpan>, hides: &mut BTreeSet<(u32, u32)>) {
     let tests_samples = frame.clipping() == Clipping::NdcCube;
-    spans.sort_unstable_by_key(|(pixels, polygon)| (pixels.start, *polygon));
+    spans.sort_unstable_by_key(|span| (span.start, span.polygon));
     // The spans that reach the pixel looked at.
     let mut open: Vec<(usize, u32, Scanline<'_>)> = Vec::new();
-    for (pixels, polygon) in spans {
-        open.retain(|(end, ..)| *end > pixels.start);
+    for span in spans {
+        let (start, stop, polygon) = (span.start as usize, span.end as usize, span.polygon);
+        open.retain(|(end, ..)| *end > start);
         let mut scanline = Scanline::new(frame);
-        scanline.cut(frame.corners(&frame.polygons()[*polygon as usize]), y);
+        scanline.cut(frame.corners(&frame.polygons()[polygon as usize]), y);
         for (end, other, others_scanline) in &open {
-            let (first, last) = (pixels.start, pixels.end.min(*end) - 1);
+            let (first, last) = (start, stop.min(*end) - 1);
             // Under the test of each sample the ends need not be seen.
             let step = if tests_samples { 1 } else { last - first };
             for x in (first..=last).step_by(step.max(1)) {
                 let depths = (depth(frame, &scanline, x), depth(frame, others_scanline, x));
                 if let (Some(a), Some(b)) = depths {
                     if b - a > SAME_DEPTH {
-                        hides.insert((*polygon, *other));
+                        hides.insert((polygon, *other));
                     } else if a - b > SAME_DEPTH {
-                        hides.insert((*other, *polygon));
+                        hides.insert((*other, polygon));
                     }
                 }
             }
         }
-        open.push((pixels.end, *polygon, scanline));
+        open.push((stop, polygon, scanline));
     }
 }
 

@@ -166,10 +166,7 @@ impl Variant {
     pub fn render_barycentric(&self, frame: &Frame, edges: Edges) -> Option<Picture8> {
         match frame.encoding() {
             Encoding::Linear => self.triangles(frame, edges),
-            Encoding::Srgb => Some(store(
-                &self.render_barycentric_linear(frame, edges)?,
-                Encoding::Srgb,
-            )),
+            encoding => Some(store(&self.triangles(frame, edges)?, encoding)),
         }
     }
 

@@ -6,8 +6,9 @@ use crate::number::{Level, Vec3, vec3};
 use crate::scene::Interpolation;
 use crate::shading::increments::GreatCircle;
 use crate::shading::lighting::Uniforms;
-use crate::shading::{Extras, Kernels, LitAt, Local, Perspective, Pixels, Run};
-use crate::shading::{Variant, Vertices, ramp};
+use crate::shading::{
+    Extras, Kernels, LitAt, Local, Perspective, Pixels, Run, Variant, VertexKernel, Vertices, ramp,
+};
 use alloc::borrow::Cow;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -81,6 +82,8 @@ pub(super) struct SetUp<'a> {
     pub uniforms: Vec<Uniforms>,
     pub is_by_polygon: bool,
     pub varyings: Varyings<'a>,
+    /// Lights vertices on the instruction set of the engine.
+    light: VertexKernel,
 }
 
 /// Vertices that are lit by one call.
@@ -107,6 +110,7 @@ impl<'a> SetUp<'a> {
             uniforms = polygons.map(seen).collect();
         }
         let extras = entry.extras(near, is_perspective);
+        let simd = (kernels.simd)(level);
         let [own, _] = (kernels.counts)(frame.light_count());
         let mut varyings = Varyings::of_vertices(&[][..], own + extras.count());
         varyings.great_circle = kernels.great_circle;
@@ -118,13 +122,16 @@ impl<'a> SetUp<'a> {
             uniforms,
             is_by_polygon,
             varyings,
+            light: simd
+                .and_then(|simd| simd.vertices)
+                .unwrap_or(kernels.vertices),
         };
         let is_weighted =
             is_perspective && matches!(info.perspective, Perspective::Free | Perspective::Divides);
         (all.varyings.values, all.varyings.per) = match info.lit_at {
-            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(level, info.lit_at),
-            _ if is_by_polygon && !kernels.great_circle => all.light_corners(level, is_weighted),
-            _ => all.light_vertices(level, is_weighted),
+            LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(info.lit_at),
+            _ if is_by_polygon && !kernels.great_circle => all.light_corners(is_weighted),
+            _ => all.light_vertices(is_weighted),
         };
         all
     }
@@ -150,7 +157,7 @@ impl<'a> SetUp<'a> {
     }
 
     /// Lights every vertex, or borrows the frame's normals where a method interpolates nothing else.
-    fn light_vertices(&self, level: Level, is_weighted: bool) -> (Cow<'a, [f32]>, Per) {
+    fn light_vertices(&self, is_weighted: bool) -> (Cow<'a, [f32]>, Per) {
         let (frame, count, near) = (self.frame, self.varyings.count, self.frame.is_local());
         let has_one_material = frame.lightings().len() == 1;
         let normals = frame.normals_on_screen();
@@ -163,10 +170,10 @@ impl<'a> SetUp<'a> {
                 self.filled(normals.len(), &|first, values| {
                     let normals = &normals[first..][..values.len() / count];
                     // Directional lights do not ask for points.
-                    self.light(level, 0, normals, normals, values);
+                    self.light(0, normals, normals, values);
                 })
             }
-            _ => self.lit(level, frame.vertices().len(), &|i| {
+            _ => self.lit(frame.vertices().len(), &|i| {
                 let vertex = i as u32;
                 let point = match near {
                     true => frame.position(vertex),
@@ -177,21 +184,13 @@ impl<'a> SetUp<'a> {
                 (material.unwrap_or(0), frame.normal(vertex), point)
             }),
         };
-        for corner in frame.clip_corners() {
-            let ends = [corner.a, corner.b].map(|v| values[v as usize * count..][..count].to_vec());
-            let to = &mut values[corner.vertex as usize * count..][..count];
-            between(self.varyings.great_circle, corner, &ends, to);
-        }
-        if is_weighted && count > 0 {
-            for (varying, vertex) in values.chunks_exact_mut(count).zip(frame.vertices()) {
-                varying.iter_mut().for_each(|value| *value *= vertex.inv_w);
-            }
-        }
+        let great_circle = self.varyings.great_circle;
+        finish(frame, &mut values, (count, great_circle), is_weighted);
         (values.into(), Per::Vertex)
     }
 
     /// Lights each polygon once.
-    fn light_polygons(&self, level: Level, at: LitAt) -> (Cow<'a, [f32]>, Per) {
+    fn light_polygons(&self, at: LitAt) -> (Cow<'a, [f32]>, Per) {
         let frame = self.frame;
         let item = |number: usize| {
             let polygon = &frame.polygons()[number];
@@ -201,12 +200,12 @@ impl<'a> SetUp<'a> {
             };
             (self.uniforms_of(number as u32), normal, [0.0; 3])
         };
-        let values = self.lit(level, frame.polygons().len(), &item);
+        let values = self.lit(frame.polygons().len(), &item);
         (values.into(), Per::Polygon)
     }
 
     /// Lights the corners of each polygon by the light that the polygon sees.
-    fn light_corners(&self, level: Level, is_weighted: bool) -> (Cow<'a, [f32]>, Per) {
+    fn light_corners(&self, is_weighted: bool) -> (Cow<'a, [f32]>, Per) {
         let (frame, count) = (self.frame, self.varyings.count);
         let (mut first, mut corners) = (Vec::new(), Vec::new());
         for (number, polygon) in (0..).zip(frame.polygons()) {
@@ -215,10 +214,10 @@ impl<'a> SetUp<'a> {
             corners.extend(vertices.map(|&vertex| (number, vertex)));
         }
         let item = |i: usize| (corners[i].0, frame.normal(corners[i].1), [0.0; 3]);
-        let mut values = self.lit(level, corners.len(), &item);
+        let mut values = self.lit(corners.len(), &item);
         for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
             if frame.clip_corner(vertex).is_some() {
-                to.copy_from_slice(&self.clipped(level, number, vertex));
+                to.copy_from_slice(&self.clipped(number, vertex));
             }
             if is_weighted {
                 let weight = frame.vertices()[vertex as usize].inv_w;
@@ -229,11 +228,11 @@ impl<'a> SetUp<'a> {
     }
 
     /// Returns the varying of a vertex on polygon `number`: between the ends of the edge on which clipping made it, or lit.
-    fn clipped(&self, level: Level, number: u32, vertex: u32) -> Vec<f32> {
+    fn clipped(&self, number: u32, vertex: u32) -> Vec<f32> {
         let Some(corner) = self.frame.clip_corner(vertex) else {
-            return self.lit(level, 1, &|_| (number, self.frame.normal(vertex), [0.0; 3]));
+            return self.lit(1, &|_| (number, self.frame.normal(vertex), [0.0; 3]));
         };
-        let ends = [corner.a, corner.b].map(|v| self.clipped(level, number, v));
+        let ends = [corner.a, corner.b].map(|v| self.clipped(number, v));
         let mut to = vec![0.0; self.varyings.count];
         between(self.varyings.great_circle, &corner, &ends, &mut to);
         to
@@ -251,7 +250,7 @@ impl<'a> SetUp<'a> {
     }
 
     /// Lights `count` vertices, on several threads and on an instruction set.
-    fn lit(&self, level: Level, count: usize, item: &(dyn Fn(usize) -> Item + Sync)) -> Vec<f32> {
+    fn lit(&self, count: usize, item: &(dyn Fn(usize) -> Item + Sync)) -> Vec<f32> {
         let stride = self.varyings.count;
         self.filled(count, &|mut first, mut rest| {
             let (mut normals, mut points) = ([[0.0; 3]; BATCH], [[0.0; 3]; BATCH]);
@@ -267,23 +266,15 @@ impl<'a> SetUp<'a> {
                     k += 1;
                 }
                 let (here, others) = rest.split_at_mut(k * stride);
-                self.light(level, number, &normals[..k], &points[..k], here);
+                self.light(number, &normals[..k], &points[..k], here);
                 self.add_extras(here, &points[..k]);
                 (rest, first) = (others, first + k);
             }
         })
     }
 
-    /// Lights vertices of one material by the kernel of an instruction set.
-    fn light(
-        &self,
-        level: Level,
-        uniforms: u32,
-        normals: &[[f32; 3]],
-        points: &[[f32; 3]],
-        to: &mut [f32],
-    ) {
-        let simd = (self.kernels.simd)(level).and_then(|simd| simd.vertices);
+    /// Lights vertices of one material.
+    fn light(&self, uniforms: u32, normals: &[[f32; 3]], points: &[[f32; 3]], to: &mut [f32]) {
         let vertices = Vertices {
             parameters: self.parameters,
             uniforms: &self.uniforms[uniforms as usize],
@@ -291,7 +282,7 @@ impl<'a> SetUp<'a> {
             points,
             stride: self.varyings.count,
         };
-        simd.unwrap_or(self.kernels.vertices)(&vertices, to);
+        (self.light)(&vertices, to);
     }
 
     /// Stores the house's extras behind the varyings of the method.
@@ -320,6 +311,26 @@ fn between(great_circle: bool, corner: &ClipCorner, ends: &[Vec<f32>; 2], to: &m
     }
     for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
         [*to, _] = ramp(*a, *b, corner.t, 0.0);
+    }
+}
+
+/// Fills in the `values` per vertex of the corners that clipping made, and multiplies all by the weights of perspective if
+/// `is_weighted`.
+pub(super) fn finish(
+    frame: &Frame,
+    values: &mut [f32],
+    (count, great_circle): (usize, bool),
+    is_weighted: bool,
+) {
+    for corner in frame.clip_corners() {
+        let ends = [corner.a, corner.b].map(|v| values[v as usize * count..][..count].to_vec());
+        let to = &mut values[corner.vertex as usize * count..][..count];
+        between(great_circle, corner, &ends, to);
+    }
+    if is_weighted && count > 0 {
+        for (varying, vertex) in values.chunks_exact_mut(count).zip(frame.vertices()) {
+            varying.iter_mut().for_each(|value| *value *= vertex.inv_w);
+        }
     }
 }
 

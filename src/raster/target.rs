@@ -130,12 +130,11 @@ pub(super) fn draw_rows<T: Stored>(
     if frame.samples() == 1 {
         return draw(&mut Direct { pixels, width });
     }
-    let (row, sums) = (0, vec![([0.0; 3], 0); width]);
     let mut filter = BoxFilter {
         pixels,
         frame,
-        row,
-        sums,
+        row: 0,
+        sums: vec![([0.0; 3], 0); width],
     };
     draw(&mut filter);
     filter.flush();

@@ -128,7 +128,7 @@ impl<'a> Pixels<'a> {
     }
 }
 
-type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
+pub(crate) type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
 
 /// A method compiled for one number of lights.
 #[derive(Clone, Copy, Debug)]
@@ -352,23 +352,19 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
                 job,
                 out,
                 #[inline(always)]
-                |all| transposed(simd, all),
+                |all| {
+                    let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+                    for k in 0..BLOCK {
+                        // The last vector stands for those that are missing.
+                        [x[k], y[k], z[k]] = all[k.min(all.len() - 1)];
+                    }
+                    let (x, y) = (f32x8::from_slice(simd, &x), f32x8::from_slice(simd, &y));
+                    vec3([x, y, f32x8::from_slice(simd, &z)])
+                },
                 |x| x.into(),
             );
         },
     );
-}
-
-/// Returns up to eight vectors as one of blocks; the last one stands for those that are missing.
-#[cfg(feature = "simd")]
-#[inline(always)]
-fn transposed<S: Token>(simd: S, all: &[[f32; 3]]) -> Vec3<f32x8<S>> {
-    let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
-    for k in 0..BLOCK {
-        [x[k], y[k], z[k]] = all[k.min(all.len() - 1)];
-    }
-    let (x, y) = (f32x8::from_slice(simd, &x), f32x8::from_slice(simd, &y));
-    vec3([x, y, f32x8::from_slice(simd, &z)])
 }
 
 /// Walks along runs, a block at a time.

@@ -46,7 +46,7 @@ pub use bound::{Roundings, Stepped};
 pub use count::OperationCounts;
 pub use increments::{Constant, Linear, Walk};
 pub use info::{Auto, Info, LitAt, Local, MethodParameter, Perspective};
-pub(crate) use kernels::{Extras, Pixels, Vertices, ramp};
+pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices, ramp};
 pub use kernels::{Kernels, Run, Span};
 #[cfg(feature = "simd")]
 pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, start_len};

@@ -5,9 +5,7 @@ use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::mesh::{MeshBuilder, PolygonMesh};
 use fastphong::picture::LinearPicture;
-use fastphong::raster::{
-    Edges, barycentric_checkerboard, barycentric_vertex_colours, checkerboard, vertex_colours,
-};
+use fastphong::raster::{Edges, checkerboard, vertex_colours};
 use fastphong::scene::{Camera, Culling, Interpolation, Object, Projection, Scene};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -126,8 +124,9 @@ const BOARD: [[f32; 3]; 2] = [[1.0; 3], [0.0; 3]];
 /// screen it is wrong, and wrong differently if the floor is cut into triangles.
 #[test]
 fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
-    let board =
-        |triangles, interpolation| checkerboard(&seen(floor(triangles), interpolation), 1.0, BOARD);
+    let board = |triangles, interpolation| {
+        checkerboard(&seen(floor(triangles), interpolation), None, 1.0, BOARD)
+    };
     for triangles in [false, true] {
         let (off, all) = wrong(&board(triangles, Interpolation::Perspective));
         assert!(off == 0 && all > 1000, "{off} of {all}");
@@ -140,12 +139,8 @@ fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
         "the diagonal shows"
     );
     let frame = seen(floor(true), Interpolation::Perspective);
-    let (off, all) = wrong(&barycentric_checkerboard(
-        &frame,
-        Edges::TopLeft,
-        1.0,
-        BOARD,
-    ));
+    let by_barycentric = checkerboard(&frame, Some(Edges::TopLeft), 1.0, BOARD);
+    let (off, all) = wrong(&by_barycentric);
     assert!(off == 0 && all > 1000, "{off} of {all}");
 }
 
@@ -155,7 +150,7 @@ fn the_checkerboard_is_right_in_space_and_wrong_on_the_screen() {
 fn squares_have_their_size_and_place() {
     let frame = seen(floor(false), Interpolation::Perspective);
     for size in [0.5, 1.0, 3.0] {
-        let picture = checkerboard(&frame, size, BOARD);
+        let picture = checkerboard(&frame, None, size, BOARD);
         let (mut wrong, mut all) = (0, 0);
         for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
             let Some(([wx, wz], off)) = on_floor(x, y) else {
@@ -186,8 +181,8 @@ fn squares_have_their_size_and_place() {
 fn vertex_colours_are_linear_on_the_surface() {
     let frame = seen(floor(true), Interpolation::Perspective);
     for picture in [
-        vertex_colours(&frame),
-        barycentric_vertex_colours(&frame, Edges::TopLeft),
+        vertex_colours(&frame, None),
+        vertex_colours(&frame, Some(Edges::TopLeft)),
     ] {
         let mut compared = 0;
         for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
@@ -204,8 +199,8 @@ fn vertex_colours_are_linear_on_the_surface() {
         }
         assert!(compared > 1000);
     }
-    let bent = vertex_colours(&seen(floor(true), Interpolation::Screen));
-    let straight = vertex_colours(&frame);
+    let bent = vertex_colours(&seen(floor(true), Interpolation::Screen), None);
+    let straight = vertex_colours(&frame, None);
     let most = bent
         .pixels()
         .iter()
@@ -224,10 +219,8 @@ fn colours_are_one_a_position_or_none() {
     let triangle = [Vec3::ZERO, Vec3::X, Vec3::Z];
     let mut builder = MeshBuilder::new(triangle.to_vec());
     builder.polygon(&[0, 2, 1]);
-    let picture = vertex_colours(&seen(
-        builder.clone().finish().expect("a mesh"),
-        Interpolation::Screen,
-    ));
+    let mesh = builder.clone().finish().expect("a mesh");
+    let picture = vertex_colours(&seen(mesh, Interpolation::Screen), None);
     assert!(picture.pixels().contains(&[1.0; 4]));
     assert!(
         picture

@@ -344,8 +344,6 @@ fn integers_of_lanes_are_those_of_the_processor() {
             let each =
                 |of: fn(i32, i32) -> i32| -> [i32; 8] { core::array::from_fn(|k| of(a[k], b[k])) };
             assert_eq!(ints(x.less(y)), each(|a, b| if a < b { -1 } else { 0 }));
-            let chosen = each(|a, b| if a < b { b } else { 7 });
-            assert_eq!(ints(x.less(y).choose(y, m.int(7))), chosen);
             let bits = (0..8).map(|k| u32::from(a[k] >= 0) << k).sum::<u32>();
             assert_eq!(
                 (m.bits_not_negative(x), m.any_not_negative(x)),

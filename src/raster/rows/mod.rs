@@ -38,6 +38,7 @@ use crate::number::Level;
 use crate::number::lanes::Lanes;
 use crate::number::simd::{Token, vectorize};
 use crate::shading::{SimdKernels, Variant};
+use core::cell::RefCell;
 use core::ops::Range;
 use runs::RunQueue;
 use shade::RowBuffers;
@@ -58,6 +59,10 @@ struct TileScratch {
     starts: RowStarts,
     queue: RunQueue,
     line: RowBuffers,
+}
+
+std::thread_local! {
+    static SCRATCH: RefCell<TileScratch> = RefCell::default();
 }
 
 /// A method on a frame, and the layout of its pixels.
@@ -102,7 +107,7 @@ pub(super) fn draw(
     };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|number, band, target| {
-        with_scratch(|scratch| {
+        SCRATCH.with_borrow_mut(|scratch| {
             scratch.tile.prepare(HEIGHT, frame.width(), rows.numbers);
             for polygons in bins.band(number) {
                 match level {
@@ -122,14 +127,6 @@ pub(super) fn draw(
             }
         });
     });
-}
-
-/// Calls `work` with the memory that this thread keeps from tile to tile.
-fn with_scratch(work: impl FnOnce(&mut TileScratch)) {
-    std::thread_local! {
-        static KEPT: core::cell::RefCell<TileScratch> = core::cell::RefCell::default();
-    }
-    KEPT.with_borrow_mut(work);
 }
 
 /// Returns the number of the uniforms that all polygons have, if they are the same: objects of a scene bring their own materials,
@@ -236,14 +233,13 @@ impl RowEngine<'_> {
             return;
         }
         queue.extend(tile);
-        queue.walk(&self.setup, self.kernels.walk, self.planes);
         vectorize(
             simd,
             #[inline(always)]
             || {
                 let m = Lanes(simd);
-                let (is_walked, writer) = (self.kernels.walk.is_some(), tile.writer(m, self.test));
-                queue.draw(m, &self.setup, is_walked, self.planes, writer);
+                let writer = tile.writer(m, self.test);
+                queue.draw(m, &self.setup, self.kernels.walk, self.planes, writer);
             },
         );
     }

@@ -61,13 +61,6 @@ impl RunQueue {
         self.blocks >= MOST_BLOCKS
     }
 
-    fn clear(&mut self) {
-        self.places.clear();
-        self.runs.clear();
-        self.starts.clear();
-        self.blocks = 0;
-    }
-
     /// Adds the runs of triangle `k` of a batch, in the tile that begins with row `top`, for a method that is walked along: its
     /// varyings are linear over the triangle. With `tiny` it is one of these fragments' triangles.
     #[inline(always)]
@@ -80,46 +73,24 @@ impl RunQueue {
     ) {
         let uniforms = setup.uniforms_of(batch.listed[k].number);
         let count = setup.varyings.count;
-        let Some(fragments) = tiny else {
-            return large_runs(
-                (batch, k),
-                top,
-                #[inline(always)]
-                |across| batch.planes.growth(m, k, 1 + count, across),
-                #[inline(always)]
-                |step, run| {
-                    let at = batch.planes.at(m, k, 1 + count, run.weights);
-                    self.add(uniforms, run, count, [&at, step]);
-                },
-            );
-        };
-        let [_, b, c] = &batch.edges;
-        let across = [b, c].map(|f| f.right[k] as f32 * batch.over_area[k]);
-        let step = batch.planes.growth(m, k, 1 + count, across);
-        fragments.runs(
-            batch,
-            k,
+        triangle_runs(
+            m,
+            (batch, k, tiny),
             top,
+            1 + count,
             #[inline(always)]
-            |run| {
+            |step, run| {
                 let at = batch.planes.at(m, k, 1 + count, run.weights);
-                self.add(uniforms, run, count, [&at, &step]);
+                // Whole lines: the numbers past the last are cut off.
+                let first = self.starts.len();
+                self.starts.extend_from_slice(&at[1..]);
+                self.starts.truncate(first + count);
+                self.starts.extend_from_slice(&step[1..]);
+                self.starts.truncate(first + 2 * count);
+                let (row, depth) = (run.row, [at[0], step[0]]);
+                self.push(uniforms, run.pixels, RunPlace { row, depth });
             },
         );
-    }
-
-    /// Adds a run of a triangle, with depth and `count` varyings at its first pixel, and their growth.
-    #[inline(always)]
-    fn add(&mut self, uniforms: u32, run: FoundRun, count: usize, [at, step]: [&Numbers; 2]) {
-        // Whole lines: the numbers past the last are cut off.
-        let first = self.starts.len();
-        self.starts.extend_from_slice(&at[1..]);
-        self.starts.truncate(first + count);
-        self.starts.extend_from_slice(&step[1..]);
-        self.starts.truncate(first + 2 * count);
-        let FoundRun { row, pixels, .. } = run;
-        let depth = [at[0], step[0]];
-        self.push(uniforms, pixels, RunPlace { row, depth });
     }
 
     /// Adds the runs of polygon `number`, of any shape: its edges step what they carry from row to row.
@@ -177,32 +148,30 @@ impl RunQueue {
         }
     }
 
-    /// Walks along the runs, if the method has a walk: `planes` numbers per pixel.
-    pub fn walk(&mut self, setup: &SetUp<'_>, walk: Option<WalkKernel>, planes: usize) {
-        let Some(walk) = walk else { return };
-        let room = self.blocks * BLOCK * planes;
-        // Padding of a block before and after: block loads may overrun, and those lanes are masked.
-        let len = self.walked.len().max(room + 2 * BLOCK);
-        self.walked.resize(len, 0.0);
-        let job = setup.pixels(&self.runs, &self.starts);
-        walk(&job, &mut self.walked[BLOCK..BLOCK + room]);
-    }
-
-    /// Draws the runs, in order. Their pixels are the walked ones, or the varyings themselves.
+    /// Draws the runs, in order, with `planes` varyings per pixel: those that `walk` returns, if the method has a walk, else those
+    /// that it interpolates.
     #[inline(always)]
     pub fn draw<S: Simd>(
         &mut self,
         m: Lanes<S>,
         setup: &SetUp<'_>,
-        is_walked: bool,
+        walk: Option<WalkKernel>,
         planes: usize,
         mut writer: Writer<'_, S, 0>,
     ) {
+        if let Some(walk) = walk {
+            let room = self.blocks * BLOCK * planes;
+            // Padding of a block before and after: block loads may overrun, and those lanes are masked.
+            let len = self.walked.len().max(room + 2 * BLOCK);
+            self.walked.resize(len, 0.0);
+            let job = setup.pixels(&self.runs, &self.starts);
+            walk(&job, &mut self.walked[BLOCK..BLOCK + room]);
+        }
         let len = start_len(setup.varyings.great_circle, setup.varyings.count);
         let mut walked = BLOCK;
         for (i, (run, place)) in self.runs.iter().zip(&self.places).enumerate() {
             let (material, pixels) = (m.splat(run.uniforms as f32), pixels_of(run));
-            if is_walked {
+            if walk.is_some() {
                 let length = pixels.len().next_multiple_of(BLOCK);
                 let from = &self.walked[walked - BLOCK..walked + length * planes + BLOCK];
                 draw_run(
@@ -234,7 +203,10 @@ impl RunQueue {
                 );
             }
         }
-        self.clear();
+        self.places.clear();
+        self.runs.clear();
+        self.starts.clear();
+        self.blocks = 0;
     }
 }
 
@@ -275,19 +247,18 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
     writer: &mut Writer<'_, S, N>,
 ) {
     let count = writer.count.get();
-    large_runs(
-        (batch, k),
+    triangle_runs(
+        m,
+        (batch, k, None),
         top,
-        #[inline(always)]
-        |across| batch.planes.growth(m, k, count, across),
+        count,
         #[inline(always)]
         |step, run| {
             let at = batch.planes.at(m, k, count, run.weights);
-            let FoundRun { row, pixels, .. } = run;
-            let depth = [at[0], step[0]];
+            let (row, depth) = (run.row, [at[0], step[0]]);
             draw_run(
                 m,
-                (RunPlace { row, depth }, pixels),
+                (RunPlace { row, depth }, run.pixels),
                 writer,
                 #[inline(always)]
                 |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),
@@ -303,14 +274,15 @@ fn outside<S: Simd>(m: Lanes<S>, block: usize, pixels: &Range<usize>) -> i32x8<S
     (k - m.int(pixels.start as i32 - first)) | (m.int(pixels.end as i32 - 1 - first) - k)
 }
 
-/// Calls `visit` with the runs of triangle `k` of a batch, of any size, by the crossings of its edges with the scanlines of the
-/// tile that begins with row `top`. `grow` turns the growth of its barycentric coordinates from pixel to pixel into that of its
-/// numbers.
+/// Calls `visit` with the runs of triangle `k` of a batch in the tile that begins with row `top`, and with the growth of its
+/// first `count` numbers from pixel to pixel. The runs of a `tiny` one are those of its fragments; any other, however large,
+/// has the crossings of its edges with the scanlines.
 #[inline(always)]
-fn large_runs(
-    (batch, k): (&Batch, usize),
+fn triangle_runs<S: Simd>(
+    m: Lanes<S>,
+    (batch, k, tiny): (&Batch, usize, Option<&Fragments>),
     top: usize,
-    grow: impl FnOnce([f32; 2]) -> Numbers,
+    count: usize,
     mut visit: impl FnMut(&Numbers, FoundRun),
 ) {
     let [x, y] = [&batch.x, &batch.y].map(|at| [at[0][k], at[1][k], at[2][k]]);
@@ -326,7 +298,17 @@ fn large_runs(
     }
     let over_area = 1.0 / area as f32;
     let scale = 256.0 * over_area;
-    let step = grow([(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale]);
+    let across = [(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale];
+    let step = batch.planes.growth(m, k, count, across);
+    if let Some(fragments) = tiny {
+        return fragments.runs(
+            batch,
+            k,
+            top,
+            #[inline(always)]
+            |run| visit(&step, run),
+        );
+    }
     // From the top corner two edges go down; the third one follows one of them.
     let mut order = [0usize, 1, 2];
     order.sort_unstable_by_key(|&i| y[i]);

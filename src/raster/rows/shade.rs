@@ -58,7 +58,20 @@ impl RowEngine<'_> {
                 (self.kernels.shade)(&job, cells, &mut RowColours::Linear(channels));
                 let is_drawn =
                     |x: usize| cells[x / BLOCK * tile.stride() + x % BLOCK] < f32::INFINITY;
-                line.store(part, steps.start, row, is_drawn, target);
+                let [r, g, b] = &line.channels;
+                let mut x = part.start;
+                while x < part.end {
+                    let start = x;
+                    while x < part.end && is_drawn(x) {
+                        line.run.push([r[x], g[x], b[x]]);
+                        x += 1;
+                    }
+                    if !line.run.is_empty() {
+                        target.store(steps.start + start, row, &line.run);
+                        line.run.clear();
+                    }
+                    x += 1;
+                }
             }
         });
         scratch.tile.clear_row(row);
@@ -95,33 +108,5 @@ impl RowEngine<'_> {
             }
         }
         visit(same.unwrap_or(0), from..drawn.end);
-    }
-}
-
-impl RowBuffers {
-    /// Stores the drawn pixels among the pixels `part` of a row, `first` pixels from its beginning.
-    fn store(
-        &mut self,
-        part: Range<usize>,
-        first: usize,
-        row: usize,
-        is_drawn: impl Fn(usize) -> bool,
-        target: &mut dyn Target,
-    ) {
-        let [r, g, b] = &self.channels;
-        let mut x = part.start;
-        while x < part.end {
-            self.run.clear();
-            let start = x;
-            while x < part.end && is_drawn(x) {
-                self.run.push([r[x], g[x], b[x]]);
-                x += 1;
-            }
-            if self.run.is_empty() {
-                x += 1;
-            } else {
-                target.store(first + start, row, &self.run);
-            }
-        }
     }
 }

@@ -50,7 +50,7 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
     pub fn new(m: Lanes<S>, batch: &'a Batch, k: usize) -> Self {
         let [a, b, c] = &batch.edges;
         let right = [m.int(a.right[k]), m.int(b.right[k]), m.int(c.right[k])];
-        let counted = m.counted();
+        let (counted, width) = (m.counted(), m.int(BLOCK as i32));
         SmallTriangle {
             m,
             batch,
@@ -60,7 +60,7 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
                 (batch.columns[1][k] as usize).div_ceil(BLOCK),
             ],
             ramp: [counted * right[0], counted * right[1], counted * right[2]],
-            across: [m.int(a.across[k]), m.int(b.across[k]), m.int(c.across[k])],
+            across: [width * right[0], width * right[1], width * right[2]],
             down: [m.int(a.down[k]), m.int(b.down[k]), m.int(c.down[k])],
         }
     }

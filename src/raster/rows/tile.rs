@@ -135,15 +135,6 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
         self.count.get() * BLOCK
     }
 
-    /// Returns depth as it is stored.
-    #[inline(always)]
-    fn kept(&self, depth: f32x8<S>) -> f32x8<S> {
-        match self.test.most {
-            Some(most) => level_of(self.lanes, depth, most as f32),
-            None => depth,
-        }
-    }
-
     /// Writes the block whose values begin at `place` where `outside` is not below 0 and its depth passes the test. `number` returns
     /// each number, depth first.
     ///
@@ -151,7 +142,10 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
     #[inline(always)]
     pub fn put(&mut self, place: usize, outside: i32x8<S>, number: impl Fn(usize) -> f32x8<S>) {
         let (m, stride) = (self.lanes, self.stride());
-        let depth = self.kept(number(0));
+        let mut depth = number(0);
+        if let Some(most) = self.test.most {
+            depth = level_of(m, depth, most as f32);
+        }
         let Some(values) = self.values.get_mut(place..place + stride) else {
             return;
         };
@@ -169,13 +163,7 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
     pub fn put_one(&mut self, place: i32, numbers: &[f32]) {
         // Places are 0 or more: so the end of what is stored is in bounds if it is at all.
         let (place, count) = (place as u32 as usize, self.count.get());
-        let mut depth = numbers[0];
-        if self.test.most.is_some() {
-            let mut lanes = [0.0; BLOCK];
-            let kept = self.kept(self.lanes.splat(depth));
-            self.lanes.store(kept, &mut lanes);
-            depth = lanes[0];
-        }
+        let depth = self.test.kept(numbers[0]);
         let values = &mut self.values[place..place + (count - 1) * BLOCK + 1];
         let numbers = &numbers[..count];
         if !self.test.hides || depth < values[0] {

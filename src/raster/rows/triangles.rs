@@ -65,12 +65,11 @@ pub(crate) struct Batch {
 
 /// An edge function of each triangle, over 0 inside, in sub-pixels²: at the centre of the first pixel of the first block of the
 /// first row, less 1 for right and bottom edges, which do not own the centres that lie on them; its growth from column to
-/// column, from block to block, and from row to row; and the number taken off, over the area.
+/// column and from row to row; and the number taken off, over the area.
 #[derive(Debug, Default)]
 pub(super) struct EdgeFunctions {
     pub at: Ints,
     pub right: Ints,
-    pub across: Ints,
     pub down: Ints,
     pub off: Floats,
     /// The barycentric coordinate at the centre of that first pixel, except for edge 0, and its growth from column to column and
@@ -281,7 +280,7 @@ impl Batch {
             turned,
             over_area,
             columns: [
-                is_there.choose(columns[0], m.int(width)),
+                columns[0] | (is_there ^ all) & m.int(i32::MAX),
                 columns[1] & is_there,
             ],
             has_small,
@@ -316,7 +315,6 @@ impl Batch {
             m.store(m.float(right) * over_area, &mut to.growth[first..]);
             m.store(m.float(down) * over_area, &mut to.fall[first..]);
         }
-        m.store_int(dy * m.int(-256 * BLOCK as i32), &mut to.across[first..]);
         let right = m.float(right);
         let columns = m.splat(-1.0) / right;
         m.store(m.where_less(none, right, columns), &mut to.begins[first..]);

@@ -110,11 +110,7 @@ impl<F: Num, V: Planes<F>> GreatCircle<F, V> {
     /// Returns the unit normal here.
     #[inline(always)]
     pub fn normal(&self) -> V {
-        self.weighted((self.sines.rest.0, self.sines.t.0))
-    }
-
-    #[inline(always)]
-    fn weighted(&self, (from, to): (F, F)) -> V {
+        let (from, to) = (self.sines.rest.0, self.sines.t.0);
         let mut normal = self.from;
         normal.zip(self.to, |a, b| a * from + b * to); // 4.8
         normal
@@ -126,7 +122,8 @@ impl<F: Num, V: Planes<F>> Walk<F> for GreatCircle<F, V> {
 
     #[inline(always)]
     fn next(&mut self) -> V {
-        let weights = self.sines.next(); // 4.9–4.12
-        self.weighted(weights)
+        let normal = self.normal();
+        self.sines.next(); // 4.9–4.12
+        normal
     }
 }
