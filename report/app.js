@@ -1,5 +1,5 @@
 "use strict";
-/* Draws the page from one JSON document (#fastphong-data) and packed pictures. */
+/* Draws the page from one JSON document and packed pictures. */
 
 /* ---------- markup */
 const ROOT = document.documentElement;
@@ -63,13 +63,13 @@ function segments(el, pressed, choose) {
 const reveal = el => el?.scrollIntoView({ block: "nearest", inline: "center" });
 /* Writes texts into elements, by their ids. */
 function write(texts) { for (const id in texts) $("#" + id).textContent = texts[id]; }
-/* A table: heads, and rows of cells of which the first names the row. */
+/* A table: heads, and rows whose first cell names the row. */
 const table = (heads, rows, kind = "") => html`<table class="data ${kind}"><thead><tr>${heads.map(h => html`<th scope="col">${h}</th>`)}</tr></thead><tbody>${rows.map(([name, ...cells]) => html`<tr><th scope="row">${name}</th>${cells.map(c => html`<td>${c}</td>`)}</tr>`)}</tbody></table>`;
 const scrolling = (label, body) => html`<div class="scroll" tabindex="0" role="region" aria-label="${label}">${body}</div>`;
 /* A number with a bar beside it. */
 const bar = (value, percent, colour) => html`<span class="bar"><span>${value}</span><i><b style="width:${percent}%;background:${colour}"></b></i></span>`;
 const timers = {};
-/* Does something after a while, unless asked again before. */
+/* Does something later, unless asked again before. */
 function delay(what, ms, action) {
 	clearTimeout(timers[what]);
 	timers[what] = setTimeout(action, ms);
@@ -999,7 +999,7 @@ function corners(mode) {
 	slopes("#lights", "Nanoseconds per pixel with one and four lights", list.slice(0, 14), kernels.map(pair => pair.map(c => ({ name: levelName(c), note: plural(c.lights, "light"), values: m => ["median_ns", "p25_ns", "p75_ns"].map(k => m.corners[c.i].timing[k] / STUDY.span) }))), shortName, v => num(v, 2), 40);
 }
 const curveName = c => c.engine === "span" ? "lecture’s form" : nameOf(c.method), curveHue = c => c.engine === "span" ? "var(--ink3)" : hue(c.method);
-/* Times of whole frames against a count of the measured points. */
+/* Times of whole frames against a count. */
 function grow(id, keep, count, label) {
 	const el = $(id), W = widthOf(el), { points, curves: all } = D.scaling, chosen = points.map((p, i) => ({ ...p, i, n: count(p) })).filter(p => !p.away && keep(p)).sort(by(p => p.n));
 	if (!W || chosen.length < 2) return;
@@ -1100,7 +1100,7 @@ function drawPlots(f) {
 		el.innerHTML = html`${plot(p, widthOf(el) || 460, 300)}${legend(p.series)}`;
 	}
 }
-/* A figure in the gallery: its first pictures, or its first plot. */
+/* A figure's first pictures, or its first plot. */
 function preview(f) {
 	const first = f.blocks.find(b => b.plot)?.plot, shown = f.blocks.flatMap(b => b.pictures?.shown ?? []), files = figurePictures(f).slice(0, 3);
 	return files.length ? files.map((src, i) => html`<img src="${src}" alt="${shown[i].alt}">`) : first && plot(first, 260, 112);
@@ -1223,7 +1223,7 @@ const FILLED = {
 };
 $$("[data-if]").forEach(el => { el.hidden = !FILLED[el.dataset.if]; });
 addEventListener("beforeprint", () => {
-	$$(".view").forEach(s => s.classList.add("on"));
+	$$(".view").forEach(s => s.classList.toggle("on", !!FILLED[s.id]));
 	for (const name in VIEWS) if (FILLED[name]) VIEWS[name]([], new URLSearchParams());
 });
 addEventListener("afterprint", () => {

@@ -64,7 +64,7 @@ pub struct Report {
     beside: Vec<Value>,
     /// Pictures of the scenes, in the order of the document; none where it was read from a file.
     pictures: Vec<ScenePictures>,
-    /// PNG files of the figures' pictures, a list a figure.
+    /// PNG files of the figures' pictures, a list per figure.
     figures: Vec<Vec<Vec<u8>>>,
 }
 

@@ -25,7 +25,7 @@ use std::io::Write;
 pub(super) struct Pictures {
     /// The packed reference.
     reference: String,
-    /// A picture a variant.
+    /// A picture per variant.
     rows: BTreeMap<String, PackedPicture>,
 }
 

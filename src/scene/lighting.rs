@@ -135,7 +135,7 @@ pub struct LightTerm {
 pub struct Lighting {
     /// `I_a k_a` of each channel.
     pub ambient: Rgb,
-    /// One entry a light, in the order of the scene.
+    /// One entry per light, in the order of the scene.
     pub lights: Vec<LightTerm>,
     /// Unit vector `V` toward the eye, one for the whole scene (L21 1: the eye is at infinity), or where the eye is.
     pub view: Place<[f32; 3]>,

@@ -47,7 +47,7 @@ pub struct Object {
 /// All that a picture shows.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Pixels a row, 1..=[`Scene::MAX_SIDE`].
+    /// Pixels per row, 1..=[`Scene::MAX_SIDE`].
     pub width: u32,
     /// Rows, 1..=[`Scene::MAX_SIDE`].
     pub height: u32,
@@ -78,7 +78,7 @@ pub struct Scene {
     pub clipping: Clipping,
     /// True if polygons seen from behind, their corners clockwise on the screen, are lit with negated normals.
     pub two_sided: bool,
-    /// Samples a pixel along each side, 1, 2, 4 or 8: `samples`² of them are hidden, lit and shaded each on its own, and
+    /// Samples per pixel along each side, 1, 2, 4 or 8: `samples`² of them are hidden, lit and shaded each on its own, and
     /// their mean in linear light is the pixel. `samples` times a side is at most [`Scene::MAX_SIDE`].
     pub samples: u32,
     /// The storage of values in eight bits.

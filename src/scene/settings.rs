@@ -12,7 +12,7 @@ pub enum Interpolation {
     #[default]
     Screen,
     /// Linearly in space: attributes are divided by w at the corners (`methods.md` finding: degree-0 methods need no
-    /// division a pixel).
+    /// division per pixel).
     Perspective,
 }
 

@@ -52,9 +52,9 @@ const MAX_BYTES: u64 = 2 * 12 * MAX_PIXELS;
 /// A format of picture files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Portable Network Graphics: 8 bits a channel, with alpha.
+    /// Portable Network Graphics: 8 bits per channel, with alpha.
     Png,
-    /// Portable pixmap, binary (P6): 8 bits a channel, no alpha.
+    /// Portable pixmap, binary (P6): 8 bits per channel, no alpha.
     Ppm,
     /// Portable float map (PF): linear floats, no alpha.
     Pfm,
@@ -134,7 +134,7 @@ impl FilePicture {
         }
     }
 
-    /// Returns the picture in 8 bits a channel; floats are rounded by [`quantise`].
+    /// Returns the picture in 8 bits per channel; floats are rounded by [`quantise`].
     pub fn to_stored(&self) -> Picture8 {
         match &self.pixels {
             FilePixels::Stored(picture) => picture.clone(),

@@ -49,10 +49,12 @@ impl<W: Write> PpmWriter<W> {
     /// # Errors
     /// If they cannot be written, or are more than the file has pixels.
     pub fn pixels(&mut self, pixels: &[[u8; 4]]) -> io::Result<()> {
-        let problem = "there are more pixels than pixels of the picture";
-        let missing = self.missing.checked_sub(pixels.len());
-        self.missing =
-            missing.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, problem))?;
+        let Some(missing) = self.missing.checked_sub(pixels.len()) else {
+            let (missing, found) = (self.missing, pixels.len());
+            let problem = format!("expected at most {missing} more pixels, found {found}");
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+        };
+        self.missing = missing;
         let mut bytes = [0; 3 * RUN];
         for pixels in pixels.chunks(RUN) {
             let bytes = &mut bytes[..3 * pixels.len()];

@@ -59,7 +59,7 @@ pub(super) fn clipping(scene: &Section) -> Result<Clipping, SceneError> {
     Ok(clipping)
 }
 
-/// Returns the samples a pixel along each side of a picture of these sides.
+/// Returns the samples per pixel along each side of a picture of these sides.
 pub(super) fn samples(image: &Section, [width, height]: [u32; 2]) -> Result<u32, SceneError> {
     let is_known = |samples| [1, 2, 4, 8].contains(&samples);
     let samples = image.whole("samples", is_known, "1, 2, 4 or 8")?;
