@@ -226,7 +226,7 @@ impl LectureFlags {
 /// The number of threads.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ThreadFlags {
-    /// Threads, 1 to 1024 [default: one per processor]; comparisons by the lecture's span engine take one
+    /// Threads, 1 to 1024 [default: one per processor]; the span engine uses one when methods are compared
     #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
     pub threads: Option<usize>,
 }

@@ -54,15 +54,14 @@ impl Camera {
         };
         let distance = match fit.fovy {
             None => {
-                let half_height =
-                    camera.half_height_around(points.clone(), fit.fraction, fit.aspect);
+                let half_height = camera.half_height_around(points.clone(), fit);
                 camera.projection = Projection::Orthographic { half_height };
                 4.0 * radius
             }
             Some(fovy) => {
                 camera.projection = Projection::Perspective { fovy };
                 let least = LEAST_CLEARANCE * radius;
-                camera.distance_around(points.clone(), fit.fraction, fit.aspect, fovy, least)
+                camera.distance_around(points.clone(), fit, fovy, least)
             }
         };
         camera.eye = target + distance * camera.view();
@@ -70,41 +69,36 @@ impl Camera {
         Some(camera)
     }
 
-    /// Returns the half height with which `points` fill `fraction` of an orthographic picture around the target; 1 where they
+    /// Returns the half height with which `points` fill the asked fraction of an orthographic picture around the target; 1 where they
     /// have no extent across the line of sight.
-    pub fn half_height_around(
-        &self,
-        points: impl Iterator<Item = DVec3>,
-        fraction: f64,
-        aspect: f64,
-    ) -> f64 {
+    pub fn half_height_around(&self, points: impl Iterator<Item = DVec3>, fit: &Fit) -> f64 {
         let [right, up, _] = self.axes();
         let half_height = points.fold(0.0, |most: f64, point| {
             let q = point - self.target;
-            most.max(up.dot(q).abs()).max(right.dot(q).abs() / aspect)
-        }) / fraction;
+            most.max(up.dot(q).abs())
+                .max(right.dot(q).abs() / fit.aspect)
+        }) / fit.fraction;
         if half_height > 0.0 { half_height } else { 1.0 }
     }
 
-    /// Returns the distance between eye and target from which no point lies outside `fraction` of a perspective picture or
+    /// Returns the distance between eye and target from which no point lies outside the asked fraction of a perspective picture or
     /// less than `clearance` before the eye.
     fn distance_around(
         &self,
         points: impl Iterator<Item = DVec3>,
-        fraction: f64,
-        aspect: f64,
+        fit: &Fit,
         fovy: f64,
         clearance: f64,
     ) -> f64 {
         let [right, up, forward] = self.axes();
-        // A point q from the target is seen at height (u·q) / (t (distance + f·q)), which must be at most `fraction`.
-        let t = fraction * libm::tan(fovy.to_radians() / 2.0);
+        // A point q from the target is seen at height (u·q) / (t (distance + f·q)), which must be at most the fraction.
+        let t = fit.fraction * libm::tan(fovy.to_radians() / 2.0);
         points.fold(clearance, |most: f64, point| {
             let q = point - self.target;
             let depth = forward.dot(q);
             most.max(clearance - depth)
                 .max(up.dot(q).abs() / t - depth)
-                .max(right.dot(q).abs() / (t * aspect) - depth)
+                .max(right.dot(q).abs() / (t * fit.aspect) - depth)
         })
     }
 

@@ -4,9 +4,10 @@ use super::diagnostics::{Origin, SceneError};
 use super::schema::{Key, SCENE, ValueKind};
 use crate::number::suggest;
 use glam::DVec3;
-use std::borrow::{Cow, ToOwned};
+use std::borrow::ToOwned;
 use std::collections::BTreeMap;
 use std::format;
+use std::ops::Range;
 use std::string::String;
 use std::vec::Vec;
 use toml::Spanned;
@@ -216,7 +217,7 @@ fn read_table(
         let known = keys.iter().find(|key| key.name == name.get_ref());
         let key = known.ok_or_else(|| {
             let names: Vec<_> = keys.iter().map(|key| key.name).collect();
-            unknown("key", name, &names)
+            unknown("key", name.get_ref(), name.span(), &names)
         })?;
         let (data, origin) = (read(value, key.kind)?, Origin::File(value.span()));
         entries.insert(key.name, Value { data, origin });
@@ -233,22 +234,18 @@ fn read_table(
 fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
     let table = |value: &Spanned<DeValue>| match value.get_ref() {
         DeValue::Table(table) => read_table(table, Origin::File(value.span()), kind.keys()),
-        _ => Err(wrong(value, ValueKind::Table(&[]))),
+        _ => Err(wrong(value, &ValueKind::Table(&[]).expected())),
     };
     match (kind, value.get_ref()) {
         (ValueKind::Text, DeValue::String(text)) => Ok(Data::Text(text.clone().into_owned())),
         (ValueKind::Word(words), DeValue::String(word)) => match words.contains(&&**word) {
             true => Ok(Data::Text(word.clone().into_owned())),
-            false => Err(unknown(
-                "word",
-                &Spanned::new(value.span(), word.clone()),
-                words,
-            )),
+            false => Err(unknown("word", word, value.span(), words)),
         },
         (ValueKind::Switch, DeValue::Boolean(switch)) => Ok(Data::Switch(*switch)),
         (ValueKind::Whole, _) => {
             let whole = whole(value.get_ref()).map(Data::Whole);
-            whole.ok_or_else(|| wrong(value, kind))
+            whole.ok_or_else(|| wrong(value, &kind.expected()))
         }
         (ValueKind::Number, _) => number(value).map(Data::Number),
         (ValueKind::OneOrThree, DeValue::Integer(_) | DeValue::Float(_)) => {
@@ -261,7 +258,7 @@ fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
             const ROW: &str = "four numbers [x, y, z, offset]";
             let row = |row: &Spanned<DeValue>| match row.get_ref() {
                 DeValue::Array(items) => list(row, items, ROW, number),
-                _ => Err(wrong_value(row, ROW)),
+                _ => Err(wrong(row, ROW)),
             };
             list(value, rows, &kind.expected(), row).map(Data::Matrix)
         }
@@ -273,7 +270,7 @@ fn read(value: &Spanned<DeValue>, kind: ValueKind) -> Result<Data, SceneError> {
         (ValueKind::Tables(_) | ValueKind::Turns, DeValue::Table(_)) => {
             Ok(Data::Tables([table(value)?].into()))
         }
-        _ => Err(wrong(value, kind)),
+        _ => Err(wrong(value, &kind.expected())),
     }
 }
 
@@ -288,7 +285,7 @@ fn number(value: &Spanned<DeValue>) -> Result<f64, SceneError> {
         DeValue::Float(float) => float.as_str().parse().ok(),
         other => whole(other).map(|whole| whole as f64),
     };
-    number.ok_or_else(|| wrong(value, ValueKind::Number))
+    number.ok_or_else(|| wrong(value, &ValueKind::Number.expected()))
 }
 
 /// Reads the `N` items of the list `value`, each by `item`.
@@ -310,13 +307,8 @@ fn list<T, const N: usize>(
     })
 }
 
-/// Makes the error for a value that is not of `kind`.
-fn wrong(value: &Spanned<DeValue>, kind: ValueKind) -> SceneError {
-    wrong_value(value, &kind.expected())
-}
-
 /// Makes the error for a value in place of the one that is expected.
-fn wrong_value(value: &Spanned<DeValue>, expected: &str) -> SceneError {
+fn wrong(value: &Spanned<DeValue>, expected: &str) -> SceneError {
     let found = match value.get_ref() {
         DeValue::String(text) => format!("string {text:?}"),
         DeValue::Integer(number) => format!("integer `{number}`"),
@@ -331,14 +323,17 @@ fn wrong_value(value: &Spanned<DeValue>, expected: &str) -> SceneError {
 }
 
 /// Makes the error for a key or a word that does not exist, with the one that may have been meant.
-fn unknown(what: &str, found: &Spanned<Cow<str>>, known: &[&'static str]) -> SceneError {
+fn unknown(what: &str, found: &str, at: Range<usize>, known: &[&'static str]) -> SceneError {
     let names: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
     let expected = match &names[..] {
         [one, other] => format!("expected {one} or {other}"),
         all => format!("expected one of {}", all.join(", ")),
     };
-    let (origin, found) = (Origin::File(found.span()), &**found.get_ref());
-    let error = SceneError::new(origin, format!("unknown {what} `{found}`"), expected);
+    let error = SceneError::new(
+        Origin::File(at),
+        format!("unknown {what} `{found}`"),
+        expected,
+    );
     match suggest::nearest(found, known.iter().copied()) {
         _ if found == "depth_test" => error.help("what hides a polygon is said by `visibility`"),
         Some(nearest) => error.help(format!("did you mean `{nearest}`?")),

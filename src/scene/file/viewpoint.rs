@@ -94,25 +94,18 @@ impl<'a> Viewpoint<'a> {
         points: impl Iterator<Item = DVec3> + Clone,
         warnings: &mut Vec<String>,
     ) -> Camera {
-        let Fit {
-            up,
-            fraction,
-            fovy,
-            aspect,
-            ..
-        } = self.fit;
         let mut camera = Camera {
             eye,
             target,
-            up,
+            up: self.fit.up,
             projection: Projection::Orthographic { half_height: 1.0 },
             near: 1.0,
             far: 2.0,
         };
-        camera.projection = match fovy {
+        camera.projection = match self.fit.fovy {
             Some(fovy) => Projection::Perspective { fovy },
             None => Projection::Orthographic {
-                half_height: camera.half_height_around(points.clone(), fraction, aspect),
+                half_height: camera.half_height_around(points.clone(), &self.fit),
             },
         };
         match camera.depth_range(points) {
@@ -123,35 +116,16 @@ impl<'a> Viewpoint<'a> {
     }
 }
 
-/// Keys that exclude those beside them, and what is expected.
-const EXCLUSIVE: [(&str, &str, &str); 4] = [
-    (
-        "fovy",
-        "half_height",
-        "expected one of them: `half_height` is orthographic, `fovy` is perspective",
-    ),
-    (
-        "fit",
-        "half_height",
-        "expected one of them: `fit` finds the half height",
-    ),
-    (
-        "direction azimuth elevation",
-        "eye target",
-        "expected a place (`eye`, `target`) or a direction, not both",
-    ),
-    (
-        "azimuth elevation",
-        "direction",
-        "expected `direction`, or `azimuth` and `elevation`",
-    ),
-];
-
 /// Refuses keys that exclude or need each other.
 fn exclusions(section: &Section) -> Result<(), SceneError> {
-    for (keys, others, why) in EXCLUSIVE {
-        section.exclude(keys, others, why)?;
-    }
+    let why = "expected one of them: `half_height` is orthographic, `fovy` is perspective";
+    section.exclude("fovy", "half_height", why)?;
+    let why = "expected one of them: `fit` finds the half height";
+    section.exclude("fit", "half_height", why)?;
+    let why = "expected a place (`eye`, `target`) or a direction, not both";
+    section.exclude("direction azimuth elevation", "eye target", why)?;
+    let why = "expected `direction`, or `azimuth` and `elevation`";
+    section.exclude("azimuth elevation", "direction", why)?;
     if section.has("target") && !section.has("eye") {
         let expected = "a fitted camera looks at the middle of the objects";
         return Err(section.error("target", "needs `eye`", expected));
