@@ -7,14 +7,14 @@ use fastphong::compare::comparison::DrawnBy;
 use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
-use fastphong::number::suggest::nearest;
+use fastphong::number::suggest::unknown;
 use fastphong::picture::encoding::store;
 use fastphong::picture::image_file::{FilePicture, FilePixels, PpmWriter};
 use fastphong::picture::{Encoding, Picture, Picture8};
 use fastphong::raster::{Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
-use fastphong::shading::{METHODS, Variant};
+use fastphong::shading::{Entry, METHODS, Variant};
 use std::fmt;
 use std::io::{self, Write};
 
@@ -50,18 +50,13 @@ pub fn method(text: &str) -> Result<AskedMethod, String> {
             }
         };
     }
-    let error = match Variant::parse(text) {
-        Ok(variant) => return Ok(Some(Method::Variant(variant))),
-        Err(_) if text == AUTO => return Ok(None),
-        Err(error) => error.to_string(),
-    };
-    if nearest(name, METHODS.iter().map(|entry| entry.info.name)).is_some() {
-        return Err(error);
+    let names = METHODS.iter().map(|entry| entry.info.name);
+    match Variant::parse(text) {
+        Ok(variant) => Ok(Some(Method::Variant(variant))),
+        Err(_) if text == AUTO => Ok(None),
+        Err(error) if Entry::named(name).is_some() => Err(error.to_string()),
+        Err(_) => Err(unknown("method", name, names.chain([AUTO, REFERENCE]))),
     }
-    Err(match nearest(name, [REFERENCE, AUTO]) {
-        Some(near) => format!("unknown method `{name}`: did you mean `{near}`?"),
-        None => format!("{error}, `{AUTO}`, `{REFERENCE}`"),
-    })
 }
 
 impl fmt::Display for Method {

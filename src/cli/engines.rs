@@ -2,7 +2,7 @@
 
 use super::CliError;
 use super::values::number;
-use fastphong::number::suggest::nearest;
+use fastphong::number::suggest::{one_of, unknown};
 use fastphong::number::{Level, NameError};
 use fastphong::raster::{Edges, Engine, Renderer};
 use fastphong::reference::cs171::Shading;
@@ -120,14 +120,13 @@ pub fn engine(text: &str) -> Result<EngineFlag, String> {
         "cs171:normals=as-printed" => return Ok(EngineFlag::Cs171 { normalise: false }),
         _ => {}
     }
-    Err(match (text.split_once(':'), nearest(text, NAMES)) {
-        (Some(("barycentric", _)), _) => "expected edges=top-left or edges=closed".to_owned(),
-        (Some(("cs171", _)), _) => "expected normals=unit or normals=as-printed".to_owned(),
-        (Some((name, _)), _) if NAMES.contains(&name) => {
+    Err(match text.split_once(':') {
+        Some(("barycentric", _)) => "expected edges=top-left or edges=closed".to_owned(),
+        Some(("cs171", _)) => "expected normals=unit or normals=as-printed".to_owned(),
+        Some((name, _)) if NAMES.contains(&name) => {
             format!("the engine `{name}` has no parameters")
         }
-        (_, Some(near)) => format!("unknown engine: did you mean `{near}`?"),
-        _ => "unknown engine: expected `auto`, `span`, `row`, `barycentric` or `cs171`".to_owned(),
+        _ => unknown("engine", text, NAMES),
     })
 }
 
@@ -136,12 +135,15 @@ pub type ScanlineEngine = Option<Engine>;
 
 /// Reads `auto`, `span` (or `scanline`) or `row`.
 pub fn scanline_engine(text: &str) -> Result<ScanlineEngine, String> {
-    let problem = match engine(text) {
-        Ok(EngineFlag::Scanlines(engine)) => return Ok(engine),
-        Ok(EngineFlag::Barycentric(_)) => "every comparison has it already",
-        Ok(EngineFlag::Cs171 { .. }) | Err(_) => "unknown engine",
-    };
-    Err(format!("{problem}: expected `auto`, `span` or `row`"))
+    const NAMES: [&str; 3] = ["auto", "span", "row"];
+    match engine(text) {
+        Ok(EngineFlag::Scanlines(engine)) => Ok(engine),
+        Ok(EngineFlag::Barycentric(_)) => Err(format!(
+            "every comparison has it already: {}",
+            one_of(NAMES)
+        )),
+        Ok(EngineFlag::Cs171 { .. }) | Err(_) => Err(unknown("engine", text, NAMES)),
+    }
 }
 
 /// An instruction set of this machine; `None` is `auto`, the best.

@@ -4,7 +4,7 @@ use super::CliError;
 use super::engines::ThreadFlags;
 use super::measured::TimingFlags;
 use fastphong::compare::experiments::{Scaling, ScalingOptions, SpeedupOptions, Speedups};
-use fastphong::number::suggest::nearest;
+use fastphong::number::suggest::unknown;
 
 /// The experiments to make.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -24,10 +24,7 @@ pub fn experiments(text: &str) -> Result<Experiments, String> {
     let [speedups, scaling] = NAMES.map(|name| names.contains(&name));
     match names.iter().find(|name| !NAMES.contains(name)) {
         None => Ok(Experiments { speedups, scaling }),
-        Some(unknown) => Err(match nearest(unknown, NAMES) {
-            Some(near) => format!("unknown study `{unknown}`: did you mean `{near}`?"),
-            None => format!("unknown study `{unknown}`: expected `speedups` or `scaling`"),
-        }),
+        Some(name) => Err(unknown("study", name, NAMES)),
     }
 }
 

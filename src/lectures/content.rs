@@ -293,15 +293,6 @@ impl Agreement {
             false => Agreement::Contradicts,
         }
     }
-
-    /// Returns `confirms`, `contradicts` or `adds`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Agreement::Confirms => "confirms",
-            Agreement::Contradicts => "contradicts",
-            Agreement::Adds => "adds",
-        }
-    }
 }
 
 /// A measured value and the conclusion from it.

@@ -52,8 +52,8 @@ pub use content::{Agreement, FigureBlock, FigureContent, Finding, Panel, Plot, S
 pub use error::FigureError;
 use error::Result;
 
-use crate::number::suggest::nearest;
-use alloc::{format, string::String, vec::Vec};
+use crate::number::suggest::unknown;
+use alloc::string::String;
 
 /// All figures, in the order of the lectures.
 pub static FIGURES: &[&Figure] = &[
@@ -107,17 +107,8 @@ impl Figure {
     /// # Errors
     /// A sentence with the nearest name, or with all of them, if there is no such figure.
     pub fn find(name: &str) -> Result<&'static Figure, String> {
-        let names = || FIGURES.iter().map(|figure| figure.name);
-        Figure::named(name).ok_or_else(|| match nearest(name, names()) {
-            Some(near) => format!("unknown figure `{name}`: did you mean `{near}`?"),
-            None => {
-                let all: Vec<String> = names().map(|name| format!("`{name}`")).collect();
-                format!(
-                    "unknown figure `{name}`: expected one of {}",
-                    all.join(", ")
-                )
-            }
-        })
+        let names = FIGURES.iter().map(|figure| figure.name);
+        Figure::named(name).ok_or_else(|| unknown("figure", name, names))
     }
 
     /// Draws and measures the figure.

@@ -1,6 +1,29 @@
 //! "Did you mean …?": the known word nearest to one that is not known.
 
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
+
+/// Says that there is no `kind` called `name`, and which of the `known` names may be meant: the nearest, or any.
+pub fn unknown<'a>(
+    kind: &str,
+    name: &str,
+    known: impl IntoIterator<Item = &'a str> + Clone,
+) -> String {
+    match nearest(name, known.clone()) {
+        Some(near) => format!("unknown {kind} `{name}`: did you mean `{near}`?"),
+        None => format!("unknown {kind} `{name}`: {}", one_of(known)),
+    }
+}
+
+/// Asks for one of `names`.
+pub fn one_of<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let names: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
+    match &names[..] {
+        [one, other] => format!("expected {one} or {other}"),
+        all => format!("expected one of {}", all.join(", ")),
+    }
+}
 
 /// Returns the candidate nearest to `word`, if one is near enough to be meant; the first among equally near ones.
 ///

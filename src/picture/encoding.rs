@@ -4,11 +4,8 @@ use super::{LinearPicture, Picture8};
 
 /// A way to store linear values in eight bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "io",
-    derive(serde::Serialize),
-    serde(rename_all = "lowercase")
-)]
+#[cfg_attr(feature = "io", derive(serde::Serialize))]
+#[cfg_attr(feature = "io", serde(rename_all = "lowercase"))]
 pub enum Encoding {
     /// round(255 c): no transfer function.
     #[default]

@@ -51,9 +51,8 @@ fn summary(data: &Value) -> Table {
     for method in overall(data) {
         let speed = method.speed.map_or(NONE.into(), |s| format!("{s:.2}"));
         let (worst, at) = (significant(method.worst), method.at.to_string());
-        table
-            .rows
-            .push(Vec::from([label(method.name), worst, at, speed]));
+        let row = [label(method.name), worst, at, speed];
+        table.rows.push(row.into());
     }
     table
 }
@@ -198,9 +197,8 @@ fn findings(data: &Value) -> Table {
             let [label, word, verdict] = texts.map(str::to_string);
             let title = text(figure, "/title").to_string();
             let value = value.trim().to_string();
-            table
-                .rows
-                .push(Vec::from([label, title, value, word, verdict]));
+            let row = [label, title, value, word, verdict];
+            table.rows.push(row.into());
         }
     }
     table

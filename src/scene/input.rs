@@ -331,9 +331,7 @@ mod tests {
             "{}",
             error.render(false)
         );
-        assert!(
-            error.expected().contains("did you mean `builtin:sphere`?"),
-            "{error}"
-        );
+        let hint = "did you mean `builtin:sphere`?";
+        assert!(error.to_string().contains(hint), "{error}");
     }
 }

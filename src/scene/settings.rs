@@ -2,11 +2,8 @@
 
 /// The variation of attributes over the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "io",
-    derive(serde::Serialize),
-    serde(rename_all = "lowercase")
-)]
+#[cfg_attr(feature = "io", derive(serde::Serialize))]
+#[cfg_attr(feature = "io", serde(rename_all = "lowercase"))]
 pub enum Interpolation {
     /// Linearly on the screen, as the lecture does.
     #[default]

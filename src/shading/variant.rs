@@ -2,9 +2,8 @@
 
 use super::{Entry, Info, METHODS};
 use crate::number::NameError;
-use crate::number::suggest::nearest;
+use crate::number::suggest::{one_of, unknown};
 use alloc::format;
-use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -34,7 +33,8 @@ impl Variant {
     pub fn parse(text: &str) -> Result<Variant, NameError> {
         let mut parts = text.split(':');
         let name = parts.next().unwrap_or_default();
-        let entry = Entry::named(name).ok_or_else(|| unknown_method(name))?;
+        let names = METHODS.iter().map(|entry| entry.info.name);
+        let entry = Entry::named(name).ok_or_else(|| NameError(unknown("method", name, names)))?;
         let parameters = entry.info.parameters;
         let mut variant = entry.variant();
         for part in parts {
@@ -80,16 +80,6 @@ impl fmt::Display for Variant {
     }
 }
 
-/// Says that there is no method `name`, with the nearest one or all of them.
-fn unknown_method(name: &str) -> NameError {
-    let names = || METHODS.iter().map(|entry| entry.info.name);
-    let advice = match nearest(name, names()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => one_of(names()),
-    };
-    NameError(format!("unknown method `{name}`: {advice}"))
-}
-
 /// Says that `method` has no parameter `key`.
 fn unknown_parameter(method: &Info, key: &str) -> NameError {
     let name = method.name;
@@ -100,9 +90,4 @@ fn unknown_parameter(method: &Info, key: &str) -> NameError {
             format!("method `{name}` has no parameter `{key}`: {expected}")
         }
     })
-}
-
-fn one_of<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
-    format!("expected one of {}", names.join(", "))
 }

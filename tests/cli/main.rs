@@ -22,23 +22,18 @@ mod watch;
 use fastphong::picture::Picture8;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use tempfile::TempDir;
 
 /// An empty folder in which commands run. It is removed on drop.
-struct Folder(PathBuf);
+struct Folder(TempDir);
 
 impl Folder {
     fn new() -> Folder {
-        static NUMBER: AtomicUsize = AtomicUsize::new(0);
-        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let path =
-            std::env::temp_dir().join(format!("fastphong-cli-{}-{number}", std::process::id()));
-        std::fs::create_dir(&path).expect("an empty folder");
-        Folder(path)
+        Folder(tempfile::tempdir().expect("an empty folder"))
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.0.join(name)
+        self.0.path().join(name)
     }
 
     fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> &Folder {
@@ -80,12 +75,6 @@ impl Folder {
             .stdin(Stdio::null())
             .env_remove("NO_COLOR");
         command
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 

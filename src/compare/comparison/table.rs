@@ -127,12 +127,8 @@ fn head(c: &Comparison) -> String {
     for line in drawn_by(c) {
         text += &format!("drawn by {line}\n");
     }
-    let crossing = match c.not_simple {
-        0 => String::new(),
-        1 => "1 polygon that crosses itself is".to_string(),
-        n => format!("{n} polygons that cross themselves are"),
-    };
-    if !crossing.is_empty() {
+    if c.not_simple > 0 {
+        let crossing = count(c.not_simple, "self-crossing polygon");
         text += &format!("{crossing} not drawn by the barycentric renderer\n");
     }
     text += "errors against the f64 Phong reference, in grey levels (1/255) of linear light before rounding\n";

@@ -45,10 +45,8 @@ const LEAST_OF_ITS_OWN: f64 = 0.01;
 /// ```
 pub fn fit<const N: usize>(observations: &[Observation<N>]) -> Option<[f64; N]> {
     let is_sound = |o: &Observation<N>| {
-        o.scale > 0.0
-            && o.scale.is_finite()
-            && o.total.is_finite()
-            && o.counts.iter().all(|c| c.is_finite())
+        let mut numbers = [o.scale, o.total].into_iter().chain(o.counts);
+        o.scale > 0.0 && numbers.all(f64::is_finite)
     };
     let all = (1u32 << N) - 1;
     if observations.len() < N || !observations.iter().all(is_sound) {

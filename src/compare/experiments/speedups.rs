@@ -175,19 +175,14 @@ fn level(scalar: bool) -> Level {
 /// Returns all corners that this machine has.
 fn corners() -> Vec<SpeedCorner> {
     let best = Level::best();
-    let all = [
-        (Work::Kernel, true, 1),
-        (Work::Kernel, false, 1),
-        (Work::Frame, true, 1),
-        (Work::Frame, false, 1),
-        (Work::Kernel, true, 4),
-        (Work::Kernel, false, 4),
-    ];
+    let both = |(work, lights)| [true, false].map(|scalar| (work, lights, scalar));
+    let all = [(Work::Kernel, 1), (Work::Frame, 1), (Work::Kernel, 4)].map(both);
     // The best kernel of a machine without SIMD is the scalar one, which is there already.
     let differ = all
         .into_iter()
-        .filter(|(work, scalar, _)| *scalar || *work == Work::Frame || best != Level::Scalar);
-    let corner = |(work, scalar, lights)| SpeedCorner {
+        .flatten()
+        .filter(|(work, _, scalar)| *scalar || *work == Work::Frame || best != Level::Scalar);
+    let corner = |(work, lights, scalar)| SpeedCorner {
         work,
         scalar,
         level: level(scalar).name(),

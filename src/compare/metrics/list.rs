@@ -4,11 +4,8 @@ use super::Difference;
 
 /// The good values of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "io",
-    derive(serde::Serialize),
-    serde(rename_all = "lowercase")
-)]
+#[cfg_attr(feature = "io", derive(serde::Serialize))]
+#[cfg_attr(feature = "io", serde(rename_all = "lowercase"))]
 pub enum Better {
     /// The lower the better.
     Lower,

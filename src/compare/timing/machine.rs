@@ -1,5 +1,6 @@
 //! The machine and the build of a measurement: times mean nothing without them.
 
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use serde::Serialize;
@@ -48,18 +49,9 @@ impl Machine {
 
     /// Writes one line for people.
     pub fn line(&self) -> String {
-        let Machine {
-            cpu,
-            os,
-            arch,
-            rustc,
-            profile,
-            opt_level,
-            version,
-            ..
-        } = self;
-        alloc::format!(
-            "{cpu}, {os} {arch}; {rustc}, {profile}, opt-level {opt_level}; fastphong {version}"
+        format!(
+            "{}, {} {}; {}, {}, opt-level {}; fastphong {}",
+            self.cpu, self.os, self.arch, self.rustc, self.profile, self.opt_level, self.version
         )
     }
 }
@@ -101,14 +93,13 @@ fn cpu_name() -> Option<String> {
 fn name_in_cpuinfo(text: &str) -> Option<String> {
     let value = |key: &str| {
         let fields = text.lines().filter_map(|line| line.split_once(':'));
-        fields
-            .map(|(k, v)| (k.trim(), v.trim()))
-            .find(|(k, v)| *k == key && !v.is_empty())
-            .map(|(_, v)| v.to_string())
+        let mut values = fields
+            .filter(|field| field.0.trim() == key)
+            .map(|field| field.1.trim());
+        values.find(|value| !value.is_empty()).map(str::to_string)
     };
-    ["model name", "Model", "Hardware"]
-        .into_iter()
-        .find_map(value)
+    let keys = ["model name", "Model", "Hardware"];
+    keys.into_iter().find_map(value)
 }
 
 #[cfg(test)]

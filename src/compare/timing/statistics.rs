@@ -109,27 +109,22 @@ impl Ratio {
     /// assert_eq!((ratio.low, ratio.median, ratio.high), (2.0, 2.0, 2.0));
     /// ```
     pub fn paired(baseline: &[f64], candidate: &[f64]) -> Option<Ratio> {
-        let ratios: Vec<f64> = baseline
-            .iter()
-            .zip(candidate)
-            .map(|(b, c)| b / c)
-            .filter(|ratio| ratio.is_finite() && *ratio > 0.0)
-            .collect();
+        let rounds = baseline.iter().zip(candidate).map(|(b, c)| b / c);
+        let is_ratio = |ratio: &f64| ratio.is_finite() && *ratio > 0.0;
+        let mut ratios: Vec<f64> = rounds.filter(is_ratio).collect();
         if ratios.is_empty() {
             return None;
         }
         let mut random = SplitMix(SEED);
         let mut resample = ratios.clone();
-        let mut medians: Vec<f64> = (0..RESAMPLES)
-            .map(|_| {
-                resample.fill_with(|| ratios[random.below(ratios.len())]);
-                median(&mut resample)
-            })
-            .collect();
+        let resampled = |_| {
+            resample.fill_with(|| ratios[random.below(ratios.len())]);
+            median(&mut resample)
+        };
+        let mut medians: Vec<f64> = (0..RESAMPLES).map(resampled).collect();
         medians.sort_by(f64::total_cmp);
         let tail = (1.0 - CONFIDENCE) / 2.0;
         let (low, high) = (quantile(&medians, tail), quantile(&medians, 1.0 - tail));
-        let mut ratios = ratios;
         Some(Ratio::new(low, median(&mut ratios), high))
     }
 }

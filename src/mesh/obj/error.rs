@@ -91,10 +91,8 @@ fn index_out_of_range(
     f: &mut fmt::Formatter<'_>,
 ) -> fmt::Result {
     if *index == 0 {
-        return write!(
-            f,
-            "{what} index 0: expected 1 or more (or -1 and below, counted backwards)"
-        );
+        let expected = "1 or more (or -1 and below, counted backwards)";
+        return write!(f, "{what} index 0: expected {expected}");
     }
     write!(f, "{what} index {index} is out of range: expected ")?;
     match (*index, *count) {

@@ -62,12 +62,7 @@ impl<'a> Iterator for Statements<'a> {
     fn next(&mut self) -> Option<Self::Item> {
         let line = self.physical_line()?;
         let number = self.line;
-        let start = if self.backslashes {
-            continued(line)
-        } else {
-            None
-        };
-        let Some(start) = start else {
+        let Some(start) = self.backslashes.then(|| continued(line)).flatten() else {
             return Some((number, Cow::Borrowed(line)));
         };
         let mut joined = String::from(start);
@@ -97,11 +92,9 @@ pub(super) fn keyword(statement: &str) -> (&str, &str) {
 ///
 /// `usemtl red # the lid` and the name `Material #25` are both met in real files; what exists decides.
 pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {
-    let comment = rest
-        .match_indices('#')
-        .map(|(at, _)| at)
-        .find(|&at| rest[..at].ends_with(char::is_whitespace));
-    core::iter::once(rest).chain(comment.map(|at| rest[..at].trim_end()))
+    let names = rest.match_indices('#').map(|(at, _)| &rest[..at]);
+    let mut names = names.filter(|name| name.ends_with(char::is_whitespace));
+    core::iter::once(rest).chain(names.next().map(str::trim_end))
 }
 
 /// True if `word` is a finite `f32` by its looks: a sign or none, then digits with at most one point among them.

@@ -24,6 +24,7 @@ const DIFFUSE: Rgb = [0.8; 3];
 const SPECULAR: Rgb = [0.0; 3];
 
 /// The materials of all libraries of one OBJ file, by name.
+#[derive(Default)]
 pub(super) struct Library {
     materials: HashMap<String, Material>,
     /// The materials by their names up to a comment, for `newmtl red # the lid`.
@@ -42,10 +43,8 @@ impl Library {
         warnings: &mut Vec<String>,
     ) -> Library {
         let mut library = Library {
-            materials: HashMap::new(),
-            uncommented: HashMap::new(),
-            tried: HashMap::new(),
             is_complete: true,
+            ..Library::default()
         };
         for (line, rest) in lines {
             let mut one_file = name_candidates(rest);
@@ -127,10 +126,8 @@ fn file_names(rest: &str) -> Vec<String> {
         let word = word.trim_end_matches('"').to_ascii_lowercase();
         word.ends_with(".mtl")
     };
-    let names = words.split_inclusive(is_last).map(|name| name.join(" "));
-    names
-        .map(|name| name.trim_matches('"').to_string())
-        .collect()
+    let name = |words: &[&str]| words.join(" ").trim_matches('"').to_string();
+    words.split_inclusive(is_last).map(name).collect()
 }
 
 /// Returns the material that the parser read; channels and exponents that it did not find have their defaults.

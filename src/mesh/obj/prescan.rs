@@ -55,12 +55,6 @@ enum Oddity {
     SmoothingGroups,
 }
 
-/// The occurrences of an [`Oddity`].
-struct Occurrences {
-    count: usize,
-    first_line: usize,
-}
-
 /// The text for the parser, and all that the parser does not see.
 #[derive(Default)]
 pub(super) struct Prescan {
@@ -91,7 +85,8 @@ pub(super) struct Prescan {
     first_smoothing: Option<Option<u64>>,
     /// The first word that is no statement.
     unknown_word: String,
-    oddities: BTreeMap<Oddity, Occurrences>,
+    /// The number of times that each occurs, and the first line.
+    oddities: BTreeMap<Oddity, (usize, usize)>,
 }
 
 /// Reads all of `text`.
@@ -158,7 +153,7 @@ impl Prescan {
         };
         let oddities = self.oddities.iter().filter(|(oddity, _)| matters(oddity));
         oddities
-            .map(|(oddity, &Occurrences { count, first_line })| {
+            .map(|(oddity, &(count, first_line))| {
                 let subject = match oddity {
                     Oddity::Unknown => format!("`{}` ", self.unknown_word),
                     _ => String::new(),
@@ -176,11 +171,7 @@ impl Prescan {
     }
 
     fn note(&mut self, line: usize, oddity: Oddity) {
-        let occurrences = self.oddities.entry(oddity).or_insert(Occurrences {
-            count: 0,
-            first_line: line,
-        });
-        occurrences.count += 1;
+        self.oddities.entry(oddity).or_insert((0, line)).0 += 1;
     }
 
     fn statement(

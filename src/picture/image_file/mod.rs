@@ -78,16 +78,11 @@ impl Format {
     /// # Errors
     /// If there is no ending, or one of no format.
     pub fn of_path(path: &Path) -> Result<Format, ImageFileError> {
-        let ending = path
-            .extension()
-            .and_then(|ending| ending.to_str())
-            .unwrap_or("");
-        Format::ALL
-            .into_iter()
-            .find(|format| format.ending().eq_ignore_ascii_case(ending))
-            .ok_or_else(|| ImageFileError::UnknownEnding {
-                path: path.to_owned(),
-            })
+        let ending = path.extension().unwrap_or_default();
+        let is_named = |format: &Format| ending.eq_ignore_ascii_case(format.ending());
+        let path = path.to_owned();
+        let format = Format::ALL.into_iter().find(is_named);
+        format.ok_or(ImageFileError::UnknownEnding { path })
     }
 }
 

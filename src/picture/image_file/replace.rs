@@ -1,11 +1,11 @@
 //! Files that are replaced as a whole or not at all.
 
 use std::borrow::ToOwned;
-use std::format;
 use std::fs::{self, File, OpenOptions};
-use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use tempfile::Builder;
 
 use super::ImageFileError;
 
@@ -60,98 +60,74 @@ fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
         true => fs::canonicalize(path)?,
         false => path.to_owned(),
     };
-    let random = RandomState::new().build_hasher().finish();
-    let draft = Draft(place.with_file_name(format!(".fastphong-{random:016x}.tmp")));
-    let mut file = File::create_new(&draft.0)?;
-    write(&mut file)?;
+    let folder = place.parent().filter(|folder| *folder != "");
+    let mut draft = Builder::new();
+    // The permissions of any new file: other users may read it.
+    #[cfg(unix)]
+    draft.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut draft = draft.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+    write(draft.as_file_mut())?;
     if let Some(old) = old {
-        file.set_permissions(old.permissions())?;
+        draft.as_file().set_permissions(old.permissions())?;
         // Else a loss of power could leave neither: the name may reach the disk before the bytes.
-        file.sync_all()?;
+        draft.as_file().sync_all()?;
     }
-    drop(file);
-    fs::rename(&draft.0, place)
-}
-
-/// A file that is removed in the end, unless it was renamed.
-struct Draft(PathBuf);
-
-impl Drop for Draft {
-    fn drop(&mut self) {
-        // The failure that led here is the one to report.
-        let _ = fs::remove_file(&self.0);
-    }
+    draft.persist(place)?;
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
+    use std::format;
     use std::string::ToString;
     use std::vec::Vec;
 
     use super::*;
-    use std::process;
+    use tempfile::{TempDir, tempdir};
 
-    /// An empty directory that is removed in the end.
-    struct Directory(PathBuf);
-
-    impl Directory {
-        fn new(name: &str) -> Directory {
-            let path = std::env::temp_dir().join(format!("fastphong-{name}-{}", process::id()));
-            let _ = fs::remove_dir_all(&path);
-            fs::create_dir(&path).unwrap();
-            Directory(path)
-        }
-
-        fn names(&self) -> Vec<std::ffi::OsString> {
-            fs::read_dir(&self.0)
-                .unwrap()
-                .map(|entry| entry.unwrap().file_name())
-                .collect()
-        }
-    }
-
-    impl Drop for Directory {
-        fn drop(&mut self) {
-            let _ = fs::remove_dir_all(&self.0);
-        }
+    fn names(directory: &TempDir) -> Vec<std::ffi::OsString> {
+        fs::read_dir(directory)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name())
+            .collect()
     }
 
     #[test]
     fn writes_and_replaces() {
-        let directory = Directory::new("replaces");
-        let path = directory.0.join("out.bin");
+        let directory = tempdir().unwrap();
+        let path = directory.path().join("out.bin");
         for bytes in [b"long first text" as &[u8], b"short", b""] {
             write_file(&path, bytes).unwrap();
             assert_eq!(fs::read(&path).unwrap(), bytes);
-            assert_eq!(directory.names(), ["out.bin"], "nothing else is left");
+            assert_eq!(names(&directory), ["out.bin"], "nothing else is left");
         }
     }
 
     #[test]
     fn a_failure_half_way_keeps_the_old_file_and_leaves_no_draft() {
-        let directory = Directory::new("half-way");
-        let path = directory.0.join("out.bin");
+        let directory = tempdir().unwrap();
+        let path = directory.path().join("out.bin");
         let fail = |file: &mut File| {
             file.write_all(b"half")?;
             Err(io::Error::other("disk full"))
         };
         assert_eq!(replace(&path, fail).unwrap_err().to_string(), "disk full");
-        assert!(directory.names().is_empty());
+        assert!(names(&directory).is_empty());
         fs::write(&path, "old").unwrap();
         assert_eq!(replace(&path, fail).unwrap_err().to_string(), "disk full");
         assert_eq!(fs::read(&path).unwrap(), b"old");
-        assert_eq!(directory.names(), ["out.bin"]);
+        assert_eq!(names(&directory), ["out.bin"]);
     }
 
     #[test]
     fn places_that_cannot_be_written_are_errors() {
-        let directory = Directory::new("places");
-        let plain = directory.0.join("plain");
+        let directory = tempdir().unwrap();
+        let plain = directory.path().join("plain");
         fs::write(&plain, "old").unwrap();
         let cases = [
-            directory.0.join("missing/out.bin"),
+            directory.path().join("missing/out.bin"),
             plain.join("out.bin"),
-            directory.0.clone(),
+            directory.path().to_owned(),
         ];
         for path in cases {
             let message = write_file(&path, b"new").unwrap_err().to_string();
@@ -162,7 +138,7 @@ mod tests {
         }
         assert!(write_file(Path::new(""), b"new").is_err());
         assert_eq!(fs::read(&plain).unwrap(), b"old");
-        assert_eq!(directory.names(), ["plain"]);
+        assert_eq!(names(&directory), ["plain"]);
     }
 
     #[cfg(target_os = "linux")]
@@ -174,8 +150,8 @@ mod tests {
 
     #[test]
     fn a_read_only_file_is_kept() {
-        let directory = Directory::new("read-only");
-        let path = directory.0.join("out.bin");
+        let directory = tempdir().unwrap();
+        let path = directory.path().join("out.bin");
         fs::write(&path, "old").unwrap();
         let mut permissions = fs::metadata(&path).unwrap().permissions();
         permissions.set_readonly(true);
@@ -192,8 +168,8 @@ mod tests {
     #[test]
     fn permissions_links_and_sockets_stay_what_they_are() {
         use std::os::unix::fs::{PermissionsExt, symlink};
-        let directory = Directory::new("links");
-        let (file, link) = (directory.0.join("file"), directory.0.join("link"));
+        let directory = tempdir().unwrap();
+        let (file, link) = (directory.path().join("file"), directory.path().join("link"));
         fs::write(&file, "old").unwrap();
         fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
         symlink(&file, &link).unwrap();
@@ -206,7 +182,7 @@ mod tests {
         );
 
         // A socket stands for pipes and devices: it is opened as it is, which fails, and not replaced.
-        let socket = directory.0.join("socket");
+        let socket = directory.path().join("socket");
         let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
         assert!(write_file(&socket, b"new").is_err());
         assert!(!fs::metadata(&socket).unwrap().is_file());

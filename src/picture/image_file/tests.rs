@@ -1,5 +1,4 @@
 use std::format;
-use std::path::PathBuf;
 use std::string::{String, ToString};
 use std::vec;
 
@@ -513,12 +512,8 @@ fn broken_headers_are_told() {
 
 #[test]
 fn files_go_by_path_and_errors_name_it() {
-    let path = |name: &str| -> PathBuf {
-        std::env::temp_dir().join(format!(
-            "fastphong-image-file-{}-{name}",
-            std::process::id()
-        ))
-    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
     let picture = FilePicture::stored(stored());
     for name in ["a.png", "a.ppm", "a.pfm"] {
         write_picture(&path(name), &picture).unwrap();
@@ -536,7 +531,7 @@ fn files_go_by_path_and_errors_name_it() {
             "{error}"
         );
     }
-    assert!(read_picture(&std::env::temp_dir()).is_err(), "a directory");
+    assert!(read_picture(folder.path()).is_err(), "a directory");
     #[cfg(target_os = "linux")]
     {
         let error = read_picture(Path::new("/dev/zero"))

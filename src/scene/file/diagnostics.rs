@@ -91,21 +91,6 @@ impl SceneError {
         self
     }
 
-    /// Returns the problem, in one sentence.
-    pub fn message(&self) -> &str {
-        &self.0.title
-    }
-
-    /// Returns the values that were expected instead; may be empty.
-    pub fn expected(&self) -> &str {
-        &self.0.expected
-    }
-
-    /// Returns a hint, if there is one: what may have been meant.
-    pub fn hint(&self) -> Option<&str> {
-        self.0.help.as_deref()
-    }
-
     /// Returns line and column in the scene file, both from 1, the column counted in characters; `None` for errors that do not
     /// stand in a file.
     pub fn line_and_column(&self) -> Option<(usize, usize)> {
@@ -145,23 +130,20 @@ impl SceneError {
         let mut group = Group::with_title(Level::ERROR.primary_title(title));
         if let Some(source) = &error.source {
             let path = source.path.display().to_string();
+            let mark = |kind: AnnotationKind, span: &Range<usize>, label: &str| {
+                let label = normalize_untrusted_str(label);
+                kind.span(span.clone()).label(label)
+            };
             group = match span {
                 None if matches!(error.origin, Origin::Flag(_)) => group,
                 None => group.element(Path::path(path)),
-                Some(span) => group.element(
-                    Snippet::source(source.text.as_str())
-                        .path(path)
-                        .annotation(
-                            AnnotationKind::Primary
-                                .span(span)
-                                .label(normalize_untrusted_str(&error.expected)),
-                        )
-                        .annotations(error.related.iter().map(|(span, label)| {
-                            AnnotationKind::Context
-                                .span(span.clone())
-                                .label(normalize_untrusted_str(label))
-                        })),
-                ),
+                Some(span) => {
+                    let here = mark(AnnotationKind::Primary, &span, &error.expected);
+                    let others = error.related.iter();
+                    let others = others.map(|(at, label)| mark(AnnotationKind::Context, at, label));
+                    let snippet = Snippet::source(source.text.as_str()).path(path);
+                    group.element(snippet.annotation(here).annotations(others))
+                }
             };
         }
         if let Some(note) = &error.note {

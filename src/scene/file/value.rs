@@ -324,17 +324,9 @@ fn wrong(value: &Spanned<DeValue>, expected: &str) -> SceneError {
 
 /// Makes the error for a key or a word that does not exist, with the one that may have been meant.
 fn unknown(what: &str, found: &str, at: Range<usize>, known: &[&'static str]) -> SceneError {
-    let names: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
-    let expected = match &names[..] {
-        [one, other] => format!("expected {one} or {other}"),
-        all => format!("expected one of {}", all.join(", ")),
-    };
-    let error = SceneError::new(
-        Origin::File(at),
-        format!("unknown {what} `{found}`"),
-        expected,
-    );
-    match suggest::nearest(found, known.iter().copied()) {
+    let (title, known) = (format!("unknown {what} `{found}`"), known.iter().copied());
+    let error = SceneError::new(Origin::File(at), title, suggest::one_of(known.clone()));
+    match suggest::nearest(found, known) {
         _ if found == "depth_test" => error.help("what hides a polygon is said by `visibility`"),
         Some(nearest) => error.help(format!("did you mean `{nearest}`?")),
         None => error,

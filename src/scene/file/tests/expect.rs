@@ -4,6 +4,7 @@ use super::cubes;
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::SceneError;
 use std::format;
+use std::string::ToString;
 
 /// Returns the error of `text`, from parsing or resolving.
 pub(super) fn error(text: &str) -> SceneError {
@@ -21,18 +22,12 @@ pub(super) fn check(marked: &str, message: &str, expected: &str, hint: Option<&s
     let column = start - marked[..start].rfind('\n').map_or(0, |i| i + 1) + 1;
     let inside = &marked[start + '«'.len_utf8()..marked.find('»').expect("a mark")];
     let error = error(&marked.replace(['«', '»'], ""));
-    let got = (
-        error.message(),
-        error.expected(),
-        error.hint(),
-        error.line_and_column(),
-    );
-    assert_eq!(
-        got,
-        (message, expected, hint, Some((line, column))),
-        "in\n{marked}\n{error}"
-    );
+    let gap = if expected.is_empty() { "" } else { ": " };
+    let sentence = format!("scene.toml:{line}:{column}: {message}{gap}{expected}");
+    assert_eq!(error.to_string(), sentence, "in\n{marked}");
     let shown = error.render(false);
+    let help = shown.split_once("help: ").map(|(_, help)| help);
+    assert_eq!(help.map(str::trim_end), hint, "in\n{marked}\n{shown}");
     assert!(shown.starts_with(&format!("error: {message}\n")), "{shown}");
     assert!(
         shown.contains(&format!("--> scene.toml:{line}:{column}\n")),

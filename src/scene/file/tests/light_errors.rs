@@ -1,12 +1,14 @@
 //! Errors about lights, the viewer and highlights.
 
-use super::expect::{check, error};
+use super::expect::check;
 use super::{cubes, with_object};
 use crate::scene::file::SceneFile;
 use crate::scene::file::diagnostics::Origin;
+use crate::scene::file::schema::SCENE;
 use crate::scene::file::value::{Data, SceneTable};
 use std::format;
 use std::vec;
+use std::vec::Vec;
 
 const AT: &str = "[[light]]\nposition = [0, 3, 3]\n";
 const TOWARD: &str = "[[light]]\ndirection = [0, 3, 3]\n";
@@ -136,10 +138,7 @@ fn a_light_is_somewhere() {
     let error = by_program
         .resolve(cubes)
         .expect_err("a light without a place");
-    assert_eq!(
-        (error.message(), error.line_and_column()),
-        (&*number(1), None)
-    );
+    assert!(format!("{error}").starts_with(&number(1)), "{error}");
 }
 
 /// A light must not be at a vertex, or as near as `f32` can resolve. The corners of the cube are
@@ -224,10 +223,11 @@ fn words_that_do_not_exist() {
     ] {
         check(text, &format!("unknown word `{word}`"), expected, hint);
     }
+    let keys: Vec<_> = SCENE.iter().map(|key| format!("`{}`", key.name)).collect();
     check(
         "«speclar» = \"blinn\"\n",
         "unknown key `speclar`",
-        error("speclar = 1\n").expected(),
+        &format!("expected one of {}", keys.join(", ")),
         Some("did you mean `specular`?"),
     );
 }

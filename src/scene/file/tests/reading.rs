@@ -203,16 +203,14 @@ fn broken_text() {
 
 #[test]
 fn files_that_cannot_be_read() {
-    let folder = std::env::temp_dir().join(format!("fastphong-scene-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a temporary folder");
-    let path = folder.join("latin1.toml");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("latin1.toml");
     let missing = format!(
         "{}",
-        SceneFile::load(folder.join("none.toml")).expect_err("no file")
+        SceneFile::load(folder.path().join("none.toml")).expect_err("no file")
     );
     std::fs::write(&path, b"a = 1\ntitle = \"\xe4\"\n").expect("a temporary file");
     let latin1 = format!("{}", SceneFile::load(&path).expect_err("not UTF-8"));
-    std::fs::remove_dir_all(&folder).expect("the temporary folder");
     assert!(
         missing.starts_with("cannot read the scene `") && missing.contains("none.toml`: "),
         "{missing}"
