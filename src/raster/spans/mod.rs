@@ -67,9 +67,11 @@ pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
         });
         (setup.kernels.pixels)(&setup.pixels(&runs, &starts), &mut colours);
         let mut rest = &colours[..];
-        for run in &runs {
-            let (here, others) = rest.split_at(run.pixels as usize);
-            target.store(run.x as usize, row, here);
+        // Runs that touch are stored together.
+        for touching in runs.chunk_by(|a, b| a.x + a.pixels == b.x) {
+            let [first, last] = [&touching[0], &touching[touching.len() - 1]];
+            let (here, others) = rest.split_at((last.x + last.pixels - first.x) as usize);
+            target.store(first.x as usize, row, here);
             rest = others;
         }
     });
