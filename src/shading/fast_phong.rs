@@ -41,7 +41,7 @@ impl<const L: usize> Shader for FastPhong<L> {
             least: 1,
             most: NewtonSteps::MOST,
             auto: Some(Auto {
-                meaning: "the fewest Newton steps (1 to 3) that keep the relative error on a span below 0.001; an exact root otherwise",
+                meaning: "the fewest Newton steps (1 to 3) that keep the relative error on a span below 0.001; an exact root otherwise, and always with SIMD, where it costs no more",
                 length_error: |lighting| largest_error(lighting.specular, lighting.shininess),
             }),
         }],

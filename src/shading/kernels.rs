@@ -290,10 +290,8 @@ fn shade_runs<'a, 'b, M: Shader>(
         };
         let (here, rest) = out.split_at_mut(run.pixels as usize);
         out = rest;
-        #[expect(
-            clippy::needless_range_loop,
-            reason = "an iterator counts triples by a division: 3 % of Gouraud's frames"
-        )]
+        // An iterator counts triples by a division: 3 % of Gouraud's frames.
+        #[expect(clippy::needless_range_loop)]
         for x in 0..here.len() {
             let (mut pixel, mut lit) = (walk.next(), directional);
             if general {

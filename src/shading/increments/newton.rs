@@ -45,23 +45,21 @@ impl NewtonSteps {
     /// Chooses the steps for a span whose normal starts as `n` and grows by `dn` a step; 0 is a true root.
     ///
     /// One pixel at a time a number that was asked for is taken as it is, as in the lecture. In blocks the guess is a whole
-    /// block away and fails the sooner: there it gives way to true roots.
+    /// block away and fails the sooner: there it gives way to true roots. `auto` takes nothing else in blocks: eight roots take
+    /// no longer than the eight divisions of a step.
     #[inline(always)]
     fn of_span<F: Num>(&self, n: Vec3<F>, dn: Vec3<F>, square: F) -> u32 {
-        let NewtonSteps { steps, within } = self;
-        if *steps != 0 && F::WIDTH == 1 {
-            return *steps;
-        }
+        let counts = match (self.steps, F::WIDTH) {
+            (0, 1) => 1..=Self::MOST_OF_AUTO,
+            (steps, 1) | (steps @ 0, _) => return steps,
+            (steps, _) => steps..=steps,
+        };
         let (along, step) = (n.dot(dn), dn.dot(dn));
         // δ² ≤ T is ΔN·ΔN ≤ T D_min, times ΔN·ΔN.
         let room = square * step - (along * along).gate(-along, 0.0);
         let growth = step * step;
-        let (first, last) = match steps {
-            0 => (1, Self::MOST_OF_AUTO),
-            _ => (*steps, *steps),
-        };
-        for count in first..=last {
-            if !(growth - room * within[count as usize]).any_over(0.0) {
+        for count in counts {
+            if !(growth - room * self.within[count as usize]).any_over(0.0) {
                 return count;
             }
         }
