@@ -51,7 +51,7 @@ fn engines(c: &mut Criterion) {
         for method in METHODS {
             let variant = Variant::parse(method).expect("a method of the table");
             for renderer in Renderer::available() {
-                let name = format!("{}-{}", renderer.engine(), renderer.level());
+                let name = format!("{}-{}", renderer.engine().name(), renderer.level());
                 group.bench_function(BenchmarkId::new(name, method), |b| {
                     b.iter(|| variant.render_with(black_box(&frame), renderer, &mut picture));
                 });

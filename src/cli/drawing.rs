@@ -129,6 +129,7 @@ impl RenderJob {
                 return Ok(RenderJob::new(frame, content, name));
             }
             (EngineFlag::Scanlines(Some(engine)), Method::Reference(_)) => {
+                let engine = engine.name();
                 let problem = format!("`{method}` is not drawn by the {engine} engine");
                 return Err(format!("{problem}: leave out --engine").into());
             }

@@ -234,7 +234,7 @@ impl AutoChoice {
     /// Writes the choice in words.
     fn text(&self) -> String {
         let Plan { renderer, reason } = self.plan;
-        let (engine, level) = (renderer.engine(), renderer.level());
+        let (engine, level) = (renderer.engine().name(), renderer.level());
         let reason = reason.map_or(String::new(), |reason| format!(" ({reason})"));
         format!("{engine}, {level}: {}{reason}", self.methods.join(", "))
     }

@@ -1,9 +1,8 @@
 //! Instruction sets of the pixel loops, one of which is chosen at run time.
 
 use super::NameError;
-use super::suggest::nearest;
+use super::suggest::{one_of, unknown};
 use alloc::format;
-use alloc::string::String;
 use core::fmt;
 use core::str::FromStr;
 
@@ -31,7 +30,7 @@ impl Level {
     }
 
     /// Returns the levels that this machine has, from the least to the most.
-    pub fn available() -> impl Iterator<Item = Level> {
+    pub fn available() -> impl Iterator<Item = Level> + Clone {
         Level::ALL.into_iter().filter(|level| level.is_available())
     }
 
@@ -91,29 +90,18 @@ impl FromStr for Level {
 
     /// Reads the name of a level of this machine, or `auto` for the best one.
     fn from_str(name: &str) -> Result<Level, NameError> {
-        if name == "auto" {
-            return Ok(Level::best());
-        }
-        let mut names = Level::ALL.into_iter().map(Level::name).chain(["auto"]);
-        let reason = match Level::ALL.into_iter().find(|level| level.name() == name) {
+        let here = core::iter::once("auto").chain(Level::available().map(Level::name));
+        let problem = match Level::ALL.into_iter().find(|level| level.name() == name) {
+            _ if name == "auto" => return Ok(Level::best()),
             Some(level) if level.is_available() => return Ok(level),
-            Some(level) => format!("this machine does not have `{level}`"),
-            None => format!("unknown instruction set `{name}`"),
-        };
-        let advice = match nearest(name, names.clone()) {
-            _ if name == "sse4.2" => {
-                "it is no longer compiled for; use `scalar` for one pixel at a time, or `auto`"
-                    .into()
+            Some(level) => format!("this machine does not have `{level}`: {}", one_of(here)),
+            None if name == "sse4.2" => {
+                let other = "use `scalar` for one pixel at a time, or `auto`";
+                format!("unknown instruction set `{name}`: it is no longer compiled for; {other}")
             }
-            Some(near) if names.all(|known| known != name) => format!("did you mean `{near}`?"),
-            _ => {
-                let here: String = Level::available()
-                    .map(|level| format!(", `{level}`"))
-                    .collect();
-                format!("expected `auto`{here}")
-            }
+            None => unknown("instruction set", name, here),
         };
-        Err(NameError(format!("{reason}: {advice}")))
+        Err(NameError(problem))
     }
 }
 
@@ -155,24 +143,20 @@ mod tests {
         let text = other.name().parse::<Level>().unwrap_err().to_string();
         assert!(
             text.starts_with("this machine does not have `")
-                && text.ends_with(&names_of_this_machine()),
+                && Level::available().all(|level| text.contains(&format!("`{level}`"))),
             "{text}"
         );
-        let text = "avx".parse::<Level>().unwrap_err().to_string();
-        assert!(
-            text.starts_with("unknown instruction set `avx`: did you mean `avx2`?"),
-            "{text}"
+        let text = "scaler".parse::<Level>().unwrap_err().to_string();
+        assert_eq!(
+            text,
+            "unknown instruction set `scaler`: did you mean `scalar`?"
         );
         let text = "".parse::<Level>().unwrap_err().to_string();
         assert!(
-            text.starts_with("unknown instruction set ``")
-                && text.contains("expected `auto`, `scalar`"),
+            text.starts_with("unknown instruction set ``: expected ")
+                && text.contains("`auto`")
+                && text.contains("`scalar`"),
             "{text}"
         );
-    }
-
-    fn names_of_this_machine() -> String {
-        let names = Level::available().map(|level| alloc::format!(", `{level}`"));
-        names.fold(String::from(": expected `auto`"), |all, name| all + &name)
     }
 }

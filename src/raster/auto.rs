@@ -27,19 +27,14 @@ impl Variant {
     pub fn auto(frame: &Frame, renderer: Renderer) -> (Variant, &'static str) {
         let named = |name| Variant::parse(name).expect("a method of the table");
         let rsqrt = named("phong-rsqrt");
+        let near =
+            "under lights or an eye at positions nothing as exact is faster one pixel at a time";
+        let span = "naive Phong's picture in less time, one pixel at a time";
+        let row = "naive Phong's picture in the least time of the row engine";
         match rsqrt.plan(frame, renderer).renderer.engine() {
-            Engine::Span if frame.is_local() => (
-                named("naive-phong"),
-                "under lights or an eye at positions nothing as exact is faster one pixel at a time",
-            ),
-            Engine::Span => (
-                rsqrt,
-                "naive Phong's picture in less time, one pixel at a time",
-            ),
-            Engine::Row => (
-                rsqrt,
-                "naive Phong's picture in the least time of the row engine",
-            ),
+            Engine::Span if frame.is_local() => (named("naive-phong"), near),
+            Engine::Span => (rsqrt, span),
+            Engine::Row => (rsqrt, row),
         }
     }
 }

@@ -44,10 +44,7 @@ pub(super) fn draw_bands<T: Stored>(
     pixels: &mut [T],
     draw: &DrawBand<'_>,
 ) {
-    assert!(
-        height.is_multiple_of(frame.samples()),
-        "bands hold whole pixels"
-    );
+    assert!(height.is_multiple_of(frame.samples()), "whole pixels");
     let a_band = height / frame.samples() * frame.picture_width();
     for_each_chunk(pixels, a_band, &|start, pixels: &mut [T]| {
         let number = first + start / a_band;

@@ -2,7 +2,7 @@
 //! `Writer::put` in `rows/tile.rs`.
 
 use crate::frame::{DepthRange, Frame, ScreenVertex};
-use crate::scene::{Clipping, DepthBits, DepthSource, HiddenSurfaces};
+use crate::scene::{Clipping, DepthSource, HiddenSurfaces};
 
 /// The rule by which depth is computed at a sample, stored and compared.
 ///
@@ -41,23 +41,17 @@ impl SampleDepth {
             HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => None,
         };
         let (near, far) = frame.depth_range().ends();
-        let (quantity, origin, factor) =
-            match (buffer.unwrap_or_default().source, frame.depth_range()) {
-                (DepthSource::Interpolated, _) => (Quantity::Depth, 0.0, 1.0),
-                (DepthSource::PerSample, DepthRange::Perspective { .. }) => {
-                    (Quantity::InverseW, 1.0, -far / (far - near))
-                }
-                (DepthSource::PerSample, DepthRange::Orthographic { .. }) => {
-                    (Quantity::Distance, near, 1.0 / (far - near))
-                }
-            };
+        let source = buffer.unwrap_or_default().source;
+        let (quantity, origin, factor) = match (source, frame.depth_range()) {
+            (DepthSource::Interpolated, _) => (Quantity::Depth, 0.0, 1.0),
+            (_, DepthRange::Perspective { .. }) => (Quantity::InverseW, 1.0, -far / (far - near)),
+            (_, DepthRange::Orthographic { .. }) => (Quantity::Distance, near, 1.0 / (far - near)),
+        };
         SampleDepth {
             quantity,
             origin: origin as f32,
             factor: factor as f32,
-            most: buffer
-                .map_or(DepthBits::ThirtyTwo, |buffer| buffer.bits)
-                .most(),
+            most: buffer.and_then(|buffer| buffer.bits.most()),
             hides: buffer.is_some(),
             cube: frame.clipping() == Clipping::NdcCube,
         }
@@ -144,6 +138,7 @@ pub(super) fn level_of<S: fearless_simd::Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::DepthBits;
 
     fn keeping(bits: DepthBits) -> SampleDepth {
         SampleDepth {

@@ -2,7 +2,6 @@
 
 use crate::number::Level;
 use crate::number::parallel;
-use core::fmt;
 
 /// A set of loops that draw a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,12 +20,6 @@ impl Engine {
             Engine::Span => "span",
             Engine::Row => "row",
         }
-    }
-}
-
-impl fmt::Display for Engine {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
     }
 }
 

@@ -49,7 +49,11 @@ const SAME_DEPTH: f64 = 1.0 / (1u64 << 24) as f64;
 /// It goes over the scanlines. Where two spans of a row overlap, both depths are linear, so that the two ends of the overlap
 /// tell which is nearer. Takes O(s d) for s spans of which d lie over each other.
 pub fn conflicts(frame: &Frame) -> Conflicts {
-    let hides = relation(frame);
+    // All pairs (a, b) of which a hides b.
+    let mut hides = BTreeSet::new();
+    scan(frame, &Varyings::none(), &mut |row, line, _| {
+        compare(frame, row, line.spans().to_vec(), &mut hides);
+    });
     let drawn_wrong = |&&(a, b): &&(u32, u32)| a < b;
     let mutual = |&&(a, b): &&(u32, u32)| a < b && hides.contains(&(b, a));
     Conflicts {
@@ -57,15 +61,6 @@ pub fn conflicts(frame: &Frame) -> Conflicts {
         interpenetrating: hides.iter().filter(mutual).count(),
         cycles: cycles(&hides, frame.polygons().len()),
     }
-}
-
-/// Returns all pairs (a, b) of which a hides b.
-fn relation(frame: &Frame) -> BTreeSet<(u32, u32)> {
-    let mut hides = BTreeSet::new();
-    scan(frame, &Varyings::none(), &mut |row, line, _| {
-        compare(frame, row, line.spans().to_vec(), &mut hides);
-    });
-    hides
 }
 
 /// Adds the pairs that the spans of row `y` show to `hides`.
@@ -100,10 +95,9 @@ fn compare(frame: &Frame, y: usize, mut spans: Vec<PolygonSpan>, hides: &mut BTr
 
 /// Returns the depth of a polygon at a pixel that shows it when nothing hides it.
 fn depth(frame: &Frame, scanline: &Scanline, x: usize) -> Option<f64> {
-    let depth = scanline
-        .weights(x)
-        .map(|weights| weights.sum(|v| f64::from(frame.vertices()[v].depth)));
-    depth.filter(|z| frame.clipping() == Clipping::Planes || (0.0..=1.0).contains(z))
+    let depth = |v: usize| f64::from(frame.vertices()[v].depth);
+    let depth = scanline.weights(x)?.sum(depth);
+    (frame.clipping() == Clipping::Planes || (0.0..=1.0).contains(&depth)).then_some(depth)
 }
 
 /// Returns the strongly connected components of two polygons or more of `count` polygons.
@@ -148,10 +142,8 @@ fn search(edges: &[(u32, u32)], root: u32, is_met: &mut [bool], left: &mut Vec<u
         let Some((polygon, edge)) = path.last_mut() else {
             return;
         };
-        next = edges
-            .get(*edge)
-            .filter(|(from, _)| from == polygon)
-            .map(|(_, to)| *to);
+        let followed = edges.get(*edge).filter(|(from, _)| from == polygon);
+        next = followed.map(|(_, to)| *to);
         *edge += 1;
         if next.is_none() {
             left.push(*polygon);

@@ -110,7 +110,7 @@ impl<'a> SetUp<'a> {
             uniforms = polygons.map(seen).collect();
         }
         let extras = entry.extras(near, is_perspective);
-        let simd = (kernels.simd)(level);
+        let vertices = (kernels.simd)(level).and_then(|simd| simd.vertices);
         let [own, _] = (kernels.counts)(frame.light_count());
         let mut varyings = Varyings::of_vertices(&[][..], own + extras.count());
         varyings.great_circle = kernels.great_circle;
@@ -122,9 +122,7 @@ impl<'a> SetUp<'a> {
             uniforms,
             is_by_polygon,
             varyings,
-            light: simd
-                .and_then(|simd| simd.vertices)
-                .unwrap_or(kernels.vertices),
+            light: vertices.unwrap_or(kernels.vertices),
         };
         let is_weighted =
             is_perspective && matches!(info.perspective, Perspective::Free | Perspective::Divides);
@@ -175,10 +173,7 @@ impl<'a> SetUp<'a> {
             }
             _ => self.lit(frame.vertices().len(), &|i| {
                 let vertex = i as u32;
-                let point = match near {
-                    true => frame.position(vertex),
-                    false => [0.0; 3],
-                };
+                let point = near.then(|| frame.position(vertex)).unwrap_or_default();
                 // The only material need not be read.
                 let material = (!has_one_material).then(|| frame.material(vertex));
                 (material.unwrap_or(0), frame.normal(vertex), point)

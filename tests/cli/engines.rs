@@ -342,7 +342,7 @@ fn scalar_renderers_reject_instruction_sets() {
 #[test]
 fn unknown_engines_levels_and_threads_are_rejected_by_name() {
     let folder = Folder::new();
-    let expected_level = "expected `auto`, `scalar`";
+    let expected_level = "`scalar`";
     for command in [
         &*format!("render {SPHERE} -o out.png"),
         "compare figure5",

@@ -185,11 +185,9 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         let [from, to] = self.limits(start);
         m.store_int(from, &mut starts.blocks[0]);
         m.store_int(to, &mut starts.blocks[1]);
-        let mut i = 0;
-        while i < 3 {
+        for i in 0..3 {
             start[i] += from * self.across[i];
             m.store_int(start[i], &mut starts.functions[i]);
-            i += 1;
         }
         let off = |edge: usize| m.splat(edges[edge].off[k]);
         let weight = |edge: usize| m.float(start[edge]).mul_add(over_area, off(edge));
@@ -211,13 +209,11 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         let blocks = 1.0 / BLOCK as f32;
         let doubt = m.splat(blocks / 1024.0);
         let (mut from, mut to) = (m.splat(0.0), m.splat(((end - first) * BLOCK - 1) as f32));
-        let mut i = 0;
-        while i < 3 {
+        for i in 0..3 {
             let edge = &self.batch.edges[i];
             let here = m.float(start[i]);
             from = from.max(here * m.splat(edge.begins[k]));
             to = to.min(here.mul_add(m.splat(edge.ends[0][k]), m.splat(edge.ends[1][k])));
-            i += 1;
         }
         let blocks = m.splat(blocks);
         [

@@ -49,9 +49,8 @@ impl Fragments {
         tile: &Tile,
     ) -> u32 {
         let one = m.int(1);
-        let others = m
-            .load_int(&batch.path[first..])
-            .less(m.int(CoveragePath::Tiny as i32));
+        let paths = m.load_int(&batch.path[first..]);
+        let others = paths.less(m.int(CoveragePath::Tiny as i32));
         if !m.any_not_negative(others) {
             return 0;
         }

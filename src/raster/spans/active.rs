@@ -248,9 +248,8 @@ impl<'a> ActiveEdges<'a> {
     ) -> u32 {
         let ends = self.ends(edge);
         if self.varyings.great_circle {
-            let face = self
-                .frame
-                .polygon_normal(&self.frame.polygons()[edge.polygon as usize]);
+            let polygon = &self.frame.polygons()[edge.polygon as usize];
+            let face = self.frame.polygon_normal(polygon);
             let normals = [unit(ends[0]), unit(ends[1])];
             let circle = GreatCircle::new(vec3(face), normals, t0, dt);
             return self.more.enter_circle(circle);
@@ -348,10 +347,8 @@ impl<'a> ActiveEdges<'a> {
             to.extend(circles[left.slot as usize].normal().array()); // 4.8
             to.extend(circles[right.slot as usize].normal().array());
             to.extend([t0, span.dt]);
-            to.extend(
-                self.frame
-                    .polygon_normal(&self.frame.polygons()[span.polygon as usize]),
-            );
+            let polygon = &self.frame.polygons()[span.polygon as usize];
+            to.extend(self.frame.polygon_normal(polygon));
             return;
         }
         let (count, first) = (self.varyings.count, to.len());

@@ -31,7 +31,7 @@ pub fn distinct(variant: &Variant, frame: &Frame) -> Vec<Renderer> {
 
 /// Returns the name of a renderer as on the command line.
 pub fn name(renderer: Renderer) -> String {
-    format!("{} on {}", renderer.engine(), renderer.level())
+    format!("{} on {}", renderer.engine().name(), renderer.level())
 }
 
 /// Runs `work` on `count` threads.
