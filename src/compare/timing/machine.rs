@@ -121,10 +121,7 @@ mod tests {
         assert!(machine.cores >= 1);
         assert!(machine.rustc.starts_with("rustc 1."), "{}", machine.rustc);
         assert!(machine.line().contains(&machine.cpu) && machine.line().contains(&machine.rustc));
-        assert_eq!(
-            machine.profile, "debug",
-            "tests are built with debug assertions"
-        );
+        assert!(["debug", "release"].contains(&&*machine.profile));
     }
 
     #[cfg(any(target_os = "linux", target_os = "android"))]
