@@ -121,7 +121,7 @@ mod tests {
         assert!(machine.cores >= 1);
         assert!(machine.rustc.starts_with("rustc 1."), "{}", machine.rustc);
         assert!(machine.line().contains(&machine.cpu) && machine.line().contains(&machine.rustc));
-        assert!(["debug", "release"].contains(&&*machine.profile));
+        assert!(matches!(&*machine.profile, "debug" | "release"));
     }
 
     #[cfg(any(target_os = "linux", target_os = "android"))]
