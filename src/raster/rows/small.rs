@@ -185,9 +185,9 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         let [from, to] = self.limits(start);
         m.store_int(from, &mut starts.blocks[0]);
         m.store_int(to, &mut starts.blocks[1]);
-        for i in 0..3 {
-            start[i] += from * self.across[i];
-            m.store_int(start[i], &mut starts.functions[i]);
+        for (i, start) in start.iter_mut().enumerate() {
+            *start += from * self.across[i];
+            m.store_int(*start, &mut starts.functions[i]);
         }
         let off = |edge: usize| m.splat(edges[edge].off[k]);
         let weight = |edge: usize| m.float(start[edge]).mul_add(over_area, off(edge));
@@ -209,9 +209,8 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         let blocks = 1.0 / BLOCK as f32;
         let doubt = m.splat(blocks / 1024.0);
         let (mut from, mut to) = (m.splat(0.0), m.splat(((end - first) * BLOCK - 1) as f32));
-        for i in 0..3 {
-            let edge = &self.batch.edges[i];
-            let here = m.float(start[i]);
+        for (edge, start) in self.batch.edges.iter().zip(start) {
+            let here = m.float(start);
             from = from.max(here * m.splat(edge.begins[k]));
             to = to.min(here.mul_add(m.splat(edge.ends[0][k]), m.splat(edge.ends[1][k])));
         }
