@@ -1,7 +1,7 @@
 "use strict";
 /* Draws the page from one JSON document and packed pictures. */
 
-/* ---------- markup */
+/* -- markup */
 const ROOT = document.documentElement;
 const $ = (selector, root = document) => root.querySelector(selector);
 const $$ = (selector, root = document) => [...root.querySelectorAll(selector)];
@@ -87,7 +87,7 @@ function save(name, content, type) {
 	setTimeout(() => URL.revokeObjectURL(a.href), 1e4);
 }
 
-/* ---------- numbers */
+/* -- numbers */
 const TIMES = "\u2009×";
 const clamp = (v, low, high) => Math.max(low, Math.min(high, v));
 const by = f => (a, b) => f(a) - f(b);
@@ -121,7 +121,7 @@ function memo(key, make) {
 	return kept;
 }
 
-/* ---------- data */
+/* -- data */
 const D = JSON.parse($("#fastphong-data").textContent), DOCS = [D, ...(D.beside ?? [])];
 const BASE = D.baseline ?? "naive-phong", BARY = "barycentric";
 /* A row of a comparison: errors in grey levels, times in ms. */
@@ -181,7 +181,7 @@ const mark = m => html`<svg width="13" height="13" viewBox="-7 -7 14 14" aria-hi
 
 const named = m => html`${mark(m)}${nameOf(m)}`;
 
-/* ---------- pictures: planes with the row filters of PNG, deflated; each adds to the one most like it */
+/* -- pictures: planes with the row filters of PNG, deflated; each adds to the one most like it */
 /* Predicts a byte from its neighbours (PNG specification 9). */
 function predict(filter, left, up, corner) {
 	if (filter === 0) return 0;
@@ -277,7 +277,7 @@ function crop(canvas, s, m, worst, w, h) {
 	later(() => drawPart(canvas, s, m, [x, y, w, h], [w * 2, h * 2], false));
 }
 
-/* ---------- the viewer */
+/* -- the viewer */
 const MODES = { s: "slide", f: "flip", d: "side", e: "error" };
 const KEYS = {
 	" ": v => v.flip(), x: v => v.set({ a: v.b, b: v.a }), "+": v => v.zoom(2), "=": v => v.zoom(2), "-": v => v.zoom(.5), z: v => v.zoom(0), w: v => v.worst(),
@@ -517,7 +517,7 @@ class Viewer {
 	}
 }
 
-/* ---------- charts */
+/* -- charts */
 const round = v => Math.round(v * 10) / 10;
 /* The size of type; charts are drawn smaller by it, and scaled. */
 const zoomOf = () => parseFloat(getComputedStyle(ROOT).fontSize) / 16;
@@ -601,7 +601,7 @@ function place(points, box, bars) {
 	}
 }
 
-/* ---------- overview */
+/* -- overview */
 let basis = MANY ? "all" : "scene";
 /* Error against time of every method, and the line of those that nothing beats. */
 function pareto(v) {
@@ -721,7 +721,7 @@ function overview(_, query) {
 	strip();
 }
 
-/* ---------- scenes */
+/* -- scenes */
 let sort = { key: TIMED ? "ratio" : "max", up: !TIMED }, options = { cols: false, bary: false };
 const openScene = s => go(`scenes/${s.id}?left=${v2.a}&right=${v2.b}${v2.mode === "slide" ? "" : `&mode=${v2.mode}`}`);
 const stepScene = d => openScene(SCENES[(v2.scene.number + d + SCENES.length) % SCENES.length]);
@@ -878,7 +878,7 @@ async function copyMarkdown() {
 	}
 }
 
-/* ---------- methods: formulas as mathematics */
+/* -- methods: formulas as mathematics */
 const GREEK = { phi: "φ", theta: "θ", alpha: "α", delta: "δ" }, FUNCTIONS = ["sin", "cos", "sqrt", "rsqrt", "min", "max"];
 const SIGNS = { ".": "·", "*": "×", "-": "−", "...": "…" };
 const operator = t => html`<mo stretchy="false">${t}</mo>`, group = parts => html`<mrow>${parts}</mrow>`;
@@ -959,7 +959,7 @@ ${s && html`<figure class="crop"><div class="pair">${["reference", m.name].map(i
 }
 function methods([id]) {
 	if (id) unfolded.add("methods");
-	const el = $("#methodlist"), [shown, more] = folded(METHODS, 12, "methods");
+	const el = $("#methodlist"), [shown, more] = folded(METHODS, innerWidth < 1200 ? 6 : 12, "methods");
 	if ($$(".method", el).length < shown.length) {
 		const most = Math.max(...METHODS.flatMap(m => RATES.map(([, of]) => sum(of(m.operations[0])))));
 		write({ "t-methods": `${plural(IDS.length, "way")} to one equation` });
@@ -969,7 +969,7 @@ function methods([id]) {
 	}
 }
 
-/* ---------- speed */
+/* -- speed */
 const CORNERS = STUDY?.corners.map((c, i) => ({ ...c, i })) ?? [], oneLight = CORNERS.filter(c => c.lights === 1);
 let cornerMode = "same";
 /* True if a method draws naive Phong's picture in all scenes; without scenes, on the study's sphere. */
@@ -1054,7 +1054,7 @@ function speed() {
 	if (DOCS.length > 1) beside();
 }
 
-/* ---------- lectures */
+/* -- lectures */
 const figurePictures = f => memo("figures", () => JSON.parse($("#figure-pictures").textContent))[FIGURES.indexOf(f)] ?? [];
 const chips = (f, named) => html`<span class="chips">${counts(f.findings).map(([k, n]) => chip(k, n + (named ? " " + k : "")))}</span>`;
 const topic = f => f.title.split(":")[0];
@@ -1116,11 +1116,12 @@ function lectures([part = ""]) {
 		reveal($(".list [aria-current]", body));
 		drawPlots(f);
 	} else {
-		body.innerHTML = html`<div class="gallery">${FIGURES.map(q => html`<a class="fcard" href="#lectures/${q.name}"><span class="preview">${preview(q)}</span><span class="tx"><b>${q.title}</b><small>${q.lecture}</small>${chips(q)}</span></a>`)}</div>`;
+		const [cards, rest] = folded(FIGURES, innerWidth < 700 ? 16 : 30, "figures");
+		body.innerHTML = html`<div class="gallery">${cards.map(q => html`<a class="fcard" href="#lectures/${q.name}"><span class="preview">${preview(q)}</span><span class="tx"><b>${q.title}</b><small>${q.lecture}</small>${chips(q)}</span></a>`)}</div>${rest}`;
 	}
 }
 
-/* ---------- how measured */
+/* -- how measured */
 const quoted = w => /^[\w\-./:=,+@%]+$/.test(w) ? w : `'${w.replace(/'/g, "'\\''")}'`;
 function measured() {
 	const command = D.command_line.map(quoted).join(" "), { machine } = D, [scene] = SCENES, rounds = ROWS.map(q => q.rounds).filter(Boolean);
@@ -1141,7 +1142,7 @@ function measured() {
 	$("#get-findings").onclick = () => save("fastphong-findings.csv", csv(FINDINGS.map(x => ({ ...x, figure: x.figure.name }))), "text/csv");
 }
 
-/* ---------- routes: #view/part?left=…&right=…&mode=…&x=…&y=…&zoom=…&row=… */
+/* -- routes: #view/part?left=…&right=…&mode=…&x=…&y=…&zoom=…&row=… */
 const VIEWS = { overview, scenes, methods, speed, lectures, measured };
 let view = "", restoring = true;
 function go(hash) {

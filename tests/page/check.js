@@ -112,6 +112,10 @@
   const link = async (what, hash, is) => { await visit("measured"); await visit(hash); await until(what, is); };
   try {
     const scenes = SCENES.length, drawn = scenes && PICTURES;
+    if (IDS.length <= 11) for (const v in FILLED) if (FILLED[v]) {
+      await visit(v);
+      check(`${v}: ${document.documentElement.scrollHeight / innerHeight} screens`, document.documentElement.scrollHeight <= 6 * innerHeight);
+    }
     if (scenes) {
       await visit("overview");
       if (drawn) {
@@ -188,14 +192,13 @@
       }
       if (scenes > 1) { const before = v2.scene; key("]"); await until("the next scene", () => v2.scene !== before); key("["); await until("the scene before", () => v2.scene === before); }
       await visit("methods");
-      check("methods: an article a method", document.querySelectorAll(".method").length === (IDS.length > 14 ? 12 : IDS.length));
-      check("methods: formulas are mathematics", document.querySelectorAll("#methodlist math").length >= Math.min(11, IDS.length));
+      const most = innerWidth < 1200 ? 6 : 12, articles = IDS.length < 1.2 * most ? IDS.length : most;
+      check("methods: an article a method", document.querySelectorAll(".method").length === articles);
+      check("methods: formulas are mathematics", document.querySelectorAll("#methodlist math").length >= articles - 1);
       labels("methods");
       accessible("methods");
-      if (IDS.length > 14) {
-        document.querySelector("#methodlist .fold").click();
-        check("methods: all of them", document.querySelectorAll(".method").length === IDS.length);
-      }
+      document.querySelector("#methodlist .fold")?.click();
+      check("methods: all of them", document.querySelectorAll(".method").length === IDS.length);
     }
     if (STUDY || D.scaling || DOCS.length > 1) {
       await visit("speed");
@@ -213,6 +216,9 @@
       for (const h of ["lectures", "lectures/wrong", "lectures/all"]) { await visit(h); check(h, document.querySelector("#lecture-body").textContent.length > 200); labels(h); accessible(h); }
       const tabs = document.querySelector("#lecture-tabs").getBoundingClientRect();
       check("lectures: the title touches the tabs", tabs.top - document.querySelector("#t-lectures").getBoundingClientRect().bottom >= 8);
+      await visit("lectures");
+      document.querySelector("#lecture-body .fold")?.click();
+      check("lectures: all figures", FIGURES.length === 1 || document.querySelectorAll(".fcard").length === FIGURES.length);
       await visit("lectures/all");
       document.querySelector("#lecture-body .fold")?.click();
       check("lectures: all findings", document.querySelectorAll(".findings tbody tr").length === FINDINGS.length);
