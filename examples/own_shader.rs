@@ -18,7 +18,7 @@ use std::io::Write;
 /// Cel shading: the diffuse term in a few bands, and a highlight with a hard edge.
 ///
 /// ```text
-/// I = I_a k_a + Σ I_p k_d b/bands + Σ I_p k_s [R·V > 0.9]
+/// I = I_a k_a + Σ I_p k_d b/bands + Σ I_p k_s [R·V > 0.9 and L·N > 0]
 /// R·V = 2 (L·N)(V·N) − L·V,   b = number of (i − ½) / bands, i = 1, 2, …, below L·N
 /// ```
 #[derive(Clone, Copy, Default)]
@@ -32,9 +32,11 @@ impl Shader for Toon {
     const INFO: Info = Info {
         name: "toon",
         title: "bands of light, and a highlight with a hard edge",
+        // The default, the least and the most.
         parameters: &[MethodParameter::new("bands", "bands of light", 3, 1, 8)],
         ..Info::OF_PIXELS
     };
+    // A vertex carries its normal and nothing else, so it need not be visited.
     const PASSES_NORMAL: bool = true;
     type Varying<F: Num> = Vec3<F>; // N
     type Walk<F: Num> = Linear<Vec3<F>>; // three additions per pixel
@@ -61,6 +63,7 @@ impl Shader for Toon {
             let l_n = n.dot(light.to);
             let mut diffuse = l_n.like(0.0);
             for band in 0..self.bands {
+                // `gate`: the number where the condition is above a value, 0 elsewhere.
                 diffuse = diffuse + l_n.like(width).gate(l_n, (band as f32 + 0.5) * width);
             }
             let highlight = lit.highlight(&light, l_n, n.dot(lit.view)).gate(l_n, 0.0);

@@ -51,7 +51,7 @@ impl CompareArgs {
         };
         let outcome = done(&text)?;
         if renderer == Renderer::LECTURE {
-            log.note("note: drawn as in the lecture, by scalar code; --simd auto compares what `render` uses");
+            log.note("note: drawn as in the lecture, by scalar code; --simd auto compares on the engine that `render` uses");
         }
         Ok(outcome)
     }

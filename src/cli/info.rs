@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Describe a scene or a mesh
+/// Describe a scene or a mesh; a mesh alone as `compare` sees it, without the light and background that `render` adds
 #[derive(clap::Args, Debug)]
 pub struct InfoArgs {
     /// Scene file, mesh file, builtin:NAME?key=value, or name of a shipped scene

@@ -39,8 +39,8 @@ pub struct RenderArgs {
     #[arg(long, value_name = "png|ppm|pfm", value_parser = output::format, requires = "output")]
     format: Option<Format>,
     /// Shading method, with parameters as in `fast-phong:steps=1`; see `fastphong list methods`. `auto` draws naive Phong's
-    /// picture in the least time: `fastphong info` shows which method that is. `reference` is the closed form in f64,
-    /// `reference:model=flat|gouraud|phong|slerp`
+    /// picture in the least time: `fastphong info` shows which method that is. `reference` draws the closed form in f64, of
+    /// the model that `reference:model=flat|gouraud|phong|slerp` names
     #[arg(short, long, default_value = AUTO, value_parser = drawing::method)]
     method: AskedMethod,
     /// Engine that finds the pixels: `span` (or `scanline`), as in the lecture, one pixel at a time; `row` (SIMD); `auto`: `row` if
@@ -66,8 +66,8 @@ pub struct RenderArgs {
     /// Print how many polygons are culled, clipped and drawn
     #[arg(long)]
     stats: bool,
-    /// Compare the picture with this one; on a difference exit with code 1 and leave the picture and a map of the
-    /// difference beside it
+    /// Compare the picture with this one; if they differ, exit with code 1 and write the picture and a map of the
+    /// difference beside FILE
     #[arg(long, value_name = "FILE", visible_alias = "ref")]
     reference: Option<PathBuf>,
     /// Grey levels, of 255, that a channel may differ from the reference; a pixel that only one of the pictures covers

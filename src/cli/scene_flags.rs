@@ -29,7 +29,7 @@ macro_rules! flags {
 }
 
 static FLAGS: &[Flag] = flags! {
-    /// Size of the picture, 1x1 to 16384x16384 [default: that of the scene, 640x480]
+    /// Size of the picture, 1x1 to 16384x16384 [default: the scene's, else 640x480]
     "resolution" "WIDTHxHEIGHT" ["image.width", "image.height"]
     /// See the scene from this direction, in degrees: 0,0 is from +z, azimuth turns toward +x, elevation toward +y (up)
     "view" "AZIMUTH,ELEVATION" ["camera.azimuth", "camera.elevation"]
@@ -79,13 +79,13 @@ static FLAGS: &[Flag] = flags! {
     "specular" "MODEL" ["specular"]
     /// Model that shininess values were chosen for; they are converted if --specular differs
     "shininess-for" "MODEL" ["shininess_for"]
-    /// Highlights where the light is behind the surface: gated (none), ungated (as printed) or weighted (times L.N)
+    /// Highlights where the light is behind the surface: gated (none), ungated (as the lecture's formula gives) or weighted (times L.N)
     "specular-gate" "GATE" ["specular_gate"]
     /// Alpha of a PNG file: the covered share of each pixel, or opaque everywhere
     "alpha" "ALPHA" ["image.alpha"]
     /// Encoding of stored pictures in 8 bits
     "encoding" "NAME" ["image.encoding"]
-    /// Polygons to cull, by the side that is seen
+    /// Cull polygons seen from this side
     "cull" "SIDE" ["cull"]
     /// Hidden surfaces: a depth buffer, the painter's algorithm (sorted from back to front), or the order of drawing
     "visibility" "METHOD" ["visibility"]

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! [`Uniforms`] are made once per material; [`Lit`] is one point (or a block of points) that sees them. The power of
-//! the highlight is `Exponent::of`, for every method. Questions that the lecture leaves open are settled here, for every method:
+//! the highlight is `Exponent::of`, for every method; where n is 1, 2, 4 … 128, `squared_up_to_7`. Questions that the lecture leaves open are settled here, for every method:
 //! - `L·N` and `R·V` are clamped at 0 *before* the power (an even power of a negative number would light the far side);
 //! - there is no specular light where `L·N ≤ 0`, unless the scene asks for one of the other two forms of [`SpecularGate`];
 //! - highlights below 2⁻²⁴ are none (`LightModel::faint`): they would change nothing, and their powers run through subnormal
@@ -484,7 +484,7 @@ impl Exponent {
     }
 
     /// Returns `base`, 0 or more, to this power; anything to the power 0 is 1. The one power function of all methods, so that
-    /// none is faster by a cheaper one.
+    /// none is faster by a cheaper one; `Lit::power` calls its squarings directly.
     #[inline(always)]
     pub fn of<F: Num>(self, base: F) -> F {
         let n = match self {

@@ -437,3 +437,25 @@ fn a_flat_face_with_equal_normals_stays_as_it_is() {
     // 1.
     assert!(cut.difference.max <= f64::from(f32::EPSILON) / 2.0);
 }
+
+/// Sizes and counts are of pixels, however many samples each of them has.
+#[test]
+fn samples_do_not_count_as_pixels() {
+    let counts = [1, 2].map(|samples| {
+        let mut scene = Scene::of_mesh(builtin("sphere").unwrap());
+        (scene.width, scene.height, scene.samples) = (48, 36, samples);
+        let (name, frame) = ("sphere".into(), &scene.frame().unwrap());
+        let comparison = compare(
+            &Input { name, frame },
+            &[],
+            Renderer::LECTURE,
+            None,
+            &mut |_, _| {},
+        );
+        assert_eq!((comparison.width, comparison.height), (48, 36));
+        let share = comparison.fragments as f64 / comparison.covered_pixels as f64;
+        assert!((0.8..1.2).contains(&share), "{share}");
+        comparison.covered_pixels
+    });
+    assert!(counts[1] > counts[0], "{counts:?}");
+}

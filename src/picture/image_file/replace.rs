@@ -65,7 +65,9 @@ fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
     // The permissions of any new file: other users may read it.
     #[cfg(unix)]
     draft.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut draft = draft.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+    let draft = draft.tempfile_in(folder.unwrap_or(Path::new(".")));
+    let problem = "its folder does not exist or takes no files";
+    let mut draft = draft.map_err(|error| io::Error::new(error.kind(), problem))?;
     write(draft.as_file_mut())?;
     if let Some(old) = old {
         draft.as_file().set_permissions(old.permissions())?;

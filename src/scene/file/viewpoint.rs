@@ -161,7 +161,7 @@ fn stand(section: &Section) -> Result<(Option<[DVec3; 2]>, DVec3), SceneError> {
             let error = section.error("eye", "is the point that the camera looks at", expected);
             return Err(match section.has("target") {
                 true => section.pointing_at("target", "target is here", error),
-                false => error.help("without `target` that is the origin: set `target`"),
+                false => error.help("without a target that is the origin: give one, too"),
             });
         }
         let fixed = (!section.has("fit")).then_some([eye, target]);

@@ -194,7 +194,7 @@ fn cameras_that_cannot_be() {
         "[camera]\neye = «[0, 0, 0]»\n",
         "`camera.eye` is the point that the camera looks at",
         "expected two different points",
-        Some("without `target` that is the origin: set `target`"),
+        Some("without a target that is the origin: give one, too"),
     );
     check(
         "[camera]\neye = «[0, nan, 0]»\n",
