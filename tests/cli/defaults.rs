@@ -102,7 +102,7 @@ fn culled_polygons_are_not_silent() {
         .run("compare both.obj --methods flat --size 32x32 --time-budget 0")
         .done()
         .prints("both.obj: 32×32, 1 of 2 polygons, ")
-        .says("--simd auto compares what `render` uses");
+        .says("--simd auto compares on the engine that `render` uses");
     folder
         .run("info back.obj")
         .done()
