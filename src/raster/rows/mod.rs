@@ -7,10 +7,10 @@
 //!        of a block        runs.rs   run by run      of blocks   and material
 //! ```
 //!
-//! Polygons are binned into tiles of 16 scanlines. Those of a tile are set up in batches and rasterised, in drawing order, with a
-//! depth test: the method's varyings are written into the tile's G-buffer, beside depth and material. Then each row is shaded
-//! once. So the shading cost per pixel does not depend on the size of triangles, and hidden pixels are never shaded. Tiles are
-//! independent: each is one job for a thread.
+//! Polygons are binned into bands of 16 scanlines. Those of a band are set up in batches and rasterised, in drawing order, with a
+//! depth test: the method's varyings are written into a tile, the band's G-buffer, beside depth and material. Then each row is
+//! shaded once, by `shade_blocks` in `shading/kernels.rs`. So the shading cost per pixel does not depend on the size of triangles, and
+//! hidden pixels are never shaded. Bands are independent: each is one job for a thread.
 //!
 //! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
 //! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles by the crossings of their
