@@ -17,8 +17,11 @@ pub(crate) fn back_to_front(frame: &Frame, key: PainterKey) -> Vec<u32> {
         .map(|polygon| key_of(frame, polygon, key))
         .collect();
     let mut order: Vec<u32> = (0..keys.len() as u32).collect();
-    // A stable sort.
-    order.sort_by(|&a, &b| keys[b as usize].total_cmp(&keys[a as usize]));
+    order.sort_unstable_by(|&a, &b| {
+        keys[b as usize]
+            .total_cmp(&keys[a as usize])
+            .then(a.cmp(&b))
+    });
     order
 }
 

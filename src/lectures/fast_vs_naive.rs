@@ -58,7 +58,7 @@ fn meshes(content: &mut FigureContent) -> Result {
         (coarse, "grey levels", true),
         verdict(coarse),
     );
-    by_one.sort_by(|a, b| b.0.total_cmp(&a.0));
+    by_one.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
     let (error, mesh, pictures) = &by_one[0];
     let head = "one-step | fast Phong with 1 step: largest difference over all meshes, on";
     content.adds(

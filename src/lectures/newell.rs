@@ -79,7 +79,7 @@ fn error(normal: DVec3) -> f64 {
 /// Returns the normals from two edges at every corner, from the best one to the worst.
 fn by_two_edges(corners: &[Vec3]) -> Vec<DVec3> {
     let mut normals: Vec<_> = (0..corners.len()).map(|i| two_edges(corners, i)).collect();
-    normals.sort_by(|a, b| error(*a).total_cmp(&error(*b)));
+    normals.sort_unstable_by(|a, b| error(*a).total_cmp(&error(*b)));
     normals
 }
 

@@ -5,12 +5,9 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 /// Says that there is no `kind` called `name`, and which of the `known` names may be meant: the nearest, or any.
-pub fn unknown<'a>(
-    kind: &str,
-    name: &str,
-    known: impl IntoIterator<Item = &'a str> + Clone,
-) -> String {
-    match nearest(name, known.clone()) {
+pub fn unknown<'a>(kind: &str, name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<&str> = known.into_iter().collect();
+    match nearest(name, known.iter().copied()) {
         Some(near) => format!("unknown {kind} `{name}`: did you mean `{near}`?"),
         None => format!("unknown {kind} `{name}`: {}", one_of(known)),
     }

@@ -69,6 +69,7 @@ fn interpolate(
                 for (x, start) in columns.iter().zip(starts.chunks_exact(2 * COUNT)) {
                     visit(*x, row, numbers(start));
                 }
+                starts.clear();
             });
         }
         None => scan(frame, varyings, &mut |row, line, edges| {

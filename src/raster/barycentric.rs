@@ -56,13 +56,18 @@ impl EdgeFunction {
     }
 }
 
-/// A function that takes the visible pixels of a triangle on a row: the polygon, the row, the columns, and the start of a run at
-/// each pixel.
-type VisitRow<'a> = dyn FnMut(u32, usize, &[usize], &[f32]) + 'a;
+/// A function that takes the visible pixels of a triangle on a row: the polygon, the row, the columns, and the starts of runs at
+/// all pixels since it took some out.
+type VisitRow<'a> = dyn FnMut(u32, usize, &[usize], &mut Vec<f32>) + 'a;
 
 /// Calls `visit` with the visible pixels of each triangle on each row, in drawing order. Polygons with more corners are passed
-/// over.
-pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: &mut VisitRow<'_>) {
+/// over. Returns the starts that are left.
+pub(super) fn scan(
+    frame: &Frame,
+    varyings: &Varyings<'_>,
+    edges: Edges,
+    visit: &mut VisitRow<'_>,
+) -> Vec<f32> {
     let depth = SampleDepth::new(frame);
     let mut depth_buffer = vec![f32::INFINITY; frame.width() * frame.height()];
     let (mut columns, mut starts) = (Vec::new(), Vec::new());
@@ -70,79 +75,126 @@ pub(super) fn scan(frame: &Frame, varyings: &Varyings<'_>, edges: Edges, visit: 
         let &[a, b, c] = frame.corners(polygon) else {
             continue;
         };
-        let mut order = [(0, a), (1, b), (2, c)];
-        let vertex = |v: u32| &frame.vertices()[v as usize];
-        let point = |v: u32| [vertex(v).x, vertex(v).y].map(|at| i64::from(at.to_bits()));
-        let doubled_area = EdgeFunction::new(point(a), point(b)).at(point(c));
+        let corners = [a, b, c];
+        let vertices = each(|i| &frame.vertices()[corners[i] as usize]);
+        let points = vertices.map(|v| [v.x, v.y].map(|at| i64::from(at.to_bits())));
+        let doubled_area = EdgeFunction::new(points[0], points[1]).at(points[2]);
         if doubled_area == 0 {
             continue;
         }
-        if doubled_area < 0 {
-            order.swap(1, 2);
-        }
-        let [a, b, c] = order.map(|(_, v)| point(v));
+        let order = if doubled_area < 0 {
+            [0, 2, 1]
+        } else {
+            [0, 1, 2]
+        };
+        let [a, b, c] = each(|i| points[order[i]]);
         let functions = [(b, c), (c, a), (a, b)].map(|(i, j)| EdgeFunction::new(i, j));
         // f ≥ 1 is f > 0 in integers: the edges that do not own their pixels need that.
-        let disowns = |f: &EdgeFunction| edges == Edges::TopLeft && !f.owns_its_pixels();
-        let least = functions.each_ref().map(|f| i64::from(disowns(f)));
+        let least = each(|i| i64::from(edges == Edges::TopLeft && !functions[i].owns_its_pixels()));
         let scale = 1.0 / doubled_area.abs() as f32;
-        let depths = order.map(|(_, v)| depth.of_corner(frame, vertex(v)));
-        let values = order.map(|(corner, v)| varyings.of_corner(number, corner, v));
+        let depths = each(|i| depth.of_corner(frame, vertices[order[i]]));
+        let values = each(|i| varyings.of_corner(number, order[i] as u32, corners[order[i]]));
+        let constant = varyings.of_polygon(number);
+        let three = match values {
+            [&[ax, ay, az], &[bx, by, bz], &[cx, cy, cz]] if constant.is_none() => {
+                Some([[ax, bx, cx], [ay, by, cy], [az, bz, cz]])
+            }
+            _ => None,
+        };
         let x_range = pixels([a[0], b[0], c[0]], frame.width());
         let y_range = pixels([a[1], b[1], c[1]], frame.height());
         for row in y_range {
             columns.clear();
-            starts.clear();
             let y = 256 * row as i64 + 128;
             let nearest = &mut depth_buffer[row * frame.width()..][..frame.width()];
             for column in x_range.clone() {
                 let x = 256 * column as i64 + 128;
-                let here = functions.each_ref().map(|f| f.at([x, y]));
-                if here.iter().zip(&least).any(|(f, least)| f < least) {
+                let f = each(|i| functions[i].at([x, y]));
+                if f[0] < least[0] || f[1] < least[1] || f[2] < least[2] {
                     continue;
                 }
                 // α = f_bc(p) / f_bc(a), β and γ accordingly: f_bc(a) is the doubled area for all three.
-                let weights = here.map(|f| f as f32 * scale);
-                let mix = |a, b, c| weights[0] * a + weights[1] * b + weights[2] * c;
-                let q = mix(depths[0], depths[1], depths[2]);
-                let Some(kept) = depth.seen(q, nearest[column]) else {
+                let weights = each(|i| f[i] as f32 * scale);
+                let mix = |[a, b, c]: [f32; 3]| weights[0] * a + weights[1] * b + weights[2] * c;
+                let Some(kept) = depth.seen(mix(depths), nearest[column]) else {
                     continue;
                 };
                 nearest[column] = kept;
                 columns.push(column);
-                if let Some(constant) = varyings.of_polygon(number) {
-                    starts.extend(constant);
-                } else {
-                    let corners = values[0].iter().zip(values[1]).zip(values[2]);
-                    starts.extend(corners.map(|((a, b), c)| mix(*a, *b, *c)));
+                // A run of one pixel: its steps are 0.
+                if let Some([x, y, z]) = three {
+                    // The fast path: three numbers, without a loop.
+                    starts.extend_from_slice(&[mix(x), mix(y), mix(z), 0.0, 0.0, 0.0]);
+                    continue;
                 }
-                starts.resize(starts.len() + varyings.count, 0.0);
+                let end = starts.len() + 2 * varyings.count;
+                match constant {
+                    Some(constant) => starts.extend_from_slice(constant),
+                    None => starts.extend((0..varyings.count).map(|k| mix(each(|i| values[i][k])))),
+                }
+                starts.resize(end, 0.0);
             }
             if !columns.is_empty() {
-                visit(number, row, &columns, &starts);
+                visit(number, row, &columns, &mut starts);
             }
         }
+    }
+    starts
+}
+
+/// Returns what a function gives for each of the three corners, or for the edges opposite to them.
+#[inline(always)]
+fn each<T>(of: impl Fn(usize) -> T) -> [T; 3] {
+    [of(0), of(1), of(2)]
+}
+
+/// Pixels that are shaded by one call: rows of a small triangle are too short to pay for it.
+const BATCH: usize = 256;
+
+/// Visible pixels in drawing order, until they are shaded and stored.
+#[derive(Default)]
+struct Waiting {
+    /// Pixels that touch: the column of the first one, the row, and how many.
+    places: Vec<[usize; 3]>,
+    runs: Vec<Run>,
+    colours: Vec<[f32; 3]>,
+}
+
+impl Waiting {
+    /// Shades all pixels from `starts` and stores them.
+    fn flush(&mut self, setup: &SetUp<'_>, starts: &mut Vec<f32>, target: &mut dyn Target) {
+        self.colours.resize(self.runs.len(), [0.0; 3]);
+        (setup.kernels.pixels)(&setup.pixels(&self.runs, starts), &mut self.colours);
+        let mut shaded = &self.colours[..];
+        for [x, row, count] in self.places.drain(..) {
+            let (here, rest) = shaded.split_at(count);
+            target.store(x, row, here);
+            shaded = rest;
+        }
+        self.runs.clear();
+        starts.clear();
     }
 }
 
 /// Draws the triangles of a method's frame into `target`.
 pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
-    let mut colours = vec![[0.0; 3]; setup.frame.width()];
-    let mut runs = Vec::new();
-    let visit = &mut |number, row, columns: &[usize], starts: &[f32]| {
+    let mut waiting = Waiting::default();
+    let visit = &mut |number, row, columns: &[usize], starts: &mut Vec<f32>| {
         let run = Run {
             uniforms: setup.uniforms_of(number),
             x: 0,
             pixels: 1,
         };
-        runs.clear();
-        runs.resize(columns.len(), run);
-        (setup.kernels.pixels)(&setup.pixels(&runs, starts), &mut colours);
-        for (column, colour) in columns.iter().zip(&colours) {
-            target.store(*column, row, &[*colour]);
+        let touching = columns.chunk_by(|a, b| a + 1 == *b);
+        let places = touching.map(|columns| [columns[0], row, columns.len()]);
+        waiting.places.extend(places);
+        waiting.runs.resize(waiting.runs.len() + columns.len(), run);
+        if waiting.runs.len() >= BATCH {
+            waiting.flush(setup, starts, target);
         }
     };
-    scan(setup.frame, &setup.varyings, edges, visit);
+    let mut starts = scan(setup.frame, &setup.varyings, edges, visit);
+    waiting.flush(setup, &mut starts, target);
 }
 
 /// Returns the number of the polygon that the barycentric renderer shows at each pixel, an index into [`Frame::polygons`], or
@@ -151,7 +203,7 @@ pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
 /// It agrees with [`polygon_numbers`](super::polygon_numbers) except where depths are equal within rounding.
 pub fn barycentric_polygon_numbers(frame: &Frame, edges: Edges) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
-    let visit = &mut |number, row, columns: &[usize], _: &[f32]| {
+    let visit = &mut |number, row, columns: &[usize], _: &mut Vec<f32>| {
         let row = picture.row_mut(row);
         columns.iter().for_each(|column| row[*column] = number);
     };

@@ -142,7 +142,7 @@ impl Document {
         let rows = self.comparisons.iter().flat_map(Comparison::all_rows);
         let timed = self.speedups.iter().flat_map(|s| &s.methods);
         let names = rows.map(|row| row.name());
-        self.methods = described(names.chain(timed.map(|m| m.method.clone())));
+        self.methods = described(&mut names.chain(timed.map(|m| m.method.clone())));
     }
 
     /// Writes it as indented JSON, with fields in the order in which they are described.
@@ -154,7 +154,7 @@ impl Document {
 }
 
 /// Describes variants, each once, in the order of the method table; unknown ones are left out.
-fn described(names: impl Iterator<Item = String>) -> Vec<MethodData> {
+fn described(names: &mut dyn Iterator<Item = String>) -> Vec<MethodData> {
     let mut variants: Vec<Variant> = Vec::new();
     for variant in names.filter_map(|name| Variant::parse(&name).ok()) {
         if variants
@@ -164,7 +164,7 @@ fn described(names: impl Iterator<Item = String>) -> Vec<MethodData> {
             variants.push(variant);
         }
     }
-    variants.sort_by_key(|v| METHODS.iter().position(|e| e.info.name == v.info().name));
+    variants.sort_by_cached_key(|v| METHODS.iter().position(|e| e.info.name == v.info().name));
     variants.iter().map(MethodData::of).collect()
 }
 
@@ -299,7 +299,7 @@ fn complete(document: &mut Value) {
     }
     document["baseline"] = BASELINE.into();
     if list(document, "/methods").is_empty() {
-        document["methods"] = json!(described(names.into_iter()));
+        document["methods"] = json!(described(&mut names.into_iter()));
     }
 }
 

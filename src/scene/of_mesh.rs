@@ -82,14 +82,13 @@ pub(super) fn unit(vector: DVec3) -> DVec3 {
 mod tests {
     use super::*;
     use crate::mesh::MeshBuilder;
-    use crate::mesh::builtin::builtin;
-    use crate::shading::METHODS;
+    #[cfg(feature = "io")]
+    use crate::{mesh::builtin::builtin, scene::file::SceneFile, shading::METHODS};
     use alloc::vec::Vec;
 
     #[cfg(feature = "io")]
     #[test]
     fn a_mesh_gets_the_frame_that_its_scene_file_gives() {
-        use crate::scene::file::SceneFile;
         for spec in ["teapot?res=4", "gear", "sphere?rings=6&segments=8"] {
             let mesh = builtin(spec).unwrap();
             let from_file = SceneFile::for_mesh(std::string::String::from(spec));
@@ -107,7 +106,6 @@ mod tests {
     #[cfg(feature = "io")]
     #[test]
     fn polygons_without_a_material_look_the_same_too() {
-        use crate::scene::file::SceneFile;
         let mut builder = MeshBuilder::new(builtin("gear").unwrap().positions().to_vec());
         let gear = builtin("gear").unwrap();
         gear.polygons().for_each(|polygon| {

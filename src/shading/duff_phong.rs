@@ -26,7 +26,7 @@ const DUFF_PHONG: Info = Info {
 
 /// Phong shading by forward differences, for up to `L` directional lights: `J = L·N` and `K = V·N` by one addition each,
 /// `D = N·N` by two, then one root and one division. The picture is naive Phong's to rounding. With `RSQRT` the root
-/// is the processor's estimate of 1/√D: see [`FAST_PHONG_RSQRT`].
+/// is the processor's estimate of 1/√D: see [`FAST_PHONG_RSQRT`]. With SIMD each block computes D from N.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DuffPhong<const L: usize, const RSQRT: bool = false>;
 

@@ -203,4 +203,11 @@ impl Info {
         local: Local::PerPixel,
         lit_at: LitAt::Pixel,
     };
+
+    /// True if one of these parameters leaves a choice to the method.
+    #[inline(always)]
+    pub fn is_auto(&self, parameters: &[u32]) -> bool {
+        let mut all = self.parameters.iter().zip(parameters);
+        all.any(|(parameter, value)| parameter.is_auto(*value))
+    }
 }

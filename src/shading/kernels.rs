@@ -3,12 +3,12 @@
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
 
 use super::increments::{GreatCircle, Linear, Walk};
-#[cfg(feature = "simd")]
-use super::lighting::LightUniforms;
 use super::lighting::{Lit, Uniforms};
 use super::planes::{Planes, count, each, scaled};
 use super::varying::Varying;
 use super::{LitAt, Pixel, Shader, Stepped};
+#[cfg(feature = "simd")]
+use super::{Variant, lighting::LightUniforms};
 #[cfg(feature = "simd")]
 use crate::number::simd::{Block, Token, vectorize};
 use crate::number::{BLOCK, Level, Num, Vec3, vec3};
@@ -129,6 +129,7 @@ impl<'a> Pixels<'a> {
 }
 
 pub(crate) type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
+pub(crate) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 
 /// A method compiled for one number of lights.
 #[derive(Clone, Copy, Debug)]
@@ -152,9 +153,9 @@ pub struct Kernels {
 pub(crate) struct SimdKernels {
     /// Computes the varyings of vertices, for methods that are lit there; others use the scalar kernel.
     pub vertices: Option<VertexKernel>,
-    /// Walks along runs, for methods whose walks are not linear: writes each run plane by plane, in whole blocks.
-    pub walk: Option<fn(&Pixels<'_>, &mut [f32])>,
-    /// Shades one row of the G-buffer.
+    /// Walks along runs, for methods that remember the pixel before: writes each run plane by plane, in whole blocks.
+    pub walk: Option<WalkKernel>,
+    /// Shades one row of the G-buffer: pixels that were walked, or varyings.
     pub shade: fn(&ShadeRow<'_>, &[f32], &mut RowColours<'_>),
 }
 
@@ -333,12 +334,18 @@ impl SimdKernels {
                 LitAt::Pixel => None,
                 _ => Some(vertex_blocks::<M, T>),
             },
-            walk: match <M::Walk<f32> as Walk<f32>>::LINEAR {
-                true => None,
-                false => Some(walk::<M, T>),
+            walk: match <M::Walk<f32> as Walk<f32>>::REMEMBERS {
+                true => Some(walk::<M, T>),
+                false => None,
             },
             shade: shade::<M, S>,
         }
+    }
+
+    /// Returns the walk of a variant, if it has one. What chooses from span to span (`auto`) remembers nothing in blocks.
+    pub fn walk_of(&self, variant: &Variant) -> Option<WalkKernel> {
+        self.walk
+            .filter(|_| !variant.info().is_auto(variant.parameters()))
     }
 }
 
@@ -461,7 +468,8 @@ fn shade<M: Shader, S: Token>(job: &ShadeRow<'_>, cells: &[f32], out: &mut RowCo
     );
 }
 
-/// Shades a row, a block at a time. Without `general`, a literal, there are no extras, and the model is fast.
+/// Shades a row, a block at a time. Without `general`, a literal, there are no extras, and the model is fast. Cells hold pixels that
+/// were walked to, or varyings, each the start of a walk of one block.
 #[cfg(feature = "simd")]
 #[inline(always)]
 fn shade_blocks<M: Shader, S: Token>(
@@ -475,7 +483,13 @@ fn shade_blocks<M: Shader, S: Token>(
     let method = M::new(job.parameters, &model);
     let stride = BLOCK * job.numbers;
     let second = (S::Block::CELLS - 1) * stride;
-    let own = BLOCK * (1 + count::<Pixel<M, f32>>(lights.len()));
+    // Known when compiled, but for methods that may choose.
+    let is_walked = <M::Walk<f32> as Walk<f32>>::REMEMBERS && !M::INFO.is_auto(job.parameters);
+    let planes = match is_walked {
+        true => count::<Pixel<M, f32>>(lights.len()),
+        false => count::<M::Varying<f32>>(lights.len()),
+    };
+    let own = BLOCK * (1 + planes);
     let len = own + BLOCK * extras.count() * usize::from(general);
     let mut first = 0;
     for pair in row.chunks_exact(S::Block::CELLS * stride) {
@@ -489,11 +503,25 @@ fn shade_blocks<M: Shader, S: Token>(
             }
             continue;
         }
-        let mut pixel = each(
-            Pixel::<M, S::Block>::filled(lights.len(), depth),
-            #[inline(always)]
-            |i, number| *number = S::Block::load(simd, cells, BLOCK * (1 + i)),
-        );
+        let mut pixel = if is_walked {
+            each(
+                Pixel::<M, S::Block>::filled(lights.len(), depth),
+                #[inline(always)]
+                |i, number| *number = S::Block::load(simd, cells, BLOCK * (1 + i)),
+            )
+        } else {
+            let start = each(
+                Span::<M, S::Block>::filled(lights.len(), depth.like(0.0)),
+                #[inline(always)]
+                |i, number| {
+                    if i < planes {
+                        *number = S::Block::load(simd, cells, BLOCK * (1 + i));
+                    }
+                },
+            );
+            let lit = Lit::new(model, lights, vec3([depth; 3]), general);
+            method.walk(&lit, start).next()
+        };
         let mut point = vec3([depth; 3]);
         if general {
             let extra = extras.of(

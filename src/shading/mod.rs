@@ -49,7 +49,7 @@ pub use info::{Auto, Info, LitAt, Local, MethodParameter, Perspective};
 pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices, ramp};
 pub use kernels::{Kernels, Run, Span};
 #[cfg(feature = "simd")]
-pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, start_len};
+pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel, start_len};
 pub use lighting::{LightModel, Lit, Seen};
 pub use planes::{PerLight, Planes};
 pub use span_bench::SpanBench;

@@ -96,15 +96,12 @@ pub struct SpanRow {
 impl SpanRow {
     /// Makes room for `pixels` pixels, a multiple of 16.
     pub fn new(variant: &Variant, bench: &SpanBench, pixels: usize) -> SpanRow {
-        assert!(
-            pixels.is_multiple_of(2 * BLOCK),
-            "whole blocks of any instruction set"
-        );
+        assert!(pixels.is_multiple_of(2 * BLOCK), "whole blocks");
         let uniforms = bench.uniforms(variant.info().local, 255.0);
         let lights = uniforms.lights.len();
         let kernels = variant.entry().kernels(lights, bench.is_near());
-        let [_, planes] = (kernels.counts)(lights);
-        let planes = planes + bench.extras(variant).count();
+        let [varyings, planes] = (kernels.counts)(lights);
+        let planes = planes.max(varyings) + bench.extras(variant).count();
         SpanRow {
             uniforms,
             walked: vec![0.0; planes * pixels],
@@ -134,14 +131,16 @@ impl Variant {
         let Some(simd) = (started.kernels.simd)(level) else {
             return;
         };
-        let planes = row.walked.len() / pixels;
-        if let Some(walk) = simd.walk {
+        let [varyings, walked] = (started.kernels.counts)(row.uniforms.lights.len());
+        let walk = simd.walk_of(self);
+        let planes = walk.map_or(varyings + started.extras.count(), |walk| {
             walk(&started.job(self, &row.uniforms), &mut row.walked);
-        }
+            walked
+        });
         let cells = row.cells.chunks_exact_mut(BLOCK * (1 + planes));
-        for (first, cell) in (0..).step_by(BLOCK).zip(cells) {
+        for (first, cell) in (0..pixels).step_by(BLOCK).zip(cells) {
             for (plane, to) in cell.chunks_exact_mut(BLOCK).skip(1).enumerate() {
-                if simd.walk.is_some() {
+                if walk.is_some() {
                     to.copy_from_slice(&row.walked[plane * pixels + first..][..BLOCK]);
                     continue;
                 }
@@ -158,6 +157,6 @@ impl Variant {
             numbers: 1 + planes,
         };
         let mut colours = RowColours::Bytes(&mut row.bytes, [0; 4]);
-        (simd.shade)(&job, &row.cells, &mut colours);
+        (simd.shade)(&job, &row.cells[..(1 + planes) * pixels], &mut colours);
     }
 }

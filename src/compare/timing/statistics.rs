@@ -41,7 +41,7 @@ impl Timing {
             return None;
         }
         let mut sorted = samples_ns.clone();
-        sorted.sort_by(f64::total_cmp);
+        sorted.sort_unstable_by(f64::total_cmp);
         let [p25_ns, median_ns, p75_ns] = [0.25, 0.5, 0.75].map(|p| quantile(&sorted, p));
         let spread = match median_ns {
             0.0 => 0.0,
@@ -122,7 +122,7 @@ impl Ratio {
             median(&mut resample)
         };
         let mut medians: Vec<f64> = (0..RESAMPLES).map(resampled).collect();
-        medians.sort_by(f64::total_cmp);
+        medians.sort_unstable_by(f64::total_cmp);
         let tail = (1.0 - CONFIDENCE) / 2.0;
         let (low, high) = (quantile(&medians, tail), quantile(&medians, 1.0 - tail));
         Some(Ratio::new(low, median(&mut ratios), high))
@@ -130,7 +130,7 @@ impl Ratio {
 }
 
 fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
+    values.sort_unstable_by(f64::total_cmp);
     quantile(values, 0.5)
 }
 

@@ -65,8 +65,7 @@ impl ParameterGrid {
         &self,
         mut surface: impl FnMut(usize, usize) -> (DVec3, DVec3),
     ) -> Result<PolygonMesh, MeshError> {
-        let polygons = self.polygon_count();
-        if polygons > PolygonMesh::MAX_POLYGONS as u64 {
+        if self.polygon_count() > PolygonMesh::MAX_POLYGONS as u64 {
             return Err(MeshError::TooLarge);
         }
         let (stored_columns, stored_rows) = match self.topology {
@@ -84,11 +83,14 @@ impl ParameterGrid {
                 normals.push(normal.as_vec3());
             }
         }
+        self.joined(positions, normals)
+    }
+
+    /// Joins the points of a surface to polygons.
+    fn joined(&self, positions: Vec<Vec3>, normals: Vec<Vec3>) -> Result<PolygonMesh, MeshError> {
+        let polygons = self.polygon_count() as usize;
         let mut builder = MeshBuilder::new(positions);
-        builder.reserve(
-            polygons as usize,
-            polygons as usize * if self.triangles { 3 } else { 4 },
-        );
+        builder.reserve(polygons, polygons * if self.triangles { 3 } else { 4 });
         for row in 0..self.rows {
             for column in 0..self.columns {
                 self.cell(&mut builder, column, row);

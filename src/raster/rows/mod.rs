@@ -14,8 +14,8 @@
 //!
 //! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
 //! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles by the crossings of their
-//! edges, n-gons by the active edges of the span engine, and the recurrences of fast, Duff's and slerp Phong by
-//! their walk kernels, many runs at a time.
+//! edges, all else by the active edges of the span engine. Only slerp Phong and fast Phong with a number of Newton's steps remember
+//! the pixel before: their walk kernels take many runs at a time.
 //!
 //! Nothing here knows a method or a light: a method is its [`Kernels`](crate::shading::Kernels), called once per row or batch of
 //! runs. All of this is compiled once per instruction set.
@@ -37,15 +37,15 @@ use crate::frame::{Frame, Polygon};
 use crate::number::Level;
 use crate::number::lanes::Lanes;
 use crate::number::simd::{Token, vectorize};
-use crate::shading::{SimdKernels, Variant};
+use crate::shading::{SimdKernels, Variant, WalkKernel};
 use core::cell::RefCell;
 use core::ops::Range;
 use runs::RunQueue;
 use shade::RowBuffers;
 use small::{RowStarts, SmallTriangle};
-use tile::{NumberCount, Tile};
+use tile::{MOST, NumberCount, Tile};
 use tiny::Fragments;
-use triangles::{Batch, CoveragePath, LINE, bits};
+use triangles::{Batch, CoveragePath, bits};
 
 /// Scanlines of a tile: enough to amortise the restart of edges, few enough to give every thread work.
 const HEIGHT: usize = 16;
@@ -69,6 +69,8 @@ std::thread_local! {
 struct RowEngine<'a> {
     setup: SetUp<'a>,
     kernels: &'a SimdKernels,
+    /// Walks along runs, if the method remembers the pixel before.
+    walk: Option<WalkKernel>,
     test: SampleDepth,
     /// The varyings of a pixel in the G-buffer, in floats.
     planes: usize,
@@ -93,8 +95,12 @@ pub(super) fn draw(
     let Some(kernels) = (setup.kernels.simd)(level) else {
         return; // unreachable: `Variant::plan` chose the span engine
     };
-    let [_, planes] = (setup.kernels.counts)(frame.light_count());
-    let planes = planes + setup.extras.count();
+    let [_, walked] = (setup.kernels.counts)(frame.light_count());
+    let walk = kernels.walk_of(variant);
+    let planes = match walk {
+        Some(_) => walked,
+        None => setup.varyings.count,
+    };
     let only = only_material(&setup);
     let rows = RowEngine {
         test: SampleDepth::new(frame),
@@ -103,6 +109,7 @@ pub(super) fn draw(
         only,
         background: Stored::background(frame),
         kernels,
+        walk,
         setup,
     };
     let bins = Bins::new(frame, HEIGHT);
@@ -153,19 +160,16 @@ impl RowEngine<'_> {
         scratch: &mut TileScratch,
     ) {
         let (simd, varyings) = (S::get(), &self.setup.varyings);
-        let is_linear = self.setup.kernels.linear;
-        let is_planar = !varyings.great_circle && varyings.count < LINE;
+        let is_planar = self.walk.is_none() && self.numbers <= MOST;
         let mut active = None;
         let mut rest = polygons;
         while let Some(next) = rest.first() {
             let mut taken = 1;
             if next.is_triangle() && is_planar {
-                if is_linear {
-                    // Triangles are drawn at once: runs from before them come first.
-                    self.draw_runs(simd, scratch);
-                }
-                taken = match (is_linear, self.numbers) {
-                    (true, 4) => self.triangles::<S, 4>(simd, rest, rows, scratch),
+                // Triangles are drawn at once: runs from before them come first.
+                self.draw_runs(simd, scratch);
+                taken = match self.numbers {
+                    4 => self.triangles::<S, 4>(simd, rest, rows, scratch),
                     _ => self.triangles::<S, 0>(simd, rest, rows, scratch),
                 };
             } else {
@@ -182,8 +186,7 @@ impl RowEngine<'_> {
         self.draw_runs(simd, scratch);
     }
 
-    /// Takes triangles from the front of `polygons`, and returns their number: draws those of a method whose pixels are its varyings,
-    /// and finds the runs of those of any other.
+    /// Draws triangles from the front of `polygons`, and returns their number.
     #[inline(never)]
     fn triangles<S: Token, const N: usize>(
         &self,
@@ -199,16 +202,7 @@ impl RowEngine<'_> {
             || {
                 let (m, top) = (Lanes(simd), rows.start);
                 let (batch, fragments) = (&mut scratch.batch, &scratch.fragments);
-                let (queue, all) = (&mut scratch.queue, tiny | others);
-                if N == 0 && !self.setup.kernels.linear {
-                    let count = NumberCount::<0>(1 + self.setup.varyings.count);
-                    batch.set_up_planes(m, &self.setup, count, all);
-                    for k in bits(all) {
-                        let tiny = (others >> k & 1 == 0).then_some(fragments);
-                        queue.add_triangle(m, &self.setup, (batch, k, tiny), top);
-                    }
-                    return;
-                }
+                let all = tiny | others;
                 batch.set_up_planes(m, &self.setup, NumberCount::<N>(self.numbers), all);
                 let writer = &mut scratch.tile.writer::<S, N>(m, self.test);
                 for k in bits(all) {
@@ -239,7 +233,7 @@ impl RowEngine<'_> {
             || {
                 let m = Lanes(simd);
                 let writer = tile.writer(m, self.test);
-                queue.draw(m, &self.setup, self.kernels.walk, self.planes, writer);
+                queue.draw(m, &self.setup, self.walk, self.planes, writer);
             },
         );
     }

@@ -1,8 +1,7 @@
-//! The run path: large triangles, polygons of any shape, and methods whose pixels are recurrences, by runs of pixels on a scanline.
+//! The run path: large triangles, polygons of any shape, and methods that remember the pixel before, by runs of pixels on a scanline.
 
 use super::tile::{Tile, Writer};
-use super::tiny::Fragments;
-use super::triangles::{Batch, FoundRun, Numbers};
+use super::triangles::Batch;
 use crate::frame::SubPixel;
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;
@@ -10,7 +9,7 @@ use crate::raster::setup::SetUp;
 use crate::raster::spans::active::ActiveEdges;
 use crate::raster::spans::edge::{EdgeCrossing, first_centre};
 use crate::raster::spans::edge_table::{TableEdge, for_each_edge};
-use crate::shading::{Pixels, Run, start_len};
+use crate::shading::{Run, WalkKernel, start_len};
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, f32x8, i32x8};
@@ -40,9 +39,6 @@ pub(crate) struct RunQueue {
 /// Blocks that are walked along by one call: their pixels stay in the first cache.
 const MOST_BLOCKS: usize = 128;
 
-/// A function that walks along runs.
-pub(super) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
-
 impl RunQueue {
     /// Adds a run, whose start stands at the end of `starts` already.
     #[inline(always)]
@@ -59,38 +55,6 @@ impl RunQueue {
     /// True if the runs are enough to be drawn.
     pub fn is_full(&self) -> bool {
         self.blocks >= MOST_BLOCKS
-    }
-
-    /// Adds the runs of triangle `k` of a batch, in the tile that begins with row `top`, for a method that is walked along: its
-    /// varyings are linear over the triangle. With `tiny` it is one of these fragments' triangles.
-    #[inline(always)]
-    pub fn add_triangle<S: Simd>(
-        &mut self,
-        m: Lanes<S>,
-        setup: &SetUp<'_>,
-        (batch, k, tiny): (&Batch, usize, Option<&Fragments>),
-        top: usize,
-    ) {
-        let uniforms = setup.uniforms_of(batch.listed[k].number);
-        let count = setup.varyings.count;
-        triangle_runs(
-            m,
-            (batch, k, tiny),
-            top,
-            1 + count,
-            #[inline(always)]
-            |step, run| {
-                let at = batch.planes.at(m, k, 1 + count, run.weights);
-                // Whole lines: the numbers past the last are cut off.
-                let first = self.starts.len();
-                self.starts.extend_from_slice(&at[1..]);
-                self.starts.truncate(first + count);
-                self.starts.extend_from_slice(&step[1..]);
-                self.starts.truncate(first + 2 * count);
-                let (row, depth) = (run.row, [at[0], step[0]]);
-                self.push(uniforms, run.pixels, RunPlace { row, depth });
-            },
-        );
     }
 
     /// Adds the runs of polygon `number`, of any shape: its edges step what they carry from row to row.
@@ -238,52 +202,14 @@ fn draw_run<S: Simd, const N: usize>(
     }
 }
 
-/// Draws large triangle `k` of a batch into the tile that begins with row `top`.
+/// Draws large triangle `k` of a batch into the tile that begins with row `top`: pixels between the crossings of its edges with the
+/// scanlines.
 #[inline(always)]
 pub(super) fn draw_large<S: Simd, const N: usize>(
     m: Lanes<S>,
     (batch, k): (&Batch, usize),
     top: usize,
     writer: &mut Writer<'_, S, N>,
-) {
-    let count = writer.count.get();
-    triangle_runs(
-        m,
-        (batch, k, None),
-        top,
-        count,
-        #[inline(always)]
-        |step, run| {
-            let at = batch.planes.at(m, k, count, run.weights);
-            let (row, depth) = (run.row, [at[0], step[0]]);
-            draw_run(
-                m,
-                (RunPlace { row, depth }, run.pixels),
-                writer,
-                #[inline(always)]
-                |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),
-            );
-        },
-    );
-}
-
-/// Returns a number below 0 at those pixels of block `block` that a run does not have.
-#[inline(always)]
-fn outside<S: Simd>(m: Lanes<S>, block: usize, pixels: &Range<usize>) -> i32x8<S> {
-    let (first, k) = ((block * BLOCK) as i32, m.counted());
-    (k - m.int(pixels.start as i32 - first)) | (m.int(pixels.end as i32 - 1 - first) - k)
-}
-
-/// Calls `visit` with the runs of triangle `k` of a batch in the tile that begins with row `top`, and with the growth of its
-/// first `count` numbers from pixel to pixel. The runs of a `tiny` one are those of its fragments; any other, however large,
-/// has the crossings of its edges with the scanlines.
-#[inline(always)]
-fn triangle_runs<S: Simd>(
-    m: Lanes<S>,
-    (batch, k, tiny): (&Batch, usize, Option<&Fragments>),
-    top: usize,
-    count: usize,
-    mut visit: impl FnMut(&Numbers, FoundRun),
 ) {
     let [x, y] = [&batch.x, &batch.y].map(|at| [at[0][k], at[1][k], at[2][k]]);
     let [columns, rows] = [&batch.columns, &batch.rows].map(|ends| ends[0][k]..ends[1][k]);
@@ -299,20 +225,10 @@ fn triangle_runs<S: Simd>(
     let over_area = 1.0 / area as f32;
     let scale = 256.0 * over_area;
     let across = [(y[2] - y[0]) as f32 * scale, (y[0] - y[1]) as f32 * scale];
+    let count = writer.count.get();
     let step = batch.planes.growth(m, k, count, across);
-    if let Some(fragments) = tiny {
-        return fragments.runs(
-            batch,
-            k,
-            top,
-            #[inline(always)]
-            |run| visit(&step, run),
-        );
-    }
     // From the top corner two edges go down; the third one follows one of them.
-    let mut order = [0usize, 1, 2];
-    order.sort_unstable_by_key(|&i| y[i]);
-    let [above, middle, below] = order.map(|i| [x[i], y[i]].map(SubPixel::from_bits));
+    let [above, middle, below] = downward(y).map(|i| [x[i], y[i]].map(SubPixel::from_bits));
     let bend = first_centre(middle[1]).clamp(rows.start, rows.end);
     let mut long = EdgeCrossing::new(above, below, rows.start);
     for (from, to, rows) in [
@@ -329,15 +245,35 @@ fn triangle_runs<S: Simd>(
             if start < end {
                 let [px, py] = [start, row].map(|at| 256 * i64::from(at) + 128);
                 let weight = |i, j| doubled(i, j, px, py) as f32 * over_area;
-                let run = FoundRun {
+                let at = batch.planes.at(m, k, count, [weight(2, 0), weight(0, 1)]);
+                let place = RunPlace {
                     row: row as usize - top,
-                    pixels: start as usize..end as usize,
-                    weights: [weight(2, 0), weight(0, 1)],
+                    depth: [at[0], step[0]],
                 };
-                visit(&step, run);
+                draw_run(
+                    m,
+                    (place, start as usize..end as usize),
+                    writer,
+                    #[inline(always)]
+                    |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),
+                );
             }
             long.advance();
             short.advance();
         }
     }
+}
+
+/// Returns corners by their rows, from the top down.
+fn downward(rows: [i32; 3]) -> [usize; 3] {
+    let mut order = [0, 1, 2];
+    order.sort_unstable_by_key(|&i| rows[i]);
+    order
+}
+
+/// Returns a number below 0 at those pixels of block `block` that a run does not have.
+#[inline(always)]
+fn outside<S: Simd>(m: Lanes<S>, block: usize, pixels: &Range<usize>) -> i32x8<S> {
+    let (first, k) = ((block * BLOCK) as i32, m.counted());
+    (k - m.int(pixels.start as i32 - first)) | (m.int(pixels.end as i32 - 1 - first) - k)
 }

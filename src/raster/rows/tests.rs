@@ -149,15 +149,6 @@ fn check<S: Token>(
                 found.push(drawn(simd, at, |writer| {
                     fragments.draw(m, batch, k, writer)
                 }));
-                let (mut runs, mut by_runs) = (vec![], vec![]);
-                fragments.runs(batch, k, rows.start, |run| runs.push(run));
-                for run in runs {
-                    let row = rows.start + run.row;
-                    by_runs.push(((row, run.pixels.start), run.weights));
-                    by_runs.extend(run.pixels.skip(1).map(|x| ((row, x), [0.0; 2])));
-                }
-                assert_weights(&by_runs);
-                assert_eq!(places(&by_runs), expected, "{listed:?}");
             } else if batch.path[k] == CoveragePath::Small as i32 {
                 path = CoveragePath::Small;
                 found.push(drawn(simd, at, |writer| {

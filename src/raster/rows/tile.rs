@@ -8,9 +8,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, f32x8, i32x8};
 
-/// The most floats per pixel that are interpolated over triangles: depth, two colours and a weight, or a normal, a position and
-/// a weight, and the material.
-pub(super) const MOST: usize = 9;
+/// The most floats per pixel that are interpolated over triangles: depth, L·N of eight lights, V·N, a normal, and the material.
+pub(super) const MOST: usize = 14;
 
 /// The floats per pixel in the G-buffer: `N`, or for `N` = 0 the field.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 
 use super::small::grown;
 use super::tile::{Tile, Writer};
-use super::triangles::{BATCH, Batch, CoveragePath, FoundRun, Ints, TINY_HEIGHT, TINY_WIDTH, bits};
+use super::triangles::{BATCH, Batch, CoveragePath, Ints, TINY_HEIGHT, TINY_WIDTH, bits};
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use fearless_simd::{Simd, SimdFloat};
@@ -103,35 +103,6 @@ impl Fragments {
         m.bits_not_negative(m.int(0).less(covered) ^ m.int(-1))
     }
 
-    /// Calls `visit` with the runs of tiny triangle `k`, which must cover a pixel, in the tile that begins with row `top`.
-    #[inline(always)]
-    pub fn runs(&self, batch: &Batch, k: usize, top: usize, mut visit: impl FnMut(FoundRun)) {
-        let first = k / BLOCK * BLOCK * ROOM + k % BLOCK;
-        let column = batch.columns[0][k] as usize;
-        for below in 0..TINY_HEIGHT as usize {
-            let is_covered =
-                |x: &usize| self.covered[k] >> (TINY_HEIGHT as usize * x + below) & 1 == 1;
-            let mut columns = 0..TINY_WIDTH as usize;
-            let Some(start) = columns.find(is_covered) else {
-                continue;
-            };
-            let end = columns.rfind(is_covered).unwrap_or(start) + 1;
-            let at = first + (TINY_HEIGHT as usize * start + below) * BLOCK;
-            visit(FoundRun {
-                row: batch.rows[0][k] as usize - top + below,
-                pixels: column + start..column + end,
-                weights: self.weights_at(at),
-            });
-        }
-    }
-
-    /// Returns the barycentric coordinates at a pixel.
-    #[inline(always)]
-    fn weights_at(&self, at: usize) -> [f32; 2] {
-        let [b, c] = &self.weights;
-        [b.as_flattened()[at], c.as_flattened()[at]]
-    }
-
     /// Draws the covered pixels of tiny triangle `k`.
     #[inline(always)]
     pub fn draw<S: Simd, const N: usize>(
@@ -144,7 +115,7 @@ impl Fragments {
         let first = k / BLOCK * BLOCK * ROOM + k % BLOCK;
         for pixel in bits(self.covered[k] as u32) {
             let at = (first + pixel * BLOCK) % ALL;
-            let weights = self.weights_at(at);
+            let weights = self.weights.each_ref().map(|to| to.as_flattened()[at]);
             let numbers = batch.planes.at(m, k, writer.count.get(), weights);
             writer.put_one(self.places.as_flattened()[at], &numbers);
         }

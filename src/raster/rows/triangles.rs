@@ -136,15 +136,6 @@ impl PlaneEquations {
     }
 }
 
-/// A run of a triangle: its row in the tile, its pixels, and the barycentric coordinates of the second and the third corner at the
-/// first of them.
-#[derive(Clone, Debug)]
-pub(super) struct FoundRun {
-    pub row: usize,
-    pub pixels: Range<usize>,
-    pub weights: [f32; 2],
-}
-
 /// Eight triangles in relation to the pixels.
 #[derive(Clone, Copy)]
 struct Bounded<S: Simd> {

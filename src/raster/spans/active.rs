@@ -3,7 +3,7 @@
 use super::edge::{EdgeCrossing, first_centre};
 use super::edge_table::TableEdge;
 use crate::frame::{Frame, ScreenVertex, SubPixel};
-use crate::number::vec3;
+use crate::number::{Vec3, vec3};
 use crate::raster::depth::SampleDepth;
 use crate::raster::setup::{Per, Varyings, unit};
 use crate::shading::increments::{GreatCircle, Walk};
@@ -22,10 +22,9 @@ struct ActiveEdge {
     crossing: EdgeCrossing,
     /// Depth here, and its growth.
     depth: [f32; 2],
-    /// A few varyings here, and their growth.
-    at: [f32; FEW],
-    step: [f32; FEW],
-    /// The place of more of them in [`EdgeVaryings`].
+    /// The first varyings.
+    varyings: Group,
+    /// The place of the others in [`EdgeVaryings`].
     slot: u32,
 }
 
@@ -35,14 +34,50 @@ impl ActiveEdge {
     fn advance(&mut self) {
         self.crossing.advance();
         self.depth[0] += self.depth[1]; // 3.3
-        for i in 0..FEW {
+        self.varyings.advance();
+    }
+}
+
+/// The length of a [`Group`]. One is kept with the edge: a normal or a colour, and a weight.
+const GROUP: usize = 4;
+
+/// Varyings here, and their growth.
+#[derive(Clone, Copy, Debug, Default)]
+struct Group {
+    at: [f32; GROUP],
+    step: [f32; GROUP],
+}
+
+impl Group {
+    /// Starts between two ends at the parameter `t0`, with steps of `dt`.
+    #[inline(always)]
+    fn new([a, b]: [[f32; GROUP]; 2], [t0, dt]: [f32; 2]) -> Group {
+        let mut group = Group::default();
+        for i in 0..GROUP {
+            [group.at[i], group.step[i]] = ramp(a[i], b[i], t0, dt); // 3.5, 4.1
+        }
+        group
+    }
+
+    #[inline(always)]
+    fn advance(&mut self) {
+        for i in 0..GROUP {
             self.at[i] += self.step[i]; // 3.6, 4.2
         }
     }
 }
 
-/// Varyings that are kept with the edge: a normal or a colour, and a weight.
-const FEW: usize = 4;
+/// Returns the first of some numbers, and zeros for those that are missing.
+#[inline(always)]
+fn first_of(numbers: &[f32]) -> [f32; GROUP] {
+    match *numbers {
+        [x, y, z] => [x, y, z, 0.0],
+        [x, y, z, w, ..] => [x, y, z, w],
+        [x] => [x, 0.0, 0.0, 0.0],
+        [x, y] => [x, y, 0.0, 0.0],
+        [] => [0.0; GROUP],
+    }
+}
 
 /// A span: the pixels of one polygon between two of its edges on one scanline, clipped to the picture.
 #[derive(Clone, Copy, Debug)]
@@ -65,33 +100,37 @@ pub(crate) struct PolygonSpan {
     pub depth_step: f32,
 }
 
-/// The varyings of edges on their way down, where they are great circles or more than [`FEW`] numbers.
+/// The varyings of edges on their way down beyond the first group, or their great circles.
 #[derive(Debug)]
 struct EdgeVaryings {
-    /// Numbers of a varying, rounded up to whole groups of four, which are added at once; 0 where they are kept with the edge.
-    padded: usize,
-    /// A slot per edge: the numbers here, then their steps.
-    values: Vec<f32>,
+    /// The groups of an edge.
+    groups: usize,
+    /// A slot per edge.
+    values: Vec<Group>,
     circles: Vec<GreatCircle<f32>>,
     free: Vec<u32>,
 }
 
 impl EdgeVaryings {
-    /// Starts an edge between two varyings at the parameter `t0`, with steps of `dt`. Returns its slot.
-    fn enter(&mut self, [a, b]: [&[f32]; 2], t0: f32, dt: f32) -> u32 {
-        let size = 2 * self.padded;
+    /// Starts an edge between two varyings. Returns its slot.
+    #[inline(always)]
+    fn enter(&mut self, [a, b]: [&[f32]; 2], parameter: [f32; 2]) -> u32 {
         let slot = self.free.pop().unwrap_or_else(|| {
-            self.values.resize(self.values.len() + size, 0.0);
-            (self.values.len() / size) as u32 - 1
+            self.values
+                .resize(self.values.len() + self.groups, Group::default());
+            (self.values.len() / self.groups) as u32 - 1
         });
-        let (at, step) = self.values[slot as usize * size..][..size].split_at_mut(self.padded);
-        for (((at, step), a), b) in at.iter_mut().zip(step).zip(a).zip(b) {
-            [*at, *step] = ramp(*a, *b, t0, dt);
+        let groups = &mut self.values[slot as usize * self.groups..][..self.groups];
+        for (group, (a, b)) in groups.iter_mut().zip(a.chunks(GROUP).zip(b.chunks(GROUP))) {
+            *group = Group::new([first_of(a), first_of(b)], parameter);
         }
         slot
     }
 
-    fn enter_circle(&mut self, circle: GreatCircle<f32>) -> u32 {
+    /// Starts an edge on a great circle between two normals. Returns its slot.
+    #[inline(never)]
+    fn enter_circle(&mut self, face: Vec3<f32>, ends: [&[f32]; 2], [t0, dt]: [f32; 2]) -> u32 {
+        let circle = GreatCircle::new(face, ends.map(unit), t0, dt);
         let slot = self.free.pop().unwrap_or(self.circles.len() as u32);
         match self.circles.get_mut(slot as usize) {
             Some(place) => *place = circle,
@@ -101,24 +140,20 @@ impl EdgeVaryings {
     }
 
     /// Steps an edge to the next scanline.
+    #[inline(always)]
     fn advance(&mut self, slot: u32) {
         if let Some(circle) = self.circles.get_mut(slot as usize) {
             circle.sines.next(); // 4.9–4.12
             return;
         }
-        let size = 2 * self.padded;
-        let (at, step) = self.values[slot as usize * size..][..size].split_at_mut(self.padded);
-        let (at, step) = (at.as_chunks_mut::<4>().0, step.as_chunks::<4>().0);
-        for (at, step) in at.iter_mut().zip(step) {
-            for i in 0..4 {
-                at[i] += step[i]; // 3.6, 4.2
-            }
-        }
+        let groups = &mut self.values[slot as usize * self.groups..][..self.groups];
+        groups.iter_mut().for_each(Group::advance);
     }
 
-    /// Returns the numbers of a slot.
-    fn numbers(&self, slot: u32) -> &[f32] {
-        &self.values[slot as usize * 2 * self.padded..][..self.padded]
+    /// Returns the groups of a slot.
+    #[inline(always)]
+    fn groups(&self, slot: u32) -> &[Group] {
+        &self.values[slot as usize * self.groups..][..self.groups]
     }
 }
 
@@ -140,7 +175,7 @@ pub(crate) struct ActiveEdges<'a> {
 impl<'a> ActiveEdges<'a> {
     pub fn new(frame: &'a Frame, varyings: &'a Varyings<'a>) -> Self {
         let is_walked = varyings.count > 0 && !matches!(varyings.per, Per::Polygon);
-        let is_many = is_walked && varyings.count > FEW && !varyings.great_circle;
+        let is_many = is_walked && varyings.count > GROUP && !varyings.great_circle;
         ActiveEdges {
             frame,
             varyings,
@@ -148,7 +183,7 @@ impl<'a> ActiveEdges<'a> {
             edges: Vec::new(),
             merged: Vec::new(),
             more: EdgeVaryings {
-                padded: usize::from(is_many) * varyings.count.next_multiple_of(4),
+                groups: usize::from(is_many) * (varyings.count.saturating_sub(1) / GROUP),
                 values: Vec::new(),
                 circles: Vec::new(),
                 free: Vec::new(),
@@ -174,19 +209,22 @@ impl<'a> ActiveEdges<'a> {
         self.merged.clear();
         self.merged.reserve(self.edges.len());
         for i in 0..self.edges.len() {
-            let mut edge = self.edges[i];
-            while let Some(begins) = new.next_if(|begins| begins.polygon < edge.polygon) {
+            // An edge that ends here is not copied.
+            let edge = &self.edges[i];
+            let (polygon, end, slot) = (edge.polygon, edge.end, edge.slot);
+            while let Some(begins) = new.next_if(|begins| begins.polygon < polygon) {
                 self.start_edge(begins, row);
             }
-            if edge.end <= row {
+            if end <= row {
                 if self.has_slots {
-                    self.more.free.push(edge.slot);
+                    self.more.free.push(slot);
                 }
                 continue;
             }
+            let mut edge = self.edges[i];
             edge.advance();
             if self.has_slots {
-                self.more.advance(edge.slot);
+                self.more.advance(slot);
             }
             self.merged.push(edge);
         }
@@ -210,20 +248,10 @@ impl<'a> ActiveEdges<'a> {
         let centre = SubPixel::from_num(row) + SubPixel::from_bits(1 << (SubPixel::FRAC_NBITS - 1));
         let t0 = (centre - top.y).to_bits() as f32 / height;
         let dt = (1 << SubPixel::FRAC_NBITS) as f32 / height; // Δt = 1 / (y_2 − y_1)
-        let (mut at, mut step, mut slot) = ([0.0; FEW], [0.0; FEW], 0);
-        if self.is_walked {
-            let [a, b] = self.ends(edge);
-            if let (&[ax, ay, az], &[bx, by, bz]) = (a, b)
-                && !self.has_slots
-            {
-                // The fast path: three numbers, without a loop.
-                [at[0], step[0]] = ramp(ax, bx, t0, dt); // 3.5, 4.1
-                [at[1], step[1]] = ramp(ay, by, t0, dt);
-                [at[2], step[2]] = ramp(az, bz, t0, dt);
-            } else {
-                slot = self.start_slowly(edge, [t0, dt], [&mut at, &mut step]);
-            }
-        }
+        let (varyings, slot) = match self.is_walked {
+            true => self.start_varyings(edge, [t0, dt]),
+            false => (Group::default(), 0),
+        };
         let from = self.depth.of_corner(self.frame, top);
         let to = self.depth.of_corner(self.frame, bottom);
         self.merged.push(ActiveEdge {
@@ -232,35 +260,27 @@ impl<'a> ActiveEdges<'a> {
             end: first_centre(bottom.y),
             crossing: EdgeCrossing::new(place(top), place(bottom), row),
             depth: ramp(from, to, t0, dt), // 3.4
-            at,
-            step,
+            varyings,
             slot,
         });
     }
 
-    /// Starts the varyings of an edge unless they are three numbers. Returns their slot.
-    #[inline(never)]
-    fn start_slowly(
-        &mut self,
-        edge: &TableEdge,
-        [t0, dt]: [f32; 2],
-        [at, step]: [&mut [f32; FEW]; 2],
-    ) -> u32 {
-        let ends = self.ends(edge);
+    /// Starts the varyings of an edge. Returns the first ones and the slot of the others.
+    #[inline(always)]
+    fn start_varyings(&mut self, edge: &TableEdge, parameter: [f32; 2]) -> (Group, u32) {
+        let (ends, mut slot) = (self.ends(edge), 0);
         if self.varyings.great_circle {
             let polygon = &self.frame.polygons()[edge.polygon as usize];
-            let face = self.frame.polygon_normal(polygon);
-            let normals = [unit(ends[0]), unit(ends[1])];
-            let circle = GreatCircle::new(vec3(face), normals, t0, dt);
-            return self.more.enter_circle(circle);
+            let face = vec3(self.frame.polygon_normal(polygon));
+            return (
+                Group::default(),
+                self.more.enter_circle(face, ends, parameter),
+            );
         }
         if self.has_slots {
-            return self.more.enter(ends, t0, dt);
+            slot = self.more.enter(ends.map(|end| &end[GROUP..]), parameter);
         }
-        for (((at, step), a), b) in at.iter_mut().zip(step).zip(ends[0]).zip(ends[1]) {
-            [*at, *step] = ramp(*a, *b, t0, dt);
-        }
-        0
+        (Group::new(ends.map(first_of), parameter), slot)
     }
 
     /// Returns the varyings of the upper and the lower end of an edge.
@@ -336,10 +356,8 @@ impl<'a> ActiveEdges<'a> {
         let right = &self.edges[span.left as usize + 1];
         if self.varyings.count == 3 && self.is_walked && !self.has_slots {
             // The fast path: three numbers, without a loop.
-            let [x, dx] = ramp(left.at[0], right.at[0], t0, span.dt); // 3.5, 4.1
-            let [y, dy] = ramp(left.at[1], right.at[1], t0, span.dt);
-            let [z, dz] = ramp(left.at[2], right.at[2], t0, span.dt);
-            to.extend_from_slice(&[x, y, z, dx, dy, dz]);
+            let Group { at, step } = between([left.varyings, right.varyings], [t0, span.dt]);
+            to.extend_from_slice(&[at[0], at[1], at[2], step[0], step[1], step[2]]);
             return;
         }
         if self.varyings.great_circle {
@@ -352,20 +370,29 @@ impl<'a> ActiveEdges<'a> {
             return;
         }
         let (count, first) = (self.varyings.count, to.len());
-        to.resize(first + 2 * count, 0.0);
-        let (at, step) = to[first..].split_at_mut(count);
         if let Some(constant) = self.varyings.of_polygon(span.polygon) {
-            at.copy_from_slice(constant);
+            to.extend_from_slice(constant);
+            to.resize(first + 2 * count, 0.0);
             return;
         }
-        let ends = match self.has_slots {
-            true => [self.more.numbers(left.slot), self.more.numbers(right.slot)],
-            false => [&left.at[..], &right.at[..]],
-        };
-        for (((at, step), a), b) in at.iter_mut().zip(step).zip(ends[0]).zip(ends[1]) {
-            [*at, *step] = ramp(*a, *b, t0, span.dt);
+        // Whole groups are appended; the numbers that they have too many are cut off.
+        let more = [left, right].map(|edge| self.more.groups(edge.slot));
+        for part in 0..2 {
+            let mut append = |ends| {
+                let group = between(ends, [t0, span.dt]);
+                to.extend_from_slice(&[group.at, group.step][part]);
+            };
+            append([left.varyings, right.varyings]);
+            (more[0].iter().zip(more[1])).for_each(|(a, b)| append([*a, *b]));
+            to.truncate(first + (1 + part) * count);
         }
     }
+}
+
+/// Returns the varyings between two edges at the parameter `t0`, with steps of `dt`.
+#[inline(always)]
+fn between([left, right]: [Group; 2], parameter: [f32; 2]) -> Group {
+    Group::new([left.at, right.at], parameter)
 }
 
 /// Puts the edges of a polygon in order, by insertion: crossings change places only where edges cross each other. Ties keep the

@@ -23,6 +23,7 @@ pub struct Linear<V> {
 impl<F: Num, V: Planes<F>> Walk<F> for Linear<V> {
     type Pixel = V;
     const LINEAR: bool = true;
+    const REMEMBERS: bool = false;
 
     #[inline(always)]
     fn next(&mut self) -> V {
@@ -39,6 +40,7 @@ pub struct Constant<V>(pub V);
 impl<F: Num, V: Planes<F>> Walk<F> for Constant<V> {
     type Pixel = V;
     const LINEAR: bool = true;
+    const REMEMBERS: bool = false;
 
     #[inline(always)]
     fn next(&mut self) -> V {

@@ -20,8 +20,11 @@ use crate::shading::planes::{PerLight, Planes};
 pub trait Walk<F: Num>: Copy {
     /// The input of a pixel to shading: an entry of the G-buffer.
     type Pixel: Planes<F>;
-    /// True if the pixel is the interpolated varying itself: the row engine then interpolates it over triangles.
+    /// True if the pixel is the interpolated varying itself.
     const LINEAR: bool = false;
+    /// True if a pixel needs the pixels before it, and not only the varyings there. Where it does not, SIMD starts a walk at each
+    /// block, from varyings that are interpolated over triangles.
+    const REMEMBERS: bool = true;
 
     /// Returns the value here, and steps to the next pixel (or block).
     fn next(&mut self) -> Self::Pixel;
@@ -29,6 +32,7 @@ pub trait Walk<F: Num>: Copy {
 
 impl<F: Num, A: Walk<F>, B: Walk<F>> Walk<F> for (A, B) {
     type Pixel = (A::Pixel, B::Pixel);
+    const REMEMBERS: bool = A::REMEMBERS || B::REMEMBERS;
 
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {
@@ -38,6 +42,7 @@ impl<F: Num, A: Walk<F>, B: Walk<F>> Walk<F> for (A, B) {
 
 impl<F: Num, W: Walk<F, Pixel = F>, const L: usize> Walk<F> for PerLight<W, L> {
     type Pixel = PerLight<F, L>;
+    const REMEMBERS: bool = W::REMEMBERS;
 
     #[inline(always)]
     fn next(&mut self) -> Self::Pixel {

@@ -47,6 +47,7 @@ impl<F: Num> Quadratic<F> {
 
 impl<F: Num> Walk<F> for Quadratic<F> {
     type Pixel = F;
+    const REMEMBERS: bool = false;
 
     #[inline(always)]
     fn next(&mut self) -> F {
