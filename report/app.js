@@ -344,6 +344,7 @@ class Viewer {
 		return { k, x: corner(this.cx, iw, w / k), y: corner(this.cy, ih, h / k), w, h, iw, ih };
 	}
 	draw() {
+		this.stage.style.maxHeight = `max(300px,100vh - ${scrollY + this.stage.getBoundingClientRect().top + $(".vfoot", this.root).offsetHeight + 9}px)`;
 		const view = this.view(), { k, w, h } = view;
 		if (!this.A || !w) return;
 		const ratio = devicePixelRatio || 1, canvas = this.canvas, pen = canvas.getContext("2d"), side = this.mode === "side", error = this.mode === "error", panes = side ? 2 : 1;
