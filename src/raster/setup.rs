@@ -2,7 +2,7 @@
 
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::number::parallel::for_each_chunk;
-use crate::number::{Level, Vec3, vec3};
+use crate::number::{BLOCK, Level, Vec3, vec3};
 use crate::scene::Interpolation;
 use crate::shading::increments::GreatCircle;
 use crate::shading::lighting::Uniforms;
@@ -159,29 +159,23 @@ impl<'a> SetUp<'a> {
         let (frame, count, near) = (self.frame, self.varyings.count, self.frame.is_local());
         let has_one_material = frame.lightings().len() == 1;
         let normals = frame.normals_on_screen();
-        let mut values = match normals.filter(|_| self.extras == Extras::default()) {
-            Some(normals) if self.kernels.passes_normal => {
-                return (normals.as_flattened().into(), Per::Vertex);
-            }
-            // Normals need not be gathered.
-            Some(normals) if has_one_material && !near => {
-                self.filled(normals.len(), &|first, values| {
-                    let normals = &normals[first..][..values.len() / count];
-                    // Directional lights do not ask for points.
-                    self.light(0, normals, normals, values);
-                })
-            }
-            _ => self.lit(frame.vertices().len(), &|i| {
-                let vertex = i as u32;
-                let point = match near {
-                    true => frame.position(vertex),
-                    false => [0.0; 3],
-                };
-                // The only material need not be read.
-                let material = (!has_one_material).then(|| frame.material(vertex));
-                (material.unwrap_or(0), frame.normal(vertex), point)
-            }),
+        let alone = normals.filter(|_| self.extras == Extras::default());
+        if let Some(normals) = alone.filter(|_| self.kernels.passes_normal) {
+            return (normals.as_flattened().into(), Per::Vertex);
+        }
+        // Normals of one material need not be gathered.
+        let ready = alone.filter(|_| has_one_material && !near);
+        let item = |i: usize| {
+            let vertex = i as u32;
+            let point = match near {
+                true => frame.position(vertex),
+                false => [0.0; 3],
+            };
+            // The only material need not be read.
+            let material = (!has_one_material).then(|| frame.material(vertex));
+            (material.unwrap_or(0), frame.normal(vertex), point)
         };
+        let mut values = self.lit(frame.vertices().len(), ready.unwrap_or(&[]), &item);
         let great_circle = self.varyings.great_circle;
         finish(frame, &mut values, (count, great_circle), is_weighted);
         (values.into(), Per::Vertex)
@@ -198,7 +192,7 @@ impl<'a> SetUp<'a> {
             };
             (self.uniforms_of(number as u32), normal, [0.0; 3])
         };
-        let values = self.lit(frame.polygons().len(), &item);
+        let values = self.lit(frame.polygons().len(), &[], &item);
         (values.into(), Per::Polygon)
     }
 
@@ -212,7 +206,7 @@ impl<'a> SetUp<'a> {
             corners.extend(vertices.map(|&vertex| (number, vertex)));
         }
         let item = |i: usize| (corners[i].0, frame.normal(corners[i].1), [0.0; 3]);
-        let mut values = self.lit(corners.len(), &item);
+        let mut values = self.lit(corners.len(), &[], &item);
         for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
             if frame.clip_corner(vertex).is_some() {
                 to.copy_from_slice(&self.clipped(number, vertex));
@@ -228,7 +222,7 @@ impl<'a> SetUp<'a> {
     /// Returns the varying of a vertex on polygon `number`: between the ends of the edge on which clipping made it, or lit.
     fn clipped(&self, number: u32, vertex: u32) -> Vec<f32> {
         let Some(corner) = self.frame.clip_corner(vertex) else {
-            return self.lit(1, &|_| (number, self.frame.normal(vertex), [0.0; 3]));
+            return self.lit(1, &[], &|_| (number, self.frame.normal(vertex), [0.0; 3]));
         };
         let ends = [corner.a, corner.b].map(|v| self.clipped(number, v));
         let mut to = vec![0.0; self.varyings.count];
@@ -236,22 +230,31 @@ impl<'a> SetUp<'a> {
         to
     }
 
-    /// Returns `count` varyings that `fill` fills, on several threads: it takes the number of the first of some varyings.
-    fn filled(&self, count: usize, fill: &(dyn Fn(usize, &mut [f32]) + Sync)) -> Vec<f32> {
-        let stride = self.varyings.count;
+    /// Lights `count` vertices, on several threads and on an instruction set: in whole blocks, as kernels may take no others.
+    /// If they are all of the first material and without extras, their normals may be `ready` in a row.
+    fn lit(
+        &self,
+        count: usize,
+        ready: &[[f32; 3]],
+        item: &(dyn Fn(usize) -> Item + Sync),
+    ) -> Vec<f32> {
+        let (stride, extras) = (self.varyings.count, self.extras);
+        let own = stride - extras.count();
         let mut values = vec![0.0; count * stride];
         // Without varyings the chunks have a size all the same.
-        for_each_chunk(&mut values[..], CHUNK * stride.max(1), &|first, values| {
-            fill(first / stride, values);
-        });
-        values
-    }
-
-    /// Lights `count` vertices, on several threads and on an instruction set.
-    fn lit(&self, count: usize, item: &(dyn Fn(usize) -> Item + Sync)) -> Vec<f32> {
-        let stride = self.varyings.count;
-        self.filled(count, &|mut first, mut rest| {
+        let size = CHUNK * stride.max(1);
+        for_each_chunk(&mut values[..], size, &|first, mut rest: &mut [f32]| {
+            let mut first = first / stride;
+            if !ready.is_empty() {
+                let whole = rest.len() / stride / BLOCK * BLOCK;
+                let normals = &ready[first..first + whole];
+                let (here, others) = rest.split_at_mut(whole * stride);
+                // Directional lights do not ask for points.
+                self.light(0, normals, normals, here);
+                (rest, first) = (others, first + whole);
+            }
             let (mut normals, mut points) = ([[0.0; 3]; BATCH], [[0.0; 3]; BATCH]);
+            let mut lit = vec![0.0; BATCH * own];
             while !rest.is_empty() {
                 let most = BATCH.min(rest.len() / stride);
                 let (number, mut k) = (item(first).0, 0);
@@ -263,12 +266,24 @@ impl<'a> SetUp<'a> {
                     (normals[k], points[k]) = (normal, point);
                     k += 1;
                 }
+                let padded = k.next_multiple_of(BLOCK);
+                let to = &mut lit[..padded * own];
+                self.light(number, &normals[..padded], &points[..padded], to);
                 let (here, others) = rest.split_at_mut(k * stride);
-                self.light(number, &normals[..k], &points[..k], here);
-                self.add_extras(here, &points[..k]);
+                // The house's extras stand behind the varyings of the method.
+                for (k, to) in here.chunks_exact_mut(stride).enumerate() {
+                    to[..own].copy_from_slice(&lit[k * own..][..own]);
+                    if extras.point {
+                        to[own..own + 3].copy_from_slice(&points[k]);
+                    }
+                    if extras.weight {
+                        to[stride - 1] = 1.0;
+                    }
+                }
                 (rest, first) = (others, first + k);
             }
-        })
+        });
+        values
     }
 
     /// Lights vertices of one material.
@@ -278,23 +293,8 @@ impl<'a> SetUp<'a> {
             uniforms: &self.uniforms[uniforms as usize],
             normals,
             points,
-            stride: self.varyings.count,
         };
         (self.light)(&vertices, to);
-    }
-
-    /// Stores the house's extras behind the varyings of the method.
-    fn add_extras(&self, values: &mut [f32], points: &[[f32; 3]]) {
-        let count = self.varyings.count;
-        let own = count - self.extras.count();
-        for (values, point) in values.chunks_exact_mut(count).zip(points) {
-            if self.extras.point {
-                values[own..own + 3].copy_from_slice(point);
-            }
-            if self.extras.weight {
-                values[count - 1] = 1.0;
-            }
-        }
     }
 }
 

@@ -81,7 +81,7 @@ pub(crate) const fn start_len(great_circle: bool, varyings: usize) -> usize {
     if great_circle { 11 } else { 2 * varyings }
 }
 
-/// The vertices whose varyings are computed together: they have the same material.
+/// The vertices whose varyings are computed together: they have the same material. SIMD kernels take whole blocks of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertices<'a> {
     pub parameters: &'a [u32],
@@ -89,8 +89,6 @@ pub(crate) struct Vertices<'a> {
     pub normals: &'a [[f32; 3]],
     /// Positions, one a normal; any vectors if nothing is lit from a position.
     pub points: &'a [[f32; 3]],
-    /// The stride from the varyings of a vertex to those of the next, in numbers.
-    pub stride: usize,
 }
 
 /// Runs of pixels that are shaded, or walked along, together.
@@ -140,7 +138,7 @@ pub struct Kernels {
     /// True if pixels are the varyings themselves.
     pub(crate) linear: bool,
     pub(crate) passes_normal: bool,
-    /// Computes the varyings of vertices from normals and positions, `stride` numbers apart.
+    /// Computes the varyings of vertices from normals and positions.
     pub(crate) vertices: VertexKernel,
     /// Shades runs: the scalar pixel loop.
     pub(crate) pixels: fn(&Pixels<'_>, &mut [[f32; 3]]),
@@ -202,32 +200,36 @@ fn at_most<F: Num>(value: F, most: f32) -> F {
 
 /// Lights vertices one at a time.
 fn vertices<M: Shader>(job: &Vertices<'_>, out: &mut [f32]) {
-    light::<M, f32>(job, out, |normals| vec3(normals[0]), |x| [x; BLOCK]);
+    light::<M, f32>(job, true, out, |all| vec3(all[0]), |x| [x; BLOCK]);
 }
 
-/// Lights vertices, as many at a time as a number holds: `gather` makes a vector of some, `lanes` takes a number apart.
+/// Lights vertices, as many at a time as a number holds: `gather` makes a vector of them, `lanes` takes a number apart. Without
+/// `general`, a literal, the model is fast.
 #[inline(always)]
 fn light<M: Shader, F: Num>(
     job: &Vertices<'_>,
+    general: bool,
     out: &mut [f32],
     gather: impl Fn(&[[f32; 3]]) -> Vec3<F>,
     lanes: impl Fn(F) -> [f32; BLOCK],
 ) {
     let (model, lights) = (job.uniforms.model, &job.uniforms.lights[..]);
     let method = M::new(job.parameters, &model);
-    let points = job.points.chunks(F::WIDTH);
-    let vertices = job.normals.chunks(F::WIDTH).zip(points);
-    for ((normals, points), out) in vertices.zip(out.chunks_mut(F::WIDTH * job.stride)) {
-        let (n, point) = (gather(normals), gather(points));
-        let general = F::WIDTH == 1 || !model.is_fast;
+    let own = count::<M::Varying<f32>>(lights.len());
+    let points = job.points.chunks_exact(F::WIDTH);
+    let vertices = job.normals.chunks_exact(F::WIDTH).zip(points);
+    let out = out.chunks_exact_mut((F::WIDTH * own).max(1));
+    for ((normals, points), out) in vertices.zip(out) {
+        let n = gather(normals);
+        let point = if general { gather(points) } else { n };
         let varying = method.vertex(&Lit::new(model, lights, point, general), n);
         each(
             varying,
             #[inline(always)]
             |i, number| {
                 let values = lanes(clamped::<M, F>(*number, model.scale));
-                for (k, value) in values[..normals.len()].iter().enumerate() {
-                    out[k * job.stride + i] = *value;
+                for k in 0..F::WIDTH {
+                    out[k * own + i] = values[k];
                 }
             },
         );
@@ -356,24 +358,26 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
     vectorize(
         simd,
         #[inline(always)]
-        || {
-            light::<M, f32x8<S>>(
-                job,
-                out,
-                #[inline(always)]
-                |all| {
-                    let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
-                    for k in 0..BLOCK {
-                        // The last vector stands for those that are missing.
-                        [x[k], y[k], z[k]] = all[k.min(all.len() - 1)];
-                    }
-                    let (x, y) = (f32x8::from_slice(simd, &x), f32x8::from_slice(simd, &y));
-                    vec3([x, y, f32x8::from_slice(simd, &z)])
-                },
-                |x| x.into(),
-            );
+        || match job.uniforms.model.is_fast {
+            true => light::<M, f32x8<S>>(job, false, out, gather(simd), |x| x.into()),
+            false => light::<M, f32x8<S>>(job, true, out, gather(simd), |x| x.into()),
         },
     );
+}
+
+/// Returns a function that makes a block of eight vectors.
+#[cfg(feature = "simd")]
+#[inline(always)]
+fn gather<S: Token>(simd: S) -> impl Fn(&[[f32; 3]]) -> Vec3<f32x8<S>> {
+    #[inline(always)]
+    move |all| {
+        let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+        for k in 0..BLOCK {
+            [x[k], y[k], z[k]] = all[k];
+        }
+        let (x, y) = (f32x8::from_slice(simd, &x), f32x8::from_slice(simd, &y));
+        vec3([x, y, f32x8::from_slice(simd, &z)])
+    }
 }
 
 /// Walks along runs, a block at a time.

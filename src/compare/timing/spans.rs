@@ -42,19 +42,18 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
     let extras = bench.extras(variant);
     let [own, _] = (kernels.counts)(lights);
     let varyings = own + extras.count();
-    let vertices = Vertices {
-        parameters: variant.parameters(),
-        uniforms,
-        normals: &bench.normals[..2],
-        points: &bench.points[..2],
-        stride: varyings,
-    };
     let mut ends = [0.0; MOST];
-    (kernels.vertices)(&vertices, &mut ends[..2 * varyings]);
     let (a, b) = ends.split_at_mut(varyings);
-    for (end, point) in [&mut *a, &mut *b].into_iter().zip(&bench.points) {
+    for (k, end) in [&mut *a, &mut *b].into_iter().enumerate() {
+        let vertex = Vertices {
+            parameters: variant.parameters(),
+            uniforms,
+            normals: &bench.normals[k..=k],
+            points: &bench.points[k..=k],
+        };
+        (kernels.vertices)(&vertex, &mut end[..own]);
         if extras.point {
-            end[own..own + 3].copy_from_slice(point);
+            end[own..own + 3].copy_from_slice(&bench.points[k]);
         }
         if extras.weight {
             end[varyings - 1] = 1.0;
