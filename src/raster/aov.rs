@@ -65,10 +65,8 @@ fn interpolate(
     let mut starts = Vec::new();
     match edges {
         Some(edges) => {
-            barycentric::scan(frame, varyings, edges, &mut |_, row, columns, starts| {
-                for (x, start) in columns.iter().zip(starts.chunks_exact(2 * COUNT)) {
-                    visit(*x, row, numbers(start));
-                }
+            barycentric::scan(frame, varyings, edges, &mut |_, x, row, starts| {
+                visit(x, row, numbers(starts));
                 starts.clear();
             });
         }

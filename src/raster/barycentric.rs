@@ -2,7 +2,7 @@
 //!
 //! For each triangle every pixel of its bounding box is tested with three edge functions; where it is inside, they give its
 //! barycentric coordinates, by which varyings are interpolated (CS171 1, Algorithms 1, 2). Pixels are shaded by the scalar
-//! kernels, a row of a triangle at a time, so that what differs in speed is rasterization and interpolation.
+//! kernels, many at a time, so that what differs in speed is rasterization and interpolation.
 
 use super::depth::SampleDepth;
 use super::setup::{SetUp, Varyings};
@@ -56,21 +56,21 @@ impl EdgeFunction {
     }
 }
 
-/// A function that takes the visible pixels of a triangle on a row: the polygon, the row, the columns, and the starts of runs at
-/// all pixels since it took some out.
-type VisitRow<'a> = dyn FnMut(u32, usize, &[usize], &mut Vec<f32>) + 'a;
+/// A function that takes a visible pixel: the polygon, the column, the row, and the starts of runs at all pixels since it took
+/// some out.
+type VisitPixel<'a> = dyn FnMut(u32, usize, usize, &mut Vec<f32>) + 'a;
 
-/// Calls `visit` with the visible pixels of each triangle on each row, in drawing order. Polygons with more corners are passed
-/// over. Returns the starts that are left.
+/// Calls `visit` with the visible pixels of each triangle, in drawing order and row by row. Polygons with more corners are
+/// passed over. Returns the starts that are left.
 pub(super) fn scan(
     frame: &Frame,
     varyings: &Varyings<'_>,
     edges: Edges,
-    visit: &mut VisitRow<'_>,
+    visit: &mut VisitPixel<'_>,
 ) -> Vec<f32> {
     let depth = SampleDepth::new(frame);
     let mut depth_buffer = vec![f32::INFINITY; frame.width() * frame.height()];
-    let (mut columns, mut starts) = (Vec::new(), Vec::new());
+    let mut starts = Vec::new();
     for (number, polygon) in (0..).zip(frame.polygons()) {
         let &[a, b, c] = frame.corners(polygon) else {
             continue;
@@ -78,8 +78,10 @@ pub(super) fn scan(
         let corners = [a, b, c];
         let vertices = each(|i| &frame.vertices()[corners[i] as usize]);
         let points = vertices.map(|v| [v.x, v.y].map(|at| i64::from(at.to_bits())));
+        let x_range = pixels(points.map(|[x, _]| x), frame.width());
+        let y_range = pixels(points.map(|[_, y]| y), frame.height());
         let doubled_area = EdgeFunction::new(points[0], points[1]).at(points[2]);
-        if doubled_area == 0 {
+        if x_range.is_empty() || y_range.is_empty() || doubled_area == 0 {
             continue;
         }
         let order = if doubled_area < 0 {
@@ -101,10 +103,7 @@ pub(super) fn scan(
             }
             _ => None,
         };
-        let x_range = pixels([a[0], b[0], c[0]], frame.width());
-        let y_range = pixels([a[1], b[1], c[1]], frame.height());
         for row in y_range {
-            columns.clear();
             let y = 256 * row as i64 + 128;
             let nearest = &mut depth_buffer[row * frame.width()..][..frame.width()];
             for column in x_range.clone() {
@@ -120,22 +119,21 @@ pub(super) fn scan(
                     continue;
                 };
                 nearest[column] = kept;
-                columns.push(column);
                 // A run of one pixel: its steps are 0.
                 if let Some([x, y, z]) = three {
                     // The fast path: three numbers, without a loop.
                     starts.extend_from_slice(&[mix(x), mix(y), mix(z), 0.0, 0.0, 0.0]);
-                    continue;
+                } else {
+                    let end = starts.len() + 2 * varyings.count;
+                    match constant {
+                        Some(constant) => starts.extend_from_slice(constant),
+                        None => {
+                            starts.extend((0..varyings.count).map(|k| mix(each(|i| values[i][k]))))
+                        }
+                    }
+                    starts.resize(end, 0.0);
                 }
-                let end = starts.len() + 2 * varyings.count;
-                match constant {
-                    Some(constant) => starts.extend_from_slice(constant),
-                    None => starts.extend((0..varyings.count).map(|k| mix(each(|i| values[i][k])))),
-                }
-                starts.resize(end, 0.0);
-            }
-            if !columns.is_empty() {
-                visit(number, row, &columns, &mut starts);
+                visit(number, column, row, &mut starts);
             }
         }
     }
@@ -179,16 +177,16 @@ impl Waiting {
 /// Draws the triangles of a method's frame into `target`.
 pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
     let mut waiting = Waiting::default();
-    let visit = &mut |number, row, columns: &[usize], starts: &mut Vec<f32>| {
-        let run = Run {
+    let visit = &mut |number, column, row, starts: &mut Vec<f32>| {
+        waiting.runs.push(Run {
             uniforms: setup.uniforms_of(number),
             x: 0,
             pixels: 1,
-        };
-        let touching = columns.chunk_by(|a, b| a + 1 == *b);
-        let places = touching.map(|columns| [columns[0], row, columns.len()]);
-        waiting.places.extend(places);
-        waiting.runs.resize(waiting.runs.len() + columns.len(), run);
+        });
+        match waiting.places.last_mut() {
+            Some([x, its_row, count]) if *its_row == row && *x + *count == column => *count += 1,
+            _ => waiting.places.push([column, row, 1]),
+        }
         if waiting.runs.len() >= BATCH {
             waiting.flush(setup, starts, target);
         }
@@ -203,10 +201,7 @@ pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
 /// It agrees with [`polygon_numbers`](super::polygon_numbers) except where depths are equal within rounding.
 pub fn barycentric_polygon_numbers(frame: &Frame, edges: Edges) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
-    let visit = &mut |number, row, columns: &[usize], _: &mut Vec<f32>| {
-        let row = picture.row_mut(row);
-        columns.iter().for_each(|column| row[*column] = number);
-    };
+    let visit = &mut |number, column, row, _: &mut Vec<f32>| picture.row_mut(row)[column] = number;
     scan(frame, &Varyings::none(), edges, visit);
     picture
 }
