@@ -34,23 +34,23 @@ impl EdgeTable {
     pub fn new(frame: &Frame) -> Self {
         let rows = frame.height();
         let mut starts = vec![0u32; rows + 1];
-        let polygons = 0..frame.polygons().len() as u32;
-        for number in polygons.clone() {
-            for_each_edge(frame, 0..rows as i32, number, |row, _| {
-                starts[row as usize + 1] += 1
+        // Edges are looked for once: which ones cross a scanline is hard to predict.
+        let mut found = Vec::new();
+        for number in 0..frame.polygons().len() as u32 {
+            for_each_edge(frame, 0..rows as i32, number, |row, edge| {
+                starts[row as usize + 1] += 1;
+                found.push((row, edge));
             });
         }
         for row in 0..rows {
             starts[row + 1] += starts[row];
         }
-        let mut edges = vec![TableEdge::default(); starts[rows] as usize];
+        let mut edges = vec![TableEdge::default(); found.len()];
         let mut next = starts.clone();
-        for number in polygons {
-            for_each_edge(frame, 0..rows as i32, number, |row, edge| {
-                let place = &mut next[row as usize];
-                edges[*place as usize] = edge;
-                *place += 1;
-            });
+        for (row, edge) in found {
+            let place = &mut next[row as usize];
+            edges[*place as usize] = edge;
+            *place += 1;
         }
         EdgeTable { starts, edges }
     }
