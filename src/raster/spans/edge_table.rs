@@ -35,7 +35,7 @@ impl EdgeTable {
         let rows = frame.height();
         let mut starts = vec![0u32; rows + 1];
         // Edges are looked for once: which ones cross a scanline is hard to predict.
-        let mut found = Vec::new();
+        let mut found = Vec::with_capacity(2 * frame.polygons().len());
         for number in 0..frame.polygons().len() as u32 {
             for_each_edge(frame, 0..rows as i32, number, |row, edge| {
                 starts[row as usize + 1] += 1;
@@ -75,13 +75,15 @@ pub(crate) fn for_each_edge(
     let mut from = corners[corners.len() - 1];
     for (i, &to) in corners.iter().enumerate() {
         let corner = if i == 0 { corners.len() - 1 } else { i - 1 } as u32;
-        let (mut top, mut bottom) = (from, to);
+        let ends = [from, to].map(|v| (vertices[v as usize].y, v));
         from = to;
-        if vertices[top as usize].y > vertices[bottom as usize].y {
-            core::mem::swap(&mut top, &mut bottom);
-        }
-        let first = first_centre(vertices[top as usize].y).max(rows.start);
-        if first < first_centre(vertices[bottom as usize].y).min(rows.end) {
+        // Selected, not jumped over: which end is the upper one is hard to predict.
+        let [(y, top), (end, bottom)] = match ends[0].0 <= ends[1].0 {
+            true => ends,
+            false => [ends[1], ends[0]],
+        };
+        let first = first_centre(y).max(rows.start);
+        if first < first_centre(end).min(rows.end) {
             let edge = TableEdge {
                 polygon: number,
                 corner,
