@@ -1,8 +1,8 @@
 //! The barycentric renderer: CS171's bounding-box rasterizer, which the span engine's speed is measured against.
 //!
-//! For each triangle every pixel of its bounding box is tested with three edge functions; where it is inside, they give its
-//! barycentric coordinates, by which varyings are interpolated (CS171 1, Algorithms 1, 2). Pixels are shaded by the scalar
-//! kernels, many at a time, so that what differs in speed is rasterization and interpolation.
+//! For each triangle the pixels of its bounding box are tested with three edge functions, in each row until it leaves the triangle.
+//! Where a pixel is inside, they give its barycentric coordinates, by which varyings are interpolated (CS171 1, Algorithms 1, 2).
+//! Pixels are shaded by the scalar kernels, many at a time, so that what differs in speed is rasterization and interpolation.
 
 use super::depth::SampleDepth;
 use super::setup::{SetUp, Varyings};
@@ -106,12 +106,18 @@ pub(super) fn scan(
         for row in y_range {
             let y = 256 * row as i64 + 128;
             let nearest = &mut depth_buffer[row * frame.width()..][..frame.width()];
+            let mut was_inside = false;
             for column in x_range.clone() {
                 let x = 256 * column as i64 + 128;
                 let f = each(|i| functions[i].at([x, y]));
                 if f[0] < least[0] || f[1] < least[1] || f[2] < least[2] {
+                    // The pixels inside touch: no other one follows.
+                    if was_inside {
+                        break;
+                    }
                     continue;
                 }
+                was_inside = true;
                 // α = f_bc(p) / f_bc(a), β and γ accordingly: f_bc(a) is the doubled area for all three.
                 let weights = each(|i| f[i] as f32 * scale);
                 let mix = |[a, b, c]: [f32; 3]| weights[0] * a + weights[1] * b + weights[2] * c;
