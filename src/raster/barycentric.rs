@@ -1,7 +1,7 @@
 //! The barycentric renderer: CS171's bounding-box rasterizer, which the span engine's speed is measured against.
 //!
 //! For each triangle the pixels of its bounding box are tested with three edge functions, in each row until it leaves the triangle.
-//! Where a pixel is inside, they give its barycentric coordinates, by which varyings are interpolated (CS171 1, Algorithms 1, 2).
+//! They give the barycentric coordinates of a pixel inside, by which varyings are interpolated (CS171 1, Algorithms 1, 2).
 //! Pixels are shaded by the scalar kernels, many at a time, so that what differs in speed is rasterization and interpolation.
 
 use super::depth::SampleDepth;
