@@ -1,7 +1,7 @@
 //! Blocks of 8 or 16 neighbouring pixels, on the instruction set that a token proves to be there.
 
 use super::powf::powf;
-use super::{MulAdd, Num};
+use super::{MulAdd, Num, Vec3, vec3};
 use fearless_simd::{
     Bytes, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, f32x16, i32x8, i32x16,
 };
@@ -71,6 +71,20 @@ mod x86 {
         #[inline(always)]
         pub fn rsqrt16(_token: Avx512, x: __m512) -> __m512 {
             _mm512_rsqrt14_ps(x)
+        }
+    );
+
+    fearless_simd::kernel!(
+        /// Takes the 24 numbers of eight vectors apart: number i of vector k is number 3k + i, in lane (3k + i) mod 8.
+        #[inline(always)]
+        pub fn deinterleave(_token: Avx2, a: __m256, b: __m256, c: __m256) -> [__m256; 3] {
+            let lanes = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
+            let of = |i, p, q, r| {
+                let all = _mm256_blend_ps::<0b0010_0100>(_mm256_blend_ps::<0b1001_0010>(p, q), r);
+                // Of a lane's number three bits count.
+                _mm256_permutevar8x32_ps(all, _mm256_add_epi32(lanes, _mm256_set1_epi32(i)))
+            };
+            [of(0, a, b, c), of(1, c, a, b), of(2, b, c, a)]
         }
     );
 
@@ -179,6 +193,23 @@ fn estimate_16<S: Simd>(x: f32x16<S>) -> f32x16<S> {
 fn powf_16<S: Simd>(x: f32x16<S>, n: f32) -> f32x16<S> {
     let (low, high) = x.simd.split_f32x16(x);
     x.simd.combine_f32x8(powf(low, n), powf(high, n))
+}
+
+/// Returns a function that makes a block of the first eight vectors of a list.
+#[inline(always)]
+pub(crate) fn deinterleaved<S: Simd>(simd: S) -> impl Fn(&[[f32; 3]]) -> Vec3<f32x8<S>> {
+    #[inline(always)]
+    move |all| {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(token) = simd.level().as_avx2() {
+            let all = &all.as_flattened()[..24];
+            let of = |i: usize| f32x8::from_slice(simd, &all[i..i + 8]).into();
+            let numbers = x86::deinterleave(token, of(0), of(8), of(16));
+            return vec3(numbers.map(|x| f32x8::simd_from(simd, x)));
+        }
+        let of = |i| f32x8::simd_from(simd, core::array::from_fn::<_, 8, _>(|k| all[k][i]));
+        vec3([of(0), of(1), of(2)])
+    }
 }
 
 /// A block of pixels that is shaded at a time: one or two blocks of the G-buffer.

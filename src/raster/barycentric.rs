@@ -84,11 +84,7 @@ pub(super) fn scan(
         if x_range.is_empty() || y_range.is_empty() || doubled_area == 0 {
             continue;
         }
-        let order = if doubled_area < 0 {
-            [0, 2, 1]
-        } else {
-            [0, 1, 2]
-        };
+        let order = [[0, 1, 2], [0, 2, 1]][usize::from(doubled_area < 0)];
         let [a, b, c] = each(|i| points[order[i]]);
         let functions = [(b, c), (c, a), (a, b)].map(|(i, j)| EdgeFunction::new(i, j));
         // f ≥ 1 is f > 0 in integers: the edges that do not own their pixels need that.

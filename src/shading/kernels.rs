@@ -10,7 +10,7 @@ use super::{LitAt, Pixel, Shader, Stepped};
 #[cfg(feature = "simd")]
 use super::{Variant, lighting::LightUniforms};
 #[cfg(feature = "simd")]
-use crate::number::simd::{Block, Token, vectorize};
+use crate::number::simd::{Block, Token, deinterleaved, vectorize};
 use crate::number::{BLOCK, Level, Num, Vec3, vec3};
 #[cfg(feature = "simd")]
 use fearless_simd::*;
@@ -359,25 +359,10 @@ fn vertex_blocks<M: Shader, S: Token>(job: &Vertices<'_>, out: &mut [f32]) {
         simd,
         #[inline(always)]
         || match job.uniforms.model.is_fast {
-            true => light::<M, f32x8<S>>(job, false, out, gather(simd), |x| x.into()),
-            false => light::<M, f32x8<S>>(job, true, out, gather(simd), |x| x.into()),
+            true => light::<M, f32x8<S>>(job, false, out, deinterleaved(simd), |x| x.into()),
+            false => light::<M, f32x8<S>>(job, true, out, deinterleaved(simd), |x| x.into()),
         },
     );
-}
-
-/// Returns a function that makes a block of eight vectors.
-#[cfg(feature = "simd")]
-#[inline(always)]
-fn gather<S: Token>(simd: S) -> impl Fn(&[[f32; 3]]) -> Vec3<f32x8<S>> {
-    #[inline(always)]
-    move |all| {
-        let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
-        for k in 0..BLOCK {
-            [x[k], y[k], z[k]] = all[k];
-        }
-        let (x, y) = (f32x8::from_slice(simd, &x), f32x8::from_slice(simd, &y));
-        vec3([x, y, f32x8::from_slice(simd, &z)])
-    }
 }
 
 /// Walks along runs, a block at a time.

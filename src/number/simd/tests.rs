@@ -404,3 +404,17 @@ fn lanes_are_selected_bit_by_bit() {
     }
     on_each_level!(of);
 }
+
+#[test]
+fn vectors_are_taken_apart_in_order() {
+    fn of<S: Token>() {
+        let all: [[f32; 3]; BLOCK] =
+            core::array::from_fn(|k| core::array::from_fn(|i| (3 * k + i) as f32));
+        let taken = deinterleaved(S::get())(&all);
+        for (i, numbers) in [taken.x, taken.y, taken.z].into_iter().enumerate() {
+            let numbers: [f32; BLOCK] = numbers.into();
+            assert_eq!(numbers, all.map(|vector| vector[i]));
+        }
+    }
+    on_each_level!(of);
+}

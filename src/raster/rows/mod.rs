@@ -52,7 +52,7 @@ const HEIGHT: usize = 16;
 
 /// Memory that a thread keeps from tile to tile.
 #[derive(Debug, Default)]
-struct TileScratch {
+struct Scratch {
     tile: Tile,
     batch: Batch,
     fragments: Fragments,
@@ -62,7 +62,7 @@ struct TileScratch {
 }
 
 std::thread_local! {
-    static SCRATCH: RefCell<TileScratch> = RefCell::default();
+    static SCRATCH: RefCell<Scratch> = RefCell::default();
 }
 
 /// A method on a frame, and the layout of its pixels.
@@ -97,10 +97,7 @@ pub(super) fn draw(
     };
     let [_, walked] = (setup.kernels.counts)(frame.light_count());
     let walk = kernels.walk_of(variant);
-    let planes = match walk {
-        Some(_) => walked,
-        None => setup.varyings.count,
-    };
+    let planes = walk.map_or(setup.varyings.count, |_| walked);
     let only = only_material(&setup);
     let rows = RowEngine {
         test: SampleDepth::new(frame),
@@ -153,12 +150,7 @@ fn only_material(setup: &SetUp<'_>) -> Option<u32> {
 
 impl RowEngine<'_> {
     /// Rasterises polygons into a tile, in order.
-    fn rasterise<S: Token>(
-        &self,
-        polygons: &[Listed],
-        rows: &Range<usize>,
-        scratch: &mut TileScratch,
-    ) {
+    fn rasterise<S: Token>(&self, polygons: &[Listed], rows: &Range<usize>, scratch: &mut Scratch) {
         let (simd, varyings) = (S::get(), &self.setup.varyings);
         let is_planar = self.walk.is_none() && self.numbers <= MOST;
         let mut active = None;
@@ -193,7 +185,7 @@ impl RowEngine<'_> {
         simd: S,
         polygons: &[Listed],
         rows: &Range<usize>,
-        scratch: &mut TileScratch,
+        scratch: &mut Scratch,
     ) -> usize {
         let (taken, tiny, others) = find(simd, self.setup.frame, polygons, rows, scratch);
         vectorize(
@@ -221,8 +213,8 @@ impl RowEngine<'_> {
 
     /// Draws the runs that were found.
     #[inline(never)]
-    fn draw_runs<S: Token>(&self, simd: S, scratch: &mut TileScratch) {
-        let TileScratch { tile, queue, .. } = scratch;
+    fn draw_runs<S: Token>(&self, simd: S, scratch: &mut Scratch) {
+        let Scratch { tile, queue, .. } = scratch;
         if queue.is_empty() {
             return;
         }
@@ -247,9 +239,9 @@ fn find<S: Token>(
     frame: &Frame,
     polygons: &[Listed],
     rows: &Range<usize>,
-    scratch: &mut TileScratch,
+    scratch: &mut Scratch,
 ) -> (usize, u32, u32) {
-    let TileScratch { tile, batch, .. } = scratch;
+    let Scratch { tile, batch, .. } = scratch;
     vectorize(
         simd,
         #[inline(always)]

@@ -2,7 +2,7 @@
 //! the method's kernel: `shade` in `shading/kernels.rs`.
 
 use super::tile::Tile;
-use super::{RowEngine, TileScratch};
+use super::{RowEngine, Scratch};
 use crate::number::simd::BLOCK;
 use crate::raster::target::Target;
 use crate::shading::{RowColours, ShadeRow};
@@ -22,8 +22,8 @@ pub(crate) struct RowBuffers {
 
 impl RowEngine<'_> {
     /// Shades row `row` of a tile into `target`, and empties it.
-    pub(super) fn shade(&self, row: usize, scratch: &mut TileScratch, target: &mut dyn Target) {
-        let TileScratch { tile, line, .. } = scratch;
+    pub(super) fn shade(&self, row: usize, scratch: &mut Scratch, target: &mut dyn Target) {
+        let Scratch { tile, line, .. } = scratch;
         let width = self.setup.frame.width();
         let (blocks, background) = (tile.drawn(), self.background);
         let drawn = (blocks.start * BLOCK).min(width)..(blocks.end * BLOCK).min(width);

@@ -109,13 +109,13 @@ fn check<S: Token>(
     let polygons: Vec<Listed> = (0..).zip(frame.polygons()).map(listed).collect();
     let mut rest = &polygons[..];
     let mut counts = [0; 4];
-    let mut scratch = TileScratch::default();
+    let mut scratch = Scratch::default();
     while !rest.is_empty() {
         scratch.tile.prepare(HEIGHT, width, 3);
         let (taken, tiny, others) = find(simd, frame, rest, &rows, &mut scratch);
         assert!(taken > 0 && tiny & others == 0);
         let blocks = scratch.tile.drawn();
-        let TileScratch {
+        let Scratch {
             batch,
             fragments,
             starts,
