@@ -167,7 +167,10 @@ impl<'a> SetUp<'a> {
         let ready = alone.filter(|_| has_one_material && !near);
         let item = |i: usize| {
             let vertex = i as u32;
-            let point = near.then(|| frame.position(vertex)).unwrap_or_default();
+            let point = match near {
+                true => frame.position(vertex),
+                false => [0.0; 3],
+            };
             // The only material need not be read.
             let material = (!has_one_material).then(|| frame.material(vertex));
             (material.unwrap_or(0), frame.normal(vertex), point)

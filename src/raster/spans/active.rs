@@ -272,10 +272,8 @@ impl<'a> ActiveEdges<'a> {
         if self.varyings.great_circle {
             let polygon = &self.frame.polygons()[edge.polygon as usize];
             let face = vec3(self.frame.polygon_normal(polygon));
-            return (
-                Group::default(),
-                self.more.enter_circle(face, ends, parameter),
-            );
+            slot = self.more.enter_circle(face, ends, parameter);
+            return (Group::default(), slot);
         }
         if self.has_slots {
             slot = self.more.enter(ends.map(|end| &end[GROUP..]), parameter);
