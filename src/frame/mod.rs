@@ -1,8 +1,9 @@
 //! A frame: projected polygons and the light on them, the interface between geometry and shading.
 //!
-//! Files, matrices and everything that can fail come before it. After it there is only arithmetic that cannot fail and does
-//! not know where polygons come from. The shading methods, the barycentric renderer and the `f64` reference all take the same frame,
-//! so what differs between their pictures is shading and not geometry.
+//! `projection/` makes it from a scene, and may fail; so may [`FrameBuilder`]. Past it there is only arithmetic that cannot fail and
+//! does not know where polygons come from. The engines and the `f64` reference all take the same frame, the barycentric renderer
+//! after `triangulate.rs` cut it into triangles. So what differs between their pictures is shading and not geometry. `painter.rs`
+//! sorts a frame for the painter's algorithm.
 
 mod builder;
 mod depth_range;

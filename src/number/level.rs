@@ -12,11 +12,11 @@ pub enum Level {
     /// One pixel at a time, in plain `f32`: the same bits on every platform.
     #[default]
     Scalar,
-    /// Registers of 256 bits, 8 pixels, with fused multiplication and addition (x86-64-v3).
+    /// Registers of 256 bits, 8 numbers, with fused multiplication and addition (x86-64-v3).
     Avx2,
-    /// Registers of 512 bits, 16 pixels, with fused multiplication and addition (x86-64-v4).
+    /// Registers of 512 bits, 16 numbers, with fused multiplication and addition (x86-64-v4).
     Avx512,
-    /// Registers of 128 bits, 4 pixels, with fused multiplication and addition (64-bit ARM).
+    /// Registers of 128 bits, 4 numbers, with fused multiplication and addition (64-bit ARM).
     Neon,
 }
 

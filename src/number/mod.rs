@@ -2,12 +2,15 @@
 //!
 //! | backend | a number is | used by |
 //! |---|---|---|
-//! | scalar | one `f32` | the span engine, set-up |
-//! | SIMD (feature `simd`) | a block of 8 or 16 neighbouring pixels | the row engine |
+//! | scalar | one `f32` | the span engine, the barycentric renderer, set-up |
+//! | SIMD (feature `simd`) | a block of 8 or 16 neighbouring pixels | the row engine, for vertices and pixels |
 //! | counting | an `f32` that counts every operation on it | `fastphong explain`, `tests/conformance/counts.rs` |
 //!
-//! Constants are plain `f32` on the right-hand side: `n * 2.0`, `x.max(0.0)`. Everything here is `#[inline(always)]`: a
+//! Constants are plain `f32` on the right-hand side: `n * 2.0`, `x.max(0.0)`. Every operation is `#[inline(always)]`: a
 //! function that is not inlined into a pixel loop loses the instruction set that the loop is compiled for.
+//!
+//! `level.rs` names the instruction sets; `simd.rs` chooses the width of a block for each; `lanes.rs` has the integers and masks of the
+//! row engine. `parallel.rs` spreads loops over threads, `vectorized.rs` over registers. `suggest.rs` words errors about names.
 
 mod counting;
 #[cfg(feature = "simd")]

@@ -1,4 +1,5 @@
-//! Blocks of 8 or 16 neighbouring pixels, on the instruction set that a token proves to be there.
+//! Blocks of 8 or 16 neighbouring pixels, and the width of a block on each instruction set ([`Token`]). Only a machine that has the
+//! instruction set can make its token.
 
 use super::powf::powf;
 use super::{MulAdd, Num, Vec3, vec3};

@@ -1,5 +1,6 @@
-//! Depth at a sample: from the interpolated number to the one that is compared. The depth tests are `VisibleLine::draw` in `spans/line.rs` and
-//! `Writer::put` in `rows/tile.rs`.
+//! Depth at a sample: from the interpolated number to the one that is compared. The depth test is `SampleDepth::seen`; blocks are
+//! tested by `Writer` in `rows/tile.rs`, and depths that are compared as they are interpolated by `VisibleLine::draw` in
+//! `spans/line.rs`.
 
 use crate::frame::{DepthRange, Frame, ScreenVertex};
 use crate::scene::{Clipping, DepthSource, HiddenSurfaces};

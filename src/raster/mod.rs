@@ -1,17 +1,25 @@
-//! The engines: they own the loops over polygons, scanlines and runs, and know nothing of lights. The loops over pixels are those
-//! of a method's kernels (`shading/kernels.rs`).
+//! The engines: they find the pixels that are seen, and a method's kernels shade these (`shading/kernels.rs`). No engine
+//! evaluates the light model.
 //!
 //! - `spans` is the lecture's, scalar: an edge table, active edges that step their varyings from scanline to scanline, a depth
 //!   buffer of one line, and visible runs that are walked and shaded once. Everything can be drawn by it.
 //! - `rows` (feature `simd`) is a deferred renderer: bands of scanlines, a G-buffer, each row shaded once.
 //! - `barycentric` is the bounding-box rasterizer that the span engine is measured against: three edge functions per pixel.
 //!
-//! All of them have the same fill rule, and draw exactly the same pixels: those whose centres have an odd number of polygon edges
-//! to their left, counted in exact integers on corners snapped to 1/256 pixel. Polygons that share an edge share none of its
-//! pixels and leave no hole. The rule is `first_centre` and `EdgeCrossing` in `spans/edge.rs` with the parity in
-//! `ActiveEdges::spans` (`spans/active.rs`), and as edge functions `EdgeFunctions` in `rows/triangles.rs`.
+//! All of them have the same fill rule, and draw exactly the same pixels, `barycentric` those of triangles with `Edges::TopLeft`. A
+//! polygon has the pixels whose centres have an odd number of its edges to their left, counted in exact integers on corners snapped
+//! to 1/256 pixel. A centre on an edge belongs to the polygon right of the edge or below it (the top-left rule). So polygons that
+//! share an edge share none of its pixels and leave no hole.
 //!
-//! Start with `spans/mod.rs`. `render.rs` chooses the engine, `setup.rs` computes uniforms and varyings before the first scanline.
+//! | rule | where |
+//! |---|---|
+//! | fill rule, by crossings | `first_centre` and `EdgeCrossing` in `spans/edge.rs`, the parity in `ActiveEdges::spans` |
+//! | fill rule, by edge functions | `Batch::edge` in `rows/triangles.rs`; `EdgeFunction` in `barycentric.rs` |
+//! | depth at a sample | `depth.rs` |
+//! | depth test | `VisibleLine::draw` in `spans/line.rs`; `Writer` in `rows/tile.rs`; `SampleDepth::seen` in `depth.rs` |
+//!
+//! Start with `spans/mod.rs`. `render.rs` chooses the engine. Before the first scanline `setup.rs` prepares uniforms and has vertices
+//! lit, on all threads. For the row engine `bins.rs` sorts polygons into bands of scanlines, and `bands.rs` gives these to threads.
 
 mod aov;
 mod auto;

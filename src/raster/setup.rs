@@ -1,4 +1,5 @@
-//! The set-up before the first scanline: uniforms once per material, varyings once per vertex, corner or polygon.
+//! The set-up before the first scanline: uniforms once per material; then vertices, corners or polygons are lit, each once, by the
+//! method's vertex kernel, on all threads. The loop over them is `light` in `shading/kernels.rs`.
 
 use crate::frame::{ClipCorner, Frame, Polygon};
 use crate::number::parallel::for_each_chunk;

@@ -1,4 +1,5 @@
-//! Kernels: a method as a table of plain functions with the loops over pixels in them. Engines are compiled once and call these.
+//! Kernels: a method as a table of plain functions, with the loops over its vertices, runs and pixels in them. Engines call these and
+//! are not compiled for each method.
 
 #![cfg_attr(not(feature = "simd"), allow(dead_code))] // without it there is no row engine
 

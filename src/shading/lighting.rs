@@ -5,11 +5,11 @@
 //! R = 2 (L·N) N − L
 //! ```
 //!
-//! [`Uniforms`] are made once per material; [`Lit`] is one point (or a block of points) that sees them. The power of
-//! the highlight is `Exponent::of`, for every method; where n is 1, 2, 4 … 128, `squared_up_to_7`. Questions that the lecture leaves open are settled here, for every method:
+//! [`Uniforms`] are made once per material; [`Lit`] is one point (or a block of points) that sees them. `Lit::power` gates the cosine
+//! of a highlight and raises it to n, for every method. Questions that the lecture leaves open are settled here:
 //! - `L·N` and `R·V` are clamped at 0 *before* the power (an even power of a negative number would light the far side);
 //! - there is no specular light where `L·N ≤ 0`, unless the scene asks for one of the other two forms of [`SpecularGate`];
-//! - highlights below 2⁻²⁴ are none (`LightModel::faint`): they would change nothing, and their powers run through subnormal
+//! - highlights of at most 2⁻²⁴ are none (`LightModel::faint`): they would change nothing, and their powers run through subnormal
 //!   numbers, which cost some processors 150 cycles each;
 //! - all lights are summed, then the sum is clamped to 0..=1 once;
 //! - with [`SpecularModel::Blinn`] the cosine is `N·H`, `H = (L + V) / |L + V|` (CS171 2); where light and eye are opposite, H has

@@ -2,17 +2,19 @@
 //!
 //! A method says what a vertex carries ([`Shader::vertex`]), how it is stepped along a span ([`Shader::walk`]) and how a pixel is
 //! shaded ([`Shader::shade`]), once, for every arithmetic backend. Kernels and engines do all else: positions of lights,
-//! perspective, clamping, storing, loops.
+//! perspective, clamping, storing, loops. (Duff's method alone steps positions itself.)
 //!
 //! ```text
-//! vertex ──► Varying ──► edges, spans ──► Walk ──► Pixel (G-buffer entry) ──► shade ──► colour
-//!   once per vertex       interpolated     stepped from pixel to pixel        a pure function
+//! vertex ──► Varying ──► edges, spans ──► Walk ──► Pixel ──► shade ──► colour
+//!   once per vertex       interpolated     stepped from       a pure function
+//!                                          pixel to pixel
 //! ```
 //!
-//! **All memory of the previous pixel is in the walk.** So an engine may step one row and shade another time, in blocks of 16, or
-//! on another thread, and no method changes. [`Kernels`] is a method compiled: a table of plain functions, which engines
+//! **All memory of the previous pixel is in the walk.** So an engine may interpolate a row now and shade it later, in blocks, or on
+//! another thread, and no method changes. [`Kernels`] is a method compiled: a table of plain functions, which engines
 //! call once per row, batch of runs or range of vertices. [`METHODS`] lists all methods: each is rendered, compared, timed,
-//! counted, tested and drawn.
+//! counted, tested and drawn. Two of them are other names for the kernels of a file: `flat_average.rs` for those of `flat.rs`,
+//! `fast_phong_rsqrt.rs` for those of `duff_phong.rs`. CONTRIBUTING says what a new method needs.
 //!
 //! Start with `gouraud.rs`, then `fast_phong.rs`, then [`lighting`], which holds all of equation 2.1.
 
@@ -85,5 +87,5 @@ pub trait Shader: Copy + Default + 'static {
     fn shade<F: Num>(self, lit: &Lit<'_, F>, pixel: Pixel<Self, F>) -> Vec3<F>;
 }
 
-/// The input of a pixel to shading: an entry of the G-buffer.
+/// The input of a pixel to shading: the state of a walk at one pixel.
 pub type Pixel<S, F> = <<S as Shader>::Walk<F> as Walk<F>>::Pixel;

@@ -1,4 +1,4 @@
-//! The method table.
+//! The method table: add a line here for a new file beside this one.
 
 use super::count::{OperationCounts, count};
 use super::duff_phong::{DuffPhong, DuffPhongNear};
@@ -14,7 +14,7 @@ use super::slerp_phong_vector::SlerpPhongVector;
 use super::span_bench::SpanBench;
 use super::{Extras, Info, Kernels, Local, Perspective, Shader, Variant};
 
-/// All shading methods. A method is one file beside this one, and one line here.
+/// All shading methods.
 pub static METHODS: &[Entry] = &[
     Entry::of::<Flat>(),
     Entry {

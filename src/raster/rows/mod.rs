@@ -1,24 +1,24 @@
 //! The row engine: a deferred renderer, on SIMD.
 //!
 //! ```text
-//! bin ─► set up ─────────► rasterise ──────────────► G-buffer ─► shade ─► picture
-//!        triangles.rs      tiny.rs   pixel by pixel  tile.rs     shade.rs
-//!        8 in the lanes    small.rs  block by block  16 rows     one call per row
-//!        of a block        runs.rs   run by run      of blocks   and material
+//! bin ───────► set up ────────► rasterise ──────────────► G-buffer ─► shade ─► picture
+//! ../bins.rs   triangles.rs     tiny.rs   pixel by pixel  tile.rs     shade.rs
+//!              8 triangles in   small.rs  block by block  16 rows     one call per row,
+//!              the lanes        runs.rs   run by run      of blocks   as long as the material stays
 //! ```
 //!
 //! Polygons are binned into bands of 16 scanlines. Those of a band are set up in batches and rasterised, in drawing order, with a
-//! depth test: the method's varyings are written into a tile, the band's G-buffer, beside depth and material. Then each row is
-//! shaded once, by `shade_blocks` in `shading/kernels.rs`. So the shading cost per pixel does not depend on the size of triangles, and
-//! hidden pixels are never shaded. Bands are independent: each is one job for a thread.
+//! depth test: the method's varyings, or the pixels that its walk returns, are written into a tile, the band's G-buffer, beside depth
+//! and material. Then each row is shaded once, by `shade_blocks` in `shading/kernels.rs`. So the shading cost per pixel does not
+//! depend on the size of triangles, and hidden pixels are never shaded. Bands are independent: each is one job for a thread.
 //!
 //! Three coverage paths find the same pixels. *Tiny* triangles are tested pixel by pixel, eight triangles at a time. *Small* ones are
-//! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles by the crossings of their
-//! edges, all else by the active edges of the span engine. Only slerp Phong and fast Phong with a number of Newton's steps remember
-//! the pixel before: their walk kernels take many runs at a time.
+//! tested by edge functions, eight pixels at a time. Everything else is drawn by *runs*: large triangles and slivers by the crossings
+//! of their edges; polygons of more corners, and pixels of more than `MOST` numbers, by the active edges of the span engine. Only
+//! slerp Phong and fast Phong with a number of Newton's steps remember the pixel before: their walk kernels take many runs at a time.
 //!
-//! Nothing here knows a method or a light: a method is its [`Kernels`](crate::shading::Kernels), called once per row or batch of
-//! runs. All of this is compiled once per instruction set.
+//! A method is its [`Kernels`](crate::shading::Kernels) here, called for a stretch of a row or a batch of runs. All of this is
+//! compiled once per instruction set.
 
 mod runs;
 mod shade;

@@ -1,5 +1,5 @@
-//! Shading: one row of the G-buffer to colours, by one call of the method for each material on it. The loop over its pixels is
-//! the method's kernel: `shade` in `shading/kernels.rs`.
+//! Shading: one row of the G-buffer to colours, by one call of the method's kernel for each stretch of one material. The loop over
+//! its pixels is `shade_blocks` in `shading/kernels.rs`.
 
 use super::tile::Tile;
 use super::{RowEngine, Scratch};

@@ -1,5 +1,5 @@
 //! The G-buffer: a tile of scanlines with the depth, the varyings and the material of each pixel; and the depth test of the row
-//! engine (`Writer::put`).
+//! engine (`Writer::put` for a block, `Writer::put_one` for a pixel).
 
 use crate::number::lanes::Lanes;
 use crate::number::simd::BLOCK;

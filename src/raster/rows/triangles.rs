@@ -3,6 +3,8 @@
 //!
 //! Where triangles have a pixel or two, many cover no pixel centre though their bounding boxes hold one. So positions are gathered
 //! first, then coverage is found, and varyings are read only for triangles that cover a pixel.
+//!
+//! Edge functions hold the fill rule: left and top edges own the pixel centres that lie on them (`Batch::edge`).
 
 use super::tile::{MOST, NumberCount};
 use crate::frame::Frame;
