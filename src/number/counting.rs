@@ -102,10 +102,8 @@ impl Num for Counted<'_> {
         self.did(|c| &mut c.comparisons, Num::max(self.value, least))
     }
     fn gate(self, condition: Self, least: f32) -> Self {
-        self.did(
-            |c| &mut c.comparisons,
-            self.value.gate(condition.value, least),
-        )
+        let value = self.value.gate(condition.value, least);
+        self.did(|c| &mut c.comparisons, value)
     }
     fn any_over(self, least: f32) -> bool {
         self.did(|c| &mut c.comparisons, self.value).value > least

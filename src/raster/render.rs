@@ -13,6 +13,7 @@ use crate::number::Level;
 use crate::picture::encoding::store;
 use crate::picture::{Encoding, LinearPicture, Picture, Picture8};
 use crate::shading::Variant;
+use alloc::vec::Vec;
 
 impl Variant {
     /// Draws `frame` as a stored picture, by the span engine.
@@ -109,7 +110,7 @@ impl Variant {
         }
         picture.pixels_mut().fill(T::background(frame));
         let _ = renderer; // without SIMD there is one engine
-        let setup = SetUp::new(self, frame, Level::Scalar, 1.0);
+        let setup = SetUp::new(self, frame, (Level::Scalar, 1.0, Vec::new()));
         draw_rows(frame, picture.pixels_mut(), |target| {
             spans::draw(&setup, target)
         });
@@ -181,7 +182,7 @@ impl Variant {
             return None;
         }
         let mut picture = empty(frame);
-        let setup = SetUp::new(self, frame, Level::Scalar, 1.0);
+        let setup = SetUp::new(self, frame, (Level::Scalar, 1.0, Vec::new()));
         draw_anyhow(frame, picture.pixels_mut(), |target| {
             barycentric::draw(&setup, edges, target);
         });

@@ -96,8 +96,10 @@ const CHUNK: usize = 1 << 13;
 type Item = (u32, [f32; 3], [f32; 3]);
 
 impl<'a> SetUp<'a> {
-    /// Computes uniforms and varyings of a method on a frame, with colours multiplied by `scale`, on an instruction set.
-    pub fn new(variant: &'a Variant, frame: &'a Frame, level: Level, scale: f32) -> Self {
+    /// Computes uniforms and varyings of a method on a frame: on an instruction set, with colours multiplied by a scale, and in
+    /// memory that an earlier frame may have left.
+    pub fn new(variant: &'a Variant, frame: &'a Frame, how: (Level, f32, Vec<f32>)) -> Self {
+        let (level, scale, memory) = how;
         let (entry, info, near) = (variant.entry(), variant.info(), frame.is_local());
         let kernels = entry.kernels(frame.light_count(), near);
         let is_perspective = frame.interpolation() == Interpolation::Perspective;
@@ -130,7 +132,7 @@ impl<'a> SetUp<'a> {
         (all.varyings.values, all.varyings.per) = match info.lit_at {
             LitAt::Polygon | LitAt::PolygonMean => all.light_polygons(info.lit_at),
             _ if is_by_polygon && !kernels.great_circle => all.light_corners(is_weighted),
-            _ => all.light_vertices(is_weighted),
+            _ => all.light_vertices(is_weighted, memory),
         };
         all
     }
@@ -156,7 +158,7 @@ impl<'a> SetUp<'a> {
     }
 
     /// Lights every vertex, or borrows the frame's normals where a method interpolates nothing else.
-    fn light_vertices(&self, is_weighted: bool) -> (Cow<'a, [f32]>, Per) {
+    fn light_vertices(&self, is_weighted: bool, memory: Vec<f32>) -> (Cow<'a, [f32]>, Per) {
         let (frame, count, near) = (self.frame, self.varyings.count, self.frame.is_local());
         let has_one_material = frame.lightings().len() == 1;
         let normals = frame.normals_on_screen();
@@ -176,7 +178,7 @@ impl<'a> SetUp<'a> {
             let material = (!has_one_material).then(|| frame.material(vertex));
             (material.unwrap_or(0), frame.normal(vertex), point)
         };
-        let mut values = self.lit(frame.vertices().len(), ready.unwrap_or(&[]), &item);
+        let mut values = self.lit(memory, frame.vertices().len(), ready.unwrap_or(&[]), &item);
         let great_circle = self.varyings.great_circle;
         finish(frame, &mut values, (count, great_circle), is_weighted);
         (values.into(), Per::Vertex)
@@ -193,7 +195,7 @@ impl<'a> SetUp<'a> {
             };
             (self.uniforms_of(number as u32), normal, [0.0; 3])
         };
-        let values = self.lit(frame.polygons().len(), &[], &item);
+        let values = self.lit(Vec::new(), frame.polygons().len(), &[], &item);
         (values.into(), Per::Polygon)
     }
 
@@ -207,7 +209,7 @@ impl<'a> SetUp<'a> {
             corners.extend(vertices.map(|&vertex| (number, vertex)));
         }
         let item = |i: usize| (corners[i].0, frame.normal(corners[i].1), [0.0; 3]);
-        let mut values = self.lit(corners.len(), &[], &item);
+        let mut values = self.lit(Vec::new(), corners.len(), &[], &item);
         for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
             if frame.clip_corner(vertex).is_some() {
                 to.copy_from_slice(&self.clipped(number, vertex));
@@ -223,7 +225,8 @@ impl<'a> SetUp<'a> {
     /// Returns the varying of a vertex on polygon `number`: between the ends of the edge on which clipping made it, or lit.
     fn clipped(&self, number: u32, vertex: u32) -> Vec<f32> {
         let Some(corner) = self.frame.clip_corner(vertex) else {
-            return self.lit(1, &[], &|_| (number, self.frame.normal(vertex), [0.0; 3]));
+            let item = |_| (number, self.frame.normal(vertex), [0.0; 3]);
+            return self.lit(Vec::new(), 1, &[], &item);
         };
         let ends = [corner.a, corner.b].map(|v| self.clipped(number, v));
         let mut to = vec![0.0; self.varyings.count];
@@ -231,17 +234,18 @@ impl<'a> SetUp<'a> {
         to
     }
 
-    /// Lights `count` vertices, on several threads and on an instruction set: in whole blocks, as kernels may take no others.
-    /// If they are all of the first material and without extras, their normals may be `ready` in a row.
+    /// Lights `count` vertices, on several threads and on an instruction set: in whole blocks, as kernels may take no others; into
+    /// memory whose contents do not matter. If they are all of the first material and without extras, their normals may be `ready` in a row.
     fn lit(
         &self,
+        mut values: Vec<f32>,
         count: usize,
         ready: &[[f32; 3]],
         item: &(dyn Fn(usize) -> Item + Sync),
     ) -> Vec<f32> {
         let (stride, extras) = (self.varyings.count, self.extras);
         let own = stride - extras.count();
-        let mut values = vec![0.0; count * stride];
+        values.resize(count * stride, 0.0);
         // Without varyings the chunks have a size all the same.
         let size = CHUNK * stride.max(1);
         for_each_chunk(&mut values[..], size, &|first, mut rest: &mut [f32]| {
@@ -369,7 +373,7 @@ mod tests {
             let frame = scene.frame().expect("a scene in its range");
             for method in ["naive-phong", "phong-rsqrt"] {
                 let variant = Variant::parse(method).expect("a method");
-                let setup = SetUp::new(&variant, &frame, Level::Scalar, 1.0);
+                let setup = SetUp::new(&variant, &frame, (Level::Scalar, 1.0, Vec::new()));
                 let Varyings { values, count, .. } = &setup.varyings;
                 let is_borrowed = matches!(values, Cow::Borrowed(_));
                 assert_eq!(is_borrowed, is_there);

@@ -38,6 +38,8 @@ use crate::number::Level;
 use crate::number::lanes::Lanes;
 use crate::number::simd::{Token, vectorize};
 use crate::shading::{SimdKernels, Variant, WalkKernel};
+use alloc::borrow::Cow;
+use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::ops::Range;
 use runs::RunQueue;
@@ -50,7 +52,7 @@ use triangles::{Batch, CoveragePath, bits};
 /// Scanlines of a tile: enough to amortise the restart of edges, few enough to give every thread work.
 const HEIGHT: usize = 16;
 
-/// Memory that a thread keeps from tile to tile.
+/// Memory that a thread keeps from tile to tile, and from frame to frame.
 #[derive(Debug, Default)]
 struct Scratch {
     tile: Tile,
@@ -59,6 +61,8 @@ struct Scratch {
     starts: RowStarts,
     queue: RunQueue,
     line: RowBuffers,
+    /// Memory for the varyings of the next frame.
+    varyings: Vec<f32>,
 }
 
 std::thread_local! {
@@ -91,7 +95,8 @@ pub(super) fn draw(
 ) {
     let is_scaled = is_bytes && frame.samples() == 1;
     let scale = if is_scaled { 255.0 } else { 1.0 };
-    let setup = SetUp::new(variant, frame, level, scale);
+    let memory = SCRATCH.with_borrow_mut(|scratch| core::mem::take(&mut scratch.varyings));
+    let setup = SetUp::new(variant, frame, (level, scale, memory));
     let Some(kernels) = (setup.kernels.simd)(level) else {
         return; // unreachable: `Variant::plan` chose the span engine
     };
@@ -131,6 +136,9 @@ pub(super) fn draw(
             }
         });
     });
+    if let Cow::Owned(values) = rows.setup.varyings.values {
+        SCRATCH.with_borrow_mut(|scratch| scratch.varyings = values);
+    }
 }
 
 /// Returns the number of the uniforms that all polygons have, if they are the same: objects of a scene bring their own materials,

@@ -51,14 +51,12 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
         let [a, b, c] = &batch.edges;
         let right = [m.int(a.right[k]), m.int(b.right[k]), m.int(c.right[k])];
         let (counted, width) = (m.counted(), m.int(BLOCK as i32));
+        let [start, end] = [0, 1].map(|side| batch.columns[side][k] as usize);
         SmallTriangle {
             m,
             batch,
             k,
-            blocks: [
-                batch.columns[0][k] as usize / BLOCK,
-                (batch.columns[1][k] as usize).div_ceil(BLOCK),
-            ],
+            blocks: [start / BLOCK, end.div_ceil(BLOCK)],
             ramp: [counted * right[0], counted * right[1], counted * right[2]],
             across: [width * right[0], width * right[1], width * right[2]],
             down: [m.int(a.down[k]), m.int(b.down[k]), m.int(c.down[k])],
@@ -215,10 +213,8 @@ impl<'a, S: Simd> SmallTriangle<'a, S> {
             to = to.min(here.mul_add(m.splat(edge.ends[0][k]), m.splat(edge.ends[1][k])));
         }
         let blocks = m.splat(blocks);
-        [
-            m.truncated(from.mul_add(blocks, -doubt)),
-            m.truncated(to.mul_add(blocks, doubt)) + m.int(1),
-        ]
+        let end = m.truncated(to.mul_add(blocks, doubt)) + m.int(1);
+        [m.truncated(from.mul_add(blocks, -doubt)), end]
     }
 
     /// Returns the growth of its numbers where the coordinates grow by `growth`.

@@ -4,10 +4,12 @@ use super::triangles::{BATCH, SMALL_HEIGHT, SMALL_WIDTH};
 use super::*;
 use crate::frame::{FrameBuilder, SubPixel, Vertex};
 use crate::mesh::Material;
+use crate::mesh::builtin::builtin;
 use crate::number::simd::{BLOCK, tests::on_each_level};
 use crate::number::test_random::Random;
-use crate::raster::coverage;
-use crate::scene::Lighting;
+use crate::picture::Picture8;
+use crate::raster::{Renderer, coverage};
+use crate::scene::{Lighting, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -199,4 +201,26 @@ fn tiles_cover_the_pixels_of_spans() {
         assert!(enough, "{small}, {large} and {tiny} pixels");
     }
     on_each_level!(of);
+}
+
+/// Vertices are lit in memory that the frame before left: the picture is that of a thread that drew nothing before.
+#[test]
+fn memory_that_is_kept_leaves_no_trace() {
+    let Some(renderer) = Renderer::available().nth(1) else {
+        return; // no SIMD
+    };
+    let draw = move |meshes: &[&str]| {
+        let variant = Variant::parse("gouraud").expect("a method");
+        let mut picture = Picture8::new(0, 0, [0; 4]);
+        for mesh in meshes {
+            let mut scene = Scene::of_mesh(builtin(mesh).expect("a built-in mesh"));
+            (scene.width, scene.height) = (64, 48);
+            let frame = scene.frame().expect("a scene in its range");
+            variant.render_with(&frame, renderer, &mut picture);
+        }
+        picture
+    };
+    let alone = std::thread::spawn(move || draw(&["sphere?rings=8&segments=12"]));
+    let after = draw(&["sphere?rings=40&segments=60", "sphere?rings=8&segments=12"]);
+    assert!(after.pixels() == alone.join().expect("a picture").pixels());
 }

@@ -226,10 +226,8 @@ impl Batch {
         // `first_centre` in 32 bits: coordinates are within ±2²³.
         let centre = |at: i32x8<S>| (at + m.int(127)) >> 8;
         let columns = [centre(left).max(zero), centre(right).min(m.int(width))];
-        let rows = [
-            centre(top).max(m.int(band[0])),
-            centre(bottom).min(m.int(band[1])),
-        ];
+        let [least, most] = band.map(|row| m.int(row));
+        let rows = [centre(top).max(least), centre(bottom).min(most)];
         // Those after the last one were gathered before.
         let is_gathered = m.counted().less(m.int((self.count - first) as i32));
         let is_there = columns[0].less(columns[1]) & rows[0].less(rows[1]) & is_gathered;

@@ -238,10 +238,7 @@ impl<'a> ActiveEdges<'a> {
     #[inline(always)]
     fn start_edge(&mut self, edge: &TableEdge, row: i32) {
         let vertices = self.frame.vertices();
-        let (top, bottom) = (
-            &vertices[edge.top as usize],
-            &vertices[edge.bottom as usize],
-        );
+        let [top, bottom] = [edge.top, edge.bottom].map(|v| &vertices[v as usize]);
         let place = |v: &ScreenVertex| [v.x, v.y];
         // Exact: both differences have at most 24 bits.
         let height = (bottom.y - top.y).to_bits() as f32;
