@@ -208,7 +208,7 @@ pub(crate) fn deinterleaved<S: Simd>(simd: S) -> impl Fn(&[[f32; 3]]) -> Vec3<f3
             let numbers = x86::deinterleave(token, of(0), of(8), of(16));
             return vec3(numbers.map(|x| f32x8::simd_from(simd, x)));
         }
-        let of = |i| f32x8::simd_from(simd, core::array::from_fn::<_, 8, _>(|k| all[k][i]));
+        let of = |i| f32x8::simd_from(simd, core::array::from_fn::<_, BLOCK, _>(|k| all[k][i]));
         vec3([of(0), of(1), of(2)])
     }
 }

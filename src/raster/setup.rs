@@ -96,8 +96,8 @@ const CHUNK: usize = 1 << 13;
 type Item = (u32, [f32; 3], [f32; 3]);
 
 impl<'a> SetUp<'a> {
-    /// Computes uniforms and varyings of a method on a frame: on an instruction set, with colours multiplied by a scale, and in
-    /// memory that an earlier frame may have left.
+    /// Computes uniforms and varyings of a method on a frame: on an instruction set, with colours multiplied by a scale, in memory
+    /// whose contents do not matter.
     pub fn new(variant: &'a Variant, frame: &'a Frame, how: (Level, f32, Vec<f32>)) -> Self {
         let (level, scale, memory) = how;
         let (entry, info, near) = (variant.entry(), variant.info(), frame.is_local());
@@ -234,8 +234,9 @@ impl<'a> SetUp<'a> {
         to
     }
 
-    /// Lights `count` vertices, on several threads and on an instruction set: in whole blocks, as kernels may take no others; into
-    /// memory whose contents do not matter. If they are all of the first material and without extras, their normals may be `ready` in a row.
+    /// Lights `count` vertices, on several threads and on an instruction set: in whole blocks, as kernels may take no others. What
+    /// `values` holds before does not matter. If they are all of the first material and without extras, their normals may be
+    /// `ready` in a row.
     fn lit(
         &self,
         mut values: Vec<f32>,

@@ -54,7 +54,7 @@ const HEIGHT: usize = 16;
 
 /// Memory that a thread keeps from tile to tile, and from frame to frame.
 #[derive(Debug, Default)]
-struct Scratch {
+struct Buffers {
     tile: Tile,
     batch: Batch,
     fragments: Fragments,
@@ -66,7 +66,7 @@ struct Scratch {
 }
 
 std::thread_local! {
-    static SCRATCH: RefCell<Scratch> = RefCell::default();
+    static BUFFERS: RefCell<Buffers> = RefCell::default();
 }
 
 /// A method on a frame, and the layout of its pixels.
@@ -95,7 +95,7 @@ pub(super) fn draw(
 ) {
     let is_scaled = is_bytes && frame.samples() == 1;
     let scale = if is_scaled { 255.0 } else { 1.0 };
-    let memory = SCRATCH.with_borrow_mut(|scratch| core::mem::take(&mut scratch.varyings));
+    let memory = BUFFERS.with_borrow_mut(|buffers| core::mem::take(&mut buffers.varyings));
     let setup = SetUp::new(variant, frame, (level, scale, memory));
     let Some(kernels) = (setup.kernels.simd)(level) else {
         return; // unreachable: `Variant::plan` chose the span engine
@@ -116,28 +116,28 @@ pub(super) fn draw(
     };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|number, band, target| {
-        SCRATCH.with_borrow_mut(|scratch| {
-            scratch.tile.prepare(HEIGHT, frame.width(), rows.numbers);
+        BUFFERS.with_borrow_mut(|buffers| {
+            buffers.tile.prepare(HEIGHT, frame.width(), rows.numbers);
             for polygons in bins.band(number) {
                 match level {
                     #[cfg(target_arch = "x86_64")]
-                    Level::Avx2 => rows.rasterise::<fearless_simd::Avx2>(polygons, &band, scratch),
+                    Level::Avx2 => rows.rasterise::<fearless_simd::Avx2>(polygons, &band, buffers),
                     #[cfg(target_arch = "x86_64")]
                     Level::Avx512 => {
-                        rows.rasterise::<fearless_simd::Avx512>(polygons, &band, scratch)
+                        rows.rasterise::<fearless_simd::Avx512>(polygons, &band, buffers)
                     }
                     #[cfg(target_arch = "aarch64")]
-                    Level::Neon => rows.rasterise::<fearless_simd::Neon>(polygons, &band, scratch),
+                    Level::Neon => rows.rasterise::<fearless_simd::Neon>(polygons, &band, buffers),
                     _ => return, // unreachable, as above
                 }
             }
             for row in 0..band.len() {
-                rows.shade(row, scratch, target);
+                rows.shade(row, buffers, target);
             }
         });
     });
     if let Cow::Owned(values) = rows.setup.varyings.values {
-        SCRATCH.with_borrow_mut(|scratch| scratch.varyings = values);
+        BUFFERS.with_borrow_mut(|buffers| buffers.varyings = values);
     }
 }
 
@@ -158,7 +158,7 @@ fn only_material(setup: &SetUp<'_>) -> Option<u32> {
 
 impl RowEngine<'_> {
     /// Rasterises polygons into a tile, in order.
-    fn rasterise<S: Token>(&self, polygons: &[Listed], rows: &Range<usize>, scratch: &mut Scratch) {
+    fn rasterise<S: Token>(&self, polygons: &[Listed], rows: &Range<usize>, buffers: &mut Buffers) {
         let (simd, varyings) = (S::get(), &self.setup.varyings);
         let is_planar = self.walk.is_none() && self.numbers <= MOST;
         let mut active = None;
@@ -167,23 +167,23 @@ impl RowEngine<'_> {
             let mut taken = 1;
             if next.is_triangle() && is_planar {
                 // Triangles are drawn at once: runs from before them come first.
-                self.draw_runs(simd, scratch);
+                self.draw_runs(simd, buffers);
                 taken = match self.numbers {
-                    4 => self.triangles::<S, 4>(simd, rest, rows, scratch),
-                    _ => self.triangles::<S, 0>(simd, rest, rows, scratch),
+                    4 => self.triangles::<S, 4>(simd, rest, rows, buffers),
+                    _ => self.triangles::<S, 0>(simd, rest, rows, buffers),
                 };
             } else {
                 let new = || ActiveEdges::new(self.setup.frame, varyings);
                 let active = active.get_or_insert_with(new);
-                let queue = &mut scratch.queue;
+                let queue = &mut buffers.queue;
                 queue.add_polygon(&self.setup, active, next.number, rows);
             }
             rest = &rest[taken..];
-            if scratch.queue.is_full() {
-                self.draw_runs(simd, scratch);
+            if buffers.queue.is_full() {
+                self.draw_runs(simd, buffers);
             }
         }
-        self.draw_runs(simd, scratch);
+        self.draw_runs(simd, buffers);
     }
 
     /// Draws triangles from the front of `polygons`, and returns their number.
@@ -193,23 +193,23 @@ impl RowEngine<'_> {
         simd: S,
         polygons: &[Listed],
         rows: &Range<usize>,
-        scratch: &mut Scratch,
+        buffers: &mut Buffers,
     ) -> usize {
-        let (taken, tiny, others) = find(simd, self.setup.frame, polygons, rows, scratch);
+        let (taken, tiny, others) = find(simd, self.setup.frame, polygons, rows, buffers);
         vectorize(
             simd,
             #[inline(always)]
             || {
                 let (m, top) = (Lanes(simd), rows.start);
-                let (batch, fragments) = (&mut scratch.batch, &scratch.fragments);
+                let (batch, fragments) = (&mut buffers.batch, &buffers.fragments);
                 let all = tiny | others;
                 batch.set_up_planes(m, &self.setup, NumberCount::<N>(self.numbers), all);
-                let writer = &mut scratch.tile.writer::<S, N>(m, self.test);
+                let writer = &mut buffers.tile.writer::<S, N>(m, self.test);
                 for k in bits(all) {
                     if others >> k & 1 == 0 {
                         fragments.draw(m, batch, k, writer);
                     } else if batch.path[k] == CoveragePath::Small as i32 {
-                        SmallTriangle::new(m, batch, k).draw(&mut scratch.starts, top, writer);
+                        SmallTriangle::new(m, batch, k).draw(&mut buffers.starts, top, writer);
                     } else {
                         runs::draw_large(m, (batch, k), top, writer);
                     }
@@ -221,8 +221,8 @@ impl RowEngine<'_> {
 
     /// Draws the runs that were found.
     #[inline(never)]
-    fn draw_runs<S: Token>(&self, simd: S, scratch: &mut Scratch) {
-        let Scratch { tile, queue, .. } = scratch;
+    fn draw_runs<S: Token>(&self, simd: S, buffers: &mut Buffers) {
+        let Buffers { tile, queue, .. } = buffers;
         if queue.is_empty() {
             return;
         }
@@ -247,9 +247,9 @@ fn find<S: Token>(
     frame: &Frame,
     polygons: &[Listed],
     rows: &Range<usize>,
-    scratch: &mut Scratch,
+    buffers: &mut Buffers,
 ) -> (usize, u32, u32) {
-    let Scratch { tile, batch, .. } = scratch;
+    let Buffers { tile, batch, .. } = buffers;
     vectorize(
         simd,
         #[inline(always)]
@@ -258,7 +258,7 @@ fn find<S: Token>(
             let taken = batch.gather(frame, polygons);
             let (blocks, others) = batch.set_up(m, frame.width(), rows);
             tile.extend(blocks);
-            let tiny = scratch.fragments.find(m, batch, rows.start, tile);
+            let tiny = buffers.fragments.find(m, batch, rows.start, tile);
             (taken, tiny, others)
         },
     )

@@ -2,7 +2,7 @@
 //! its pixels is `shade_blocks` in `shading/kernels.rs`.
 
 use super::tile::Tile;
-use super::{RowEngine, Scratch};
+use super::{Buffers, RowEngine};
 use crate::number::simd::BLOCK;
 use crate::raster::target::Target;
 use crate::shading::{RowColours, ShadeRow};
@@ -22,8 +22,8 @@ pub(crate) struct RowBuffers {
 
 impl RowEngine<'_> {
     /// Shades row `row` of a tile into `target`, and empties it.
-    pub(super) fn shade(&self, row: usize, scratch: &mut Scratch, target: &mut dyn Target) {
-        let Scratch { tile, line, .. } = scratch;
+    pub(super) fn shade(&self, row: usize, buffers: &mut Buffers, target: &mut dyn Target) {
+        let Buffers { tile, line, .. } = buffers;
         let width = self.setup.frame.width();
         let (blocks, background) = (tile.drawn(), self.background);
         let drawn = (blocks.start * BLOCK).min(width)..(blocks.end * BLOCK).min(width);
@@ -74,7 +74,7 @@ impl RowEngine<'_> {
                 }
             }
         });
-        scratch.tile.clear_row(row);
+        buffers.tile.clear_row(row);
     }
 
     /// Calls `visit` with the number of some uniforms and pixels of which all that are drawn have these.

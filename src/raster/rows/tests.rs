@@ -111,18 +111,18 @@ fn check<S: Token>(
     let polygons: Vec<Listed> = (0..).zip(frame.polygons()).map(listed).collect();
     let mut rest = &polygons[..];
     let mut counts = [0; 4];
-    let mut scratch = Scratch::default();
+    let mut buffers = Buffers::default();
     while !rest.is_empty() {
-        scratch.tile.prepare(HEIGHT, width, 3);
-        let (taken, tiny, others) = find(simd, frame, rest, &rows, &mut scratch);
+        buffers.tile.prepare(HEIGHT, width, 3);
+        let (taken, tiny, others) = find(simd, frame, rest, &rows, &mut buffers);
         assert!(taken > 0 && tiny & others == 0);
-        let blocks = scratch.tile.drawn();
-        let Scratch {
+        let blocks = buffers.tile.drawn();
+        let Buffers {
             batch,
             fragments,
             starts,
             ..
-        } = &mut scratch;
+        } = &mut buffers;
         for k in 0..BATCH {
             // The varyings are depth and the coordinates themselves.
             batch.planes.0[k] = [[0.0; triangles::LINE]; 3];
