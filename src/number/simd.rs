@@ -2,7 +2,7 @@
 //! instruction set can make its token.
 
 use super::powf::powf;
-use super::{MulAdd, Num, Vec3, vec3};
+use super::{Level, MulAdd, Num, Vec3, vec3};
 use fearless_simd::{
     Bytes, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, f32x16, i32x8, i32x16,
 };
@@ -188,6 +188,39 @@ fn estimate_16<S: Simd>(x: f32x16<S>) -> f32x16<S> {
     }
     let (low, high) = x.simd.split_f32x16(x);
     x.simd.combine_f32x8(estimate_8(low), estimate_8(high))
+}
+
+/// Returns a checksum of 1/√x at `level` over two octaves, `None` where it is no SIMD level of this machine.
+///
+/// Processors estimate roots differently, within the error that their manuals give. On two processors with one checksum, methods
+/// that estimate draw the same pictures.
+#[doc(hidden)]
+pub fn rsqrt_checksum(level: Level) -> Option<u64> {
+    fn of<S: Token>() -> u64 {
+        let simd = S::get();
+        vectorize(simd, || {
+            // Each 256th number from 1 to 4: their estimates depend on no more bits.
+            let inputs = (1f32.to_bits()..4f32.to_bits()).step_by(256);
+            let roots = inputs.map(|bits| {
+                let root = S::Block::splat(simd, f32::from_bits(bits)).rsqrt();
+                root.as_slice()[0].to_bits()
+            });
+            // FNV-1a over words.
+            roots.fold(0xCBF2_9CE4_8422_2325, |hash, bits| {
+                (hash ^ u64::from(bits)).wrapping_mul(0x0100_0000_01B3)
+            })
+        })
+    }
+    match level {
+        _ if !level.is_available() => None,
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2 => Some(of::<fearless_simd::Avx2>()),
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512 => Some(of::<fearless_simd::Avx512>()),
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon => Some(of::<fearless_simd::Neon>()),
+        _ => None,
+    }
 }
 
 #[inline(always)]

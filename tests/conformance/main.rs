@@ -16,6 +16,7 @@ mod hidden_surfaces;
 mod lecture;
 mod lights;
 mod ndc_cube;
+mod pins;
 mod regression;
 mod supersampling;
 mod support;

@@ -6,4 +6,3 @@ mod lectures;
 mod markdown;
 mod rooms;
 mod tidy;
-mod words;
