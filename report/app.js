@@ -846,7 +846,7 @@ function sceneTable() {
 	const level = (e, q) => bar(num(e), 100 * clamp(Math.log(e / .001) / Math.log(255 / .001), 0, 1), hue(q.variant)), cells = {
 		max: level, rms: level,
 		ms: (ms, q) => ms ? bar(num(ms), ms / slowest * 100, hue(q.variant)) : "–",
-		own: (e, q) => q.within ? num(e) : html`<span title="more than rounding explains">! ${num(e)}</span>`,
+		own: (e, q) => q.within === false ? html`<span title="more than rounding explains">! ${num(e)}</span>` : num(e),
 		over1: grouped, other: grouped, barycentric: ratioText,
 		psnr: v => v?.toFixed(1) ?? "∞",
 		ssim: v => v?.toFixed(4) ?? "–",
@@ -1029,10 +1029,12 @@ function beside() {
 	if (!pick.options.length) pick.innerHTML = html`${[...(names.length > 1 ? [""] : []), ...names].map(n => html`<option value="${n}">${n || "all scenes they share"}</option>`)}`;
 	pick.onchange = beside;
 	const shared = pick.value ? [pick.value] : names.filter(n => DOCS.every(d => rowsOf(d, n)));
+	// Older documents judged the row engine by the polygons of the span engine.
+	const sameErrors = rows => DOCS.every(d => d.schema === D.schema) || !rows.some(r => r.engine === "row");
 	const cell = (d, m) => {
 		const rows = shared.map(n => rowsOf(d, n)?.find(r => r.variant === m));
 		if (!rows.length || rows.some(r => !r?.speed)) return "–";
-		return `${num(mean(rows.map(r => r.speed.timing.median_ns / 1e6)))} ms · ${mean(rows.map(r => r.speed.ratio_to_naive?.median ?? 1)).toFixed(2)}${TIMES} · ${num(Math.max(...rows.map(r => r.error.max * 255)))} levels`;
+		return `${num(mean(rows.map(r => r.speed.timing.median_ns / 1e6)))} ms · ${mean(rows.map(r => r.speed.ratio_to_naive?.median ?? 1)).toFixed(2)}${TIMES} · ${sameErrors(rows) ? num(Math.max(...rows.map(r => r.error.max * 255))) : "–"} levels`;
 	};
 	const heads = DOCS.map(({ machine, date }) => html`${machine.cpu}<br><small>${[machine.version, machine.commit?.slice(0, 9), date].filter(Boolean).join(" · ")}</small>`);
 	const variants = [...new Set(DOCS.flatMap(d => d.comparisons.flatMap(c => c.rows.map(r => r.variant))))];

@@ -8,18 +8,21 @@
 //! diagonal (L5, *What's wrong?*), the second does not.
 
 use super::barycentric::{self, Edges};
+use super::engine::Renderer;
 use super::setup::{Varyings, finish, unit};
 use super::spans::{NOTHING, scan};
 use super::target::{Target, draw_anyhow, draw_rows, empty, linear_samples};
 use crate::frame::Frame;
 use crate::picture::{LinearPicture, Picture, Rgb};
 use crate::scene::Interpolation;
+use crate::shading::Variant;
 use alloc::vec::Vec;
 use core::ops::Range;
 
 /// Returns the number of the polygon seen at each pixel, an index into [`Frame::polygons`], or [`NOTHING`].
 ///
-/// It does not depend on the shading method.
+/// These are those of the span engine, which do not depend on the shading method. [`Variant::polygon_numbers`] has those of every
+/// scanline engine.
 pub fn polygon_numbers(frame: &Frame) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
     scan(frame, &Varyings::none(), &mut |row, line, _| {
@@ -28,6 +31,22 @@ pub fn polygon_numbers(frame: &Frame) -> Picture<u32> {
         }
     });
     picture
+}
+
+impl Variant {
+    /// Returns the number of the polygon seen at each sample where `renderer` draws this method, an index into
+    /// [`Frame::polygons`], or [`NOTHING`].
+    ///
+    /// Where two polygons have equal depths, but for rounding, engines, instruction sets and methods may show different ones:
+    /// the numbers are those of the loops that draw the method.
+    pub fn polygon_numbers(&self, frame: &Frame, renderer: Renderer) -> Picture<u32> {
+        #[cfg(feature = "simd")]
+        if let Renderer::Row(level) = self.plan(frame, renderer).renderer {
+            return super::rows::polygon_numbers(self, frame, level);
+        }
+        let _ = renderer; // without SIMD there is one engine
+        polygon_numbers(frame)
+    }
 }
 
 /// Returns the depth at each pixel as it is compared, 0 at the near plane, 1 at the far plane; infinite where nothing is seen.

@@ -8,6 +8,7 @@ use crate::picture::{LinearPicture, Picture, Picture8};
 use crate::raster::{Edges, Renderer, barycentric_polygon_numbers, polygon_numbers};
 use crate::reference::{self, Model, Visibility};
 use crate::shading::Variant;
+use alloc::borrow::Cow;
 use core::cell::OnceCell;
 
 /// The references of one frame, and the polygons that renderers show.
@@ -16,8 +17,8 @@ pub(super) struct References<'a> {
     closed_forms: ClosedForms<'a>,
     /// The closed forms on triangles; `None` if the polygons are triangles.
     on_triangles: Option<ClosedForms<'a>>,
-    /// Numbers of the polygons that scanline engines show.
-    scanline: Picture<u32>,
+    /// Numbers of the polygons that the span engine shows, with every method; made when they are first asked for.
+    span: OnceCell<Picture<u32>>,
     /// Numbers of the triangles that the barycentric renderer shows.
     barycentric: Picture<u32>,
 }
@@ -52,7 +53,7 @@ impl<'a> References<'a> {
             cut,
             closed_forms: ClosedForms::new(frame),
             on_triangles: is_cut.then(|| ClosedForms::new(&cut.frame)),
-            scanline: polygon_numbers(frame),
+            span: OnceCell::new(),
             barycentric: barycentric_polygon_numbers(&cut.frame, Edges::TopLeft),
         }
     }
@@ -64,8 +65,10 @@ impl<'a> References<'a> {
 
     /// Draws a variant by `renderer` and compares it.
     pub fn scanline_row(&self, variant: &Variant, renderer: Renderer) -> MethodRow {
-        let (forms, shown) = (&self.closed_forms, &self.scanline);
-        let by = DrawnBy::new(variant.plan(forms.frame, renderer).renderer);
+        let forms = &self.closed_forms;
+        let planned = variant.plan(forms.frame, renderer).renderer;
+        let by = DrawnBy::new(planned);
+        let shown = &*self.shown(variant, planned);
         let linear = variant.render_linear_with(forms.frame, renderer);
         let mut picture = Picture::new(0, 0, [0; 4]);
         variant.render_with(forms.frame, renderer, &mut picture);
@@ -75,6 +78,15 @@ impl<'a> References<'a> {
         };
         let own = (own, variant.bound(forms.frame));
         self.row(variant, by, (picture, linear), shown, own)
+    }
+
+    /// Returns the numbers of the polygons that a variant shows, drawn by `renderer`.
+    fn shown(&self, variant: &Variant, renderer: Renderer) -> Cow<'_, Picture<u32>> {
+        let frame = self.closed_forms.frame;
+        match renderer {
+            Renderer::Span => Cow::Borrowed(self.span.get_or_init(|| polygon_numbers(frame))),
+            Renderer::Row(_) => Cow::Owned(variant.polygon_numbers(frame, renderer)),
+        }
     }
 
     /// Draws a variant by the barycentric renderer and compares it; `None` if that does not have the method.

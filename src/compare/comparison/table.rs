@@ -8,10 +8,11 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-/// The columns of a table. All show error and speed.
+/// The columns of a table. All show error and speed, and, if there are any, the pixels that show another polygon than the
+/// reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableKind {
-    /// Six columns that fit 100 characters: the essence of error and speed.
+    /// Six columns that fit 100 characters: the essence of error and speed. A seventh where pixels show another polygon.
     Short,
     /// All of the error, and the essence of the speed.
     Compare,
@@ -27,6 +28,12 @@ const METHOD: Column = ("method", |row| {
     let by = if is_scanlines { "" } else { ", barycentric" };
     Some(row.name() + by)
 });
+/// The method, marked where it misses its own closed form: for tables without the column `own max`.
+const MARKED_METHOD: Column = ("method", |row| {
+    let mark = if row.within_bound { "" } else { " !" };
+    Some((METHOD.1)(row)? + mark)
+});
+const OTHER_POLYGON: Column = ("other", |row| Some(row.other_polygon.to_string()));
 const MAX: Column = ("max", |row| Some(levels(row.error.max)));
 const RMS: Column = ("RMS", |row| Some(levels(row.error.rms)));
 const TIME: Column = ("time, ms", |row| row.speed.as_ref().map(time));
@@ -40,7 +47,15 @@ const BARYCENTRIC: Column = ("× barycentric", |row| {
     Some(ratio(&row.speed.as_ref()?.ratio_to_barycentric?))
 });
 
-const SHORT: &[Column] = &[METHOD, MAX, RMS, TIME, NAIVE, BARYCENTRIC];
+const SHORT: &[Column] = &[
+    MARKED_METHOD,
+    MAX,
+    RMS,
+    OTHER_POLYGON,
+    TIME,
+    NAIVE,
+    BARYCENTRIC,
+];
 
 const COMPARE: &[Column] = &[
     METHOD,
@@ -59,7 +74,7 @@ const COMPARE: &[Column] = &[
     ("over 1 level", |row| {
         Some(row.error.over_one_level.to_string())
     }),
-    ("other polygon", |row| Some(row.other_polygon.to_string())),
+    OTHER_POLYGON,
     TIME,
     PER_PIXEL,
     NAIVE,
@@ -67,7 +82,7 @@ const COMPARE: &[Column] = &[
 ];
 
 const BENCH: &[Column] = &[
-    METHOD,
+    MARKED_METHOD,
     TIME,
     ("least, ms", |row| {
         Some(milliseconds(row.speed.as_ref()?.timing.min_ns))
@@ -84,6 +99,7 @@ const BENCH: &[Column] = &[
     }),
     MAX,
     RMS,
+    OTHER_POLYGON,
 ];
 
 /// Writes a comparison as text: some lines on the frame, then a row a method.
@@ -93,14 +109,23 @@ pub fn table(comparison: &Comparison, kind: TableKind) -> String {
         TableKind::Compare => COMPARE,
         TableKind::Bench => BENCH,
     };
+    // There are rarely any: then short tables have no column for them.
+    let has_others = comparison.all_rows().any(|row| row.other_polygon > 0);
+    let shows_others = has_others || kind == TableKind::Compare;
+    let is_shown = |column: &&Column| shows_others || column.0 != OTHER_POLYGON.0;
+    let columns: Vec<&Column> = columns.iter().filter(is_shown).collect();
     let heads: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
     let mut table = Table::new(&*comparison.name, &heads);
-    let cell = |row, (_, cell): &Column| cell(row).unwrap_or_else(|| "-".to_string());
+    let cell = |row, (_, cell): &&Column| cell(row).unwrap_or_else(|| "-".to_string());
     let cells = |row| columns.iter().map(|column| cell(row, column)).collect();
     table.rows.extend(comparison.all_rows().map(cells));
     let mut text = head(comparison) + &table.text();
     if comparison.all_rows().any(|row| !row.within_bound) {
         text += "! farther from its own closed form than rounding explains\n";
+    }
+    if shows_others {
+        text +=
+            "other: pixels that show another polygon than the reference, and are not compared\n";
     }
     text
 }

@@ -7,7 +7,8 @@ use crate::mesh::builtin::builtin;
 use crate::mesh::vertex_normals::NormalSource;
 use crate::reference::{self, Model};
 use crate::scene::{Camera, Fit, Light, Lighting, Object, Scene};
-use alloc::vec;
+use alloc::borrow::ToOwned;
+use alloc::{format, vec};
 use core::time::Duration;
 use glam::{DAffine3, DVec3};
 
@@ -355,7 +356,14 @@ fn tables_have_a_row_a_method() {
             head.starts_with("sphere: 48×36, ") && head.contains("above 1 is faster"),
             "{head}"
         );
-        let lines: Vec<&str> = body.lines().collect();
+        let mut lines: Vec<&str> = body.lines().collect();
+        if kind == TableKind::Compare {
+            assert!(
+                lines
+                    .pop()
+                    .is_some_and(|legend| legend.starts_with("other: pixels"))
+            );
+        }
         assert_eq!(
             lines.len(),
             1 + comparison.rows.len() + comparison.barycentric.len()
@@ -381,7 +389,28 @@ fn tables_have_a_row_a_method() {
     }
     comparison.rows[0].own.max = 1.0;
     comparison.rows[0].within_bound = false;
-    assert!(table(&comparison, TableKind::Compare).contains("!255"));
+    comparison.barycentric[0].other_polygon = 123;
+    for (kind, mark) in [
+        (
+            TableKind::Short,
+            format!("\n{} ! ", comparison.rows[0].name()),
+        ),
+        (TableKind::Compare, " !255".to_owned()),
+        (
+            TableKind::Bench,
+            format!("\n{} ! ", comparison.rows[0].name()),
+        ),
+    ] {
+        let text = table(&comparison, kind);
+        assert!(
+            text.contains(&mark) && text.contains("\n! farther"),
+            "{text}"
+        );
+        assert!(
+            text.contains(" 123") && text.contains("\nother: pixels"),
+            "{text}"
+        );
+    }
     for row in comparison
         .rows
         .iter_mut()

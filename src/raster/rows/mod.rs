@@ -30,13 +30,16 @@ mod triangles;
 use super::bands::EachBand;
 use super::bins::{Bins, Listed};
 use super::depth::SampleDepth;
-use super::setup::SetUp;
+use super::setup::{SetUp, Varyings};
+use super::spans::NOTHING;
 use super::spans::active::ActiveEdges;
 use super::target::Stored;
 use crate::frame::{Frame, Polygon};
 use crate::number::Level;
 use crate::number::lanes::Lanes;
-use crate::number::simd::{Token, vectorize};
+use crate::number::parallel::for_each_chunk;
+use crate::number::simd::{BLOCK, Token, vectorize};
+use crate::picture::Picture;
 use crate::shading::{SimdKernels, Variant, WalkKernel};
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -75,6 +78,8 @@ struct RowEngine<'a> {
     kernels: &'a SimdKernels,
     /// Walks along runs, if the method remembers the pixel before.
     walk: Option<WalkKernel>,
+    /// True if triangles are drawn by plane equations, not run by run as all other polygons are.
+    is_planar: bool,
     test: SampleDepth,
     /// The varyings of a pixel in the G-buffer, in floats.
     planes: usize,
@@ -96,41 +101,13 @@ pub(super) fn draw(
     let is_scaled = is_bytes && frame.samples() == 1;
     let scale = if is_scaled { 255.0 } else { 1.0 };
     let memory = BUFFERS.with_borrow_mut(|buffers| core::mem::take(&mut buffers.varyings));
-    let setup = SetUp::new(variant, frame, (level, scale, memory));
-    let Some(kernels) = (setup.kernels.simd)(level) else {
+    let Some(rows) = RowEngine::new(variant, frame, (level, scale, memory)) else {
         return; // unreachable: `Variant::plan` chose the span engine
-    };
-    let [_, walked] = (setup.kernels.counts)(frame.light_count());
-    let walk = kernels.walk_of(variant);
-    let planes = walk.map_or(setup.varyings.count, |_| walked);
-    let only = only_material(&setup);
-    let rows = RowEngine {
-        test: SampleDepth::new(frame),
-        planes,
-        numbers: 1 + planes + usize::from(only.is_none()),
-        only,
-        background: Stored::background(frame),
-        kernels,
-        walk,
-        setup,
     };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|number, band, target| {
         BUFFERS.with_borrow_mut(|buffers| {
-            buffers.tile.prepare(HEIGHT, frame.width(), rows.numbers);
-            for polygons in bins.band(number) {
-                match level {
-                    #[cfg(target_arch = "x86_64")]
-                    Level::Avx2 => rows.rasterise::<fearless_simd::Avx2>(polygons, &band, buffers),
-                    #[cfg(target_arch = "x86_64")]
-                    Level::Avx512 => {
-                        rows.rasterise::<fearless_simd::Avx512>(polygons, &band, buffers)
-                    }
-                    #[cfg(target_arch = "aarch64")]
-                    Level::Neon => rows.rasterise::<fearless_simd::Neon>(polygons, &band, buffers),
-                    _ => return, // unreachable, as above
-                }
-            }
+            rows.fill_tile(level, &bins, (number, &band), buffers);
             for row in 0..band.len() {
                 rows.shade(row, buffers, target);
             }
@@ -139,6 +116,35 @@ pub(super) fn draw(
     if let Cow::Owned(values) = rows.setup.varyings.values {
         BUFFERS.with_borrow_mut(|buffers| buffers.varyings = values);
     }
+}
+
+/// Returns the number of the polygon that is seen at each sample where a method is drawn, or [`NOTHING`].
+///
+/// Depth is rounded as coverage path and instruction set have it, so that of two polygons of nearly equal depth each may show
+/// another one. The tiles are therefore filled by the method's own loops, with polygon numbers in the place of varyings.
+pub(super) fn polygon_numbers(variant: &Variant, frame: &Frame, level: Level) -> Picture<u32> {
+    let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
+    let Some(rows) = RowEngine::new(variant, frame, (level, 1.0, Vec::new())) else {
+        return picture; // unreachable, as in `draw`
+    };
+    let rows = rows.numbering();
+    let bins = Bins::new(frame, HEIGHT);
+    let a_band = HEIGHT * frame.width();
+    for_each_chunk(
+        picture.pixels_mut(),
+        a_band,
+        &|start, pixels: &mut [u32]| {
+            let number = start / a_band;
+            let band = number * HEIGHT..((number + 1) * HEIGHT).min(frame.height());
+            BUFFERS.with_borrow_mut(|buffers| {
+                rows.fill_tile(level, &bins, (number, &band), buffers);
+                for (row, to) in pixels.chunks_exact_mut(frame.width()).enumerate() {
+                    rows.take_numbers(row, &mut buffers.tile, to);
+                }
+            });
+        },
+    );
+    picture
 }
 
 /// Returns the number of the uniforms that all polygons have, if they are the same: objects of a scene bring their own materials,
@@ -156,16 +162,91 @@ fn only_material(setup: &SetUp<'_>) -> Option<u32> {
     polygons.iter().all(is_first).then_some(first)
 }
 
-impl RowEngine<'_> {
+impl<'a> RowEngine<'a> {
+    /// Sets up a method on a frame: see [`SetUp::new`]. Returns `None` if the method has no loops for the instruction set.
+    fn new(
+        variant: &'a Variant,
+        frame: &'a Frame,
+        how: (Level, f32, Vec<f32>),
+    ) -> Option<RowEngine<'a>> {
+        let level = how.0;
+        let setup = SetUp::new(variant, frame, how);
+        let kernels = (setup.kernels.simd)(level)?;
+        let [_, walked] = (setup.kernels.counts)(frame.light_count());
+        let walk = kernels.walk_of(variant);
+        let planes = walk.map_or(setup.varyings.count, |_| walked);
+        let only = only_material(&setup);
+        let numbers = 1 + planes + usize::from(only.is_none());
+        Some(RowEngine {
+            test: SampleDepth::new(frame),
+            is_planar: walk.is_none() && numbers <= MOST,
+            planes,
+            numbers,
+            only,
+            background: Stored::background(frame),
+            kernels,
+            walk,
+            setup,
+        })
+    }
+
+    /// Puts the number of each polygon in the place of varyings and materials. Coverage paths and depths stay as they are.
+    fn numbering(mut self) -> Self {
+        self.setup.varyings = Varyings::none();
+        self.setup.is_by_polygon = true;
+        (self.planes, self.numbers) = (0, 2);
+        (self.only, self.walk) = (None, None);
+        self
+    }
+
+    /// Moves the polygon numbers of row `row` out of a tile of an engine that is [numbering](Self::numbering).
+    fn take_numbers(&self, row: usize, tile: &mut Tile, to: &mut [u32]) {
+        let blocks = tile.drawn();
+        let cells = tile.row(row, blocks.clone());
+        let to = to.get_mut(blocks.start * BLOCK..).unwrap_or_default();
+        let blocks = cells.chunks_exact(tile.stride());
+        for (to, block) in to.chunks_mut(BLOCK).zip(blocks) {
+            for (x, to) in to.iter_mut().enumerate() {
+                if block[x] < f32::INFINITY {
+                    // Exact: `Variant::plan` gives the row engine fewer than 2²⁴ polygons.
+                    *to = block[BLOCK + x] as u32;
+                }
+            }
+        }
+        tile.clear_row(row);
+    }
+
+    /// Empties a tile and rasterises all polygons of a band into it.
+    fn fill_tile(
+        &self,
+        level: Level,
+        bins: &Bins,
+        (number, band): (usize, &Range<usize>),
+        buffers: &mut Buffers,
+    ) {
+        let width = self.setup.frame.width();
+        buffers.tile.prepare(HEIGHT, width, self.numbers);
+        for polygons in bins.band(number) {
+            match level {
+                #[cfg(target_arch = "x86_64")]
+                Level::Avx2 => self.rasterise::<fearless_simd::Avx2>(polygons, band, buffers),
+                #[cfg(target_arch = "x86_64")]
+                Level::Avx512 => self.rasterise::<fearless_simd::Avx512>(polygons, band, buffers),
+                #[cfg(target_arch = "aarch64")]
+                Level::Neon => self.rasterise::<fearless_simd::Neon>(polygons, band, buffers),
+                _ => return, // unreachable: the method has loops for the instruction set
+            }
+        }
+    }
+
     /// Rasterises polygons into a tile, in order.
     fn rasterise<S: Token>(&self, polygons: &[Listed], rows: &Range<usize>, buffers: &mut Buffers) {
         let (simd, varyings) = (S::get(), &self.setup.varyings);
-        let is_planar = self.walk.is_none() && self.numbers <= MOST;
         let mut active = None;
         let mut rest = polygons;
         while let Some(next) = rest.first() {
             let mut taken = 1;
-            if next.is_triangle() && is_planar {
+            if next.is_triangle() && self.is_planar {
                 // Triangles are drawn at once: runs from before them come first.
                 self.draw_runs(simd, buffers);
                 taken = match self.numbers {

@@ -8,8 +8,9 @@ use crate::mesh::builtin::builtin;
 use crate::number::simd::{BLOCK, tests::on_each_level};
 use crate::number::test_random::Random;
 use crate::picture::Picture8;
-use crate::raster::{Renderer, coverage};
-use crate::scene::{Lighting, Scene};
+use crate::raster::{Renderer, coverage, polygon_numbers};
+use crate::scene::{Light, Lighting, Scene};
+use crate::shading::METHODS;
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -223,4 +224,66 @@ fn memory_that_is_kept_leaves_no_trace() {
     let alone = std::thread::spawn(move || draw(&["sphere?rings=8&segments=12"]));
     let after = draw(&["sphere?rings=40&segments=60", "sphere?rings=8&segments=12"]);
     assert!(after.pixels() == alone.join().expect("a picture").pixels());
+}
+
+/// Triangles and quadrangles of all sizes in one plane, each with a colour of its own, which tells its number: red is
+/// (number + 1)/256. Depths are equal but for rounding.
+fn coplanar(lights: usize) -> Frame {
+    let (width, height) = (100, 70);
+    let mut builder = FrameBuilder::new(width, height);
+    let lights = vec![Light::directional(DVec3::Z, [0.0; 3]); lights];
+    for (number, triangle) in (0..).zip(soup(&mut Random::new(29), 100, 70)) {
+        let ambient = [(number + 1) as f32 / 256.0, 0.0, 0.0];
+        let colour = Material {
+            ambient,
+            ..Material::default()
+        };
+        let material = builder.lighting(Lighting::new(&colour, [1.0; 3], &lights, DVec3::Z));
+        let mut corner = |[x, y]: [i32; 2]| {
+            let depth = 0.5 + 0.7e-7 * x as f32 + 0.8e-7 * y as f32;
+            let [x, y] = [x, y].map(SubPixel::from_bits);
+            builder.vertex(Vertex {
+                x,
+                y,
+                depth,
+                inv_w: 1.0,
+                normal: [0.0, 0.0, 1.0],
+                material,
+            })
+        };
+        let [a, b, c] = triangle.map(&mut corner);
+        let between = [0, 1].map(|i| (triangle[0][i] + triangle[2][i]) / 2 + 300);
+        let d = corner(between);
+        let corners = &[a, b, c, d][..if number % 3 == 0 { 4 } else { 3 }];
+        builder.polygon(corners, [0.0, 0.0, 1.0], number);
+    }
+    builder.finish().expect("corners inside the guard band")
+}
+
+/// With eight lights some methods interpolate more than plane equations hold, and draw triangles by runs.
+#[test]
+fn polygon_numbers_are_those_of_the_polygons_that_each_method_shows() {
+    for (lights, renderer) in [1, 8]
+        .into_iter()
+        .flat_map(|lights| Renderer::available().map(move |renderer| (lights, renderer)))
+    {
+        let frame = coplanar(lights);
+        let mut found = Vec::new();
+        for entry in METHODS {
+            let variant = entry.variant();
+            let picture = variant.render_linear_with(&frame, renderer);
+            let numbers = variant.polygon_numbers(&frame, renderer);
+            for (pixel, number) in picture.pixels().iter().zip(numbers.pixels()) {
+                let shown = ((256.0 * pixel[0]).round() as u32).wrapping_sub(1);
+                assert_eq!(*number, shown, "{variant} by {renderer:?}");
+            }
+            if !found.contains(&numbers) {
+                found.push(numbers);
+            }
+        }
+        // Else the test would see no difference between coverage paths, or between engines.
+        let is_row = renderer != Renderer::Span;
+        assert_eq!(found.len(), 1 + usize::from(is_row), "{renderer:?}");
+        assert_eq!(found.contains(&polygon_numbers(&frame)), !is_row);
+    }
 }
