@@ -18,6 +18,8 @@ use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, SceneTable};
 use rayon::prelude::*;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Instant, SystemTime};
@@ -91,7 +93,7 @@ impl ReportArgs {
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         // Contradicting flags and bad documents are refused before a folder is made.
         self.drawn.renderer()?;
-        let read = self.from.iter().map(|path| read(path));
+        let read = self.from.iter().map(|path| read(path, log));
         let mut read = read.collect::<Result<Vec<Report>, _>>()?.into_iter();
         let folder = page_folder(&self.output)?;
         let mut report = match read.next() {
@@ -259,10 +261,35 @@ impl ReportArgs {
     }
 }
 
-/// Reads a document of `--json`.
-fn read(path: &Path) -> Result<Report, CliError> {
-    let text = std::fs::read_to_string(path);
-    let text = text.map_err(|error| format!("{}: cannot be read: {error}", path.display()))?;
-    let report = Report::read(text);
-    Ok(report.map_err(|error| format!("{}: {error}", path.display()))?)
+/// The largest document that is read, in bytes: those of all shipped scenes have about 1 MB.
+const LARGEST: u64 = 1 << 28;
+
+/// Reads a document of `--json`; notes what of it cannot be compared with those of today.
+fn read(path: &Path, log: Log) -> Result<Report, CliError> {
+    let shown = path.display();
+    let text = read_text(path).map_err(|error| format!("{shown}: cannot be read: {error}"))?;
+    let report = Report::read(text).map_err(|error| format!("{shown}: {error}"))?;
+    if let Some(limits) = report.not_comparable() {
+        log.note(&format!("{shown}: {limits}"));
+    }
+    Ok(report)
+}
+
+/// Reads a text of at most [`LARGEST`] bytes, from a device that never ends as well.
+fn read_text(path: &Path) -> io::Result<String> {
+    let mut text = String::new();
+    let read = File::open(path)?
+        .take(LARGEST + 1)
+        .read_to_string(&mut text);
+    if text.len() as u64 > LARGEST {
+        let problem = format!("it has more than {LARGEST} bytes: expected a file of `--json`");
+        return Err(io::Error::other(problem));
+    }
+    read.map_err(|error| match error.kind() {
+        io::ErrorKind::InvalidData => {
+            io::Error::other("it is no text in UTF-8: expected a file of `--json`")
+        }
+        _ => error,
+    })?;
+    Ok(text)
 }

@@ -24,7 +24,7 @@ pub struct Markdown {
 pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     let data = &report.data;
     let mut images = Vec::new();
-    let mut text = format!("# Shading methods compared\n\n{}", opening(data));
+    let mut text = format!("# Shading methods compared\n\n{}", opening(report));
     let scenes = list(data, "/comparisons");
     for table in tables::all(data) {
         text += &format!("## {}\n\n", markdown_text(&table.caption));
@@ -40,10 +40,12 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
 }
 
 /// Says in a few points what was found, on which machine and by which command, and how to read the tables.
-fn opening(data: &Value) -> String {
+fn opening(report: &Report) -> String {
+    let data = &report.data;
     let [answer, remarks] = [answer::answer(data), answer::remarks(data)];
     let [answer, remarks] = [answer, remarks].map(|parts| answer::markdown(&parts));
-    let mut points = Vec::from([("Answer", answer), ("Limits", remarks)]);
+    let limits = remarks + &markdown_text(&report.limits());
+    let mut points = Vec::from([("Answer", answer), ("Limits", limits)]);
     let all = answer::overall(data);
     let fails = all
         .iter()

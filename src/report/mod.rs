@@ -47,6 +47,7 @@ use crate::lectures::{FigureBlock, FigureContent};
 use crate::picture::encoding::store;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use document::{NOT_COMPARABLE, OLDER};
 use pictures::{Pictures, halved, png};
 use serde_json::{Value, json};
 
@@ -138,6 +139,21 @@ impl Report {
             pictures: Vec::new(),
             figures: Vec::new(),
         })
+    }
+
+    /// Says which numbers of a document that was [read](Self::read) cannot be compared with those of today: it is of an older schema.
+    pub fn not_comparable(&self) -> Option<String> {
+        let is_older = document::is_older(&self.data);
+        is_older.then(|| alloc::format!("schema {OLDER}: {NOT_COMPARABLE}"))
+    }
+
+    /// Says of this document and those beside it which numbers cannot be compared, if any.
+    fn limits(&self) -> String {
+        let mut all = [&self.data].into_iter().chain(&self.beside);
+        match all.any(document::is_older) {
+            true => alloc::format!(" Of documents of schema {OLDER}: {NOT_COMPARABLE}."),
+            false => String::new(),
+        }
     }
 
     /// Lays the numbers of another report beside these.

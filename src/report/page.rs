@@ -25,7 +25,10 @@ pub(super) fn page(report: &Report) -> String {
         ("title", html_text(title)),
         ("style", STYLE.to_string()),
         ("answer", answer::html(&answer::answer(data))),
-        ("remarks", answer::html(&answer::remarks(data))),
+        (
+            "remarks",
+            answer::html(&answer::remarks(data)) + &html_text(&report.limits()),
+        ),
         ("static", readable(report)),
         ("made", html_text(&made(data))),
         ("data", script_text(&json(report))),

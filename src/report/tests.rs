@@ -331,7 +331,7 @@ fn documents_come_back_as_they_went() {
     timed(&mut document.comparisons[0]);
     document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
     let text = document.to_text();
-    assert!(text.starts_with("{\n  \"schema\": \"fastphong.bench/1\",\n"));
+    assert!(text.starts_with("{\n  \"schema\": \"fastphong.bench/2\",\n"));
     let read = Report::read(text.clone()).unwrap();
     assert_eq!((&read.text, &read.data), (&text, &report(&document).data));
     let rows = list(&read.data, "/comparisons/0/rows");
@@ -447,7 +447,7 @@ fn every_field_that_is_read_is_needed_unless_marked() {
         assert!(message(&lacks).contains(&missing), "{}", message(&lacks));
         let mut other = whole.clone();
         other.pointer_mut(pointer).unwrap()[field] = json!(true);
-        assert!(message(&other).contains(&format!("{field}: expected a value like")));
+        assert!(message(&other).contains(&format!("{field}: expected a")));
     }
     let mut without = whole.clone();
     without["comparisons"][0]["rows"][0]["speed"] = Value::Null;
@@ -457,13 +457,153 @@ fn every_field_that_is_read_is_needed_unless_marked() {
 #[test]
 fn texts_that_are_no_documents_are_refused() {
     let message = |text: &str| parse(text).unwrap_err().to_string();
-    assert_eq!(message("{}"), "no `schema`: expected `fastphong.bench/1`");
-    assert_eq!(message("[]"), "no `schema`: expected `fastphong.bench/1`");
-    assert_eq!(
-        message(r#"{"schema": "fastphong.bench/2"}"#),
-        "schema `fastphong.bench/2`: expected `fastphong.bench/1`"
-    );
-    assert!(message(r#"{"schema": "fastphong.bench/1"}"#).contains("missing field"));
+    assert_eq!(message("{}"), "no `schema`: expected `fastphong.bench/2`");
+    assert_eq!(message("[]"), "no `schema`: expected `fastphong.bench/2`");
+    for other in [
+        "fastphong.bench/3",
+        "fastphong.bench/0",
+        "fastphong.frame-times/1",
+    ] {
+        assert_eq!(
+            message(&format!("{{\"schema\": \"{other}\"}}")),
+            format!(
+                "schema `{other}`: expected `fastphong.bench/2`, or the older `fastphong.bench/1`"
+            )
+        );
+    }
+    for schema in [SCHEMA, OLDER] {
+        assert!(message(&format!("{{\"schema\": \"{schema}\"}}")).contains("missing field"));
+    }
     assert!(message("{\n]").contains("line 2 column 1"));
-    assert!(message("").contains("fastphong.bench/1"));
+    assert!(message("").contains("fastphong.bench/2"));
+    // Deeper than any document, and a number that is none.
+    assert!(message(&"[".repeat(100_000)).contains("recursion limit exceeded at line 1"));
+    assert!(message("{\"seconds\": NaN}").contains("expected value at line 1 column"));
+    assert!(message("{\"seconds\": 1e999}").contains("number out of range at line 1 column"));
+}
+
+/// A field that holds another kind of value, or a number out of its range, is told with its place.
+#[test]
+fn values_of_another_kind_are_told_with_their_place() {
+    let mut document = document(&[(SPHERE, "sphere")]);
+    timed(&mut document.comparisons[0]);
+    document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
+    let whole: Value = serde_json::from_str(&document.to_text()).unwrap();
+    for (pointer, value, told) in [
+        (
+            "/comparisons",
+            json!({}),
+            "the document, comparisons: expected a list",
+        ),
+        (
+            "/comparisons/0",
+            json!("x"),
+            "the document, comparisons 0: expected an object",
+        ),
+        (
+            "/comparisons/0/name",
+            json!(7),
+            "comparisons 0, name: expected a text",
+        ),
+        (
+            "/comparisons/0/width",
+            json!("48"),
+            "comparisons 0, width: expected a number",
+        ),
+        (
+            "/comparisons/0/width",
+            json!(-48),
+            "comparisons 0, width: expected a whole number from 0",
+        ),
+        (
+            "/comparisons/0/height",
+            json!(3.5),
+            "comparisons 0, height: expected a whole number from 0",
+        ),
+        (
+            "/comparisons/0/rows/1/error/rms",
+            json!("NaN"),
+            "rows 1, error, rms: expected a number",
+        ),
+        (
+            "/comparisons/0/rows/1/error/max",
+            json!(-1.0),
+            "rows 1, error, max: expected a number from 0",
+        ),
+        (
+            "/comparisons/0/rows/0/within_bound",
+            json!(1),
+            "within_bound: expected true or false",
+        ),
+        (
+            "/comparisons/0/rows/0/speed/timing/samples_ns/2",
+            json!(null),
+            "samples_ns 2: expected a number",
+        ),
+        (
+            "/methods/0/operations/0/walk",
+            json!("none"),
+            "operations 0, walk: expected a list",
+        ),
+        (
+            "/speedups/methods/0/corners/0",
+            json!([]),
+            "methods 0, corners 0: expected an object",
+        ),
+    ] {
+        let mut other = whole.clone();
+        *other.pointer_mut(pointer).expect(pointer) = value;
+        let message = parse(&other.to_string()).unwrap_err().to_string();
+        assert!(message.contains(told), "{message}");
+        assert!(message.ends_with(": expected a document of schema `fastphong.bench/2`"));
+    }
+    assert!(
+        parse(&format!("\u{FEFF}{whole}")).is_ok(),
+        "a mark of the encoding"
+    );
+}
+
+/// What means something else today is taken out of older documents, and said; the rest stays.
+#[test]
+fn older_documents_lose_the_numbers_that_changed_their_meaning() {
+    let mut document = document(&[(SPHERE, "sphere")]);
+    timed(&mut document.comparisons[0]);
+    let mut older: Value = serde_json::from_str(&document.to_text()).unwrap();
+    older["schema"] = OLDER.into();
+    let newer = Report::read(document.to_text()).unwrap();
+    let mut older = Report::read(older.to_string()).unwrap();
+    assert_eq!(newer.not_comparable(), None);
+    let said = older.not_comparable().expect("an older document");
+    assert!(
+        said.starts_with(
+            "schema fastphong.bench/1: errors of the row engine, bounds, SSIM and FLIP cannot"
+        ),
+        "{said}"
+    );
+    for field in ["bound", "within_bound", "error/ssim", "error/flip"] {
+        let at = format!("/comparisons/0/rows/0/{field}");
+        assert!(
+            older.data.pointer(&at).is_some_and(Value::is_null),
+            "{field}"
+        );
+    }
+    for field in [
+        "error/max",
+        "error/psnr",
+        "speed/timing/median_ns",
+        "other_polygon",
+    ] {
+        let at = format!("/comparisons/0/rows/1/{field}");
+        assert_eq!(older.data.pointer(&at), newer.data.pointer(&at), "{field}");
+    }
+    let remark = "Of documents of schema fastphong.bench/1: errors of the row engine";
+    for text in [older.html(), older.markdown("images").text] {
+        assert!(text.contains(remark), "{text}");
+    }
+    assert!(!newer.html().contains(remark));
+    let mut both = newer.clone();
+    both.lay_beside(older.clone());
+    assert!(both.html().contains(remark), "also where it lies beside");
+    older.lay_beside(newer);
+    assert!(older.html().contains(remark));
 }

@@ -208,3 +208,90 @@ fn a_mesh_called_script_is_shown_and_not_run() {
     assert!(!html.contains("<script>alert"));
     assert_eq!(data(&html)["comparisons"][0]["name"], name);
 }
+
+/// A document that is cut off, of another schema, no text or no JSON is one error with its place, and nothing is written.
+#[test]
+fn files_that_are_no_documents_are_refused_with_their_place() {
+    let folder = Folder::new();
+    let compared = folder.run(&format!("compare figure5 {QUICK} --methods flat --json"));
+    let text = compared.done().out;
+    let utf16: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let last = text.lines().count() - 1;
+    folder
+        .write("good.json", &text)
+        .write("cut.json", &text[..text.len() - 3])
+        .write("empty.json", "")
+        .write("utf16.json", utf16)
+        .write("newer.json", text.replace("bench/2", "bench/3"))
+        .write(
+            "nan.json",
+            text.replacen("\"max\": ", "\"max\": NaN, \"x\": ", 1),
+        )
+        .write(
+            "text.json",
+            text.replacen("\"width\": 48", "\"width\": \"48\"", 1),
+        );
+    std::fs::create_dir(folder.path("folder.json")).expect("a folder");
+    let end = format!("cut.json: EOF while parsing an object at line {last}");
+    for (file, message) in [
+        ("cut.json", &*end),
+        (
+            "empty.json",
+            "empty.json: EOF while parsing a value at line 1",
+        ),
+        (
+            "utf16.json",
+            "utf16.json: cannot be read: it is no text in UTF-8",
+        ),
+        (
+            "newer.json",
+            "newer.json: schema `fastphong.bench/3`: expected `fastphong.bench/2`",
+        ),
+        ("nan.json", "nan.json: expected value at line "),
+        (
+            "text.json",
+            "text.json: the document, comparisons 0, width: expected a number",
+        ),
+        ("folder.json", "folder.json: cannot be read: "),
+        ("none.json", "none.json: cannot be read: "),
+    ] {
+        folder
+            .run(&format!("report --from good.json {file} -o new/page.html"))
+            .refused(&[message]);
+        assert!(!folder.path("new").exists(), "{file}");
+    }
+}
+
+/// Documents of the schema before are read; the numbers that meant something else are left out, and that is said.
+#[test]
+fn what_cannot_be_compared_in_older_documents_is_said() {
+    let folder = Folder::new();
+    let compared = folder.run(&format!("compare figure5 {QUICK} --methods flat --json"));
+    let text = compared.done().out;
+    let said = "schema fastphong.bench/1: errors of the row engine, bounds, SSIM and FLIP cannot be compared";
+    folder
+        .write("new.json", &text)
+        .write("old.json", text.replace("bench/2", "bench/1"));
+    let ended = folder
+        .run("report --from new.json old.json -o both.html")
+        .done();
+    assert!(
+        !ended.err.contains("new.json") && ended.err.contains(&format!("old.json: {said}")),
+        "{}",
+        ended.err
+    );
+    let html = page(&folder, "both.html");
+    assert!(html.contains("Of documents of schema fastphong.bench/1: errors of the row engine"));
+    let both = data(&html);
+    let row = |document: &serde_json::Value| document["comparisons"][0]["rows"][0].clone();
+    assert!(row(&both)["error"]["ssim"].is_f64() && row(&both)["bound"].is_f64());
+    let old = row(&both["beside"][0]);
+    assert!(
+        old["error"]["ssim"].is_null() && old["bound"].is_null(),
+        "{old}"
+    );
+    assert_eq!(old["error"]["max"], row(&both)["error"]["max"]);
+    let ended = folder.run("report --from new.json -o one.html").done();
+    assert_eq!(ended.err, "");
+    assert!(!page(&folder, "one.html").contains("Of documents of schema"));
+}
