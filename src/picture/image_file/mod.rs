@@ -41,7 +41,7 @@ mod replace;
 pub use error::{DecodeError, EncodeError, ImageFileError};
 pub use netpbm::PpmWriter;
 pub use png::encode_png;
-pub use replace::{write_file, write_file_by};
+pub use replace::{NoDrafts, end_of_links, remove_drafts, write_file, write_file_by};
 
 /// Pixels of the largest picture that is read, 8192 × 8192: beyond that a file is more likely broken, or hostile, than meant.
 pub const MAX_PIXELS: u64 = 1 << 26;

@@ -1,20 +1,31 @@
 //! Files that are replaced as a whole or not at all.
 
 use std::borrow::ToOwned;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::vec::Vec;
 
-use tempfile::Builder;
+use tempfile::{Builder, NamedTempFile};
 
 use super::ImageFileError;
 
-/// Writes a file that is either complete or not there: beside its place first, then renamed.
+/// Links that are followed one after the other, at most: as many as Linux follows.
+const MOST_LINKS: usize = 40;
+
+/// The drafts that are on the disk, for [`remove_drafts`].
+static DRAFTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Writes a file that is either complete or not there: a draft beside its place first, then renamed.
 ///
 /// A file already there is replaced, with its permissions kept, and stays as it was if anything fails, the power too: the
 /// new bytes are on the disk before they take its name. Where none was there is nothing to lose, and that is not waited for:
 /// a process that is killed leaves a complete file or none, but a machine that stops within seconds may leave one
-/// that is cut off. A link is followed. What is not a plain file, such as a pipe or a device, is written to directly.
+/// that is cut off. Of two processes that write one file the last one stays, whole. Links are followed, those too that lead to
+/// no file yet. What is not a plain file, such as a pipe or a device, is written to directly.
+///
+/// A process that is ended from outside leaves its draft, named `.tmp` and some letters, unless it calls [`remove_drafts`] then.
 ///
 /// # Errors
 /// If the directory does not exist or cannot be written to, the place is a directory or a read-only file, or the disk is full.
@@ -34,6 +45,66 @@ pub fn write_file_by(
         path: path.to_owned(),
         cause,
     })
+}
+
+/// Removes the drafts of all files that are being written, for a program that is about to be ended by a signal. As long as the
+/// result lives, every thread that writes another file waits.
+pub fn remove_drafts() -> NoDrafts {
+    let drafts = drafts();
+    for draft in drafts.iter() {
+        // A draft that has just got its name is not there any more.
+        let _ = fs::remove_file(draft);
+    }
+    NoDrafts { _held: drafts }
+}
+
+/// The state in which no file is being written: see [`remove_drafts`].
+#[derive(Debug)]
+pub struct NoDrafts {
+    _held: MutexGuard<'static, Vec<PathBuf>>,
+}
+
+fn drafts() -> MutexGuard<'static, Vec<PathBuf>> {
+    DRAFTS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A place in [`DRAFTS`], as long as it lives.
+struct Listed(PathBuf);
+
+impl Drop for Listed {
+    fn drop(&mut self) {
+        drafts().retain(|draft| *draft != self.0);
+    }
+}
+
+/// Makes an empty file in `folder`, with the permissions of `old`, and lists it. No draft is on the disk that is not listed.
+fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(Listed, NamedTempFile)> {
+    let mut new = Builder::new();
+    #[cfg(unix)]
+    {
+        // Other users may read any new file. One that was kept from them is not shown while it is written anew.
+        let any = std::os::unix::fs::PermissionsExt::from_mode(0o666);
+        new.permissions(old.map_or(any, Metadata::permissions));
+    }
+    #[cfg(not(unix))]
+    let _ = old;
+    let mut drafts = drafts();
+    let draft = new.tempfile_in(folder)?;
+    drafts.push(draft.path().to_owned());
+    Ok((Listed(draft.path().to_owned()), draft))
+}
+
+/// Returns the path of the file that is made by writing to `path`, where nothing is yet: links are followed to their end.
+pub fn end_of_links(path: &Path) -> PathBuf {
+    let mut end = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(target) = fs::read_link(&end) else {
+            break;
+        };
+        // Relative to the folder of the link; an absolute one takes its place.
+        end = end.with_file_name("").join(target);
+    }
+    end
 }
 
 /// Writes beside the place of `path`, then renames.
@@ -58,16 +129,12 @@ fn replace(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
     }
     let place = match old.is_some() {
         true => fs::canonicalize(path)?,
-        false => path.to_owned(),
+        false => end_of_links(path),
     };
     let folder = place.parent().filter(|folder| *folder != "");
-    let mut draft = Builder::new();
-    // The permissions of any new file: other users may read it.
-    #[cfg(unix)]
-    draft.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let draft = draft.tempfile_in(folder.unwrap_or(Path::new(".")));
+    let draft = draft(folder.unwrap_or(Path::new(".")), old.as_ref());
     let problem = "its folder does not exist or takes no files";
-    let mut draft = draft.map_err(|error| io::Error::new(error.kind(), problem))?;
+    let (_listed, mut draft) = draft.map_err(|error| io::Error::new(error.kind(), problem))?;
     write(draft.as_file_mut())?;
     if let Some(old) = old {
         draft.as_file().set_permissions(old.permissions())?;
@@ -164,6 +231,64 @@ mod tests {
             "{message}"
         );
         assert_eq!(fs::read(&path).unwrap(), b"old");
+    }
+
+    /// The link stays, and what it leads to is made, through other links and relative to their folders.
+    #[cfg(unix)]
+    #[test]
+    fn a_dangling_link_is_followed() {
+        use std::os::unix::fs::symlink;
+        let directory = tempdir().unwrap();
+        fs::create_dir(directory.path().join("folder")).unwrap();
+        let (first, second) = (
+            directory.path().join("first"),
+            directory.path().join("folder/second"),
+        );
+        symlink("folder/second", &first).unwrap();
+        symlink("../end", &second).unwrap();
+        for bytes in [b"new" as &[u8], b"newer"] {
+            write_file(&first, bytes).unwrap();
+            assert_eq!(fs::read(directory.path().join("end")).unwrap(), bytes);
+            for link in [&first, &second] {
+                assert!(fs::symlink_metadata(link).unwrap().is_symlink());
+            }
+        }
+        let absolute = directory.path().join("absolute");
+        symlink(directory.path().join("other end"), &absolute).unwrap();
+        write_file(&absolute, b"new").unwrap();
+        assert_eq!(
+            fs::read(directory.path().join("other end")).unwrap(),
+            b"new"
+        );
+        // Where they lead to a folder that is not there, or around, nothing can be written.
+        let (lost, around) = (
+            directory.path().join("lost"),
+            directory.path().join("around"),
+        );
+        symlink("missing/end", &lost).unwrap();
+        symlink("around", &around).unwrap();
+        for link in [lost, around] {
+            assert!(write_file(&link, b"new").is_err());
+            assert!(fs::symlink_metadata(link).unwrap().is_symlink());
+        }
+        let names = names(&directory);
+        assert_eq!(names.len(), 7, "no draft is left: {names:?}");
+    }
+
+    /// A file that was kept from others is so while it is written anew.
+    #[cfg(unix)]
+    #[test]
+    fn a_draft_has_the_permissions_of_the_file_that_it_replaces() {
+        use std::os::unix::fs::PermissionsExt;
+        let directory = tempdir().unwrap();
+        let path = directory.path().join("out.bin");
+        fs::write(&path, "old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).unwrap();
+        let look = |file: &mut File| {
+            assert_eq!(file.metadata()?.permissions().mode() & 0o777, 0o600);
+            Ok(())
+        };
+        replace(&path, look).unwrap();
     }
 
     #[cfg(unix)]

@@ -1,0 +1,156 @@
+//! Signals and limits end the program without leaving drafts of files behind.
+#![cfg(unix)]
+
+use super::{Ended, Folder, SPHERE, picture};
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A picture that takes seconds: its draft is there from the beginning.
+const SLOW: &str =
+    "render builtin:sphere --size 1024x1024 --samples 8 -m slerp-phong --simd scalar -o out.ppm";
+
+/// Waits until `is_so`.
+#[track_caller]
+fn wait_until(folder: &Folder, is_so: impl Fn(&[String]) -> bool) {
+    let started = Instant::now();
+    while !is_so(&folder.names()) {
+        let names = folder.names();
+        assert!(started.elapsed() < Duration::from_secs(120), "{names:?}");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+fn has_draft(names: &[String]) -> bool {
+    names.iter().any(|name| name.starts_with(".tmp"))
+}
+
+fn send(signal: &str, to: &Child) {
+    let arguments = [format!("-{signal}"), to.id().to_string()];
+    let status = Command::new("kill").args(arguments).status();
+    assert!(status.expect("kill runs").success());
+}
+
+/// True if this process was started with `signal` ignored, as by `nohup`: then so is the program that it starts.
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.map_or(signal != 15, |mask| mask >> (signal - 1) & 1 == 1)
+}
+
+fn start(mut command: Command) -> Child {
+    command
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the tool runs")
+}
+
+#[test]
+fn a_signal_leaves_no_draft_and_the_old_file_and_is_seen_from_outside() {
+    for (name, number) in [("TERM", 15), ("INT", 2), ("HUP", 1), ("QUIT", 3)] {
+        if is_ignored(number) {
+            continue;
+        }
+        for old in [None, Some("old")] {
+            let folder = Folder::new();
+            if let Some(old) = old {
+                folder.write("out.ppm", old);
+            }
+            let before = folder.names();
+            let mut child = start(folder.command(SLOW));
+            wait_until(&folder, has_draft);
+            send(name, &child);
+            let status = child.wait().expect("an end");
+            assert_eq!(status.signal(), Some(number), "{name}: {status}");
+            assert_eq!(folder.names(), before, "{name}");
+            assert_eq!(
+                std::fs::read_to_string(folder.path("out.ppm"))
+                    .ok()
+                    .as_deref(),
+                old
+            );
+        }
+    }
+}
+
+/// What `nohup` started is not ended by HUP.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_that_is_ignored_stays_ignored() {
+    let folder = Folder::new();
+    let tool = env!("CARGO_BIN_EXE_fastphong");
+    let mut shell = Command::new("sh");
+    shell
+        .args(["-c", &format!("trap '' HUP; exec '{tool}' {SLOW}")])
+        .current_dir(folder.path(""));
+    let mut child = start(shell);
+    wait_until(&folder, has_draft);
+    send("HUP", &child);
+    // Signals are taken in the order of their numbers.
+    send("TERM", &child);
+    let status = child.wait().expect("an end");
+    assert_eq!(status.signal(), Some(15), "{status}");
+    assert!(folder.names().is_empty());
+}
+
+#[test]
+fn a_file_over_the_limit_is_an_error_like_a_full_disk() {
+    let folder = Folder::new();
+    folder.write("out.ppm", "old");
+    let tool = env!("CARGO_BIN_EXE_fastphong");
+    let arguments = "render builtin:cube --size 100x100 -o out.ppm";
+    let mut shell = Command::new("sh");
+    shell
+        .args(["-c", &format!("ulimit -f 8; exec '{tool}' {arguments}")])
+        .current_dir(folder.path(""));
+    let output = shell.output().expect("a shell");
+    Ended::new(arguments, output).refused(&["out.ppm: cannot be written: File too large"]);
+    assert_eq!(
+        (folder.names(), folder.read("out.ppm")),
+        (vec!["out.ppm".to_owned()], b"old".to_vec())
+    );
+}
+
+#[test]
+fn of_two_programs_that_write_one_file_the_last_one_leaves_it_whole() {
+    let folder = Folder::new();
+    folder.run(&format!("render {SPHERE} -o alone.png")).done();
+    let start = || start(folder.command(&format!("render {SPHERE} -o out.png")));
+    let both = [start(), start(), start()];
+    for mut child in both {
+        assert!(child.wait().expect("an end").success());
+    }
+    assert_eq!(folder.read("out.png"), folder.read("alone.png"));
+    assert_eq!(folder.names(), ["alone.png", "out.png"]);
+}
+
+#[test]
+fn a_named_pipe_is_written_to_and_stays_one() {
+    let folder = Folder::new();
+    let pipe = folder.path("pipe.png");
+    let made = Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.expect("mkfifo runs").success());
+    let mut child = start(folder.command(&format!("render {SPHERE} -o pipe.png")));
+    folder.write("read.png", std::fs::read(&pipe).expect("what was written"));
+    assert!(child.wait().expect("an end").success());
+    assert_eq!(picture(&folder.path("read.png")).width(), 64);
+    assert_eq!(folder.names(), ["pipe.png", "read.png"]);
+}
+
+#[test]
+fn a_dangling_link_stays_one_and_leads_to_the_picture() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("folder")).expect("a folder");
+    std::os::unix::fs::symlink("folder/new.png", folder.path("link.png")).expect("a link");
+    for _ in 0..2 {
+        folder.run(&format!("render {SPHERE} -o link.png")).done();
+        assert_eq!(picture(&folder.path("folder/new.png")).width(), 64);
+        assert!(folder.path("link.png").is_symlink());
+    }
+    assert_eq!(folder.names(), ["folder", "link.png"]);
+    std::os::unix::fs::symlink("missing/new.png", folder.path("lost.png")).expect("a link");
+    folder
+        .run(&format!("render {SPHERE} -o lost.png"))
+        .refused(&["lost.png: cannot be written: its folder does not exist"]);
+}
