@@ -1,6 +1,7 @@
 //! `fastphong bench`: times only, method by method, in interleaved rounds; or of whole frames, one method after the other.
 
 use super::engines::{self, ScanlineEngine, Simd, SimdList, ThreadFlags, renderer};
+use super::files::{self, Destination};
 use super::frame_times::{FrameCount, frame_times};
 use super::measured::{Measurement, TimingFlags, command_line, named_or_shipped};
 use super::scene_flags::SceneFlags;
@@ -8,7 +9,6 @@ use super::{CliError, Log, Outcome, done};
 use fastphong::compare::comparison::{TableKind, table};
 use fastphong::compare::timing::Machine;
 use fastphong::number::Level;
-use fastphong::picture::image_file::write_file;
 use fastphong::raster::Renderer;
 use fastphong::report::Document;
 use std::path::PathBuf;
@@ -47,12 +47,19 @@ pub struct BenchArgs {
 impl BenchArgs {
     /// Times, and prints the tables.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
+        let file = self.json.as_deref().filter(|path| path.as_os_str() != "-");
+        let file = file.map(|path| Destination {
+            name: "--json",
+            path,
+        });
+        let destinations: Vec<_> = file.into_iter().collect();
         let measurement = Measurement {
             inputs: &named_or_shipped(&self.inputs),
             scene: &self.scene,
             renderers: &self.renderers()?,
             threads: self.threads,
             log,
+            destinations: &destinations,
         };
         let (text, json) = if self.frame_times {
             frame_times(&measurement, &self.timing.methods, self.count)?
@@ -63,9 +70,9 @@ impl BenchArgs {
             let text = format!("{}\n\n{tables}", Machine::this().line());
             (text, Document::new(command_line(), comparisons).to_text())
         };
-        match &self.json {
-            Some(path) if path.as_os_str() == "-" => return done(&json),
-            Some(path) => write_file(path, json.as_bytes())?,
+        match file {
+            Some(file) => files::write(file, |out| out.write_all(json.as_bytes()))?,
+            None if self.json.is_some() => return done(&json),
             None => {}
         }
         done(&text)

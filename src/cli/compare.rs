@@ -37,6 +37,7 @@ impl CompareArgs {
             renderers: &[renderer],
             threads: self.drawn.threads,
             log,
+            destinations: &[],
         })?;
         if self.json || self.all_columns {
             comparisons.iter_mut().for_each(Comparison::perceive);

@@ -2,13 +2,13 @@
 
 use super::output::{Output, print_beside};
 use super::reference_check::{SCALE, largest_difference};
-use super::{CliError, Log, Outcome, values};
+use super::{CliError, Log, Outcome, files, values};
 use fastphong::compare::metrics::{
     Difference, METRICS, Perceived, compare, difference_map, flip_colours, mean_flip,
     signed_difference_map,
 };
 use fastphong::compare::table::aligned;
-use fastphong::picture::image_file::{FilePicture, comparable, read_picture};
+use fastphong::picture::image_file::{FilePicture, comparable};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -45,7 +45,17 @@ impl DiffArgs {
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let output = self.output.as_deref().map(|path| Output::new(path, None));
         let output = output.transpose()?;
-        let (reference, actual) = (read_picture(&self.reference)?, read_picture(&self.actual)?);
+        let parts = [
+            (&self.reference, "the reference"),
+            (&self.actual, "the picture"),
+        ];
+        for (path, part) in parts {
+            files::will_read(path, part);
+        }
+        let to = output.as_ref().and_then(|output| output.path.as_deref());
+        files::check(to.map(Output::destination).as_slice())?;
+        let [reference, actual] = parts.map(|(path, part)| files::picture(path, part));
+        let (reference, actual) = (reference?, actual?);
         let [r, a] = comparable(&reference, &actual);
         let mut difference = compare(&r, &a)?;
         let [seen, other] =

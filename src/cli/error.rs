@@ -1,5 +1,6 @@
 //! The ways in which a sub-command ends.
 
+use super::files::OneFileError;
 use fastphong::scene::file::diagnostics::SceneError;
 use std::error::Error;
 
@@ -23,6 +24,11 @@ impl<E: Into<Box<dyn Error + Send + Sync>>> From<E> for CliError {
 }
 
 impl CliError {
+    /// True if a file was to be read and written: no change of it mends that.
+    pub fn is_of_files(&self) -> bool {
+        self.0.is::<OneFileError>()
+    }
+
     /// Returns the error as text that starts with `error: ` and ends a line. Errors of inputs show themselves.
     pub fn render(&self, colour: bool) -> String {
         let text = match self.0.downcast_ref::<SceneError>() {

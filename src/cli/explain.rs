@@ -3,11 +3,11 @@
 use super::engines::engines_with;
 use super::list::{exactness, method_json};
 use super::text::wrapped;
-use super::{CliError, Outcome, done};
+use super::{CliError, Outcome, done, files};
 use fastphong::compare::comparison::parameter_json;
 use fastphong::compare::table::Table;
 use fastphong::report::{OPERATIONS, RATES};
-use fastphong::scene::{Falloff, Interpolation, input};
+use fastphong::scene::{Falloff, Interpolation};
 use fastphong::shading::{OperationCounts, SpanBench, Variant};
 use serde_json::{Value, json};
 
@@ -123,7 +123,7 @@ impl ExplainArgs {
 const EXAMPLE: &str = "teapot";
 
 fn example_bound(method: &Variant) -> Result<f64, CliError> {
-    let frame = input::resolve(&input::load(EXAMPLE)?)?.scene.frame()?;
+    let frame = files::resolve(&files::load(EXAMPLE)?)?.scene.frame()?;
     Ok(method.bound(&frame))
 }
 

@@ -1,10 +1,11 @@
 //! `fastphong figure`: figures of the lectures, made anew, as one page.
 
+use super::files::{self, Destination};
 use super::measured::command_line;
+use super::output::Output;
 use super::progress::Progress;
 use super::{CliError, Log, Outcome, done};
 use fastphong::lectures::{FIGURES, Figure};
-use fastphong::picture::image_file::write_file;
 use fastphong::report::{Document, FigureData, Report};
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -50,12 +51,17 @@ impl FigureArgs {
         document.figures = draw_figures(&figures, &|part, name| progress.at(part, name))?;
         drop(progress);
         let report = Report::new(&document, Vec::new())?;
-        write_file(&page, report.html().as_bytes())?;
+        let to = Output::destination(&page);
+        files::write(to, |out| out.write_all(report.html().as_bytes()))?;
         let mut written = format!("{}\n", page.display());
         if let Some(folder) = &self.pictures {
             for (name, png) in report.figure_files() {
                 let path = folder.join(name);
-                write_file(&path, png)?;
+                let to = Destination {
+                    name: "--pictures",
+                    path: &path,
+                };
+                files::write(to, |out| out.write_all(png))?;
                 written += &format!("{}\n", path.display());
             }
         }

@@ -3,12 +3,12 @@
 use super::mesh_facts::{MeshFacts, PLANAR};
 use super::scene_flags::SceneFlags;
 use super::text::{counted, grouped, wrapped};
-use super::{CliError, Log, Outcome, done};
+use super::{CliError, Log, Outcome, done, files};
 use fastphong::frame::Frame;
 use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::SceneFile;
-use fastphong::scene::{Object, Projection, Scene, input};
+use fastphong::scene::{Object, Projection, Scene};
 use fastphong::shading::{METHODS, Variant};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ impl InfoArgs {
     /// Prints the facts.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let file = self.scene.load(&self.input)?;
-        let resolved = input::resolve(&file)?;
+        let resolved = files::resolve(&file)?;
         self.scene.warn(&resolved, log);
         let scene = &resolved.scene;
         // A mesh that several objects share is looked at once.

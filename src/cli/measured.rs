@@ -1,6 +1,7 @@
 //! Shared parts of the commands that compare and time methods.
 
 use super::engines::ThreadFlags;
+use super::files::{self, Destination};
 use super::progress::Progress;
 use super::render::warn_of_polygons_left_out;
 use super::scene_flags::SceneFlags;
@@ -11,7 +12,7 @@ use fastphong::compare::timing::{Machine, TimeLimits};
 use fastphong::number::NameError;
 use fastphong::raster::Renderer;
 use fastphong::scene::Scene;
-use fastphong::scene::input::{self, SCENES};
+use fastphong::scene::input::SCENES;
 use fastphong::shading::{Entry, METHODS, Variant};
 use std::collections::HashSet;
 use std::time::Duration;
@@ -45,13 +46,15 @@ pub struct Measurement<'a> {
     pub renderers: &'a [Renderer],
     pub threads: ThreadFlags,
     pub log: Log,
+    /// The files to be written.
+    pub destinations: &'a [Destination<'a>],
 }
 
 impl Measurement<'_> {
     /// Calls `measure` with each scene and its name. Every input is loaded first, so that a bad one fails at once.
     ///
     /// # Errors
-    /// When an input cannot be loaded, and those of `measure`.
+    /// When an input cannot be loaded, or is to be written to, and those of `measure`.
     pub fn each_scene(
         &self,
         mut measure: impl FnMut(&str, Scene, &Progress) -> Result<(), CliError>,
@@ -59,9 +62,11 @@ impl Measurement<'_> {
         warn_of_debug_build(self.log);
         let files = self.inputs.iter().map(|name| self.scene.load(name));
         let files = files.collect::<Result<Vec<_>, _>>()?;
+        files::check(self.destinations)?;
         let progress = Progress::silent_between_moves(self.log);
         for (name, file) in self.inputs.iter().zip(&files) {
-            let resolved = input::resolve(file)?;
+            let resolved = files::resolve(file)?;
+            files::check(self.destinations)?;
             progress.aside(|| self.scene.warn(&resolved, self.log));
             measure(name, resolved.scene, &progress)?;
         }

@@ -1,8 +1,9 @@
 //! The destination of a picture: a file, or standard output.
 
 use super::CliError;
+use super::files::{self, Destination};
 use super::log::{to_stderr, to_stdout, to_stdout_by};
-use fastphong::picture::image_file::{FilePicture, Format, write_file_by};
+use fastphong::picture::image_file::{FilePicture, Format};
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
@@ -51,8 +52,16 @@ impl Output {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), CliError> {
         match &self.path {
-            Some(path) => Ok(write_file_by(path, write)?),
+            Some(path) => files::write(Output::destination(path), write),
             None => to_stdout_by(write),
+        }
+    }
+
+    /// Returns the destination that `--output` names.
+    pub fn destination(path: &Path) -> Destination<'_> {
+        Destination {
+            name: "--output",
+            path,
         }
     }
 }

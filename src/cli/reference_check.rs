@@ -1,13 +1,13 @@
 //! `render --reference`: a picture against the one that was accepted before.
 
 use super::drawing::RenderJob;
+use super::files::Destination;
 use super::output::Output;
-use super::{CliError, Outcome};
+use super::{CliError, Outcome, files};
 use fastphong::compare::metrics::{Difference, compare, difference_map};
-use fastphong::picture::image_file::{
-    FilePicture, Format, comparable, read_picture, write_picture,
-};
+use fastphong::picture::image_file::{FilePicture, Format, comparable};
 use fastphong::report::shell_word;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Grey levels at the light end of difference pictures.
@@ -32,6 +32,14 @@ pub struct ReferenceCheck<'a> {
 }
 
 impl ReferenceCheck<'_> {
+    /// Returns the destination of a picture beside the reference.
+    pub fn destination(path: &Path) -> Destination<'_> {
+        Destination {
+            name: "--reference",
+            path,
+        }
+    }
+
     /// Compares the picture with its reference; returns the outcome and the lines to print. On a difference both pictures
     /// are left beside each other, with a map.
     ///
@@ -48,7 +56,7 @@ impl ReferenceCheck<'_> {
             let text = format!("no reference {shown} yet: the picture is in {path}\n{accept}");
             return Ok((Outcome::Differs, text));
         }
-        let accepted = read_picture(reference)?;
+        let accepted = files::picture(reference, "the reference")?;
         let [r, a] = comparable(&accepted, &actual);
         let text = match compare(&r, &a) {
             Ok(difference) if largest_difference(&difference) <= self.threshold => {
@@ -61,7 +69,7 @@ impl ReferenceCheck<'_> {
                 let candidate = self.keep(&actual, format)?;
                 let map = difference_map(&r, &a, SCALE)?;
                 let map_path = sibling(&candidate, reference, "diff", Format::Png);
-                write_picture(&map_path, &FilePicture::stored(map))?;
+                write(&map_path, &FilePicture::stored(map))?;
                 self.difference_text(&difference, &candidate, &map_path)
             }
             Err(sizes) => {
@@ -75,6 +83,30 @@ impl ReferenceCheck<'_> {
         Ok((Outcome::Differs, text))
     }
 
+    /// Returns the files that may be written, beside [`ReferenceCheck::written`]: the picture, unless it is there already, and the map.
+    ///
+    /// # Errors
+    /// When the ending of the reference names no format.
+    pub fn destinations(&self) -> Result<Vec<PathBuf>, CliError> {
+        let format = Format::of_path(self.reference)?;
+        let written = self.written_as(format);
+        let candidate = sibling(self.reference, self.reference, "actual", format);
+        let map = sibling(
+            written.unwrap_or(&candidate),
+            self.reference,
+            "diff",
+            Format::Png,
+        );
+        let candidate = written.is_none().then_some(candidate);
+        Ok(candidate.into_iter().chain([map]).collect())
+    }
+
+    /// Returns the file that was written already, if it is of `format`.
+    fn written_as(&self, format: Format) -> Option<&Path> {
+        let written = self.written.filter(|output| output.format == format);
+        written.and_then(|output| output.path.as_deref())
+    }
+
     fn how_to_accept(&self, candidate: &Path) -> String {
         let paths = [candidate, self.reference];
         let [from, to] = paths.map(|path| shell_word(&path.display().to_string()));
@@ -84,12 +116,11 @@ impl ReferenceCheck<'_> {
     /// Returns the file that holds the picture in the format of the reference: the one already written, or one beside the
     /// reference.
     fn keep(&self, actual: &FilePicture, format: Format) -> Result<PathBuf, CliError> {
-        let written = self.written.filter(|output| output.format == format);
-        if let Some(path) = written.and_then(|output| output.path.clone()) {
-            return Ok(path);
+        if let Some(path) = self.written_as(format) {
+            return Ok(path.to_owned());
         }
         let path = sibling(self.reference, self.reference, "actual", format);
-        write_picture(&path, actual)?;
+        write(&path, actual)?;
         Ok(path)
     }
 
@@ -111,6 +142,14 @@ impl ReferenceCheck<'_> {
         let scale = format!("{SCALE} levels from black to yellow");
         text + &format!("\nactual: {candidate}\ndifference, {scale}: {map}\n{accept}")
     }
+}
+
+/// Writes a picture beside the reference.
+fn write(path: &Path, picture: &FilePicture) -> Result<(), CliError> {
+    let to = ReferenceCheck::destination(path);
+    files::write(to, |out| {
+        picture.write_to(Format::of_path(path).map_err(io::Error::other)?, out)
+    })
 }
 
 /// Returns `STEM.word.ending` in the folder of `beside`, where `STEM` is that of the reference.

@@ -10,7 +10,7 @@ use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
 use super::text::{counted, grouped};
 use super::watch::watch;
-use super::{CliError, Log, Outcome, values};
+use super::{CliError, Log, Outcome, files, values};
 use fastphong::compare::table::aligned;
 use fastphong::frame::{Frame, FrameStats};
 use fastphong::picture::image_file::Format;
@@ -18,7 +18,7 @@ use fastphong::raster::Renderer;
 use fastphong::raster::painter::{Conflicts, conflicts};
 use fastphong::scene::{HiddenSurfaces, input};
 use fastphong::shading::Variant;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Draw a scene or a mesh
@@ -110,7 +110,7 @@ impl RenderArgs {
         let started = Instant::now();
         let mut resolved = match shows {
             true => self.scene.resolve_to_show(&mut file)?,
-            false => input::resolve(&file)?,
+            false => files::resolve(&file)?,
         };
         if self.aov.is_some() && std::mem::replace(&mut resolved.scene.samples, 1) > 1 {
             // The mean of depths, normals or polygon numbers has no meaning.
@@ -158,15 +158,18 @@ impl RenderArgs {
         })?;
         if let Some(output) = &mut output {
             self.name(output, &job)?;
-            write(&job, output, &progress, log)?;
         }
-        let Some(reference) = &self.reference else {
-            return Ok(Outcome::Done);
-        };
-        let check = ReferenceCheck {
+        let check = self.reference.as_deref().map(|reference| ReferenceCheck {
             reference,
             threshold: self.reference_threshold,
             written: output.as_ref(),
+        });
+        check_destinations(output.as_ref(), check.as_ref())?;
+        if let Some(output) = &output {
+            write(&job, output, &progress, log)?;
+        }
+        let Some(check) = check else {
+            return Ok(Outcome::Done);
         };
         let (outcome, text) = check.run(&job)?;
         progress.aside(|| print_beside(output.as_ref(), &text))?;
@@ -177,6 +180,7 @@ impl RenderArgs {
     fn output(&self) -> Result<Option<Output>, CliError> {
         if let Some(reference) = &self.reference {
             Format::of_path(reference)?;
+            files::will_read(reference, "the reference");
         }
         let Some(path) = &self.output else {
             return Ok(None);
@@ -186,7 +190,7 @@ impl RenderArgs {
         Output::new(path, self.format).map(Some)
     }
 
-    /// Puts the facts of the picture into its name; refuses to write over its reference.
+    /// Puts the facts of the picture into its name.
     fn name(&self, output: &mut Output, job: &RenderJob) -> Result<(), CliError> {
         let Some(path) = &mut output.path else {
             return Ok(());
@@ -194,13 +198,7 @@ impl RenderArgs {
         let [width, height] = job.size().map(|side| side.to_string());
         let scene = scene_name(&self.input);
         *path = named(path, [scene, &job.name, job.engine(), &width, &height])?;
-        match &self.reference {
-            Some(reference) if same_file(path, reference) => {
-                let problem = format!("is the reference itself, {}", reference.display());
-                Err(format!("`--output` {problem}: expected another file").into())
-            }
-            _ => Ok(()),
-        }
+        Ok(())
     }
 
     /// Prepares the drawing of `frame`; logs which method `auto` takes.
@@ -242,10 +240,17 @@ fn write(job: &RenderJob, output: &Output, progress: &Progress, log: Log) -> Res
     Ok(())
 }
 
-/// True if both paths lead to one file, or would if there were one.
-fn same_file(a: &Path, b: &Path) -> bool {
-    let [a, b] = [a, b].map(|path| path.canonicalize().unwrap_or_else(|_| path.to_owned()));
-    a == b
+/// Refuses to write over a file that is read: the scene, its meshes and material libraries, the reference.
+fn check_destinations(
+    output: Option<&Output>,
+    check: Option<&ReferenceCheck>,
+) -> Result<(), CliError> {
+    let beside = check.map(ReferenceCheck::destinations).transpose()?;
+    let beside = beside.unwrap_or_default();
+    let picture = output.and_then(|output| output.path.as_deref());
+    let mut all: Vec<_> = picture.map(Output::destination).into_iter().collect();
+    all.extend(beside.iter().map(|path| ReferenceCheck::destination(path)));
+    files::check(&all)
 }
 
 /// Warns of polygons that cannot be drawn.

@@ -3,6 +3,7 @@
 use super::engines::LectureFlags;
 use super::experiments::{Experiments, experiments};
 use super::figure::{Figures, distinct, draw_figures, make_folder, page_folder};
+use super::files::{self, Destination};
 use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
@@ -11,14 +12,12 @@ use fastphong::compare::comparison::{self, Comparison, Input};
 use fastphong::compare::timing::TimeLimits;
 use fastphong::frame::Frame;
 use fastphong::lectures::{FIGURES, Figure};
-use fastphong::picture::image_file::write_file;
 use fastphong::report::{Document, Report, ScenePictures, utc_date};
 use fastphong::scene::Scene;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::value::{Data, SceneTable};
 use rayon::prelude::*;
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -95,21 +94,46 @@ impl ReportArgs {
         self.drawn.renderer()?;
         let read = self.from.iter().map(|path| read(path, log));
         let mut read = read.collect::<Result<Vec<Report>, _>>()?.into_iter();
+        let first = read.next();
+        let names = named_or_shipped(&self.inputs);
+        // Every input is loaded first, so that a bad one fails at once.
+        let load = |name: &&str| self.scene.load_to_show(name).map(|file| self.shown(file));
+        let inputs: &[&str] = if first.is_some() { &[] } else { &names };
+        let scenes = inputs.iter().map(load).collect::<Result<Vec<_>, _>>()?;
+        self.check_destinations()?;
         let folder = page_folder(&self.output)?;
-        let mut report = match read.next() {
+        let mut report = match first {
             Some(report) => report,
-            None => self.make(log)?,
+            None => self.make(&names, &scenes, log)?,
         };
         read.for_each(|other| report.lay_beside(other));
         done(&self.write(&report, &folder)?)
     }
 
-    fn make(&self, log: Log) -> Result<Report, CliError> {
+    /// Refuses to write over a document that was read, or a file of a scene.
+    fn check_destinations(&self) -> Result<(), CliError> {
+        let readme = self.readme();
+        let named = [
+            ("--output", Some(&self.output)),
+            ("--json", self.json.as_ref()),
+            ("--csv", self.csv.as_ref()),
+            ("--markdown", readme.as_ref()),
+        ];
+        let given = named
+            .into_iter()
+            .filter_map(|(name, path)| Some(Destination { name, path: path? }));
+        files::check(&given.collect::<Vec<_>>())
+    }
+
+    /// Returns the text beside the page, if it is asked for.
+    fn readme(&self) -> Option<PathBuf> {
+        self.markdown
+            .then(|| self.output.with_file_name("README.md"))
+    }
+
+    /// Draws, measures and times the scenes `files`, called `names`.
+    fn make(&self, names: &[&str], files: &[SceneFile], log: Log) -> Result<Report, CliError> {
         let start = Instant::now();
-        let names = named_or_shipped(&self.inputs);
-        // Every input is loaded first, so that a bad one fails at once.
-        let load = |name: &&str| self.scene.load_to_show(name).map(|file| self.shown(file));
-        let files = names.iter().map(load).collect::<Result<Vec<_>, _>>()?;
         // Everything is made with the shipped scenes.
         let is_default = self.inputs.is_empty();
         let default = if is_default { "all" } else { "none" };
@@ -140,7 +164,7 @@ impl ReportArgs {
         let mut document = Document::new(command_line(), Vec::new());
         let (drawn, figures) = self.drawn.threads.install(|| {
             // All are collected before the first error ends it, so that it is the same at every run.
-            let drawn: Vec<_> = names.par_iter().zip(&files).map(draw).collect();
+            let drawn: Vec<_> = names.par_iter().zip(files).map(draw).collect();
             let drawn = drawn.into_iter().collect::<Result<Vec<DrawnScene>, _>>()?;
             let figures = draw_figures(&figures, &|part, name| progress(1, part, name))?;
             Ok::<_, CliError>((drawn, figures))
@@ -199,6 +223,8 @@ impl ReportArgs {
         log: Log,
     ) -> Result<DrawnScene, CliError> {
         let resolved = self.scene.resolve_to_show(&mut file.clone())?;
+        // Which material libraries a mesh has is known by now.
+        self.check_destinations()?;
         bar.aside(|| self.scene.warn(&resolved, log));
         let frame = resolved.scene.frame()?;
         drop(resolved);
@@ -238,24 +264,30 @@ impl ReportArgs {
     /// Writes the page and the files beside it; returns their paths, one per line.
     fn write(&self, report: &Report, folder: &Path) -> Result<String, CliError> {
         let mut written = String::new();
-        let mut write = |path: &Path, text: &str| -> Result<(), CliError> {
+        let mut write = |name: &str, path: &Path, text: &str| {
             written += &format!("{}\n", path.display());
-            Ok(write_file(path, text.as_bytes())?)
+            files::write(Destination { name, path }, |out| {
+                out.write_all(text.as_bytes())
+            })
         };
-        write(&self.output, &report.html())?;
+        write("--output", &self.output, &report.html())?;
         if let Some(path) = &self.json {
-            write(path, &report.text)?;
+            write("--json", path, &report.text)?;
         }
         if let Some(path) = &self.csv {
-            write(path, &report.csv())?;
+            write("--csv", path, &report.csv())?;
         }
-        if self.markdown {
+        if let Some(readme) = self.readme() {
             let (markdown, images) = (report.markdown(IMAGES), folder.join(IMAGES));
             make_folder(&images)?;
             for (name, png) in &markdown.images {
-                write_file(&images.join(name), png)?;
+                let to = Destination {
+                    name: "--markdown",
+                    path: &images.join(name),
+                };
+                files::write(to, |out| out.write_all(png))?;
             }
-            write(&folder.join("README.md"), &markdown.text)?;
+            write("--markdown", &readme, &markdown.text)?;
         }
         Ok(written)
     }
@@ -277,19 +309,16 @@ fn read(path: &Path, log: Log) -> Result<Report, CliError> {
 
 /// Reads a text of at most [`LARGEST`] bytes, from a device that never ends as well.
 fn read_text(path: &Path) -> io::Result<String> {
-    let mut text = String::new();
-    let read = File::open(path)?
-        .take(LARGEST + 1)
-        .read_to_string(&mut text);
-    if text.len() as u64 > LARGEST {
+    let mut bytes = Vec::new();
+    let file = files::document(path)?;
+    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
         let problem = format!("it has more than {LARGEST} bytes: expected a file of `--json`");
         return Err(io::Error::other(problem));
     }
-    read.map_err(|error| match error.kind() {
-        io::ErrorKind::InvalidData => {
-            io::Error::other("it is no text in UTF-8: expected a file of `--json`")
-        }
-        _ => error,
-    })?;
-    Ok(text)
+    // UTF-16 of plain letters is UTF-8, too, with zeros.
+    let text = String::from_utf8(bytes)
+        .ok()
+        .filter(|text| !text.contains('\0'));
+    text.ok_or_else(|| io::Error::other("it is no text in UTF-8: expected a file of `--json`"))
 }

@@ -1,7 +1,7 @@
 //! Flags that change the scene: each gives values to keys of a scene file. They replace those of the file, and are checked
 //! together with the rest.
 
-use super::{CliError, Log};
+use super::{CliError, Log, files};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use fastphong::scene::file::SceneFile;
@@ -9,7 +9,6 @@ use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
 use fastphong::scene::file::schema::{self, ValueKind};
 use fastphong::scene::file::value::{Data, SceneTable};
-use fastphong::scene::input;
 
 /// A flag that gives values to keys of a scene file.
 struct Flag {
@@ -274,7 +273,7 @@ impl SceneFlags {
     /// # Errors
     /// When there is no such input.
     pub fn load(&self, input: &str) -> Result<SceneFile, CliError> {
-        Ok(self.over(input::load(input)?))
+        Ok(self.over(files::load(input)?))
     }
 
     /// Returns `file` with the changes of the flags.

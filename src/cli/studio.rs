@@ -4,12 +4,13 @@
 //! is written into the scene, as a file would say it: `--print-scene` shows it, and flags stand over it.
 
 use super::CliError;
+use super::files;
 use super::scene_flags::SceneFlags;
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
 use fastphong::scene::file::value::{Data, SceneTable};
-use fastphong::scene::{Camera, Scene, input};
+use fastphong::scene::{Camera, Scene};
 use glam::DVec3;
 
 /// Soft clay before a quiet grey. Materials that come with the mesh stand over this one.
@@ -35,20 +36,20 @@ impl SceneFlags {
     /// # Errors
     /// When there is no such input.
     pub fn load_to_show(&self, input: &str) -> Result<SceneFile, CliError> {
-        let mut file = input::load(input)?;
+        let mut file = files::load(input)?;
         if is_mesh_alone(&file) {
             file.overlay(SceneTable::parse(STUDIO)?);
         }
         Ok(self.over(file))
     }
 
-    /// Returns the scene that `file` describes, as [`input::resolve`] does. If it is a mesh alone, adds the lights of the
+    /// Returns the scene that `file` describes, as [`files::resolve`] does. If it is a mesh alone, adds the lights of the
     /// studio, and smooth edges where they cost little, unless flags gave others.
     ///
     /// # Errors
-    /// As [`input::resolve`].
+    /// As [`files::resolve`].
     pub fn resolve_to_show(&self, file: &mut SceneFile) -> Result<Resolved, CliError> {
-        let Resolved { scene, warnings } = input::resolve(file)?;
+        let Resolved { scene, warnings } = files::resolve(file)?;
         if !is_mesh_alone(file) {
             return Ok(Resolved { scene, warnings });
         }

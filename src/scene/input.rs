@@ -22,14 +22,14 @@ use super::file::diagnostics::{Origin, SceneError};
 use super::file::resolve::{LoadedMesh, Resolved};
 use super::file::value::{Data, Value};
 use crate::mesh::builtin::{BUILTINS, builtin};
-use crate::mesh::obj::{load_obj, parse_obj};
+use crate::mesh::obj::{load_obj_by, parse_obj};
 use crate::number::suggest::nearest;
 use std::borrow::ToOwned;
-use std::format;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
 use std::sync::Arc;
 use std::vec::Vec;
+use std::{format, fs, io};
 
 /// A scene that is part of the program.
 #[derive(Clone, Copy, Debug)]
@@ -96,6 +96,17 @@ fn shipped_file(name: &str) -> Option<&'static [u8]> {
 /// # Errors
 /// [`SceneError`] when there is no such thing, or the scene file is not one.
 pub fn load(input: &str) -> Result<SceneFile, SceneError> {
+    load_by(input, &mut |path| fs::read(path))
+}
+
+/// Reads the scene that `input` names as [`load`] does, files by `read`: which may note what a scene is made of.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_by(
+    input: &str,
+    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+) -> Result<SceneFile, SceneError> {
     let path = Path::new(input);
     if input.starts_with(BUILTIN) || input.starts_with(SHIPPED) {
         return Ok(SceneFile::for_mesh(input.to_owned()));
@@ -107,7 +118,7 @@ pub fn load(input: &str) -> Result<SceneFile, SceneError> {
         return Err(unknown(input, path));
     }
     if has_ending(path, "toml") {
-        SceneFile::load(path)
+        SceneFile::load_by(path, read)
     } else {
         Ok(SceneFile::for_mesh(input.to_owned()))
     }
@@ -144,6 +155,11 @@ fn is_builtin(name: &str) -> bool {
     BUILTINS.iter().any(|shape| shape.name == name)
 }
 
+/// True if `mesh`, as a scene names it, is a file, and not part of the program.
+pub fn is_mesh_file(mesh: &str) -> bool {
+    !mesh.starts_with(BUILTIN) && !mesh.starts_with(SHIPPED)
+}
+
 fn has_known_ending(path: &Path) -> bool {
     has_ending(path, "toml") || has_ending(path, "obj")
 }
@@ -158,7 +174,19 @@ fn has_ending(path: &Path, ending: &str) -> bool {
 /// # Errors
 /// [`SceneError`] when a value is out of its range or a mesh cannot be used.
 pub fn resolve(file: &SceneFile) -> Result<Resolved, SceneError> {
-    file.resolve(load_mesh)
+    resolve_by(file, &mut |path| fs::read(path))
+}
+
+/// Returns the scene that `file` describes as [`resolve`] does, with files read by `read`: it is asked for meshes and material
+/// libraries, also for those that are not there.
+///
+/// # Errors
+/// As [`resolve`].
+pub fn resolve_by(
+    file: &SceneFile,
+    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+) -> Result<Resolved, SceneError> {
+    file.resolve(|name, folder| load_mesh_by(name, folder, read))
 }
 
 /// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
@@ -166,6 +194,14 @@ pub fn resolve(file: &SceneFile) -> Result<Resolved, SceneError> {
 /// # Errors
 /// One sentence: what is wrong with which file, in which line, and what was expected.
 pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
+    load_mesh_by(name, folder, &mut |path| fs::read(path))
+}
+
+fn load_mesh_by(
+    name: &str,
+    folder: &Path,
+    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+) -> LoadedMesh {
     if let Some(spec) = name.strip_prefix(BUILTIN) {
         let mesh = builtin(spec).map_err(|error| error.to_string())?;
         return Ok((Arc::new(mesh), Vec::new()));
@@ -195,7 +231,7 @@ pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
                 },
             );
         }
-        load_obj(&path)
+        load_obj_by(&path, read)
     };
     let loaded = loaded.map_err(|error| error.to_string())?;
     let warnings = loaded.warnings.iter();
@@ -209,8 +245,7 @@ pub fn make_paths_relative_to_current_folder(file: &mut SceneFile) {
         return;
     };
     rename_meshes(file, |mesh| {
-        let is_file = !mesh.starts_with(BUILTIN) && !mesh.starts_with(SHIPPED);
-        is_file.then(|| folder.join(mesh).to_string_lossy().into_owned())
+        is_mesh_file(mesh).then(|| folder.join(mesh).to_string_lossy().into_owned())
     });
 }
 

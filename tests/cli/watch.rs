@@ -26,15 +26,24 @@ impl Watcher {
         Watcher(child, receive)
     }
 
+    /// Waits for the next line.
+    fn line(&self) -> String {
+        let limit = Duration::from_secs(60);
+        self.1.recv_timeout(limit).expect("a line within a minute")
+    }
+
     /// Waits for a line that contains `part`.
+    #[track_caller]
     fn says(&self, part: &str) {
         let limit = Duration::from_secs(60);
-        while !self
-            .1
-            .recv_timeout(limit)
-            .unwrap_or_else(|_| panic!("no `{part}`"))
-            .contains(part)
-        {}
+        let mut before = Vec::new();
+        loop {
+            match self.1.recv_timeout(limit) {
+                Ok(line) if line.contains(part) => return,
+                Ok(line) => before.push(line),
+                Err(_) => panic!("no `{part}` in a minute, but {before:?}"),
+            }
+        }
     }
 }
 
@@ -83,4 +92,83 @@ fn only_files_can_be_watched() {
             .run(&format!("render {input} --watch -o out.png"))
             .refused(&["is no file, and never changes: expected a scene file or a mesh file with `--watch`"]);
     }
+}
+
+const SCENE: &str = "image = { width = 16, height = 12 }\n[[object]]\nmesh = \"mesh.obj\"\n";
+const MESH: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+
+impl Folder {
+    fn remove(&self, name: &str) {
+        std::fs::remove_file(self.path(name)).expect("a file");
+    }
+}
+
+/// Each of the three files goes and comes back, by being written or by being renamed, as editors do it.
+#[test]
+fn files_that_go_and_come_back_are_drawn_again() {
+    let folder = Folder::new();
+    folder
+        .write("scene.toml", SCENE)
+        .write("mesh.obj", MESH)
+        .write("m.mtl", "newmtl m\nKd 1 0 0\n");
+    let watcher = Watcher::new(&folder, "render scene.toml --watch -o out.png");
+    watcher.says("watching 3 files");
+    folder.remove("scene.toml");
+    watcher.says("`scene.toml` is neither a file nor");
+    watcher.says("watching 1 file:");
+    folder.write("scene.toml", SCENE.replace("16", "20"));
+    watcher.says("out.png: 20x12");
+    watcher.says("watching 3 files");
+    folder.remove("mesh.obj");
+    watcher.says("mesh.obj");
+    watcher.says("watching 2 files");
+    folder.write("new", MESH);
+    std::fs::rename(folder.path("new"), folder.path("mesh.obj")).expect("another name");
+    watcher.says("out.png: 20x12");
+    watcher.says("watching 3 files");
+    folder.remove("m.mtl");
+    watcher.says("m.mtl");
+    watcher.says("watching 3 files");
+    let grey = folder.read("out.png");
+    folder.write("m.mtl", "newmtl m\nKd 0 0 1\n");
+    watcher.says("out.png: 20x12");
+    watcher.says("watching 3 files");
+    assert_ne!(folder.read("out.png"), grey, "the library is back");
+    // The same size, under the same name.
+    folder.write("new", MESH.replace("1 0 0", "9 0 0"));
+    std::fs::rename(folder.path("new"), folder.path("mesh.obj")).expect("another name");
+    watcher.says("out.png: 20x12");
+}
+
+/// A library that was never there is looked for as long as the mesh names it.
+#[test]
+fn a_library_that_comes_later_is_drawn() {
+    let folder = Folder::new();
+    folder.write("mesh.obj", MESH);
+    let watcher = Watcher::new(&folder, "render mesh.obj --size 16x12 --watch -o out.png");
+    watcher.says("watching 2 files");
+    let without = folder.read("out.png");
+    folder.write("m.mtl", "newmtl m\nKd 1 0 0\n");
+    watcher.says("out.png: 16x12");
+    watcher.says("watching 2 files");
+    assert_ne!(folder.read("out.png"), without);
+}
+
+/// A mesh that cannot be read for a moment is told once, and drawn as soon as it can.
+#[test]
+fn an_error_is_told_once() {
+    let folder = Folder::new();
+    folder.write("scene.toml", SCENE);
+    let watcher = Watcher::new(&folder, "render scene.toml --watch -o out.png");
+    watcher.says("mesh.obj");
+    watcher.says("watching 2 files");
+    folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");
+    watcher.says("watching 2 files");
+    folder.write("mesh.obj", MESH);
+    let mut lines = 0;
+    while !watcher.line().contains("out.png: 16x12") {
+        lines += 1;
+    }
+    // Nothing, or a warning that no library is there.
+    assert!(lines <= 1, "{lines} lines");
 }

@@ -544,3 +544,44 @@ fn every_file_is_compiled() {
     }
     assert!(lost.is_empty(), "no parent declares {lost:?}");
 }
+
+/// Commands open files in `src/cli/files.rs` alone, which sees to it that none is read and written.
+#[test]
+fn commands_open_files_in_one_module() {
+    let opens = [
+        "fs::read(",
+        "fs::read_to_string(",
+        "fs::write(",
+        "fs::copy(",
+        "fs::rename(",
+        "File::open",
+        "File::create",
+        "File::options",
+        "OpenOptions",
+        "read_picture(",
+        "write_picture(",
+        "write_file",
+        "input::load(",
+        "input::resolve(",
+        "SceneFile::load",
+        "load_obj",
+    ];
+    let mut found = 0;
+    for path in files("src/cli", "rs") {
+        let source = read(&path);
+        let is_files = path.ends_with("files.rs");
+        // What the system says of the program is no file of the user.
+        let code = source.lines().filter(|line| !line.contains("/proc/"));
+        for line in code.filter(|line| !line.trim_start().starts_with("//")) {
+            for open in opens.iter().filter(|open| line.contains(*open)) {
+                assert!(
+                    is_files,
+                    "{}: `{open}`: use src/cli/files.rs",
+                    path.display()
+                );
+                found += 1;
+            }
+        }
+    }
+    assert!(found > 3, "src/cli/files.rs opens them");
+}

@@ -47,6 +47,18 @@ pub struct LoadedObj {
 /// [`ObjError`] with the line where there is one: the file cannot be read, is not OBJ text, has no polygons, holds numbers that are
 /// not finite or indices that do not exist, or is larger than a [`PolygonMesh`] may be.
 pub fn load_obj(path: &Path) -> Result<LoadedObj, ObjError> {
+    load_obj_by(path, &mut |path| fs::read(path))
+}
+
+/// Reads the OBJ file at `path` and its MTL files as [`load_obj`] does, all by `read`: which may note what a mesh is made of. It is
+/// asked for files that are not there, too.
+///
+/// # Errors
+/// As [`load_obj`].
+pub fn load_obj_by(
+    path: &Path,
+    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+) -> Result<LoadedObj, ObjError> {
     let failed = |problem| ObjError {
         path: path.into(),
         line: None,
@@ -56,20 +68,21 @@ pub fn load_obj(path: &Path) -> Result<LoadedObj, ObjError> {
         return Err(failed(ObjProblem::Directory));
     }
     let unreadable = |error: io::Error| failed(ObjProblem::Unreadable(error.to_string()));
-    let bytes = fs::read(path).map_err(unreadable)?;
+    let bytes = read(path).map_err(unreadable)?;
     let directory = path.parent().unwrap_or(Path::new(""));
-    parse_obj(path, &bytes, |library| read_library(directory, library))
+    parse_obj(path, &bytes, |name| read_library(directory, name, read))
 }
 
-/// Reads the material library `name`, looked for from `directory`, and last by its bare file name there.
-fn read_library(directory: &Path, name: &str) -> io::Result<Vec<u8>> {
+/// Reads the material library `name` by `read`, looked for from `directory`, and last by its bare file name there.
+fn read_library(
+    directory: &Path,
+    name: &str,
+    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+) -> io::Result<Vec<u8>> {
     // A device or a pipe might never end.
-    let read = |file: &Path| {
-        if fs::metadata(file)?.is_file() {
-            fs::read(file)
-        } else {
-            Err(io::Error::other("not a file"))
-        }
+    let mut read = |file: &Path| match fs::metadata(file) {
+        Ok(found) if !found.is_file() => Err(io::Error::other("not a file")),
+        _ => read(file),
     };
     // Exporters write paths of the machine they ran on, often with the other separator.
     let path = directory.join(name.replace('\\', "/"));

@@ -19,10 +19,11 @@ use crate::mesh::Material;
 use diagnostics::{Origin, SceneError, SourceText};
 use glam::DVec3;
 use schema::SCENE;
-use std::format;
 use std::path::Path;
 use std::string::{String, ToString};
 use std::sync::Arc;
+use std::vec::Vec;
+use std::{format, io};
 use value::{Data, SceneTable, Value};
 
 /// A scene as it is written. Two scene files are equal when they say the same, wherever it stands.
@@ -60,12 +61,22 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError`] when the file cannot be read or is not UTF-8, and those of [`SceneFile::parse`].
     pub fn load(path: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
-        let path = path.as_ref();
+        SceneFile::load_by(path.as_ref(), &mut |path| std::fs::read(path))
+    }
+
+    /// Reads the scene in the file `path` as [`SceneFile::load`] does, by `read`.
+    ///
+    /// # Errors
+    /// As [`SceneFile::load`].
+    pub fn load_by(
+        path: &Path,
+        read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+    ) -> Result<SceneFile, SceneError> {
         let failed = |reason: String, expected: &str| {
             let title = format!("cannot read the scene `{}`: {reason}", path.display());
             SceneError::new(Origin::Program, title, expected)
         };
-        let bytes = std::fs::read(path).map_err(|error| failed(error.to_string(), ""))?;
+        let bytes = read(path).map_err(|error| failed(error.to_string(), ""))?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
             let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;

@@ -1,0 +1,281 @@
+//! The files of a command: those that it reads, and those that it writes. None is both.
+//!
+//! Every file is registered before it is read, and every place that is written is looked up among these: before anything is drawn
+//! where the place is known ([`check`]), and in any case when it is written ([`write`]). No other module of the commands opens files
+//! (`tests/documents/tidy.rs`). Files are told apart by identity and not by name, so that links do not hide one.
+//!
+//! `--watch` looks at the same list ([`wait_for_change`]): a file that is not there, or was there, is in it like any other.
+
+use super::{CliError, signals};
+use fastphong::picture::image_file::{
+    FilePicture, ImageFileError, end_of_links, read_picture, write_file_by,
+};
+use fastphong::scene::file::SceneFile;
+use fastphong::scene::file::diagnostics::SceneError;
+use fastphong::scene::file::resolve::Resolved;
+use fastphong::scene::input;
+use std::fmt;
+use std::fs::{self, Metadata};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::sleep;
+use std::time::{Duration, SystemTime};
+
+/// A file that is read, as it was before that.
+#[derive(Clone, Debug)]
+struct FileRead {
+    path: PathBuf,
+    /// The part that it has in the command: `the scene`.
+    part: &'static str,
+    state: Option<State>,
+}
+
+/// A file on the disk: two states differ if anything was written to it since, or another file has its name now.
+#[derive(Clone, Debug, PartialEq)]
+struct State {
+    identity: Identity,
+    size: u64,
+    written: Option<SystemTime>,
+}
+
+/// A file, whatever it is called.
+#[cfg(unix)]
+#[derive(Clone, Debug, PartialEq)]
+struct Identity {
+    device: u64,
+    inode: u64,
+}
+
+/// A file, by its name without links.
+#[cfg(not(unix))]
+#[derive(Clone, Debug, PartialEq)]
+struct Identity(PathBuf);
+
+/// A place that a command writes to.
+#[derive(Clone, Copy, Debug)]
+pub struct Destination<'a> {
+    /// The flag that names it: `--output`.
+    pub name: &'a str,
+    pub path: &'a Path,
+}
+
+/// The reason why a file is not written: the command reads it, or writes something else to it.
+#[derive(Debug)]
+pub struct OneFileError(String);
+
+impl fmt::Display for OneFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for OneFileError {}
+
+/// The files of a command.
+#[derive(Debug)]
+struct Files {
+    read: Vec<FileRead>,
+    written: Vec<PathBuf>,
+}
+
+const NONE: Files = Files {
+    read: Vec::new(),
+    written: Vec::new(),
+};
+
+/// All files since [`forget`].
+static FILES: Mutex<Files> = Mutex::new(NONE);
+
+fn files() -> MutexGuard<'static, Files> {
+    FILES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Forgets all files: a command begins anew.
+pub fn forget() {
+    *files() = NONE;
+}
+
+/// Registers a file that is going to be read, as `part` of the command.
+pub fn will_read(path: &Path, part: &'static str) {
+    let file = FileRead {
+        path: path.to_owned(),
+        part,
+        state: State::of(path),
+    };
+    let known = &mut files().read;
+    if known.iter().all(|other| other.path != file.path) {
+        known.push(file);
+    }
+}
+
+/// Registers a file that a scene is made of, which is going to be read.
+pub fn will_read_of_scene(path: &Path) {
+    let ending = path.extension().unwrap_or_default();
+    let part = match ending {
+        _ if ending.eq_ignore_ascii_case("toml") => "the scene",
+        _ if ending.eq_ignore_ascii_case("obj") => "the mesh",
+        _ => "the material library",
+    };
+    will_read(path, part);
+}
+
+/// Reads a file that a scene is made of.
+fn read_of_scene(path: &Path) -> io::Result<Vec<u8>> {
+    will_read_of_scene(path);
+    fs::read(path)
+}
+
+/// Loads the scene that `input` names, as [`input::load`] does. Its mesh files are registered, though not yet read.
+///
+/// # Errors
+/// As [`input::load`].
+pub fn load(input: &str) -> Result<SceneFile, SceneError> {
+    let file = input::load_by(input, &mut read_of_scene)?;
+    let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    for mesh in file.meshes().filter(|mesh| input::is_mesh_file(mesh)) {
+        will_read_of_scene(&folder.join(mesh));
+    }
+    Ok(file)
+}
+
+/// Returns the scene that `file` describes, as [`input::resolve`] does.
+///
+/// # Errors
+/// As [`input::resolve`].
+pub fn resolve(file: &SceneFile) -> Result<Resolved, SceneError> {
+    input::resolve_by(file, &mut read_of_scene)
+}
+
+/// Reads a picture, which is `part` of the command.
+///
+/// # Errors
+/// As [`read_picture`].
+pub fn picture(path: &Path, part: &'static str) -> Result<FilePicture, ImageFileError> {
+    will_read(path, part);
+    read_picture(path)
+}
+
+/// Opens a document, to be read.
+///
+/// # Errors
+/// When it cannot be opened.
+pub fn document(path: &Path) -> io::Result<fs::File> {
+    will_read(path, "the document");
+    fs::File::open(path)
+}
+
+/// Refuses to write to a file that is read, and to write twice to one file.
+///
+/// # Errors
+/// When one of `destinations` is such a file, under any name.
+pub fn check(destinations: &[Destination<'_>]) -> Result<(), CliError> {
+    let read = &files().read;
+    for (number, to) in destinations.iter().enumerate() {
+        let is_it = |file: &&FileRead| is_one_file(&file.path, to.path);
+        if let Some(FileRead { path, part, .. }) = read.iter().find(is_it) {
+            let mut problem = format!("`{}` is {part} itself, {}", to.name, path.display());
+            if *path != to.path {
+                problem += &format!(", by the name {}", to.path.display());
+            }
+            return Err(OneFileError(format!("{problem}: expected another file")).into());
+        }
+        let before = &destinations[..number];
+        if let Some(other) = before.iter().find(|other| is_one_file(other.path, to.path)) {
+            let (one, two, path) = (other.name, to.name, to.path.display());
+            let problem = format!("`{one}` and `{two}` name one file, {path}");
+            return Err(OneFileError(format!("{problem}: expected a file for each")).into());
+        }
+    }
+    Ok(())
+}
+
+/// Writes the bytes that `write` writes, a file whole or not at all. A signal that ends the program leaves no draft.
+///
+/// # Errors
+/// When the place is a file that was read, or was written already, or cannot be written.
+pub fn write(
+    to: Destination<'_>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), CliError> {
+    check(&[to])?;
+    if files()
+        .written
+        .iter()
+        .any(|path| is_one_file(path, to.path))
+    {
+        let (name, path) = (to.name, to.path.display());
+        let problem = format!("`{name}` names {path}, which was written just now");
+        return Err(OneFileError(format!("{problem}: expected a file for each")).into());
+    }
+    signals::remove_drafts_at_the_end();
+    write_file_by(to.path, write)?;
+    files().written.push(to.path.to_owned());
+    Ok(())
+}
+
+/// True if both paths lead to one plain file, or would if it were there.
+fn is_one_file(a: &Path, b: &Path) -> bool {
+    match [a, b].map(|path| fs::metadata(path).ok()) {
+        [Some(found), Some(other)] => {
+            let is_plain = found.is_file() && other.is_file();
+            is_plain && Identity::of(a, &found) == Identity::of(b, &other)
+        }
+        [None, None] => place(a) == place(b),
+        _ => false,
+    }
+}
+
+/// Returns the place of a file that is not there: links are followed, as far as there are any.
+fn place(path: &Path) -> PathBuf {
+    let end = end_of_links(path);
+    let folder = end.parent().filter(|folder| *folder != "");
+    let folder = folder.unwrap_or(Path::new(".")).canonicalize();
+    match (folder, end.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => end,
+    }
+}
+
+impl Identity {
+    #[cfg(unix)]
+    fn of(_path: &Path, found: &Metadata) -> Identity {
+        use std::os::unix::fs::MetadataExt;
+        Identity {
+            device: found.dev(),
+            inode: found.ino(),
+        }
+    }
+
+    #[cfg(not(unix))]
+    fn of(path: &Path, _found: &Metadata) -> Identity {
+        Identity(path.canonicalize().unwrap_or_else(|_| path.to_owned()))
+    }
+}
+
+impl State {
+    /// Returns the state of a file, if it is there.
+    fn of(path: &Path) -> Option<State> {
+        let found = fs::metadata(path).ok()?;
+        Some(State {
+            identity: Identity::of(path, &found),
+            size: found.len(),
+            written: found.modified().ok(),
+        })
+    }
+}
+
+/// The time between two looks at the files: a blink.
+const PAUSE: Duration = Duration::from_millis(150);
+
+/// Waits until one of the files that were read is another than it was before that: changed, gone, or there again. Calls `waits` with
+/// their number first.
+pub fn wait_for_change(waits: impl FnOnce(usize)) {
+    let read = files().read.clone();
+    waits(read.len());
+    while read.iter().all(|file| State::of(&file.path) == file.state) {
+        sleep(PAUSE);
+    }
+    // Who writes several files, or one in several steps, may be at it still.
+    sleep(PAUSE);
+}
