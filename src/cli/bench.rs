@@ -64,7 +64,7 @@ impl BenchArgs {
         let (text, json) = if self.frame_times {
             frame_times(&measurement, &self.timing.methods, self.count)?
         } else {
-            let comparisons = self.timing.compare(&measurement)?;
+            let comparisons = self.timing.compare(&measurement, false)?;
             let tables = comparisons.iter().map(|c| table(c, TableKind::Bench));
             let tables = tables.collect::<Vec<_>>().join("\n");
             let text = format!("{}\n\n{tables}", Machine::this().line());

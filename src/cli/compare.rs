@@ -4,7 +4,7 @@ use super::engines::LectureFlags;
 use super::measured::{Measurement, TimingFlags, command_line};
 use super::scene_flags::SceneFlags;
 use super::{CliError, Log, Outcome, done};
-use fastphong::compare::comparison::{Comparison, TableKind, table};
+use fastphong::compare::comparison::{TableKind, table};
 use fastphong::raster::Renderer;
 use fastphong::report::Document;
 
@@ -31,17 +31,16 @@ impl CompareArgs {
     /// Compares, times, and prints the table.
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let renderer = self.drawn.renderer()?;
-        let mut comparisons = self.timing.compare(&Measurement {
+        let perceives = self.json || self.all_columns;
+        let measurement = Measurement {
             inputs: &[&self.input],
             scene: &self.scene,
             renderers: &[renderer],
             threads: self.drawn.threads,
             log,
             destinations: &[],
-        })?;
-        if self.json || self.all_columns {
-            comparisons.iter_mut().for_each(Comparison::perceive);
-        }
+        };
+        let comparisons = self.timing.compare(&measurement, perceives)?;
         let kind = match self.all_columns {
             true => TableKind::Compare,
             false => TableKind::Short,

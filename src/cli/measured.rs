@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::render::warn_of_polygons_left_out;
 use super::scene_flags::SceneFlags;
 use super::values::number;
-use super::{CliError, Log};
+use super::{CliError, Log, memory};
 use fastphong::compare::comparison::{Comparison, Input, compare};
 use fastphong::compare::timing::{Machine, TimeLimits};
 use fastphong::number::NameError;
@@ -86,14 +86,22 @@ pub struct TimingFlags {
 }
 
 impl TimingFlags {
-    /// Draws, compares and times every scene by every renderer, with a progress bar where it takes long.
-    pub fn compare(&self, of: &Measurement<'_>) -> Result<Vec<Comparison>, CliError> {
+    /// Draws, compares and times every scene by every renderer, with a progress bar where it takes long; finds mean ꟻLIP too if
+    /// `perceives`. Pictures are not kept.
+    pub fn compare(
+        &self,
+        of: &Measurement<'_>,
+        perceives: bool,
+    ) -> Result<Vec<Comparison>, CliError> {
         let turns = (of.inputs.len() * of.renderers.len()) as f32;
         let mut comparisons = Vec::new();
         of.each_scene(|name, scene, progress| {
             let frame = scene.frame()?;
             drop(scene);
-            progress.aside(|| warn_of_polygons_left_out(frame.stats(), of.log));
+            progress.aside(|| {
+                warn_of_polygons_left_out(frame.stats(), of.log);
+                memory::check(&frame, &self.methods, 1, of.log)
+            })?;
             let input = Input {
                 name: name.to_owned(),
                 frame: &frame,
@@ -108,7 +116,12 @@ impl TimingFlags {
                     progress.at((turn + part) / turns, &format!("{name}: {next}"));
                 };
                 let compare = || compare(&input, &self.methods, *renderer, limits, progress);
-                comparisons.push(of.threads.install_for(*renderer, compare)?);
+                let mut comparison = of.threads.install_for(*renderer, compare)?;
+                if perceives {
+                    comparison.perceive();
+                }
+                comparison.drop_pictures();
+                comparisons.push(comparison);
             }
             Ok(())
         })?;

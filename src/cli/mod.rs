@@ -19,6 +19,7 @@ mod info;
 mod list;
 pub mod log;
 mod measured;
+mod memory;
 mod mesh_facts;
 mod name_template;
 mod output;

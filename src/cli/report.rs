@@ -7,7 +7,7 @@ use super::files::{self, Destination};
 use super::measured::{TimingFlags, command_line, named_or_shipped, warn_of_debug_build};
 use super::progress::Progress;
 use super::scene_flags::SceneFlags;
-use super::{CliError, Log, Outcome, done};
+use super::{CliError, Log, Outcome, done, memory};
 use fastphong::compare::comparison::{self, Comparison, Input};
 use fastphong::compare::timing::TimeLimits;
 use fastphong::frame::Frame;
@@ -187,6 +187,11 @@ impl ReportArgs {
         Ok(Report::new(&document, pictures)?)
     }
 
+    /// Returns the number of scenes.
+    fn scenes(&self) -> usize {
+        named_or_shipped(&self.inputs).len()
+    }
+
     /// Makes the picture of a scene no larger than the page shows it, unless flags say otherwise.
     fn shown(&self, mut file: SceneFile) -> SceneFile {
         if self.full || self.scene.gives(Some("image"), "width") {
@@ -228,6 +233,8 @@ impl ReportArgs {
         bar.aside(|| self.scene.warn(&resolved, log));
         let frame = resolved.scene.frame()?;
         drop(resolved);
+        let at_once = rayon::current_num_threads().min(self.scenes());
+        bar.aside(|| memory::check(&frame, &self.timing.methods, at_once, log))?;
         let input = Input {
             name: name.to_owned(),
             frame: &frame,

@@ -388,3 +388,28 @@ fn the_legend_of_the_mark_stands_only_under_tables_that_have_it() {
         }
     }
 }
+
+/// A picture that can be drawn and not compared in this memory is an error before anything is drawn, not a program that is gone.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_a_comparison_needs_is_said_and_checked() {
+    let memory = std::fs::read_to_string("/proc/meminfo").expect("Linux tells");
+    let gigabytes = |key: &str| {
+        let kilobytes = memory.lines().find_map(|line| line.strip_prefix(key));
+        let kilobytes = kilobytes.and_then(|text| text.split_whitespace().next());
+        kilobytes.map_or(0, |text| text.parse::<u64>().expect("a number") / 1_000_000)
+    };
+    if gigabytes("MemAvailable:") + gigabytes("SwapFree:") > 90 {
+        return; // it would be drawn
+    }
+    let folder = Folder::new();
+    for command in ["compare", "bench", "report --full"] {
+        folder
+            .run(&format!("{command} builtin:cube --size 16384x16384"))
+            .refused(&[
+                "16384x16384: comparing needs about 1",
+                " GB of memory, and ",
+                " GB are free: expected fewer pixels or samples, or fewer methods",
+            ]);
+    }
+}

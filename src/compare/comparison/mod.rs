@@ -39,6 +39,7 @@ use crate::frame::{Frame, FrameStats};
 use crate::picture::encoding::store;
 use crate::picture::{Encoding, LinearPicture, Picture8};
 use crate::raster::{Renderer, coverage};
+use crate::reference::Model;
 use crate::scene::Interpolation;
 use crate::shading::{METHODS, MethodParameter, Variant};
 use alloc::collections::BTreeMap;
@@ -189,9 +190,6 @@ pub struct MethodRow {
     /// The stored picture.
     #[serde(skip)]
     pub picture: Picture8,
-    /// The picture before rounding.
-    #[serde(skip)]
-    pub linear: LinearPicture,
 }
 
 impl MethodRow {
@@ -311,6 +309,40 @@ pub fn draw(
     }
 }
 
+/// Returns about how many bytes [`draw`] needs at its peak, beside the frame: rather too many, by at most a fourth.
+///
+/// Held are, for each sample, the reference's polygons, depths and gaps, and the polygons that the engines show; for each pixel, the
+/// closed form of each model, and a stored picture a row. On top of that comes the larger one of a reference while it is shaded, in
+/// `f64`, and a row while it is compared. Frames of other polygons than triangles have a second reference.
+pub fn memory_needed(frame: &Frame, variants: &[Variant]) -> u64 {
+    let pixels = (frame.picture_width() * frame.picture_height()) as u64;
+    let samples = (frame.width() * frame.height()) as u64;
+    let variants = with_baseline(variants);
+    let counterparts = counterparts(&variants);
+    let is_cut = frame.polygons().iter().any(|polygon| polygon.count > 3);
+    let models = |variants: &[Variant]| {
+        let mut models: Vec<Model> = variants.iter().map(|v| v.info().model).collect();
+        models.push(Model::Phong);
+        models.sort_by_key(|model| *model as usize);
+        models.dedup();
+        models.len() as u64
+    };
+    let (visibility, polygons, linear, stored) = (4 + 8 + 8, 4, 16, 4);
+    let (references, forms) = match is_cut {
+        true => (2, models(&variants) + models(&counterparts)),
+        false => (1, models(&[&variants[..], &counterparts].concat())),
+    };
+    let rows = (variants.len() + counterparts.len()) as u64;
+    let shading = samples * (32 + visibility) + pixels * (32 + linear);
+    let comparing = samples * polygons + pixels * (linear + stored + METRICS_PER_PIXEL);
+    samples * (references * visibility + 2 * polygons)
+        + pixels * (forms * linear + rows * stored)
+        + shading.max(comparing)
+}
+
+/// Bytes a pixel that a comparison of two pictures needs beside them, for errors and brightness.
+const METRICS_PER_PIXEL: u64 = 24;
+
 impl Comparison {
     /// Returns all rows: those drawn by scanlines, then the barycentric renderer's.
     pub fn all_rows(&self) -> impl Iterator<Item = &MethodRow> {
@@ -339,7 +371,6 @@ impl Comparison {
         self.reference = LinearPicture::new(0, 0, [0.0; 4]);
         for row in self.rows.iter_mut().chain(&mut self.barycentric) {
             row.picture = Picture8::new(0, 0, [0; 4]);
-            row.linear = LinearPicture::new(0, 0, [0.0; 4]);
         }
     }
 }

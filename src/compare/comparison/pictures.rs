@@ -139,7 +139,6 @@ impl<'a> References<'a> {
             other_polygon: error.excluded,
             speed: None,
             picture,
-            linear,
         }
     }
 }
