@@ -1,11 +1,11 @@
 //! `fastphong info`: the parts of a scene or a mesh, with their facts.
 
 use super::mesh_facts::{MeshFacts, PLANAR};
+use super::normals::describe;
 use super::scene_flags::SceneFlags;
 use super::text::{counted, grouped, wrapped};
 use super::{CliError, Log, Outcome, done, files};
 use fastphong::frame::Frame;
-use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::raster::{Plan, Renderer};
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::{Object, Projection, Scene};
@@ -40,14 +40,14 @@ impl InfoArgs {
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let file = self.scene.load(&self.input)?;
         let resolved = files::resolve(&file)?;
-        self.scene.warn(&resolved, log);
+        self.scene.warn(&file, &resolved, log);
         let scene = &resolved.scene;
         // A mesh that several objects share is looked at once.
         let mut known = BTreeMap::new();
         let mut object = |(object, mesh): (&Object, _)| {
             let facts = known.entry(Arc::as_ptr(&object.mesh));
             let facts = facts.or_insert_with(|| MeshFacts::of(&object.mesh)).clone();
-            let normals = normals(object.normals, facts.given_normals);
+            let normals = describe(object);
             ObjectFacts {
                 mesh,
                 facts,
@@ -197,16 +197,6 @@ impl ObjectFacts<'_> {
   memory      {bytes} bytes
 "
         )
-    }
-}
-
-/// Describes the source of an object's vertex normals; `given` if its mesh has some.
-fn normals(source: NormalSource, given: bool) -> String {
-    match (source, given) {
-        (NormalSource::Given, true) => "given with the mesh".to_owned(),
-        (NormalSource::Given, false) => "averaged: the mesh has none".to_owned(),
-        (NormalSource::Averaged, _) => "averaged".to_owned(),
-        (NormalSource::Crease(angle), _) => format!("averaged up to a crease of {angle} degrees"),
     }
 }
 

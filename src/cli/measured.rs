@@ -67,7 +67,7 @@ impl Measurement<'_> {
         for (name, file) in self.inputs.iter().zip(&files) {
             let resolved = files::resolve(file)?;
             files::check(self.destinations)?;
-            progress.aside(|| self.scene.warn(&resolved, self.log));
+            progress.aside(|| self.scene.warn(file, &resolved, self.log));
             measure(name, resolved.scene, &progress)?;
         }
         Ok(())

@@ -61,7 +61,7 @@ impl MeshFacts {
             polygons: mesh.polygon_count(),
             vertices: used.collect::<HashSet<_>>().len(),
             positions: mesh.positions().len(),
-            bounds: bounds.map(|ends| ends.map(|p| p.as_dvec3().to_array())),
+            bounds: bounds.map(|ends| ends.map(|p| p.to_array())),
             materials: mesh.materials().len(),
             given_normals: mesh.given_normals().is_some(),
             bytes: bytes(mesh),

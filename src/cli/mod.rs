@@ -22,6 +22,7 @@ mod measured;
 mod memory;
 mod mesh_facts;
 mod name_template;
+mod normals;
 mod output;
 mod progress;
 mod reference_check;

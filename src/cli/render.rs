@@ -117,7 +117,7 @@ impl RenderArgs {
             progress.aside(|| log.note("--aov shows single samples: one per pixel, in its middle"));
         }
         progress.aside(|| {
-            self.scene.warn(&resolved, log);
+            self.scene.warn(&file, &resolved, log);
             log.duration("loaded", started);
         });
         if self.print_scene {

@@ -230,7 +230,7 @@ impl ReportArgs {
         let resolved = self.scene.resolve_to_show(&mut file.clone())?;
         // Which material libraries a mesh has is known by now.
         self.check_destinations()?;
-        bar.aside(|| self.scene.warn(&resolved, log));
+        bar.aside(|| self.scene.warn(file, &resolved, log));
         let frame = resolved.scene.frame()?;
         drop(resolved);
         let at_once = rayon::current_num_threads().min(self.scenes());

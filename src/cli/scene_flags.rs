@@ -1,6 +1,7 @@
 //! Flags that change the scene: each gives values to keys of a scene file. They replace those of the file, and are checked
 //! together with the rest.
 
+use super::normals::describe;
 use super::{CliError, Log, files};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
@@ -100,7 +101,9 @@ static FLAGS: &[Flag] = flags! {
     "two-sided" "" ["two_sided"]
     /// Supersampling: samples along each side of a pixel, 1, 2, 4 or 8, each with its own depth and colour
     "samples" "N" ["image.samples"]
-    /// Vertex normals: `averaged`, `given` with the mesh, or averaged up to an angle, `crease=30`
+    /// Vertex normals: `auto`, as the mesh states them by normals and smoothing groups; `averaged` within smoothing groups;
+    /// `given` with the mesh; or averaged up to an angle, `crease=30` [default: the scene's, else `auto` for a mesh file and
+    /// `averaged` for a built-in mesh]
     "normals" "SOURCE" ["object.normals"]
 };
 
@@ -156,7 +159,7 @@ impl Flag {
             "view" => "two numbers azimuth,elevation",
             "light" => "a direction x,y,z, with an intensity or a colour r,g,b after it",
             "light-at" => "a position x,y,z, with an intensity or a colour r,g,b after it",
-            _ => "`averaged`, `given` or `crease=DEGREES`",
+            _ => "`auto`, `averaged`, `given` or `crease=DEGREES`",
         };
         settings.ok_or_else(|| format!("expected {expected}"))
     }
@@ -296,10 +299,16 @@ impl SceneFlags {
         table.is_some_and(|table| table.get(key).is_some())
     }
 
-    /// Says what is odd about a scene.
-    pub fn warn(&self, resolved: &Resolved, log: Log) {
+    /// Says what is odd about a scene, and where its vertex normals are from.
+    pub fn warn(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
         for warning in &resolved.warnings {
             log.warning(warning);
+        }
+        for note in &resolved.notes {
+            log.note(note);
+        }
+        for (object, mesh) in resolved.scene.objects.iter().zip(file.meshes()) {
+            log.detail(&format!("vertex normals of {mesh}: {}", describe(object)));
         }
         let mut objects = resolved.scene.objects.iter();
         if self.over.get("material").is_some()

@@ -49,22 +49,26 @@ impl SceneFlags {
     /// # Errors
     /// As [`files::resolve`].
     pub fn resolve_to_show(&self, file: &mut SceneFile) -> Result<Resolved, CliError> {
-        let Resolved { scene, warnings } = files::resolve(file)?;
+        let resolved = files::resolve(file)?;
         if !is_mesh_alone(file) {
-            return Ok(Resolved { scene, warnings });
+            return Ok(resolved);
         }
+        let scene = &resolved.scene;
         let mut over = SceneTable::default();
         if !self.gives(None, "light") {
             over.set("light", lights(&scene.camera), Origin::Program);
         }
-        if !self.gives(Some("image"), "samples") && is_quick(&scene) {
+        if !self.gives(Some("image"), "samples") && is_quick(scene) {
             let image = over.table_mut("image");
             image.set("samples", Data::Whole(2), Origin::Program);
         }
         file.overlay(over);
         let mesh = &scene.objects[0].mesh;
         let lit = file.resolve(|_, _| Ok((mesh.clone(), Vec::new())))?;
-        Ok(Resolved { warnings, ..lit })
+        Ok(Resolved {
+            scene: lit.scene,
+            ..resolved
+        })
     }
 }
 

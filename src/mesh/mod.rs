@@ -4,9 +4,12 @@ mod material;
 
 pub use material::Material;
 pub mod builtin;
+mod cap_sums;
+mod fans;
 pub mod newell;
 #[cfg(feature = "io")]
 pub mod obj;
+mod origin;
 pub mod shapes;
 pub mod vertex_normals;
 mod vertex_sums;
@@ -14,7 +17,7 @@ pub mod weld;
 
 use alloc::vec::Vec;
 use core::fmt;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Normals that came with a mesh: by formula, or from a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,9 +33,12 @@ pub struct GivenNormals {
 /// Made by [`MeshBuilder`], which checks every index, so that what reads a mesh need not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PolygonMesh {
+    origin: DVec3,
     positions: Vec<Vec3>,
     corners: Vec<u32>,
     ends: Vec<u32>,
+    parts: Vec<u32>,
+    smoothing_groups: Vec<u32>,
     given_normals: Option<GivenNormals>,
     colours: Vec<Vec3>,
     materials: Vec<Material>,
@@ -45,7 +51,16 @@ impl PolygonMesh {
     /// The most corners, all polygons together: 128 million.
     pub const MAX_CORNERS: usize = 1 << 27;
 
-    /// Returns the positions in model space.
+    /// The smoothing group of polygons that are not smoothed: all their corners have the polygon's own normal.
+    pub const FACETED: u32 = 0;
+
+    /// Returns the point of model space that [`PolygonMesh::positions`] count from: 0, unless the mesh was made by
+    /// [`MeshBuilder::from_f64`] and lies far from 0.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// Returns the positions, relative to [`PolygonMesh::origin`].
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
     }
@@ -74,6 +89,23 @@ impl PolygonMesh {
     /// Returns all polygons in order.
     pub fn polygons(&self) -> impl ExactSizeIterator<Item = &[u32]> {
         (0..self.polygon_count()).map(|p| self.polygon(p))
+    }
+
+    /// Returns the part of the mesh that polygon `p` belongs to: in an OBJ file its object (`o`). Vertex normals are never
+    /// averaged over two parts.
+    pub fn part(&self, p: usize) -> u32 {
+        self.parts.get(p).copied().unwrap_or(0)
+    }
+
+    /// Returns the smoothing group of polygon `p`, [`PolygonMesh::FACETED`] for none; `None` where the mesh has no groups
+    /// and all of it is smooth.
+    pub fn smoothing_group(&self, p: usize) -> Option<u32> {
+        self.smoothing_groups.get(p).copied()
+    }
+
+    /// True if the mesh has smoothing groups.
+    pub fn has_smoothing_groups(&self) -> bool {
+        !self.smoothing_groups.is_empty()
     }
 
     /// Returns the normals that came with the mesh, if any did.
@@ -109,11 +141,13 @@ impl PolygonMesh {
         materials.for_each(|material| *material = number.min(*material));
     }
 
-    /// Returns the smallest and largest coordinates over all positions that polygons use; `None` without polygons.
-    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+    /// Returns the smallest and largest coordinates in model space over all positions that polygons use; `None` without
+    /// polygons.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let mut used = self.corners.iter().map(|&c| self.positions[c as usize]);
         let first = used.next()?;
-        Some(used.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
+        let (low, high) = used.fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
+        Some((self.origin + low.as_dvec3(), self.origin + high.as_dvec3()))
     }
 }
 
@@ -139,6 +173,13 @@ pub enum MeshError {
     },
     /// The colours are not one a position.
     ColourCount {
+        /// The number found.
+        found: usize,
+        /// The number expected.
+        expected: usize,
+    },
+    /// The parts or the smoothing groups are not one a polygon.
+    GroupCount {
         /// The number found.
         found: usize,
         /// The number expected.
@@ -177,6 +218,12 @@ impl fmt::Display for MeshError {
             MeshError::ColourCount { found, expected } => {
                 write!(f, "{found} colours where {expected} were expected")
             }
+            MeshError::GroupCount { found, expected } => {
+                write!(
+                    f,
+                    "groups of {found} polygons where {expected} were expected"
+                )
+            }
             MeshError::NormalCount { found, expected } => {
                 write!(f, "{found} normals where {expected} were expected")
             }
@@ -195,11 +242,40 @@ pub struct MeshBuilder {
 impl MeshBuilder {
     /// Starts from `positions`.
     pub fn new(positions: Vec<Vec3>) -> Self {
+        MeshBuilder::around(DVec3::ZERO, positions)
+    }
+
+    /// Starts from positions in `f64`, all of which should be used. Where they lie far from 0 compared with their extent,
+    /// they are rounded to `f32` relative to [`PolygonMesh::origin`], so that what is small stays exact.
+    ///
+    /// ```
+    /// use fastphong::mesh::MeshBuilder;
+    /// use glam::DVec3;
+    ///
+    /// let far = DVec3::new(500_000.0, 0.0, 5_400_000.0);
+    /// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| far + 0.3 * p);
+    /// let mut builder = MeshBuilder::from_f64(&corners);
+    /// builder.polygon(&[0, 1, 2]);
+    /// let mesh = builder.finish()?;
+    /// assert_eq!(mesh.origin() + mesh.positions()[0].as_dvec3(), far);
+    /// assert!(mesh.positions().iter().all(|p| p.length() < 1.0));
+    /// # Ok::<(), fastphong::mesh::MeshError>(())
+    /// ```
+    pub fn from_f64(positions: &[DVec3]) -> Self {
+        let origin = origin::origin(positions);
+        let relative = positions.iter().map(|&p| (p - origin).as_vec3());
+        MeshBuilder::around(origin, relative.collect())
+    }
+
+    fn around(origin: DVec3, positions: Vec<Vec3>) -> Self {
         MeshBuilder {
             mesh: PolygonMesh {
+                origin,
                 positions,
                 corners: Vec::new(),
                 ends: Vec::new(),
+                parts: Vec::new(),
+                smoothing_groups: Vec::new(),
                 given_normals: None,
                 colours: Vec::new(),
                 materials: Vec::new(),
@@ -228,6 +304,18 @@ impl MeshBuilder {
         self
     }
 
+    /// Adds the part that each polygon belongs to: see [`PolygonMesh::part`]. Empty for one part.
+    pub fn parts(&mut self, of_polygons: Vec<u32>) -> &mut Self {
+        self.mesh.parts = of_polygons;
+        self
+    }
+
+    /// Adds the smoothing group of each polygon: see [`PolygonMesh::smoothing_group`]. Empty for none.
+    pub fn smoothing_groups(&mut self, of_polygons: Vec<u32>) -> &mut Self {
+        self.mesh.smoothing_groups = of_polygons;
+        self
+    }
+
     /// Adds colours, one a position: linear red, green, blue.
     pub fn colours(&mut self, colours: Vec<Vec3>) -> &mut Self {
         self.mesh.colours = colours;
@@ -244,8 +332,8 @@ impl MeshBuilder {
     /// Checks and returns the mesh.
     ///
     /// # Errors
-    /// [`MeshError`] when a vector is not finite, an index does not exist, a polygon has fewer than three corners, or
-    /// the mesh is over its limits.
+    /// [`MeshError`] when a vector is not finite, an index does not exist, a polygon has fewer than three corners, an
+    /// attribute does not have as many entries as it should, or the mesh is over its limits.
     pub fn finish(self) -> Result<PolygonMesh, MeshError> {
         let mesh = self.mesh;
         if mesh.ends.len() > PolygonMesh::MAX_POLYGONS
@@ -259,6 +347,12 @@ impl MeshBuilder {
                 return Err(MeshError::TooFewCorners { polygon });
             }
             check_indices(polygon, corners, mesh.positions.len())?;
+        }
+        for groups in [&mesh.parts, &mesh.smoothing_groups] {
+            let (found, expected) = (groups.len(), mesh.ends.len());
+            if !groups.is_empty() && found != expected {
+                return Err(MeshError::GroupCount { found, expected });
+            }
         }
         check_finite(&mesh.colours)?;
         if !mesh.colours.is_empty() && mesh.colours.len() != mesh.positions.len() {

@@ -1,5 +1,7 @@
 //! Vertex normals: averaged (L21 3.1), given, or averaged up to a crease.
 
+use super::cap_sums::CapSums;
+use super::fans::{FanCorner, Fans, Sharing, Smoothing, SurfaceFinder};
 use super::newell::{polygon_normals, unit_normal};
 use super::vertex_sums::{Sum, sums};
 use super::weld::weld;
@@ -12,12 +14,17 @@ use glam::{DVec3, Vec3};
 /// The source of vertex normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum NormalSource {
-    /// The normalised sum of the unit normals of all polygons around a position (L21 3.1).
+    /// The normalised sum of the unit normals of all polygons around a position (L21 3.1) that are on one surface and in one
+    /// smoothing group, where the mesh has some.
     #[default]
     Averaged,
-    /// The normals that came with the mesh (by formula or from its file); averaged ones where it has none.
+    /// What the mesh itself states: a corner's own normal where it has one, else as [`NormalSource::Averaged`].
+    Auto,
+    /// The normals that came with the mesh (by formula or from its file); averaged ones, regardless of smoothing groups, where
+    /// it has none.
     Given,
-    /// As averaged, but only over polygons whose normals differ from this one's by at most so many degrees.
+    /// As averaged, but regardless of smoothing groups, and only over polygons whose normals differ from this one's by at
+    /// most so many degrees.
     Crease(f64),
 }
 
@@ -35,12 +42,17 @@ const NO_NORMAL: DVec3 = DVec3::Z;
 
 /// Returns the unit normals at all corners of `mesh`, in `f64` and rounded once.
 ///
-/// Positions that coincide exactly are one vertex, whatever their indices. A polygon counts once at a vertex, even if it
-/// passes it twice; a polygon without a normal does not count. Where the sum vanishes (a sheet with both its sides), each
-/// corner has the normal of its own polygon, and (0, 0, 1) if that polygon has none.
+/// Positions that coincide exactly are one vertex, whatever their indices. Corners there share an average if they are on one
+/// surface: of one part of the mesh, and linked by a chain of polygons around the vertex, each of which shares with the next
+/// an edge that they run in opposite directions. Along an edge of more than two polygons the flattest pairs are linked first,
+/// each polygon to one other. Polygons that fold back onto one another, the two sides of a sheet at its rim, are not linked.
+/// So two sheets back to back, shapes that touch at a corner, and neighbours that are wound differently (somewhere on a
+/// Möbius strip) do not smooth one another.
 ///
-/// [`NormalSource::Crease`] compares every pair of polygons around a vertex; the others take time in proportion to the
-/// mesh.
+/// A polygon counts once at a vertex, even if it passes it twice; a polygon without a normal does not count, though it links.
+/// Where the sum vanishes, each corner has the normal of its own polygon, and (0, 0, 1) if that polygon has none.
+///
+/// Takes time in proportion to the mesh; under [`NormalSource::Crease`], a vertex with n polygons takes up to n √n.
 pub fn vertex_normals(mesh: &PolygonMesh, source: NormalSource) -> VertexNormals {
     corner_normals(mesh, source, None).by_corner(mesh)
 }
@@ -89,18 +101,66 @@ pub(crate) fn corner_normals(
     let polygons = match (source, mesh.given_normals(), polygons) {
         (_, _, Some(normals)) => normals,
         // Needed only where the mesh leaves something out.
-        (NormalSource::Given, Some(given), None) if !given.values.contains(&Vec3::ZERO) => &[],
+        (NormalSource::Given | NormalSource::Auto, Some(given), None)
+            if !given.values.contains(&Vec3::ZERO) =>
+        {
+            &[]
+        }
         _ => {
             own = polygon_normals(mesh);
             &own
         }
     };
     match (source, mesh.given_normals()) {
-        (NormalSource::Given, Some(given)) => from_given(mesh, given, polygons),
+        (NormalSource::Auto, Some(given)) => from_given(mesh, given, polygons, Smoothing::Groups),
+        (NormalSource::Given, Some(given)) => {
+            from_given(mesh, given, polygons, Smoothing::Surfaces)
+        }
         (NormalSource::Crease(degrees), _) => {
             CornerNormals::ByCorner(creased(mesh, degrees, polygons))
         }
-        _ => averaged(mesh, polygons),
+        (NormalSource::Given, None) => averaged(mesh, polygons, Smoothing::Surfaces),
+        (NormalSource::Averaged, _) | (NormalSource::Auto, None) => {
+            averaged(mesh, polygons, Smoothing::Groups)
+        }
+    }
+}
+
+/// The data of a mesh that a [`NormalSource`] takes, and those that it leaves unused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NormalUse {
+    /// Corners that have their own normal, which came with the mesh.
+    pub given: usize,
+    /// The other corners.
+    pub averaged: usize,
+    /// True if averages obey smoothing groups.
+    pub obeys_groups: bool,
+    /// True if the mesh has normals that are not used.
+    pub leaves_normals: bool,
+    /// True if the mesh has smoothing groups that averages do not obey.
+    pub leaves_groups: bool,
+}
+
+impl NormalUse {
+    /// Finds out what `source` takes of `mesh`.
+    pub fn of(mesh: &PolygonMesh, source: NormalSource) -> NormalUse {
+        let has_normal = |given: &GivenNormals, n: u32| given.values[n as usize] != Vec3::ZERO;
+        let own = mesh.given_normals().map_or(0, |given| {
+            let corners = given.corners.as_deref().unwrap_or(mesh.corners());
+            corners.iter().filter(|&&n| has_normal(given, n)).count()
+        });
+        let takes_normals = matches!(source, NormalSource::Auto | NormalSource::Given);
+        let given = if takes_normals { own } else { 0 };
+        // A corner's own normal wins over its smoothing group: where all have one, no group is left out.
+        let matters = mesh.has_smoothing_groups() && own < mesh.corners().len();
+        let obeys = matches!(source, NormalSource::Auto | NormalSource::Averaged);
+        NormalUse {
+            given,
+            averaged: mesh.corners().len() - given,
+            obeys_groups: mesh.has_smoothing_groups() && obeys && given < mesh.corners().len(),
+            leaves_normals: own > given,
+            leaves_groups: matters && !obeys,
+        }
     }
 }
 
@@ -114,9 +174,19 @@ fn direction(sum: DVec3, count: u32) -> Option<DVec3> {
     (length > count * (4.0 + count) * f64::EPSILON).then(|| sum / length)
 }
 
-fn averaged(mesh: &PolygonMesh, polygons: &[DVec3]) -> CornerNormals {
-    let (vertex, count) = weld(mesh.positions());
-    let sums = sums(mesh, polygons, &vertex, count);
+fn averaged(mesh: &PolygonMesh, polygons: &[DVec3], smoothing: Smoothing) -> CornerNormals {
+    let (vertex, vertices) = weld(mesh.positions());
+    let sharing = Sharing::new(mesh, &vertex, vertices, polygons, smoothing);
+    let (sums, count) = match &sharing {
+        Sharing::Vertices => {
+            let at = |corner: usize| vertex[mesh.corners()[corner] as usize] as usize;
+            (sums(mesh, polygons, at, vertices), vertices)
+        }
+        Sharing::Groups { corners, count } => {
+            let group = |corner: usize| corners[corner] as usize;
+            (sums(mesh, polygons, group, *count), *count)
+        }
+    };
     let mut values = collect(count, 4096, |v| {
         direction(sums[v].normal, sums[v].count)
             .unwrap_or(NO_NORMAL)
@@ -126,13 +196,16 @@ fn averaged(mesh: &PolygonMesh, polygons: &[DVec3]) -> CornerNormals {
     let vanishes = |sum: &Sum| sum.count > 0 && direction(sum.normal, sum.count).is_none();
     let vanishes = collect(count, 4096, |v| vanishes(&sums[v]));
     drop(sums);
-    if !vanishes.contains(&true) {
-        return CornerNormals::ByPosition {
-            values,
-            positions: vertex,
-        };
-    }
-    let mut corners = corners_of(mesh, &vertex);
+    let mut corners = match sharing {
+        Sharing::Vertices if !vanishes.contains(&true) => {
+            return CornerNormals::ByPosition {
+                values,
+                positions: vertex,
+            };
+        }
+        Sharing::Vertices => corners_of(mesh, &vertex),
+        Sharing::Groups { corners, .. } => corners,
+    };
     for p in 0..mesh.polygon_count() {
         let mut own = None;
         for corner in &mut corners[mesh.corner_range(p)] {
@@ -147,7 +220,13 @@ fn averaged(mesh: &PolygonMesh, polygons: &[DVec3]) -> CornerNormals {
     CornerNormals::ByCorner(VertexNormals { values, corners })
 }
 
-fn from_given(mesh: &PolygonMesh, given: &GivenNormals, polygons: &[DVec3]) -> CornerNormals {
+/// Returns the given normals; where there is none, averaged ones over what `smoothing` says.
+fn from_given(
+    mesh: &PolygonMesh,
+    given: &GivenNormals,
+    polygons: &[DVec3],
+    smoothing: Smoothing,
+) -> CornerNormals {
     let corners = given.corners.as_deref().unwrap_or(mesh.corners());
     let missing = |n: u32| given.values[n as usize] == Vec3::ZERO;
     let mut values: Vec<Vec3> = given
@@ -164,7 +243,7 @@ fn from_given(mesh: &PolygonMesh, given: &GivenNormals, polygons: &[DVec3]) -> C
     }
     let mut corners = corners.to_vec();
     if is_any_missing {
-        let fallback = averaged(mesh, polygons).by_corner(mesh);
+        let fallback = averaged(mesh, polygons, smoothing).by_corner(mesh);
         let offset = values.len() as u32;
         values.extend_from_slice(&fallback.values);
         for (corner, &other) in corners.iter_mut().zip(&fallback.corners) {
@@ -176,39 +255,6 @@ fn from_given(mesh: &PolygonMesh, given: &GivenNormals, polygons: &[DVec3]) -> C
     CornerNormals::ByCorner(VertexNormals { values, corners })
 }
 
-/// The corners around each vertex: those of vertex `v` are `items[starts[v]..starts[v + 1]]`.
-struct Fans {
-    starts: Vec<u32>,
-    /// A corner, and the polygon that it belongs to.
-    items: Vec<(u32, u32)>,
-}
-
-impl Fans {
-    fn new(mesh: &PolygonMesh, vertex: &[u32], count: usize) -> Self {
-        let mut starts = vec![0u32; count + 1];
-        for &corner in mesh.corners() {
-            starts[vertex[corner as usize] as usize + 1] += 1;
-        }
-        for v in 0..count {
-            starts[v + 1] += starts[v];
-        }
-        let mut next = starts.clone();
-        let mut items = vec![(0, 0); mesh.corners().len()];
-        for p in 0..mesh.polygon_count() {
-            for k in mesh.corner_range(p) {
-                let slot = &mut next[vertex[mesh.corners()[k] as usize] as usize];
-                items[*slot as usize] = (k as u32, p as u32);
-                *slot += 1;
-            }
-        }
-        Fans { starts, items }
-    }
-
-    fn of(&self, v: usize) -> &[(u32, u32)] {
-        &self.items[self.starts[v] as usize..self.starts[v + 1] as usize]
-    }
-}
-
 fn creased(mesh: &PolygonMesh, degrees: f64, polygons: &[DVec3]) -> VertexNormals {
     // A dot product of unit normals that are off by 4ε each is off by less than 16ε: a crease of exactly the angle of an
     // edge does not break it.
@@ -216,37 +262,64 @@ fn creased(mesh: &PolygonMesh, degrees: f64, polygons: &[DVec3]) -> VertexNormal
     let (vertex, count) = weld(mesh.positions());
     let normals: Vec<Option<DVec3>> = polygons.iter().map(|&normal| unit_normal(normal)).collect();
     let fans = Fans::new(mesh, &vertex, count);
+    let mut finder = SurfaceFinder::new(mesh, &vertex, polygons);
     let mut values: Vec<Vec3> = Vec::with_capacity(count);
     let mut corners = vec![0u32; mesh.corners().len()];
-    let mut around = Vec::new();
+    let (mut fan, mut found) = (Vec::new(), Vec::new());
     for v in 0..count {
-        let fan = fans.of(v);
-        // The corners of one polygon stand next to each other, so that one that passes twice is counted once.
-        around.clear();
-        around.extend(fan.iter().map(|&(_, p)| p));
-        around.dedup();
+        fan.clear();
+        found.clear();
+        fan.extend(fans.of(v).iter().copied().enumerate());
+        if finder.find(v, fans.of(v)) > 1 {
+            fan.sort_by_key(|&(item, _)| finder.surfaces[item]);
+        }
+        for surface in fan.chunk_by(|a, b| finder.surfaces[a.0] == finder.surfaces[b.0]) {
+            creased_surface(surface, &normals, least_cosine, &mut found);
+        }
+        let (numbers, _) = weld(&found);
         let first = values.len();
-        for &(corner, p) in fan {
-            let own = normals[p as usize];
-            let (mut sum, mut counted) = (DVec3::ZERO, 0);
-            for normal in around.iter().filter_map(|&q| normals[q as usize]) {
-                if own.is_none_or(|own| own.dot(normal) >= least_cosine) {
-                    sum += normal; // 3.1
-                    counted += 1;
-                }
-            }
-            let value = direction(sum, counted)
-                .or(own)
-                .unwrap_or(NO_NORMAL)
-                .as_vec3();
-            let shared = values[first..].iter().position(|&other| other == value);
-            corners[corner as usize] = (first + shared.unwrap_or(values.len() - first)) as u32;
-            if shared.is_none() {
+        for ((&(_, item), &value), &number) in fan.iter().zip(&found).zip(&numbers) {
+            corners[item.corner as usize] = first as u32 + number;
+            if values.len() == first + number as usize {
                 values.push(value);
             }
         }
     }
     VertexNormals { values, corners }
+}
+
+/// The number of polygons around a vertex from which on their sums are looked up in a tree.
+const MANY: usize = 128;
+
+/// Adds the normals of the corners of one surface at a vertex to `found`: each the sum over the polygons that are at most a
+/// crease away.
+fn creased_surface(
+    surface: &[(usize, FanCorner)],
+    normals: &[Option<DVec3>],
+    least_cosine: f64,
+    found: &mut Vec<Vec3>,
+) {
+    // The corners of one polygon stand next to each other, so that one that passes twice is counted once.
+    let mut around: Vec<u32> = surface.iter().map(|(_, item)| item.polygon).collect();
+    around.dedup();
+    let around = around.iter().filter_map(|&p| normals[p as usize]);
+    let around: Vec<DVec3> = around.collect();
+    let add = |(sum, count): (DVec3, u32), normal: &DVec3| (sum + normal, count + 1); // 3.1
+    let all = around.iter().fold((DVec3::ZERO, 0), add);
+    let tree = (around.len() > MANY).then(|| CapSums::new(around.clone()));
+    for (_, item) in surface {
+        let own = normals[item.polygon as usize];
+        let (sum, count) = match (own, &tree) {
+            (None, _) => all,
+            (Some(own), Some(tree)) => tree.within(own, least_cosine),
+            (Some(own), None) => {
+                let near = around.iter().filter(|n| own.dot(**n) >= least_cosine);
+                near.fold((DVec3::ZERO, 0), add)
+            }
+        };
+        let value = direction(sum, count).or(own).unwrap_or(NO_NORMAL);
+        found.push(value.as_vec3());
+    }
 }
 
 #[cfg(test)]
@@ -375,15 +448,15 @@ mod tests {
     fn a_polygon_without_a_normal_does_not_count_but_takes_the_average() {
         let positions = vec![
             Vec3::ZERO,
-            Vec3::X,
             Vec3::Y,
-            Vec3::new(2.0, 0.0, 0.0),
+            Vec3::Z,
+            Vec3::new(0.0, 2.0, 0.0),
             Vec3::new(0.0, 0.0, 9.0),
         ];
         let mut builder = MeshBuilder::new(positions);
         builder
             .polygon(&[0, 1, 2])
-            .polygon(&[0, 1, 3])
+            .polygon(&[1, 0, 3])
             .polygon(&[4, 4, 4]);
         let mesh = builder.finish().expect("triangles");
         for source in [
@@ -393,14 +466,16 @@ mod tests {
         ] {
             let normals = vertex_normals(&mesh, source);
             for k in 0..9 {
-                assert_eq!(at(&normals, k), Vec3::Z, "{source:?} {k}");
+                // Around the last four corners no polygon has one.
+                let expected = if k < 5 { Vec3::X } else { Vec3::Z };
+                assert_eq!(at(&normals, k), expected, "{source:?} {k}");
             }
         }
     }
 
     #[test]
     fn a_polygon_that_passes_a_position_twice_counts_once() {
-        // A triangle upward, and a bow tie of two equal lobes to the side whose waist is the triangle's first corner.
+        // A triangle upward, and a bow tie of two equal lobes to the side, whose waist and next corner are the triangle's.
         let positions = vec![
             Vec3::ZERO,
             Vec3::X,
@@ -411,12 +486,378 @@ mod tests {
             Vec3::new(0.0, 1.0, -1.0),
         ];
         let mut builder = MeshBuilder::new(positions);
-        builder.polygon(&[0, 1, 2]).polygon(&[0, 3, 4, 0, 5, 6]);
+        builder.polygon(&[0, 1, 2]).polygon(&[0, 2, 3, 4, 0, 5, 6]);
         let mesh = builder.finish().expect("triangle and bow tie");
         assert_eq!(face_normal(&mesh, 1), Vec3::X);
         let half = DVec3::new(1.0, 0.0, 1.0).normalize().as_vec3();
         for source in [NormalSource::Averaged, NormalSource::Crease(120.0)] {
-            assert_eq!(at(&vertex_normals(&mesh, source), 0), half);
+            let normals = vertex_normals(&mesh, source);
+            for k in [0, 3, 7] {
+                assert_eq!(at(&normals, k), half);
+            }
+        }
+    }
+
+    /// A piece of a cylinder around y, its outside outward, as quads of rows and columns; wound the other way if `reversed`.
+    fn arch(reversed: bool) -> (Vec<Vec3>, Vec<[u32; 4]>) {
+        let angle = |column: u32| f64::from(column) * 0.2;
+        let position = |k: u32| {
+            let (sin, cos) = libm::sincos(angle(k % 6));
+            DVec3::new(sin, f64::from(k / 6), cos).as_vec3()
+        };
+        let quads = (0..4u32).flat_map(|row| (0..5).map(move |column| 6 * row + column));
+        let quads = quads.map(|k| match reversed {
+            false => [k, k + 1, k + 7, k + 6],
+            true => [k, k + 6, k + 7, k + 1],
+        });
+        ((0..30).map(position).collect(), quads.collect())
+    }
+
+    fn mesh_of(positions: Vec<Vec3>, polygons: &[[u32; 4]], parts: Vec<u32>) -> PolygonMesh {
+        let mut builder = MeshBuilder::new(positions);
+        polygons.iter().for_each(|polygon| {
+            builder.polygon(polygon);
+        });
+        builder.parts(parts);
+        builder.finish().expect("a mesh")
+    }
+
+    const AVERAGES: [NormalSource; 4] = [
+        NormalSource::Averaged,
+        NormalSource::Auto,
+        NormalSource::Given,
+        NormalSource::Crease(180.0),
+    ];
+
+    #[test]
+    fn two_curved_sheets_back_to_back_each_stay_smooth() {
+        let (positions, front) = arch(false);
+        let back = arch(true).1;
+        let alone = |quads: &[[u32; 4]]| mesh_of(positions.clone(), quads, Vec::new());
+        let (front_alone, back_alone) = (alone(&front), alone(&back));
+        // Both on the same positions, or on repeated ones; one after the other, or in turns.
+        let repeated: Vec<[u32; 4]> = back.iter().map(|quad| quad.map(|k| k + 30)).collect();
+        let twice = [&positions[..], &positions[..]].concat();
+        let in_turns: Vec<[u32; 4]> = (0..40).map(|k| [&back, &front][k % 2][k / 2]).collect();
+        for (mesh, front_first) in [
+            (alone(&[&front[..], &back[..]].concat()), true),
+            (
+                mesh_of(
+                    twice.clone(),
+                    &[&front[..], &repeated[..]].concat(),
+                    Vec::new(),
+                ),
+                true,
+            ),
+            (alone(&in_turns), false),
+        ] {
+            for source in AVERAGES {
+                let both = vertex_normals(&mesh, source);
+                let expected = [&front_alone, &back_alone].map(|mesh| vertex_normals(mesh, source));
+                for quad in 0..40 {
+                    let (side, own) = match front_first {
+                        true => (quad / 20, quad % 20),
+                        false => (1 - quad % 2, quad / 2),
+                    };
+                    for k in 0..4 {
+                        let (found, expected) =
+                            (at(&both, 4 * quad + k), at(&expected[side], 4 * own + k));
+                        assert_eq!(found, expected, "{source:?} {quad}");
+                    }
+                }
+            }
+        }
+        // On the outside, normals point outward and differ along the arch.
+        let normals = vertex_normals(&front_alone, NormalSource::Averaged);
+        assert_eq!(normals.values.len(), 30);
+    }
+
+    #[test]
+    fn a_mesh_that_is_there_twice_is_as_smooth_as_once() {
+        let (positions, quads) = arch(false);
+        let once = mesh_of(positions.clone(), &quads, Vec::new());
+        let mut copies = quads.clone();
+        // Past the number of pairs that are compared at an edge, too.
+        for count in [2, 3, 40] {
+            copies = quads.repeat(count);
+            let mesh = mesh_of(positions.clone(), &copies, Vec::new());
+            for source in AVERAGES {
+                let (one, all) = (vertex_normals(&once, source), vertex_normals(&mesh, source));
+                for k in 0..all.corners.len() {
+                    assert_eq!(
+                        at(&all, k),
+                        at(&one, k % one.corners.len()),
+                        "{source:?} {count}"
+                    );
+                }
+            }
+        }
+        assert_eq!(copies.len(), 800);
+    }
+
+    #[test]
+    fn parts_of_a_mesh_do_not_smooth_one_another() {
+        let (positions, quads) = arch(false);
+        let parts = (0..20).map(|quad| u32::from(quad % 5 >= 2)).collect();
+        let mesh = mesh_of(positions.clone(), &quads, parts);
+        let alone = |of: fn(usize) -> bool| {
+            let own = (0..20).filter(|quad| of(quad % 5)).map(|quad| quads[quad]);
+            mesh_of(positions.clone(), &own.collect::<Vec<_>>(), Vec::new())
+        };
+        for source in AVERAGES {
+            let both = vertex_normals(&mesh, source);
+            let left = vertex_normals(&alone(|column| column < 2), source);
+            let right = vertex_normals(&alone(|column| column >= 2), source);
+            let mut corners = [left, right].map(|normals| {
+                let all: Vec<Vec3> = (0..normals.corners.len())
+                    .map(|k| at(&normals, k))
+                    .collect();
+                all.into_iter()
+            });
+            for k in 0..80 {
+                let side = usize::from(k / 4 % 5 >= 2);
+                assert_eq!(Some(at(&both, k)), corners[side].next(), "{source:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_touches_at_a_corner_or_is_wound_otherwise_is_not_smoothed() {
+        let p = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
+        // Two squares that share one corner, and two that share an edge and are wound differently.
+        let corner = [
+            p(0.0, 0.0, 0.0),
+            p(1.0, 0.0, 0.0),
+            p(1.0, 1.0, 0.0),
+            p(0.0, 1.0, 0.0),
+        ];
+        let touching = [p(0.0, 0.0, -1.0), p(0.0, -1.0, -1.0), p(0.0, -1.0, 0.0)];
+        let folded = [p(0.0, 1.0, -1.0), p(0.0, 0.0, -1.0)];
+        let touching = [&corner[..], &touching[..]].concat();
+        let folded = [&corner[..], &folded[..]].concat();
+        for mesh in [
+            mesh_of(touching, &[[0, 1, 2, 3], [0, 4, 5, 6]], Vec::new()),
+            mesh_of(folded, &[[0, 1, 2, 3], [3, 0, 5, 4]], Vec::new()),
+        ] {
+            for source in AVERAGES {
+                let normals = vertex_normals(&mesh, source);
+                for k in 0..8 {
+                    assert_eq!(at(&normals, k), face_normal(&mesh, k / 4), "{source:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn of_three_walls_at_an_edge_the_flattest_two_are_smoothed() {
+        let p = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
+        let edge = [p(0.0, 0.0, 0.0), p(0.0, 1.0, 0.0)];
+        // A wall to the left, one to the right and a bit back, and one that stands out.
+        let left = [p(-1.0, 1.0, 0.0), p(-1.0, 0.0, 0.0)];
+        let right = [p(1.0, 0.0, -0.2), p(1.0, 1.0, -0.2)];
+        let out = [p(0.2, 0.0, 1.0), p(0.2, 1.0, 1.0)];
+        let positions = [edge, left, right, out].concat();
+        let [left, right, out] = [[0, 1, 2, 3], [0, 4, 5, 1], [0, 6, 7, 1]];
+        let both = (Vec3::Z.as_dvec3() + DVec3::new(0.2, 0.0, 1.0).normalize()).normalize();
+        for walls in [[left, right, out], [out, right, left], [right, out, left]] {
+            let mesh = mesh_of(positions.clone(), &walls, Vec::new());
+            for source in AVERAGES {
+                let normals = vertex_normals(&mesh, source);
+                for (wall, polygon) in walls.iter().enumerate() {
+                    let k = 4 * wall;
+                    let expected = match *polygon == out {
+                        true => face_normal(&mesh, wall),
+                        false => both.as_vec3(),
+                    };
+                    // Two unit normals, added in either order, and rounded to f32.
+                    let off = (at(&normals, k) - expected).length();
+                    assert!(off <= 2.0 * f32::EPSILON, "{source:?} {wall}: {off}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn shapes_that_touch_along_an_edge_keep_their_own_normals() {
+        let one = cube();
+        let mut positions = one.positions().to_vec();
+        // A second cube from 1 to 3 in x and y.
+        positions.extend(
+            one.positions()
+                .iter()
+                .map(|p| *p + Vec3::new(2.0, 2.0, 0.0)),
+        );
+        let mut builder = MeshBuilder::new(positions);
+        for offset in [0, 8] {
+            for polygon in one.polygons() {
+                let moved: Vec<u32> = polygon.iter().map(|c| c + offset).collect();
+                builder.polygon(&moved);
+            }
+        }
+        let two = builder.finish().expect("two cubes");
+        for source in AVERAGES {
+            let (of_one, of_two) = (vertex_normals(&one, source), vertex_normals(&two, source));
+            for k in 0..48 {
+                assert_eq!(at(&of_two, k), at(&of_one, k % 24), "{source:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_moebius_strip_is_smooth_but_where_it_turns_over() {
+        // Its two borders, once around; the last quad joins the first one upside down.
+        let count = 24u32;
+        let border = |k: u32| {
+            let (turn, side) = (k / 2, if k.is_multiple_of(2) { 0.3 } else { -0.3 });
+            let angle = f64::from(turn) * core::f64::consts::TAU / f64::from(count);
+            let (sin, cos) = libm::sincos(angle);
+            let (sin_half, cos_half) = libm::sincos(angle / 2.0);
+            let out = 1.0 + side * cos_half;
+            DVec3::new(out * cos, out * sin, side * sin_half).as_vec3()
+        };
+        let positions: Vec<Vec3> = (0..2 * count).map(border).collect();
+        let quads: Vec<[u32; 4]> = (0..count)
+            .map(|k| match k + 1 == count {
+                false => [2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2],
+                true => [2 * k, 2 * k + 1, 0, 1],
+            })
+            .collect();
+        let mesh = mesh_of(positions, &quads, Vec::new());
+        for source in AVERAGES {
+            let normals = vertex_normals(&mesh, source);
+            // One normal at each vertex, two at the two of the joint.
+            assert_eq!(normals.values.len(), 2 * count as usize + 2, "{source:?}");
+            assert_eq!(at(&normals, 0), face_normal(&mesh, 0));
+        }
+    }
+
+    #[test]
+    fn smoothing_groups_part_what_is_averaged() {
+        let (positions, quads) = arch(false);
+        let with = |groups: Vec<u32>| {
+            let mut builder = MeshBuilder::new(positions.clone());
+            quads.iter().for_each(|quad| {
+                builder.polygon(quad);
+            });
+            builder.smoothing_groups(groups);
+            builder.finish().expect("an arch")
+        };
+        let smooth = vertex_normals(&with(Vec::new()), NormalSource::Averaged);
+        let in_two: Vec<u32> = (0..20).map(|quad| 1 + u32::from(quad % 5 >= 2)).collect();
+        let off = vec![PolygonMesh::FACETED; 20];
+        for source in [NormalSource::Averaged, NormalSource::Auto] {
+            assert_eq!(vertex_normals(&with(vec![7; 20]), source), smooth);
+            let faceted = vertex_normals(&with(off.clone()), source);
+            let two = vertex_normals(&with(in_two.clone()), source);
+            let mesh = with(Vec::new());
+            for (k, &position) in mesh.corners().iter().enumerate() {
+                assert_eq!(at(&faceted, k), face_normal(&mesh, k / 4));
+                // Along the border of the groups each has its own, which is that of the columns there.
+                match position % 6 == 2 {
+                    true => {
+                        let off = (at(&two, k) - face_normal(&mesh, k / 4)).length();
+                        assert!(off <= 2.0 * f32::EPSILON);
+                    }
+                    false => assert_eq!(at(&two, k), at(&smooth, k)),
+                }
+            }
+        }
+        for source in [NormalSource::Given, NormalSource::Crease(180.0)] {
+            let regardless = vertex_normals(&with(off.clone()), source);
+            (0..80).for_each(|k| assert_eq!(at(&regardless, k), at(&smooth, k), "{source:?}"));
+        }
+    }
+
+    #[test]
+    fn a_normal_of_its_own_wins_over_the_smoothing_group() {
+        let (positions, quads) = arch(false);
+        let mut builder = MeshBuilder::new(positions);
+        quads.iter().for_each(|quad| {
+            builder.polygon(quad);
+        });
+        builder.smoothing_groups(vec![PolygonMesh::FACETED; 20]);
+        // Every third corner has one.
+        builder.normals(GivenNormals {
+            values: vec![Vec3::ZERO, Vec3::Y],
+            corners: Some((0..80).map(|k| u32::from(k % 3 == 0)).collect()),
+        });
+        let mesh = builder.finish().expect("an arch");
+        let normals = vertex_normals(&mesh, NormalSource::Auto);
+        for k in 0..80 {
+            let expected = if k % 3 == 0 {
+                Vec3::Y
+            } else {
+                face_normal(&mesh, k / 4)
+            };
+            assert_eq!(at(&normals, k), expected);
+        }
+        let used = |source| NormalUse::of(&mesh, source);
+        let auto = used(NormalSource::Auto);
+        assert_eq!(
+            (auto.given, auto.averaged, auto.obeys_groups),
+            (27, 53, true)
+        );
+        assert!(!auto.leaves_normals && !auto.leaves_groups);
+        let given = used(NormalSource::Given);
+        assert!(!given.leaves_normals && given.leaves_groups && !given.obeys_groups);
+        let averaged = used(NormalSource::Averaged);
+        assert!(averaged.leaves_normals && !averaged.leaves_groups && averaged.obeys_groups);
+        let crease = used(NormalSource::Crease(30.0));
+        assert!(crease.leaves_normals && crease.leaves_groups);
+    }
+
+    /// A cone of `count` triangles around its tip.
+    fn cone(count: u32) -> PolygonMesh {
+        let rim = |k: u32| {
+            let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::TAU / f64::from(count));
+            DVec3::new(cos, sin, 0.0).as_vec3()
+        };
+        let mut builder = MeshBuilder::new((0..count).map(rim).chain([Vec3::Z]).collect());
+        (0..count).for_each(|k| {
+            builder.polygon(&[k, (k + 1) % count, count]);
+        });
+        builder.finish().expect("a cone")
+    }
+
+    #[test]
+    fn the_crease_of_a_large_fan_is_found_as_that_of_a_small_one() {
+        let count = 4 * MANY as u32;
+        let mesh = cone(count);
+        let normals = vertex_normals(&mesh, NormalSource::Crease(30.0));
+        let own: Vec<DVec3> = (0..count as usize)
+            .map(|p| unit_normal(polygon_normal(&mesh, p)).expect("a triangle"))
+            .collect();
+        let least = libm::cos(30f64.to_radians());
+        for p in 0..count as usize {
+            let near = own.iter().filter(|n| n.dot(own[p]) >= least);
+            let expected = near.sum::<DVec3>().normalize().as_vec3();
+            // Sums in two orders, each rounded to f32.
+            assert!((at(&normals, 3 * p + 2) - expected).length() <= 2.0 * f32::EPSILON);
+        }
+    }
+
+    /// Comparing every pair of polygons would take minutes here.
+    #[test]
+    fn a_fan_of_60000_triangles_takes_time_in_proportion() {
+        let mesh = cone(60_000);
+        for source in [NormalSource::Crease(30.0), NormalSource::Averaged] {
+            let normals = vertex_normals(&mesh, source);
+            assert!(normals.values.len() >= 60_001);
+        }
+        // As many triangles that share nothing but one corner, and as many pages at one edge.
+        let positions = cone(60_000).positions().to_vec();
+        let mut apart = MeshBuilder::new(positions.clone());
+        let mut book = MeshBuilder::new(positions);
+        for k in 0..30_000 {
+            apart.polygon(&[2 * k, 2 * k + 1, 60_000]);
+            book.polygon(&[0, 60_000, 2 * k + 1])
+                .polygon(&[60_000, 0, 2 * k + 1]);
+        }
+        for mesh in [apart, book].map(|builder| builder.finish().expect("triangles")) {
+            for source in [NormalSource::Crease(30.0), NormalSource::Averaged] {
+                let normals = vertex_normals(&mesh, source);
+                assert_eq!(normals.corners.len(), mesh.corners().len());
+            }
         }
     }
 

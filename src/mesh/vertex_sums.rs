@@ -17,11 +17,12 @@ pub(super) struct Sum {
     latest: u32,
 }
 
-/// Returns the sums of unit normals at all vertices; each in the order of the polygons, on however many threads.
+/// Returns the sums of unit normals at all vertices, or groups of corners there; each in the order of the polygons, on however
+/// many threads. `vertex` gives that of each corner, below `count`.
 pub(super) fn sums(
     mesh: &PolygonMesh,
     polygons: &[DVec3],
-    vertex: &[u32],
+    vertex: impl Fn(usize) -> usize + Sync,
     count: usize,
 ) -> Vec<Sum> {
     const RUN: usize = 1024;
@@ -32,9 +33,7 @@ pub(super) fn sums(
     };
     // Each thread has vertices of its own, and passes over runs of polygons that have none of them.
     let reaches = collect(runs, 8, |run| {
-        let vertices = mesh.corners()[corners(run)]
-            .iter()
-            .map(|&corner| vertex[corner as usize] as usize);
+        let vertices = corners(run).map(&vertex);
         vertices.fold((usize::MAX, 0), |(low, high), v| (low.min(v), high.max(v)))
     });
     let mut sums = vec![Sum::default(); count];
@@ -49,8 +48,8 @@ pub(super) fn sums(
                     let Some(unit) = unit_normal(normal) else {
                         continue;
                     };
-                    for &corner in mesh.polygon(p) {
-                        let place = (vertex[corner as usize] as usize).wrapping_sub(first);
+                    for corner in mesh.corner_range(p) {
+                        let place = vertex(corner).wrapping_sub(first);
                         if let Some(sum) =
                             own.get_mut(place).filter(|sum| sum.latest != p as u32 + 1)
                         {

@@ -9,7 +9,7 @@ use glam::Vec3;
 /// Positions are equal when their coordinates are, so that −0 is 0. Numbers go by first occurrence. Takes a hash table's
 /// time, and `n log n` comparisons where positions were chosen to collide in it.
 pub fn weld(positions: &[Vec3]) -> (Vec<u32>, usize) {
-    by_hash(positions).unwrap_or_else(|| by_sorting(positions))
+    number_distinct(positions.len(), |i| key(&positions[i]))
 }
 
 /// Returns bits that are equal exactly when the positions are: adding 0.0 turns −0.0 into 0.0.
@@ -17,21 +17,45 @@ fn key(p: &Vec3) -> [u32; 3] {
     [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits())
 }
 
-/// Looks each position up in a table of those before it; `None` where that takes more than a few steps a position.
-fn by_hash(positions: &[Vec3]) -> Option<(Vec<u32>, usize)> {
+/// Returns for each of `len` keys its number among the different ones, by first occurrence, and the number of different
+/// ones; in the time that [`weld`] takes.
+pub(crate) fn number_distinct(len: usize, key: impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
+    match len {
+        0..=FEW => by_comparing(len, &key),
+        _ => by_hash(len, &key).unwrap_or_else(|| by_sorting(len, &key)),
+    }
+}
+
+/// So few keys are compared each with all before it.
+const FEW: usize = 16;
+
+fn by_comparing(len: usize, key: &impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
+    let mut number = vec![0; len];
+    let mut count = 0;
+    for i in 0..len {
+        number[i] = match (0..i).find(|&before| key(before) == key(i)) {
+            Some(equal) => number[equal],
+            None => {
+                count += 1;
+                count as u32 - 1
+            }
+        };
+    }
+    (number, count)
+}
+
+/// Looks each key up in a table of those before it; `None` where that takes more than a few steps a key.
+fn by_hash(len: usize, key: &impl Fn(usize) -> [u32; 3]) -> Option<(Vec<u32>, usize)> {
     const NONE: u32 = u32::MAX;
     // At most half full.
-    let bits = (2 * positions.len())
-        .next_power_of_two()
-        .trailing_zeros()
-        .max(1);
+    let bits = (2 * len).next_power_of_two().trailing_zeros().max(1);
     let mask = (1usize << bits) - 1;
-    // The first position of each kind.
+    // The first key of each kind.
     let mut table = vec![NONE; mask + 1];
-    let mut number = vec![0; positions.len()];
-    let (mut count, mut steps) = (0, 16 * positions.len() + 64);
-    for (i, position) in positions.iter().enumerate() {
-        let own = key(position);
+    let mut number = vec![0; len];
+    let (mut count, mut steps) = (0, 16 * len + 64);
+    for i in 0..len {
+        let own = key(i);
         let mut slot = (hash(own) >> (64 - bits)) as usize;
         number[i] = loop {
             steps = steps.checked_sub(1)?;
@@ -41,7 +65,7 @@ fn by_hash(positions: &[Vec3]) -> Option<(Vec<u32>, usize)> {
                 count += 1;
                 break count as u32 - 1;
             }
-            if key(&positions[first as usize]) == own {
+            if key(first as usize) == own {
                 break number[first as usize];
             }
             slot = (slot + 1) & mask;
@@ -57,16 +81,16 @@ fn hash([x, y, z]: [u32; 3]) -> u64 {
     ((first ^ (first >> 32)).wrapping_add(u64::from(z))).wrapping_mul(ODD[1])
 }
 
-/// Welds by sorting, 16 bytes a position.
-fn by_sorting(positions: &[Vec3]) -> (Vec<u32>, usize) {
-    let mut sorted: Vec<[u32; 4]> = Vec::with_capacity(positions.len());
-    sorted.extend(positions.iter().enumerate().map(|(i, p)| {
-        let [x, y, z] = key(p);
+/// Numbers by sorting, 16 bytes a key.
+fn by_sorting(len: usize, key: &impl Fn(usize) -> [u32; 3]) -> (Vec<u32>, usize) {
+    let mut sorted: Vec<[u32; 4]> = Vec::with_capacity(len);
+    sorted.extend((0..len).map(|i| {
+        let [x, y, z] = key(i);
         [x, y, z, i as u32]
     }));
     sorted.sort_unstable();
     // First the lowest index among equals, then the numbers in order of those.
-    let mut number = vec![0; positions.len()];
+    let mut number = vec![0; len];
     let mut first = 0;
     for (k, key) in sorted.iter().enumerate() {
         if key[..3] != sorted[first][..3] {
@@ -115,9 +139,11 @@ mod tests {
             let all: Vec<Vec3> = (0..count)
                 .map(|_| Vec3::new(coordinate(), coordinate(), coordinate()))
                 .collect();
-            let by_hash = by_hash(&all).expect("no collisions were sought");
+            let key = |i: usize| key(&all[i]);
+            let by_hash = by_hash(count, &key).expect("no collisions were sought");
             assert!(count < 1000 || by_hash.1 < count, "nothing to weld");
-            assert_eq!(by_hash, by_sorting(&all));
+            assert_eq!(by_hash, by_sorting(count, &key));
+            assert_eq!(by_hash, by_comparing(count, &key));
         }
     }
 
@@ -132,7 +158,8 @@ mod tests {
                 all.push(position);
             }
         }
-        assert_eq!(by_hash(&all), None);
-        assert_eq!(weld(&all), by_sorting(&all));
+        let key = |i: usize| key(&all[i]);
+        assert_eq!(by_hash(all.len(), &key), None);
+        assert_eq!(weld(&all), by_sorting(all.len(), &key));
     }
 }

@@ -17,10 +17,10 @@
 //! # Ok::<(), fastphong::scene::file::diagnostics::SceneError>(())
 //! ```
 
-use super::file::SceneFile;
 use super::file::diagnostics::{Origin, SceneError};
 use super::file::resolve::{LoadedMesh, Resolved};
 use super::file::value::{Data, Value};
+use super::file::{BUILTIN, SceneFile};
 use crate::mesh::builtin::{BUILTINS, builtin};
 use crate::mesh::obj::{load_obj_by, parse_obj};
 use crate::number::suggest::nearest;
@@ -62,7 +62,6 @@ static SHIPPED_FILES: &[(&str, &[u8])] = &[
     ("football.mtl", include_bytes!("../../scenes/football.mtl")),
 ];
 
-const BUILTIN: &str = "builtin:";
 const SHIPPED: &str = "shipped:";
 
 impl ShippedScene {

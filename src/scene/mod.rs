@@ -23,7 +23,7 @@ use crate::mesh::{Material, PolygonMesh};
 use crate::picture::{Encoding, Rgb};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 /// The largest coordinate in world space of a scene file: squares of distances (at most 12 times its square) and their
 /// products with coefficients stay far inside the range of an `f32`.
@@ -35,13 +35,23 @@ const MAX_COORDINATE: f64 = 1e15;
 pub struct Object {
     /// The shape; may be shared between objects.
     pub mesh: Arc<PolygonMesh>,
-    /// Model space to world space. Normals follow by the inverse transpose; a mirroring transform keeps the winding
+    /// Model space, in which the positions of the mesh count from its origin, to world space. Normals follow by the inverse transpose; a mirroring transform keeps the winding
     /// (outside stays outside).
     pub transform: DAffine3,
     /// Replaces the materials of the mesh.
     pub material: Option<Material>,
     /// The source of the vertex normals.
     pub normals: NormalSource,
+}
+
+impl Object {
+    /// Returns the way from [`PolygonMesh::positions`] to world space: the transform, once the origin of the mesh is added.
+    pub fn positions_to_world(&self) -> DAffine3 {
+        match self.mesh.origin() {
+            DVec3::ZERO => self.transform,
+            origin => self.transform * DAffine3::from_translation(origin),
+        }
+    }
 }
 
 /// All that a picture shows.

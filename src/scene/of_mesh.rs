@@ -44,7 +44,7 @@ impl Scene {
         let corners = mesh
             .corners()
             .iter()
-            .map(|&corner| mesh.positions()[corner as usize].as_dvec3());
+            .map(|&corner| mesh.origin() + mesh.positions()[corner as usize].as_dvec3());
         // Without a polygon there is nothing to look at, and any camera will do.
         let camera = Camera::fit(corners, &fit).unwrap_or(Camera {
             eye: fit.direction,
@@ -91,7 +91,7 @@ mod tests {
     fn a_mesh_gets_the_frame_that_its_scene_file_gives() {
         for spec in ["teapot?res=4", "gear", "sphere?rings=6&segments=8"] {
             let mesh = builtin(spec).unwrap();
-            let from_file = SceneFile::for_mesh(std::string::String::from(spec));
+            let from_file = SceneFile::for_mesh(std::format!("builtin:{spec}"));
             let from_file = from_file
                 .resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new())))
                 .unwrap();
@@ -123,7 +123,7 @@ mod tests {
                 .collect(),
         );
         let mesh = builder.finish().unwrap();
-        let from_file = SceneFile::for_mesh(std::string::String::from("gear"));
+        let from_file = SceneFile::for_mesh("builtin:gear");
         let from_file = from_file
             .resolve(|_, _| Ok((Arc::new(mesh.clone()), Vec::new())))
             .unwrap();

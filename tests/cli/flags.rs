@@ -307,7 +307,7 @@ fn invalid_flags_are_rejected_by_name() {
         ),
         (
             "--normals smooth",
-            &["expected `averaged`, `given` or `crease=DEGREES`"],
+            &["expected `auto`, `averaged`, `given` or `crease=DEGREES`"],
         ),
         (
             "--cull left",

@@ -4,14 +4,12 @@ use super::polygons::PolygonTable;
 use crate::frame::{FrameError, Geometry, Models, PlacedModel, Polygon};
 use crate::mesh::newell::{polygon_normals, unit_normal};
 use crate::mesh::vertex_normals::{CornerNormals, corner_normals};
+use crate::mesh::weld::number_distinct;
 use crate::mesh::{Material, PolygonMesh};
 use crate::number::parallel::{collect, for_each_chunk};
 use crate::scene::{Object, Scene};
-use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3, Vec3};
-
-const NO_VERTEX: u32 = u32::MAX;
 
 /// Elements that one thread takes at a time.
 const CHUNK: usize = 4096;
@@ -120,7 +118,7 @@ impl Preparation {
         models.objects.push(PlacedModel {
             first,
             end,
-            transform: object.transform,
+            transform: object.positions_to_world(),
             extent,
         });
     }
@@ -189,44 +187,33 @@ impl Preparation {
         let normals = normals.by_corner(mesh);
         let geometry = &mut self.geometry;
         let first = geometry.normals.len();
-        // The last vertex made at each position; for each vertex its normal, and the one made there before.
-        let mut latest = vec![NO_VERTEX; mesh.positions().len()];
-        let mut made: Vec<(u32, u32)> = Vec::new();
+        let mut keys = Vec::with_capacity(mesh.corners().len());
         for polygon in 0..mesh.polygon_count() {
             let material = source.material(polygon);
-            for corner in mesh.corner_range(polygon) {
-                let (position, normal) = (mesh.corners()[corner] as usize, normals.corners[corner]);
-                let mut vertex = latest[position];
-                while vertex != NO_VERTEX {
-                    let (its_normal, before) = made[vertex as usize];
-                    if its_normal == normal
-                        && geometry.materials[first + vertex as usize] == material
-                    {
-                        break;
-                    }
-                    vertex = before;
-                }
-                if vertex == NO_VERTEX {
-                    vertex = made.len() as u32;
-                    made.push((normal, latest[position]));
-                    latest[position] = vertex;
-                    geometry.materials.push(material);
-                    geometry.models.push(mesh.positions()[position]);
-                    if let Some(colour) = mesh.colours().get(position) {
-                        geometry.colours.resize(first + vertex as usize, [1.0; 3]);
-                        geometry.colours.push(colour.to_array());
-                    }
-                }
-                geometry.corners.push(first as u32 + vertex);
-            }
+            keys.extend(mesh.corner_range(polygon).map(|corner| {
+                let (position, normal) = (mesh.corners()[corner], normals.corners[corner]);
+                [position, normal, material]
+            }));
         }
-        drop(latest);
+        let (numbers, count) = number_distinct(keys.len(), |corner| keys[corner]);
         let in_world = collect(normals.values.len(), CHUNK, |i| {
             source.normal(normals.values[i])
         });
-        geometry
-            .normals
-            .extend(made.iter().map(|&(normal, _)| in_world[normal as usize]));
+        if !mesh.colours().is_empty() {
+            geometry.colours.resize(first, [1.0; 3]);
+        }
+        for (number, &[position, normal, material]) in numbers.iter().zip(&keys) {
+            if geometry.normals.len() == first + *number as usize {
+                geometry.normals.push(in_world[normal as usize]);
+                geometry.materials.push(material);
+                geometry.models.push(mesh.positions()[position as usize]);
+                let colour = mesh.colours().get(position as usize);
+                geometry.colours.extend(colour.map(|c| c.to_array()));
+            }
+        }
+        debug_assert_eq!(geometry.normals.len(), first + count);
+        let corners = numbers.iter().map(|number| first as u32 + number);
+        geometry.corners.extend(corners);
     }
 
     fn finish(&mut self) {

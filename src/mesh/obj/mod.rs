@@ -2,8 +2,9 @@
 //!
 //! Read are positions, their colours (`v x y z r g b`), normals, faces of any number of sides (concave ones too, never
 //! triangulated), `mtllib` and
-//! `usemtl`. All objects and groups become one mesh that shares positions by their index in the file; positions that no
-//! face uses are dropped, the others keep the order in which faces first name them.
+//! `usemtl`, objects (`o`) and smoothing groups (`s`). All objects become one mesh that shares positions by their index in
+//! the file; positions that no face uses are dropped, the others keep the order in which faces first name them.
+//! Numbers are read as `f64`: a mesh far from 0 is rounded relative to [`PolygonMesh::origin`].
 //!
 //! `tobj` does the parsing, between a pass that checks the text and knows its lines, and the checks of
 //! [`MeshBuilder`]. What cannot be read is an [`ObjError`]; what can be read only in part is a warning.
@@ -21,10 +22,11 @@ pub use error::{ObjError, ObjProblem};
 
 use super::newell::unit_normal;
 use super::{GivenNormals, Material, MeshBuilder, PolygonMesh};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use mtl::Library;
 use prescan::{MeshLimits, Prescan};
 use std::collections::HashMap;
+use std::hash::Hash;
 use std::path::Path;
 use std::string::{String, ToString};
 use std::vec::Vec;
@@ -134,7 +136,8 @@ fn parse_limited(
     let parsed = parser::parse(&scan).map_err(|why| failed(None, ObjProblem::Parser(why)))?;
     let mut warnings = scan.warnings();
 
-    let mut builder = MeshBuilder::new(vectors(&parsed.positions));
+    let positions: Vec<DVec3> = vectors(&parsed.positions).collect();
+    let mut builder = MeshBuilder::from_f64(&positions);
     builder.reserve(scan.polygons, scan.corners);
     let mut rest = &parsed.indices[..];
     for &sides in &parsed.face_arities {
@@ -143,16 +146,17 @@ fn parse_limited(
         rest = others;
     }
     if scan.has_normals() {
-        let normals = vectors(&parsed.normals).into_iter();
-        let values: Vec<Vec3> = normals.map(unit_or_zero).collect();
+        let values: Vec<Vec3> = vectors(&parsed.normals).map(unit_or_zero).collect();
+        // One is of the pre-scan's making, if any corner has no normal.
+        let is_any_missing = scan.corners_with_normal < scan.corners;
         let zeros = values.iter().filter(|&&n| n == Vec3::ZERO).count();
-        let have = match zeros {
-            1 => "normal of the file has",
-            _ => "normals of the file have",
+        let (zeros, have) = match zeros - usize::from(is_any_missing) {
+            1 => (1, "normal of the file has"),
+            zeros => (zeros, "normals of the file have"),
         };
         if zeros > 0 {
             warnings.push(format!(
-                "{zeros} {have} length zero: averaged ones are used there"
+                "{zeros} {have} length zero: corners that name one count as without a normal"
             ));
         }
         builder.normals(GivenNormals {
@@ -161,8 +165,12 @@ fn parse_limited(
         });
     }
     if scan.has_colours() {
-        builder.colours(vectors(&parsed.vertex_color));
+        let colours = vectors(&parsed.vertex_color);
+        builder.colours(colours.map(|colour| colour.as_vec3()).collect());
     }
+    builder.parts(groups(&scan.object_runs, HashMap::new(), scan.polygons));
+    let off = HashMap::from([(&0, PolygonMesh::FACETED)]);
+    builder.smoothing_groups(groups(&scan.smoothing_runs, off, scan.polygons));
     if scan.material_runs.iter().any(|(_, name)| name.is_some()) {
         let library = Library::load(&scan.libraries, &mut load_mtl, &mut warnings);
         let (materials, of_polygons) = assign_materials(&scan, &library, &mut warnings);
@@ -174,14 +182,40 @@ fn parse_limited(
 }
 
 /// Returns the vectors whose coordinates stand one after the other in `flat`.
-fn vectors(flat: &[f32]) -> Vec<Vec3> {
-    flat.chunks_exact(3).map(Vec3::from_slice).collect()
+fn vectors(flat: &[f64]) -> impl Iterator<Item = DVec3> {
+    flat.chunks_exact(3).map(DVec3::from_slice)
 }
 
 /// Returns `normal` with length one, or zero when it has no direction.
-fn unit_or_zero(normal: Vec3) -> Vec3 {
-    // In f64 the squares of f32 numbers neither overflow nor, unless the normal is zero, vanish.
-    unit_normal(normal.as_dvec3()).map_or(Vec3::ZERO, |unit| unit.as_vec3())
+fn unit_or_zero(normal: DVec3) -> Vec3 {
+    unit_normal(normal).map_or(Vec3::ZERO, |unit| unit.as_vec3())
+}
+
+/// Returns the number of the group of each polygon, from the statements that begin a group: those with equal keys have
+/// equal numbers, `known` ones or new ones, and the polygons before the first statement have one of their own.
+///
+/// Empty if all polygons are in one group, unless that is [`PolygonMesh::FACETED`].
+fn groups<'a, K: Eq + Hash>(
+    runs: &'a [(usize, K)],
+    known: HashMap<&'a K, u32>,
+    polygons: usize,
+) -> Vec<u32> {
+    const BEFORE: u32 = PolygonMesh::FACETED + 1;
+    if runs.is_empty() {
+        return Vec::new();
+    }
+    let mut numbers = known;
+    let mut of_polygons = vec![BEFORE; polygons];
+    let starts = runs.iter().map(|(start, _)| *start);
+    for ((start, key), end) in runs.iter().zip(starts.skip(1).chain([polygons])) {
+        let new = BEFORE + 1 + numbers.len() as u32;
+        of_polygons[*start..end].fill(*numbers.entry(key).or_insert(new));
+    }
+    let is_one = of_polygons.iter().all(|&group| group == of_polygons[0]);
+    match is_one && of_polygons[0] != PolygonMesh::FACETED {
+        true => Vec::new(),
+        false => of_polygons,
+    }
 }
 
 /// Returns the materials that polygons use, and for each polygon the index of its own, `u32::MAX` for none.

@@ -135,11 +135,15 @@ fn material(parsed: &tobj::Material) -> Material {
     // Illumination models 0 (constant) and 1 (diffuse) have no highlight.
     let matte = matches!(parsed.illumination_model, Some(0 | 1));
     let specular = parsed.specular.filter(|_| !matte);
+    let shininess = parsed.shininess.map(|n| n as f32);
+    let colour = |parsed: Option<[f64; 3]>, default| {
+        parsed.map_or(default, |channels| channels.map(|channel| channel as f32))
+    };
     Material {
-        ambient: parsed.ambient.unwrap_or(AMBIENT),
-        diffuse: parsed.diffuse.unwrap_or(DIFFUSE),
-        specular: specular.unwrap_or(SPECULAR),
-        shininess: parsed.shininess.unwrap_or(Material::default().shininess),
+        ambient: colour(parsed.ambient, AMBIENT),
+        diffuse: colour(parsed.diffuse, DIFFUSE),
+        specular: colour(specular, SPECULAR),
+        shininess: shininess.unwrap_or(Material::default().shininess),
     }
 }
 

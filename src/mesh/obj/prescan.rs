@@ -44,15 +44,13 @@ enum Oddity {
     #[error("a texture coordinate that does not exist is ignored, as all of them are")]
     NoTextureCoordinate,
     #[error(
-        "a face names normals or texture coordinates, of which the file has none: normals are averaged"
+        "a face names normals or texture coordinates, of which the file has none: they are passed over"
     )]
     UndeclaredNormal,
-    #[error("a face has corners without a normal: averaged normals are used for the whole mesh")]
-    NoNormal,
     #[error(
-        "smoothing groups are ignored, normals are averaged over all polygons: a crease angle keeps edges sharp"
+        "is no smoothing group and counts as `off`: expected a whole number from 0 on, `on` or `off`"
     )]
-    SmoothingGroups,
+    NoSmoothingGroup,
 }
 
 /// The text for the parser, and all that the parser does not see.
@@ -64,6 +62,10 @@ pub(super) struct Prescan {
     pub polygons: usize,
     /// The number of corners of all of them.
     pub corners: usize,
+    /// Each `o`: the first polygon that it holds for, and the name.
+    pub object_runs: Vec<(usize, String)>,
+    /// Each `s`: the first polygon that it holds for, and the group; 0 for `off`.
+    pub smoothing_runs: Vec<(usize, u64)>,
     /// Each `usemtl`: the first polygon that it holds for, and the name; `None` for none.
     pub material_runs: Vec<(usize, Option<String>)>,
     /// The rest of each `mtllib`, with its line.
@@ -74,17 +76,16 @@ pub(super) struct Prescan {
     texture_coordinates: usize,
     /// The first line that counts normals backwards before there is one, and the error about it.
     early_normal: Option<(usize, ObjProblem)>,
-    corners_with_normal: usize,
+    /// The number of corners with a normal of their own.
+    pub corners_with_normal: usize,
     /// The number of positions with a colour.
     colours: usize,
     /// True if the first position has a colour: the parser is then given one with each, white where there is none.
     writes_colours: bool,
-    /// The smoothing group that holds now: `None` before any `s`, 0 for `s off`.
-    smoothing: Option<u64>,
-    /// The smoothing group of the first face.
-    first_smoothing: Option<Option<u64>>,
     /// The first word that is no statement.
     unknown_word: String,
+    /// The first word that is no smoothing group.
+    unknown_group: String,
     /// The number of times that each occurs, and the first line.
     oddities: BTreeMap<Oddity, (usize, usize)>,
 }
@@ -127,9 +128,9 @@ pub(super) fn prescan(
 }
 
 impl Prescan {
-    /// True if every corner has a normal: only then the normals of the file are used.
+    /// True if any corner has a normal.
     pub(super) fn has_normals(&self) -> bool {
-        self.normals.count > 0 && self.corners_with_normal > 0 && !self.has(Oddity::NoNormal)
+        self.normals.count > 0 && self.corners_with_normal > 0
     }
 
     /// True if every position has a colour: only then the colours of the file are used.
@@ -147,8 +148,6 @@ impl Prescan {
                 let is_told = self.normals.count == 0 && self.has(Oddity::UndeclaredNormal);
                 self.texture_coordinates > 0 || !is_told
             }
-            Oddity::NoNormal => self.normals.count > 0 && self.corners_with_normal > 0,
-            Oddity::SmoothingGroups => !self.has_normals(),
             _ => true,
         };
         let oddities = self.oddities.iter().filter(|(oddity, _)| matters(oddity));
@@ -156,6 +155,7 @@ impl Prescan {
             .map(|(oddity, &(count, first_line))| {
                 let subject = match oddity {
                     Oddity::Unknown => format!("`{}` ", self.unknown_word),
+                    Oddity::NoSmoothingGroup => format!("`s {}` ", self.unknown_group),
                     _ => String::new(),
                 };
                 match count {
@@ -184,6 +184,9 @@ impl Prescan {
         match word {
             "v" => self.position(line, rest)?,
             "vn" => {
+                if self.normals.count == 0 {
+                    self.text.extend_from_slice(b"vn 0 0 0\n");
+                }
                 self.vector("vn", rest)?;
                 self.text.push(b'\n');
                 self.normals.count += 1;
@@ -196,10 +199,14 @@ impl Prescan {
                 self.material_runs.push((self.polygons, name));
             }
             "mtllib" => self.libraries.push((line, rest.into())),
-            "s" => self.smoothing = Some(smoothing_group(without_comment(rest).trim())),
+            "o" => self.object_runs.push((self.polygons, rest.into())),
+            "s" => {
+                let group = self.smoothing_group(line, without_comment(rest));
+                self.smoothing_runs.push((self.polygons, group));
+            }
             "p" | "l" => self.note(line, Oddity::PointOrLine),
             // Names, groups, textures, levels of detail, display: nothing that shows in a picture of polygons.
-            "o" | "g" | "mg" | "usemap" | "maplib" | "bevel" | "c_interp" | "d_interp" | "lod"
+            "g" | "mg" | "usemap" | "maplib" | "bevel" | "c_interp" | "d_interp" | "lod"
             | "shadow_obj" | "trace_obj" | "ctech" | "stech" | "call" => {}
             "vp" | "cstype" | "deg" | "bmat" | "step" | "curv" | "curv2" | "surf" | "parm"
             | "trim" | "hole" | "scrv" | "sp" | "end" | "con" | "bsp" | "bzp" | "cdc" | "cdp"
@@ -306,26 +313,42 @@ impl Prescan {
         }
         self.polygons += 1;
         self.corners += corners.len();
-        let first = *self.first_smoothing.get_or_insert(self.smoothing);
-        if self.smoothing != first || self.smoothing == Some(0) {
-            self.note(line, Oddity::SmoothingGroups);
-        }
-        self.write_face(line, corners);
+        self.write_face(corners);
         Ok(())
     }
 
-    fn write_face(&mut self, line: usize, corners: &[ObjCorner]) {
+    /// Writes a face for the parser, whose first normal is zero and means none.
+    ///
+    /// Corners without a normal are given that one, unless none before them has another: the parser then takes its first
+    /// normal by itself, and files without normals stay short.
+    fn write_face(&mut self, corners: &[ObjCorner]) {
         self.text.push(b'f');
         for corner in corners {
             push_decimal(&mut self.text, b" ", corner.position + 1);
             if let Some(normal) = corner.normal {
-                push_decimal(&mut self.text, b"//", normal + 1);
+                push_decimal(&mut self.text, b"//", normal + 2);
                 self.corners_with_normal += 1;
+            } else if self.corners_with_normal > 0 {
+                self.text.extend_from_slice(b"//1");
             }
         }
         self.text.push(b'\n');
-        if corners.iter().any(|corner| corner.normal.is_none()) {
-            self.note(line, Oddity::NoNormal);
+    }
+
+    /// Returns the smoothing group that `rest` of an `s` names: 0 for `off`, 1 for `on`.
+    fn smoothing_group(&mut self, line: usize, rest: &str) -> u64 {
+        let word = rest.split_ascii_whitespace().next().unwrap_or_default();
+        match (word.parse(), &*word.to_ascii_lowercase()) {
+            (Ok(group), _) => group,
+            (_, "on") => 1,
+            (_, "off" | "null") => 0,
+            _ => {
+                if !self.has(Oddity::NoSmoothingGroup) {
+                    self.unknown_group = quote(word);
+                }
+                self.note(line, Oddity::NoSmoothingGroup);
+                0
+            }
         }
     }
 
@@ -351,11 +374,6 @@ impl Prescan {
         };
         Ok(ObjCorner { position, normal })
     }
-}
-
-/// Returns the number of a smoothing group: 0 for `off`, and for a word that is no number.
-fn smoothing_group(word: &str) -> u64 {
-    word.parse().unwrap_or(if word == "on" { 1 } else { 0 })
 }
 
 /// Appends a separator and `number` in decimal. Faster than `write!`, and there are as many numbers as corners.

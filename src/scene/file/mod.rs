@@ -6,6 +6,7 @@
 mod check;
 pub mod diagnostics;
 mod lights;
+mod normals;
 pub mod resolve;
 pub mod schema;
 #[cfg(test)]
@@ -25,6 +26,9 @@ use std::sync::Arc;
 use std::vec::Vec;
 use std::{format, io};
 use value::{Data, SceneTable, Value};
+
+/// The beginning of the name of a built-in mesh.
+pub(super) const BUILTIN: &str = "builtin:";
 
 /// A scene as it is written. Two scene files are equal when they say the same, wherever it stands.
 #[derive(Clone, Debug, Default)]
@@ -87,7 +91,8 @@ impl SceneFile {
 
     /// Returns the scene that a mesh alone gets: a fitted three-quarter view, one white light, [`Material::default`].
     ///
-    /// Every default that matters is spelt out, so that the printed scene shows what there is to change.
+    /// A mesh file has its own normals and smoothing (`normals = "auto"`), a built-in mesh averaged ones. Every default that
+    /// matters is spelt out, so that the printed scene shows what there is to change.
     pub fn for_mesh(mesh: impl Into<String>) -> SceneFile {
         let (width, height) = Scene::DEFAULT_SIZE;
         let (fit, direction) = (Scene::DEFAULT_FIT, Scene::DEFAULT_DIRECTION);
@@ -108,7 +113,12 @@ impl SceneFile {
             source: None,
         };
         // Set apart, as the name may hold quotes.
-        file.objects_mut()[0].set("mesh", Data::Text(mesh.into()), Origin::Program);
+        let mesh = mesh.into();
+        let object = &mut file.objects_mut()[0];
+        if !mesh.starts_with(BUILTIN) {
+            object.set("normals", Data::Text("auto".into()), Origin::Program);
+        }
+        object.set("mesh", Data::Text(mesh), Origin::Program);
         file
     }
 

@@ -1,13 +1,14 @@
 //! From a scene file to a scene: values are checked, meshes loaded, the camera is fitted.
 
+use super::BUILTIN;
 use super::SceneFile;
 use super::check::{COORDINATES, Section, is_coordinate, is_position};
 use super::diagnostics::{Origin, SceneError};
 use super::lights::{check_distance, light};
+use super::normals::{normals, note_unused};
 use super::value::{Data, SceneTable};
 use super::viewpoint::Viewpoint;
 use super::visibility::{clipping, hidden_surfaces, samples};
-use crate::mesh::vertex_normals::NormalSource;
 use crate::mesh::{Material, PolygonMesh};
 use crate::scene::of_mesh::unit;
 use crate::scene::{Light, MAX_COORDINATE, Object, Scene};
@@ -26,8 +27,10 @@ use std::vec::Vec;
 pub struct Resolved {
     /// The scene.
     pub scene: Scene,
-    /// Remarks for the user, one sentence each.
+    /// Things to know before trusting the picture, one sentence each.
     pub warnings: Vec<String>,
+    /// Things that the scene leaves unused on purpose, one sentence each.
+    pub notes: Vec<String>,
 }
 
 /// A mesh, and what its loader found odd about it; or why there is none.
@@ -59,7 +62,8 @@ impl SceneFile {
             table: &self.table,
             name: "",
         };
-        let (image, mut warnings) = (file.section("image", "image"), Vec::new());
+        let image = file.section("image", "image");
+        let (mut warnings, mut notes) = (Vec::new(), Vec::new());
         let width = image.side("width")?.unwrap_or(Scene::DEFAULT_SIZE.0);
         let height = image.side("height")?.unwrap_or(Scene::DEFAULT_SIZE.1);
         let background = image.channels("background", 1.0)?.unwrap_or([0.0; 3]);
@@ -71,6 +75,12 @@ impl SceneFile {
         let clipping = clipping(&file)?;
         let hidden_surfaces = hidden_surfaces(&file, &mut warnings)?;
         let objects = self.objects(&file, load_mesh, &mut warnings)?;
+        for (object, name) in objects.iter().zip(self.meshes()) {
+            // Normals by formula are not the user's data.
+            if !name.starts_with(BUILTIN) {
+                note_unused(name, &object.mesh, object.normals, &mut notes);
+            }
+        }
         let points: Vec<DVec3> = objects.iter().flat_map(world_points).collect();
         let camera = viewpoint.camera(points.iter().copied(), &mut warnings)?;
         file.sections("light", "light")
@@ -96,7 +106,11 @@ impl SceneFile {
             encoding: image.word("encoding"),
             objects,
         };
-        Ok(Resolved { scene, warnings })
+        Ok(Resolved {
+            scene,
+            warnings,
+            notes,
+        })
     }
 
     /// Returns the objects with their meshes, each of which is loaded once.
@@ -211,15 +225,6 @@ fn material(section: &Section, default: &Material) -> Result<Material, SceneErro
     })
 }
 
-/// Returns the source of the vertex normals.
-fn normals(object: &Section) -> Result<NormalSource, SceneError> {
-    let why = "expected one of them: `crease` averages up to an angle";
-    object.exclude("crease", "normals", why)?;
-    let is_crease = |v| (0.0..=180.0).contains(&v);
-    let crease = object.number("crease", is_crease, "degrees between 0 and 180")?;
-    Ok(crease.map_or_else(|| object.word("normals"), NormalSource::Crease))
-}
-
 /// Returns the transform from model space to world space.
 fn placement(object: &Section) -> Result<DAffine3, SceneError> {
     if let Some(Data::Matrix(rows)) = object.table.get("matrix").map(|value| &value.data) {
@@ -286,7 +291,8 @@ fn world_points(object: &Object) -> impl Iterator<Item = DVec3> {
         used[corner as usize] = true;
     }
     let points = mesh.positions().iter().zip(used);
+    let to_world = object.positions_to_world();
     points
         .filter(|(_, used)| *used)
-        .map(|(p, _)| object.transform.transform_point3(p.as_dvec3()))
+        .map(move |(p, _)| to_world.transform_point3(p.as_dvec3()))
 }

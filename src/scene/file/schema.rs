@@ -116,7 +116,7 @@ words! {
     FALLOFF: Falloff { "none" => Self::None, "inverse-square" => Self::InverseSquare, "inverse" => Self::Inverse }
     GATE: SpecularGate { "gated" => Self::Gated, "ungated" => Self::Ungated, "weighted" => Self::Weighted }
     INTERPOLATION: Interpolation { "screen" => Self::Screen, "perspective" => Self::Perspective }
-    NORMALS: NormalSource { "averaged" => Self::Averaged, "given" => Self::Given }
+    NORMALS: NormalSource { "averaged" => Self::Averaged, "auto" => Self::Auto, "given" => Self::Given }
     PAINTER_KEY: PainterKey { "mean" => Self::Mean, "farthest" => Self::Farthest }
     SPECULAR: SpecularModel { "phong" => Self::Phong, "blinn" => Self::Blinn }
 }
@@ -242,7 +242,8 @@ const LIGHT: &[Key] = &[
 const OBJECT: &[Key] = &[
     // An OBJ file (relative to the scene file), or `builtin:NAME`, or `builtin:NAME?key=value&key=value`.
     needed("mesh", ValueKind::Text),
-    // Vertex normals: averaged (default: L21 3.1, whatever the mesh brings) or those of the mesh, where it has some.
+    // Vertex normals: averaged within smoothing groups (default: L21 3.1), those of the mesh where it has some (`auto`), or
+    // those and else averages regardless of smoothing groups (`given`). Of a mesh file on its own: `auto`.
     key("normals", NORMALS),
     // Instead of `normals`: average over polygons whose normals differ by at most so many degrees, 0 to 180.
     key("crease", ValueKind::Number),

@@ -1,8 +1,10 @@
 //! Positions, faces, groups and normals.
 
 use super::*;
+use crate::mesh::PolygonMesh;
+use crate::mesh::newell::polygon_normal;
 use crate::mesh::obj::load_obj;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::collections::HashSet;
 use std::path::Path;
 use std::string::ToString;
@@ -146,7 +148,7 @@ fn normals_belong_to_corners_and_are_made_unit() {
     assert_eq!(normals.corners.as_deref(), Some(&[0, 1, 2, 1, 1, 0][..]));
     assert_eq!(
         warning(&loaded),
-        "1 normal of the file has length zero: averaged ones are used there"
+        "1 normal of the file has length zero: corners that name one count as without a normal"
     );
 }
 
@@ -160,20 +162,37 @@ fn tiny_and_huge_normals_have_a_direction() {
 }
 
 #[test]
-fn normals_of_a_part_of_the_corners_are_not_used() {
+fn corners_with_and_without_normals_may_be_mixed() {
     // The parser repeats the last normal for corners without one.
-    for faces in [
-        "f 1//1 2//2 3//1\nf 1 3 4\n",
-        "f 1 3 4\nf 1//1 2//2 3//1\n",
-        "f 1//1 2 3//2 4\n",
+    const NONE: Vec3 = Vec3::ZERO;
+    for (faces, expected) in [
+        (
+            "f 1//1 2//2 3//1\nf 1 3 4\n",
+            [Vec3::Z, Vec3::Y, Vec3::Z, NONE, NONE, NONE],
+        ),
+        (
+            "f 1 3 4\nf 1//2 2//2 3//1\n",
+            [NONE, NONE, NONE, Vec3::Y, Vec3::Y, Vec3::Z],
+        ),
+        (
+            "f 1 2//2 3\nf 4//-1 1 2//1\n",
+            [NONE, Vec3::Y, NONE, Vec3::Y, NONE, Vec3::Z],
+        ),
     ] {
-        let loaded = after_points(&["vn 0 0 1\nvn 0 1 0\n", faces].concat());
-        assert!(loaded.mesh.given_normals().is_none(), "{faces:?}");
-        assert!(
-            warning(&loaded).starts_with("a face has corners without a normal"),
-            "{:?}",
-            loaded.warnings
-        );
+        for text in [
+            ["vn 0 0 1\nvn 0 1 0\n", faces].concat(),
+            [&faces.replace("-1", "2"), "vn 0 0 1\nvn 0 1 0\n"].concat(),
+        ] {
+            let loaded = after_points(&text);
+            let normals = loaded.mesh.given_normals().unwrap();
+            let corners = normals.corners.as_ref().unwrap();
+            let found: Vec<Vec3> = corners
+                .iter()
+                .map(|&n| normals.values[n as usize])
+                .collect();
+            assert_eq!(found, expected, "{text:?}");
+            assert_eq!(loaded.warnings, Vec::<String>::new());
+        }
     }
     let unused = after_points("vn 0 0 1\nf 1 2 3\n");
     assert!(unused.mesh.given_normals().is_none() && unused.warnings.is_empty());
@@ -207,29 +226,91 @@ fn normals_of_a_file_without_any_are_averaged() {
         let warning = warning(&loaded);
         assert!(warning.starts_with(told), "{warning}");
         assert!(
-            warning.ends_with("the file has none: normals are averaged (3 times, first in line 6)"),
+            warning.ends_with("the file has none: they are passed over (3 times, first in line 6)"),
             "{warning}"
         );
     }
 }
 
+/// Returns the smoothing group of each polygon.
+fn smoothing(text: &str) -> Vec<Option<u32>> {
+    let loaded = after_points(text);
+    assert_eq!(loaded.warnings, Vec::<String>::new(), "{text:?}");
+    let polygons = 0..loaded.mesh.polygon_count();
+    polygons.map(|p| loaded.mesh.smoothing_group(p)).collect()
+}
+
 #[test]
-fn smoothing_groups_that_would_show_are_told() {
-    let told = |text: &str| {
-        after_points(text)
-            .warnings
-            .iter()
-            .any(|w| w.starts_with("smoothing groups are ignored"))
+fn smoothing_groups_belong_to_the_polygons_after_them() {
+    const OFF: Option<u32> = Some(PolygonMesh::FACETED);
+    // 1 is for polygons before any group, and `off` takes the next number.
+    let [before, b, c] = [Some(1), Some(3), Some(4)];
+    for (text, expected) in [
+        ("f 1 2 3\nf 1 3 4\n", [None, None]),
+        ("s 1\nf 1 2 3\nf 1 3 4\ns off\n", [None, None]),
+        ("s off\nf 1 2 3\nf 1 3 4\n", [OFF, OFF]),
+        ("s 0\nf 1 2 3\ns OFF # flat\nf 1 3 4\n", [OFF, OFF]),
+        ("f 1 2 3\ns 1\nf 1 3 4\n", [before, b]),
+        ("s 7\nf 1 2 3\ns 4294967296 9\nf 1 3 4\n", [b, c]),
+        ("s 7\nf 1 2 3\ns off\ns 1\ns 7\nf 1 3 4\n", [None, None]),
+        ("s 1\nf 1 2 3\ns off\nf 1 3 4\n", [b, OFF]),
+        ("s on\nf 1 2 3\ns 1\nf 1 3 4\n", [None, None]),
+    ] {
+        assert_eq!(smoothing(text), expected, "{text:?}");
+    }
+    let odd = after_points("s smooth\nf 1 2 3\n");
+    assert_eq!(odd.mesh.smoothing_group(0), OFF);
+    assert_eq!(
+        warning(&odd),
+        "`s smooth` is no smoothing group and counts as `off`: expected a whole number from 0 on, `on` or `off` (line 6)"
+    );
+}
+
+#[test]
+fn objects_are_parts_and_groups_are_not() {
+    let parts = |text: &str| {
+        let loaded = after_points(text);
+        assert_eq!(loaded.warnings, Vec::<String>::new());
+        let mesh = loaded.mesh;
+        (0..mesh.polygon_count())
+            .map(|p| mesh.part(p))
+            .collect::<Vec<_>>()
     };
-    assert!(told("s 1\nf 1 2 3\ns 2\nf 1 3 4\n"));
-    assert!(told("s off\nf 1 2 3\n") && told("s 0\nf 1 2 3\n"));
-    assert!(told("f 1 2 3\ns 1\nf 1 3 4\n"));
-    assert!(!told("s 1\nf 1 2 3\nf 1 3 4\ns off\n"));
-    assert!(!told("f 1 2 3\nf 1 3 4\n"));
-    // With normals in the file nothing is averaged.
-    assert!(!told(
-        "vn 0 0 1\ns 1\nf 1//1 2//1 3//1\ns 2\nf 1//1 3//1 4//1\n"
-    ));
+    assert_eq!(parts("f 1 2 3\ng b\nf 1 3 4\n"), [0, 0]);
+    assert_eq!(parts("o a\nf 1 2 3\nf 1 3 4\n"), [0, 0]);
+    assert_eq!(
+        parts("o a\nf 1 2 3\no b c\nf 1 3 4\no a\nf 1 2 5\n"),
+        [2, 3, 2]
+    );
+    assert_eq!(parts("f 1 2 3\no\nf 1 3 4\n"), [1, 2]);
+}
+
+#[test]
+fn a_mesh_far_from_zero_keeps_its_shape() {
+    // 1,600 quads of a map projection, 0.3 units apart.
+    let (x, z) = (500_123.0, -5_412_345.0);
+    let mut text = String::new();
+    for (row, column) in (0..41).flat_map(|row| (0..41).map(move |column| (row, column))) {
+        let (x, z) = (x + 0.3 * f64::from(column), z + 0.3 * f64::from(row));
+        text += &format!("v {x:.1} 200 {z:.1}\n");
+    }
+    // A position that no face uses does not count.
+    text += "v 0 0 0\n";
+    for (row, column) in (0..40).flat_map(|row| (0..40).map(move |column| (row, column))) {
+        let at = 41 * row + column + 1;
+        text += &format!("f {at} {} {} {}\n", at + 41, at + 42, at + 1);
+    }
+    let mesh = parse(&text).unwrap().mesh;
+    for (p, polygon) in mesh.polygons().enumerate() {
+        let first = mesh.positions()[polygon[0] as usize].as_dvec3();
+        let (row, column) = ((p / 40) as f64, (p % 40) as f64);
+        let written = DVec3::new(x + 0.3 * column, 200.0, z + 0.3 * row);
+        // Decimals of the text are rounded to f64, and coordinates below 16 to f32.
+        assert!((mesh.origin() + first - written).length() < 1e-6);
+        assert!((polygon_normal(&mesh, p) - DVec3::Y * 0.18).length() < 1e-5);
+    }
+    let (low, high) = mesh.bounds().unwrap();
+    assert!((low.x - x).abs() < 1e-6 && (high.z - z - 12.0).abs() < 1e-6);
 }
 
 #[test]

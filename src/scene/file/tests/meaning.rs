@@ -27,7 +27,9 @@ fn near(a: DVec3, b: DVec3) -> bool {
 
 #[test]
 fn defaults() {
-    let Resolved { scene, warnings } = resolve(&with_object(""));
+    let Resolved {
+        scene, warnings, ..
+    } = resolve(&with_object(""));
     assert_eq!(
         (scene.width, scene.height, scene.background),
         (640, 480, [0.0; 3])
@@ -145,7 +147,9 @@ fn every_way_of_hiding_surfaces() {
             HiddenSurfaces::Painter(PainterKey::Farthest),
         ),
     ] {
-        let Resolved { scene, warnings } = of(text);
+        let Resolved {
+            scene, warnings, ..
+        } = of(text);
         assert_eq!(
             (scene.hidden_surfaces, warnings.len()),
             (expected, 0),

@@ -84,7 +84,7 @@ fn invalid_toml_and_unknown_keys() {
     check(
         "[[object]]\nmesh = \"a.obj\"\nnormals = «\"average\"»\n",
         "unknown word `average`",
-        "expected `averaged` or `given`",
+        "expected one of `averaged`, `auto`, `given`",
         Some("did you mean `averaged`?"),
     );
 }

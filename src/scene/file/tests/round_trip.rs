@@ -135,10 +135,12 @@ direction = [0.4, 0.7, 0.9]
 
 [[object]]
 mesh = \"teapot.obj\"
+normals = \"auto\"
 "
     );
-    // The written defaults equal a scene that names only the mesh.
-    let bare = SceneFile::parse("[[object]]\nmesh = 'teapot.obj'", "bare.toml").expect("valid");
+    // The written defaults equal a scene that names only the mesh and its normals.
+    let bare = "[[object]]\nmesh = 'teapot.obj'\nnormals = 'auto'";
+    let bare = SceneFile::parse(bare, "bare.toml").expect("valid");
     let resolved = |file: &SceneFile| format!("{:?}", file.resolve(super::cubes).expect("valid"));
     assert_eq!(resolved(&scene), resolved(&bare));
 }
