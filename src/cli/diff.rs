@@ -52,7 +52,7 @@ impl DiffArgs {
         for (path, part) in parts {
             files::will_read(path, part);
         }
-        let to = output.as_ref().and_then(|output| output.path.as_deref());
+        let to = output.as_ref().map(Output::place);
         files::check(to.map(Output::destination).as_slice())?;
         let [reference, actual] = parts.map(|(path, part)| files::picture(path, part));
         let (reference, actual) = (reference?, actual?);

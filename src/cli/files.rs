@@ -60,6 +60,9 @@ pub struct Destination<'a> {
     pub path: &'a Path,
 }
 
+/// Standard output, which may lead to a file: that is one that is read where a shell appends to it.
+pub const STDOUT: &str = "/dev/stdout";
+
 /// The reason why a file is not written: the command reads it, or writes something else to it.
 #[derive(Debug)]
 pub struct OneFileError(String);

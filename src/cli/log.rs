@@ -2,8 +2,10 @@
 //!
 //! A reader that went away is no error. `println!` would panic then, so that nothing here uses it.
 
+use super::files::{self, Destination};
 use super::{CliError, Outcome};
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 use std::time::Instant;
 
 /// The messages that are written to standard error.
@@ -77,8 +79,12 @@ pub fn to_stdout(text: &str) -> Result<(), CliError> {
 /// Writes the result of `write` to standard output, as [`to_stdout`] does.
 ///
 /// # Errors
-/// As [`to_stdout`].
+/// As [`to_stdout`], and when it leads to a file that was read.
 pub fn to_stdout_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), CliError> {
+    files::check(&[Destination {
+        name: "standard output",
+        path: Path::new(files::STDOUT),
+    }])?;
     let mut out = io::stdout().lock();
     match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

@@ -57,6 +57,11 @@ impl Output {
         }
     }
 
+    /// Returns the place that is written to, standard output too.
+    pub fn place(&self) -> &Path {
+        self.path.as_deref().unwrap_or(Path::new(files::STDOUT))
+    }
+
     /// Returns the destination that `--output` names.
     pub fn destination(path: &Path) -> Destination<'_> {
         Destination {

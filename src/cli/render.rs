@@ -247,7 +247,7 @@ fn check_destinations(
 ) -> Result<(), CliError> {
     let beside = check.map(ReferenceCheck::destinations).transpose()?;
     let beside = beside.unwrap_or_default();
-    let picture = output.and_then(|output| output.path.as_deref());
+    let picture = output.map(Output::place);
     let mut all: Vec<_> = picture.map(Output::destination).into_iter().collect();
     all.extend(beside.iter().map(|path| ReferenceCheck::destination(path)));
     files::check(&all)

@@ -1,6 +1,6 @@
 //! No command writes a file that it reads, whatever it is called.
 
-use super::Folder;
+use super::{Ended, Folder};
 use std::fs;
 
 /// A mesh with its library, a scene of it, two pictures, a document, and links to some of them.
@@ -224,6 +224,37 @@ fn results_are_not_written_over_what_they_are_made_of() {
             fs::copy(folder.path("d.json"), folder.path("b.json")).expect("a copy");
         }
         refuses(&folder, arguments, said);
+    }
+}
+
+/// A shell that appends to a file that is read would destroy it as well.
+#[cfg(target_os = "linux")]
+#[test]
+fn standard_output_is_not_appended_to_a_file_that_is_read() {
+    let folder = folder();
+    for (file, arguments) in [
+        ("c.obj", "render c.obj -o - --verbose"),
+        ("a.png", "diff a.png b.png"),
+        ("a.png", "diff a.png b.png -o -"),
+        ("s.toml", "info s.toml"),
+        ("c.mtl", "render s.toml --stats"),
+        ("d.json", "report --from d.json -o p.html"),
+    ] {
+        let old = folder.read(file);
+        let append = fs::File::options().append(true).open(folder.path(file));
+        let mut command = folder.command(arguments);
+        let output = command.stdout(append.expect("the file")).output();
+        let ended = Ended::new(arguments, output.expect("the tool runs"));
+        assert!(
+            !ended.err.contains("shaded"),
+            "`{arguments}` draws: {}",
+            ended.err
+        );
+        ended.refused(&[
+            " itself, ",
+            ", by the name /dev/stdout: expected another file",
+        ]);
+        assert!(old == folder.read(file), "`{arguments}` changes {file}");
     }
 }
 
