@@ -770,7 +770,7 @@ function scenes([id], query) {
 	else if (v2.line != null && query.has("left")) showRow(v2, null);
 }
 function sceneFacts(s) {
-	const cut = s.triangulation, reasons = { culled: "facing away", outside: "outside the view", zero_area: "without area", unprojected: "at the plane of the eye" };
+	const cut = s.triangulation, reasons = { culled: "facing away", outside: "outside the view", zero_area: "without area", no_area: "without area", cancelling: "whose lobes cancel", edge_on: "edge-on", unprojected: "at the plane of the eye" };
 	const left = Object.keys(reasons).filter(k => s.stats[k]).map(k => `${grouped(s.stats[k])} ${reasons[k]}`);
 	return [
 		`${plural(s.polygons, "polygon")} in view`, plural(s.lights, "light"), `${(s.covered_pixels / s.w / s.h * 100).toFixed(0)} % covered`, `${s.w} × ${s.h}`,

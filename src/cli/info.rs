@@ -120,11 +120,13 @@ impl SceneFacts<'_> {
         let camera = &scene.camera;
         let projection = match camera.projection {
             Projection::Orthographic { half_height } => {
-                format!("orthographic, half height {half_height:.6}")
+                let digits = decimals(half_height) + 2;
+                format!("orthographic, half height {half_height:.digits$}")
             }
             Projection::Perspective { fovy } => format!("perspective, {fovy} degrees"),
         };
-        let [eye, target] = [camera.eye, camera.target].map(|p| point(p.to_array()));
+        let distance = (camera.eye - camera.target).length();
+        let [eye, target] = [camera.eye, camera.target].map(|p| point(p.to_array(), distance));
         let (width, height, lights) = (scene.width, scene.height, scene.lights.len());
         let count = self.objects.len();
         let polygons = self.objects.iter().map(|o| o.facts.polygons).sum();
@@ -145,9 +147,19 @@ impl SceneFacts<'_> {
     }
 }
 
-fn point(p: [f64; 3]) -> String {
-    let [x, y, z] = p;
-    format!("({x:.4}, {y:.4}, {z:.4})")
+/// Writes a point among others that are `extent` apart: with as many decimals as show five digits of that, four at least.
+fn point(p: [f64; 3], extent: f64) -> String {
+    let ([x, y, z], digits) = (p, decimals(extent));
+    format!("({x:.digits$}, {y:.digits$}, {z:.digits$})")
+}
+
+/// Returns the number of decimals that shows five digits of `extent`, four at least and no more than an `f64` has.
+fn decimals(extent: f64) -> usize {
+    match extent {
+        0.0 => 4,
+        // Of an extent from 1 on this is 4 or less, and of a NaN 0.
+        _ => (4.0 - extent.log10().floor()).clamp(4.0, 308.0) as usize,
+    }
 }
 
 impl ObjectFacts<'_> {
@@ -169,6 +181,14 @@ impl ObjectFacts<'_> {
             true => "closed".to_owned(),
             false => odd.collect::<Vec<_>>().join(", "),
         };
+        let closed = match (facts.inside_out, facts.closed) {
+            (0, _) => closed,
+            (_, true) => format!("{closed}, wound inside out"),
+            (n, _) => {
+                let parts = counted(n, "object is closed and", "objects are closed and");
+                format!("{closed}; {parts} wound inside out")
+            }
+        };
         let materials = match (facts.materials, facts.polygons_without_material) {
             (0, _) => "none of its own".to_owned(),
             (n, 0) => n.to_string(),
@@ -180,14 +200,21 @@ impl ObjectFacts<'_> {
             [facts.vertices, facts.positions, facts.edges].map(grouped);
         let [concave, bytes] = [facts.concave, facts.bytes].map(grouped);
         let bounds = facts.bounds.map_or_else(String::new, |[low, high]| {
-            format!("\n  bounds      {} to {}", point(low), point(high))
+            let sides = [0, 1, 2].map(|axis| high[axis] - low[axis]);
+            let extent = sides.into_iter().fold(0.0, f64::max);
+            let [low, high] = [low, high].map(|p| point(p, extent));
+            format!("\n  bounds      {low} to {high}")
         });
+        let cancelling = match facts.cancelling {
+            0 => String::new(),
+            n => format!(", {} that cross themselves, their areas cancel", grouped(n)),
+        };
         let (mesh, normals, share) = (self.mesh, &self.normals, 100.0 * PLANAR);
         format!(
             "
 {mesh}
   polygons    {polygons}: {sides}
-  degenerate  {degenerate} without area
+  degenerate  {degenerate} without area{cancelling}
   concave     {concave}
   not planar  {bent} by more than {share} % of their extent
   vertices    {vertices} places, {positions} positions

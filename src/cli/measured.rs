@@ -2,8 +2,8 @@
 
 use super::engines::ThreadFlags;
 use super::files::{self, Destination};
+use super::polygon_counts::warn_of_polygons_left_out;
 use super::progress::Progress;
-use super::render::warn_of_polygons_left_out;
 use super::scene_flags::SceneFlags;
 use super::values::number;
 use super::{CliError, Log, memory};
@@ -99,7 +99,7 @@ impl TimingFlags {
             let frame = scene.frame()?;
             drop(scene);
             progress.aside(|| {
-                warn_of_polygons_left_out(frame.stats(), of.log);
+                warn_of_polygons_left_out(&frame, of.log);
                 memory::check(&frame, &self.methods, 1, of.log)
             })?;
             let input = Input {

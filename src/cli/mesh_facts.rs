@@ -1,7 +1,8 @@
 //! Facts about a mesh: counts, closedness, flatness.
 
 use fastphong::mesh::PolygonMesh;
-use fastphong::mesh::newell::{polygon_normal, unit_normal};
+use fastphong::mesh::newell::{areas_cancel, polygon_normal, unit_normal};
+use fastphong::mesh::orientation::inside_out_parts;
 use fastphong::mesh::weld::weld;
 use glam::DVec3;
 use std::collections::{BTreeMap, HashSet};
@@ -21,6 +22,8 @@ pub struct MeshFacts {
     pub polygons_by_sides: BTreeMap<usize, usize>,
     /// Polygons without area.
     pub degenerate: usize,
+    /// Polygons that cross themselves and the areas of whose lobes cancel, so that they have no normal.
+    pub cancelling: usize,
     /// Polygons with a corner that turns the wrong way.
     pub concave: usize,
     /// Polygons that are out of their plane by more than [`PLANAR`].
@@ -41,6 +44,8 @@ pub struct MeshFacts {
     pub non_manifold_edges: usize,
     /// Edges whose two polygons go along them in the same direction: they are not wound alike.
     pub reversed_edges: usize,
+    /// Parts of the mesh (objects of its file) that are closed and wound inside out.
+    pub inside_out: usize,
     /// Materials that come with the mesh.
     pub materials: usize,
     /// Polygons without a material of the mesh.
@@ -63,6 +68,7 @@ impl MeshFacts {
             positions: mesh.positions().len(),
             bounds: bounds.map(|ends| ends.map(|p| p.to_array())),
             materials: mesh.materials().len(),
+            inside_out: inside_out_parts(mesh),
             given_normals: mesh.given_normals().is_some(),
             bytes: bytes(mesh),
             ..MeshFacts::default()
@@ -71,7 +77,10 @@ impl MeshFacts {
             *facts.polygons_by_sides.entry(corners.len()).or_default() += 1;
             facts.polygons_without_material += usize::from(mesh.polygon_material(p).is_none());
             let Some(normal) = unit_normal(polygon_normal(mesh, p)) else {
-                facts.degenerate += 1;
+                match areas_cancel(mesh, p) {
+                    true => facts.cancelling += 1,
+                    false => facts.degenerate += 1,
+                }
                 continue;
             };
             let points = corners

@@ -24,6 +24,7 @@ mod mesh_facts;
 mod name_template;
 mod normals;
 mod output;
+mod polygon_counts;
 mod progress;
 mod reference_check;
 mod render;

@@ -5,14 +5,14 @@ use super::drawing::{self, AUTO, AskedMethod, Method, RenderJob};
 use super::engines::{self, EngineFlag, Simd, ThreadFlags, renderer};
 use super::name_template::{named, scene_name};
 use super::output::{self, Output, print_beside};
+use super::polygon_counts::{stats_text, warn_of_polygons_left_out};
 use super::progress::Progress;
 use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
-use super::text::{counted, grouped};
+use super::text::counted;
 use super::watch::watch;
 use super::{CliError, Log, Outcome, files, values};
-use fastphong::compare::table::aligned;
-use fastphong::frame::{Frame, FrameStats};
+use fastphong::frame::Frame;
 use fastphong::picture::image_file::Format;
 use fastphong::raster::Renderer;
 use fastphong::raster::painter::{Conflicts, conflicts};
@@ -132,7 +132,7 @@ impl RenderArgs {
         let frame = resolved.scene.frame()?;
         progress.aside(|| {
             log.duration("projected", started);
-            warn_of_polygons_left_out(frame.stats(), log);
+            warn_of_polygons_left_out(&frame, log);
             if self.stats {
                 return print_beside(output.as_ref(), &stats_text(&frame));
             }
@@ -253,29 +253,6 @@ fn check_destinations(
     files::check(&all)
 }
 
-/// Warns of polygons that cannot be drawn.
-pub fn warn_of_polygons_left_out(stats: FrameStats, log: Log) {
-    if stats.zero_area > 0 {
-        let [flat, all] = [stats.zero_area, stats.polygons].map(grouped);
-        let are = match stats.zero_area {
-            1 => "has no area and is",
-            _ => "have no area and are",
-        };
-        log.warning(&format!("{flat} of {all} polygons {are} left out"));
-    }
-    if stats.culled > 0 && stats.culled + stats.zero_area + stats.outside == stats.polygons {
-        let culled = counted(stats.culled, "polygon is seen", "polygons are seen");
-        let problem = format!("nothing is drawn: {culled} from the culled side");
-        log.warning(&(problem + "; try --cull none"));
-    }
-    if stats.unprojected > 0 {
-        let one = "polygon has a corner at the plane of the eye and is left out";
-        let more = "polygons have a corner at the plane of the eye and are left out";
-        let left_out = counted(stats.unprojected, one, more);
-        log.warning(&(left_out + ": --clipping planes draws the visible part"));
-    }
-}
-
 /// Describes the pairs that the painter's algorithm draws in the wrong order, if any.
 fn painter_text(conflicts: &Conflicts) -> Option<String> {
     // A cycle has a pair in the wrong order, in any order.
@@ -295,23 +272,4 @@ fn painter_text(conflicts: &Conflicts) -> Option<String> {
     };
     let problem = format!("{in_cycles} in {cycles}: no order draws them right");
     Some(format!("{problem}; {wrong}{cutting}"))
-}
-
-/// Returns the numbers of polygons as a table.
-fn stats_text(frame: &Frame) -> String {
-    let (s, drawn) = (frame.stats(), frame.polygons().len());
-    let no_area = "left out: no area, in space or on the picture";
-    let no_place = "left out: a corner has no place on the picture (--clipping ndc-cube)";
-    let cut = "cut by the near plane, the far plane or the guard band";
-    let rows = [
-        ("polygons", s.polygons, "of the scene"),
-        ("culled", s.culled, "left out: seen from the culled side"),
-        ("zero-area", s.zero_area, no_area),
-        ("outside", s.outside, "left out: outside the view"),
-        ("clipped", s.clipped, cut),
-        ("unprojected", s.unprojected, no_place),
-        ("drawn", drawn, "left, pieces of cut ones counted each"),
-    ];
-    let rows = rows.map(|(name, count, about)| [name.into(), grouped(count), about.into()]);
-    aligned(&rows, &[0, 2])
 }

@@ -92,8 +92,12 @@ pub struct FrameStats {
     pub polygons: usize,
     /// Left out because they are seen from the culled side.
     pub culled: usize,
-    /// Left out because they have no area, in space or on the picture.
-    pub zero_area: usize,
+    /// Left out because they have no area in space: their corners lie on one line, or at one point.
+    pub no_area: usize,
+    /// Left out because they cross themselves and the areas of their lobes cancel: they have no normal (L21 1.1).
+    pub cancelling: usize,
+    /// Left out because they have no area on the picture: seen edge-on, or smaller than its 1/256 pixels.
+    pub edge_on: usize,
     /// Left out because they lie outside the view.
     pub outside: usize,
     /// Cut by the near plane, the far plane or the guard band.

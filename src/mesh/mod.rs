@@ -9,6 +9,7 @@ mod fans;
 pub mod newell;
 #[cfg(feature = "io")]
 pub mod obj;
+pub mod orientation;
 mod origin;
 pub mod shapes;
 pub mod vertex_normals;
@@ -95,6 +96,11 @@ impl PolygonMesh {
     /// averaged over two parts.
     pub fn part(&self, p: usize) -> u32 {
         self.parts.get(p).copied().unwrap_or(0)
+    }
+
+    /// True if the mesh has more than one part.
+    pub fn has_parts(&self) -> bool {
+        !self.parts.is_empty()
     }
 
     /// Returns the smoothing group of polygon `p`, [`PolygonMesh::FACETED`] for none; `None` where the mesh has no groups

@@ -64,6 +64,51 @@ fn normal_of(positions: &[Vec3], corners: &[u32]) -> DVec3 {
     }
 }
 
+/// True if polygon `p`, which has no normal, crosses itself and has lobes whose areas cancel; false if it has no area at all.
+///
+/// A path that goes back along itself encloses nothing: such corners are taken away first. What is left has an area unless all
+/// of it lies on one line, which is told by the triangles between its first corner, the one farthest from that, and each other
+/// one. Rounding moves each of two differences by at most 2δ along each axis, δ as in [`polygon_normal`], so the product of
+/// differences up to D long by at most 2 · 2 √3 δ D, which is below 8 δ D.
+pub fn areas_cancel(mesh: &PolygonMesh, p: usize) -> bool {
+    let mut path: Vec<DVec3> = Vec::new();
+    for &corner in mesh.polygon(p) {
+        let here = mesh.positions()[corner as usize].as_dvec3();
+        match path[..] {
+            [.., last] if last == here => (),
+            [.., before, _] if before == here => _ = path.pop(),
+            _ => path.push(here),
+        }
+    }
+    // The same around the joint of the end with the beginning.
+    let mut path = &path[..];
+    while let [first, inner @ .., last] = path
+        && (first == last || inner.last() == Some(first) || inner.first() == Some(last))
+    {
+        path = match (first == last, inner.last() == Some(first)) {
+            (true, _) | (_, true) => &path[..path.len() - 1],
+            _ => &path[1..],
+        };
+    }
+    let Some(&first) = path.first() else {
+        return false;
+    };
+    let largest = path.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
+    let far = path.iter().map(|p| *p - first);
+    let far = far.fold(DVec3::ZERO, |far, d| {
+        if d.length_squared() > far.length_squared() {
+            d
+        } else {
+            far
+        }
+    });
+    let area = path
+        .iter()
+        .map(|p| (*p - first).cross(far).length_squared());
+    let bound = 8.0 * half_step(largest.max_element() as f32) * libm::sqrt(far.length_squared());
+    area.fold(0.0, f64::max) > bound * bound
+}
+
 /// Returns the normals of all polygons of a mesh, as [`polygon_normal`] gives them.
 pub fn polygon_normals(mesh: &PolygonMesh) -> Vec<DVec3> {
     collect(mesh.polygon_count(), 4096, |p| polygon_normal(mesh, p))
@@ -241,6 +286,33 @@ mod tests {
             with_remainder > 100,
             "the test asks nothing: only {with_remainder} sums are not zero"
         );
+    }
+
+    #[test]
+    fn lobes_that_cancel_are_told_from_polygons_without_area() {
+        let cancels = |points: &[[f32; 3]]| {
+            let points: Vec<Vec3> = points.iter().map(|&p| Vec3::from(p)).collect();
+            let mesh = mesh_of(&points);
+            assert_eq!(polygon_normal(&mesh, 0), DVec3::ZERO, "{points:?}");
+            areas_cancel(&mesh, 0)
+        };
+        let [a, b, c, d] = SQUARE;
+        let third = [1.0 / 3.0, 0.0, 0.0];
+        for first in 0..4 {
+            let mut bow_tie = [a, c, b, d];
+            bow_tie.rotate_left(first);
+            assert!(cancels(&bow_tie));
+            assert!(cancels(&bow_tie.map(|[x, y, z]| [x + 1e3, y - 1e3, z])));
+            // Out and back along itself, from every corner on.
+            for path in [[a, b, c, b], [a, b, a, c], [a, b, a, b]] {
+                let mut path = path;
+                path.rotate_left(first);
+                assert!(!cancels(&path), "{path:?}");
+            }
+        }
+        assert!(!cancels(&[a, b, c, d, c, b]));
+        assert!(!cancels(&[a, a, a, a]));
+        assert!(!cancels(&[a, third, b]));
     }
 
     #[test]

@@ -37,6 +37,19 @@ pub(crate) fn bounding_box(frame: &Frame, corners: &[u32]) -> (Range<usize>, Ran
     )
 }
 
+/// True if any polygon of `frame` covers the centre of a pixel; of a sample, where pixels have several.
+pub fn is_anything_covered(frame: &Frame) -> bool {
+    let mut line = Scanline::new(frame);
+    frame.polygons().iter().any(|polygon| {
+        let corners = frame.corners(polygon);
+        let (columns, mut rows) = bounding_box(frame, corners);
+        rows.any(|y| {
+            line.cut(corners, y);
+            line.covers_any(&columns)
+        })
+    })
+}
+
 /// The crossing of a scanline and an edge of a polygon: at `x_height / height`, exactly.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossing {
@@ -207,6 +220,17 @@ impl<'a> Scanline<'a> {
             .filter(|crossing| crossing.is_not_right_of(centre(x)))
             .count();
         (passed % 2 == 1).then(|| (self.crossings[passed - 1], self.crossings[passed]))
+    }
+
+    /// True if the polygon covers any of the pixels `columns`.
+    fn covers_any(&self, columns: &Range<usize>) -> bool {
+        // The first pixel right of each left edge, or at it.
+        let mut firsts = self.crossings.iter().step_by(2).map(|crossing| {
+            let numerator = crossing.x_height - PIXEL / 2 * crossing.height;
+            let first = -(-numerator).div_euclid(PIXEL * crossing.height);
+            first.clamp(columns.start as i64, columns.end as i64) as usize
+        });
+        firsts.any(|x| columns.contains(&x) && self.edges(x).is_some())
     }
 
     /// Returns the place of the pixel `x` between two edges; `None` where the polygon does not cover it.

@@ -23,6 +23,7 @@ pub(crate) mod fixtures;
 #[cfg(test)]
 mod tests;
 
+pub use coverage::is_anything_covered;
 pub use visibility::{Visibility, visibility};
 
 use crate::frame::Frame;

@@ -73,7 +73,7 @@ fn a_picture_can_be_piped() {
             "{format}"
         );
         // Messages go to standard error.
-        piped.says("zero-area").says("mesh = \"builtin:sphere");
+        piped.says("no-area").says("mesh = \"builtin:sphere");
     }
     folder
         .run(&format!("render {SPHERE} -o picture --format ppm"))

@@ -99,7 +99,7 @@ fn a_pfm_holds_linear_floats_and_every_format_the_same_picture() {
 #[test]
 fn statistics_count_omitted_polygons() {
     let folder = Folder::new();
-    // Two triangles have no area: one is a line in space, one is seen edge-on.
+    // Of two triangles there is nothing to see: one is a line in space, one is seen edge-on.
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\nf 1 2 3\nf 1 3 2\nf 1 5 2\nf 1 3 4\n";
     folder.write("mesh.obj", obj);
     let ended = folder
@@ -116,14 +116,16 @@ fn statistics_count_omitted_polygons() {
     let expected = [
         ("polygons", "4"),
         ("culled", "1"),
-        ("zero-area", "2"),
+        ("no-area", "1"),
+        ("cancelling", "0"),
+        ("edge-on", "1"),
         ("outside", "0"),
         ("clipped", "0"),
         ("unprojected", "0"),
         ("drawn", "1"),
     ];
     assert_eq!(counts, expected);
-    ended.says("warning: 2 of 4 polygons have no area and are left out");
+    ended.says("warning: 1 of 4 polygons has no area and is left out");
     assert_eq!(
         folder.names(),
         ["mesh.obj"],
@@ -133,9 +135,9 @@ fn statistics_count_omitted_polygons() {
         .run("render mesh.obj --view 0,0 --size 64x48 -o out.png --verbose")
         .done();
     verbose
-        .says("zero-area")
+        .says("no-area")
         .says("shaded in")
-        .says("warning: 2 of 4");
+        .says("warning: 1 of 4");
     folder
         .run("render mesh.obj --view 0,0 --size 64x48 -o out.ppm --verbose")
         .done()

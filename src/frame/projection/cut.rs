@@ -79,7 +79,7 @@ impl Cutting<'_> {
             Culling::None => false,
         };
         self.frame.stats.culled += usize::from(culled);
-        self.frame.stats.zero_area += usize::from(area == 0);
+        self.frame.stats.edge_on += usize::from(area == 0);
         !culled && area != 0
     }
 

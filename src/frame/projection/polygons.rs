@@ -23,6 +23,8 @@ pub(super) struct PolygonTable {
     pub materials: Vec<u32>,
     /// One bit per polygon: 1 if it has a normal. Without one it is never drawn.
     pub has_normal: Vec<u64>,
+    /// The polygons, in ascending order, that have an area but no normal: see [`crate::mesh::newell::areas_cancel`].
+    pub cancelling: Vec<u32>,
 }
 
 impl PolygonTable {
@@ -33,6 +35,15 @@ impl PolygonTable {
             Some(&[first, end]) => (first, end - first),
             _ => (3 * polygon as u32, 3),
         }
+    }
+
+    /// Returns a bit for each of 64 polygons from `first` on that is in [`PolygonTable::cancelling`].
+    #[inline(never)]
+    fn cancelling(&self, first: usize) -> u64 {
+        let after = &self.cancelling[self.cancelling.partition_point(|&p| (p as usize) < first)..];
+        let here = after.iter().map(|&p| p as usize - first);
+        here.take_while(|&k| k < 64)
+            .fold(0, |bits, k| bits | 1 << k)
     }
 
     #[inline(always)]
@@ -137,7 +148,13 @@ impl Sight<'_> {
         stats.polygons += count;
         stats.outside += number(outside);
         let inside = all & !outside;
-        stats.zero_area += number(inside & !has_normal);
+        let no_normal = inside & !has_normal;
+        let cancelling = match no_normal {
+            0 => 0,
+            _ => no_normal & self.table.cancelling(first),
+        };
+        stats.no_area += number(no_normal & !cancelling);
+        stats.cancelling += number(cancelling);
         let mut cut = inside & has_normal & beyond;
         let whole = inside & has_normal & !beyond;
         if self.scene.clipping == Clipping::NdcCube {
@@ -152,7 +169,7 @@ impl Sight<'_> {
             Culling::None => 0,
         };
         stats.culled += number(whole & culled);
-        stats.zero_area += number(whole & !(clockwise | counter_clockwise));
+        stats.edge_on += number(whole & !(clockwise | counter_clockwise));
         // y points downward on the picture: what runs clockwise there has an area over 0, and is seen from behind.
         let back = if self.scene.two_sided { clockwise } else { 0 };
         VisibilityWord {
@@ -232,7 +249,9 @@ pub(super) fn add_up(chunks: &mut [Chunk], pieces: &[Piece], stats: &mut FrameSt
         for (sum, count) in [
             (&mut stats.polygons, chunk.stats.polygons),
             (&mut stats.culled, chunk.stats.culled),
-            (&mut stats.zero_area, chunk.stats.zero_area),
+            (&mut stats.no_area, chunk.stats.no_area),
+            (&mut stats.cancelling, chunk.stats.cancelling),
+            (&mut stats.edge_on, chunk.stats.edge_on),
             (&mut stats.outside, chunk.stats.outside),
             (&mut stats.clipped, chunk.stats.clipped),
             (&mut stats.unprojected, chunk.stats.unprojected),

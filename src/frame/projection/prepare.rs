@@ -2,7 +2,7 @@
 
 use super::polygons::PolygonTable;
 use crate::frame::{FrameError, Geometry, Models, PlacedModel, Polygon};
-use crate::mesh::newell::{polygon_normals, unit_normal};
+use crate::mesh::newell::{areas_cancel, polygon_normals, unit_normal};
 use crate::mesh::vertex_normals::{CornerNormals, corner_normals};
 use crate::mesh::weld::number_distinct;
 use crate::mesh::{Material, PolygonMesh};
@@ -85,6 +85,11 @@ impl Preparation {
         self.materials
             .extend(of_mesh.map(|material| *object.material.as_ref().unwrap_or(material)));
         let normals = polygon_normals(mesh);
+        let first_polygon = self.geometry.faces.len();
+        let cancels = |p: &usize| normals[*p] == DVec3::ZERO && areas_cancel(mesh, *p);
+        let cancelling = (0..mesh.polygon_count()).filter(cancels);
+        let cancelling = cancelling.map(|p| (first_polygon + p) as u32);
+        self.table.cancelling.extend(cancelling);
         self.faces(&source, &normals);
         let normals = corner_normals(mesh, object.normals, Some(&normals));
         self.table

@@ -136,7 +136,7 @@ impl<'a> Plainly<'a> {
             return None;
         }
         if face.is_none() {
-            self.stats.zero_area += 1;
+            self.stats.no_area += 1;
             return None;
         }
         if codes.iter().any(|c| c & BEYOND_PLANES != 0) {
@@ -151,7 +151,7 @@ impl<'a> Plainly<'a> {
             Culling::None => false,
         };
         self.stats.culled += usize::from(culled);
-        self.stats.zero_area += usize::from(area == 0);
+        self.stats.edge_on += usize::from(area == 0);
         (!culled && area != 0).then_some(area)
     }
 
@@ -258,7 +258,7 @@ fn frames_equal_plain_projection() {
                 (expected.polygons, expected.outside, expected.clipped)
             );
             assert!(
-                found.culled >= expected.culled && found.zero_area >= expected.zero_area,
+                found.culled >= expected.culled && found.edge_on >= expected.edge_on,
                 "{name}"
             );
             if plainly.cut.is_empty() {

@@ -178,12 +178,44 @@ fn parse_limited(
     }
     let mesh = builder.finish();
     let mesh = mesh.map_err(|error| failed(None, ObjProblem::Mesh(error)))?;
+    let bent = bent_polygons(&mesh, &positions);
+    if bent > 0 {
+        let polygons = if bent == 1 {
+            "polygon is"
+        } else {
+            "polygons are"
+        };
+        warnings.push(format!(
+            "{bent} {polygons} so small, so far from the middle of the mesh, that 32-bit coordinates bend their shape: \
+             expected objects that lie far apart in files of their own"
+        ));
+    }
     Ok(LoadedObj { mesh, warnings })
 }
 
 /// Returns the vectors whose coordinates stand one after the other in `flat`.
 fn vectors(flat: &[f64]) -> impl Iterator<Item = DVec3> {
     flat.chunks_exact(3).map(DVec3::from_slice)
+}
+
+/// Returns the number of polygons that lose their shape when `positions` are rounded to those of `mesh`: a corner moves by
+/// over a sixteenth of the polygon's extent, which may turn its normal by over 2/16, seven degrees.
+fn bent_polygons(mesh: &PolygonMesh, positions: &[DVec3]) -> usize {
+    let moved: Vec<f64> = mesh
+        .positions()
+        .iter()
+        .zip(positions)
+        .map(|(p, written)| (mesh.origin() + p.as_dvec3() - written).abs().max_element())
+        .collect();
+    let is_bent = |polygon: &&[u32]| {
+        let corners = || polygon.iter().map(|&c| positions[c as usize]);
+        let low = corners().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let extent = (high - low).max_element();
+        let moved = polygon.iter().map(|&c| moved[c as usize]);
+        extent > 0.0 && moved.fold(0.0, f64::max) > extent / 16.0
+    };
+    mesh.polygons().filter(is_bent).count()
 }
 
 /// Returns `normal` with length one, or zero when it has no direction.

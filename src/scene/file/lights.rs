@@ -54,14 +54,21 @@ fn falloff(section: &Section) -> Result<Falloff, SceneError> {
     })
 }
 
-/// Checks that the light stands at none of `points`, where the direction toward it is undefined.
-pub(super) fn check_distance(section: &Section, points: &[DVec3]) -> Result<(), SceneError> {
+/// Checks that the light stands at none of `points`, where the direction toward it is undefined. Both are seen from `eye`.
+pub(super) fn check_distance(
+    section: &Section,
+    points: &[DVec3],
+    eye: DVec3,
+) -> Result<(), SceneError> {
     let Some(light) = section.table.triple("position") else {
         return Ok(());
     };
-    // Closer than the rounding of positions in `f32` is the same place.
+    // Closer than the rounding of positions in `f32` is the same place. They are rounded relative to the eye, and those of
+    // a mesh that lies far from 0 relative to that mesh.
     let is_here = |p: &&DVec3| {
-        (**p - light).length() <= f64::from(f32::EPSILON) * p.length().max(light.length())
+        let from_zero = p.length().max(light.length());
+        let from_eye = (**p - eye).length().max((light - eye).length());
+        (**p - light).length() <= f64::from(f32::EPSILON) * from_zero.min(from_eye)
     };
     let Some(p) = points.iter().find(is_here) else {
         return Ok(());

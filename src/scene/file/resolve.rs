@@ -9,9 +9,10 @@ use super::normals::{normals, note_unused};
 use super::value::{Data, SceneTable};
 use super::viewpoint::Viewpoint;
 use super::visibility::{clipping, hidden_surfaces, samples};
+use crate::mesh::orientation::inside_out_parts;
 use crate::mesh::{Material, PolygonMesh};
 use crate::scene::of_mesh::unit;
-use crate::scene::{Light, MAX_COORDINATE, Object, Scene};
+use crate::scene::{Culling, Light, MAX_COORDINATE, Object, Scene};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -75,16 +76,20 @@ impl SceneFile {
         let clipping = clipping(&file)?;
         let hidden_surfaces = hidden_surfaces(&file, &mut warnings)?;
         let objects = self.objects(&file, load_mesh, &mut warnings)?;
-        for (object, name) in objects.iter().zip(self.meshes()) {
-            // Normals by formula are not the user's data.
-            if !name.starts_with(BUILTIN) {
-                note_unused(name, &object.mesh, object.normals, &mut notes);
+        // What a built-in mesh has is right, and nothing that the user stated.
+        let from_files = objects.iter().zip(self.meshes());
+        for (object, name) in from_files.filter(|(_, name)| !name.starts_with(BUILTIN)) {
+            note_unused(name, &object.mesh, object.normals, &mut notes);
+            let shows_both =
+                file.is_on("two_sided") && file.word::<Culling>("cull") == Culling::None;
+            if !shows_both {
+                warn_of_inside_out(name, &object.mesh, &mut warnings);
             }
         }
         let points: Vec<DVec3> = objects.iter().flat_map(world_points).collect();
         let camera = viewpoint.camera(points.iter().copied(), &mut warnings)?;
         file.sections("light", "light")
-            .try_for_each(|light| check_distance(&light, &points))?;
+            .try_for_each(|light| check_distance(&light, &points, camera.eye))?;
         let specular = file.word("specular");
         let scene = Scene {
             width,
@@ -273,6 +278,28 @@ fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, Scene
         matrix3: linear,
         translation: column(3),
     })
+}
+
+/// Adds a warning, once, if the mesh file `name` is wound inside out.
+fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, warnings: &mut Vec<String>) {
+    let which = match (inside_out_parts(mesh), mesh.has_parts()) {
+        (0, _) => return,
+        (_, false) => "the mesh is".into(),
+        (1, true) => "1 object of the file is".into(),
+        (n, true) => format!("{n} objects of the file are"),
+    };
+    // Given normals may point outward all the same.
+    let averaged = match mesh.given_normals() {
+        Some(_) => " --normals averaged",
+        None => "",
+    };
+    let warning = format!(
+        "{name}: {which} closed and wound inside out, so that its outside is not drawn: turn the faces around, or try \
+         --cull none --two-sided{averaged}"
+    );
+    if !warnings.contains(&warning) {
+        warnings.push(warning);
+    }
 }
 
 /// Returns the mesh with `default` as the material of each polygon that had none.

@@ -1,0 +1,432 @@
+//! Meshes as strangers write them: far from 0, tiny, with normals and smoothing groups, inside out, or out of sight.
+
+use super::*;
+use fastphong::mesh::PolygonMesh;
+use fastphong::mesh::builtin::builtin;
+use std::fmt::Write;
+
+/// Returns a built-in shape as an OBJ file, scaled, then moved; its polygons reversed if asked for. Indices count backwards, so
+/// that shapes can be put one after the other.
+fn obj(shape: &str, scale: f64, at: [f64; 3], reversed: bool) -> String {
+    let mesh: PolygonMesh = builtin(shape).expect("a shape");
+    let mut text = String::new();
+    for p in mesh.positions() {
+        let p = p.as_dvec3().to_array();
+        let [x, y, z] = [0, 1, 2].map(|axis| at[axis] + scale * p[axis]);
+        writeln!(text, "v {x:e} {y:e} {z:e}").expect("memory");
+    }
+    let index = |&c: &u32| format!(" {}", i64::from(c) - mesh.positions().len() as i64);
+    for polygon in mesh.polygons() {
+        let mut words: Vec<String> = polygon.iter().map(index).collect();
+        if reversed {
+            words.reverse();
+        }
+        writeln!(text, "f{}", words.concat()).expect("memory");
+    }
+    text
+}
+
+/// Returns the pixels that differ by more than `levels`.
+fn different(a: &Picture8, b: &Picture8, levels: u8) -> usize {
+    let pixels = a.pixels().iter().zip(b.pixels());
+    let off = |(p, q): &(&[u8; 4], &[u8; 4])| (0..4).any(|c| p[c].abs_diff(q[c]) > levels);
+    pixels.filter(off).count()
+}
+
+const ROUND: &str = "sphere?rings=24&segments=48";
+
+#[test]
+fn a_mesh_far_from_the_origin_looks_like_one_at_the_origin() {
+    let folder = Folder::new();
+    folder.write("near.obj", obj(ROUND, 1.0, [0.0; 3], false));
+    folder
+        .run("render near.obj -o near.png --size 160x120")
+        .done();
+    let near = picture(&folder.path("near.png"));
+    for (name, scale, at) in [
+        ("sphere", 1.0, [4e5, 4e6, 0.0]),
+        ("utm", 10.0, [500_000.0, 5_400_000.0, 250.0]),
+        ("ecef", 50.0, [4_027_894.0, 307_046.0, 4_919_499.0]),
+        ("gigametre", 1.0, [-1e9, 1e9, 1e9]),
+        ("tiny", 1e-7, [1.0, 1.0, 1.0]),
+        ("tiny at the origin", 1e-7, [0.0; 3]),
+        ("one axis", 0.5, [0.0, 0.0, -3e7]),
+    ] {
+        folder.write("far.obj", obj(ROUND, scale, at, false));
+        let ended = folder
+            .run("render far.obj -o far.png --size 160x120")
+            .done();
+        assert_eq!(ended.err, "far.png: 160x120, phong-rsqrt\n", "{name}");
+        let far = picture(&folder.path("far.png"));
+        assert!(covered(&far) > 5000, "{name}: {}", covered(&far));
+        // Coordinates of the text are rounded to 2⁻⁵³ of the distance: vertices may snap to the next 1/256 pixel, and where an
+        // edge passes the centre of one of 4 samples that closely, coverage flips.
+        let off = different(&near, &far, 1);
+        assert!(off <= 12, "{name}: {off} pixels differ");
+    }
+}
+
+#[test]
+fn one_unused_position_at_the_origin_does_not_bring_a_far_mesh_near() {
+    let folder = Folder::new();
+    let far = obj(ROUND, 1.0, [4e5, 4e6, 0.0], false);
+    folder.write("far.obj", &far);
+    folder.write("stray.obj", far + "v 0 0 0\n");
+    for name in ["far", "stray"] {
+        let command = format!("render {name}.obj -o {name}.png --size 64x48");
+        folder.run(&command).done();
+    }
+    assert_eq!(folder.read("far.png"), folder.read("stray.png"));
+}
+
+#[test]
+fn a_far_mesh_is_placed_lit_and_described_where_it_is() {
+    let folder = Folder::new();
+    folder.write("near.obj", obj(ROUND, 1.0, [0.0; 3], false));
+    folder.write("far.obj", obj(ROUND, 1.0, [4e5, 4e6, 0.0], false));
+    // Eye and lights at positions, and a translation that brings it back.
+    let near = "[camera]\neye = [2, 1, 5]\nfovy = 30\n[[light]]\nposition = [1.5, 1.5, 1]\n[[object]]\nmesh = 'near.obj'\n";
+    let far = "[camera]\neye = [400002, 4000001, 5]\ntarget = [400000, 4000000, 0]\nfovy = 30\n\
+               [[light]]\nposition = [400001.5, 4000001.5, 1]\n[[object]]\nmesh = 'far.obj'\n";
+    let back = near.replace("near.obj'", "far.obj'\ntranslate = [-400000, -4000000, 0]");
+    for (name, text) in [("near", near), ("far", far), ("back", &back)] {
+        folder.write(&format!("{name}.toml"), text);
+        folder
+            .run(&format!("render {name}.toml -o {name}.png --size 64x48"))
+            .done();
+    }
+    let near = picture(&folder.path("near.png"));
+    assert!(covered(&near) > 500);
+    for name in ["far.png", "back.png"] {
+        assert!(
+            different(&near, &picture(&folder.path(name)), 1) <= 4,
+            "{name}"
+        );
+    }
+    let info = folder.run("info far.obj --json").done().json();
+    let bounds = &info["objects"][0]["bounds"];
+    assert_eq!(bounds[0][0].as_f64(), Some(399_999.0));
+    assert_eq!(bounds[1][1].as_f64(), Some(4_000_001.0));
+}
+
+#[test]
+fn objects_too_far_apart_for_32_bits_are_told() {
+    let folder = Folder::new();
+    let [near, far] = [0.0, 5e6].map(|x| obj("cube?res=8", 1.0, [x, 0.0, 0.0], false));
+    folder.write("both.obj", near + &far);
+    folder
+        .run("info both.obj")
+        .done()
+        .says("polygons are so small, so far from the middle of the mesh, that 32-bit coordinates bend their shape");
+}
+
+/// A cube as Blender writes it: flat normals of its own, and `s off`.
+const CUBE: &str = "o Cube\nv 1 1 -1\nv 1 -1 -1\nv 1 1 1\nv 1 -1 1\nv -1 1 -1\nv -1 -1 -1\nv -1 1 1\nv -1 -1 1\n\
+    vn 0 1 0\nvn 0 0 1\nvn -1 0 0\nvn 0 -1 0\nvn 1 0 0\nvn 0 0 -1\ns off\n\
+    f 1//1 5//1 7//1 3//1\nf 4//2 3//2 7//2 8//2\nf 8//3 7//3 5//3 6//3\n\
+    f 6//4 2//4 4//4 8//4\nf 2//5 1//5 3//5 4//5\nf 6//6 5//6 1//6 2//6\n";
+
+/// Returns [`CUBE`] without its normals.
+fn without_normals() -> String {
+    let lines = CUBE.lines().filter(|line| !line.starts_with("vn"));
+    let lines = lines.map(|line| {
+        let words = line
+            .split(' ')
+            .map(|word| word.split("//").next().unwrap_or(word));
+        words.collect::<Vec<_>>().join(" ") + "\n"
+    });
+    lines.collect()
+}
+
+#[test]
+fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
+    let folder = Folder::new();
+    let smooth = without_normals().replace("s off\n", "");
+    let on = without_normals().replace("s off", "s 1");
+    // Each side in a group of its own.
+    let mut side = 0;
+    let groups: String = without_normals()
+        .lines()
+        .map(|line| match line.starts_with("f ") {
+            true => {
+                side += 1;
+                format!("s {side}\n{line}\n")
+            }
+            false => format!("{line}\n"),
+        })
+        .collect();
+    // Its first side has no normals, the others have.
+    let mixed = CUBE.replace("f 1//1 5//1 7//1 3//1", "f 1 5 7 3");
+    for (name, text, normals) in [
+        ("given", CUBE, "given with the mesh (chosen by auto)"),
+        (
+            "off",
+            &without_normals(),
+            "those of polygons: its smoothing is off (chosen by auto)",
+        ),
+        (
+            "zero",
+            &without_normals().replace("s off", "s 0"),
+            "those of polygons: its smoothing is off (chosen by auto)",
+        ),
+        (
+            "groups",
+            &groups,
+            "averaged within its smoothing groups (chosen by auto)",
+        ),
+        (
+            "mixed",
+            &mixed,
+            "given with the mesh at 20 of 24 corners, elsewhere those of polygons: its smoothing is off (chosen by auto)",
+        ),
+        ("smooth", &smooth, "averaged (chosen by auto)"),
+        ("on", &on, "averaged (chosen by auto)"),
+    ] {
+        folder.write(&format!("{name}.obj"), text);
+        let described = folder.run(&format!("info {name}.obj")).done();
+        assert_eq!(described.err, "", "{name}");
+        let described = described.prints(&format!("normals     {normals}\n"));
+        let command = format!("render {name}.obj -o {name}.png --size 96x72 --verbose");
+        folder
+            .run(&command)
+            .done()
+            .says(&format!("vertex normals of {name}.obj: {normals}\n"));
+        assert!(described.out.contains("6 of 4 sides"));
+    }
+    let read = |name: &str| folder.read(&format!("{name}.png"));
+    for name in ["off", "zero", "groups", "mixed"] {
+        assert_eq!(read(name), read("given"), "{name}");
+    }
+    assert!(read("smooth") != read("given"));
+    assert_eq!(read("on"), read("smooth"));
+    folder
+        .run("render smooth.obj -o crease.png --size 96x72 --normals crease=30")
+        .done();
+    assert_eq!(read("crease"), read("given"));
+}
+
+#[test]
+fn normals_and_groups_that_are_not_used_are_told_and_no_others() {
+    let folder = Folder::new();
+    folder
+        .write("given.obj", CUBE)
+        .write("off.obj", without_normals());
+    let scene = |mesh: &str, more: &str| format!("[[object]]\nmesh = '{mesh}'\n{more}\n");
+    let unused = |what: &str| format!("the {what} of the file are not used under ");
+    let [normals, groups] = [unused("normals"), unused("smoothing groups")];
+    for (text, told, not_told) in [
+        (scene("given.obj", ""), vec![&normals], vec![&groups]),
+        (
+            scene("given.obj", "normals = 'averaged'"),
+            vec![&normals],
+            vec![&groups],
+        ),
+        (
+            scene("given.obj", "crease = 30"),
+            vec![&normals],
+            vec![&groups],
+        ),
+        (
+            scene("given.obj", "normals = 'auto'"),
+            vec![],
+            vec![&normals, &groups],
+        ),
+        (
+            scene("given.obj", "normals = 'given'"),
+            vec![],
+            vec![&normals, &groups],
+        ),
+        (scene("off.obj", ""), vec![], vec![&normals, &groups]),
+        (
+            scene("off.obj", "normals = 'auto'"),
+            vec![],
+            vec![&normals, &groups],
+        ),
+        (
+            scene("off.obj", "normals = 'given'"),
+            vec![&groups],
+            vec![&normals],
+        ),
+        (
+            scene("off.obj", "crease = 30"),
+            vec![&groups],
+            vec![&normals],
+        ),
+        (scene("builtin:sphere", ""), vec![], vec![&normals, &groups]),
+    ] {
+        folder.write("scene.toml", &text);
+        let mut ended = folder.run("info scene.toml").done();
+        for part in told {
+            ended = ended.says(part);
+        }
+        for part in not_told {
+            assert!(!ended.err.contains(part), "{text}: {}", ended.err);
+        }
+        assert!(!ended.err.contains("warning"), "{}", ended.err);
+    }
+    folder
+        .run("render given.obj --print-scene")
+        .done()
+        .prints("normals = \"auto\"\n");
+    let printed = folder.run("render builtin:cube --print-scene").done();
+    assert!(!printed.out.contains("normals"));
+}
+
+#[test]
+fn what_is_not_seen_is_told_for_what_it_is() {
+    let folder = Folder::new();
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    folder.write("triangle.obj", triangle);
+    folder.write("cube.obj", without_normals());
+    folder.write("bow.obj", format!("{triangle}v 1 1 0\nf 1 2 3 4\n"));
+    folder.write("thin.obj", format!("{triangle}v 2 0 0\nf 1 2 4\n"));
+    for (command, told) in [
+        (
+            "cube.obj --eye 0,0,9 --target 0,0,20 --half-height 1 --near 1 --far 5",
+            "nothing is drawn: 6 polygons lie outside the view; --fit 0.8 looks at all of them",
+        ),
+        (
+            "cube.obj --eye 50,0,9 --target 50,0,0 --half-height 1",
+            "nothing is drawn: 6 polygons lie outside the view",
+        ),
+        (
+            "cube.obj --eye 0,0,9 --target 0,0,20 --fovy 30",
+            "nothing is drawn: 6 polygons lie outside the view",
+        ),
+        (
+            "cube.obj --eye 0,0,0 --target 0,0,1 --fovy 30 --near 0.1 --far 9",
+            "nothing is drawn: 1 polygon is seen from the culled side, 5 lie outside the view; try --cull none",
+        ),
+        (
+            "triangle.obj --view 180,0",
+            "nothing is drawn: 1 polygon is seen from the culled side; try --cull none",
+        ),
+        (
+            "triangle.obj --view 90,0",
+            "nothing is drawn: 1 polygon is seen edge-on or is far smaller than a pixel",
+        ),
+        (
+            "triangle.obj --eye 0,0,9 --half-height 1000000",
+            "nothing is drawn: 1 polygon is seen edge-on or is far smaller than a pixel",
+        ),
+        (
+            "triangle.obj --eye 0,0,9 --half-height 70",
+            "nothing is drawn: 1 polygon reaches into the view, but none covers the centre of a pixel",
+        ),
+        (
+            "bow.obj --view 0,0",
+            "warning: 1 of 2 polygons crosses itself, its areas cancel: it has no normal and is left out",
+        ),
+        (
+            "thin.obj --view 0,0",
+            "warning: 1 of 2 polygons has no area and is left out",
+        ),
+    ] {
+        let ended = folder
+            .run(&format!("render {command} -o out.png --size 64x48"))
+            .done();
+        let told_of_area = ended.err.contains("no area");
+        assert_eq!(
+            told_of_area,
+            command.starts_with("thin"),
+            "{command}: {}",
+            ended.err
+        );
+        let ended = ended.says(told);
+        let nothing = ended.err.contains("nothing is drawn");
+        assert_eq!(
+            nothing,
+            told.contains("nothing"),
+            "{command}: {}",
+            ended.err
+        );
+        let picture = picture(&folder.path("out.png"));
+        let first = picture.pixels()[0];
+        let is_empty = picture.pixels().iter().all(|pixel| *pixel == first);
+        assert_eq!(is_empty, nothing, "{command}");
+    }
+    // From the edge of one of two: nothing to warn of.
+    folder.write("two.obj", format!("{triangle}v 0 0 1\nf 1 3 4\n"));
+    let ended = folder
+        .run("render two.obj --view 0,0 -o out.png --size 64x48")
+        .done();
+    assert_eq!(ended.err, "out.png: 64x48, phong-rsqrt\n");
+}
+
+#[test]
+fn a_closed_mesh_that_is_wound_inside_out_is_told() {
+    let folder = Folder::new();
+    folder.write("right.obj", obj("cube", 1.0, [0.0; 3], false));
+    folder.write("wrong.obj", obj("cube", 1.0, [0.0; 3], true));
+    folder.write("far.obj", obj("torus", 1.0, [3e6, 0.0, -2e5], true));
+    let told = "the mesh is closed and wound inside out, so that its outside is not drawn: turn the faces around, or try \
+                --cull none --two-sided\n";
+    for name in ["wrong", "far"] {
+        let described = folder.run(&format!("info {name}.obj")).done();
+        described
+            .says(&format!("warning: {name}.obj: {told}"))
+            .prints("closed, wound inside out\n");
+        let command = format!("render {name}.obj -o wrong.png --size 64x48");
+        folder.run(&command).done().says(told);
+    }
+    let right = folder
+        .run("render right.obj -o right.png --size 64x48")
+        .done();
+    assert!(!right.err.contains("inside out"));
+    // What is told to try draws what was meant.
+    let command = "render wrong.obj -o wrong.png --size 64x48 --cull none --two-sided";
+    let ended = folder.run(command).done();
+    assert!(!ended.err.contains("inside out"));
+    let [right, wrong] = ["right.png", "wrong.png"].map(|name| picture(&folder.path(name)));
+    assert_eq!(different(&right, &wrong, 1), 0);
+}
+
+#[test]
+fn bounds_and_cameras_have_digits_that_fit_their_size() {
+    let folder = Folder::new();
+    folder.write("tiny.obj", obj("cube", 1e-7, [0.0; 3], false));
+    folder.write("far.obj", obj("cube", 1e-7, [1.0, 0.0, 0.0], false));
+    let tiny = folder.run("info tiny.obj").done();
+    tiny.prints("bounds      (-0.00000010000, -0.00000010000, -0.00000010000) to (0.00000010000, 0.00000010000, 0.00000010000)")
+        .prints("camera   at (0.00000029925, 0.00000017955, 0.00000059851), toward (0.00000000000,");
+    folder
+        .run("info far.obj")
+        .done()
+        .prints("bounds      (0.99999990000, -0.00000010000,")
+        .prints("to (1.00000010000, ");
+    folder
+        .run("info builtin:cube")
+        .done()
+        .prints("bounds      (-1.0000, -1.0000, -1.0000) to (1.0000, 1.0000, 1.0000)");
+}
+
+#[test]
+fn curved_sheets_back_to_back_and_objects_that_touch_stay_as_they_are() {
+    let folder = Folder::new();
+    let shell = obj("sphere?rings=12&segments=24", 1.0, [0.0; 3], false);
+    // Its inside, on the same positions.
+    let inside: String = shell
+        .lines()
+        .filter_map(|line| line.strip_prefix("f "))
+        .map(|face| {
+            let mut words: Vec<&str> = face.split(' ').collect();
+            words.reverse();
+            format!("f {}\n", words.join(" "))
+        })
+        .collect();
+    folder
+        .write("shell.obj", &shell)
+        .write("both.obj", shell.clone() + &inside);
+    for normals in ["auto", "averaged", "crease=180"] {
+        for name in ["shell", "both"] {
+            let command =
+                format!("render {name}.obj -o {name}.png --size 64x48 --normals {normals}");
+            folder.run(&command).done();
+        }
+        assert_eq!(
+            folder.read("both.png"),
+            folder.read("shell.png"),
+            "{normals}"
+        );
+    }
+}
