@@ -2,7 +2,7 @@
 
 use fastphong::frame::Frame;
 use fastphong::picture::encoding::{quantise, store};
-use fastphong::picture::{LinearPicture, Picture8};
+use fastphong::picture::{Encoding, LinearPicture, Picture8};
 use fastphong::raster;
 
 /// A quantity that a picture shows instead of colours.
@@ -44,6 +44,15 @@ impl Aov {
                     None => grey(-1.0, false),
                 }
             }),
+        }
+    }
+
+    /// Returns the encoding of the quantity in 8 bits: levels of depth and normals are proportional to them.
+    pub fn encoding(self, frame: &Frame) -> Encoding {
+        match self {
+            Aov::Colours | Aov::Checkerboard => frame.encoding(),
+            Aov::Depth | Aov::Normal => Encoding::Linear,
+            Aov::Polygon => Encoding::Srgb,
         }
     }
 

@@ -1,26 +1,34 @@
 //! `fastphong diff`: two picture files, in numbers and as a map.
 
 use super::output::{Output, print_beside};
-use super::reference_check::{SCALE, largest_difference};
+use super::reference_check::{SCALE, largest_difference, not_finite_text};
 use super::{CliError, Log, Outcome, files, values};
 use fastphong::compare::metrics::{
-    Difference, METRICS, Perceived, compare, difference_map, flip_colours, mean_flip,
-    signed_difference_map,
+    Difference, MAX_PERCEIVED, METRICS, compare, difference_map, flip_colours, flip_map, mean_flip,
+    signed_difference_map, ssim,
 };
 use fastphong::compare::table::aligned;
-use fastphong::picture::image_file::{FilePicture, comparable};
+use fastphong::picture::Encoding;
+use fastphong::picture::image_file::{
+    AlphaUse, FilePicture, Pair, read_picture_from,
+};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
 
 /// Compare two picture files
 #[derive(clap::Args, Debug)]
 pub struct DiffArgs {
-    /// Reference picture: PNG, PPM or PFM
+    /// Reference picture: PNG, PBM, PGM, PPM, PAM or PFM; `-` is standard input
     reference: PathBuf,
-    /// Picture to compare with it
+    /// Picture to compare with it; `-` is standard input
     actual: PathBuf,
-    /// Exit with code 1 when a channel differs by more grey levels, of 255; a pixel that only one of the pictures
-    /// covers differs by 255
+    /// Encoding of pictures that state none [default: linear for PFM, srgb for others]. Of two encodings, the linear picture is
+    /// encoded before they are compared
+    #[arg(long, value_name = "linear|srgb", value_parser = encoding)]
+    assume: Option<Encoding>,
+    /// Exit with code 1 when a channel differs by more grey levels, of 255. Alpha is a channel: a pixel that only one of the
+    /// pictures covers differs by its alpha
     #[arg(long, value_name = "GREY_LEVELS", value_parser = values::grey_levels, allow_hyphen_values = true)]
     fail_above: Option<f64>,
     /// Write a map of the difference; `-` is standard output
@@ -45,68 +53,190 @@ impl DiffArgs {
     pub fn run(&self, log: Log) -> Result<Outcome, CliError> {
         let output = self.output.as_deref().map(|path| Output::new(path, None));
         let output = output.transpose()?;
+        let paths = self.paths();
+        if paths.iter().all(|path| path.as_os_str() == "-") {
+            let expected = "expected a file for one of the pictures";
+            return Err(format!("standard input holds one picture: {expected}").into());
+        }
         let parts = [
-            (&self.reference, "the reference"),
-            (&self.actual, "the picture"),
+            (paths[0], "the reference"),
+            (paths[1], "the picture"),
         ];
         for (path, part) in parts {
-            files::will_read(path, part);
+            if path.as_os_str() != "-" {
+                files::will_read(path, part);
+            }
         }
         let to = output.as_ref().map(Output::place);
         files::check(to.map(Output::destination).as_slice())?;
-        let [reference, actual] = parts.map(|(path, part)| files::picture(path, part));
+        let [reference, actual] = parts.map(|(path, part)| read(path, part));
         let (reference, actual) = (reference?, actual?);
-        let [r, a] = comparable(&reference, &actual);
+        for (path, picture) in paths.iter().zip([&reference, &actual]) {
+            for note in &picture.notes {
+                log.warning(&format!("{}: {note}", path.display()));
+            }
+        }
+        let pair = Pair::new(&reference, &actual, self.assume);
+        self.tell_use_of_alpha(pair.alpha(), log);
+        let [width, height] = pair.common_size();
+        let is_perceived = width * height <= MAX_PERCEIVED;
+        if self.flip && !is_perceived {
+            let problem = format!("{width}x{height} pixels are too many");
+            return Err(format!("--flip: {problem}: expected at most {MAX_PERCEIVED}").into());
+        }
+        let [r, a] = pair.compared();
         let mut difference = compare(&r, &a)?;
-        let [seen, other] =
-            [&reference, &actual].map(|picture| Perceived::new(&picture.to_stored()));
-        let flip = seen.flip(&other)?;
-        difference.flip = Some(mean_flip(&flip));
+        let [seen, other] = pair.displayed();
+        difference.ssim = ssim(&seen, &other)?;
+        let flip = is_perceived.then(|| flip_map(&seen, &other)).transpose()?;
+        difference.flip = flip.as_ref().map(mean_flip);
         if let Some(output) = &output {
-            let map = match (self.flip, self.signed) {
-                (true, _) => flip_colours(&flip),
+            let map = match (&flip, self.signed) {
+                (Some(flip), _) if self.flip => flip_colours(flip),
                 (_, true) => signed_difference_map(&r, &a, self.scale)?,
                 (_, false) => difference_map(&r, &a, self.scale)?,
             };
-            output.write(&FilePicture::stored(map))?;
+            output.write(&FilePicture::stored(map).encoded(Encoding::Srgb))?;
         }
+        let sizes = [reference.size(), actual.size()];
         let text = match self.json {
-            true => format!("{:#}\n", self.json(&difference, reference.size())),
-            false => table(&difference),
+            true => format!("{:#}\n", self.json(&difference, &pair, sizes)),
+            false => {
+                let mut text = table(&difference, pair.is_one_size());
+                if !is_perceived {
+                    text += &format!("ssim and flip are left out: over {MAX_PERCEIVED} pixels\n");
+                }
+                text + &self.encodings_text(&pair) + &sizes_text(&pair, sizes)
+            }
         };
         print_beside(output.as_ref(), &text)?;
+        if !pair.is_one_size() {
+            log.note("the pictures differ in size");
+            return Ok(Outcome::Differs);
+        }
         let found = largest_difference(&difference);
         let Some(most) = self.fail_above.filter(|most| found > *most) else {
             return Ok(Outcome::Done);
         };
-        let by = format!("{found:.4} grey levels, more than {most}");
-        log.note(&format!("the pictures differ by {by}"));
+        let by = match found.is_finite() {
+            true => format!("by {found:.4} grey levels, more than {most}"),
+            false => not_finite_text(&difference),
+        };
+        log.note(&format!("the pictures differ {by}"));
         Ok(Outcome::Differs)
     }
 
+    fn paths(&self) -> [&Path; 2] {
+        [&self.reference, &self.actual]
+    }
+
+    /// Says what becomes of alpha if only one of the pictures has it.
+    fn tell_use_of_alpha(&self, alpha: AlphaUse, log: Log) {
+        let [reference, actual] = self.paths().map(Path::display);
+        let names = |of_reference: bool| match of_reference {
+            true => [&reference, &actual],
+            false => [&actual, &reference],
+        };
+        match alpha {
+            AlphaUse::Absent | AlphaUse::Compared => {}
+            AlphaUse::Flattened { of_reference } => {
+                let [with, without] = names(of_reference);
+                let done = format!("{with} is put over the background that it states");
+                log.note(&format!("{without} has no alpha: {done}"));
+            }
+            AlphaUse::Dropped { of_reference } => {
+                let [with, without] = names(of_reference);
+                let done = format!("that of {with} is left out, its colours count as stored");
+                log.warning(&format!("{without} has no alpha: {done}"));
+            }
+        }
+    }
+
+    /// Says in which encodings the pictures are, and which of them were assumed.
+    fn encodings_text(&self, pair: &Pair<'_>) -> String {
+        let [reference, actual] = [0, 1].map(|i| {
+            let (path, used) = (self.paths()[i].display(), pair.encodings()[i]);
+            let name = used.encoding.name();
+            match used.is_stated {
+                true => format!("{path} states {name}"),
+                false => format!("{path} states none, {name} is assumed"),
+            }
+        });
+        let [one, other] = pair.encodings().map(|used| used.encoding);
+        let encoded = match one == other {
+            true => "",
+            false => "; the linear picture was encoded as srgb, unrounded",
+        };
+        format!("encodings: {reference}; {actual}{encoded}\n")
+    }
+
     /// Returns the numbers as data.
-    fn json(&self, difference: &Difference, [width, height]: [usize; 2]) -> Value {
+    fn json(&self, difference: &Difference, pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> Value {
         // JSON has neither infinity nor NaN: they become null.
         let metrics = METRICS
             .iter()
             .map(|m| (m.name, json!((m.value)(difference))));
+        let ([width, height], [reference_size, actual_size]) = (pair.common_size(), sizes);
+        let [reference_encoding, actual_encoding] = pair.encodings();
+        let is_failed = |most| !pair.is_one_size() || largest_difference(difference) > most;
+        let failed = match pair.is_one_size() {
+            true => self.fail_above.map(is_failed),
+            false => Some(true),
+        };
         json!({
             "schema": "fastphong.diff/1",
             "reference": self.reference.display().to_string(),
             "actual": self.actual.display().to_string(),
             "width": width,
             "height": height,
-            "equal": difference.equal,
+            "reference_size": reference_size,
+            "actual_size": actual_size,
+            "reference_encoding": reference_encoding.encoding,
+            "reference_encoding_assumed": !reference_encoding.is_stated,
+            "actual_encoding": actual_encoding.encoding,
+            "actual_encoding_assumed": !actual_encoding.is_stated,
+            "compared_encoding": pair.compared_encoding(),
+            "equal": difference.equal && pair.is_one_size(),
             "worst": difference.worst,
             "metrics": metrics.collect::<Value>(),
             "fail_above": self.fail_above,
-            "failed": self.fail_above.map(|most| largest_difference(difference) > most),
+            "failed": failed,
         })
     }
 }
 
+/// Reads the picture that is `part` of the command from a file, or from standard input if the path is `-`.
+fn read(path: &Path, part: &'static str) -> Result<FilePicture, CliError> {
+    if path.as_os_str() != "-" {
+        return Ok(files::picture(path, part)?);
+    }
+    let input = io::stdin().lock();
+    if input.is_terminal() {
+        let expected = "expected a file or a pipe";
+        return Err(format!("standard input is a terminal: {expected}").into());
+    }
+    Ok(read_picture_from(input, Path::new("standard input"))?)
+}
+
+/// Reads `linear` or `srgb`.
+fn encoding(text: &str) -> Result<Encoding, String> {
+    let named = Encoding::ALL.into_iter().find(|e| e.name() == text);
+    named.ok_or_else(|| "expected linear or srgb".to_owned())
+}
+
+/// Says that the sizes differ, if they do.
+fn sizes_text(pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
+    if pair.is_one_size() {
+        return String::new();
+    }
+    let sizes = [sizes[0], sizes[1], pair.common_size()];
+    let [reference, actual, common] = sizes.map(|[width, height]| format!("{width}x{height}"));
+    let found = format!("the reference has {reference} pixels, the picture {actual}");
+    format!("the sizes differ: {found}; compared is the upper left part, {common}\n")
+}
+
 /// Returns the numbers as a table.
-fn table(difference: &Difference) -> String {
+fn table(difference: &Difference, is_one_size: bool) -> String {
     let value = |value: Option<f64>| match value {
         None => "-".to_owned(),
         Some(value) if value.is_infinite() => "inf".to_owned(),
@@ -120,8 +250,11 @@ fn table(difference: &Difference) -> String {
     let mut text = aligned(&rows.collect::<Vec<_>>(), &[0, 2, 3]);
     if let Some([x, y]) = difference.worst {
         text += &format!("the largest difference is at column {x}, row {y}\n");
-    } else if difference.equal {
+    } else if difference.equal && is_one_size {
         text += "the pictures are equal\n";
+    }
+    if difference.not_finite_differing > 0 {
+        text += &format!("the pictures differ {}\n", not_finite_text(difference));
     }
     text
 }

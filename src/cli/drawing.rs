@@ -8,9 +8,9 @@ use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::number::Level;
 use fastphong::number::suggest::unknown;
-use fastphong::picture::encoding::store;
-use fastphong::picture::image_file::{FilePicture, FilePixels, PpmWriter};
-use fastphong::picture::{Encoding, Picture, Picture8};
+use fastphong::picture::encoding::{quantise, srgb_encode, store};
+use fastphong::picture::image_file::{FilePicture, FilePixels, Format, PpmWriter};
+use fastphong::picture::{Alpha, Encoding, Picture, Picture8};
 use fastphong::raster::{Edges, Renderer};
 use fastphong::reference::cs171::{self, Reading, Shading};
 use fastphong::reference::{self, Model};
@@ -211,14 +211,15 @@ impl RenderJob {
     ///
     /// # Errors
     /// Those of `out`.
-    pub fn write_ppm(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn write_ppm(&mut self, out: &mut dyn Write) -> io::Result<()> {
+        self.frame.set_alpha(Alpha::Flattened);
         let [width, height] = self.size();
         let mut file = PpmWriter::new(out, width, height).map_err(io::Error::other)?;
         match &self.content {
             PictureContent::Scanlines(variant, renderer) => {
                 variant.render_rows(&self.frame, *renderer, |pixels| file.pixels(pixels))?;
             }
-            _ => file.pixels(self.picture(false).to_stored().pixels())?,
+            _ => file.pixels(self.drawn(false).to_stored().pixels())?,
         }
         file.finish()
     }
@@ -228,15 +229,40 @@ impl RenderJob {
         [self.frame.picture_width(), self.frame.picture_height()]
     }
 
-    /// Draws the picture: floats if `linear`, else as stored in 8 bits.
-    pub fn picture(&self, linear: bool) -> FilePicture {
-        let mut picture = self.drawn(linear);
-        if self.opaque
-            && let FilePixels::Stored(stored) = &mut picture.pixels
-        {
-            stored.pixels_mut().iter_mut().for_each(|p| p[3] = 255);
+    /// Draws the picture as a file of this format holds it: with straight alpha in PNG, unless that is to be opaque, else over the
+    /// background; floats in PFM, else as stored in 8 bits.
+    pub fn picture(&mut self, format: Format) -> FilePicture {
+        let has_alpha = format == Format::Png;
+        let is_straight = has_alpha && !self.opaque;
+        self.frame.set_alpha(match is_straight {
+            true => Alpha::Straight,
+            false => Alpha::Flattened,
+        });
+        let mut picture = self.drawn(format == Format::Pfm);
+        picture.has_alpha = has_alpha;
+        if let FilePixels::Stored(stored) = &mut picture.pixels {
+            if self.opaque {
+                stored.pixels_mut().iter_mut().for_each(|p| p[3] = 255);
+            }
+            picture.encoding = Some(self.stored_encoding());
+        }
+        if is_straight && !matches!(self.content, PictureContent::Aov(..)) {
+            let level = |c: f32| match self.frame.encoding() {
+                Encoding::Linear => quantise(c),
+                Encoding::Srgb => quantise(srgb_encode(c)),
+            };
+            let background = self.frame.background();
+            picture.background = Some(background.map(|c| f64::from(level(c))));
         }
         picture
+    }
+
+    /// Returns the encoding of the picture in 8 bits.
+    fn stored_encoding(&self) -> Encoding {
+        match &self.content {
+            PictureContent::Aov(aov, _) => aov.encoding(&self.frame),
+            _ => self.frame.encoding(),
+        }
     }
 
     fn drawn(&self, linear: bool) -> FilePicture {
@@ -264,7 +290,8 @@ impl RenderJob {
             }
             PictureContent::Cs171(shading, reading) => {
                 let picture = cs171::render(frame, *shading, *reading);
-                from_f64(&picture.filtered(frame.samples()), frame.encoding(), linear)
+                let picture = picture.filtered(frame.samples(), frame.alpha());
+                from_f64(&picture, frame.encoding(), linear)
             }
             PictureContent::Reference(model) => {
                 let picture = reference::render(frame, *model).picture;

@@ -3,9 +3,11 @@
 use super::drawing::RenderJob;
 use super::files::Destination;
 use super::output::Output;
+use super::text::counted;
 use super::{CliError, Outcome, files};
 use fastphong::compare::metrics::{Difference, compare, difference_map};
-use fastphong::picture::image_file::{FilePicture, Format, comparable};
+use fastphong::picture::Encoding;
+use fastphong::picture::image_file::{FilePicture, Format, Pair};
 use fastphong::report::shell_word;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,12 +15,19 @@ use std::path::{Path, PathBuf};
 /// Grey levels at the light end of difference pictures.
 pub const SCALE: f32 = 16.0;
 
-/// Returns the largest difference of a channel in grey levels; coverage is a channel too, which is either all there or not.
+/// Returns the largest difference of a channel, alpha among them, in grey levels; infinite where one picture alone has a number.
 pub fn largest_difference(difference: &Difference) -> f64 {
-    match difference.coverage_mismatches {
+    match difference.not_finite_differing {
         0 => 255.0 * difference.max,
-        _ => 255.0,
+        _ => f64::INFINITY,
     }
+}
+
+/// Says in how many pixels only one picture has a number: the end of a sentence about pictures that differ.
+pub fn not_finite_text(difference: &Difference) -> String {
+    let (one, more) = ("pixel that is", "pixels that are");
+    let pixels = counted(difference.not_finite_differing, one, more);
+    format!("in {pixels} infinite or not a number in one of them, which no threshold allows")
 }
 
 /// A picture to compare with the one that was accepted.
@@ -45,10 +54,10 @@ impl ReferenceCheck<'_> {
     ///
     /// # Errors
     /// When the reference is there and cannot be read, or a picture cannot be written.
-    pub fn run(&self, job: &RenderJob) -> Result<(Outcome, String), CliError> {
+    pub fn run(&self, job: &mut RenderJob) -> Result<(Outcome, String), CliError> {
         let (reference, shown) = (self.reference, self.reference.display());
         let format = Format::of_path(reference)?;
-        let actual = job.picture(format == Format::Pfm);
+        let actual = job.picture(format);
         let unreadable = |error| format!("{shown}: cannot be read: {error}");
         if !reference.try_exists().map_err(unreadable)? {
             let candidate = self.keep(&actual, format)?;
@@ -57,30 +66,39 @@ impl ReferenceCheck<'_> {
             return Ok((Outcome::Differs, text));
         }
         let accepted = files::picture(reference, "the reference")?;
-        let [r, a] = comparable(&accepted, &actual);
-        let text = match compare(&r, &a) {
-            Ok(difference) if largest_difference(&difference) <= self.threshold => {
-                let within = format!("equal within {} grey levels", self.threshold);
-                let largest = largest_difference(&difference);
-                let text = format!("{shown}: {within}: largest difference {largest}\n");
-                return Ok((Outcome::Done, text));
-            }
-            Ok(difference) => {
-                let candidate = self.keep(&actual, format)?;
-                let map = difference_map(&r, &a, SCALE)?;
-                let map_path = sibling(&candidate, reference, "diff", Format::Png);
-                write(&map_path, &FilePicture::stored(map))?;
-                self.difference_text(&difference, &candidate, &map_path)
-            }
-            Err(sizes) => {
-                let candidate = self.keep(&actual, format)?;
-                let ([rw, rh], [aw, ah]) = (sizes.reference, sizes.actual);
+        let notes = accepted.notes.iter();
+        let notes: String = notes.map(|note| format!("{shown}: {note}\n")).collect();
+        // A reference that states no encoding was written by whoever chose that of the picture.
+        let pair = Pair::new(&accepted, &actual, actual.encoding);
+        let [r, a] = pair.compared();
+        let difference = compare(&r, &a)?;
+        let largest = largest_difference(&difference);
+        if pair.is_one_size() && largest <= self.threshold {
+            let within = format!("equal within {} grey levels", self.threshold);
+            let text = format!("{shown}: {within}: largest difference {largest}\n");
+            return Ok((Outcome::Done, notes + &text));
+        }
+        let candidate = self.keep(&actual, format)?;
+        let map = FilePicture::stored(difference_map(&r, &a, SCALE)?).encoded(Encoding::Srgb);
+        let map_path = sibling(&candidate, reference, "diff", Format::Png);
+        write(&map_path, &map)?;
+        let found = match pair.is_one_size() {
+            true => self.difference_text(&difference),
+            false => {
+                let ([rw, rh], [aw, ah]) = (accepted.size(), actual.size());
                 let sizes = format!("the reference has {rw}x{rh} pixels, the picture {aw}x{ah}");
-                let candidate = candidate.display();
-                format!("{shown}: the sizes differ: {sizes}\nactual: {candidate}\n")
+                format!("{shown}: the sizes differ: {sizes}")
             }
         };
-        Ok((Outcome::Differs, text))
+        let part = match pair.is_one_size() {
+            true => "",
+            false => " of the upper left part that both have",
+        };
+        let accept = self.how_to_accept(&candidate);
+        let (candidate, map_path) = (candidate.display(), map_path.display());
+        let scale = format!("{SCALE} levels from black to yellow");
+        let files = format!("actual: {candidate}\ndifference{part}, {scale}: {map_path}\n");
+        Ok((Outcome::Differs, format!("{notes}{found}\n{files}{accept}")))
     }
 
     /// Returns the files that may be written, beside [`ReferenceCheck::written`]: the picture, unless it is there already, and the map.
@@ -124,11 +142,17 @@ impl ReferenceCheck<'_> {
         Ok(path)
     }
 
-    /// Describes the difference, and how to accept the new picture.
-    fn difference_text(&self, difference: &Difference, candidate: &Path, map: &Path) -> String {
+    /// Describes the difference in one line.
+    fn difference_text(&self, difference: &Difference) -> String {
         let (found, most) = (largest_difference(difference), self.threshold);
         let shown = self.reference.display();
-        let mut text = format!("{shown}: differs by {found:.4} grey levels, more than {most}");
+        let mut text = match found.is_finite() {
+            true => format!("{shown}: differs by {found:.4} grey levels, more than {most}"),
+            false => format!(
+                "{shown}: the pictures differ {}",
+                not_finite_text(difference)
+            ),
+        };
         if difference.coverage_mismatches > 0 {
             let count = difference.coverage_mismatches;
             text += &format!(" ({count} pixels are covered in one picture only)");
@@ -137,10 +161,7 @@ impl ReferenceCheck<'_> {
             let count = difference.differing;
             text += &format!("; {count} pixels differ, most at column {x}, row {y}");
         }
-        let accept = self.how_to_accept(candidate);
-        let (candidate, map) = (candidate.display(), map.display());
-        let scale = format!("{SCALE} levels from black to yellow");
-        text + &format!("\nactual: {candidate}\ndifference, {scale}: {map}\n{accept}")
+        text
     }
 }
 

@@ -70,8 +70,8 @@ pub struct RenderArgs {
     /// difference beside FILE
     #[arg(long, value_name = "FILE", visible_alias = "ref")]
     reference: Option<PathBuf>,
-    /// Grey levels, of 255, that a channel may differ from the reference; a pixel that only one of the pictures covers
-    /// differs by 255
+    /// Grey levels, of 255, that a channel may differ from the reference. Alpha is a channel: a pixel that only one of the
+    /// pictures covers differs by its alpha
     #[arg(long, value_name = "GREY_LEVELS", default_value = "1", value_parser = values::grey_levels, allow_hyphen_values = true, requires = "reference", visible_alias = "ref-threshold")]
     reference_threshold: f64,
     /// Draw again whenever a file of the scene changes, until Ctrl-C
@@ -148,7 +148,7 @@ impl RenderArgs {
             });
         }
         progress.at(0.5, "shading");
-        let job = progress.aside(|| {
+        let mut job = progress.aside(|| {
             let mut job = self.job(frame, renderer, log)?;
             let image = file.table().table("image");
             job.opaque = image.and_then(|image| image.text("alpha")) == Some("opaque");
@@ -166,12 +166,12 @@ impl RenderArgs {
         });
         check_destinations(output.as_ref(), check.as_ref())?;
         if let Some(output) = &output {
-            write(&job, output, &progress, log)?;
+            write(&mut job, output, &progress, log)?;
         }
         let Some(check) = check else {
             return Ok(Outcome::Done);
         };
-        let (outcome, text) = check.run(&job)?;
+        let (outcome, text) = check.run(&mut job)?;
         progress.aside(|| print_beside(output.as_ref(), &text))?;
         Ok(outcome)
     }
@@ -222,13 +222,18 @@ impl RenderArgs {
 }
 
 /// Writes the picture, and logs it.
-fn write(job: &RenderJob, output: &Output, progress: &Progress, log: Log) -> Result<(), CliError> {
+fn write(
+    job: &mut RenderJob,
+    output: &Output,
+    progress: &Progress,
+    log: Log,
+) -> Result<(), CliError> {
     let started = Instant::now();
     if output.format == Format::Ppm {
         output.write_by(|out| job.write_ppm(out))?;
         progress.aside(|| log.duration("shaded and written", started));
     } else {
-        let picture = job.picture(output.format == Format::Pfm);
+        let picture = job.picture(output.format);
         progress.aside(|| log.duration("shaded", started));
         progress.at(0.75, "writing");
         output.write(&picture)?;

@@ -6,7 +6,7 @@ use super::{
     ClipCorner, DepthRange, Frame, FrameError, FrameStats, Geometry, Mean, Polygon, ScreenVertex,
     SubPixel, Vertex,
 };
-use crate::picture::{Encoding, Rgb};
+use crate::picture::{Alpha, Encoding, Rgb};
 use crate::scene::{
     Clipping, Falloff, HiddenSurfaces, Interpolation, LightTerm, Lighting, Place, Scene,
 };
@@ -244,6 +244,7 @@ impl Frame {
             clipping: Clipping::Planes,
             depth_range: DepthRange::default(),
             encoding: Encoding::Linear,
+            alpha: Alpha::Straight,
             eye: [0.0; 3],
             geometry: Arc::new(Geometry::default()),
             vertices: Vec::new(),

@@ -22,7 +22,7 @@ pub use error::FrameError;
 pub(crate) use geometry::{Geometry, Models, PlacedModel};
 pub use projection::PreparedScene;
 
-use crate::picture::{Encoding, Rgb};
+use crate::picture::{Alpha, Encoding, Rgb};
 use crate::scene::{Clipping, HiddenSurfaces, Interpolation, Lighting, Scene};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -47,6 +47,7 @@ pub struct Frame {
     pub(crate) clipping: Clipping,
     pub(crate) depth_range: DepthRange,
     pub(crate) encoding: Encoding,
+    pub(crate) alpha: Alpha,
     pub(crate) eye: [f64; 3],
     pub(crate) geometry: Arc<Geometry>,
     /// The vertices of the geometry, then those that clipping made.
@@ -127,6 +128,18 @@ impl Frame {
     /// Returns the encoding of colours in eight bits.
     pub fn encoding(&self) -> Encoding {
         self.encoding
+    }
+
+    /// Returns the meaning of colours where polygons cover a pixel in part: straight alpha unless [`Frame::set_alpha`] said
+    /// otherwise.
+    pub fn alpha(&self) -> Alpha {
+        self.alpha
+    }
+
+    /// Sets the meaning of colours where polygons cover a pixel in part, for all pictures that are drawn from now on. Only
+    /// frames with several samples per pixel have such pixels.
+    pub fn set_alpha(&mut self, alpha: Alpha) {
+        self.alpha = alpha;
     }
 
     /// Returns the position of the eye in the world, the origin of [`Frame::position`]; 0 if none was given.

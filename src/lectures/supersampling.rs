@@ -3,8 +3,8 @@
 
 use super::prelude::*;
 use crate::frame::FrameBuilder;
-use crate::picture::Encoding;
 use crate::picture::encoding::{srgb_encode, store};
+use crate::picture::{Alpha, Encoding};
 
 pub(super) static FIGURE: Figure = Figure {
     name: "supersampling",
@@ -42,7 +42,9 @@ fn frame(size: [u32; 2], samples: u32, polygons: &[Coloured<'_>]) -> Result<Fram
         let polygon = ScreenPolygon::new(corners.iter().map(corner).collect::<Vec<_>>());
         polygon.add(&mut builder, material, number);
     }
-    Ok(builder.finish()?)
+    let mut frame = builder.finish()?;
+    frame.set_alpha(Alpha::Flattened);
+    Ok(frame)
 }
 
 fn edge(content: &mut FigureContent) -> Result {
@@ -96,7 +98,9 @@ fn cutting(content: &mut FigureContent) -> Result {
     let mut panels = Vec::new();
     for samples in [1, 4] {
         scene.samples = samples;
-        let picture = store(&draw(&scene.frame()?, "flat")?, scene.encoding);
+        let mut frame = scene.frame()?;
+        frame.set_alpha(Alpha::Flattened);
+        let picture = store(&draw(&frame, "flat")?, scene.encoding);
         panels.push((format!("{samples} × {samples} samples"), picture));
     }
     content.pictures(2, "Polygons that cut each other", panels);

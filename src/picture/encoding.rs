@@ -14,6 +14,35 @@ pub enum Encoding {
     Srgb,
 }
 
+impl Encoding {
+    /// Every encoding.
+    pub const ALL: [Encoding; 2] = [Encoding::Linear, Encoding::Srgb];
+
+    /// Returns its name on the command line and in data.
+    pub fn name(self) -> &'static str {
+        match self {
+            Encoding::Linear => "linear",
+            Encoding::Srgb => "srgb",
+        }
+    }
+
+    /// Returns the stored value of linear intensity `c`, both in 0..=1.
+    pub fn encode(self, c: f64) -> f64 {
+        match self {
+            Encoding::Linear => c,
+            Encoding::Srgb => srgb_encode_f64(c),
+        }
+    }
+
+    /// Returns the linear intensity of a stored value, both in 0..=1: the inverse of [`Encoding::encode`].
+    pub fn decode(self, stored: f64) -> f64 {
+        match self {
+            Encoding::Linear => stored,
+            Encoding::Srgb => srgb_decode(stored),
+        }
+    }
+}
+
 /// Returns the stored grey level of intensity `c`: 255 c, rounded to the nearest integer.
 ///
 /// `c` is clamped to 0..=1 first; NaN becomes 0. The only `f32` for which 255 c is a half is ½ itself; it gives 128. In
@@ -52,6 +81,14 @@ pub fn srgb_encode(c: f32) -> f32 {
     }
     // In f64, so that 1 becomes 1 and not the float below it.
     (1.055 * libm::pow(f64::from(c), 1.0 / 2.4) - 0.055) as f32
+}
+
+/// Returns the sRGB value of linear intensity `c` as [`srgb_encode`] does, without rounding to `f32`.
+pub fn srgb_encode_f64(c: f64) -> f64 {
+    match c <= 0.003_130_8 {
+        true => 12.92 * c,
+        false => 1.055 * libm::pow(c, 1.0 / 2.4) - 0.055,
+    }
 }
 
 /// Returns the linear intensity of sRGB value `encoded`, both in 0..=1: the inverse of [`srgb_encode`].

@@ -1,12 +1,14 @@
 //! Pictures: in memory, as grey levels, in files. A picture is a rectangle of pixels, row 0 at the top.
 
+mod alpha;
 pub mod encoding;
 #[cfg(feature = "io")]
 pub mod image_file;
 mod pixel;
 
+pub use alpha::{Alpha, over};
 pub use encoding::Encoding;
-pub use pixel::{Levels, Pixel};
+pub use pixel::{LevelRows, Levels, Pixel};
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -22,10 +24,12 @@ pub struct Picture<T> {
     pixels: Vec<T>,
 }
 
-/// A stored picture: red, green, blue, alpha in 0..=255; alpha is 255 where something was drawn, 0 elsewhere.
+/// A stored picture: red, green, blue, alpha in 0..=255. Alpha is 255 where something was drawn, 0 elsewhere, and the covered
+/// share between them; it is straight unless the frame asked for another: see [`Alpha`].
 pub type Picture8 = Picture<[u8; 4]>;
 
-/// A picture before rounding: linear red, green, blue in 0..=1; alpha is 1 where something was drawn, 0 elsewhere.
+/// A picture before rounding: linear red, green, blue in 0..=1. Alpha is 1 where something was drawn, 0 elsewhere, and the covered
+/// share between them; it is straight unless the frame asked for another: see [`Alpha`].
 pub type LinearPicture = Picture<[f32; 4]>;
 
 impl<T: Copy> Picture<T> {

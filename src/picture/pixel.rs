@@ -1,5 +1,7 @@
 //! Pixels of every kind, seen as grey levels.
 
+use super::Picture;
+
 /// Weights of red, green and blue in luminance (ITU-R BT.709-6, item 3.2).
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
@@ -16,7 +18,7 @@ impl Levels {
         [self.0[0], self.0[1], self.0[2]]
     }
 
-    /// Returns the coverage: 255 where something was drawn.
+    /// Returns alpha, the covered share: 255 where the whole pixel was drawn.
     pub fn alpha(self) -> f64 {
         self.0[3]
     }
@@ -52,5 +54,26 @@ impl Pixel for [f32; 4] {
 impl Pixel for Levels {
     fn levels(self) -> Levels {
         self
+    }
+}
+
+/// A picture whose rows can be had in grey levels, one at a time: comparisons of large pictures need no others in memory.
+pub trait LevelRows {
+    /// Returns width and height in pixels.
+    fn size(&self) -> [usize; 2];
+
+    /// Writes row `y` into `levels`, which holds a pixel for each column.
+    fn level_row(&self, y: usize, levels: &mut [Levels]);
+}
+
+impl<P: Pixel> LevelRows for Picture<P> {
+    fn size(&self) -> [usize; 2] {
+        [self.width(), self.height()]
+    }
+
+    fn level_row(&self, y: usize, levels: &mut [Levels]) {
+        for (levels, pixel) in levels.iter_mut().zip(self.row(y)) {
+            *levels = pixel.levels();
+        }
     }
 }

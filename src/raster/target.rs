@@ -2,7 +2,7 @@
 
 use crate::frame::Frame;
 use crate::picture::encoding::quantise;
-use crate::picture::{LinearPicture, Picture};
+use crate::picture::{Alpha, LinearPicture, Picture};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -71,8 +71,8 @@ impl<T: Stored> Target for Direct<'_, T> {
     }
 }
 
-/// A box filter in linear light: the mean of each pixel's n × n samples, where the background stands for samples that nothing
-/// covers; alpha is the covered share.
+/// A box filter in linear light: the mean of each pixel's covered samples, or of all n × n, where the background stands for
+/// samples that nothing covers, as [`Alpha`] says; alpha is the covered share.
 ///
 /// Sums are exact: an f64 holds any 64 numbers of 24 bits each and of one magnitude, so that a constant colour stays constant.
 struct BoxFilter<'a, T> {
@@ -93,7 +93,10 @@ impl<T: Stored> BoxFilter<'_, T> {
         for (pixel, (sum, covered)) in row.zip(&mut self.sums) {
             if *covered > 0 {
                 let share = f64::from(*covered);
-                let mean = |c: usize| ((sum[c] + (all - share) * background[c]) / all) as f32;
+                let mean = |c: usize| match self.frame.alpha() {
+                    Alpha::Straight => (sum[c] / share) as f32,
+                    Alpha::Flattened => ((sum[c] + (all - share) * background[c]) / all) as f32,
+                };
                 *pixel = T::of([mean(0), mean(1), mean(2), (share / all) as f32]);
                 (*sum, *covered) = ([0.0; 3], 0);
             }

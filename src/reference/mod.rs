@@ -27,7 +27,7 @@ pub use coverage::is_anything_covered;
 pub use visibility::{Visibility, visibility};
 
 use crate::frame::Frame;
-use crate::picture::{LinearPicture, Picture, Picture8};
+use crate::picture::{Alpha, LinearPicture, Picture, Picture8};
 use attributes::VertexAttributes;
 use coverage::Scanline;
 
@@ -90,7 +90,8 @@ impl Model {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferencePicture {
     /// Linear red, green, blue in 0..=1; alpha is 1 where a polygon is seen. Elsewhere the background, with alpha 0. Of a
-    /// frame with several samples per pixel each is seen and shaded on its own, and this is their mean.
+    /// frame with several samples per pixel each is seen and shaded on its own, and this is their mean, as [`Frame::alpha`]
+    /// says.
     pub picture: Picture<[f64; 4]>,
     /// See [`Visibility::polygons`]; of each sample.
     pub polygons: Picture<u32>,
@@ -113,17 +114,25 @@ impl ReferencePicture {
     }
 }
 
-/// Returns the mean of each `side` × `side` pixels, alpha too: a pixel that nothing covers has the background's colour.
-fn filtered(samples: &Picture<[f64; 4]>, side: usize) -> Picture<[f64; 4]> {
+/// Returns the mean of each `side` × `side` samples: of the covered ones if alpha is straight, else of all. A pixel that
+/// nothing covers has the background's colour; alpha is the mean over all samples.
+fn filtered(samples: &Picture<[f64; 4]>, side: usize, alpha: Alpha) -> Picture<[f64; 4]> {
     let mut picture = Picture::new(samples.width() / side, samples.height() / side, [0.0; 4]);
     for y in 0..picture.height() {
         for (x, pixel) in picture.row_mut(y).iter_mut().enumerate() {
             let rows =
                 (y * side..(y + 1) * side).map(|row| &samples.row(row)[x * side..(x + 1) * side]);
+            let mut covered = [0.0; 4];
             for sample in rows.flatten() {
                 *pixel = core::array::from_fn(|c| pixel[c] + sample[c]);
+                // Alpha of a sample is 0 or 1.
+                covered = core::array::from_fn(|c| covered[c] + sample[3] * sample[c]);
             }
             *pixel = pixel.map(|sum| sum / (side * side) as f64);
+            if alpha == Alpha::Straight && covered[3] > 0.0 {
+                let [r, g, b, count] = covered;
+                *pixel = [r / count, g / count, b / count, pixel[3]];
+            }
         }
     }
     picture
@@ -163,7 +172,7 @@ pub fn shade(frame: &Frame, visibility: &Visibility, model: Model) -> ReferenceP
         picture: if frame.samples() == 1 {
             picture
         } else {
-            filtered(&picture, frame.samples())
+            filtered(&picture, frame.samples(), frame.alpha())
         },
         polygons: visibility.polygons.clone(),
         depth: visibility.depth.clone(),

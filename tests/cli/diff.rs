@@ -1,6 +1,6 @@
 //! `fastphong diff`: metrics, thresholds, maps.
 
-use super::{Folder, picture};
+use super::{Folder, SPHERE, picture};
 use fastphong::compare::metrics::METRICS;
 use fastphong::picture::Picture8;
 use fastphong::picture::image_file::{FilePicture, write_picture};
@@ -152,12 +152,21 @@ fn maps_show_where() {
 fn pictures_that_cannot_be_compared_are_errors() {
     let folder = pair();
     folder
-        .write("small.ppm", "P6 2 1 255\nabcdef")
         .write("cut.ppm", "P6 2 1 255\nabc")
-        .write("text.png", "text");
+        .write("text.png", "text")
+        .write("empty.png", "")
+        .write("photo.png", b"\xff\xd8\xff\xe0\0\x10JFIF\0\x01")
+        .write("bomb.ppm", "P6 65536 65536 255\nabc");
     folder
-        .run("diff a.png small.ppm")
-        .refused(&["16×12", "2×1", "expected the same size"]);
+        .run("diff a.png empty.png")
+        .refused(&["empty.png: the file is empty"]);
+    folder.run("diff photo.png a.png").refused(&[
+        "photo.png: it is a JPEG file, which is not read",
+        "expected PNG",
+    ]);
+    folder
+        .run("diff bomb.ppm a.png")
+        .refused(&["bomb.ppm: 65536×65536 pixels are too many"]);
     folder
         .run("diff a.png gone.png")
         .refused(&["gone.png: cannot be read"]);
@@ -192,4 +201,187 @@ fn flip_of_a_comparison_is_that_of_the_rendered_files() {
         .run(&format!("{compare} --all-columns"))
         .done()
         .prints("FLIP");
+}
+
+/// The upper left part that both pictures have is compared and mapped, and they differ all the same.
+#[test]
+fn pictures_of_different_size_differ_and_their_common_part_is_mapped() {
+    let folder = pair();
+    folder.write("small.ppm", [&b"P6 4 9 255\n"[..], &[100; 108]].concat());
+    let sizes = "the sizes differ: the reference has 16x12 pixels, the picture 4x9; compared is the \
+                 upper left part, 4x9";
+    folder
+        .run("diff a.png small.ppm")
+        .differs()
+        .prints(sizes)
+        .says("the pictures differ in size");
+    folder
+        .run("diff b.png small.ppm -o map.png --fail-above 255")
+        .differs()
+        .prints("the largest difference is at column 3, row 7");
+    let map = picture(&folder.path("map.png"));
+    assert_eq!((map.width(), map.height()), (4, 9));
+    assert_ne!(map.get(3, 7)[..3], [0; 3]);
+    let json = folder.run("diff a.png small.ppm --json").differs().json();
+    assert_eq!(
+        (&json["equal"], &json["failed"]),
+        (&false.into(), &true.into())
+    );
+    let sizes = [&json["reference_size"], &json["actual_size"]];
+    assert_eq!(
+        sizes,
+        [&serde_json::json!([16, 12]), &serde_json::json!([4, 9])]
+    );
+    assert_eq!((&json["width"], &json["height"]), (&4.into(), &9.into()));
+}
+
+/// PNG states its encoding, PFM counts as linear: one drawing in both formats is one picture.
+#[test]
+fn one_drawing_in_several_formats_is_one_picture() {
+    let folder = Folder::new();
+    // A mesh alone is sRGB and opaque, a scene linear with alpha; supersampled rims are straight in PNG.
+    for (scene, encoding) in [
+        ("builtin:cube --size 64x48", "srgb"),
+        (SPHERE, "linear"),
+        (
+            "builtin:gear --size 64x48 --alpha coverage --samples 1",
+            "srgb",
+        ),
+    ] {
+        for format in ["png", "ppm", "pfm"] {
+            folder.run(&format!("render {scene} -o a.{format}")).done();
+        }
+        let diff = folder.run("diff a.png a.pfm").done();
+        let stated =
+            format!("encodings: a.png states {encoding}; a.pfm states none, linear is assumed");
+        let json = folder.run("diff a.png a.pfm --json").done().json();
+        // Half a level, and floats: 2⁻²⁴ of 255 on either side.
+        let most = json["metrics"]["max"].as_f64().unwrap();
+        assert!(
+            0.1 < most && most <= 0.5 + 2.0 * 255.0 / f64::from(1 << 24),
+            "{scene}: {most}"
+        );
+        assert_eq!(json["reference_encoding"], encoding);
+        assert_eq!(
+            (&json["actual_encoding"], &json["actual_encoding_assumed"]),
+            (&"linear".into(), &true.into())
+        );
+        diff.prints(&stated);
+        // A PPM file states nothing: the same bytes are the same picture once its encoding is known.
+        let equal = format!("diff a.png a.ppm --assume {encoding} --fail-above 0");
+        folder.run(&equal).done().prints("the pictures are equal");
+        folder.run("diff a.ppm a.png --json").done();
+    }
+    // The rims of a straight picture, put over its background: 0.5 levels of colour and of alpha each are rounded.
+    let scene =
+        "builtin:gear --size 64x48 --alpha coverage --samples 4 --encoding linear --background 0.5";
+    for format in ["png", "pfm"] {
+        folder.run(&format!("render {scene} -o a.{format}")).done();
+    }
+    let diff = folder.run("diff a.png a.pfm --fail-above 1.01").done();
+    diff.says("a.pfm has no alpha: a.png is put over the background that it states");
+    let rims = picture(&folder.path("a.png"));
+    assert!(
+        rims.pixels()
+            .iter()
+            .any(|pixel| (1..255).contains(&pixel[3]))
+    );
+}
+
+#[test]
+fn the_encoding_of_files_that_state_none_can_be_given() {
+    let folder = Folder::new();
+    folder.write("a.pgm", "P2 1 1 255 188").write(
+        "b.pfm",
+        [&b"Pf 1 1 -1\n"[..], &0.5f32.to_le_bytes()].concat(),
+    );
+    let most = |flags: &str| {
+        let json = folder
+            .run(&format!("diff a.pgm b.pfm --json {flags}"))
+            .done()
+            .json();
+        (
+            json["metrics"]["max"].as_f64().unwrap(),
+            json["compared_encoding"].clone(),
+        )
+    };
+    // sRGB of one half is 187.516.
+    let (levels, encoding) = most("");
+    assert!(
+        (levels - 0.484).abs() < 1e-3 && encoding == "srgb",
+        "{levels}"
+    );
+    for (assumed, expected) in [("linear", "linear"), ("srgb", "srgb")] {
+        assert_eq!(
+            most(&format!("--assume {assumed}")),
+            (60.5, expected.into())
+        );
+    }
+    let text = folder.run("diff a.pgm b.pfm").done();
+    text.prints("encodings: a.pgm states none, srgb is assumed; b.pfm states none, linear is assumed; the linear picture was encoded");
+    folder
+        .run("diff a.pgm b.pfm --assume gamma")
+        .refused(&["--assume", "expected linear or srgb"]);
+}
+
+#[test]
+fn samples_of_16_bits_that_differ_are_told_apart() {
+    let folder = Folder::new();
+    folder
+        .write("a.ppm", b"P6 1 1 65535 \x80\x00\x80\x00\x80\x00")
+        .write("b.ppm", b"P6 1 1 65535 \x80\x55\x80\x00\x80\x00");
+    folder.run("diff a.ppm b.ppm --fail-above 0.33").differs();
+    folder.run("diff a.ppm b.ppm --fail-above 0.34").done();
+    folder.run("diff a.ppm a.ppm --fail-above 0").done();
+}
+
+/// NaN and infinity against the same are equal; against anything else no threshold lets them pass.
+#[test]
+fn what_is_not_finite_is_equal_to_the_same_alone() {
+    let folder = Folder::new();
+    let float = |c: f32| [&b"Pf 2 1 -1\n"[..], &c.to_le_bytes(), &[0; 4]].concat();
+    let kinds = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38, -3.0];
+    for (i, c) in kinds.into_iter().enumerate() {
+        folder.write(&format!("{i}.pfm"), float(c));
+    }
+    for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
+        let ended = folder.run(&format!("diff {i}.pfm {j}.pfm --fail-above 1e30"));
+        match (i == j, i < 3 || j < 3) {
+            (true, _) => ended.done().prints("the pictures are equal"),
+            (_, true) => ended
+                .differs()
+                .says("infinite or not a number in one of them, which no threshold allows"),
+            (_, false) => ended.differs().says("grey levels, more than"),
+        };
+    }
+}
+
+#[test]
+fn a_picture_is_read_from_standard_input() {
+    let folder = pair();
+    let piped = |arguments: &str, file: &str| {
+        let mut command = folder.command(arguments);
+        command.stdin(std::fs::File::open(folder.path(file)).unwrap());
+        super::Ended::new(arguments, command.output().unwrap())
+    };
+    piped("diff - b.png", "a.png").done().prints("20  levels");
+    piped("diff a.png -", "a.png")
+        .done()
+        .prints("the pictures are equal");
+    folder.write("text", "text");
+    piped("diff - b.png", "text").refused(&["standard input: not a picture that can be read"]);
+    folder
+        .run("diff - b.png")
+        .refused(&["standard input: the file is empty"]);
+    folder
+        .run("diff - -")
+        .refused(&["standard input holds one picture"]);
+}
+
+#[test]
+fn notes_about_a_file_are_warnings() {
+    let folder = Folder::new();
+    folder.write("two.ppm", "P6 1 1 255\nabcP6 1 1 255\nxyz");
+    let ended = folder.run("diff two.ppm two.ppm").done();
+    ended.says("warning: two.ppm: the file holds several pictures: this is the first");
 }

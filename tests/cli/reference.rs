@@ -106,7 +106,10 @@ fn other_sizes_and_other_coverage_differ() {
         .differs();
     ended
         .prints("the sizes differ: the reference has 64x48 pixels, the picture 32x24")
-        .prints("ref.actual.png");
+        .prints("ref.actual.png")
+        .prints("difference of the upper left part that both have");
+    let map = picture(&folder.path("ref.diff.png"));
+    assert_eq!((map.width(), map.height()), (32, 24));
     // Black on black: colours agree, coverage differs.
     let black = "--ka 0 --kd 0 --ks 0";
     folder
@@ -160,4 +163,28 @@ fn paths_are_quoted_for_the_shell() {
     let output = command.arg("it's mine.png").output().unwrap();
     let ended = super::Ended::new("quoted", output).differs();
     ended.prints(r"cp 'it'\''s mine.actual.png' 'it'\''s mine.png'");
+}
+
+/// References of the time before pictures stated their encoding are compared as stored, and those that state another are not.
+#[test]
+fn a_reference_counts_in_its_own_encoding_if_it_states_one() {
+    let folder = Folder::new();
+    let linear = format!("render {SPHERE}");
+    folder.run(&format!("{linear} -o ref.png")).done();
+    let stored = FilePicture::stored(picture(&folder.path("ref.png")));
+    write_picture(&folder.path("old.png"), &stored).unwrap();
+    for reference in ["ref.png", "old.png"] {
+        let check = format!("{linear} --reference {reference} --reference-threshold 0");
+        folder.run(&check).done();
+    }
+    let srgb = "--encoding srgb --reference-threshold 0";
+    folder
+        .run(&format!("{linear} --reference old.png {srgb}"))
+        .differs();
+    // Levels of the linear picture, encoded, against those of the encoded one: it was rounded at one level, which is up to 12.92
+    // levels of sRGB in the dark, half of that on either side, and half a level.
+    let near = "--encoding srgb --reference-threshold 7";
+    folder
+        .run(&format!("{linear} --reference ref.png {near}"))
+        .done();
 }

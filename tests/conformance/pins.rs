@@ -101,7 +101,8 @@ fn drawn(case: &Case) -> Pins {
             cull: false,
             ..Reading::default()
         };
-        let picture = cs171::render(&triangles, shading, reading).filtered(frame.samples());
+        let picture = cs171::render(&triangles, shading, reading);
+        let picture = picture.filtered(frame.samples(), frame.alpha());
         let channels = picture.pixels().as_flattened().iter();
         pin(
             &format!("{shading:?}").to_lowercase(),

@@ -6,7 +6,7 @@ use fastphong::compare::metrics::compare_where;
 use fastphong::frame::triangulate::triangulated;
 use fastphong::frame::{Frame, FrameBuilder, FrameError};
 use fastphong::picture::encoding::{quantise, srgb_encode};
-use fastphong::picture::{Encoding, LinearPicture, Picture};
+use fastphong::picture::{Alpha, Encoding, LinearPicture, Picture, over};
 use fastphong::raster::{self, Edges};
 use fastphong::reference::{self, Model};
 use fastphong::scene::Scene;
@@ -46,6 +46,13 @@ fn pictures(frame: &Frame) -> [LinearPicture; 3] {
             .expect("gouraud is one of its methods"),
         reference::render(frame, Model::Gouraud).to_linear(),
     ]
+}
+
+/// Returns the frame with pictures over its background.
+fn flattened(frame: &Frame) -> Frame {
+    let mut frame = frame.clone();
+    frame.set_alpha(Alpha::Flattened);
+    frame
 }
 
 /// Filtering keeps a constant picture constant to the last bit, for every number of samples.
@@ -119,7 +126,7 @@ fn a_pixel_on_an_edge_has_the_exact_share() {
                 1.0,
             );
             let share = (n - k) as f32 / n as f32;
-            for picture in pictures(&frame) {
+            for picture in pictures(&flattened(&frame)) {
                 // All values here are multiples of 1/64, so nothing is rounded.
                 assert_eq!(
                     picture.get(2, 3),
@@ -128,10 +135,13 @@ fn a_pixel_on_an_edge_has_the_exact_share() {
                 );
                 assert_eq!((picture.get(1, 3)[3], picture.get(3, 3)[3]), (0.0, 1.0));
             }
+            for picture in pictures(&frame) {
+                assert_eq!(picture.get(2, 3), [1.0, 1.0, 1.0, share], "{k} of {n}");
+            }
         }
         let frame = frame(6, n, Encoding::Linear, &[(0.0, 0.0), (s, 0.0), (s, s)], 1.0);
         let share = (n * (n + 1) / 2) as f32 / (n * n) as f32;
-        for picture in pictures(&frame) {
+        for picture in pictures(&flattened(&frame)) {
             for i in 0..6 {
                 assert_eq!(
                     picture.get(i, i),
@@ -154,7 +164,7 @@ fn samples_are_filtered_before_they_are_encoded() {
         (s, s),
         (f64::from(2 * n + n / 2), s),
     ];
-    let frame = frame(6, n, Encoding::Srgb, &half, 1.0);
+    let frame = flattened(&frame(6, n, Encoding::Srgb, &half, 1.0));
     let gouraud = Variant::parse("gouraud").expect("a method");
     let expected = [0, 1, 2].map(|c| quantise(srgb_encode(0.5 + 0.5 * BACKGROUND[c])));
     let means_of_encoded = [0, 1, 2].map(|c| quantise(0.5 + 0.5 * srgb_encode(BACKGROUND[c])));
@@ -186,7 +196,7 @@ fn supersampled(name: &str, size: (i64, i64), n: u32) -> Frame {
 #[test]
 fn every_sample_is_shaded() {
     for n in [2usize, 4] {
-        let frame = supersampled("coarse-sphere", (48, 36), n as u32);
+        let frame = flattened(&supersampled("coarse-sphere", (48, 36), n as u32));
         let (w, h) = (48 * n as i64, 36 * n as i64);
         let large = supersampled("coarse-sphere", (w, h), 1);
         for entry in METHODS {
@@ -214,6 +224,86 @@ fn every_sample_is_shaded() {
             let mut reused = Picture::new(48, 36, [9; 4]);
             entry.variant().render_into(&frame, &mut reused);
             assert_eq!(stored, reused, "{}", entry.info.name);
+        }
+    }
+}
+
+/// The colour of a rim is the mean of its covered samples, without the bright background, by every
+/// engine. Put over that background it is the picture that was filtered over it: no dark rims, and no
+/// bright ones.
+#[test]
+fn a_supersampled_rim_has_straight_alpha_without_the_background() {
+    let n = 4;
+    let scene = |size: (i64, i64), samples: u32| {
+        let mut scene = support::scene("coarse-sphere", Some(size));
+        (scene.background, scene.samples) = ([1.0, 0.75, 0.5], samples);
+        scene.frame().expect("a frame")
+    };
+    let (frame, samples) = (scene((24, 18), n), scene((96, 72), 1));
+    let side = n as usize;
+    let (pictures, flat) = (pictures(&frame), pictures(&flattened(&frame)));
+    let of_samples = self::pictures(&samples);
+    let mut rims = 0;
+    for ((picture, flat), samples) in pictures.iter().zip(&flat).zip(&of_samples) {
+        for (x, y) in (0..18).flat_map(|y| (0..24).map(move |x| (x, y))) {
+            let [r, g, b, alpha] = picture.get(x, y).map(f64::from);
+            let places = (0..side * side).map(|i| (x * side + i % side, y * side + i / side));
+            let covered = places.map(|(x, y)| samples.get(x, y));
+            let covered: Vec<_> = covered.filter(|sample| sample[3] > 0.0).collect();
+            assert_eq!(alpha, covered.len() as f64 / 16.0);
+            if covered.is_empty() {
+                assert_eq!([r, g, b], [1.0, 0.75, 0.5]);
+                continue;
+            }
+            rims += usize::from(alpha < 1.0);
+            for (c, value) in [r, g, b].into_iter().enumerate() {
+                let sum: f64 = covered.iter().map(|sample| f64::from(sample[c])).sum();
+                // Of values up to 1 the engines round the mean once, by 2^-25; the reference's samples
+                // are rounded here, and its mean.
+                let difference = (value - sum / covered.len() as f64).abs();
+                assert!(
+                    difference <= 2.0 / f64::from(1 << 25),
+                    "{difference:e} at {x}, {y}"
+                );
+            }
+            // The straight mean is rounded once and scaled by alpha, at most 1; the flat one is rounded
+            // once: 2^-25 each, for values up to 1.
+            let over = over([r, g, b, alpha], [1.0, 0.75, 0.5]);
+            for (over, flat) in over.into_iter().zip(flat.get(x, y)) {
+                let difference = (over - f64::from(flat)).abs();
+                assert!(
+                    difference <= 2.0 / f64::from(1 << 25),
+                    "{difference:e} at {x}, {y}"
+                );
+            }
+        }
+    }
+    assert!(rims > 3 * 20, "{rims} pixels of rims are looked at");
+}
+
+/// Every way to a picture agrees on straight alpha: engines, rows, stored and linear.
+#[test]
+fn all_targets_hold_straight_alpha() {
+    let frame = supersampled("coarse-sphere", (48, 36), 2);
+    for renderer in support::renderers::renderers() {
+        let naive = Variant::parse("naive-phong").expect("a method");
+        let linear = naive.render_linear_with(&frame, renderer);
+        let mut stored = Picture::new(1, 1, [0; 4]);
+        naive.render_with(&frame, renderer, &mut stored);
+        let mut rows = Vec::new();
+        let Ok(()) = naive.render_rows(&frame, renderer, |pixels| {
+            rows.extend_from_slice(pixels);
+            Ok::<(), std::convert::Infallible>(())
+        });
+        assert_eq!(stored.pixels(), rows);
+        let near = |a: u8, b: u8| a.abs_diff(b) <= 1;
+        for (stored, linear) in stored.pixels().iter().zip(linear.pixels()) {
+            // The row engine may scale to levels first: a value near a half falls on either side.
+            let linear = linear.map(quantise);
+            assert!(
+                (0..4).all(|c| near(stored[c], linear[c])),
+                "{stored:?} {linear:?}"
+            );
         }
     }
 }

@@ -37,7 +37,7 @@ use super::timing::TimeLimits;
 use crate::frame::triangulate::triangulated;
 use crate::frame::{Frame, FrameStats};
 use crate::picture::encoding::store;
-use crate::picture::{Encoding, LinearPicture, Picture8};
+use crate::picture::{Alpha, Encoding, LinearPicture, Picture8};
 use crate::raster::{Renderer, coverage};
 use crate::reference::Model;
 use crate::scene::Interpolation;
@@ -259,7 +259,13 @@ pub fn draw(
     renderer: Renderer,
     progress: &mut dyn FnMut(f32, &str),
 ) -> Comparison {
-    let frame = input.frame;
+    // The pictures are looked at as they are: edges are filtered over the background.
+    let flattened = (input.frame.samples() > 1).then(|| {
+        let mut frame = input.frame.clone();
+        frame.set_alpha(Alpha::Flattened);
+        frame
+    });
+    let frame = flattened.as_ref().unwrap_or(input.frame);
     let variants = with_baseline(variants);
     let counterparts = counterparts(&variants);
     let steps = (variants.len() + counterparts.len() + 1) as f32;

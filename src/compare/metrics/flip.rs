@@ -9,10 +9,11 @@
 //! rows and columns are filtered one after the other.
 
 use super::SizeMismatch;
+use super::rows::Part;
 use super::ssim::weigh;
 use crate::number::vectorized;
 use crate::picture::encoding::srgb_decode;
-use crate::picture::{Picture, Picture8};
+use crate::picture::{LevelRows, Levels, Picture, Picture8};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::PI;
@@ -70,16 +71,28 @@ struct Percept {
 }
 
 impl Perceived {
-    /// Filters a stored picture. Its levels are taken as sRGB, as screens show them; alpha plays no part.
-    pub fn new(picture: &Picture8) -> Perceived {
-        let linear: [f32; 256] = core::array::from_fn(|k| srgb_decode(k as f64 / 255.0) as f32);
+    /// Filters a picture. Its levels are taken as sRGB in 0..=255, as screens show them; alpha plays no part.
+    pub fn new(picture: &dyn LevelRows) -> Perceived {
+        let of_whole: [f32; 256] = core::array::from_fn(|k| srgb_decode(k as f64 / 255.0) as f32);
+        let linear = |level: f64| match level as u8 {
+            byte if f64::from(byte) == level => of_whole[usize::from(byte)],
+            _ if !level.is_finite() => 0.0,
+            _ => srgb_decode(level / 255.0) as f32,
+        };
         let (to_xyz, to_rgb) = (RGB_TO_XYZ.as_mat3(), RGB_TO_XYZ.inverse().as_mat3());
-        let xyz = picture
-            .map(|[r, g, b, _]| to_xyz * Vec3::from([r, g, b].map(|c| linear[usize::from(c)])));
+        let [width, height] = picture.size();
+        let mut xyz = Picture::new(width, height, Vec3::ZERO);
+        let mut levels = vec![Levels([0.0; 4]); width];
+        for y in 0..height {
+            picture.level_row(y, &mut levels);
+            for (xyz, pixel) in xyz.row_mut(y).iter_mut().zip(&levels) {
+                *xyz = to_xyz * Vec3::from(pixel.rgb().map(linear));
+            }
+        }
 
         // YCxCz without its scale and offset: filters whose weights sum to 1 do not change either.
         let y = xyz.map(|c| c.y);
-        let radius = libm::ceil(3.0 * deviation(CSF_CZ[0][1])) as i32;
+        let radius = colour_radius();
         let gaussian = |b| kernel(deviation(b), radius, |_| 1.0);
         let blurred_y = both_ways(&y, &gaussian(CSF_Y));
         let blurred_cx = both_ways(&xyz.map(|c| c.x - c.y), &gaussian(CSF_CX));
@@ -92,10 +105,8 @@ impl Perceived {
         });
         let share = (wide.0 / (wide.0 + narrow.0)) as f32;
 
-        let deviation = 0.5 * W * PIXELS_PER_DEGREE;
-        let detector = |shape: &dyn Fn(f64) -> f64| {
-            kernel(deviation, libm::ceil(3.0 * deviation) as i32, shape)
-        };
+        let deviation = FEATURE_DEVIATION;
+        let detector = |shape: &dyn Fn(f64) -> f64| kernel(deviation, feature_radius(), shape);
         let smooth = detector(&|_| 1.0);
         let smooth_rows = rows(&y, &smooth);
         let strength = |weights: &[f32]| {
@@ -125,7 +136,7 @@ impl Perceived {
             }
         };
         let percepts = (0..edges.len()).map(percept).collect();
-        let picture = Picture::from_pixels(picture.width(), picture.height(), percepts);
+        let picture = Picture::from_pixels(width, height, percepts);
         Perceived(picture.expect("a percept for each pixel"))
     }
 
@@ -134,7 +145,8 @@ impl Perceived {
     /// # Errors
     /// If the sizes differ.
     pub fn flip(&self, actual: &Perceived) -> Result<Picture<f32>, SizeMismatch> {
-        SizeMismatch::check(&self.0, &actual.0)?;
+        let size = |perceived: &Perceived| [perceived.0.width(), perceived.0.height()];
+        SizeMismatch::check(size(self), size(actual))?;
         let to_xyz: Mat3 = RGB_TO_XYZ.as_mat3();
         let [green, blue] = [Vec3::Y, Vec3::Z].map(|rgb| hunt_lab(to_xyz * rgb));
         let most = libm::powf(hyab(green, blue), QC);
@@ -143,6 +155,53 @@ impl Perceived {
         let map = Picture::from_pixels(self.0.width(), self.0.height(), errors);
         Ok(map.expect("an error for each pixel"))
     }
+}
+
+/// Pixels that are filtered at a time: the filters need 160 bytes for each.
+const PART: usize = 1 << 20;
+
+/// Returns the error of each pixel of `actual`, as [`Perceived::flip`] does, and filters some rows at a time, so that large
+/// pictures need little memory beside the map.
+///
+/// # Errors
+/// If the sizes differ.
+pub fn flip_map(
+    reference: &dyn LevelRows,
+    actual: &dyn LevelRows,
+) -> Result<Picture<f32>, SizeMismatch> {
+    SizeMismatch::check(reference.size(), actual.size())?;
+    let [width, height] = reference.size();
+    let mut map = Picture::new(width, height, 0.0);
+    // Rows above and below that the filters reach.
+    let reach = colour_radius().max(feature_radius()) as usize;
+    let step = (PART / width.max(1)).max(reach);
+    for first in (0..height).step_by(step) {
+        let rows = first..height.min(first + step);
+        let above = first.saturating_sub(reach);
+        let part = |picture| Part {
+            picture,
+            first: above,
+            height: height.min(rows.end + reach) - above,
+        };
+        let part = Perceived::new(&part(reference)).flip(&Perceived::new(&part(actual)))?;
+        for y in rows {
+            map.row_mut(y).copy_from_slice(part.row(y - above));
+        }
+    }
+    Ok(map)
+}
+
+/// Returns how far the filters of colours reach, in pixels.
+fn colour_radius() -> i32 {
+    libm::ceil(3.0 * deviation(CSF_CZ[0][1])) as i32
+}
+
+/// The standard deviation of the detectors of edges and points, in pixels.
+const FEATURE_DEVIATION: f64 = 0.5 * W * PIXELS_PER_DEGREE;
+
+/// Returns how far the detectors reach, in pixels.
+fn feature_radius() -> i32 {
+    libm::ceil(3.0 * FEATURE_DEVIATION) as i32
 }
 
 /// Returns the mean of a map of errors, 0 if it is empty.

@@ -117,7 +117,7 @@ pub static METRICS: &[MetricInfo] = &[
     MetricInfo {
         name: "differing",
         unit: "pixels",
-        meaning: "pixels whose colour is not the same to the last bit",
+        meaning: "pixels whose colour or alpha is not the same to the last bit",
         better: Better::Lower,
         value: |d| Some(d.differing as f64),
     },

@@ -4,12 +4,12 @@
 //! of different methods can only be compared on the same scale. Equal pixels are black and any difference, however small,
 //! is not; larger differences than the scale have a colour that the scale does not contain.
 
-use super::{SizeMismatch, channel_errors};
-use crate::picture::{Levels, Picture, Picture8, Pixel};
+use super::{PixelDifference, SizeMismatch, for_each_row};
+use crate::picture::{LevelRows, Picture8};
 
 /// Colour of pixels without a difference.
 pub const EQUAL: [u8; 4] = [0, 0, 0, 255];
-/// Colour of pixels whose error is beyond the scale, or not finite; in the signed map, of those that are too bright.
+/// Colour of pixels whose error is beyond the scale, or not finite in one picture alone; in the signed map, of those that are too bright.
 pub const BEYOND: [u8; 4] = [255, 0, 255, 255];
 /// Colour, in the signed map, of pixels that are too dark by more than the scale.
 pub const BEYOND_DARKER: [u8; 4] = [0, 255, 0, 255];
@@ -21,25 +21,21 @@ const BRIGHTER: [[f64; 3]; 2] = [[80.0, 32.0, 8.0], [255.0, 196.0, 120.0]];
 /// Ends of its ramp for pixels that are too dark: blue, which colour-blind eyes tell from orange, too.
 const DARKER: [[f64; 3]; 2] = [[16.0, 40.0, 92.0], [136.0, 200.0, 255.0]];
 
-/// Draws the absolute difference of two pictures, the largest of a pixel's channels, in the colours of viridis.
+/// Draws the absolute difference of two pictures, the largest of a pixel's channels, alpha among them, in the colours of
+/// viridis.
 ///
 /// Purple is the smallest difference, yellow one of `scale` grey levels. Black: equal; [`BEYOND`]: more than `scale`, or
 /// not finite; [`COVERAGE`]: covered by one picture only. Every difference is beyond a scale that is zero, negative or NaN.
 ///
 /// # Errors
 /// If the sizes differ.
-pub fn difference_map<A: Pixel, B: Pixel>(
-    reference: &Picture<A>,
-    actual: &Picture<B>,
+pub fn difference_map(
+    reference: &dyn LevelRows,
+    actual: &dyn LevelRows,
     scale: f32,
 ) -> Result<Picture8, SizeMismatch> {
-    paint(reference, actual, |r, a| {
-        let (errors, are_finite) = channel_errors(r, a);
-        let error = errors.into_iter().fold(0.0, f64::max);
-        match are_finite {
-            true => absolute_colour(error, f64::from(scale)),
-            false => BEYOND,
-        }
+    paint(reference, actual, |difference| {
+        absolute_colour(difference.largest(), f64::from(scale))
     })
 }
 
@@ -51,35 +47,35 @@ pub fn difference_map<A: Pixel, B: Pixel>(
 ///
 /// # Errors
 /// If the sizes differ.
-pub fn signed_difference_map<A: Pixel, B: Pixel>(
-    reference: &Picture<A>,
-    actual: &Picture<B>,
+pub fn signed_difference_map(
+    reference: &dyn LevelRows,
+    actual: &dyn LevelRows,
     scale: f32,
 ) -> Result<Picture8, SizeMismatch> {
-    paint(reference, actual, |r, a| {
-        let (_, are_finite) = channel_errors(r, a);
-        match are_finite {
-            true => signed_colour(a.luminance() - r.luminance(), f64::from(scale)),
-            false => BEYOND,
-        }
+    paint(reference, actual, |difference| {
+        signed_colour(difference.luminance, f64::from(scale))
     })
 }
 
-fn paint<A: Pixel, B: Pixel>(
-    reference: &Picture<A>,
-    actual: &Picture<B>,
-    colour: impl Fn(Levels, Levels) -> [u8; 4],
+fn paint(
+    reference: &dyn LevelRows,
+    actual: &dyn LevelRows,
+    colour: impl Fn(&PixelDifference) -> [u8; 4],
 ) -> Result<Picture8, SizeMismatch> {
-    SizeMismatch::check(reference, actual)?;
-    let mut map = Picture8::new(reference.width(), reference.height(), EQUAL);
-    let pairs = reference.pixels().iter().zip(actual.pixels());
-    for (out, (r, a)) in map.pixels_mut().iter_mut().zip(pairs) {
-        let (r, a) = (r.levels(), a.levels());
-        *out = match r.alpha() == a.alpha() {
-            true => colour(r, a),
-            false => COVERAGE,
-        };
-    }
+    SizeMismatch::check(reference.size(), actual.size())?;
+    let [width, height] = reference.size();
+    let mut map = Picture8::new(width, height, EQUAL);
+    for_each_row(reference, actual, |y, r_row, a_row| {
+        let pairs = r_row.iter().zip(a_row);
+        for (out, (&r, &a)) in map.row_mut(y).iter_mut().zip(pairs) {
+            *out = match PixelDifference::new(r, a) {
+                None => EQUAL,
+                Some(difference) if difference.is_mismatch => COVERAGE,
+                Some(difference) if difference.is_not_finite_differing => BEYOND,
+                Some(difference) => colour(&difference),
+            };
+        }
+    });
     Ok(map)
 }
 
@@ -148,6 +144,7 @@ static VIRIDIS: [u32; 256] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::picture::Picture;
 
     fn grey(level: u8) -> Picture8 {
         Picture8::new(1, 1, [level, level, level, 255])

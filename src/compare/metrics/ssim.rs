@@ -1,5 +1,7 @@
 //! Structural similarity.
 
+use super::{MAX_PERCEIVED, SizeMismatch, for_each_row};
+use crate::picture::{LevelRows, Levels};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::{AddAssign, Mul};
@@ -28,7 +30,29 @@ fn weights() -> [f64; WINDOW] {
     weights.map(|weight| weight / sum)
 }
 
-/// Returns the mean structural similarity of two rasters of values in 0..=1, each `width` values per row; `None` if the window does not fit.
+/// Returns the mean structural similarity of two pictures' luminance, [`Difference::ssim`](super::Difference::ssim).
+///
+/// # Errors
+/// If the sizes differ.
+pub fn ssim(
+    reference: &dyn LevelRows,
+    actual: &dyn LevelRows,
+) -> Result<Option<f64>, SizeMismatch> {
+    SizeMismatch::check(reference.size(), actual.size())?;
+    let [width, height] = reference.size();
+    let Some(mut ssim) = MeanSsim::new(width).filter(|_| width * height <= MAX_PERCEIVED) else {
+        return Ok(None);
+    };
+    let luminance = |row: &[Levels]| -> Vec<f64> {
+        row.iter().map(|pixel| pixel.luminance() / 255.0).collect()
+    };
+    for_each_row(reference, actual, |_, r_row, a_row| {
+        ssim.add(&luminance(r_row), &luminance(a_row));
+    });
+    Ok(ssim.finish())
+}
+
+/// The mean structural similarity of two rasters of values in 0..=1, which come row by row.
 ///
 /// ```text
 /// SSIM = (2 μx μy + C1)(2 σxy + C2) / ((μx² + μy² + C1)(σx² + σy² + C2))
@@ -37,34 +61,60 @@ fn weights() -> [f64; WINDOW] {
 /// with an 11×11 Gaussian window of σ = 1.5, averaged over all places where the window lies inside the raster
 /// (Wang, Bovik, Sheikh, Simoncelli: *Image quality assessment*, IEEE TIP 13(4), 2004, equation 13 and section III C).
 /// The Gaussian is a product of a row and a column: rows are filtered as they come, the last eleven are kept for the columns.
-pub(super) fn mean_ssim(reference: &[f64], actual: &[f64], width: usize) -> Option<f64> {
-    let height = reference.len().checked_div(width)?;
-    if width < WINDOW || height < WINDOW {
-        return None;
+pub(super) struct MeanSsim {
+    /// Places of the window in a row.
+    places: usize,
+    weights: [f64; WINDOW],
+    /// The last rows, filtered.
+    filtered: Vec<f64>,
+    moments: Vec<f64>,
+    products: [Vec<f64>; MOMENTS],
+    sum: f64,
+    /// Rows so far.
+    rows: usize,
+}
+
+impl MeanSsim {
+    /// Begins with rasters of `width` values a row; `None` if the window does not fit.
+    pub fn new(width: usize) -> Option<MeanSsim> {
+        let places = (width + 1)
+            .checked_sub(WINDOW)
+            .filter(|places| *places > 0)?;
+        Some(MeanSsim {
+            places,
+            weights: weights(),
+            filtered: vec![0.0; WINDOW * MOMENTS * places],
+            moments: vec![0.0; MOMENTS * places],
+            products: core::array::from_fn(|_| vec![0.0; width]),
+            sum: 0.0,
+            rows: 0,
+        })
     }
-    let places = width - WINDOW + 1;
-    let weights = weights();
-    let mut filtered = vec![0.0; WINDOW * MOMENTS * places];
-    let mut moments = vec![0.0; MOMENTS * places];
-    let mut products: [Vec<f64>; MOMENTS] = core::array::from_fn(|_| vec![0.0; width]);
-    let mut sum = 0.0;
-    let rows = reference
-        .chunks_exact(width)
-        .zip(actual.chunks_exact(width));
-    for (y, (x_row, y_row)) in rows.enumerate() {
-        multiply(x_row, y_row, &mut products);
-        let slot = &mut filtered[y % WINDOW * MOMENTS * places..][..MOMENTS * places];
-        for (product, out) in products.iter().zip(slot.chunks_exact_mut(places)) {
-            weigh(&weights, |k| &product[k..], out);
+
+    /// Takes the next row of both.
+    pub fn add(&mut self, x_row: &[f64], y_row: &[f64]) {
+        let (y, size) = (self.rows, MOMENTS * self.places);
+        multiply(x_row, y_row, &mut self.products);
+        let slot = &mut self.filtered[y % WINDOW * size..][..size];
+        for (product, out) in self.products.iter().zip(slot.chunks_exact_mut(self.places)) {
+            weigh(&self.weights, |k| &product[k..], out);
         }
         if y + 1 >= WINDOW {
             // y + 1 is the slot of the oldest row.
-            let row = |k| &filtered[(y + 1 + k) % WINDOW * MOMENTS * places..];
-            weigh(&weights, row, &mut moments);
-            sum += row_sum(&moments, places);
+            let row = |k| &self.filtered[(y + 1 + k) % WINDOW * size..];
+            weigh(&self.weights, row, &mut self.moments);
+            self.sum += row_sum(&self.moments, self.places);
         }
+        self.rows += 1;
     }
-    Some(sum / (places * (height - WINDOW + 1)) as f64)
+
+    /// Returns the mean, `None` if the window does not fit.
+    pub fn finish(self) -> Option<f64> {
+        let rows = (self.rows + 1)
+            .checked_sub(WINDOW)
+            .filter(|rows| *rows > 0)?;
+        Some(self.sum / (self.places * rows) as f64)
+    }
 }
 
 /// Fills in the values whose window means are the moments, for one row.
@@ -134,9 +184,14 @@ mod tests {
 
     #[test]
     fn needs_room_for_one_window() {
-        assert_eq!(mean_ssim(&[], &[], 0), None);
-        assert_eq!(mean_ssim(&[0.5; 110], &[0.5; 110], 10), None);
-        assert_eq!(mean_ssim(&[0.5; 110], &[0.5; 110], 11), None);
-        assert_eq!(mean_ssim(&[0.5; 121], &[0.5; 121], 11), Some(1.0));
+        let of_equal = |width: usize, height: usize| {
+            let mut ssim = MeanSsim::new(width)?;
+            (0..height).for_each(|_| ssim.add(&vec![0.5; width], &vec![0.5; width]));
+            ssim.finish()
+        };
+        assert_eq!(of_equal(0, 0), None);
+        assert_eq!(of_equal(10, 11), None);
+        assert_eq!(of_equal(11, 10), None);
+        assert_eq!(of_equal(11, 11), Some(1.0));
     }
 }

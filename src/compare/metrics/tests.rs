@@ -1,7 +1,7 @@
 use alloc::string::ToString;
 
 use super::*;
-use crate::picture::{LinearPicture, Picture8};
+use crate::picture::{LinearPicture, Picture, Picture8};
 
 /// Returns a pair of opaque pictures. `noise` of column, row and channel is added to the second,
 /// then clamped.
@@ -179,8 +179,8 @@ fn background_does_not_dilute() {
     let d = compare(&reference, &actual).unwrap();
     assert_eq!(
         (d.compared, d.differing),
-        (2, 2),
-        "no colour that differs is background"
+        (1, 1),
+        "colours under alpha 0 do not count"
     );
 }
 
@@ -192,9 +192,32 @@ fn coverage_is_counted_on_its_own() {
     let d = compare(&reference, &actual).unwrap();
     assert_eq!(
         (d.coverage_mismatches, d.compared, d.differing, d.max),
-        (1, 1, 0, 0.0)
+        (1, 1, 1, 1.0)
     );
     assert!(!d.equal);
+    // The object that one picture lacks is not hidden by the colour that the other stores there.
+    assert_eq!((d.rms, d.mae, d.signed_mean), (1.0, 1.0, 0.0));
+    // A faint pixel against none is alpha's difference: there is no colour to compare.
+    actual.row_mut(0)[1] = [255, 255, 255, 3];
+    let d = compare(&reference, &actual).unwrap();
+    assert_eq!((d.coverage_mismatches, 255.0 * d.max), (1, 3.0));
+}
+
+#[test]
+fn alpha_is_one_channel_of_a_pixel() {
+    let reference = Picture8::new(2, 1, [9, 9, 9, 127]);
+    let d = compare(&reference, &Picture8::new(2, 1, [9, 9, 9, 128])).unwrap();
+    assert_eq!(
+        (d.coverage_mismatches, d.differing, d.max),
+        (0, 2, 1.0 / 255.0)
+    );
+    assert!(!d.equal && d.psnr.is_finite());
+    let d = compare(&reference, &Picture8::new(2, 1, [14, 9, 9, 128])).unwrap();
+    assert_eq!(
+        (255.0 * d.max, 255.0 * 3.0 * d.mae),
+        (5.0, 7.0),
+        "5, and twice at least 1"
+    );
 }
 
 #[test]
@@ -209,10 +232,14 @@ fn thresholds_bite_beyond_whole_and_half_levels() {
     let d = compare(&reference, &actual).unwrap();
     assert_eq!(
         (d.over_half_level, d.over_one_level),
-        (2, 1),
-        "one level is not more than one level"
+        (3, 2),
+        "one level is not more than one level, and alpha is off by 55"
     );
-    assert_eq!(d.coverage_mismatches, 1, "any difference of alpha");
+    assert_eq!(
+        (d.coverage_mismatches, d.differing),
+        (0, 3),
+        "alpha 200 differs and covers"
+    );
 
     let linear = |c: f32| LinearPicture::new(1, 1, [c, 0.0, 0.0, 1.0]);
     let levels = |c: f64| Picture::new(1, 1, Levels([c, 0.0, 0.0, 255.0]));
@@ -248,21 +275,6 @@ fn worst_is_the_first_of_the_largest() {
 }
 
 #[test]
-fn percentile_is_the_nearest_rank() {
-    let errors = |n: usize| {
-        (0..n)
-            .rev()
-            .map(|i| i as f64)
-            .collect::<alloc::vec::Vec<_>>()
-    };
-    // Of 100, the 99th smallest. Of 101, rank ceil(99.99) = 100.
-    assert_eq!(percentile(&mut errors(100)), 98.0);
-    assert_eq!(percentile(&mut errors(101)), 99.0);
-    assert_eq!(percentile(&mut errors(1)), 0.0);
-    assert_eq!(percentile(&mut []), 0.0);
-}
-
-#[test]
 fn values_not_finite_are_full_errors_and_keep_means_finite() {
     let reference = LinearPicture::new(12, 12, [0.5, 0.5, 0.5, 1.0]);
     for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
@@ -276,14 +288,20 @@ fn values_not_finite_are_full_errors_and_keep_means_finite() {
                 (d.not_finite, d.max, d.worst, d.over_one_level),
                 (1, 1.0, Some([4, 3]), 1)
             );
+            assert_eq!((d.not_finite_differing, d.equal), (1, false));
             assert!(d.rms.is_finite() && d.signed_mean.is_finite() && d.ssim.unwrap() < 1.0);
         }
-        assert_eq!(
-            compare(&actual, &actual).unwrap().not_finite,
-            1,
-            "agreeing on nonsense is not agreement"
-        );
+        let same = compare(&actual, &actual).unwrap();
+        assert_eq!((same.not_finite, same.not_finite_differing), (1, 0));
+        assert_eq!((same.equal, same.max, same.p99), (true, 0.0, 0.0));
     }
+    let of = |c| LinearPicture::new(1, 1, [c, 0.0, 0.0, 1.0]);
+    let d = compare(&of(f32::INFINITY), &of(f32::NEG_INFINITY)).unwrap();
+    assert_eq!((d.not_finite_differing, d.max), (1, 1.0));
+    // Two kinds of NaN are one, and so are both zeros. Values beyond the range count as they are.
+    assert!(compare(&of(f32::NAN), &of(-f32::NAN)).unwrap().equal);
+    assert!(compare(&of(0.0), &of(-0.0)).unwrap().equal);
+    assert_eq!(compare(&of(-2.0), &of(3.0)).unwrap().max, 5.0);
 }
 
 #[test]
@@ -361,5 +379,34 @@ fn differences_survive_json() {
         assert_eq!(back["worst"], serde_json::json!(d.worst));
         assert_eq!(back["compared"], d.compared);
         assert!(back["ssim"].is_f64());
+    }
+}
+
+/// A picture of one row, of one column, and of one pixel has every number but SSIM, whose window does not fit.
+#[test]
+fn thin_pictures_are_compared() {
+    for [width, height] in [[1, 1], [1, 400], [400, 1]] {
+        let reference = Picture8::new(width, height, [100, 100, 100, 255]);
+        let mut actual = reference.clone();
+        actual.row_mut(height - 1)[width - 1] = [110, 100, 100, 255];
+        let d = compare(&reference, &actual).unwrap();
+        assert_eq!((255.0 * d.max, d.differing, d.ssim), (10.0, 1, None));
+        assert_eq!(d.worst, Some([width - 1, height - 1]));
+        assert!(mean_flip(&flip_map(&reference, &actual).unwrap()) > 0.0);
+    }
+}
+
+/// Rows that are filtered some at a time give the same map as all at once, to the last bit.
+#[test]
+fn flip_by_parts_is_flip() {
+    // Narrower than a part, and in several parts of 1,048,576 pixels.
+    for [width, height] in [[40, 33], [8192, 140]] {
+        let noise = |x: i64, y: i64, c: i64| (x * x / 7 + 3 * y + c) % 9 - 4;
+        let [reference, actual] = pair(width, height, noise);
+        let whole = Perceived::new(&reference).flip(&Perceived::new(&actual));
+        assert!(
+            whole.unwrap() == flip_map(&reference, &actual).unwrap(),
+            "{width}×{height}"
+        );
     }
 }

@@ -4,7 +4,7 @@ use std::io;
 use std::path::PathBuf;
 use std::string::String;
 
-use super::{Format, MAX_PIXELS};
+use super::{MAX_PIXELS, MAX_READ_SIDE};
 
 /// Why a picture file could not be read or written.
 // The text of a cause is part of the message, so it is not given as a source: a chain would say it twice.
@@ -45,32 +45,84 @@ pub enum ImageFileError {
 /// A problem with the bytes of a picture file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DecodeError {
-    /// The first bytes are those of no format.
-    #[error("not a picture that can be read: expected PNG, PPM (P6) or PFM")]
+    /// The file has no bytes.
+    #[error("the file is empty: expected {EXPECTED}")]
+    Empty,
+    /// The first bytes are those of another format.
+    #[error("it is {found}, which is not read: expected {EXPECTED}")]
+    OtherFormat {
+        /// The format, with its article.
+        found: &'static str,
+    },
+    /// The first bytes are those of no format that is known.
+    #[error("not a picture that can be read: expected {EXPECTED}")]
     NotAPicture,
-    /// There are more than [`MAX_PIXELS`] pixels.
-    #[error("{width}×{height} pixels are too many: expected at most {MAX_PIXELS}")]
+    /// There are more than [`MAX_PIXELS`] pixels, or a side is longer than [`MAX_READ_SIDE`].
+    #[error(
+        "{width}×{height} pixels are too many: expected at most {MAX_PIXELS}, and {MAX_READ_SIDE} a side"
+    )]
     TooLarge {
         /// Width that the file states, in pixels.
         width: u64,
         /// Height that the file states, in pixels.
         height: u64,
     },
+    /// The system gives no memory for the pixels.
+    #[error("there is not enough memory for {width}×{height} pixels")]
+    NoMemory {
+        /// Width that the file states, in pixels.
+        width: usize,
+        /// Height that the file states, in pixels.
+        height: usize,
+    },
     /// The file is broken or cut off.
-    #[error("broken {} file: {problem}", format.ending().to_uppercase())]
+    #[error("broken {format} file: {problem}")]
     Malformed {
-        /// The format that the first bytes announce.
-        format: Format,
+        /// The name of the format that the first bytes announce.
+        format: &'static str,
         /// The finding, and what was expected.
         problem: String,
     },
 }
 
+/// The formats that are read.
+const EXPECTED: &str = "PNG, PBM, PGM, PPM (P1 to P6), PAM or PFM";
+
+/// Other formats by their first bytes.
+const OTHERS: [(&[u8], &str); 14] = [
+    (b"\xff\xd8\xff", "a JPEG file"),
+    (b"GIF8", "a GIF file"),
+    (b"BM", "a BMP file"),
+    (b"RIFF", "a WebP or another RIFF file"),
+    (b"II*\0", "a TIFF file"),
+    (b"MM\0*", "a TIFF file"),
+    (b"\x76\x2f\x31\x01", "an OpenEXR file"),
+    (b"#?R", "a Radiance HDR file"),
+    (b"8BPS", "a Photoshop file"),
+    (b"qoif", "a QOI file"),
+    (b"farbfeld", "a farbfeld file"),
+    (b"DDS ", "a DDS file"),
+    (b"<svg", "an SVG file"),
+    (b"%PDF", "a PDF file"),
+];
+
 impl DecodeError {
     /// Makes the error for a broken file.
-    pub(super) fn malformed(format: Format, problem: impl Into<String>) -> DecodeError {
+    pub(super) fn malformed(format: &'static str, problem: impl Into<String>) -> DecodeError {
         let problem = problem.into();
         DecodeError::Malformed { format, problem }
+    }
+
+    /// Makes the error for a file that begins like no picture that can be read.
+    pub(super) fn not_a_picture(beginning: &[u8]) -> DecodeError {
+        let other = OTHERS
+            .iter()
+            .find(|(first, _)| beginning.starts_with(first));
+        match other {
+            _ if beginning.is_empty() => DecodeError::Empty,
+            Some((_, found)) => DecodeError::OtherFormat { found },
+            None => DecodeError::NotAPicture,
+        }
     }
 }
 

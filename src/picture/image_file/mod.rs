@@ -1,23 +1,24 @@
-//! Pictures in files: PNG, PPM and PFM.
+//! Pictures in files: PNG, portable pixmaps and PFM.
 //!
-//! | ending | holds | loses |
+//! | ending | written | loses |
 //! |---|---|---|
-//! | `.png` | red, green, blue, alpha in 8 bits | fractions of a grey level |
-//! | `.ppm` | red, green, blue in 8 bits (P6) | the same, and alpha: which pixels are covered |
+//! | `.png` | red, green, blue, straight alpha in 8 bits; the encoding, if the picture states it | fractions of a grey level |
+//! | `.ppm` | red, green, blue in 8 bits (P6) | the same, alpha, and the encoding |
 //! | `.pfm` | red, green, blue as floats (PF) | alpha |
 //!
-//! Values are stored as they are: no file is given or read with a gamma of its own. Writing goes by the ending of the
-//! path, reading by the first bytes of the file.
+//! Read are PNG of all colour types and depths, PBM, PGM and PPM (P1 to P6), PAM (P7) and PFM, as they are stored: 8 bits, 16
+//! bits or floats. Writing goes by the ending of the path, reading by the first bytes of the file. [`Pair`] makes two pictures
+//! comparable.
 //!
 //! ```no_run
 //! use fastphong::compare::metrics::{compare, difference_map};
-//! use fastphong::picture::image_file::{FilePicture, comparable, read_picture, write_picture};
+//! use fastphong::picture::image_file::{FilePicture, Pair, read_picture, write_picture};
 //! use std::path::Path;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let reference = read_picture(Path::new("reference.pfm"))?;
 //! let actual = read_picture(Path::new("actual.png"))?;
-//! let [reference, actual] = comparable(&reference, &actual);
+//! let [reference, actual] = Pair::new(&reference, &actual, None).compared();
 //! println!("{} grey levels", 255.0 * compare(&reference, &actual)?.max);
 //! write_picture(Path::new("map.png"), &FilePicture::stored(difference_map(&reference, &actual, 16.0)?))?;
 //! # Ok(())
@@ -26,25 +27,32 @@
 
 use std::borrow::ToOwned;
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
+use std::string::String;
 use std::vec::Vec;
 
 use super::encoding::quantise;
-use super::{Levels, LinearPicture, Picture, Picture8, Pixel};
+use super::{Encoding, Levels, LinearPicture, Picture, Picture8, Pixel};
 
 mod error;
 mod netpbm;
+mod pair;
 mod png;
 mod replace;
 
 pub use error::{DecodeError, EncodeError, ImageFileError};
 pub use netpbm::PpmWriter;
+pub use pair::{AlphaUse, LevelView, Pair, UsedEncoding};
 pub use png::encode_png;
 pub use replace::{NoDrafts, end_of_links, remove_drafts, write_file, write_file_by};
 
-/// Pixels of the largest picture that is read, 8192 × 8192: beyond that a file is more likely broken, or hostile, than meant.
-pub const MAX_PIXELS: u64 = 1 << 26;
+/// Pixels of the largest picture that is read, 16384 × 16384, which is the largest that is drawn: beyond that a file is more
+/// likely broken, or hostile, than meant.
+pub const MAX_PIXELS: u64 = 1 << 28;
+
+/// The longest side of a picture that is read, in pixels.
+pub const MAX_READ_SIDE: u64 = 1 << 20;
 
 /// Bytes of the largest file that is read: the largest picture as floats, and as much again for headers, text and bad compression.
 const MAX_BYTES: u64 = 2 * 12 * MAX_PIXELS;
@@ -89,8 +97,15 @@ impl Format {
 /// The pixels that a file holds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FilePixels {
-    /// Grey levels, from PNG or PPM.
+    /// Grey levels.
     Stored(Picture8),
+    /// Samples of more than 8 bits, or of another range than a grey level's.
+    Deep {
+        /// Red, green, blue, alpha.
+        picture: Picture<[u16; 4]>,
+        /// The sample that stands for full intensity, 1 to 65535.
+        maximum: u16,
+    },
     /// Floats, from PFM.
     Linear(LinearPicture),
 }
@@ -102,22 +117,44 @@ pub struct FilePicture {
     pub pixels: FilePixels,
     /// True if the file says which pixels are covered.
     pub has_alpha: bool,
+    /// The encoding that the file states, if it states one.
+    pub encoding: Option<Encoding>,
+    /// The colour that the picture stands before, in grey levels as they are stored, if the file states it (PNG: `bKGD`).
+    pub background: Option<[f64; 3]>,
+    /// Facts that a reader has to know, a clause each, such as that the file holds several pictures.
+    pub notes: Vec<String>,
 }
 
 impl FilePicture {
-    /// Makes a picture of grey levels with alpha, as it goes into a PNG file.
-    pub fn stored(picture: Picture8) -> FilePicture {
+    /// Makes a picture with alpha of which no more is known.
+    fn of_pixels(pixels: FilePixels) -> FilePicture {
         FilePicture {
-            pixels: FilePixels::Stored(picture),
+            pixels,
             has_alpha: true,
+            encoding: None,
+            background: None,
+            notes: Vec::new(),
         }
     }
 
-    /// Makes a picture of floats with alpha, as it is before it goes into a file.
+    /// Makes a picture of grey levels with alpha, as it goes into a PNG file. It states no encoding.
+    pub fn stored(picture: Picture8) -> FilePicture {
+        FilePicture::of_pixels(FilePixels::Stored(picture))
+    }
+
+    /// Makes a picture of floats with alpha, as it is before it goes into a file: linear.
     pub fn linear(picture: LinearPicture) -> FilePicture {
         FilePicture {
-            pixels: FilePixels::Linear(picture),
-            has_alpha: true,
+            encoding: Some(Encoding::Linear),
+            ..FilePicture::of_pixels(FilePixels::Linear(picture))
+        }
+    }
+
+    /// Returns the picture, which from now on states this encoding.
+    pub fn encoded(self, encoding: Encoding) -> FilePicture {
+        FilePicture {
+            encoding: Some(encoding),
+            ..self
         }
     }
 
@@ -125,23 +162,33 @@ impl FilePicture {
     pub fn size(&self) -> [usize; 2] {
         match &self.pixels {
             FilePixels::Stored(picture) => [picture.width(), picture.height()],
+            FilePixels::Deep { picture, .. } => [picture.width(), picture.height()],
             FilePixels::Linear(picture) => [picture.width(), picture.height()],
         }
     }
 
-    /// Returns the picture in 8 bits per channel; floats are rounded by [`quantise`].
+    /// Returns the picture in 8 bits per channel, in its encoding; floats are rounded by [`quantise`].
     pub fn to_stored(&self) -> Picture8 {
         match &self.pixels {
             FilePixels::Stored(picture) => picture.clone(),
+            FilePixels::Deep { picture, maximum } => {
+                let maximum = u32::from(*maximum);
+                let level = |sample| ((510 * u32::from(sample) + maximum) / (2 * maximum)) as u8;
+                picture.map(|pixel| pixel.map(level))
+            }
             FilePixels::Linear(picture) => picture.map(|pixel| pixel.map(quantise)),
         }
     }
 
-    /// Returns the picture in floats; a grey level is 1/255.
+    /// Returns the picture in floats as it is stored, with no transfer function: a grey level is 1/255.
     pub fn to_linear(&self) -> LinearPicture {
         match &self.pixels {
             FilePixels::Stored(picture) => {
                 picture.map(|pixel| pixel.map(|level| f32::from(level) / 255.0))
+            }
+            FilePixels::Deep { picture, maximum } => {
+                let maximum = f32::from(*maximum);
+                picture.map(|pixel| pixel.map(|sample| f32::from(sample) / maximum))
             }
             FilePixels::Linear(picture) => picture.clone(),
         }
@@ -164,35 +211,48 @@ impl FilePicture {
     pub fn write_to(&self, format: Format, out: &mut dyn Write) -> io::Result<()> {
         match (format, &self.pixels) {
             (Format::Png, FilePixels::Stored(picture)) => {
-                out.write_all(&encode_png(picture).map_err(io::Error::other)?)
+                let stated = png::Stated {
+                    encoding: self.encoding,
+                    background: self.background,
+                };
+                out.write_all(&png::encode(picture, stated).map_err(io::Error::other)?)
             }
             (Format::Ppm, FilePixels::Stored(picture)) => netpbm::write_ppm(picture, out),
             (Format::Pfm, FilePixels::Linear(picture)) => netpbm::write_pfm(picture, out),
-            (Format::Pfm, FilePixels::Stored(_)) => netpbm::write_pfm(&self.to_linear(), out),
-            (Format::Png | Format::Ppm, FilePixels::Linear(_)) => {
-                FilePicture::stored(self.to_stored()).write_to(format, out)
+            (Format::Pfm, _) => netpbm::write_pfm(&self.to_linear(), out),
+            (Format::Png | Format::Ppm, _) => {
+                let pixels = FilePixels::Stored(self.to_stored());
+                let (notes, background) = (Vec::new(), self.background);
+                let picture = FilePicture {
+                    pixels,
+                    notes,
+                    background,
+                    ..*self
+                };
+                picture.write_to(format, out)
             }
         }
     }
 
-    fn levels(&self, with_alpha: bool) -> Picture<Levels> {
-        let levels = match &self.pixels {
-            FilePixels::Stored(picture) => picture.map(Pixel::levels),
-            FilePixels::Linear(picture) => picture.map(Pixel::levels),
-        };
-        match with_alpha {
-            true => levels,
-            false => levels.map(|Levels([r, g, b, _])| Levels([r, g, b, 255.0])),
+    /// Writes row `y` as it is stored, in grey levels.
+    fn stored_levels(&self, y: usize, levels: &mut [Levels]) {
+        fn fill<P: Pixel>(row: &[P], levels: &mut [Levels]) {
+            for (levels, pixel) in levels.iter_mut().zip(row) {
+                *levels = pixel.levels();
+            }
+        }
+        match &self.pixels {
+            FilePixels::Stored(picture) => fill(picture.row(y), levels),
+            FilePixels::Linear(picture) => fill(picture.row(y), levels),
+            FilePixels::Deep { picture, maximum } => {
+                // The product is exact: samples that stand for whole levels become these.
+                let level = |sample| 255.0 * f64::from(sample) / f64::from(*maximum);
+                for (levels, pixel) in levels.iter_mut().zip(picture.row(y)) {
+                    *levels = Levels(pixel.map(level));
+                }
+            }
         }
     }
-}
-
-/// Returns both pictures in grey levels, ready for [`compare`](crate::compare::metrics::compare) and the maps.
-///
-/// If one of the files has no alpha, the other's is dropped: all pixels count as covered, and none as a mismatch.
-pub fn comparable(reference: &FilePicture, actual: &FilePicture) -> [Picture<Levels>; 2] {
-    let with_alpha = reference.has_alpha && actual.has_alpha;
-    [reference.levels(with_alpha), actual.levels(with_alpha)]
 }
 
 /// Writes a picture in the format that the ending of `path` names; see [`write_file`] for what happens to a file already there.
@@ -209,8 +269,25 @@ pub fn write_picture(path: &Path, picture: &FilePicture) -> Result<(), ImageFile
 /// # Errors
 /// If the file cannot be read, is none of the formats, is broken or cut off, or has more than [`MAX_PIXELS`] pixels.
 pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
-    let (path, bytes) = (path.to_owned(), read_file(path)?);
-    decode_picture(&bytes).map_err(|cause| ImageFileError::Decode { path, cause })
+    let failed = |cause| ImageFileError::Read {
+        path: path.to_owned(),
+        cause,
+    };
+    read_picture_from(File::open(path).map_err(failed)?, path)
+}
+
+/// Reads a picture of any of the formats from `input`, which needs no buffer. Errors name it `path`.
+///
+/// # Errors
+/// As [`read_picture`].
+pub fn read_picture_from(input: impl Read, path: &Path) -> Result<FilePicture, ImageFileError> {
+    let path = path.to_owned();
+    // One byte more than is allowed, to see that there is more: some files, such as devices, never end.
+    let mut input = BufReader::new(input.take(MAX_BYTES + 1));
+    decode(&mut input).map_err(|problem| match problem {
+        ReadProblem::Io(cause) => ImageFileError::Read { path, cause },
+        ReadProblem::Decode(cause) => ImageFileError::Decode { path, cause },
+    })
 }
 
 /// Reads the picture that the bytes of a file of any of the formats hold.
@@ -218,61 +295,80 @@ pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
 /// # Errors
 /// If the bytes are none of the formats, are broken or cut off, or hold more than [`MAX_PIXELS`] pixels.
 pub fn decode_picture(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
-    let (pixels, has_alpha) = match announced(bytes).ok_or(DecodeError::NotAPicture)? {
-        Format::Png => {
-            let (picture, has_alpha) = png::decode(bytes)?;
-            (FilePixels::Stored(picture), has_alpha)
-        }
-        Format::Ppm => (FilePixels::Stored(netpbm::decode_ppm(bytes)?), false),
-        Format::Pfm => (FilePixels::Linear(netpbm::decode_pfm(bytes)?), false),
-    };
-    Ok(FilePicture { pixels, has_alpha })
+    let mut input = bytes;
+    decode(&mut input).map_err(|problem| match problem {
+        ReadProblem::Io(error) => unreachable!("bytes in memory can be read: {error}"),
+        ReadProblem::Decode(error) => error,
+    })
 }
 
-/// Returns the format that the first bytes of a file announce.
-fn announced(bytes: &[u8]) -> Option<Format> {
-    match bytes {
-        _ if bytes.starts_with(&png::SIGNATURE) => Some(Format::Png),
-        [b'P', b'6', ..] => Some(Format::Ppm),
-        [b'P', b'F' | b'f', ..] => Some(Format::Pfm),
-        _ => None,
+/// Why a picture could not be read, before the file has a name.
+#[derive(Debug)]
+enum ReadProblem {
+    Io(io::Error),
+    Decode(DecodeError),
+}
+
+impl From<io::Error> for ReadProblem {
+    fn from(error: io::Error) -> Self {
+        ReadProblem::Io(error)
     }
 }
 
-/// Reads a file, unless it does not begin like a picture or is too large.
-fn read_file(path: &Path) -> Result<Vec<u8>, ImageFileError> {
-    let read = || {
-        let mut bytes = Vec::new();
-        // One byte more than is allowed, to see that there is more: some files, such as devices, never end.
-        let mut file = File::open(path)?.take(MAX_BYTES + 1);
-        file.by_ref()
-            .take(png::SIGNATURE.len() as u64)
-            .read_to_end(&mut bytes)?;
-        // The beginning of a file tells that it is no picture: the rest need not be read.
-        if announced(&bytes).is_some() {
-            file.read_to_end(&mut bytes)?;
-        }
-        if bytes.len() as u64 > MAX_BYTES {
-            let problem = "the file is too large for a picture";
-            return Err(io::Error::new(io::ErrorKind::FileTooLarge, problem));
-        }
-        Ok(bytes)
-    };
-    let path = path.to_owned();
-    read().map_err(|cause| ImageFileError::Read { path, cause })
+impl From<DecodeError> for ReadProblem {
+    fn from(error: DecodeError) -> Self {
+        ReadProblem::Decode(error)
+    }
 }
 
+fn decode(input: &mut dyn BufRead) -> Result<FilePicture, ReadProblem> {
+    // The beginning of a file tells that it is no picture: the rest need not be read.
+    let mut beginning = Vec::new();
+    let mut first = (&mut *input).take(BEGINNING);
+    first.read_to_end(&mut beginning)?;
+    let mut whole = beginning.as_slice().chain(input);
+    if beginning.starts_with(&png::SIGNATURE) {
+        let mut bytes = Vec::new();
+        whole.read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > MAX_BYTES {
+            let problem = "the file is too large for a picture";
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, problem).into());
+        }
+        return Ok(png::decode(&bytes)?);
+    }
+    match netpbm::Kind::announced(&beginning) {
+        Some(kind) => netpbm::read(kind, &mut whole),
+        None => Err(DecodeError::not_a_picture(&beginning).into()),
+    }
+}
+
+/// Bytes that tell the format of a file.
+const BEGINNING: u64 = 16;
+
 /// Returns width and height as `usize`, if a picture of that size may be read.
-fn checked_size(format: Format, width: u64, height: u64) -> Result<[usize; 2], DecodeError> {
+fn checked_size(format: &'static str, width: u64, height: u64) -> Result<[usize; 2], DecodeError> {
     if width == 0 || height == 0 {
         return Err(DecodeError::malformed(
             format,
             "it has no pixels: expected a width and a height of at least 1",
         ));
     }
-    match width.checked_mul(height) {
-        Some(pixels) if pixels <= MAX_PIXELS => Ok([width as usize, height as usize]),
-        _ => Err(DecodeError::TooLarge { width, height }),
+    if width.max(height) > MAX_READ_SIDE || width * height > MAX_PIXELS {
+        return Err(DecodeError::TooLarge { width, height });
+    }
+    Ok([width as usize, height as usize])
+}
+
+/// Returns an empty list with room for the pixels of a picture: rows are added as they are read, so that a file that is cut off
+/// does not cost what its header promises.
+///
+/// # Errors
+/// If there is no room.
+fn reserved<P>(width: usize, height: usize) -> Result<Vec<P>, DecodeError> {
+    let mut pixels = Vec::new();
+    match pixels.try_reserve_exact(width * height) {
+        Ok(()) => Ok(pixels),
+        Err(_) => Err(DecodeError::NoMemory { width, height }),
     }
 }
 

@@ -1,13 +1,14 @@
-//! PPM and PFM: a short header in text, then the samples.
+//! Portable pixmaps: a short header in text, then the samples. PPM and PFM are written here, and all of the family is read.
 
-use std::cmp::Ordering;
+use std::format;
 use std::io::{self, Write};
-use std::string::String;
 use std::vec::Vec;
-use std::{format, str};
 
-use super::{DecodeError, EncodeError, Format, checked_size};
+use super::EncodeError;
 use crate::picture::{LinearPicture, Picture8};
+
+mod read;
+pub(super) use read::{Kind, read};
 
 /// Pixels that are converted at a time.
 const RUN: usize = 1 << 10;
@@ -140,129 +141,5 @@ fn without_alpha(pixels: &[[u8; 4]], bytes: &mut [u8]) {
     }
     for (bytes, pixel) in last_bytes.chunks_exact_mut(3).zip(last_pixels) {
         bytes.copy_from_slice(&pixel[..3]);
-    }
-}
-
-/// Reads the picture in a binary PPM file (P6); samples of another range than 255 are scaled to it and rounded.
-pub(super) fn decode_ppm(bytes: &[u8]) -> Result<Picture8, DecodeError> {
-    let mut header = Header {
-        format: Format::Ppm,
-        rest: &bytes[2..],
-    };
-    let [width, height] = header.size()?;
-    let range: u32 = header.number("the largest sample")?;
-    if !(1..=65_535).contains(&range) {
-        let problem = format!("the largest sample is {range}: expected 1 to 65535");
-        return Err(header.broken(problem));
-    }
-    let sample_bytes = if range < 256 { 1 } else { 2 };
-    let samples = header.samples(width * height * 3 * sample_bytes)?;
-    let mut samples = samples.chunks_exact(sample_bytes).map(|sample| {
-        let value = |value, &byte| value << 8 | u32::from(byte);
-        sample.iter().fold(0, value)
-    });
-    if let Some(value) = samples.clone().find(|value| *value > range) {
-        return Err(header.broken(format!(
-            "a sample is {value}: expected at most {range}, as its header says"
-        )));
-    }
-    let level = |value: u32| ((510 * value + range) / (2 * range)) as u8;
-    let mut picture = Picture8::new(width, height, [255; 4]);
-    for pixel in picture.pixels_mut() {
-        for (channel, value) in pixel[..3].iter_mut().zip(&mut samples) {
-            *channel = level(value);
-        }
-    }
-    Ok(picture)
-}
-
-/// Reads the picture in a PFM file, colour (PF) or grey (Pf), of either order of bytes.
-///
-/// The size of the scale is a unit that nobody agrees on, and is passed over.
-pub(super) fn decode_pfm(bytes: &[u8]) -> Result<LinearPicture, DecodeError> {
-    let channels = if bytes[1] == b'F' { 3 } else { 1 };
-    let mut header = Header {
-        format: Format::Pfm,
-        rest: &bytes[2..],
-    };
-    let [width, height] = header.size()?;
-    let scale: f32 = header.number("the scale")?;
-    if scale == 0.0 || !scale.is_finite() {
-        let problem = "the scale tells no order of bytes: expected a negative or a positive number";
-        return Err(header.broken(problem));
-    }
-    let from_bytes = match scale < 0.0 {
-        true => f32::from_le_bytes,
-        false => f32::from_be_bytes,
-    };
-    let samples = header.samples(width * height * channels * 4)?;
-    let (samples, _) = samples.as_chunks::<4>();
-    let mut picture = LinearPicture::new(width, height, [1.0; 4]);
-    for (row, samples) in samples.chunks_exact(width * channels).rev().enumerate() {
-        let samples = samples.chunks_exact(channels);
-        for (pixel, samples) in picture.row_mut(row).iter_mut().zip(samples) {
-            for (i, channel) in pixel[..3].iter_mut().enumerate() {
-                *channel = from_bytes(samples[i % channels]);
-            }
-        }
-    }
-    Ok(picture)
-}
-
-/// The rest of a header: words apart by white space, with comments from `#` to the end of a line.
-struct Header<'a> {
-    format: Format,
-    rest: &'a [u8],
-}
-
-impl<'a> Header<'a> {
-    fn size(&mut self) -> Result<[usize; 2], DecodeError> {
-        let width = self.number("the width")?;
-        let height = self.number("the height")?;
-        checked_size(self.format, width, height)
-    }
-
-    fn number<N: str::FromStr>(&mut self, what: &str) -> Result<N, DecodeError> {
-        let word = self.word();
-        let number = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-        number.ok_or_else(|| {
-            // Only the start of it: what is not a header can be a word of any length.
-            let found = word[..word.len().min(20)].escape_ascii();
-            self.broken(format!("{what} is \"{found}\": expected a number"))
-        })
-    }
-
-    /// Returns the next word of the header.
-    fn word(&mut self) -> &'a [u8] {
-        loop {
-            self.rest = self.rest.trim_ascii_start();
-            if self.rest.first() != Some(&b'#') {
-                break;
-            }
-            let end = self.rest.iter().position(|&byte| byte == b'\n');
-            self.rest = &self.rest[end.unwrap_or(self.rest.len())..];
-        }
-        let end = self.rest.iter().position(u8::is_ascii_whitespace);
-        let end = end.unwrap_or(self.rest.len());
-        let (word, rest) = self.rest.split_at(end);
-        self.rest = rest;
-        word
-    }
-
-    /// Returns all that follows the single white space after the header, which must be `expected` bytes.
-    fn samples(&self, expected: usize) -> Result<&'a [u8], DecodeError> {
-        let samples = self.rest.get(1..).unwrap_or_default();
-        let found = samples.len();
-        let problem = match found.cmp(&expected) {
-            Ordering::Equal => return Ok(samples),
-            Ordering::Less => "it ends too early",
-            Ordering::Greater => "it goes on after its last pixel",
-        };
-        let problem = format!("{problem}: expected {expected} bytes of samples, found {found}");
-        Err(self.broken(problem))
-    }
-
-    fn broken(&self, problem: impl Into<String>) -> DecodeError {
-        DecodeError::malformed(self.format, problem)
     }
 }

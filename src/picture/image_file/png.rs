@@ -1,58 +1,248 @@
-//! PNG, by the crate `image`.
+//! PNG, by the crate `png`.
 
+use std::borrow::ToOwned;
+use std::format;
 use std::io::Cursor;
-use std::string::ToString;
+use std::string::{String, ToString};
+use std::vec;
 use std::vec::Vec;
 
-use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
-use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageError, Limits};
+use png::{
+    BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, Filter, Limits, Reader,
+    ScaledFloat, SrgbRenderingIntent, Transformations, chunk,
+};
 
-use super::{DecodeError, EncodeError, Format, MAX_PIXELS, checked_size};
-use crate::picture::Picture8;
+use super::{DecodeError, EncodeError, FilePicture, FilePixels, checked_size, reserved};
+use crate::picture::{Encoding, Picture, Picture8};
 
 /// The first bytes of every PNG file (ISO/IEC 15948, 5.2).
 pub(super) const SIGNATURE: [u8; 8] = [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n'];
 
-/// Returns the bytes of a PNG file: 8 bits of red, green, blue, alpha, as they are stored.
+/// The name of the format in messages.
+const NAME: &str = "PNG";
+
+/// The gamma of linear samples, as `gAMA` counts it: in units of 1/100000.
+const LINEAR_GAMMA: u32 = 100_000;
+/// The gamma that writers of sRGB state beside it, or instead: 1/2.2.
+const SRGB_GAMMA: u32 = 45_455;
+/// How far a stated gamma may be from those two: writers round 1/2.2 in several ways.
+const GAMMA_ROUNDING: u32 = 50;
+
+/// The facts about a picture that its file states beside the pixels.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Stated {
+    /// Linear becomes `gAMA` 1, sRGB `sRGB`; else no chunk is written.
+    pub encoding: Option<Encoding>,
+    /// The background, in grey levels, for `bKGD`.
+    pub background: Option<[f64; 3]>,
+}
+
+/// Returns the bytes of a PNG file: 8 bits of red, green, blue, straight alpha, as they are stored. It states no encoding, so
+/// that most programs show it as sRGB.
 ///
 /// # Errors
 /// If the picture has no pixels, or a side longer than 2³¹ − 1.
 pub fn encode_png(picture: &Picture8) -> Result<Vec<u8>, EncodeError> {
+    encode(picture, Stated::default())
+}
+
+/// Returns the bytes of a PNG file with the chunks that state more about it.
+pub(super) fn encode(picture: &Picture8, stated: Stated) -> Result<Vec<u8>, EncodeError> {
     let (width, height) = (picture.width(), picture.height());
     EncodeError::check(width, height)?;
     let mut bytes = Vec::new();
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
-        .write_image(
-            picture.pixels().as_flattened(),
-            width as u32,
-            height as u32,
-            ExtendedColorType::Rgba8,
-        )
-        .map_err(|_| EncodeError { width, height })?;
+    let mut write = || -> Result<(), EncodingError> {
+        let mut encoder = Encoder::new(&mut bytes, width as u32, height as u32);
+        encoder.set_color(ColorType::Rgba);
+        encoder.set_depth(BitDepth::Eight);
+        encoder.set_compression(Compression::Balanced);
+        encoder.set_filter(Filter::Adaptive);
+        match stated.encoding {
+            Some(Encoding::Srgb) => encoder.set_source_srgb(SrgbRenderingIntent::Perceptual),
+            Some(Encoding::Linear) => {
+                encoder.set_source_gamma(ScaledFloat::from_scaled(LINEAR_GAMMA));
+            }
+            None => {}
+        }
+        let mut writer = encoder.write_header()?;
+        if let Some(background) = stated.background {
+            // Three samples of two bytes, whatever the depth (11.3.4.1).
+            let levels = background.map(|level| [0, (level + 0.5) as u8]);
+            writer.write_chunk(chunk::bKGD, levels.as_flattened())?;
+        }
+        writer.write_image_data(picture.pixels().as_flattened())?;
+        writer.finish()
+    };
+    write().map_err(|_| EncodeError { width, height })?;
     Ok(bytes)
 }
 
-/// Reads the picture in a PNG file of any colour type; returns true beside it if the file has alpha.
-pub(super) fn decode(bytes: &[u8]) -> Result<(Picture8, bool), DecodeError> {
-    let malformed = |problem| DecodeError::malformed(Format::Png, problem);
+/// Reads the picture in a PNG file of any colour type and depth; of an animation the still picture that stands for it.
+pub(super) fn decode(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     // The decoder is content once it has all pixels; a file without its end has been cut off all the same.
     if !has_end(bytes) {
-        return Err(malformed("it ends too early: expected an IEND chunk"));
+        let problem = "it ends too early: expected an IEND chunk";
+        return Err(DecodeError::malformed(NAME, problem));
     }
-    let broken = |error: ImageError| DecodeError::malformed(Format::Png, error.to_string());
-    let mut limits = Limits::no_limits();
-    // Four channels of 16 bits, and the same picture again in 8.
-    limits.max_alloc = Some(12 * MAX_PIXELS);
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
-    let (width, height) = decoder.dimensions();
-    let [width, height] = checked_size(Format::Png, width.into(), height.into())?;
-    let has_alpha = decoder.color_type().has_alpha();
-    let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
-    let pixels = image.into_rgba8().as_raw().as_chunks().0.to_vec();
-    let picture = Picture8::from_pixels(width, height, pixels);
-    let picture =
-        picture.ok_or_else(|| malformed("the number of its pixels is not width × height"))?;
-    Ok((picture, has_alpha))
+    let mut decoder = Decoder::new(Cursor::new(bytes));
+    decoder.set_ignore_text_chunk(true);
+    let header = decoder.read_header_info().map_err(broken)?;
+    let [width, height] = checked_size(NAME, header.width.into(), header.height.into())?;
+    // A few rows of four channels of 16 bits, and what profiles and other chunks may take.
+    decoder.set_limits(Limits {
+        bytes: 64 * width + (1 << 26),
+    });
+    // Palettes become colours, few bits 8, and a transparent colour becomes alpha.
+    decoder.set_transformations(Transformations::EXPAND);
+    let mut reader = decoder.read_info().map_err(broken)?;
+    let (colour, depth) = reader.output_color_type();
+    let has_alpha = matches!(colour, ColorType::Rgba | ColorType::GrayscaleAlpha);
+    let size = [width, height];
+    let pixels = match depth {
+        BitDepth::Sixteen => FilePixels::Deep {
+            picture: pixels(&mut reader, size, |[high, low]| {
+                u16::from_be_bytes([high, low])
+            })?,
+            maximum: u16::MAX,
+        },
+        _ => FilePixels::Stored(pixels(&mut reader, size, |[level]| level)?),
+    };
+    let mut picture = FilePicture {
+        has_alpha,
+        ..FilePicture::of_pixels(pixels)
+    };
+    state(&mut picture, &reader);
+    Ok(picture)
+}
+
+/// Reads all rows; `sample` makes a sample of its bytes.
+fn pixels<const BYTES: usize, S: Copy + Default>(
+    reader: &mut Reader<Cursor<&[u8]>>,
+    [width, height]: [usize; 2],
+    sample: impl Fn([u8; BYTES]) -> S,
+) -> Result<Picture<[S; 4]>, DecodeError> {
+    let channels = reader.output_color_type().0.samples();
+    let full = sample([0xff; BYTES]);
+    let mut pixels = reserved(width, height)?;
+    let mut add = |row: &[u8]| {
+        let samples = row.as_chunks().0;
+        pixels.extend(samples.chunks_exact(channels).map(|samples| {
+            let at = |channel: usize| sample(samples[channel]);
+            match channels {
+                1 => [at(0), at(0), at(0), full],
+                2 => [at(0), at(0), at(0), at(1)],
+                3 => [at(0), at(1), at(2), full],
+                _ => [at(0), at(1), at(2), at(3)],
+            }
+        }));
+    };
+    match reader.info().interlaced {
+        true => {
+            // Rows come in seven passes, so that all are there only at the end.
+            let size = width * height * channels * BYTES;
+            let mut rows = Vec::new();
+            let no_memory = |_| DecodeError::NoMemory { width, height };
+            rows.try_reserve_exact(size).map_err(no_memory)?;
+            rows.resize(size, 0);
+            reader.next_frame(&mut rows).map_err(broken)?;
+            add(&rows);
+        }
+        false => {
+            let mut row = vec![0; width * channels * BYTES];
+            // The call after the last row checks the end of the data.
+            while reader.read_row(&mut row).map_err(broken)?.is_some() {
+                add(&row);
+            }
+        }
+    }
+    let picture = Picture::from_pixels(width, height, pixels);
+    let problem = "the number of its pixels is not width × height";
+    picture.ok_or_else(|| DecodeError::malformed(NAME, problem))
+}
+
+/// Sets what the chunks say beside the pixels, and notes what of it is not understood. The order is that of the
+/// specification (PNG, third edition, 4.3): `cICP`, `iCCP`, `sRGB`, `gAMA`.
+fn state(picture: &mut FilePicture, reader: &Reader<Cursor<&[u8]>>) {
+    let info = reader.info();
+    if info.animation_control.is_some() {
+        let note = "the file is an animation: this is its still picture";
+        picture.notes.push(note.to_owned());
+    }
+    let gamma = info.gama_chunk.map(ScaledFloat::into_scaled);
+    let by_gamma = gamma.and_then(|gamma| match gamma {
+        _ if gamma.abs_diff(LINEAR_GAMMA) <= GAMMA_ROUNDING => Some(Encoding::Linear),
+        _ if gamma.abs_diff(SRGB_GAMMA) <= GAMMA_ROUNDING => Some(Encoding::Srgb),
+        _ => None,
+    });
+    let mut not_understood = None;
+    picture.encoding = if let Some(points) = info.coding_independent_code_points {
+        let by_points = match points.transfer_function {
+            // ITU-T H.273, table 3.
+            8 => Some(Encoding::Linear),
+            13 => Some(Encoding::Srgb),
+            _ => None,
+        };
+        if by_points.is_none() || points.color_primaries != 1 || !points.is_video_full_range_image {
+            let [primaries, transfer] = [points.color_primaries, points.transfer_function];
+            let found = format!("colour space cICP {primaries}-{transfer}");
+            not_understood = Some(found);
+        }
+        by_points
+    } else if info.icc_profile.is_some() {
+        not_understood = Some("colour profile (iCCP)".to_owned());
+        by_gamma
+    } else if info.srgb.is_some() {
+        Some(Encoding::Srgb)
+    } else {
+        if let (Some(gamma), None) = (gamma, by_gamma) {
+            let gamma = f64::from(gamma) / f64::from(LINEAR_GAMMA);
+            not_understood = Some(format!("gamma of {gamma} (gAMA)"));
+        }
+        by_gamma
+    };
+    if let Some(found) = not_understood {
+        let counts = match picture.encoding {
+            Some(encoding) => format!("its samples count as {}", encoding.name()),
+            None => "it is passed over".to_owned(),
+        };
+        let note = format!("its {found} is not understood: {counts}");
+        picture.notes.push(note);
+    }
+    picture.background = info
+        .bkgd
+        .as_ref()
+        .and_then(|samples| background(samples, reader));
+}
+
+/// Returns the background that `bKGD` states, in grey levels.
+fn background(samples: &[u8], reader: &Reader<Cursor<&[u8]>>) -> Option<[f64; 3]> {
+    let info = reader.info();
+    if let (ColorType::Indexed, &[index]) = (info.color_type, samples) {
+        let colour = info
+            .palette
+            .as_ref()?
+            .as_chunks::<3>()
+            .0
+            .get(usize::from(index))?;
+        return Some(colour.map(f64::from));
+    }
+    let maximum = f64::from((1u32 << info.bit_depth as u32) - 1);
+    let level = |pair: &[u8; 2]| 255.0 * f64::from(u16::from_be_bytes(*pair)) / maximum;
+    match samples.as_chunks().0 {
+        [grey] => Some([level(grey); 3]),
+        [r, g, b] => Some([level(r), level(g), level(b)]),
+        _ => None,
+    }
+}
+
+fn broken(error: png::DecodingError) -> DecodeError {
+    let problem: String = match error {
+        png::DecodingError::LimitsExceeded => {
+            "it needs more memory than its size explains: expected smaller chunks".into()
+        }
+        error => error.to_string(),
+    };
+    DecodeError::malformed(NAME, problem)
 }
 
 /// True if the chunks lead to a complete IEND (ISO/IEC 15948, 5.3: length, type, data, CRC).

@@ -4,6 +4,7 @@ use std::vec;
 
 use super::*;
 use crate::compare::metrics::compare;
+use crate::picture::LevelRows;
 
 /// Returns a picture with every byte value, and with uncovered pixels.
 fn stored() -> Picture8 {
@@ -69,27 +70,22 @@ fn the_ending_names_the_format() {
 #[test]
 fn every_format_reads_back_its_pictures() {
     let back = decode_picture(&encode_png(&stored()).unwrap()).unwrap();
-    assert_eq!(
-        back,
-        FilePicture {
-            pixels: FilePixels::Stored(stored()),
-            has_alpha: true
-        }
-    );
+    assert_eq!(back, FilePicture::stored(stored()));
     let back = decode_picture(&encode_ppm(&stored()).unwrap()).unwrap();
     assert_eq!(
         back,
         FilePicture {
-            pixels: FilePixels::Stored(opaque(&stored())),
-            has_alpha: false
+            has_alpha: false,
+            ..FilePicture::stored(opaque(&stored()))
         }
     );
     let back = decode_picture(&encode_pfm(&linear()).unwrap()).unwrap();
     assert_eq!(
         back,
         FilePicture {
-            pixels: FilePixels::Linear(linear()),
-            has_alpha: false
+            has_alpha: false,
+            encoding: None,
+            ..FilePicture::linear(linear())
         }
     );
 }
@@ -266,15 +262,113 @@ fn pictures_without_pixels_do_not_fit() {
     }
 }
 
+fn differing(reference: &FilePicture, actual: &FilePicture) -> usize {
+    let [r, a] = Pair::new(reference, actual, None).compared();
+    compare(&r, &a).unwrap().differing
+}
+
 #[test]
 fn alpha_counts_only_if_both_files_have_it() {
     let png = FilePicture::stored(stored());
     let ppm = decode_picture(&encode_ppm(&stored()).unwrap()).unwrap();
-    let [a, b] = comparable(&png, &ppm);
-    assert!(compare(&a, &b).unwrap().equal);
-    let [a, b] = comparable(&png, &FilePicture::stored(opaque(&stored())));
+    assert_eq!(differing(&png, &ppm), 0, "its background is not stated");
+    let pair = Pair::new(&png, &ppm, None);
+    assert_eq!(pair.alpha(), AlphaUse::Dropped { of_reference: true });
     // Every fifth of 256, from the first.
-    assert_eq!(compare(&a, &b).unwrap().coverage_mismatches, 52);
+    assert_eq!(differing(&png, &FilePicture::stored(opaque(&stored()))), 52);
+}
+
+/// Straight alpha against a file without alpha: over the stated background, in linear light.
+#[test]
+fn a_picture_with_alpha_is_put_over_its_background_before_one_without() {
+    // Half of white over black is 188 in sRGB: 255 (1.055 (128/255)^(1/2.4) − 0.055) = 187.84.
+    let straight = Picture8::from_pixels(3, 1, vec![[255, 255, 255, 128], [9; 4], [7, 8, 9, 0]]);
+    let straight = FilePicture {
+        background: Some([0.0; 3]),
+        ..FilePicture::stored(straight.unwrap()).encoded(Encoding::Srgb)
+    };
+    let read = decode_picture(&straight.encode(Format::Png).unwrap()).unwrap();
+    assert_eq!(read, straight, "the chunks come back");
+    let [view, _] = {
+        let flat = FilePicture {
+            has_alpha: false,
+            ..FilePicture::stored(Picture8::new(3, 1, [0, 0, 0, 255]))
+        };
+        let pair = Pair::new(&read, &flat, None);
+        assert_eq!(pair.alpha(), AlphaUse::Flattened { of_reference: true });
+        pair.compared().map(|view| {
+            let mut row = [Levels([0.0; 4]); 3];
+            view.level_row(0, &mut row);
+            row
+        })
+    };
+    let expected = 255.0 * crate::picture::encoding::srgb_encode_f64(128.0 / 255.0);
+    assert!((expected - 187.84).abs() < 0.01);
+    // One product and one sum in linear light, which is 1 at most, and the slope of the curve, under 1 here: below 4 · 2⁻⁵³ of 255.
+    assert!((view[0].0[0] - expected).abs() < 3e-13, "{:?}", view[0]);
+    assert_eq!(
+        view[2],
+        Levels([0.0, 0.0, 0.0, 255.0]),
+        "colours under alpha 0 do not count"
+    );
+}
+
+#[test]
+fn colours_under_alpha_0_do_not_count() {
+    let picture = |pixel| FilePicture::stored(Picture8::new(2, 2, pixel));
+    let (red, green) = (picture([255, 0, 0, 0]), picture([0, 255, 0, 0]));
+    assert_eq!(differing(&red, &green), 0);
+    let [r, a] = Pair::new(&red, &green, None).displayed();
+    let map = crate::compare::metrics::flip_map(&r, &a).unwrap();
+    assert!(map.pixels().iter().all(|error| *error == 0.0));
+    // One level of one channel.
+    let (more, less) = (picture([9, 9, 9, 128]), picture([9, 9, 9, 127]));
+    let [r, a] = Pair::new(&more, &less, None).compared();
+    let difference = compare(&r, &a).unwrap();
+    assert_eq!(
+        (255.0 * difference.max, difference.coverage_mismatches),
+        (1.0, 0)
+    );
+}
+
+/// A picture in both encodings: stored in 8 bits as sRGB, and as linear floats.
+#[test]
+fn the_linear_one_of_two_encodings_is_encoded_without_rounding() {
+    let ramp = LinearPicture::from_pixels(
+        256,
+        1,
+        (0..256)
+            .map(|i| [(i as f32 / 255.0).powi(2), -0.0, 1.0, 1.0])
+            .collect(),
+    )
+    .unwrap();
+    let floats = decode_picture(&encode_pfm(&ramp).unwrap()).unwrap();
+    let bytes = super::super::encoding::store(&ramp, Encoding::Srgb);
+    for (stated, is_stated) in [(Some(Encoding::Srgb), true), (None, false)] {
+        let stored = FilePicture {
+            encoding: stated,
+            ..FilePicture::stored(bytes.clone())
+        };
+        let stored = decode_picture(&stored.encode(Format::Png).unwrap()).unwrap();
+        for pictures in [[&stored, &floats], [&floats, &stored]] {
+            let pair = Pair::new(pictures[0], pictures[1], None);
+            let of = |i: usize| usize::from(std::ptr::eq(pictures[i], &floats));
+            let expected = [(Encoding::Srgb, is_stated), (Encoding::Linear, false)];
+            let used = pair.encodings().map(|used| (used.encoding, used.is_stated));
+            assert_eq!(used, [expected[of(0)], expected[of(1)]]);
+            let [r, a] = pair.compared();
+            let most = 255.0 * compare(&r, &a).unwrap().max;
+            // Half a level, and the f32 arithmetic of `srgb_encode` that chose the level: 2⁻²⁴ of 255.
+            assert!(
+                0.4 < most && most <= 0.5 + 255.0 / f64::from(1 << 24),
+                "{most}"
+            );
+        }
+    }
+    // Of one encoding they are compared as stored.
+    let linear = FilePicture::stored(ramp.map(|pixel| pixel.map(quantise)));
+    let [r, a] = Pair::new(&linear, &floats, Some(Encoding::Linear)).compared();
+    assert!(255.0 * compare(&r, &a).unwrap().max <= 0.5 + 255.0 / f64::from(1 << 24));
 }
 
 #[test]
@@ -325,58 +419,223 @@ fn a_changed_byte_never_panics() {
     assert!(message(&bytes).starts_with("broken PNG file: "));
 }
 
+/// Returns a PNG file of samples as they are in the file.
+fn png_of(
+    [width, height]: [u32; 2],
+    colour: ::png::ColorType,
+    depth: ::png::BitDepth,
+    samples: &[u8],
+    set: impl FnOnce(&mut ::png::Encoder<'_, &mut Vec<u8>>),
+) -> Vec<u8> {
+    let mut out = Vec::new();
+    let mut encoder = ::png::Encoder::new(&mut out, width, height);
+    encoder.set_color(colour);
+    encoder.set_depth(depth);
+    set(&mut encoder);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(samples).unwrap();
+    writer.finish().unwrap();
+    out
+}
+
 #[test]
 fn png_files_of_all_colour_types_are_read() {
-    let encode = |bytes: &[u8], colour: image::ExtendedColorType| {
-        let mut out = Vec::new();
-        image::ImageEncoder::write_image(
-            image::codecs::png::PngEncoder::new(&mut out),
-            bytes,
-            2,
-            1,
-            colour,
-        )
-        .unwrap();
-        decode_picture(&out).unwrap()
+    use ::png::{BitDepth, ColorType};
+    let encode = |colour, depth, samples: &[u8]| {
+        decode_picture(&png_of([2, 1], colour, depth, samples, |_| {})).unwrap()
     };
     let pixels = |picture: &FilePicture| picture.to_stored().pixels().to_vec();
-    let grey = encode(&[7, 200], image::ExtendedColorType::L8);
+    let grey = encode(ColorType::Grayscale, BitDepth::Eight, &[7, 200]);
     assert_eq!(
         (pixels(&grey), grey.has_alpha),
         (vec![[7, 7, 7, 255], [200, 200, 200, 255]], false)
     );
-    let grey = encode(&[7, 0, 200, 255], image::ExtendedColorType::La8);
+    let grey = encode(
+        ColorType::GrayscaleAlpha,
+        BitDepth::Eight,
+        &[7, 0, 200, 255],
+    );
     assert_eq!(
         (pixels(&grey), grey.has_alpha),
         (vec![[7, 7, 7, 0], [200, 200, 200, 255]], true)
     );
-    let colour = encode(&[1, 2, 3, 4, 5, 6], image::ExtendedColorType::Rgb8);
+    let colour = encode(ColorType::Rgb, BitDepth::Eight, &[1, 2, 3, 4, 5, 6]);
     assert_eq!(
         (pixels(&colour), colour.has_alpha),
         (vec![[1, 2, 3, 255], [4, 5, 6, 255]], false)
     );
-    // 16 bits are most significant byte first in the file and in native order here. 257 k is k, and
-    // 0x017f = 383 is 1.49 levels.
+    // Few bits: 2 of 3 is 170 of 255, 1 of 15 is 17.
+    let few = encode(ColorType::Grayscale, BitDepth::Two, &[0b1001_0000]);
+    assert_eq!(pixels(&few), [[170, 170, 170, 255], [85, 85, 85, 255]]);
+    let few = encode(ColorType::Grayscale, BitDepth::Four, &[0x1f]);
+    assert_eq!(pixels(&few), [[17, 17, 17, 255], [255; 4]]);
+    let bits = encode(ColorType::Grayscale, BitDepth::One, &[0b0100_0000]);
+    assert_eq!(pixels(&bits), [[0, 0, 0, 255], [255; 4]]);
+    // 16 bits: 257 k is k, and 0x017f = 383 is 1.49 levels.
     let deep: Vec<u8> = [257u16, 514, 65_535, 0, 383, 257]
         .iter()
-        .flat_map(|sample| sample.to_ne_bytes())
+        .flat_map(|sample| sample.to_be_bytes())
         .collect();
+    let deep = encode(ColorType::Rgb, BitDepth::Sixteen, &deep);
+    assert_eq!(pixels(&deep), [[1, 2, 255, 255], [0, 1, 1, 255]]);
+    let FilePixels::Deep { picture, maximum } = &deep.pixels else {
+        panic!("16 bits are kept");
+    };
     assert_eq!(
-        pixels(&encode(&deep, image::ExtendedColorType::Rgb16)),
-        [[1, 2, 255, 255], [0, 1, 1, 255]]
+        (picture.get(1, 0), *maximum),
+        ([0, 383, 257, 65_535], 65_535)
     );
+}
+
+#[test]
+fn pictures_of_16_bits_are_compared_as_such() {
+    let deep = |sample: u16| {
+        let [high, low] = sample.to_be_bytes();
+        let (colour, depth) = (::png::ColorType::Grayscale, ::png::BitDepth::Sixteen);
+        decode_picture(&png_of([1, 1], colour, depth, &[high, low], |_| {})).unwrap()
+    };
+    let most = |a: &FilePicture, b: &FilePicture| {
+        let [r, a] = Pair::new(a, b, None).compared();
+        255.0 * compare(&r, &a).unwrap().max
+    };
+    // Two roundings of numbers near 127, and one of their difference.
+    let error = most(&deep(0x8000), &deep(0x8055)) - 255.0 * 85.0 / 65535.0;
+    assert!(error.abs() < 3.0 * 128.0 * f64::EPSILON, "{error}");
+    // Levels of 8 bits are exact in 16, and in any other range that holds them.
+    let byte = decode_picture(b"P5 1 1 255 \x80").unwrap();
+    assert_eq!(most(&byte, &deep(0x8080)), 0.0);
+    let odd = decode_picture(b"P5 1 1 510 \x01\x00").unwrap();
+    assert_eq!(most(&byte, &odd), 0.0, "256 of 510 is 128 of 255");
+    let odd = decode_picture(b"P5 1 1 100 \x07").unwrap();
+    assert!(
+        (most(&byte, &odd) - (128.0 - 17.85)).abs() < 128.0 * f64::EPSILON,
+        "not rounded"
+    );
+}
+
+#[test]
+fn a_transparent_colour_becomes_alpha_and_interlaced_rows_are_put_in_order() {
+    use ::png::{BitDepth, ColorType};
+    let keyed = png_of(
+        [2, 1],
+        ColorType::Rgb,
+        BitDepth::Eight,
+        &[1, 2, 3, 4, 5, 6],
+        |e| {
+            e.set_trns(vec![0, 4, 0, 5, 0, 6]);
+        },
+    );
+    let keyed = decode_picture(&keyed).unwrap();
+    assert!(keyed.has_alpha);
+    assert_eq!(keyed.to_stored().pixels(), [[1, 2, 3, 255], [4, 5, 6, 0]]);
+    // A header that says so, and one pass per pixel of 2 × 2: 1 (0, 0), 6 (1, 0), 7 (0, 1) and (1, 1).
+    let rows = [[0, 10].as_slice(), &[0, 20], &[0, 30, 40]].concat();
+    let mut data = vec![0x78, 0x01, 0x01, 7, 0, 0xf8, 0xff];
+    data.extend(&rows);
+    let adler = rows.iter().fold((1u32, 0u32), |(a, b), byte| {
+        let a = a + u32::from(*byte);
+        (a, b + a)
+    });
+    data.extend((adler.1 << 16 | adler.0).to_be_bytes());
+    let bytes = [
+        png::SIGNATURE.to_vec(),
+        chunk(b"IHDR", &[0, 0, 0, 2, 0, 0, 0, 2, 8, 0, 0, 0, 1]),
+        chunk(b"IDAT", &data),
+        chunk(b"IEND", &[]),
+    ]
+    .concat();
+    let grey: Vec<u8> = decode_picture(&bytes)
+        .unwrap()
+        .to_stored()
+        .pixels()
+        .iter()
+        .map(|pixel| pixel[0])
+        .collect();
+    assert_eq!(grey, [10, 20, 30, 40]);
+}
+
+/// The chunks of a PNG file state its encoding; what is not understood is told.
+#[test]
+fn chunks_that_state_the_encoding_are_read() {
+    use ::png::{BitDepth, ColorType};
+    let plain = png_of([1, 1], ColorType::Grayscale, BitDepth::Eight, &[9], |_| {});
+    // After the signature and IHDR.
+    let with = |chunks: &[Vec<u8>]| {
+        let bytes = [&plain[..33], &chunks.concat(), &plain[33..]].concat();
+        decode_picture(&bytes).unwrap()
+    };
+    let gamma = |units: u32| chunk(b"gAMA", &units.to_be_bytes());
+    let srgb = chunk(b"sRGB", &[0]);
+    let cicp = |transfer: u8| chunk(b"cICP", &[1, transfer, 0, 1]);
+    // A profile: name, method, an empty zlib stream.
+    let profile = chunk(b"iCCP", b"p\0\0\x78\x01\x01\0\0\xff\xff\0\0\0\x01");
+    let (linear, is_srgb) = (Some(Encoding::Linear), Some(Encoding::Srgb));
+    for (chunks, encoding, note) in [
+        (vec![], None, ""),
+        (vec![srgb.clone()], is_srgb, ""),
+        (vec![gamma(100_000)], linear, ""),
+        (vec![gamma(45_455)], is_srgb, ""),
+        (vec![srgb.clone(), gamma(100_000)], is_srgb, ""),
+        (vec![cicp(8)], linear, ""),
+        (vec![cicp(13), gamma(100_000)], is_srgb, ""),
+        (
+            vec![cicp(16)],
+            None,
+            "its colour space cICP 1-16 is not understood: it is passed over",
+        ),
+        (
+            vec![gamma(55_556)],
+            None,
+            "its gamma of 0.55556 (gAMA) is not understood: it is passed over",
+        ),
+        (
+            vec![profile, gamma(100_000)],
+            linear,
+            "its colour profile (iCCP) is not understood: its samples count as linear",
+        ),
+    ] {
+        let picture = with(&chunks);
+        assert_eq!(picture.encoding, encoding, "{chunks:?}");
+        assert_eq!(picture.notes.join(""), note, "{chunks:?}");
+    }
+    // What is written is read.
+    for encoding in [None, linear, is_srgb] {
+        let picture = FilePicture {
+            encoding,
+            background: encoding.map(|_| [1.0, 2.0, 3.0]),
+            ..FilePicture::stored(stored())
+        };
+        let bytes = picture.encode(Format::Png).unwrap();
+        assert_eq!(decode_picture(&bytes).unwrap(), picture);
+    }
+}
+
+#[test]
+fn an_animation_gives_its_still_picture_and_says_so() {
+    use ::png::{BitDepth, ColorType};
+    let mut bytes = png_of([1, 1], ColorType::Grayscale, BitDepth::Eight, &[9], |_| {});
+    let control = chunk(b"acTL", &[0, 0, 0, 2, 0, 0, 0, 0]);
+    bytes.splice(33..33, control);
+    let picture = decode_picture(&bytes).unwrap();
+    assert_eq!(picture.to_stored().pixels(), [[9, 9, 9, 255]]);
+    assert_eq!(
+        picture.notes,
+        ["the file is an animation: this is its still picture"]
+    );
+}
+
+/// Returns a chunk of a PNG file.
+fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
+    let mut bytes = (data.len() as u32).to_be_bytes().to_vec();
+    bytes.extend(kind.iter().chain(data));
+    bytes.extend(crc(&bytes[4..]).to_be_bytes());
+    bytes
 }
 
 /// Palettes are looked up. This one has two colours, one bit per pixel, and is written by hand
 /// because the encoder has none.
 #[test]
 fn png_palettes_are_looked_up() {
-    let chunk = |kind: &[u8; 4], data: &[u8]| {
-        let mut bytes = (data.len() as u32).to_be_bytes().to_vec();
-        bytes.extend(kind.iter().chain(data));
-        bytes.extend(crc(&bytes[4..]).to_be_bytes());
-        bytes
-    };
     // zlib, one stored block of two bytes: filter 0, pixels 1 0. Then Adler-32 of 00 80.
     let pixels = [
         0x78, 0x01, 0x01, 2, 0, 0xfd, 0xff, 0x00, 0x80, 0x00, 0x82, 0x00, 0x81,
@@ -408,7 +667,7 @@ fn png_palettes_are_looked_up() {
     .concat();
     assert_eq!(
         message(&huge),
-        "100000×100000 pixels are too many: expected at most 67108864"
+        "100000×100000 pixels are too many: expected at most 268435456, and 1048576 a side"
     );
 }
 
@@ -443,6 +702,163 @@ fn ppm_files_of_others_are_read() {
 }
 
 #[test]
+fn portable_pixmaps_of_all_kinds_are_read() {
+    let read = |bytes: &[u8]| decode_picture(bytes).unwrap();
+    let pixels = |bytes: &[u8]| read(bytes).to_stored().pixels().to_vec();
+    let grey = |levels: &[u8]| -> Vec<[u8; 4]> {
+        levels
+            .iter()
+            .map(|level| [*level, *level, *level, 255])
+            .collect()
+    };
+    // 1 is black; plain digits need no space; raw rows end with their byte.
+    for file in [
+        &b"P1\n# bits\n3 2\n0 1 1\n1 0 0\n"[..],
+        b"P1 3 2 011100",
+        b"P1 3 2 0\n1#a\n1\n100",
+        b"P4\n3 2\n\x60\x80",
+        b"P4 3 2 \x7f\x9f",
+    ] {
+        assert_eq!(pixels(file), grey(&[255, 0, 0, 0, 255, 255]), "{file:?}");
+    }
+    for file in [
+        &b"P2 3 1 255 7 0200\n255"[..],
+        b"P2\r\n3 1\r\n# comment\r\n255\r\n7\r\n200 # more\n255\r\n",
+        b"P5 3 1 255 \x07\xc8\xff",
+        b"P5 3 1 255#\n\x07\xc8\xff",
+        b"P7\nWIDTH 3\nHEIGHT 1\nDEPTH 1\nMAXVAL 255\nTUPLTYPE GRAYSCALE\nENDHDR\n\x07\xc8\xff",
+    ] {
+        assert_eq!(pixels(file), grey(&[7, 200, 255]), "{file:?}");
+    }
+    assert_eq!(
+        pixels(b"P3 1 2 15 0 7 15 15 1 0"),
+        [[0, 119, 255, 255], [255, 17, 0, 255]]
+    );
+    let alpha = read(b"P7\n# a\nMAXVAL 255\nDEPTH 4\nHEIGHT 1\nWIDTH 1\nTUPLTYPE RGB_ALPHA\nENDHDR\n\x01\x02\x03\x04");
+    assert_eq!(
+        (alpha.to_stored().pixels(), alpha.has_alpha),
+        (&[[1, 2, 3, 4]][..], true)
+    );
+    // Of two ranges and layouts the same picture.
+    let plain = read(b"P3 1 1 1000 0 500 1000");
+    assert_eq!(plain, read(b"P6 1 1 1000 \x00\x00\x01\xf4\x03\xe8"));
+    assert_eq!(differing(&plain, &read(b"P3 1 1 2 0 1 2")), 0);
+    assert_eq!(
+        pixels(
+            b"P7\nWIDTH 2\nHEIGHT 1\nDEPTH 1\nMAXVAL 1\nTUPLTYPE BLACKANDWHITE\nENDHDR\n\x00\x01"
+        ),
+        grey(&[0, 255]),
+        "in PAM 1 is white"
+    );
+}
+
+#[test]
+fn the_first_of_several_pictures_is_read_and_that_is_said() {
+    for file in [
+        &b"P6 1 1 255 abcP6 1 1 255 xyz"[..],
+        b"P3 1 1 255 97 98 99\nP3 1 1 255 1 2 3\n",
+    ] {
+        let picture = decode_picture(file).unwrap();
+        assert_eq!(picture.to_stored().pixels(), [[97, 98, 99, 255]]);
+        assert_eq!(
+            picture.notes,
+            ["the file holds several pictures: this is the first"]
+        );
+    }
+    assert_eq!(
+        message(b"P6 1 1 255 abcd"),
+        "broken PPM file: it goes on after its last pixel: expected its end, or another picture"
+    );
+}
+
+#[test]
+fn broken_pixmaps_are_told() {
+    for (file, told) in [
+        (
+            &b"P3 1 1 255 1 2"[..],
+            "broken PPM file: it ends too early: samples are missing",
+        ),
+        (
+            b"P2 1 1 255 x",
+            "broken PGM file: a sample is \"x\": expected a number",
+        ),
+        (
+            b"P2 1 1 255 -1",
+            "broken PGM file: a sample is \"-1\": expected a number",
+        ),
+        (
+            b"P2 1 1 255 256",
+            "broken PGM file: a sample is 256: expected at most 255, as its header says",
+        ),
+        (
+            b"P2 1 1 9 99999",
+            "broken PGM file: a sample is 99999: expected at most 65535",
+        ),
+        (
+            b"P1 2 1 02",
+            "broken PBM file: a sample is \"2\": expected 0 or 1",
+        ),
+        (
+            b"P1 2 1 0",
+            "broken PBM file: it ends too early: samples are missing",
+        ),
+        (
+            b"P4 9 1 a",
+            "broken PBM file: it ends too early: expected 2 bytes of samples, found 1",
+        ),
+        (
+            b"P5 1 1 65536 ab",
+            "broken PGM file: the largest sample is 65536: expected 1 to 65535",
+        ),
+        (
+            b"P7\nWIDTH 1\nENDHDR\n",
+            "broken PAM file: its header has no HEIGHT",
+        ),
+        (
+            b"P7\nWIDTH 1\n",
+            "broken PAM file: it ends too early: expected a line ENDHDR",
+        ),
+        (
+            b"P7\nWIDE 1\nENDHDR\n",
+            "broken PAM file: a line begins with WIDE: expected WIDTH, HEIGHT, DEPTH, MAXVAL, TUPLTYPE or ENDHDR",
+        ),
+        (
+            b"P7\nWIDTH x\nENDHDR\n",
+            "broken PAM file: WIDTH is \"x\": expected a number",
+        ),
+        (
+            b"P7\nWIDTH 1\nHEIGHT 1\nDEPTH 5\nMAXVAL 1\nENDHDR\n",
+            "broken PAM file: it has 5 samples a pixel of type ``: expected 1 (GRAYSCALE), 2 (GRAYSCALE_ALPHA), 3 (RGB) or 4 (RGB_ALPHA)",
+        ),
+        (
+            b"P5 1048577 1 255 ",
+            "1048577×1 pixels are too many: expected at most 268435456, and 1048576 a side",
+        ),
+    ] {
+        assert_eq!(message(file), told);
+    }
+    assert!(message(&[b"P7\n".to_vec(), vec![b'x'; 5000]].concat()).len() < 200);
+}
+
+/// A header that promises much costs no more than the bytes that follow it.
+#[test]
+fn a_short_file_with_a_large_header_ends_too_early() {
+    for head in [
+        "P6 16384 16384 255 ",
+        "P5 16384 16384 65535 ",
+        "PF 16384 16384 -1 ",
+        "P4 16384 16384 ",
+    ] {
+        let told = message(format!("{head}abc").as_bytes());
+        assert!(
+            told.contains("it ends too early: expected") && told.ends_with("found 3"),
+            "{told}"
+        );
+    }
+    assert!(message(b"P3 16384 16384 255 1 2").contains("it ends too early"));
+}
+
+#[test]
 fn pfm_files_of_others_are_read() {
     let header = |text: &str, sample: [u8; 4], count: usize| {
         [text.as_bytes(), &sample.repeat(count)].concat()
@@ -455,13 +871,15 @@ fn pfm_files_of_others_are_read() {
 
 #[test]
 fn broken_headers_are_told() {
+    let expected = "expected PNG, PBM, PGM, PPM (P1 to P6), PAM or PFM";
+    assert_eq!(message(b""), format!("the file is empty: {expected}"));
+    for text in ["P8 1 1 255 0 0 0", "P", "P6", "P65", "PNG", "v 0 0 0"] {
+        let told = format!("not a picture that can be read: {expected}");
+        assert_eq!(message(text.as_bytes()), told);
+    }
     assert_eq!(
-        message(b""),
-        "not a picture that can be read: expected PNG, PPM (P6) or PFM"
-    );
-    assert_eq!(
-        message(b"P3 1 1 255 0 0 0"),
-        "not a picture that can be read: expected PNG, PPM (P6) or PFM"
+        message(b"\xff\xd8\xff\xe0\0\x10JFIF"),
+        format!("it is a JPEG file, which is not read: {expected}")
     );
     assert_eq!(
         message(b"P6 x 1 255 "),
@@ -493,7 +911,7 @@ fn broken_headers_are_told() {
     );
     assert_eq!(
         message(b"P6 4000000000 4000000000 255 "),
-        "4000000000×4000000000 pixels are too many: expected at most 67108864"
+        "4000000000×4000000000 pixels are too many: expected at most 268435456, and 1048576 a side"
     );
     assert!(
         message(b"P6 4294967296 4294967296 255 ").contains("too many"),
@@ -538,7 +956,7 @@ fn files_go_by_path_and_errors_name_it() {
             .unwrap_err()
             .to_string();
         assert!(
-            error.starts_with("/dev/zero: not a picture"),
+            error.starts_with("/dev/zero: not a picture that can be read"),
             "{error}, after reading as much as a picture may have"
         );
     }

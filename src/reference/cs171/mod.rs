@@ -26,7 +26,7 @@ pub use rasterize::{
 };
 pub use shading::{flat_shading, full_shading, gouraud_shading, phong_shading, render};
 
-use crate::picture::Picture;
+use crate::picture::{Alpha, Picture};
 use glam::DVec3;
 
 /// A rule for pixels whose centres lie on an edge.
@@ -144,17 +144,27 @@ impl Raster {
         [self.colours.width(), self.colours.height()]
     }
 
-    /// Returns the mean of each `side` × `side` samples, alpha too; 0 counts as 1, and samples beyond the last whole square are
-    /// left out.
-    pub fn filtered(&self, side: usize) -> Picture<[f64; 4]> {
+    /// Returns the mean of each `side` × `side` samples, alpha too; of a square that is covered in part with straight alpha, the
+    /// mean colour of the covered ones. 0 counts as 1, and samples beyond the last whole square are left out.
+    pub fn filtered(&self, side: usize, alpha: Alpha) -> Picture<[f64; 4]> {
         let side = side.max(1);
         let [width, height] = self.size().map(|count| count / side);
         let mut picture = Picture::new(width, height, [0.0; 4]);
-        let share = 1.0 / (side * side) as f64;
-        for (x, y) in (0..height * side).flat_map(|y| (0..width * side).map(move |x| (x, y))) {
-            let sample = self.colours.get(x, y);
-            let pixel = &mut picture.row_mut(y / side)[x / side];
-            *pixel = core::array::from_fn(|c| pixel[c] + share * sample[c]);
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let places = (0..side * side).map(|i| (x * side + i % side, y * side + i / side));
+            let samples = places.map(|(x, y)| self.colours.get(x, y));
+            let covered = samples.clone().filter(|sample| sample[3] > 0.0).count();
+            let all = (side * side) as f64;
+            // The samples that the colour is the mean of: their number, and the least alpha among them.
+            let (count, least) = match alpha {
+                Alpha::Straight if covered > 0 => (covered as f64, 1.0),
+                _ => (all, 0.0),
+            };
+            let counted = samples.filter(|sample| sample[3] >= least);
+            let [r, g, b] = counted.fold([0.0; 3], |sum: [f64; 3], sample| {
+                core::array::from_fn(|c| sum[c] + sample[c] / count)
+            });
+            picture.row_mut(y)[x] = [r, g, b, covered as f64 / all];
         }
         picture
     }
@@ -162,5 +172,27 @@ impl Raster {
     /// Fills a pixel: Fill(x, y, grid, color).
     fn fill(&mut self, x: usize, y: usize, colour: DVec3) {
         self.colours.row_mut(y)[x] = [colour.x, colour.y, colour.z, 1.0];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_square_that_is_covered_in_part_has_the_colour_of_its_covered_samples() {
+        let mut raster = Raster::new(4, 2, DVec3::new(1.0, 0.5, 0.0));
+        raster.fill(0, 0, DVec3::new(0.25, 0.25, 0.25));
+        raster.fill(1, 1, DVec3::new(0.75, 0.25, 0.25));
+        let straight = raster.filtered(2, Alpha::Straight);
+        assert_eq!(
+            straight.pixels(),
+            [[0.5, 0.25, 0.25, 0.5], [1.0, 0.5, 0.0, 0.0]]
+        );
+        let flattened = raster.filtered(2, Alpha::Flattened);
+        assert_eq!(
+            flattened.pixels(),
+            [[0.75, 0.375, 0.125, 0.5], [1.0, 0.5, 0.0, 0.0]]
+        );
     }
 }

@@ -1,0 +1,495 @@
+//! Reading of portable pixmaps: PBM, PGM and PPM, plain (P1 to P3) and raw (P4 to P6), PAM (P7), and PFM (PF, Pf).
+//!
+//! Samples are kept as the file has them, with the largest value that its header states: nothing is rounded.
+
+use std::io::{self, BufRead};
+use std::string::String;
+use std::vec::Vec;
+use std::{format, str, vec};
+
+use super::super::{
+    DecodeError, FilePicture, FilePixels, MAX_PIXELS, ReadProblem, checked_size, reserved,
+};
+use crate::picture::Picture;
+
+/// Longest word of a header or line of PAM's that is looked at: what is no header can have words of any length.
+const LONGEST: usize = 200;
+
+/// A format of the family, by its first two bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Kind {
+    /// The name in messages.
+    name: &'static str,
+    layout: Layout,
+}
+
+/// The order and the form of samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Layout {
+    /// Digits 0 and 1, where 1 is black.
+    PlainBits,
+    /// Rows of bits, packed into bytes from the highest on, where 1 is black.
+    RawBits,
+    /// Numbers in text; channels.
+    Plain(usize),
+    /// Bytes, or two bytes each, the high one first; channels.
+    Raw(usize),
+    /// A header of lines that names everything.
+    Arbitrary,
+    /// Floats, the bottom row first; channels.
+    Floats(usize),
+}
+
+impl Kind {
+    /// Returns the format that the first bytes of a file announce.
+    pub(crate) fn announced(bytes: &[u8]) -> Option<Kind> {
+        let [b'P', digit, after, ..] = bytes else {
+            return None;
+        };
+        let is_apart = is_space(*after) || *after == b'#';
+        let (name, layout) = match digit {
+            b'1' => ("PBM", Layout::PlainBits),
+            b'2' => ("PGM", Layout::Plain(1)),
+            b'3' => ("PPM", Layout::Plain(3)),
+            b'4' => ("PBM", Layout::RawBits),
+            b'5' => ("PGM", Layout::Raw(1)),
+            b'6' => ("PPM", Layout::Raw(3)),
+            b'7' => ("PAM", Layout::Arbitrary),
+            b'F' => ("PFM", Layout::Floats(3)),
+            b'f' => ("PFM", Layout::Floats(1)),
+            _ => return None,
+        };
+        is_apart.then_some(Kind { name, layout })
+    }
+}
+
+/// Reads the picture of a file whose first bytes announce `kind`; of several pictures the first.
+pub(crate) fn read(kind: Kind, input: &mut dyn BufRead) -> Result<FilePicture, ReadProblem> {
+    let mut file = Reader { kind, input };
+    // The two bytes that announced the format.
+    (file.byte()?, file.byte()?);
+    let mut picture = match kind.layout {
+        Layout::Floats(channels) => return file.floats(channels),
+        Layout::Arbitrary => file.arbitrary()?,
+        Layout::PlainBits | Layout::RawBits => {
+            let [width, height] = file.size()?;
+            file.integers(Header {
+                width,
+                height,
+                channels: 1,
+                maximum: 1,
+            })?
+        }
+        Layout::Plain(channels) | Layout::Raw(channels) => {
+            let [width, height] = file.size()?;
+            let maximum = file.number("the largest sample")?;
+            file.integers(Header {
+                width,
+                height,
+                channels,
+                maximum: file.checked_maximum(maximum)?,
+            })?
+        }
+    };
+    if file.goes_on()? {
+        let note = "the file holds several pictures: this is the first";
+        picture.notes.push(note.into());
+    }
+    Ok(picture)
+}
+
+/// The facts about a picture of integers.
+#[derive(Clone, Copy)]
+struct Header {
+    width: usize,
+    height: usize,
+    /// Grey; grey and alpha; red, green, blue; those and alpha.
+    channels: usize,
+    /// The sample that stands for full intensity.
+    maximum: u16,
+}
+
+/// A file that is read from its start to its end.
+struct Reader<'a> {
+    kind: Kind,
+    input: &'a mut dyn BufRead,
+}
+
+impl Reader<'_> {
+    /// Takes the next byte; `None` at the end.
+    fn byte(&mut self) -> io::Result<Option<u8>> {
+        let byte = self.input.fill_buf()?.first().copied();
+        self.input.consume(usize::from(byte.is_some()));
+        Ok(byte)
+    }
+
+    fn peek(&mut self) -> io::Result<Option<u8>> {
+        Ok(self.input.fill_buf()?.first().copied())
+    }
+
+    /// Fills `bytes`; returns how many there were, fewer only at the end.
+    fn fill(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let mut filled = 0;
+        while filled < bytes.len() {
+            let found = self.input.fill_buf()?;
+            let count = found.len().min(bytes.len() - filled);
+            if count == 0 {
+                break;
+            }
+            bytes[filled..][..count].copy_from_slice(&found[..count]);
+            self.input.consume(count);
+            filled += count;
+        }
+        Ok(filled)
+    }
+
+    /// Skips white space and comments, which go from `#` to the end of their line.
+    fn skip_space(&mut self) -> io::Result<()> {
+        while let Some(byte) = self.peek()? {
+            match byte {
+                b'#' => self.skip_comment()?,
+                byte if is_space(byte) => self.input.consume(1),
+                _ => break,
+            }
+        }
+        Ok(())
+    }
+
+    fn skip_comment(&mut self) -> io::Result<()> {
+        while let Some(byte) = self.byte()? {
+            if byte == b'\n' || byte == b'\r' {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes the next word, and the one byte of white space, or the comment, that ends it.
+    fn word(&mut self) -> io::Result<Vec<u8>> {
+        self.skip_space()?;
+        let mut word = Vec::new();
+        while let Some(byte) = self.byte()? {
+            match byte {
+                b'#' => {
+                    self.skip_comment()?;
+                    break;
+                }
+                byte if is_space(byte) || word.len() > LONGEST => break,
+                byte => word.push(byte),
+            }
+        }
+        Ok(word)
+    }
+
+    fn number<N: str::FromStr>(&mut self, what: &str) -> Result<N, ReadProblem> {
+        let word = self.word()?;
+        let text = str::from_utf8(&word).ok();
+        let number = text.filter(|text| !text.starts_with('+'));
+        let number = number.and_then(|text| text.parse().ok());
+        number.ok_or_else(|| self.not_a_number(what, &word))
+    }
+
+    fn not_a_number(&self, what: &str, word: &[u8]) -> ReadProblem {
+        // Only the start of it: what is not a header can be a word of any length.
+        let found = word[..word.len().min(20)].escape_ascii();
+        self.broken(format!("{what} is \"{found}\": expected a number"))
+    }
+
+    fn size(&mut self) -> Result<[usize; 2], ReadProblem> {
+        let width = self.number("the width")?;
+        let height = self.number("the height")?;
+        Ok(checked_size(self.kind.name, width, height)?)
+    }
+
+    fn checked_maximum(&self, maximum: u64) -> Result<u16, ReadProblem> {
+        match u16::try_from(maximum) {
+            Ok(maximum @ 1..) => Ok(maximum),
+            _ => {
+                let problem = format!("the largest sample is {maximum}: expected 1 to 65535");
+                Err(self.broken(problem))
+            }
+        }
+    }
+
+    /// Reads the header of a PAM file and its samples.
+    fn arbitrary(&mut self) -> Result<FilePicture, ReadProblem> {
+        let names = ["WIDTH", "HEIGHT", "DEPTH", "MAXVAL"];
+        let mut values = [None; 4];
+        let mut tuple_type = String::new();
+        // What follows the two bytes on the first line is empty.
+        let mut line = self.line()?;
+        loop {
+            let (name, value) = line.split_once(char::is_whitespace).unwrap_or((&line, ""));
+            let value = value.trim();
+            match names.iter().position(|known| *known == name) {
+                Some(place) => {
+                    let number = value.parse::<u64>().ok();
+                    let problem = || self.not_a_number(name, value.as_bytes());
+                    values[place] = Some(number.ok_or_else(problem)?);
+                }
+                None if name == "TUPLTYPE" => tuple_type = value.into(),
+                None if name == "ENDHDR" => break,
+                None if name.is_empty() || name.starts_with('#') => {}
+                None => {
+                    let found = name.escape_default();
+                    let expected = "WIDTH, HEIGHT, DEPTH, MAXVAL, TUPLTYPE or ENDHDR";
+                    let problem = format!("a line begins with {found}: expected {expected}");
+                    return Err(self.broken(problem));
+                }
+            }
+            line = self.line()?;
+        }
+        let mut stated = [0; 4];
+        for ((stated, value), name) in stated.iter_mut().zip(values).zip(names) {
+            let missing = || self.broken(format!("its header has no {name}"));
+            *stated = value.ok_or_else(missing)?;
+        }
+        let [width, height, depth, maximum] = stated;
+        let [width, height] = checked_size(self.kind.name, width, height)?;
+        let known = match tuple_type.as_str() {
+            "" => (1..=4).contains(&depth).then_some(depth),
+            "BLACKANDWHITE" | "GRAYSCALE" => Some(1),
+            "BLACKANDWHITE_ALPHA" | "GRAYSCALE_ALPHA" => Some(2),
+            "RGB" => Some(3),
+            "RGB_ALPHA" => Some(4),
+            _ => None,
+        };
+        // Samples beyond those that the type names would be passed over: nobody writes them.
+        if known != Some(depth) {
+            let found = format!(
+                "{depth} samples a pixel of type `{}`",
+                tuple_type.escape_default()
+            );
+            let expected = "1 (GRAYSCALE), 2 (GRAYSCALE_ALPHA), 3 (RGB) or 4 (RGB_ALPHA)";
+            return Err(self.broken(format!("it has {found}: expected {expected}")));
+        }
+        self.integers(Header {
+            width,
+            height,
+            channels: depth as usize,
+            maximum: self.checked_maximum(maximum)?,
+        })
+    }
+
+    /// Takes the rest of a line of a PAM header, without its end.
+    fn line(&mut self) -> Result<String, ReadProblem> {
+        let mut line = Vec::new();
+        loop {
+            match self.byte()? {
+                Some(b'\n') => break,
+                Some(byte) if line.len() < LONGEST => line.push(byte),
+                Some(_) => return Err(self.broken("a line of its header has no end")),
+                None => return Err(self.broken("it ends too early: expected a line ENDHDR")),
+            }
+        }
+        Ok(String::from_utf8_lossy(&line).trim().into())
+    }
+
+    /// Reads the samples of a picture of integers.
+    fn integers(&mut self, header: Header) -> Result<FilePicture, ReadProblem> {
+        let Header {
+            width,
+            height,
+            channels,
+            maximum,
+        } = header;
+        let has_alpha = channels.is_multiple_of(2);
+        let pixels = match 255 % maximum {
+            // Every sample is a whole number of grey levels.
+            0 => {
+                let factor = 255 / maximum;
+                let pixels = self.pixels(header, |sample| (sample * factor) as u8)?;
+                FilePixels::Stored(whole(width, height, pixels))
+            }
+            _ => FilePixels::Deep {
+                picture: whole(width, height, self.pixels(header, |sample| sample)?),
+                maximum,
+            },
+        };
+        Ok(FilePicture {
+            has_alpha,
+            ..FilePicture::of_pixels(pixels)
+        })
+    }
+
+    /// Reads rows of samples into pixels.
+    fn pixels<S: Copy>(
+        &mut self,
+        header: Header,
+        stored: impl Fn(u16) -> S,
+    ) -> Result<Vec<[S; 4]>, ReadProblem> {
+        let Header {
+            width,
+            height,
+            channels,
+            maximum,
+        } = header;
+        let full = stored(maximum);
+        let mut pixels = reserved(width, height)?;
+        let mut row = vec![0u16; width * channels];
+        let mut bytes = Vec::new();
+        for y in 0..height {
+            match self.kind.layout {
+                Layout::PlainBits => self.plain_bits(&mut row)?,
+                Layout::Plain(_) => {
+                    for sample in &mut row {
+                        *sample = self.plain_sample()?;
+                    }
+                }
+                Layout::RawBits => {
+                    self.raw_row(&mut bytes, width.div_ceil(8), y, height)?;
+                    for (x, sample) in row.iter_mut().enumerate() {
+                        *sample = u16::from(bytes[x / 8] >> (7 - x % 8) & 1 == 0);
+                    }
+                }
+                _ if maximum < 256 => {
+                    self.raw_row(&mut bytes, row.len(), y, height)?;
+                    for (sample, byte) in row.iter_mut().zip(&bytes) {
+                        *sample = u16::from(*byte);
+                    }
+                }
+                _ => {
+                    self.raw_row(&mut bytes, 2 * row.len(), y, height)?;
+                    for (sample, pair) in row.iter_mut().zip(bytes.as_chunks().0) {
+                        *sample = u16::from_be_bytes(*pair);
+                    }
+                }
+            }
+            if let Some(sample) = row.iter().find(|sample| **sample > maximum) {
+                return Err(self.broken(format!(
+                    "a sample is {sample}: expected at most {maximum}, as its header says"
+                )));
+            }
+            pixels.extend(row.chunks_exact(channels).map(|samples| {
+                let at = |channel: usize| stored(samples[channel]);
+                match channels {
+                    1 => [at(0), at(0), at(0), full],
+                    2 => [at(0), at(0), at(0), at(1)],
+                    3 => [at(0), at(1), at(2), full],
+                    _ => [at(0), at(1), at(2), at(3)],
+                }
+            }));
+        }
+        Ok(pixels)
+    }
+
+    /// Reads a row of `count` bytes, row `y` of `height`.
+    fn raw_row(
+        &mut self,
+        bytes: &mut Vec<u8>,
+        count: usize,
+        y: usize,
+        height: usize,
+    ) -> Result<(), ReadProblem> {
+        bytes.resize(count, 0);
+        let found = self.fill(bytes)?;
+        if found == count {
+            return Ok(());
+        }
+        let (expected, found) = (height * count, y * count + found);
+        let samples = format!("expected {expected} bytes of samples, found {found}");
+        Err(self.broken(format!("it ends too early: {samples}")))
+    }
+
+    /// Reads digits that need no space between them.
+    fn plain_bits(&mut self, row: &mut [u16]) -> Result<(), ReadProblem> {
+        for sample in row {
+            self.skip_space()?;
+            *sample = match self.byte()? {
+                Some(b'0') => 1,
+                Some(b'1') => 0,
+                Some(byte) => {
+                    let found = byte.escape_ascii();
+                    let problem = format!("a sample is \"{found}\": expected 0 or 1");
+                    return Err(self.broken(problem));
+                }
+                None => return Err(self.broken("it ends too early: samples are missing")),
+            };
+        }
+        Ok(())
+    }
+
+    fn plain_sample(&mut self) -> Result<u16, ReadProblem> {
+        self.skip_space()?;
+        if self.peek()?.is_none() {
+            return Err(self.broken("it ends too early: samples are missing"));
+        }
+        let sample: u64 = self.number("a sample")?;
+        let problem = || self.broken(format!("a sample is {sample}: expected at most 65535"));
+        u16::try_from(sample).map_err(|_| problem())
+    }
+
+    /// True if another picture follows the one that was read.
+    ///
+    /// # Errors
+    /// If anything else follows: the header then says less than the file holds.
+    fn goes_on(&mut self) -> Result<bool, ReadProblem> {
+        if matches!(self.kind.layout, Layout::PlainBits | Layout::Plain(_)) {
+            self.skip_space()?;
+        }
+        let mut next = [0; 3];
+        let found = self.fill(&mut next)?;
+        match Kind::announced(&next[..found]) {
+            Some(_) => Ok(true),
+            None if found == 0 => Ok(false),
+            None => {
+                let expected = "expected its end, or another picture";
+                Err(self.broken(format!("it goes on after its last pixel: {expected}")))
+            }
+        }
+    }
+
+    /// Reads the rest of a PFM file, of either order of bytes. The size of the scale is a unit that nobody agrees on, and
+    /// is passed over.
+    fn floats(&mut self, channels: usize) -> Result<FilePicture, ReadProblem> {
+        let [width, height] = self.size()?;
+        let scale: f32 = self.number("the scale")?;
+        if scale == 0.0 || !scale.is_finite() {
+            let expected = "expected a negative or a positive number";
+            return Err(self.broken(format!("the scale tells no order of bytes: {expected}")));
+        }
+        let float = match scale < 0.0 {
+            true => f32::from_le_bytes,
+            false => f32::from_be_bytes,
+        };
+        let mut pixels = reserved(width, height)?;
+        let mut bytes = Vec::new();
+        for y in 0..height {
+            self.raw_row(&mut bytes, 4 * channels * width, y, height)?;
+            let samples = bytes.as_chunks().0;
+            pixels.extend(samples.chunks_exact(channels).map(|samples| {
+                let at = |channel: usize| float(samples[channel % channels]);
+                [at(0), at(1), at(2), 1.0]
+            }));
+        }
+        if self.peek()?.is_some() {
+            let problem = "it goes on after its last pixel: expected its end";
+            return Err(self.broken(problem));
+        }
+        // The bottom row came first.
+        for y in 0..height / 2 {
+            let (upper, lower) = pixels.split_at_mut((height - 1 - y) * width);
+            upper[y * width..][..width].swap_with_slice(&mut lower[..width]);
+        }
+        let picture = whole(width, height, pixels);
+        Ok(FilePicture {
+            has_alpha: false,
+            ..FilePicture::of_pixels(FilePixels::Linear(picture))
+        })
+    }
+
+    fn broken(&self, problem: impl Into<String>) -> ReadProblem {
+        DecodeError::malformed(self.kind.name, problem).into()
+    }
+}
+
+/// Makes a picture of as many pixels as were read.
+fn whole<P: Copy>(width: usize, height: usize, pixels: Vec<P>) -> Picture<P> {
+    debug_assert!(pixels.len() as u64 <= MAX_PIXELS, "the size was checked");
+    Picture::from_pixels(width, height, pixels).expect("every row was read")
+}
+
+/// True for the white space of these formats.
+fn is_space(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t'..=b'\r')
+}

@@ -1,0 +1,259 @@
+//! Two pictures of files, made comparable: their encodings, their alpha, their sizes.
+
+use super::{FilePicture, FilePixels};
+use crate::picture::{Encoding, LevelRows, Levels, over};
+
+/// The encoding that a picture is taken to have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UsedEncoding {
+    /// The encoding.
+    pub encoding: Encoding,
+    /// True if the file states it; else it was assumed.
+    pub is_stated: bool,
+}
+
+impl UsedEncoding {
+    /// Returns the encoding that `picture` states; else `assumed`; else linear for floats and sRGB for integers.
+    fn of(picture: &FilePicture, assumed: Option<Encoding>) -> UsedEncoding {
+        let usual = match picture.pixels {
+            FilePixels::Linear(_) => Encoding::Linear,
+            FilePixels::Stored(_) | FilePixels::Deep { .. } => Encoding::Srgb,
+        };
+        UsedEncoding {
+            encoding: picture.encoding.or(assumed).unwrap_or(usual),
+            is_stated: picture.encoding.is_some(),
+        }
+    }
+}
+
+/// The part that alpha plays in a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AlphaUse {
+    /// Neither file has alpha.
+    Absent,
+    /// Both files have alpha: it is a channel like others, and colours under alpha 0 do not count.
+    Compared,
+    /// One file has alpha: its picture is put over the background that it states.
+    Flattened {
+        /// True if that file is the reference.
+        of_reference: bool,
+    },
+    /// One file has alpha and states no background: its colours count as they are stored.
+    Dropped {
+        /// True if that file is the reference.
+        of_reference: bool,
+    },
+}
+
+/// Two pictures to compare: a reference, and the picture that is held against it.
+///
+/// Pictures of one encoding are compared as stored. Of two encodings the linear picture is encoded, without rounding. If the sizes
+/// differ, their common part is compared, from the upper left corner on.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<'a> {
+    pictures: [&'a FilePicture; 2],
+    encodings: [UsedEncoding; 2],
+    alpha: AlphaUse,
+}
+
+impl<'a> Pair<'a> {
+    /// Makes a pair. `assumed` is the encoding of files that state none; without it PFM counts as linear and other files as sRGB.
+    pub fn new(
+        reference: &'a FilePicture,
+        actual: &'a FilePicture,
+        assumed: Option<Encoding>,
+    ) -> Pair<'a> {
+        let pictures = [reference, actual];
+        let of_reference = reference.has_alpha;
+        let alpha = match [reference.has_alpha, actual.has_alpha] {
+            [false, false] => AlphaUse::Absent,
+            [true, true] => AlphaUse::Compared,
+            _ => {
+                let has_alpha = if of_reference { reference } else { actual };
+                match has_alpha.background {
+                    _ if is_opaque(has_alpha) => AlphaUse::Absent,
+                    Some(_) => AlphaUse::Flattened { of_reference },
+                    None => AlphaUse::Dropped { of_reference },
+                }
+            }
+        };
+        Pair {
+            pictures,
+            encodings: pictures.map(|picture| UsedEncoding::of(picture, assumed)),
+            alpha,
+        }
+    }
+
+    /// Returns the encodings of the reference and of the other picture.
+    pub fn encodings(&self) -> [UsedEncoding; 2] {
+        self.encodings
+    }
+
+    /// Returns the encoding in which the pictures are compared.
+    pub fn compared_encoding(&self) -> Encoding {
+        match self.encodings.map(|used| used.encoding) {
+            [Encoding::Linear, Encoding::Linear] => Encoding::Linear,
+            _ => Encoding::Srgb,
+        }
+    }
+
+    /// Returns the part that alpha plays.
+    pub fn alpha(&self) -> AlphaUse {
+        self.alpha
+    }
+
+    /// Returns width and height of the part that both pictures have, in pixels.
+    pub fn common_size(&self) -> [usize; 2] {
+        let [reference, actual] = self.pictures.map(FilePicture::size);
+        [0, 1].map(|i| reference[i].min(actual[i]))
+    }
+
+    /// True if the pictures have one size.
+    pub fn is_one_size(&self) -> bool {
+        self.pictures[0].size() == self.pictures[1].size()
+    }
+
+    /// Returns both pictures as they are compared.
+    pub fn compared(&self) -> [LevelView<'a>; 2] {
+        [0, 1].map(|i| LevelView {
+            background: match self.alpha {
+                AlphaUse::Flattened { .. } => Some(self.background(i, self.pictures[i])),
+                _ => None,
+            },
+            keeps_alpha: self.alpha == AlphaUse::Compared,
+            ..self.view(i, self.compared_encoding())
+        })
+    }
+
+    /// Returns both pictures as a screen shows them: sRGB, over one background (the reference's, else the other's, else black),
+    /// nothing darker than black or brighter than white.
+    pub fn displayed(&self) -> [LevelView<'a>; 2] {
+        let [reference, actual] = self.pictures;
+        let stating = if reference.background.is_some() {
+            reference
+        } else {
+            actual
+        };
+        [0, 1].map(|i| LevelView {
+            background: match self.alpha {
+                AlphaUse::Absent | AlphaUse::Dropped { .. } => None,
+                AlphaUse::Compared | AlphaUse::Flattened { .. } => {
+                    Some(self.background(i, stating))
+                }
+            },
+            is_clamped: true,
+            ..self.view(i, Encoding::Srgb)
+        })
+    }
+
+    fn view(&self, place: usize, encoding: Encoding) -> LevelView<'a> {
+        LevelView {
+            picture: self.pictures[place],
+            size: self.common_size(),
+            from: self.encodings[place].encoding,
+            to: encoding,
+            background: None,
+            keeps_alpha: false,
+            is_clamped: false,
+        }
+    }
+
+    /// Returns the background that `stating` states, in levels of the picture at `place`; black if it states none.
+    fn background(&self, place: usize, stating: &FilePicture) -> [f64; 3] {
+        let of_reference = core::ptr::eq(stating, self.pictures[0]);
+        let from = self.encodings[usize::from(!of_reference)].encoding;
+        let to = self.encodings[place].encoding;
+        let background = stating.background.unwrap_or_default();
+        background.map(|level| converted(level, from, to))
+    }
+}
+
+/// True if every pixel is covered as a whole.
+fn is_opaque(picture: &FilePicture) -> bool {
+    match &picture.pixels {
+        FilePixels::Stored(picture) => picture.pixels().iter().all(|pixel| pixel[3] == 255),
+        FilePixels::Deep { picture, maximum } => {
+            picture.pixels().iter().all(|pixel| pixel[3] == *maximum)
+        }
+        FilePixels::Linear(picture) => picture.pixels().iter().all(|pixel| pixel[3] == 1.0),
+    }
+}
+
+/// Returns a grey level in another encoding, without rounding.
+fn converted(level: f64, from: Encoding, to: Encoding) -> f64 {
+    match from == to {
+        true => level,
+        false => 255.0 * to.encode(from.decode(level / 255.0)),
+    }
+}
+
+/// A picture of a file, row by row in the grey levels in which it is compared or shown.
+#[derive(Clone, Copy, Debug)]
+pub struct LevelView<'a> {
+    picture: &'a FilePicture,
+    size: [usize; 2],
+    /// The encoding of the picture.
+    from: Encoding,
+    /// The encoding of the levels.
+    to: Encoding,
+    /// The background that the picture is put over, in its encoding.
+    background: Option<[f64; 3]>,
+    /// True if alpha is left; else it is full.
+    keeps_alpha: bool,
+    /// True if levels are limited to 0..=255; a level that is no number becomes 0.
+    is_clamped: bool,
+}
+
+impl LevelView<'_> {
+    /// Returns the colour of a pixel over `background`: in linear light, whatever the encoding.
+    fn flattened(&self, pixel: Levels, background: [f64; 3]) -> [f64; 3] {
+        let alpha = pixel.alpha();
+        if alpha == 0.0 {
+            return background;
+        }
+        if alpha == 255.0 {
+            return pixel.rgb();
+        }
+        let linear = |level: f64| self.from.decode(level / 255.0);
+        let [r, g, b] = pixel.rgb().map(linear);
+        let linear = over([r, g, b, alpha / 255.0], background.map(linear));
+        linear.map(|c| 255.0 * self.from.encode(c))
+    }
+}
+
+impl LevelRows for LevelView<'_> {
+    fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    fn level_row(&self, y: usize, levels: &mut [Levels]) {
+        self.picture.stored_levels(y, levels);
+        let changes_encoding = self.from != self.to;
+        // The whole levels of 8 bits, looked up.
+        let whole: Option<[f64; 256]> = changes_encoding
+            .then(|| core::array::from_fn(|level| converted(level as f64, self.from, self.to)));
+        for pixel in levels {
+            let mut rgb = match self.background {
+                Some(background) => self.flattened(*pixel, background),
+                None => pixel.rgb(),
+            };
+            if let Some(whole) = &whole {
+                rgb = rgb.map(|level| match level as u8 {
+                    byte if f64::from(byte) == level => whole[usize::from(byte)],
+                    _ => converted(level, self.from, self.to),
+                });
+            }
+            if self.is_clamped {
+                // The comparisons in this order make NaN 0.
+                rgb = rgb.map(|level| if level > 0.0 { level.min(255.0) } else { 0.0 });
+            }
+            let [r, g, b] = rgb;
+            let alpha = if self.keeps_alpha {
+                pixel.alpha()
+            } else {
+                255.0
+            };
+            *pixel = Levels([r, g, b, alpha]);
+        }
+    }
+}
