@@ -9,9 +9,7 @@ use fastphong::compare::metrics::{
 };
 use fastphong::compare::table::aligned;
 use fastphong::picture::Encoding;
-use fastphong::picture::image_file::{
-    AlphaUse, FilePicture, Pair, read_picture_from,
-};
+use fastphong::picture::image_file::{AlphaUse, FilePicture, Pair, read_picture_from};
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -58,10 +56,7 @@ impl DiffArgs {
             let expected = "expected a file for one of the pictures";
             return Err(format!("standard input holds one picture: {expected}").into());
         }
-        let parts = [
-            (paths[0], "the reference"),
-            (paths[1], "the picture"),
-        ];
+        let parts = [(paths[0], "the reference"), (paths[1], "the picture")];
         for (path, part) in parts {
             if path.as_os_str() != "-" {
                 files::will_read(path, part);

@@ -1,6 +1,6 @@
 //! From computed intensities to stored grey levels.
 
-use super::{LinearPicture, Picture8};
+use super::{LevelRows, Levels, LinearPicture, Picture8};
 
 /// A way to store linear values in eight bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -159,6 +159,32 @@ pub fn store(picture: &LinearPicture, encoding: Encoding) -> Picture8 {
         Encoding::Srgb => {
             let encoder = Encoder::srgb();
             picture.map(|pixel| encoder.store(pixel))
+        }
+    }
+}
+
+/// A stored picture as a screen shows it: in levels of sRGB, not rounded anew; alpha plays no part.
+#[derive(Clone, Copy, Debug)]
+pub struct Displayed<'a> {
+    /// The picture.
+    pub picture: &'a Picture8,
+    /// Its encoding.
+    pub encoding: Encoding,
+}
+
+impl LevelRows for Displayed<'_> {
+    fn size(&self) -> [usize; 2] {
+        [self.picture.width(), self.picture.height()]
+    }
+
+    fn level_row(&self, y: usize, levels: &mut [Levels]) {
+        let shown: [f64; 256] = core::array::from_fn(|level| match self.encoding {
+            Encoding::Srgb => level as f64,
+            Encoding::Linear => 255.0 * srgb_encode_f64(level as f64 / 255.0),
+        });
+        for (levels, [r, g, b, _]) in levels.iter_mut().zip(self.picture.row(y)) {
+            let [r, g, b] = [r, g, b].map(|level| shown[usize::from(*level)]);
+            *levels = Levels([r, g, b, 255.0]);
         }
     }
 }

@@ -186,7 +186,7 @@ fn flags_of_render_are_in_the_page() {
 fn flags_have_the_pictures_that_the_tool_draws() {
     let commands: BTreeSet<&str> = FLAGS.iter().flat_map(|row| [row[2], row[3]]).collect();
     let drawn: BTreeMap<&str, Vec<u8>> = commands.into_iter().map(|c| (c, draw(c))).collect();
-    let picture = |bytes: &[u8]| decode_picture(bytes).expect("a picture");
+    let picture = |bytes: &[u8]| decode_picture(bytes).expect("a picture").to_stored();
     if std::env::var_os("FASTPHONG_BLESS").is_some() {
         let _ = std::fs::remove_dir_all(root().join(PICTURES));
         std::fs::create_dir_all(root().join(PICTURES)).expect(PICTURES);

@@ -36,7 +36,7 @@ use super::metrics::{Difference, Perceived, mean_flip};
 use super::timing::TimeLimits;
 use crate::frame::triangulate::triangulated;
 use crate::frame::{Frame, FrameStats};
-use crate::picture::encoding::store;
+use crate::picture::encoding::{Displayed, store};
 use crate::picture::{Alpha, Encoding, LinearPicture, Picture8};
 use crate::raster::{Renderer, coverage};
 use crate::reference::Model;
@@ -365,9 +365,12 @@ impl Comparison {
     /// Finds the mean ꟻLIP of all rows, [`Difference::flip`] of their errors. It is that of the pictures as they are
     /// stored; pixels that show another polygon count as well.
     pub fn perceive(&mut self) {
-        let reference = Perceived::new(&store(&self.reference, self.encoding));
+        let encoding = self.encoding;
+        let perceived = |picture| Perceived::new(&Displayed { picture, encoding });
+        let stored = store(&self.reference, encoding);
+        let reference = perceived(&stored);
         for row in self.rows.iter_mut().chain(&mut self.barycentric) {
-            let map = reference.flip(&Perceived::new(&row.picture));
+            let map = reference.flip(&perceived(&row.picture));
             row.error.flip = map.ok().map(|map| mean_flip(&map));
         }
     }

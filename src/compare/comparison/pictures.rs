@@ -1,10 +1,11 @@
 //! Pictures against references.
 
 use super::{DrawnBy, MethodRow, Triangulation};
-use crate::compare::metrics::{Difference, compare_where};
+use crate::compare::metrics::{Difference, compare_where, ssim_where};
 use crate::frame::Frame;
 use crate::frame::triangulate::Triangulated;
-use crate::picture::{LinearPicture, Picture, Picture8};
+use crate::picture::encoding::{Displayed, store};
+use crate::picture::{Encoding, LinearPicture, Picture, Picture8};
 use crate::raster::{Edges, Renderer, barycentric_polygon_numbers, polygon_numbers};
 use crate::reference::{self, Model, Visibility};
 use crate::shading::Variant;
@@ -147,7 +148,12 @@ impl ClosedForms<'_> {
     /// Compares `actual` with a closed form where both show the same polygon.
     fn difference(&self, model: Model, actual: &LinearPicture, shown: &Picture<u32>) -> Difference {
         let seen = &self.visibility.polygons;
-        difference(self.picture(model), actual, [seen, shown])
+        difference(
+            self.picture(model),
+            actual,
+            [seen, shown],
+            self.frame.encoding(),
+        )
     }
 }
 
@@ -158,15 +164,24 @@ fn same_polygons([seen, shown]: [&Picture<u32>; 2], side: usize, x: usize, y: us
         .all(|row| seen.row(row)[columns.clone()] == shown.row(row)[columns.clone()])
 }
 
-/// Compares two pictures where those of their polygons have the same one.
+/// Compares two pictures where those of their polygons have the same one. SSIM is that of the pictures as they are stored and shown.
 fn difference(
     reference: &LinearPicture,
     actual: &LinearPicture,
     polygons: [&Picture<u32>; 2],
+    encoding: Encoding,
 ) -> Difference {
+    const ONE_SIZE: &str = "pictures of one frame have one size";
     let side = polygons[0].width() / reference.width();
     let is_same = |x, y| same_polygons(polygons, side, x, y);
-    compare_where(reference, actual, is_same).expect("pictures of one frame have one size")
+    let stored = [reference, actual].map(|picture| store(picture, encoding));
+    let [r, a] = stored
+        .each_ref()
+        .map(|picture| Displayed { picture, encoding });
+    Difference {
+        ssim: ssim_where(&r, &a, is_same).expect(ONE_SIZE),
+        ..compare_where(reference, actual, is_same).expect(ONE_SIZE)
+    }
 }
 
 #[cfg(test)]
@@ -202,9 +217,9 @@ mod tests {
         actual.row_mut(0)[1] = [0.9, 0.9, 0.9, 1.0];
         let seen = Picture::from_pixels(2, 1, [3, 4].into()).unwrap();
         let shown = Picture::from_pixels(2, 1, [3, 5].into()).unwrap();
-        let same = difference(&reference, &actual, [&seen, &seen]);
+        let same = difference(&reference, &actual, [&seen, &seen], Encoding::Linear);
         assert!(same.max > 0.39 && same.excluded == 0);
-        let masked = difference(&reference, &actual, [&seen, &shown]);
+        let masked = difference(&reference, &actual, [&seen, &shown], Encoding::Linear);
         assert!(masked.equal && masked.compared == 1 && masked.excluded == 1);
     }
 }

@@ -33,7 +33,7 @@ pub use map::{BEYOND, BEYOND_DARKER, COVERAGE, EQUAL, difference_map, signed_dif
 use percentile::Percentile;
 use rows::for_each_row;
 use ssim::MeanSsim;
-pub use ssim::ssim;
+pub use ssim::{ssim, ssim_where};
 
 /// Share of the compared pixels whose error does not exceed [`Difference::p99`].
 const PERCENTILE: f64 = 0.99;

@@ -1,7 +1,7 @@
 //! Structural similarity.
 
 use super::{MAX_PERCEIVED, SizeMismatch, for_each_row};
-use crate::picture::{LevelRows, Levels};
+use crate::picture::LevelRows;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::{AddAssign, Mul};
@@ -38,16 +38,32 @@ pub fn ssim(
     reference: &dyn LevelRows,
     actual: &dyn LevelRows,
 ) -> Result<Option<f64>, SizeMismatch> {
+    ssim_where(reference, actual, |_, _| true)
+}
+
+/// Returns the mean structural similarity as [`ssim`] does, where pixels count as equal for whose column and row `included` does
+/// not hold.
+///
+/// # Errors
+/// If the sizes differ.
+pub fn ssim_where(
+    reference: &dyn LevelRows,
+    actual: &dyn LevelRows,
+    included: impl Fn(usize, usize) -> bool,
+) -> Result<Option<f64>, SizeMismatch> {
     SizeMismatch::check(reference.size(), actual.size())?;
     let [width, height] = reference.size();
     let Some(mut ssim) = MeanSsim::new(width).filter(|_| width * height <= MAX_PERCEIVED) else {
         return Ok(None);
     };
-    let luminance = |row: &[Levels]| -> Vec<f64> {
-        row.iter().map(|pixel| pixel.luminance() / 255.0).collect()
-    };
-    for_each_row(reference, actual, |_, r_row, a_row| {
-        ssim.add(&luminance(r_row), &luminance(a_row));
+    let mut luminance = [(); 2].map(|()| vec![0.0; width]);
+    for_each_row(reference, actual, |y, r_row, a_row| {
+        for x in 0..width {
+            let other = if included(x, y) { a_row } else { r_row };
+            luminance[0][x] = r_row[x].luminance() / 255.0;
+            luminance[1][x] = other[x].luminance() / 255.0;
+        }
+        ssim.add(&luminance[0], &luminance[1]);
     });
     Ok(ssim.finish())
 }
