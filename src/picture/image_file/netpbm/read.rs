@@ -67,7 +67,7 @@ impl Kind {
 pub(crate) fn read(kind: Kind, input: &mut dyn BufRead) -> Result<FilePicture, ReadProblem> {
     let mut file = Reader { kind, input };
     // The two bytes that announced the format.
-    (file.byte()?, file.byte()?);
+    file.fill(&mut [0; 2])?;
     let mut picture = match kind.layout {
         Layout::Floats(channels) => return file.floats(channels),
         Layout::Arbitrary => file.arbitrary()?,
