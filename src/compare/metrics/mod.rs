@@ -193,9 +193,11 @@ pub fn compare_where(
             } else {
                 sums.counts.excluded += 1;
             }
-            let is_shown = included && difference.is_some();
-            luminance[0].push(r.luminance() / 255.0);
-            luminance[1].push(if is_shown { a } else { r }.luminance() / 255.0);
+            if ssim.is_some() {
+                let is_shown = included && difference.is_some();
+                luminance[0].push(r.luminance() / 255.0);
+                luminance[1].push(if is_shown { a } else { r }.luminance() / 255.0);
+            }
         }
         if let Some(ssim) = &mut ssim {
             ssim.add(&luminance[0], &luminance[1]);
@@ -230,11 +232,25 @@ struct PixelDifference {
 }
 
 impl PixelDifference {
+    /// The difference of a finite pixel from itself.
+    const EQUAL: PixelDifference = PixelDifference {
+        errors: [0.0; 3],
+        differs: false,
+        is_mismatch: false,
+        is_not_finite: false,
+        is_not_finite_differing: false,
+        luminance: 0.0,
+    };
+
     /// Returns the difference of two pixels, `None` if neither picture covers them.
     fn new(reference: Levels, actual: Levels) -> Option<PixelDifference> {
         let covered = [reference, actual].map(|pixel| pixel.alpha() != 0.0);
         if covered == [false, false] {
             return None;
+        }
+        // Most pixels of pictures that are compared are equal. One with NaN is not equal to itself here.
+        if reference == actual && reference.0.iter().all(|level| level.is_finite()) {
+            return Some(PixelDifference::EQUAL);
         }
         let is_mismatch = covered[0] != covered[1];
         let [mut errors @ .., alpha] = channel_errors(reference, actual);
