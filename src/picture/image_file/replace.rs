@@ -69,16 +69,16 @@ fn drafts() -> MutexGuard<'static, Vec<PathBuf>> {
 }
 
 /// A place in [`DRAFTS`], as long as it lives.
-struct Listed(PathBuf);
+struct ListedDraft(PathBuf);
 
-impl Drop for Listed {
+impl Drop for ListedDraft {
     fn drop(&mut self) {
         drafts().retain(|draft| *draft != self.0);
     }
 }
 
 /// Makes an empty file in `folder`, with the permissions of `old`, and lists it. No draft is on the disk that is not listed.
-fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(Listed, NamedTempFile)> {
+fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(ListedDraft, NamedTempFile)> {
     let mut new = Builder::new();
     #[cfg(unix)]
     {
@@ -91,7 +91,7 @@ fn draft(folder: &Path, old: Option<&Metadata>) -> io::Result<(Listed, NamedTemp
     let mut drafts = drafts();
     let draft = new.tempfile_in(folder)?;
     drafts.push(draft.path().to_owned());
-    Ok((Listed(draft.path().to_owned()), draft))
+    Ok((ListedDraft(draft.path().to_owned()), draft))
 }
 
 /// Returns the path of the file that is made by writing to `path`, where nothing is yet: links are followed to their end.
