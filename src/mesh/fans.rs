@@ -1,8 +1,6 @@
-//! The corners around each vertex, and the groups of them that share an average.
+//! The corners around each vertex, and the surfaces that they are on.
 
 use super::PolygonMesh;
-use super::newell::unit_normal;
-use crate::number::parallel::collect;
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -65,6 +63,16 @@ struct EdgeEnd {
     item: u32,
 }
 
+/// What corners must have in common to share an average, beside the vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Smoothing {
+    /// The surface: see [`SurfaceFinder`].
+    Surfaces,
+    /// The surface and the smoothing group, where the mesh has some; a polygon that is [`PolygonMesh::FACETED`] shares with
+    /// none.
+    Groups,
+}
+
 /// The cosine of 179 degrees: two polygons whose normals are farther apart than that are the sides of a sheet, and their edge
 /// is its rim. An average over both would cancel, and tell nothing.
 const FOLDED: f64 = -0.999_847_695_156_391_3;
@@ -84,11 +92,11 @@ pub(super) struct SurfaceFinder<'a> {
     mesh: &'a PolygonMesh,
     /// The vertex at each position.
     vertex: &'a [u32],
-    /// Polygon normals, any length.
+    /// Unit normals of the polygons, zero for a polygon that has none.
     normals: &'a [DVec3],
     ends: Vec<EdgeEnd>,
     parents: Vec<u32>,
-    /// The surface of each corner of the fan looked at last, numbered in order of appearance.
+    /// The surface of each corner of the fan looked at last, or the group.
     pub surfaces: Vec<u32>,
 }
 
@@ -105,6 +113,98 @@ impl<'a> SurfaceFinder<'a> {
             parents: Vec::new(),
             surfaces: Vec::new(),
         }
+    }
+
+    /// Finds the groups of corners at `v` that share an average: those on one surface, and under [`Smoothing::Groups`] in one
+    /// smoothing group. Returns their number, and leaves that of each corner in [`SurfaceFinder::surfaces`].
+    pub fn find_groups(&mut self, v: usize, fan: &[FanCorner], smoothing: Smoothing) -> usize {
+        let count = self.find(v, fan);
+        if self.is_in_one_group(fan, smoothing) {
+            return count;
+        }
+        let keys = fan.iter().zip(&self.surfaces).enumerate();
+        let mut keys: Vec<_> = keys
+            .map(|(item, (corner, &surface))| (surface, self.smoothing_group(corner.polygon), item))
+            .collect();
+        keys.sort_unstable();
+        let groups = keys.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
+        groups.zip(0..).fold(0, |_, (group, number)| {
+            group.iter().for_each(|key| self.surfaces[key.2] = number);
+            number as usize + 1
+        })
+    }
+
+    /// True if smoothing groups do not part the corners of `fan`.
+    fn is_in_one_group(&self, fan: &[FanCorner], smoothing: Smoothing) -> bool {
+        let group = |item: &FanCorner| self.smoothing_group(item.polygon);
+        smoothing == Smoothing::Surfaces
+            || !self.mesh.has_smoothing_groups()
+            || fan.iter().all(|item| group(item) == group(&fan[0]))
+    }
+
+    /// Returns the smoothing group of a polygon, and the polygon itself if it shares with none.
+    fn smoothing_group(&self, polygon: u32) -> (u32, u32) {
+        match self.mesh.smoothing_group(polygon as usize) {
+            Some(PolygonMesh::FACETED) => (PolygonMesh::FACETED, polygon),
+            group => (group.unwrap_or(PolygonMesh::FACETED + 1), 0),
+        }
+    }
+
+    /// True if all corners of `fan`, those around `v`, are a group, and that is quickly seen: polygons follow one another around
+    /// the vertex, of which each edge has two at most. Nearly all vertices of nearly all meshes are such.
+    pub fn is_simple(&self, v: usize, fan: &[FanCorner], smoothing: Smoothing) -> bool {
+        const MOST: usize = 16;
+        let count = fan.len();
+        if count == 0 || count > MOST || !self.is_in_one_group(fan, smoothing) {
+            return count == 0;
+        }
+        // The vertices before and after each corner in its polygon.
+        let (mut before, mut after) = ([u32::MAX; MOST], [u32::MAX; MOST]);
+        for (item, &FanCorner { corner, polygon }) in fan.iter().enumerate() {
+            [before[item], after[item]] = self.neighbours(corner, polygon);
+            let is_other_part =
+                self.mesh.part(polygon as usize) != self.mesh.part(fan[0].polygon as usize);
+            if before[item] == v as u32 || after[item] == v as u32 || is_other_part {
+                return false;
+            }
+        }
+        // From the first corner on until there is no next one, or the first one again; then the other way.
+        let mut met = 1;
+        for (to, from) in [(&after, &before), (&before, &after)] {
+            let mut item = 0;
+            loop {
+                let places = |all: &[u32; MOST]| {
+                    let other = to[item];
+                    (0..MOST).fold(0u32, |bits, k| bits | u32::from(all[k] == other) << k)
+                };
+                let (alike, next) = (places(to), places(from));
+                if alike.count_ones() > 1 || next.count_ones() > 1 {
+                    return false;
+                }
+                let next = next.trailing_zeros() as usize;
+                if next >= count {
+                    break;
+                }
+                if self.is_folded(fan[item].polygon, fan[next].polygon) {
+                    return false;
+                }
+                if next == 0 {
+                    // Once around: there is no other way.
+                    return met == count;
+                }
+                (item, met) = (next, met + 1);
+            }
+        }
+        met == count
+    }
+
+    /// Returns the vertices before and after a corner of a polygon.
+    fn neighbours(&self, corner: u32, polygon: u32) -> [u32; 2] {
+        let range = self.mesh.corner_range(polygon as usize);
+        let (corner, first, last) = (corner as usize, range.start, range.end - 1);
+        let before = if corner == first { last } else { corner - 1 };
+        let after = if corner == last { first } else { corner + 1 };
+        [before, after].map(|corner| self.vertex[self.mesh.corners()[corner] as usize])
     }
 
     /// Finds the surfaces at `v`, around which are the corners of `fan`; returns their number.
@@ -137,13 +237,8 @@ impl<'a> SurfaceFinder<'a> {
             if item > 0 && fan[item - 1].polygon == polygon {
                 self.link(item as u32 - 1, item as u32);
             }
-            let range = self.mesh.corner_range(polygon as usize);
-            let corner = corner as usize;
-            let (first, last) = (range.start, range.end - 1);
-            let before = if corner == first { last } else { corner - 1 };
-            let after = if corner == last { first } else { corner + 1 };
-            for (neighbour, leaves) in [(before, false), (after, true)] {
-                let other = self.vertex[self.mesh.corners()[neighbour] as usize];
+            let neighbours = self.neighbours(corner, polygon).into_iter();
+            for (other, leaves) in neighbours.zip([false, true]) {
                 // An edge without length is one of two corners of a polygon here, which are linked already.
                 if other != v {
                     self.ends.push(EdgeEnd {
@@ -159,12 +254,7 @@ impl<'a> SurfaceFinder<'a> {
 
     /// True if two polygons along an edge are the sides of a sheet.
     fn is_folded(&self, p: u32, q: u32) -> bool {
-        let [p, q] = [p, q].map(|polygon| self.normals[polygon as usize]);
-        // Nearly all pairs are decided without a root.
-        p.dot(q) < 0.0
-            && unit_normal(p)
-                .zip(unit_normal(q))
-                .is_some_and(|(p, q)| p.dot(q) < FOLDED)
+        self.normals[p as usize].dot(self.normals[q as usize]) < FOLDED
     }
 
     /// Links the polygons along an edge that are not one in each direction.
@@ -175,16 +265,14 @@ impl<'a> SurfaceFinder<'a> {
             }
             return;
         }
-        let normal = |end: &EdgeEnd| {
-            let polygon = fan[end.item as usize].polygon as usize;
-            unit_normal(self.normals[polygon])
-        };
+        let normal = |end: &EdgeEnd| self.normals[fan[end.item as usize].polygon as usize];
         let mut pairs = Vec::new();
         for (i, a) in arriving.iter().enumerate() {
-            let own = normal(a);
             for (j, b) in leaving.iter().enumerate() {
+                let (p, q) = (normal(a), normal(b));
                 // A polygon without a normal comes last.
-                let cosine = own.zip(normal(b)).map_or(-2.0, |(a, b)| a.dot(b));
+                let has_both = p != DVec3::ZERO && q != DVec3::ZERO;
+                let cosine = if has_both { p.dot(q) } else { -2.0 };
                 // The same order at both ends of the edge, where arriving and leaving change places.
                 let order = (a.item.min(b.item), a.item.max(b.item));
                 pairs.push((cosine, order, (i, j)));
@@ -233,95 +321,4 @@ impl<'a> SurfaceFinder<'a> {
         }
         count as usize
     }
-}
-
-/// The corners that share an average.
-pub(super) enum Sharing {
-    /// All corners at a vertex do.
-    Vertices,
-    /// Those of equal numbers do, which are below `count`.
-    Groups {
-        /// The number of each corner.
-        corners: Vec<u32>,
-        count: usize,
-    },
-}
-
-/// What corners must have in common to share an average, beside the vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Smoothing {
-    /// The surface: see [`SurfaceFinder`].
-    Surfaces,
-    /// The surface and the smoothing group, where the mesh has some; a polygon that is [`PolygonMesh::FACETED`] shares with none.
-    Groups,
-}
-
-impl Sharing {
-    /// Finds the corners that share an average at each of `count` vertices; `vertex` is the one at each position, `normals`
-    /// are those of polygons, of any length.
-    pub fn new(
-        mesh: &PolygonMesh,
-        vertex: &[u32],
-        count: usize,
-        normals: &[DVec3],
-        smoothing: Smoothing,
-    ) -> Sharing {
-        const RUN: usize = 1024;
-        let fans = Fans::new(mesh, vertex, count);
-        // For runs of vertices, the groups of the corners around them, and the number of groups.
-        let runs = collect(count.div_ceil(RUN), 1, |run| {
-            let mut finder = SurfaceFinder::new(mesh, vertex, normals);
-            let (mut groups, mut next) = (Vec::new(), 0);
-            for v in run * RUN..count.min(run * RUN + RUN) {
-                let fan = fans.of(v);
-                let mut found = finder.find(v, fan);
-                if smoothing == Smoothing::Groups {
-                    found = split(mesh, fan, &mut finder.surfaces, found);
-                }
-                groups.extend(finder.surfaces.iter().map(|group| next + group));
-                // A vertex without corners takes a number too, so that in simple meshes groups are vertices.
-                next += found.max(1) as u32;
-            }
-            (groups, next)
-        });
-        let total: usize = runs.iter().map(|(_, groups)| *groups as usize).sum();
-        if total == count {
-            return Sharing::Vertices;
-        }
-        let mut corners = vec![0; mesh.corners().len()];
-        let (mut first, mut items) = (0, fans.items.iter());
-        for (groups, of_run) in runs {
-            for (group, item) in groups.iter().zip(items.by_ref()) {
-                corners[item.corner as usize] = first + group;
-            }
-            first += of_run;
-        }
-        Sharing::Groups {
-            corners,
-            count: total,
-        }
-    }
-}
-
-/// Splits the surfaces around a vertex by smoothing groups; returns the number of parts.
-fn split(mesh: &PolygonMesh, fan: &[FanCorner], surfaces: &mut [u32], count: usize) -> usize {
-    let group = |item: usize| {
-        let polygon = fan[item].polygon;
-        match mesh.smoothing_group(polygon as usize) {
-            Some(PolygonMesh::FACETED) => (PolygonMesh::FACETED, polygon),
-            group => (group.unwrap_or(PolygonMesh::FACETED + 1), 0),
-        }
-    };
-    if (1..fan.len()).all(|item| group(item) == group(0)) {
-        return count;
-    }
-    let mut keys: Vec<_> = (0..fan.len())
-        .map(|item| (surfaces[item], group(item), item))
-        .collect();
-    keys.sort_unstable();
-    let parts = keys.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
-    parts.zip(0..).fold(0, |_, (part, number)| {
-        part.iter().for_each(|key| surfaces[key.2] = number);
-        number as usize + 1
-    })
 }

@@ -13,7 +13,6 @@ pub mod orientation;
 mod origin;
 pub mod shapes;
 pub mod vertex_normals;
-mod vertex_sums;
 pub mod weld;
 
 use alloc::vec::Vec;

@@ -1,9 +1,8 @@
 //! Vertex normals: averaged (L21 3.1), given, or averaged up to a crease.
 
 use super::cap_sums::CapSums;
-use super::fans::{FanCorner, Fans, Sharing, Smoothing, SurfaceFinder};
+use super::fans::{FanCorner, Fans, Smoothing, SurfaceFinder};
 use super::newell::{polygon_normals, unit_normal};
-use super::vertex_sums::{Sum, sums};
 use super::weld::weld;
 use super::{GivenNormals, PolygonMesh};
 use crate::number::parallel::collect;
@@ -174,50 +173,135 @@ fn direction(sum: DVec3, count: u32) -> Option<DVec3> {
     (length > count * (4.0 + count) * f64::EPSILON).then(|| sum / length)
 }
 
+/// Returns the unit normals of all polygons, zero for one that has none.
+fn unit_normals(polygons: &[DVec3]) -> Vec<DVec3> {
+    let unit = |p: usize| unit_normal(polygons[p]).unwrap_or(DVec3::ZERO);
+    collect(polygons.len(), 4096, unit)
+}
+
+/// The sum of unit normals over some of the polygons at a vertex (L21 3.1).
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    normal: DVec3,
+    count: u32,
+    /// The polygon that was added last, counted from 1: one that passes twice counts once.
+    latest: u32,
+}
+
+impl Sum {
+    fn add(&mut self, polygon: u32, normals: &[DVec3]) {
+        let normal = normals[polygon as usize];
+        if normal != DVec3::ZERO && self.latest != polygon + 1 {
+            self.latest = polygon + 1;
+            self.normal += normal; // 3.1
+            self.count += 1;
+        }
+    }
+
+    /// Returns the direction of the sum, [`NO_NORMAL`] for that of nothing; `None` where the sum vanishes.
+    fn average(&self) -> Option<Vec3> {
+        let average = match self.count {
+            0 => Some(NO_NORMAL),
+            count => direction(self.normal, count),
+        };
+        average.map(|normal| normal.as_vec3())
+    }
+}
+
+/// The averages at some vertices that follow one another.
+#[derive(Clone, Default)]
+struct AveragedRun {
+    values: Vec<Vec3>,
+    /// The value of each corner at these vertices, in the order of [`Fans`]; empty if each vertex has one.
+    numbers: Vec<u32>,
+}
+
 fn averaged(mesh: &PolygonMesh, polygons: &[DVec3], smoothing: Smoothing) -> CornerNormals {
-    let (vertex, vertices) = weld(mesh.positions());
-    let sharing = Sharing::new(mesh, &vertex, vertices, polygons, smoothing);
-    let (sums, count) = match &sharing {
-        Sharing::Vertices => {
-            let at = |corner: usize| vertex[mesh.corners()[corner] as usize] as usize;
-            (sums(mesh, polygons, at, vertices), vertices)
+    const RUN: usize = 1024;
+    let (vertex, count) = weld(mesh.positions());
+    let normals = unit_normals(polygons);
+    let fans = Fans::new(mesh, &vertex, count);
+    let runs = collect(count.div_ceil(RUN), 1, |run| {
+        let vertices = run * RUN..count.min(run * RUN + RUN);
+        let mut finder = SurfaceFinder::new(mesh, &vertex, &normals);
+        let simple = vertices.clone().map(|v| {
+            let fan = fans.of(v);
+            let mut sum = Sum::default();
+            fan.iter().for_each(|item| sum.add(item.polygon, &normals));
+            let is_simple = finder.is_simple(v, fan, smoothing);
+            is_simple.then(|| sum.average()).flatten()
+        });
+        if let Some(values) = simple.collect() {
+            let numbers = Vec::new();
+            return AveragedRun { values, numbers };
         }
-        Sharing::Groups { corners, count } => {
-            let group = |corner: usize| corners[corner] as usize;
-            (sums(mesh, polygons, group, *count), *count)
+        let mut of_run = AveragedRun::default();
+        for v in vertices {
+            let fan = fans.of(v);
+            let groups = finder.find_groups(v, fan, smoothing);
+            of_run.add_vertex(fan, &finder.surfaces, groups, &normals);
         }
-    };
-    let mut values = collect(count, 4096, |v| {
-        direction(sums[v].normal, sums[v].count)
-            .unwrap_or(NO_NORMAL)
-            .as_vec3()
-    }); // 3.1
-    // A vertex without any summand has only corners of polygons without a normal, which have none of their own to take.
-    let vanishes = |sum: &Sum| sum.count > 0 && direction(sum.normal, sum.count).is_none();
-    let vanishes = collect(count, 4096, |v| vanishes(&sums[v]));
-    drop(sums);
-    let mut corners = match sharing {
-        Sharing::Vertices if !vanishes.contains(&true) => {
-            return CornerNormals::ByPosition {
-                values,
-                positions: vertex,
-            };
+        of_run
+    });
+    let is_simple = runs.iter().all(|run| run.numbers.is_empty());
+    let mut corners = vec![0; if is_simple { 0 } else { mesh.corners().len() }];
+    let mut values = Vec::with_capacity(count);
+    for (run, of_run) in runs.into_iter().enumerate() {
+        let first = values.len() as u32;
+        values.extend(of_run.values);
+        if is_simple {
+            continue;
         }
-        Sharing::Vertices => corners_of(mesh, &vertex),
-        Sharing::Groups { corners, .. } => corners,
-    };
-    for p in 0..mesh.polygon_count() {
-        let mut own = None;
-        for corner in &mut corners[mesh.corner_range(p)] {
-            if vanishes[*corner as usize] {
-                *corner = *own.get_or_insert_with(|| {
-                    values.push(unit_normal(polygons[p]).unwrap_or(NO_NORMAL).as_vec3());
-                    values.len() as u32 - 1
-                });
+        let vertices = run * RUN..count.min(run * RUN + RUN);
+        let mut numbers = of_run.numbers.iter();
+        for v in vertices.clone() {
+            for item in fans.of(v) {
+                let number = numbers.next().copied();
+                let number = number.unwrap_or((v - vertices.start) as u32);
+                corners[item.corner as usize] = first + number;
             }
         }
     }
-    CornerNormals::ByCorner(VertexNormals { values, corners })
+    match is_simple {
+        true => CornerNormals::ByPosition {
+            values,
+            positions: vertex,
+        },
+        false => CornerNormals::ByCorner(VertexNormals { values, corners }),
+    }
+}
+
+impl AveragedRun {
+    /// Adds the averages of `count` groups of the corners in `fan`; where one vanishes, the normals of its polygons.
+    fn add_vertex(&mut self, fan: &[FanCorner], groups: &[u32], count: usize, normals: &[DVec3]) {
+        let mut sums = vec![Sum::default(); count];
+        for (item, &group) in fan.iter().zip(groups) {
+            sums[group as usize].add(item.polygon, normals);
+        }
+        let mut add = |value: Vec3| {
+            self.values.push(value);
+            self.values.len() as u32 - 1
+        };
+        let averages: Vec<Option<u32>> =
+            sums.iter().map(|sum| sum.average().map(&mut add)).collect();
+        let mut own = (u32::MAX, 0);
+        for (item, &group) in fan.iter().zip(groups) {
+            let number = averages[group as usize].unwrap_or_else(|| {
+                // The corners of one polygon stand next to each other.
+                if own.0 != item.polygon {
+                    let normal = normals[item.polygon as usize];
+                    let normal = if normal == DVec3::ZERO {
+                        NO_NORMAL
+                    } else {
+                        normal
+                    };
+                    own = (item.polygon, add(normal.as_vec3()));
+                }
+                own.1
+            });
+            self.numbers.push(number);
+        }
+    }
 }
 
 /// Returns the given normals; where there is none, averaged ones over what `smoothing` says.
@@ -260,9 +344,9 @@ fn creased(mesh: &PolygonMesh, degrees: f64, polygons: &[DVec3]) -> VertexNormal
     // edge does not break it.
     let least_cosine = libm::cos(degrees.clamp(0.0, 180.0).to_radians()) - 16.0 * f64::EPSILON;
     let (vertex, count) = weld(mesh.positions());
-    let normals: Vec<Option<DVec3>> = polygons.iter().map(|&normal| unit_normal(normal)).collect();
+    let normals = unit_normals(polygons);
     let fans = Fans::new(mesh, &vertex, count);
-    let mut finder = SurfaceFinder::new(mesh, &vertex, polygons);
+    let mut finder = SurfaceFinder::new(mesh, &vertex, &normals);
     let mut values: Vec<Vec3> = Vec::with_capacity(count);
     let mut corners = vec![0u32; mesh.corners().len()];
     let (mut fan, mut found) = (Vec::new(), Vec::new());
@@ -295,30 +379,31 @@ const MANY: usize = 128;
 /// crease away.
 fn creased_surface(
     surface: &[(usize, FanCorner)],
-    normals: &[Option<DVec3>],
+    normals: &[DVec3],
     least_cosine: f64,
     found: &mut Vec<Vec3>,
 ) {
     // The corners of one polygon stand next to each other, so that one that passes twice is counted once.
     let mut around: Vec<u32> = surface.iter().map(|(_, item)| item.polygon).collect();
     around.dedup();
-    let around = around.iter().filter_map(|&p| normals[p as usize]);
-    let around: Vec<DVec3> = around.collect();
+    let around = around.iter().map(|&p| normals[p as usize]);
+    let around: Vec<DVec3> = around.filter(|&normal| normal != DVec3::ZERO).collect();
     let add = |(sum, count): (DVec3, u32), normal: &DVec3| (sum + normal, count + 1); // 3.1
     let all = around.iter().fold((DVec3::ZERO, 0), add);
     let tree = (around.len() > MANY).then(|| CapSums::new(around.clone()));
     for (_, item) in surface {
         let own = normals[item.polygon as usize];
-        let (sum, count) = match (own, &tree) {
-            (None, _) => all,
-            (Some(own), Some(tree)) => tree.within(own, least_cosine),
-            (Some(own), None) => {
+        let has_normal = own != DVec3::ZERO;
+        let (sum, count) = match &tree {
+            _ if !has_normal => all,
+            Some(tree) => tree.within(own, least_cosine),
+            None => {
                 let near = around.iter().filter(|n| own.dot(**n) >= least_cosine);
                 near.fold((DVec3::ZERO, 0), add)
             }
         };
-        let value = direction(sum, count).or(own).unwrap_or(NO_NORMAL);
-        found.push(value.as_vec3());
+        let value = direction(sum, count).or(has_normal.then_some(own));
+        found.push(value.unwrap_or(NO_NORMAL).as_vec3());
     }
 }
 
