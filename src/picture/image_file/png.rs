@@ -140,10 +140,12 @@ fn pixels<const BYTES: usize, S: Copy + Default>(
         true => {
             // Rows come in seven passes, so that all are there only at the end.
             let size = width * height * channels * BYTES;
-            let mut rows = Vec::new();
             let no_memory = |_| DecodeError::NoMemory { width, height };
-            rows.try_reserve_exact(size).map_err(no_memory)?;
-            rows.resize(size, 0);
+            Vec::<u8>::new()
+                .try_reserve_exact(size)
+                .map_err(no_memory)?;
+            // Zeroed memory is untouched until rows are written to it: a file that is cut off costs nothing.
+            let mut rows = vec![0; size];
             reader.next_frame(&mut rows).map_err(broken)?;
             add(&rows);
         }
@@ -241,6 +243,15 @@ fn broken(error: png::DecodingError) -> DecodeError {
             "it needs more memory than its size explains: expected smaller chunks".into()
         }
         error => error.to_string(),
+    };
+    // The decoder says this in its own types.
+    let problem = match problem.strip_prefix("CRC error: ") {
+        Some(found) => {
+            let named = found.split_once("type: ").unwrap_or_default().1;
+            let chunk = named.split(',').next().unwrap_or_default();
+            format!("it is damaged: the checksum of its chunk {chunk} is wrong")
+        }
+        None => problem,
     };
     DecodeError::malformed(NAME, problem)
 }

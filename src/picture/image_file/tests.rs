@@ -281,36 +281,33 @@ fn alpha_counts_only_if_both_files_have_it() {
 /// Straight alpha against a file without alpha: over the stated background, in linear light.
 #[test]
 fn a_picture_with_alpha_is_put_over_its_background_before_one_without() {
-    // Half of white over black is 188 in sRGB: 255 (1.055 (128/255)^(1/2.4) − 0.055) = 187.84.
-    let straight = Picture8::from_pixels(3, 1, vec![[255, 255, 255, 128], [9; 4], [7, 8, 9, 0]]);
+    let pixels = vec![[200, 100, 255, 102], [9, 9, 9, 255], [7, 8, 9, 0]];
     let straight = FilePicture {
-        background: Some([0.0; 3]),
-        ..FilePicture::stored(straight.unwrap()).encoded(Encoding::Srgb)
+        background: Some([10.0, 20.0, 30.0]),
+        ..FilePicture::stored(Picture8::from_pixels(3, 1, pixels).unwrap()).encoded(Encoding::Srgb)
     };
     let read = decode_picture(&straight.encode(Format::Png).unwrap()).unwrap();
     assert_eq!(read, straight, "the chunks come back");
-    let [view, _] = {
-        let flat = FilePicture {
-            has_alpha: false,
-            ..FilePicture::stored(Picture8::new(3, 1, [0, 0, 0, 255]))
-        };
-        let pair = Pair::new(&read, &flat, None);
-        assert_eq!(pair.alpha(), AlphaUse::Flattened { of_reference: true });
-        pair.compared().map(|view| {
-            let mut row = [Levels([0.0; 4]); 3];
-            view.level_row(0, &mut row);
-            row
-        })
+    let flat = FilePicture {
+        has_alpha: false,
+        ..FilePicture::stored(Picture8::new(3, 1, [0, 0, 0, 255]))
     };
-    let expected = 255.0 * crate::picture::encoding::srgb_encode_f64(128.0 / 255.0);
-    assert!((expected - 187.84).abs() < 0.01);
-    // One product and one sum in linear light, which is 1 at most, and the slope of the curve, under 1 here: below 4 · 2⁻⁵³ of 255.
-    assert!((view[0].0[0] - expected).abs() < 3e-13, "{:?}", view[0]);
+    let pair = Pair::new(&read, &flat, None);
+    assert_eq!(pair.alpha(), AlphaUse::Flattened { of_reference: true });
+    let mut row = [Levels([0.0; 4]); 3];
+    pair.compared()[0].level_row(0, &mut row);
+    // By the formulas of IEC 61966-2-1 in Python: 0.4 of the light of 200 and 0.6 of that of 10, and so on.
+    let known = [132.555_771, 66.421_994, 171.104_004];
+    for (level, known) in row[0].rgb().into_iter().zip(known) {
+        assert!((level - known).abs() < 1e-5, "{level} is not {known}");
+    }
     assert_eq!(
-        view[2],
-        Levels([0.0, 0.0, 0.0, 255.0]),
-        "colours under alpha 0 do not count"
+        row[1],
+        Levels([9.0, 9.0, 9.0, 255.0]),
+        "opaque pixels stay as they are"
     );
+    let background = Levels([10.0, 20.0, 30.0, 255.0]);
+    assert_eq!(row[2], background, "colours under alpha 0 do not count");
 }
 
 #[test]
@@ -417,6 +414,10 @@ fn a_changed_byte_never_panics() {
     let mut bytes = encode_png(&stored()).unwrap();
     bytes[8 + 25 + 8 + 20] ^= 1;
     assert!(message(&bytes).starts_with("broken PNG file: "));
+    let mut bytes = encode_png(&stored()).unwrap();
+    bytes[8 + 24] ^= 1;
+    let told = "broken PNG file: it is damaged: the checksum of its chunk IHDR is wrong";
+    assert_eq!(message(&bytes), told);
 }
 
 /// Returns a PNG file of samples as they are in the file.
@@ -768,6 +769,29 @@ fn the_first_of_several_pictures_is_read_and_that_is_said() {
     assert_eq!(
         message(b"P6 1 1 255 abcd"),
         "broken PPM file: it goes on after its last pixel: expected its end, or another picture"
+    );
+    let spaced = decode_picture(b"P6 1 1 255 abc\r\n").unwrap();
+    assert_eq!(
+        spaced.notes,
+        ["the white space after its last pixel is passed over"]
+    );
+    // By the rules LF is red, a is green, b is blue, and the last byte is left over.
+    let shifted = "it goes on after its last pixel: expected one byte of white space before its samples, found CR LF";
+    assert_eq!(
+        message(b"P6\r\n1 1\r\n255\r\nab\x20"),
+        format!("broken PPM file: {shifted}")
+    );
+    // Without a byte left over LF is a sample like others.
+    let lf = decode_picture(b"P5 1 1 255\r\n").unwrap();
+    assert_eq!(
+        (lf.to_stored().pixels(), lf.notes.len()),
+        (&[[10, 10, 10, 255]][..], 0)
+    );
+    assert!(
+        decode_picture(b"P2 1 1 255 9 \n\n# end")
+            .unwrap()
+            .notes
+            .is_empty()
     );
 }
 

@@ -65,7 +65,12 @@ impl Kind {
 
 /// Reads the picture of a file whose first bytes announce `kind`; of several pictures the first.
 pub(crate) fn read(kind: Kind, input: &mut dyn BufRead) -> Result<FilePicture, ReadProblem> {
-    let mut file = Reader { kind, input };
+    let mut file = Reader {
+        kind,
+        input,
+        last_space: b' ',
+        may_be_shifted: false,
+    };
     // The two bytes that announced the format.
     file.fill(&mut [0; 2])?;
     let mut picture = match kind.layout {
@@ -91,10 +96,12 @@ pub(crate) fn read(kind: Kind, input: &mut dyn BufRead) -> Result<FilePicture, R
             })?
         }
     };
-    if file.goes_on()? {
-        let note = "the file holds several pictures: this is the first";
-        picture.notes.push(note.into());
-    }
+    let note = match file.rest()? {
+        Rest::Nothing => return Ok(picture),
+        Rest::Space => "the white space after its last pixel is passed over",
+        Rest::Picture => "the file holds several pictures: this is the first",
+    };
+    picture.notes.push(note.into());
     Ok(picture)
 }
 
@@ -113,6 +120,18 @@ struct Header {
 struct Reader<'a> {
     kind: Kind,
     input: &'a mut dyn BufRead,
+    /// The white space that ended the last word.
+    last_space: u8,
+    /// True if a byte of the header may have been taken for a sample.
+    may_be_shifted: bool,
+}
+
+/// The bytes after a picture.
+enum Rest {
+    Nothing,
+    /// White space after binary samples; text may end with it.
+    Space,
+    Picture,
 }
 
 impl Reader<'_> {
@@ -174,7 +193,10 @@ impl Reader<'_> {
                     self.skip_comment()?;
                     break;
                 }
-                byte if is_space(byte) || word.len() > LONGEST => break,
+                byte if is_space(byte) || word.len() > LONGEST => {
+                    self.last_space = byte;
+                    break;
+                }
                 byte => word.push(byte),
             }
         }
@@ -293,6 +315,9 @@ impl Reader<'_> {
             channels,
             maximum,
         } = header;
+        // If the line ends in CR LF, LF is the first sample by the rules, and the last byte is left over: what looks like space
+        // there is none.
+        self.may_be_shifted = self.last_space == b'\r' && self.peek()? == Some(b'\n');
         let has_alpha = channels.is_multiple_of(2);
         let pixels = match 255 % maximum {
             // Every sample is a whole number of grey levels.
@@ -419,19 +444,30 @@ impl Reader<'_> {
         u16::try_from(sample).map_err(|_| problem())
     }
 
-    /// True if another picture follows the one that was read.
+    /// Returns what follows the picture.
     ///
     /// # Errors
-    /// If anything else follows: the header then says less than the file holds.
-    fn goes_on(&mut self) -> Result<bool, ReadProblem> {
-        if matches!(self.kind.layout, Layout::PlainBits | Layout::Plain(_)) {
+    /// If it is anything but white space and another picture: the header then says less than the file holds.
+    fn rest(&mut self) -> Result<Rest, ReadProblem> {
+        let is_text = matches!(self.kind.layout, Layout::PlainBits | Layout::Plain(_));
+        let has_more = self.peek()?.is_some();
+        if is_text {
             self.skip_space()?;
+        } else if !self.may_be_shifted {
+            while self.peek()?.is_some_and(is_space) {
+                self.input.consume(1);
+            }
         }
         let mut next = [0; 3];
         let found = self.fill(&mut next)?;
         match Kind::announced(&next[..found]) {
-            Some(_) => Ok(true),
-            None if found == 0 => Ok(false),
+            Some(_) => Ok(Rest::Picture),
+            None if found == 0 && has_more && !is_text => Ok(Rest::Space),
+            None if found == 0 => Ok(Rest::Nothing),
+            None if self.may_be_shifted => {
+                let expected = "expected one byte of white space before its samples, found CR LF";
+                Err(self.broken(format!("it goes on after its last pixel: {expected}")))
+            }
             None => {
                 let expected = "expected its end, or another picture";
                 Err(self.broken(format!("it goes on after its last pixel: {expected}")))
