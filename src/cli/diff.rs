@@ -58,8 +58,9 @@ impl DiffArgs {
         }
         let parts = [(paths[0], "the reference"), (paths[1], "the picture")];
         for (path, part) in parts {
-            if path.as_os_str() != "-" {
-                files::will_read(path, part);
+            match path.as_os_str() == "-" {
+                true => files::will_read_stdin(part),
+                false => files::will_read(path, part),
             }
         }
         let to = output.as_ref().map(Output::place);

@@ -63,6 +63,9 @@ pub struct Destination<'a> {
 /// Standard output, which may lead to a file: that is one that is read where a shell appends to it.
 pub const STDOUT: &str = "/dev/stdout";
 
+/// Standard input, which may come from a file.
+const STDIN: &str = "/dev/stdin";
+
 /// The reason why a file is not written: the command reads it, or writes something else to it.
 #[derive(Debug)]
 pub struct OneFileError(String);
@@ -110,6 +113,11 @@ pub fn will_read(path: &Path, part: &'static str) {
     if known.iter().all(|other| other.path != file.path) {
         known.push(file);
     }
+}
+
+/// Registers standard input, which is going to be read as `part` of the command.
+pub fn will_read_stdin(part: &'static str) {
+    will_read(Path::new(STDIN), part);
 }
 
 /// Registers a file that a scene is made of, which is going to be read.

@@ -4,14 +4,12 @@
 
 use super::{CliError, Log};
 use fastphong::compare::comparison::memory_needed;
+use fastphong::compare::metrics::MAX_PERCEIVED;
 use fastphong::compare::timing::Machine;
 use fastphong::frame::Frame;
 use fastphong::shading::Variant;
 
-/// Pictures of more pixels than this are told what they need: it is over 10 GB with all methods.
-const LARGE: usize = 1 << 26;
-
-/// Notes what the comparison of a large picture needs, `at_once` of them side by side.
+/// Notes what the comparison of a large picture needs, `at_once` of them side by side, and what is left out.
 ///
 /// # Errors
 /// When that is more than there is.
@@ -33,8 +31,9 @@ pub fn check(frame: &Frame, methods: &[Variant], at_once: usize, log: Log) -> Re
             .into())
         }
         _ => {
-            if width * height > LARGE {
-                log.note(&format!("{needs} of memory"));
+            if width * height > MAX_PERCEIVED {
+                let left_out = format!("over {MAX_PERCEIVED} pixels SSIM and FLIP are left out");
+                log.note(&format!("{needs} of memory; {left_out}"));
             }
             Ok(())
         }

@@ -258,6 +258,24 @@ fn standard_output_is_not_appended_to_a_file_that_is_read() {
     }
 }
 
+/// The file that a shell gives as standard input is one that is read.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_that_comes_by_standard_input_is_not_written() {
+    let folder = folder();
+    let old = folder.read("a.png");
+    for arguments in [
+        "diff - b.png -o a.png",
+        "diff b.png - -o reference-hard.png",
+    ] {
+        let input = fs::File::open(folder.path("a.png")).expect("the file");
+        let output = folder.command(arguments).stdin(input).output();
+        let ended = Ended::new(arguments, output.expect("the tool runs"));
+        ended.refused(&[" itself, /dev/stdin, by the name "]);
+        assert!(old == folder.read("a.png"), "`{arguments}` changes a.png");
+    }
+}
+
 /// Devices are no files that could be lost, and a file that is only named like one that is read is another.
 #[test]
 fn other_files_and_devices_are_written() {

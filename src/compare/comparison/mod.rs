@@ -32,7 +32,7 @@ mod tests;
 pub use speed::{Speed, WHAT_IS_TIMED};
 pub use table::{TableKind, table};
 
-use super::metrics::{Difference, Perceived, mean_flip};
+use super::metrics::{Difference, MAX_PERCEIVED, Perceived, flip_map, mean_flip};
 use super::timing::TimeLimits;
 use crate::frame::triangulate::triangulated;
 use crate::frame::{Frame, FrameStats};
@@ -340,14 +340,15 @@ pub fn memory_needed(frame: &Frame, variants: &[Variant]) -> u64 {
     };
     let rows = (variants.len() + counterparts.len()) as u64;
     let shading = samples * (32 + visibility) + pixels * (32 + linear);
-    let comparing = samples * polygons + pixels * (linear + stored + METRICS_PER_PIXEL);
+    // Of both pictures another stored one, for SSIM.
+    let comparing = samples * polygons + pixels * (linear + 3 * stored);
     samples * (references * visibility + 2 * polygons)
         + pixels * (forms * linear + rows * stored)
         + shading.max(comparing)
 }
 
-/// Bytes a pixel that a comparison of two pictures needs beside them, for errors and brightness.
-const METRICS_PER_PIXEL: u64 = 24;
+/// Pixels of the largest picture that [`Comparison::perceive`] keeps filtered.
+const MAX_KEPT: usize = 1 << 22;
 
 impl Comparison {
     /// Returns all rows: those drawn by scanlines, then the barycentric renderer's.
@@ -363,14 +364,23 @@ impl Comparison {
     }
 
     /// Finds the mean ꟻLIP of all rows, [`Difference::flip`] of their errors. It is that of the pictures as they are
-    /// stored; pixels that show another polygon count as well.
+    /// stored; pixels that show another polygon count as well. Pictures of over [`MAX_PERCEIVED`] pixels have none.
     pub fn perceive(&mut self) {
+        let pixels = self.width * self.height;
+        if pixels > MAX_PERCEIVED {
+            return;
+        }
         let encoding = self.encoding;
-        let perceived = |picture| Perceived::new(&Displayed { picture, encoding });
         let stored = store(&self.reference, encoding);
-        let reference = perceived(&stored);
+        let displayed = |picture| Displayed { picture, encoding };
+        // Kept for all rows where that is small: filtered pictures are eight times as large as stored ones.
+        let kept = (pixels <= MAX_KEPT).then(|| Perceived::new(&displayed(&stored)));
         for row in self.rows.iter_mut().chain(&mut self.barycentric) {
-            let map = reference.flip(&perceived(&row.picture));
+            let actual = displayed(&row.picture);
+            let map = match &kept {
+                Some(reference) => reference.flip(&Perceived::new(&actual)),
+                None => flip_map(&displayed(&stored), &actual),
+            };
             row.error.flip = map.ok().map(|map| mean_flip(&map));
         }
     }
