@@ -1,7 +1,9 @@
 //! `fastphong diff`: two picture files, in numbers and as a map.
 
 use super::output::{Output, print_beside};
-use super::reference_check::{SCALE, largest_difference, not_finite_text};
+use super::reference_check::{
+    SCALE, alpha_text, has_two_encodings, largest_difference, not_finite_text,
+};
 use super::{CliError, Log, Outcome, files, values};
 use fastphong::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, compare, difference_map, flip_colours, flip_map, mean_flip,
@@ -9,7 +11,7 @@ use fastphong::compare::metrics::{
 };
 use fastphong::compare::table::aligned;
 use fastphong::picture::Encoding;
-use fastphong::picture::image_file::{AlphaUse, FilePicture, Pair, read_picture_from};
+use fastphong::picture::image_file::{FilePicture, Pair, read_picture_from};
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -73,7 +75,9 @@ impl DiffArgs {
             }
         }
         let pair = Pair::new(&reference, &actual, self.assume);
-        self.tell_use_of_alpha(pair.alpha(), log);
+        if let Some(text) = alpha_text(&pair, paths.map(Path::display)) {
+            log.warning(&text);
+        }
         let [width, height] = pair.common_size();
         let is_perceived = width * height <= MAX_PERCEIVED;
         if self.flip && !is_perceived {
@@ -126,28 +130,6 @@ impl DiffArgs {
         [&self.reference, &self.actual]
     }
 
-    /// Says what becomes of alpha if only one of the pictures has it.
-    fn tell_use_of_alpha(&self, alpha: AlphaUse, log: Log) {
-        let [reference, actual] = self.paths().map(Path::display);
-        let names = |of_reference: bool| match of_reference {
-            true => [&reference, &actual],
-            false => [&actual, &reference],
-        };
-        match alpha {
-            AlphaUse::Absent | AlphaUse::Compared => {}
-            AlphaUse::Flattened { of_reference } => {
-                let [with, without] = names(of_reference);
-                let done = format!("{with} is put over the background that it states");
-                log.note(&format!("{without} has no alpha: {done}"));
-            }
-            AlphaUse::Dropped { of_reference } => {
-                let [with, without] = names(of_reference);
-                let done = format!("that of {with} is left out, its colours count as stored");
-                log.warning(&format!("{without} has no alpha: {done}"));
-            }
-        }
-    }
-
     /// Says in which encodings the pictures are, and which of them were assumed.
     fn encodings_text(&self, pair: &Pair<'_>) -> String {
         let [reference, actual] = [0, 1].map(|i| {
@@ -158,10 +140,9 @@ impl DiffArgs {
                 false => format!("{path} states none, {name} is assumed"),
             }
         });
-        let [one, other] = pair.encodings().map(|used| used.encoding);
-        let encoded = match one == other {
-            true => "",
-            false => "; the linear picture was encoded as srgb, unrounded",
+        let encoded = match has_two_encodings(pair) {
+            true => "; the linear picture was encoded as srgb, unrounded",
+            false => "",
         };
         format!("encodings: {reference}; {actual}{encoded}\n")
     }

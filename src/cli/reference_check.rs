@@ -7,8 +7,9 @@ use super::text::counted;
 use super::{CliError, Outcome, files};
 use fastphong::compare::metrics::{Difference, compare, difference_map};
 use fastphong::picture::Encoding;
-use fastphong::picture::image_file::{FilePicture, Format, Pair};
+use fastphong::picture::image_file::{AlphaUse, FilePicture, Format, Pair};
 use fastphong::report::shell_word;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +29,31 @@ pub fn not_finite_text(difference: &Difference) -> String {
     let (one, more) = ("pixel that is", "pixels that are");
     let pixels = counted(difference.not_finite_differing, one, more);
     format!("in {pixels} infinite or not a number in one of them, which no threshold allows")
+}
+
+/// True if the pictures were stored in two encodings: the linear one is encoded before they are compared.
+pub fn has_two_encodings(pair: &Pair<'_>) -> bool {
+    let [reference, actual] = pair.encodings().map(|used| used.encoding);
+    reference != actual
+}
+
+/// Says what becomes of alpha if only one of the pictures has it; `names` are those of the reference and of the other picture.
+pub fn alpha_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> Option<String> {
+    let (of_reference, done) = match pair.alpha() {
+        AlphaUse::Absent | AlphaUse::Compared => return None,
+        AlphaUse::Flattened { of_reference } => {
+            (of_reference, "is put over the background that it states")
+        }
+        AlphaUse::Dropped { of_reference } => {
+            let done = "states no background to be put over: its colours count as they are stored";
+            (of_reference, done)
+        }
+    };
+    let [reference, actual] = names;
+    Some(match of_reference {
+        true => format!("{actual} has no alpha: {reference} {done}"),
+        false => format!("{reference} has no alpha: {actual} {done}"),
+    })
 }
 
 /// A picture to compare with the one that was accepted.
@@ -66,10 +92,18 @@ impl ReferenceCheck<'_> {
             return Ok((Outcome::Differs, text));
         }
         let accepted = files::picture(reference, "the reference")?;
-        let notes = accepted.notes.iter();
-        let notes: String = notes.map(|note| format!("{shown}: {note}\n")).collect();
         // A reference that states no encoding was written by whoever chose that of the picture.
         let pair = Pair::new(&accepted, &actual, actual.encoding);
+        let notes = accepted.notes.iter();
+        let mut notes: String = notes.map(|note| format!("{shown}: {note}\n")).collect();
+        if let Some(text) = alpha_text(&pair, [shown.to_string().as_str(), "the picture"]) {
+            notes += &format!("{text}\n");
+        }
+        if has_two_encodings(&pair) {
+            let [of_reference, of_actual] = pair.encodings().map(|used| used.encoding.name());
+            let found = format!("{shown} is {of_reference}, the picture {of_actual}");
+            notes += &format!("{found}: the linear one is encoded before they are compared\n");
+        }
         let [r, a] = pair.compared();
         let difference = compare(&r, &a)?;
         let largest = largest_difference(&difference);

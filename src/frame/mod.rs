@@ -136,8 +136,8 @@ impl Frame {
         self.alpha
     }
 
-    /// Sets the meaning of colours where polygons cover a pixel in part, for all pictures that are drawn from now on. Only
-    /// frames with several samples per pixel have such pixels.
+    /// Sets the meaning of colours where polygons cover a pixel in part, for all pictures that are drawn from now on, also
+    /// when [`PreparedScene::frame_into`] has filled the frame anew. Only frames with several samples per pixel have such pixels.
     pub fn set_alpha(&mut self, alpha: Alpha) {
         self.alpha = alpha;
     }

@@ -186,5 +186,20 @@ fn a_reference_counts_in_its_own_encoding_if_it_states_one() {
     let near = "--encoding srgb --reference-threshold 7";
     folder
         .run(&format!("{linear} --reference ref.png {near}"))
-        .done();
+        .done()
+        .prints("ref.png is linear, the picture srgb: the linear one is encoded");
+}
+
+/// Depth is infinite where nothing is seen: a picture is equal to itself all the same, and to no other.
+#[test]
+fn a_reference_that_is_not_finite_is_equal_to_itself_alone() {
+    let folder = Folder::new();
+    let depth = format!("render {SPHERE} --aov depth");
+    folder.run(&format!("{depth} -o ref.pfm")).done();
+    let check = "--reference ref.pfm --reference-threshold";
+    folder.run(&format!("{depth} {check} 0")).done();
+    folder
+        .run(&format!("{depth} --fit 0.5 {check} 1e9"))
+        .differs()
+        .prints("infinite or not a number in one of them, which no threshold allows");
 }
