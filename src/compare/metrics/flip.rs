@@ -157,7 +157,7 @@ impl Perceived {
     }
 }
 
-/// Pixels that are filtered at a time: the filters need 160 bytes for each.
+/// Pixels that are filtered at a time: the filters need 100 bytes for each.
 const PART: usize = 1 << 20;
 
 /// Returns the error of each pixel of `actual`, as [`Perceived::flip`] does, and filters some rows at a time, so that large

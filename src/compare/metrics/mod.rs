@@ -14,7 +14,7 @@
 //!
 //! # Memory
 //! Pictures are read by rows, each as often as it takes. Beside the pictures no metric needs more than some rows and 10 MB; ꟻLIP
-//! needs 200 MB, and its map 4 bytes a pixel.
+//! needs 110 MB, and its map 4 bytes a pixel.
 
 use alloc::vec::Vec;
 use core::fmt;
