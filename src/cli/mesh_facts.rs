@@ -145,8 +145,13 @@ fn bytes(mesh: &PolygonMesh) -> usize {
         let corners = normals.corners.as_deref().map_or(0, size_of_val);
         size_of_val(&normals.values[..]) + corners
     });
-    // Of each polygon the end of its corners, and its material if the mesh has some.
-    let numbers = if mesh.materials().is_empty() { 1 } else { 2 };
+    // Of each polygon the end of its corners, and its material, part and smoothing group if the mesh has some.
+    let has = [
+        !mesh.materials().is_empty(),
+        mesh.has_parts(),
+        mesh.has_smoothing_groups(),
+    ];
+    let numbers = 1 + has.into_iter().filter(|has| *has).count();
     let polygons = numbers * mesh.polygon_count() * size_of::<u32>();
     let places = size_of_val(mesh.positions()) + size_of_val(mesh.corners());
     let looks = size_of_val(mesh.colours()) + size_of_val(mesh.materials());

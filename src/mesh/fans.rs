@@ -209,6 +209,11 @@ impl<'a> SurfaceFinder<'a> {
 
     /// Finds the surfaces at `v`, around which are the corners of `fan`; returns their number.
     pub fn find(&mut self, v: usize, fan: &[FanCorner]) -> usize {
+        if self.is_simple(v, fan, Smoothing::Surfaces) {
+            self.surfaces.clear();
+            self.surfaces.resize(fan.len(), 0);
+            return usize::from(!fan.is_empty());
+        }
         self.parents.clear();
         self.parents.extend(0..fan.len() as u32);
         self.collect_ends(v as u32, fan);

@@ -311,6 +311,13 @@ mod tests {
             }
         }
         assert!(!cancels(&[a, b, c, d, c, b]));
+        // A tree whose every branch is met from the middle of the path on.
+        let e = [2.0, 2.0, 0.0];
+        for first in 0..8 {
+            let mut tree = [a, b, c, b, a, d, e, d];
+            tree.rotate_left(first);
+            assert!(!cancels(&tree), "{first}");
+        }
         assert!(!cancels(&[a, a, a, a]));
         assert!(!cancels(&[a, third, b]));
     }

@@ -295,6 +295,29 @@ mod tests {
     }
 
     #[test]
+    fn anything_is_covered_if_any_pixel_is() {
+        let mut dice = Dice::new(11);
+        let (mut some, mut none) = (0, 0);
+        for round in 0..2000 {
+            // From a part of a pixel to the whole picture, all around it.
+            let size = [200, 600, 3000][round % 3];
+            let at = [dice.below(1600) - 300, dice.below(1600) - 300];
+            let mut place = |k: usize| (at[k] + dice.below(size)) as f64 / 256.0;
+            let corners: Vec<(f64, f64)> =
+                (0..3 + round % 4).map(|_| (place(0), place(1))).collect();
+            let frame = shape(4, 4, &[&corners]);
+            let is_covered = covered(&frame).pixels().iter().any(|&count| count > 0);
+            assert_eq!(is_anything_covered(&frame), is_covered, "{corners:?}");
+            (some, none) = (
+                some + usize::from(is_covered),
+                none + usize::from(!is_covered),
+            );
+        }
+        assert!(some > 100 && none > 100, "{some} {none}");
+        assert!(!is_anything_covered(&Frame::empty(4, 4)));
+    }
+
+    #[test]
     fn what_is_enclosed_twice_is_outside() {
         // A square with a smaller one inside it, joined by a cut.
         let ring = [

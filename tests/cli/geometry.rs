@@ -85,9 +85,9 @@ fn a_far_mesh_is_placed_lit_and_described_where_it_is() {
     folder.write("near.obj", obj(ROUND, 1.0, [0.0; 3], false));
     folder.write("far.obj", obj(ROUND, 1.0, [4e5, 4e6, 0.0], false));
     // Eye and lights at positions, and a translation that brings it back.
-    let near = "[camera]\neye = [2, 1, 5]\nfovy = 30\n[[light]]\nposition = [1.5, 1.5, 1]\n[[object]]\nmesh = 'near.obj'\n";
+    let near = "[camera]\neye = [2, 1, 5]\nfovy = 30\n[[light]]\nposition = [0.7, 0.7, 0.6]\n[[object]]\nmesh = 'near.obj'\n";
     let far = "[camera]\neye = [400002, 4000001, 5]\ntarget = [400000, 4000000, 0]\nfovy = 30\n\
-               [[light]]\nposition = [400001.5, 4000001.5, 1]\n[[object]]\nmesh = 'far.obj'\n";
+               [[light]]\nposition = [400000.7, 4000000.7, 0.6]\n[[object]]\nmesh = 'far.obj'\n";
     let back = near.replace("near.obj'", "far.obj'\ntranslate = [-400000, -4000000, 0]");
     for (name, text) in [("near", near), ("far", far), ("back", &back)] {
         folder.write(&format!("{name}.toml"), text);
