@@ -120,8 +120,8 @@ impl SceneFacts<'_> {
         let camera = &scene.camera;
         let projection = match camera.projection {
             Projection::Orthographic { half_height } => {
-                let digits = decimals(half_height) + 2;
-                format!("orthographic, half height {half_height:.digits$}")
+                let half_height = number(half_height, half_height, 2);
+                format!("orthographic, half height {half_height}")
             }
             Projection::Perspective { fovy } => format!("perspective, {fovy} degrees"),
         };
@@ -147,19 +147,23 @@ impl SceneFacts<'_> {
     }
 }
 
-/// Writes a point among others that are `extent` apart: with as many decimals as show five digits of that, four at least.
+/// Writes a point among others that are `extent` apart.
 fn point(p: [f64; 3], extent: f64) -> String {
-    let ([x, y, z], digits) = (p, decimals(extent));
-    format!("({x:.digits$}, {y:.digits$}, {z:.digits$})")
+    let [x, y, z] = p.map(|coordinate| number(coordinate, extent, 0));
+    format!("({x}, {y}, {z})")
 }
 
-/// Returns the number of decimals that shows five digits of `extent`, four at least and no more than an `f64` has.
-fn decimals(extent: f64) -> usize {
-    match extent {
-        0.0 => 4,
-        // Of an extent from 1 on this is 4 or less, and of a NaN 0.
-        _ => (4.0 - extent.log10().floor()).clamp(4.0, 308.0) as usize,
+/// Writes a number with as many decimals as show five digits of `extent`, four at least, and `more`; among tiny ones with an
+/// exponent.
+fn number(number: f64, extent: f64, more: usize) -> String {
+    if 0.0 < extent && extent < 1e-9 && number.abs() <= 1e3 * extent {
+        return format!("{number:.*e}", 4 + more);
     }
+    let decimals = match extent {
+        0.0 => 4.0,
+        _ => (4.0 - extent.log10().floor()).clamp(4.0, 17.0),
+    };
+    format!("{number:.*}", decimals as usize + more)
 }
 
 impl ObjectFacts<'_> {

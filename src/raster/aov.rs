@@ -141,7 +141,9 @@ pub fn checkerboard(
     size: f64,
     colours: [Rgb; 2],
 ) -> LinearPicture {
-    let eye = frame.eye();
+    // An even number of squares more or less makes no difference: far from 0, coordinates stay as small as they can be.
+    let period = 2048.0 * size;
+    let eye = frame.eye().map(|e| e - libm::rint(e / period) * period);
     // The position of a vertex in the world, rounded once.
     let world = |vertex: u32| {
         let from_eye = frame.position(vertex);

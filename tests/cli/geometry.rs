@@ -67,6 +67,22 @@ fn a_mesh_far_from_the_origin_looks_like_one_at_the_origin() {
 }
 
 #[test]
+fn a_checkerboard_far_from_the_origin_has_straight_lines() {
+    let folder = Folder::new();
+    for (name, x) in [("near", 0.0), ("far", 4e5)] {
+        folder.write(
+            &format!("{name}.obj"),
+            obj(ROUND, 1.0, [x, 4e6, 0.0], false),
+        );
+        let board = format!("render {name}.obj -o {name}.png --size 96x72 --aov checkerboard");
+        folder.run(&(board + " --square 0.5")).done();
+    }
+    let [near, far] = ["near.png", "far.png"].map(|name| picture(&folder.path(name)));
+    // Where a line passes a pixel's centre to within the rounding of either picture.
+    assert!(different(&near, &far, 1) <= 12);
+}
+
+#[test]
 fn one_unused_position_at_the_origin_does_not_bring_a_far_mesh_near() {
     let folder = Folder::new();
     let far = obj(ROUND, 1.0, [4e5, 4e6, 0.0], false);
@@ -386,6 +402,12 @@ fn bounds_and_cameras_have_digits_that_fit_their_size() {
     let folder = Folder::new();
     folder.write("tiny.obj", obj("cube", 1e-7, [0.0; 3], false));
     folder.write("far.obj", obj("cube", 1e-7, [1.0, 0.0, 0.0], false));
+    folder.write("least.obj", obj("cube", 1e-20, [0.0; 3], false));
+    folder
+        .run("info least.obj")
+        .done()
+        .prints("bounds      (-1.0000e-20, -1.0000e-20, -1.0000e-20) to (1.0000e-20,")
+        .prints("half height 1.641918e-20");
     let tiny = folder.run("info tiny.obj").done();
     tiny.prints("bounds      (-0.00000010000, -0.00000010000, -0.00000010000) to (0.00000010000, 0.00000010000, 0.00000010000)")
         .prints("camera   at (0.00000029925, 0.00000017955, 0.00000059851), toward (0.00000000000,");
