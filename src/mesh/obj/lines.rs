@@ -14,17 +14,49 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// Returns `line` up to its comment, if it has one.
-pub(super) fn without_comment(line: &str) -> &str {
-    line.find('#').map_or(line, |at| &line[..at])
+/// Returns the number of the line that holds the byte `at` of `text`, counted from 1.
+pub(super) fn line_number(text: &str, at: usize) -> usize {
+    let before = &text[..at];
+    let ends = before.matches(['\n', '\r']).count() - before.matches("\r\n").count();
+    ends + 1
 }
 
+/// Returns the arguments of a statement of numbers up to its comment, if it has one.
+pub(super) fn without_comment(arguments: &str) -> &str {
+    let mut marks = arguments.match_indices('#').map(|(at, _)| at);
+    let comment = marks.find(|&at| !is_inside_a_number(arguments, at));
+    comment.map_or(arguments, |at| &arguments[..at])
+}
+
+/// True if the `#` at `at` belongs to `1.#QNAN`, `-1.#IND` or `1.#INF`: so the C library of Windows wrote what is no number.
+fn is_inside_a_number(arguments: &str, at: usize) -> bool {
+    let word = arguments[..at].rsplit(|c: char| c.is_ascii_whitespace());
+    let before = word.into_iter().next().unwrap_or_default();
+    let after = arguments[at + 1..].bytes().next();
+    before.strip_prefix(['+', '-']).unwrap_or(before) == "1."
+        && after.is_some_and(|byte| byte.is_ascii_alphabetic())
+}
+
+/// The statements of free-form curves and surfaces, of which none is read. Their arguments are numbers.
+pub(super) const FREE_FORM: [&str; 23] = [
+    "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
+    "sp", "end", "con", "bsp", "bzp", "cdc", "cdp", "res", "fm", "ctech", "stech",
+];
+
+/// The other statements whose arguments are numbers, of OBJ files and of MTL files.
+const NUMERIC: [&str; 19] = [
+    "v", "vn", "vt", "f", "fo", "l", "p", "s", "Ka", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr",
+    "illum", "sharpness",
+];
+
 /// Statements one by one: the number of the line where each begins, and its text with continued lines joined.
+///
+/// CR LF, LF and CR each end a line. A backslash at its end continues a statement of numbers. Other statements hold names:
+/// those of Windows folders end in a backslash, and so do double-byte characters whose last byte is 5C.
 ///
 /// Comments are left in, as `#` may also stand in a name: [`without_comment`] is for the statements of numbers.
 pub(super) struct Statements<'a> {
     rest: Option<&'a str>,
-    separator: char,
     line: usize,
     /// True if any line may be continued: nearly no file has one.
     backslashes: bool,
@@ -32,11 +64,8 @@ pub(super) struct Statements<'a> {
 
 impl<'a> Statements<'a> {
     pub(super) fn new(text: &'a str) -> Self {
-        // Files from before Mac OS X end lines by a carriage return alone.
-        let separator = if text.contains('\n') { '\n' } else { '\r' };
         Statements {
             rest: Some(text),
-            separator,
             line: 0,
             backslashes: text.contains('\\'),
         }
@@ -45,15 +74,25 @@ impl<'a> Statements<'a> {
     fn physical_line(&mut self) -> Option<&'a str> {
         let rest = self.rest?;
         self.line += 1;
-        let split = rest.split_once(self.separator);
-        self.rest = split.map(|(_, rest)| rest);
-        Some(split.map_or(rest, |(line, _)| line))
+        // Lines are short: looking at every byte is as fast as a search made for long texts.
+        let end = rest.bytes().position(|byte| matches!(byte, b'\n' | b'\r'));
+        let (line, end) = rest.split_at(end.unwrap_or(rest.len()));
+        let next = end.strip_prefix("\r\n").or(end.get(1..));
+        self.rest = next;
+        Some(line)
     }
 }
 
 /// Returns the part before a `\` at the end of a line, if the line goes on in the next one.
 fn continued(line: &str) -> Option<&str> {
-    without_comment(line).trim_end().strip_suffix('\\')
+    without_comment(line).trim_ascii_end().strip_suffix('\\')
+}
+
+/// True if the arguments of the statement in `line` are numbers.
+fn is_numeric(line: &str) -> bool {
+    let (word, _) = keyword(line);
+    let mut known = FREE_FORM.iter().chain(&NUMERIC);
+    known.any(|known| known.eq_ignore_ascii_case(word))
 }
 
 impl<'a> Iterator for Statements<'a> {
@@ -62,7 +101,8 @@ impl<'a> Iterator for Statements<'a> {
     fn next(&mut self) -> Option<Self::Item> {
         let line = self.physical_line()?;
         let number = self.line;
-        let Some(start) = self.backslashes.then(|| continued(line)).flatten() else {
+        let start = self.backslashes.then(|| continued(line)).flatten();
+        let Some(start) = start.filter(|_| is_numeric(line)) else {
             return Some((number, Cow::Borrowed(line)));
         };
         let mut joined = String::from(start);
@@ -80,12 +120,14 @@ impl<'a> Iterator for Statements<'a> {
     }
 }
 
-/// Returns the first word of a statement and the rest, both without white space around them.
+/// Returns the first word of a statement and the rest, both without blanks around them.
+///
+/// Blanks are those of ASCII: in Latin-1, the bytes of other white space are parts of double-byte characters, too.
 pub(super) fn keyword(statement: &str) -> (&str, &str) {
-    let statement = statement.trim();
-    let end = statement.find(|c: char| c.is_ascii_whitespace());
+    let statement = statement.trim_ascii();
+    let end = statement.bytes().position(|byte| byte.is_ascii_whitespace());
     let (word, rest) = statement.split_at(end.unwrap_or(statement.len()));
-    (word, rest.trim_start())
+    (word, rest.trim_ascii_start())
 }
 
 /// Returns the names that the rest of a statement may be: the whole of it first, then the part up to a comment.
@@ -93,8 +135,9 @@ pub(super) fn keyword(statement: &str) -> (&str, &str) {
 /// `usemtl red # the lid` and the name `Material #25` are both met in real files; what exists decides.
 pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {
     let names = rest.match_indices('#').map(|(at, _)| &rest[..at]);
-    let mut names = names.filter(|name| name.ends_with(char::is_whitespace));
-    core::iter::once(rest).chain(names.next().map(str::trim_end))
+    let is_comment = |before: &&str| before.ends_with(|c: char| c.is_ascii_whitespace());
+    let mut names = names.filter(is_comment);
+    core::iter::once(rest).chain(names.next().map(str::trim_ascii_end))
 }
 
 /// True if `word` is a finite `f32` by its looks: a sign or none, then digits with at most one point among them.

@@ -126,7 +126,7 @@ fn parse_limited(
     };
     let text = lines::decode(bytes);
     if let Some(at) = text.find('\0') {
-        let line = text[..at].matches('\n').count() + 1;
+        let line = lines::line_number(&text, at);
         return Err(failed(Some(line), ObjProblem::NotText));
     }
     if text.trim().is_empty() {

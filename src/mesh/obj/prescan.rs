@@ -7,7 +7,8 @@
 
 use super::corner::{Entries, ObjCorner, WrittenCorner};
 use super::error::{ObjProblem, quote};
-use super::lines::{Statements, is_plain_number, keyword, without_comment};
+use super::lines::{FREE_FORM, Statements, is_plain_number, keyword, without_comment};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::format;
 use std::string::String;
@@ -27,6 +28,8 @@ enum Oddity {
     PointOrLine,
     #[error("free-form curves and surfaces are not read, only polygons")]
     FreeForm,
+    #[error("`call` and `csh` are not followed: the geometry that they would add is missing")]
+    Call,
     #[error("is no OBJ statement and is passed over")]
     Unknown,
     #[error("a face of fewer than three different corners is left out")]
@@ -180,8 +183,12 @@ impl Prescan {
         statement: &str,
         corners: &mut Vec<ObjCorner>,
     ) -> Result<(), ObjProblem> {
-        let (word, rest) = keyword(statement);
-        match word {
+        let (written, rest) = keyword(statement);
+        let mut word = Cow::Borrowed(written);
+        if word.bytes().any(|byte| byte.is_ascii_uppercase()) {
+            word = Cow::Owned(written.to_ascii_lowercase());
+        }
+        match &*word {
             "v" => self.position(line, rest)?,
             "vn" => {
                 if self.normals.count == 0 {
@@ -207,14 +214,13 @@ impl Prescan {
             "p" | "l" => self.note(line, Oddity::PointOrLine),
             // Names, groups, textures, levels of detail, display: nothing that shows in a picture of polygons.
             "g" | "mg" | "usemap" | "maplib" | "bevel" | "c_interp" | "d_interp" | "lod"
-            | "shadow_obj" | "trace_obj" | "ctech" | "stech" | "call" => {}
-            "vp" | "cstype" | "deg" | "bmat" | "step" | "curv" | "curv2" | "surf" | "parm"
-            | "trim" | "hole" | "scrv" | "sp" | "end" | "con" | "bsp" | "bzp" | "cdc" | "cdp"
-            | "res" | "csh" | "fm" => self.note(line, Oddity::FreeForm),
-            _ if word.is_empty() || word.starts_with('#') => {}
+            | "shadow_obj" | "trace_obj" => {}
+            "call" | "csh" => self.note(line, Oddity::Call),
+            word if word.is_empty() || word.starts_with('#') => {}
+            word if FREE_FORM.contains(&word) => self.note(line, Oddity::FreeForm),
             _ => {
                 if !self.has(Oddity::Unknown) {
-                    self.unknown_word = quote(word);
+                    self.unknown_word = quote(written);
                 }
                 self.note(line, Oddity::Unknown);
             }
