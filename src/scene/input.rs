@@ -191,7 +191,7 @@ pub fn resolve_by(
 /// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
 ///
 /// # Errors
-/// One sentence: what is wrong with which file, in which line, and what was expected.
+/// What is wrong with which file, in which line, and what was expected: one line, and one for each thing that was odd before.
 pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
     load_mesh_by(name, folder, &mut |path| fs::read(path))
 }
@@ -232,7 +232,10 @@ fn load_mesh_by(
         }
         load_obj_by(&path, read)
     };
-    let loaded = loaded.map_err(|error| error.to_string())?;
+    let loaded = loaded.map_err(|error| {
+        let odd = error.warnings.iter();
+        odd.fold(error.to_string(), |text, odd| format!("{text}\n{odd}"))
+    })?;
     let warnings = loaded.warnings.iter();
     let warnings = warnings.map(|warning| format!("{name}: {warning}"));
     Ok((Arc::new(loaded.mesh), warnings.collect()))

@@ -109,10 +109,28 @@ fn broken_mesh_files() {
             with("v 1e99 0 0\nf 1 2 4").into_bytes(),
             &["mesh.obj:4: ", "expected a finite number"],
         ),
+        (
+            with("f 1 2 4\nv 1,5 0 0").into_bytes(),
+            &[
+                "mesh.obj:5: `1,5` in `v`: expected a finite number with a decimal point, and the face in line 4 uses",
+            ],
+        ),
         // The file is cut off in the middle of a line.
         (
-            with("f 1 2 3\nv 1 2").into_bytes(),
+            with("f 1 2 4\nv 1 2").into_bytes(),
             &["mesh.obj:5: `v` has too few numbers: expected three, found 2"],
+        ),
+        // An answer of a server, saved under the name of the mesh.
+        (
+            b"404: Not Found\n".to_vec(),
+            &[
+                "mesh.obj: has no polygon",
+                "note: `404:` is no OBJ statement and is passed over (line 1)",
+            ],
+        ),
+        (
+            b"<!DOCTYPE html>\n<p>Not Found".to_vec(),
+            &["mesh.obj: is a page of HTML: expected OBJ text"],
         ),
     ] {
         refused(&[("mesh.obj", &text)], "mesh.obj", parts);
@@ -184,6 +202,33 @@ fn odd_meshes_give_warnings() {
     );
     let ended = folder.run("render mesh.obj --size 64x48 -o out.png").done();
     ended.says("warning: mesh.obj: material library `gone.mtl` (line 1) cannot be read");
+}
+
+#[test]
+fn what_no_face_uses_refuses_no_mesh() {
+    let folder = Folder::new();
+    folder.write(
+        "mesh.obj",
+        format!("{TRIANGLE}v 1.#IND 0 0\nvn nan nan nan\nvt nan\nf 1//1 2 3\nv 1 2"),
+    );
+    let ended = folder.run("render mesh.obj --size 64x48 -o out.png").done();
+    let ended = ended
+        .says("a position is not three finite numbers and is left out (2 times, first in line 4)");
+    ended.says("a normal is not three finite numbers: corners that name it count as without a normal (line 5)");
+}
+
+#[test]
+fn what_was_odd_before_an_error_in_a_mesh_of_a_scene_is_noted() {
+    let folder = Folder::new();
+    folder
+        .write("mesh.obj", format!("{TRIANGLE}call other.obj\nf 1 2 9\n"))
+        .write("scene.toml", "[[object]]\nmesh = \"mesh.obj\"\n");
+    let ended = folder.run("render scene.toml -o out.png");
+    ended.refused(&[
+        "scene.toml:2:8",
+        "mesh.obj:5: position index 9 is out of range",
+        "note: `call` and `csh` are not followed",
+    ]);
 }
 
 #[test]

@@ -5,6 +5,7 @@ use core::fmt;
 use std::format;
 use std::path::PathBuf;
 use std::string::{String, ToString};
+use std::vec::Vec;
 
 /// An OBJ file that could not be read: which file, which line, what is wrong and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -16,6 +17,8 @@ pub struct ObjError {
     pub line: Option<usize>,
     /// The problem.
     pub problem: ObjProblem,
+    /// What was odd in the lines before it, as in [`LoadedObj::warnings`](super::LoadedObj::warnings): often its cause.
+    pub warnings: Vec<String>,
 }
 
 /// A problem with an OBJ file.
@@ -34,27 +37,22 @@ pub enum ObjProblem {
     /// The file holds bytes that no text has.
     #[error("holds binary data: expected OBJ text with `v` and `f` lines")]
     NotText,
+    /// The file is of another format; a few words for it.
+    #[error("is {0}: expected OBJ text with `v` and `f` lines")]
+    OtherFormat(&'static str),
     /// The file is text, but has no face of three corners or more.
     #[error("has no polygon: expected OBJ text with an `f` line of at least three corners")]
     NoPolygons,
     /// The file has points or lines, and no face of three corners or more.
     #[error("has points or lines but no polygon: expected an `f` line of at least three corners")]
     OnlyPointsOrLines,
-    /// A `v` or `vn` has fewer than three numbers.
-    #[error("`{keyword}` has too few numbers: expected three, found {found}")]
-    TooFewNumbers {
-        /// The statement.
-        keyword: &'static str,
-        /// The number of its numbers.
-        found: usize,
-    },
-    /// Something stands where a finite number should.
-    #[error("`{found}` in `{keyword}`: expected a finite number")]
-    BadNumber {
-        /// The statement.
-        keyword: &'static str,
-        /// The word in place of the number.
-        found: String,
+    /// A position that a face uses is not three finite numbers.
+    #[error("{problem}, and the face in line {face} uses this position")]
+    BadPosition {
+        /// The first problem of its line.
+        problem: VectorProblem,
+        /// The line of the first face that uses it.
+        face: usize,
     },
     /// A corner is none of `v`, `v/vt`, `v//vn`, `v/vt/vn`.
     #[error("`{0}` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers")]
@@ -81,6 +79,32 @@ pub enum ObjProblem {
     /// The mesh refused its data.
     #[error("{0}: expected a mesh within its limits")]
     Mesh(MeshError),
+}
+
+/// A problem with the numbers of a position.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum VectorProblem {
+    /// There are fewer than three.
+    #[error("`v` has too few numbers: expected three, found {found}")]
+    TooFewNumbers {
+        /// The number of numbers.
+        found: usize,
+    },
+    /// Something stands where a finite number should.
+    #[error("`{found}` in `v`: expected a finite number{}", decimal_point(found))]
+    BadNumber {
+        /// The word in place of the number.
+        found: String,
+    },
+}
+
+/// Returns a hint for numbers that were written where decimals follow a comma.
+fn decimal_point(found: &str) -> &'static str {
+    match found.replacen(',', ".", 1).parse::<f64>() {
+        Ok(_) if found.contains(',') => " with a decimal point",
+        _ => "",
+    }
 }
 
 /// Writes [`ObjProblem::IndexOutOfRange`], with the range that there is.

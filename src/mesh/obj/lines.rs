@@ -45,8 +45,25 @@ pub(super) const FREE_FORM: [&str; 23] = [
 
 /// The other statements whose arguments are numbers, of OBJ files and of MTL files.
 const NUMERIC: [&str; 19] = [
-    "v", "vn", "vt", "f", "fo", "l", "p", "s", "Ka", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr",
-    "illum", "sharpness",
+    "v",
+    "vn",
+    "vt",
+    "f",
+    "fo",
+    "l",
+    "p",
+    "s",
+    "Ka",
+    "Kd",
+    "Ks",
+    "Ke",
+    "Tf",
+    "Ns",
+    "Ni",
+    "d",
+    "Tr",
+    "illum",
+    "sharpness",
 ];
 
 /// Statements one by one: the number of the line where each begins, and its text with continued lines joined.
@@ -125,7 +142,9 @@ impl<'a> Iterator for Statements<'a> {
 /// Blanks are those of ASCII: in Latin-1, the bytes of other white space are parts of double-byte characters, too.
 pub(super) fn keyword(statement: &str) -> (&str, &str) {
     let statement = statement.trim_ascii();
-    let end = statement.bytes().position(|byte| byte.is_ascii_whitespace());
+    let end = statement
+        .bytes()
+        .position(|byte| byte.is_ascii_whitespace());
     let (word, rest) = statement.split_at(end.unwrap_or(statement.len()));
     (word, rest.trim_ascii_start())
 }
@@ -138,6 +157,17 @@ pub(super) fn name_candidates(rest: &str) -> impl Iterator<Item = &str> {
     let is_comment = |before: &&str| before.ends_with(|c: char| c.is_ascii_whitespace());
     let mut names = names.filter(is_comment);
     core::iter::once(rest).chain(names.next().map(str::trim_ascii_end))
+}
+
+/// Reads a number. One that is not finite is NaN or infinite, however it is written: `nan`, `inf`, `1e999`, `1.#QNAN`,
+/// `-1.#IND`, `-nan(ind)`.
+pub(super) fn read_number(word: &str) -> Option<f32> {
+    let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
+    let is_nan = || {
+        let start = unsigned.get(..4).unwrap_or_default();
+        unsigned.starts_with("1.#") || start.eq_ignore_ascii_case("nan(")
+    };
+    word.parse().ok().or_else(|| is_nan().then_some(f32::NAN))
 }
 
 /// True if `word` is a finite `f32` by its looks: a sign or none, then digits with at most one point among them.

@@ -9,6 +9,7 @@
 //! `tobj` does the parsing, between a pass that checks the text and knows its lines, and the checks of
 //! [`MeshBuilder`]. What cannot be read is an [`ObjError`]; what can be read only in part is a warning.
 
+mod content;
 mod corner;
 mod error;
 mod lines;
@@ -18,7 +19,7 @@ mod prescan;
 #[cfg(test)]
 mod tests;
 
-pub use error::{ObjError, ObjProblem};
+pub use error::{ObjError, ObjProblem, VectorProblem};
 
 use super::newell::unit_normal;
 use super::{GivenNormals, Material, MeshBuilder, PolygonMesh};
@@ -46,8 +47,8 @@ pub struct LoadedObj {
 /// A missing MTL file is a warning.
 ///
 /// # Errors
-/// [`ObjError`] with the line where there is one: the file cannot be read, is not OBJ text, has no polygons, holds numbers that are
-/// not finite or indices that do not exist, or is larger than a [`PolygonMesh`] may be.
+/// [`ObjError`] with the line where there is one: the file cannot be read, is not OBJ text, has no polygons, has a face with a
+/// position that is not three finite numbers or does not exist, or is larger than a [`PolygonMesh`] may be.
 pub fn load_obj(path: &Path) -> Result<LoadedObj, ObjError> {
     load_obj_by(path, &mut |path| fs::read(path))
 }
@@ -65,6 +66,7 @@ pub fn load_obj_by(
         path: path.into(),
         line: None,
         problem,
+        warnings: Vec::new(),
     };
     if path.is_dir() {
         return Err(failed(ObjProblem::Directory));
@@ -119,22 +121,28 @@ fn parse_limited(
     mut load_mtl: impl FnMut(&str) -> io::Result<Vec<u8>>,
     limits: MeshLimits,
 ) -> Result<LoadedObj, ObjError> {
-    let failed = |line, problem| ObjError {
+    let failed = |line, problem, warnings| ObjError {
         path: path.into(),
         line,
         problem,
+        warnings,
     };
+    if let Some(what) = content::foreign(bytes) {
+        return Err(failed(None, ObjProblem::OtherFormat(what), Vec::new()));
+    }
     let text = lines::decode(bytes);
     if let Some(at) = text.find('\0') {
         let line = lines::line_number(&text, at);
-        return Err(failed(Some(line), ObjProblem::NotText));
+        return Err(failed(Some(line), ObjProblem::NotText, Vec::new()));
     }
     if text.trim().is_empty() {
-        return Err(failed(None, ObjProblem::Empty));
+        return Err(failed(None, ObjProblem::Empty, Vec::new()));
     }
-    let scan = prescan::prescan(&text, limits).map_err(|(line, problem)| failed(line, problem))?;
-    let parsed = parser::parse(&scan).map_err(|why| failed(None, ObjProblem::Parser(why)))?;
+    let scan = prescan::prescan(&text, limits);
+    let scan = scan.map_err(|refusal| failed(refusal.line, refusal.problem, refusal.warnings))?;
     let mut warnings = scan.warnings();
+    let parsed = parser::parse(&scan)
+        .map_err(|why| failed(None, ObjProblem::Parser(why), warnings.clone()))?;
 
     let positions: Vec<DVec3> = vectors(&parsed.positions).collect();
     let mut builder = MeshBuilder::from_f64(&positions);
@@ -149,7 +157,10 @@ fn parse_limited(
         let values: Vec<Vec3> = vectors(&parsed.normals).map(unit_or_zero).collect();
         // One is of the pre-scan's making, if any corner has no normal.
         let is_any_missing = scan.corners_with_normal < scan.corners;
-        let zeros = values.iter().filter(|&&n| n == Vec3::ZERO).count();
+        let zeros = vectors(&parsed.normals).zip(&values);
+        // A NaN is a normal that was told when it was read.
+        let zeros = zeros.filter(|(written, unit)| written.is_finite() && **unit == Vec3::ZERO);
+        let zeros = zeros.count();
         let (zeros, have) = match zeros - usize::from(is_any_missing) {
             1 => (1, "normal of the file has"),
             zeros => (zeros, "normals of the file have"),
@@ -164,20 +175,20 @@ fn parse_limited(
             corners: Some(parsed.normal_indices),
         });
     }
-    if scan.has_colours() {
-        let colours = vectors(&parsed.vertex_color);
-        builder.colours(colours.map(|colour| colour.as_vec3()).collect());
+    if let Some(colours) = scan.used_colours() {
+        builder.colours(colours);
     }
     builder.parts(groups(&scan.object_runs, HashMap::new(), scan.polygons));
     let off = HashMap::from([(&0, PolygonMesh::FACETED)]);
     builder.smoothing_groups(groups(&scan.smoothing_runs, off, scan.polygons));
     if scan.material_runs.iter().any(|(_, name)| name.is_some()) {
-        let library = Library::load(&scan.libraries, &mut load_mtl, &mut warnings);
-        let (materials, of_polygons) = assign_materials(&scan, &library, &mut warnings);
+        let mut library = Library::load(&scan.libraries, &mut load_mtl, &mut warnings);
+        let (materials, of_polygons) = assign_materials(&scan, &mut library, &mut warnings);
+        warnings.extend(library.warnings());
         builder.materials(materials, of_polygons);
     }
     let mesh = builder.finish();
-    let mesh = mesh.map_err(|error| failed(None, ObjProblem::Mesh(error)))?;
+    let mesh = mesh.map_err(|error| failed(None, ObjProblem::Mesh(error), warnings.clone()))?;
     let bent = bent_polygons(&mesh, &positions);
     if bent > 0 {
         let polygons = if bent == 1 {
@@ -253,7 +264,7 @@ fn groups<'a, K: Eq + Hash>(
 /// Returns the materials that polygons use, and for each polygon the index of its own, `u32::MAX` for none.
 fn assign_materials(
     scan: &Prescan,
-    library: &Library,
+    library: &mut Library,
     warnings: &mut Vec<String>,
 ) -> (Vec<Material>, Vec<u32>) {
     const NONE: u32 = u32::MAX;
@@ -269,7 +280,7 @@ fn assign_materials(
         };
         let number = *numbers
             .entry(name)
-            .or_insert_with(|| match library.find(name) {
+            .or_insert_with(|| match library.use_material(name) {
                 Some(material) => {
                     materials.push(material);
                     materials.len() as u32 - 1

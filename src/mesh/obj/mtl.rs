@@ -1,19 +1,16 @@
-//! Materials: MTL files made fit for their parser, and turned into [`Material`].
-//!
-//! The parser (`tobj`) panics on the legal `Kd 0.5`, loses all materials at `Kd spectral …`, `illum 2.0` or a `map_Kd` without a
-//! name, takes a comment into a name and lets NaN through. So it is given only what Phong illumination uses, each line checked.
+//! Materials: MTL files read into [`Material`], and what they ask for that is not drawn.
 
+use super::content::foreign;
 use super::error::quote;
 use super::lines::{Statements, decode, keyword, name_candidates, without_comment};
-use super::parser::guarded;
 use crate::mesh::Material;
 use crate::picture::Rgb;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::string::{String, ToString};
 use std::vec::Vec;
-use std::{format, io};
+use std::{format, io, mem};
 
-/// So many warnings of one file are shown one by one.
+/// So many lines of one file that cannot be read are shown one by one.
 const WARNINGS_SHOWN: usize = 8;
 
 // The MTL format's defaults: Ka and Kd as in J. Burkardt's description of the format
@@ -23,15 +20,88 @@ const DIFFUSE: Rgb = [0.8; 3];
 // Not its Ks = 1 and Ns = 0, which light half the surface white: no highlight unless the file asks for one.
 const SPECULAR: Rgb = [0.0; 3];
 
+/// A thing that a material asks for and that is not drawn, or drawn otherwise: one warning, however many materials ask for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
+enum Oddity {
+    #[error("textures are not drawn")]
+    Texture,
+    #[error("over a black or missing `Kd`: the default grey is drawn")]
+    DefaultGrey,
+    #[error("transparency is not drawn, all surfaces are opaque")]
+    Transparency,
+    #[error("emission is not drawn")]
+    Emission,
+    #[error("physically based keys are not read")]
+    PhysicallyBased,
+    #[error("reflection, refraction and cast shadows are not drawn")]
+    Reflection,
+    #[error("a colour is not within 0 to 1: what is shown is clamped at each pixel")]
+    ColourOutOfRange,
+    #[error("a name that is defined already: the first definition is used")]
+    SecondDefinition,
+    #[error("no MTL statement, passed over")]
+    Unknown,
+}
+
+/// A statement in one of the libraries.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Place {
+    /// The number of the library, in the order in which they were read.
+    file: usize,
+    line: usize,
+    /// The statement without its comment.
+    statement: String,
+}
+
+/// A statement that is ignored, and why.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Ignored {
+    place: Place,
+    why: &'static str,
+}
+
+/// A number, and where it stands.
+#[derive(Clone, Debug)]
+struct Stated {
+    value: f32,
+    place: Place,
+}
+
+/// The statements of one `newmtl`.
+#[derive(Clone, Debug, Default)]
+struct Definition {
+    ambient: Option<Rgb>,
+    diffuse: Option<Rgb>,
+    specular: Option<Rgb>,
+    shininess: Option<f32>,
+    illumination: Option<u8>,
+    /// `d`: 1 is opaque.
+    dissolve: Option<Stated>,
+    /// `Tr`: 0 is opaque, as most programs write it.
+    transparency: Option<Stated>,
+    /// The least channel of `Tf`: 1 is opaque, as Maya writes it.
+    filter: Option<Stated>,
+    diffuse_map: Option<Place>,
+    oddities: Vec<(Oddity, Place)>,
+    ignored: Vec<Ignored>,
+    is_used: bool,
+}
+
 /// The materials of all libraries of one OBJ file, by name.
 #[derive(Default)]
 pub(super) struct Library {
-    materials: HashMap<String, Material>,
-    /// The materials by their names up to a comment, for `newmtl red # the lid`.
-    uncommented: HashMap<String, Material>,
+    definitions: Vec<Definition>,
+    /// Indices of definitions, by their names.
+    names: HashMap<String, usize>,
+    /// The same by their names up to a comment, for `newmtl red # the lid`.
+    uncommented: HashMap<String, usize>,
+    /// The names of the files that were read.
+    files: Vec<String>,
+    /// Statements outside of any definition.
+    ignored: Vec<Ignored>,
     /// The files asked for: added, or not to be had, with the error until it is told.
     tried: HashMap<String, Result<(), Option<io::Error>>>,
-    /// True if every file could be had.
+    /// True if every file could be had, and defines materials.
     pub is_complete: bool,
 }
 
@@ -48,80 +118,186 @@ impl Library {
         };
         for (line, rest) in lines {
             let mut one_file = name_candidates(rest);
-            if one_file.any(|name| library.try_file(name, load_mtl, warnings).is_ok()) {
+            if one_file.any(|name| library.try_file(name, *line, load_mtl, warnings)) {
                 continue;
             }
-            for name in file_names(without_comment(rest)) {
-                let Err(untold) = library.try_file(&name, load_mtl, warnings) else {
-                    continue;
-                };
-                if let Some(error) = untold.take() {
-                    let name = quote(&name);
-                    warnings.push(format!(
-                        "material library `{name}` (line {line}) cannot be read: {error}"
-                    ));
+            let uncommented = name_candidates(rest).last().unwrap_or_default();
+            for name in file_names(uncommented) {
+                if !library.try_file(&name, *line, load_mtl, warnings) {
+                    library.tell_missing(&name, *line, warnings);
                 }
-                library.is_complete = false;
             }
         }
         library
     }
 
-    /// Adds the materials of the file `name`, unless it was asked for before.
+    /// Adds the materials of the file `name`, which `line` names, unless it was asked for before. True if it could be read.
     fn try_file(
         &mut self,
         name: &str,
+        line: usize,
         load_mtl: &mut impl FnMut(&str) -> io::Result<Vec<u8>>,
         warnings: &mut Vec<String>,
-    ) -> &mut Result<(), Option<io::Error>> {
-        if !self.tried.contains_key(name) {
-            let bytes = load_mtl(name).map_err(Some);
-            let added = bytes.map(|bytes| self.add(name, &bytes, warnings));
-            self.tried.insert(name.to_string(), added);
+    ) -> bool {
+        if let Some(known) = self.tried.get(name) {
+            return known.is_ok();
         }
-        self.tried.get_mut(name).expect("it was just tried")
+        let read = load_mtl(name);
+        if let Ok(bytes) = &read
+            && let Err(problem) = self.add(name, bytes)
+        {
+            self.is_complete = false;
+            let (name, expected) = (quote(name), "expected MTL text with `newmtl` lines");
+            warnings.push(format!(
+                "material library `{name}` (line {line}) {problem}: {expected}"
+            ));
+        }
+        let is_there = read.is_ok();
+        let tried = read.map(|_| ()).map_err(Some);
+        self.tried.insert(name.to_string(), tried);
+        is_there
     }
 
-    /// Adds the materials of the MTL file `bytes`; warnings begin with its `name`.
-    fn add(&mut self, name: &str, bytes: &[u8], warnings: &mut Vec<String>) {
-        let mut found = Vec::new();
-        let text = sanitise(name, &decode(bytes), &mut found);
-        let more = found.len().saturating_sub(WARNINGS_SHOWN);
-        found.truncate(WARNINGS_SHOWN);
-        warnings.append(&mut found);
-        if more > 0 {
-            warnings.push(format!("{name}: {more} more lines are ignored"));
-        }
-        match guarded(|| tobj::load_mtl_buf(&mut text.as_bytes())) {
-            Ok((materials, _)) => materials
-                .iter()
-                .for_each(|parsed| self.insert(&parsed.name, material(parsed))),
-            Err(why) => warnings.push(format!(
-                "{name}: the MTL parser gave up ({why}): its materials are not used"
-            )),
+    /// Tells once that the file `name`, which `line` names, could not be read.
+    fn tell_missing(&mut self, name: &str, line: usize, warnings: &mut Vec<String>) {
+        self.is_complete = false;
+        if let Some(Err(untold)) = self.tried.get_mut(name)
+            && let Some(error) = untold.take()
+        {
+            let name = quote(name);
+            warnings.push(format!(
+                "material library `{name}` (line {line}) cannot be read: {error}"
+            ));
         }
     }
 
-    /// Adds a material, unless one has its name: the format lets the first win where two libraries define it.
-    fn insert(&mut self, name: &str, material: Material) {
-        self.materials.entry(name.to_string()).or_insert(material);
+    /// Adds the materials of the MTL file `bytes`.
+    ///
+    /// # Errors
+    /// The reason why there are none.
+    fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
+        if let Some(what) = foreign(bytes) {
+            return Err(format!("is {what}"));
+        }
+        let text = decode(bytes);
+        if text.contains('\0') {
+            return Err("holds binary data".to_string());
+        }
+        if text.trim().is_empty() {
+            return Err("is empty".to_string());
+        }
+        let (file, before) = (self.files.len(), self.definitions.len());
+        let mut ignored = Vec::new();
+        self.files.push(name.to_string());
+        // The definition that statements belong to; none at the start of a file, and after a `newmtl` without a name.
+        let mut open = false;
+        for (line, statement) in Statements::new(&text) {
+            let (word, rest) = keyword(&statement);
+            if word.is_empty() || word.starts_with('#') {
+                continue;
+            }
+            let values = without_comment(rest).trim_ascii();
+            let place = Place {
+                file,
+                line,
+                statement: quote(format!("{word} {values}").trim_ascii_end()),
+            };
+            let why = match (&*word.to_ascii_lowercase(), open) {
+                ("newmtl", _) => {
+                    open = !rest.is_empty();
+                    match open {
+                        true => {
+                            self.define(rest, place);
+                            continue;
+                        }
+                        false => "is ignored: expected a name",
+                    }
+                }
+                (_, false) => "before any `newmtl` is ignored",
+                (word, true) => {
+                    let definition = self.definitions.last_mut().expect("a definition is open");
+                    definition.read(word, values, place);
+                    continue;
+                }
+            };
+            ignored.push(Ignored { place, why });
+        }
+        if self.definitions.len() == before {
+            return Err("has no `newmtl` line".to_string());
+        }
+        self.definitions[before..]
+            .iter_mut()
+            .for_each(Definition::finish);
+        self.ignored.append(&mut ignored);
+        Ok(())
+    }
+
+    /// Begins a definition. Of two with one name the first one counts, as the format has it.
+    fn define(&mut self, name: &str, place: Place) {
+        let number = self.definitions.len();
+        self.definitions.push(Definition::default());
+        if let Some(&first) = self.names.get(name) {
+            let oddities = &mut self.definitions[first].oddities;
+            oddities.push((Oddity::SecondDefinition, place));
+            return;
+        }
+        self.names.insert(name.to_string(), number);
         if let Some(short) = name_candidates(name).nth(1) {
-            self.uncommented
-                .entry(short.to_string())
-                .or_insert(material);
+            self.uncommented.entry(short.to_string()).or_insert(number);
         }
     }
 
-    /// Returns the material that `usemtl` names with `rest`.
-    pub(super) fn find(&self, rest: &str) -> Option<Material> {
-        let find = |name| self.materials.get(name).or(self.uncommented.get(name));
-        name_candidates(rest).find_map(find).copied()
+    /// Returns the material that `usemtl` names with `rest`; what it asks for is told by [`Library::warnings`].
+    pub(super) fn use_material(&mut self, rest: &str) -> Option<Material> {
+        let find = |name| self.names.get(name).or(self.uncommented.get(name));
+        let number = *name_candidates(rest).find_map(find)?;
+        self.definitions[number].is_used = true;
+        Some(self.definitions[number].material())
+    }
+
+    /// Returns a line for each kind of thing that used materials ask for and that is not drawn, and for each statement that
+    /// cannot be read.
+    pub(super) fn warnings(&mut self) -> Vec<String> {
+        let used = self.definitions.iter_mut().filter(|found| found.is_used);
+        let mut ignored = mem::take(&mut self.ignored);
+        let mut oddities: BTreeMap<Oddity, Vec<Place>> = BTreeMap::new();
+        for definition in used {
+            ignored.append(&mut definition.ignored);
+            for (oddity, place) in definition.oddities.drain(..) {
+                oddities.entry(oddity).or_default().push(place);
+            }
+        }
+        ignored.sort();
+        let mut warnings = Vec::new();
+        for of_file in ignored.chunk_by(|a, b| a.place.file == b.place.file) {
+            let file = &self.files[of_file[0].place.file];
+            let (shown, others) = of_file.split_at(of_file.len().min(WARNINGS_SHOWN));
+            for Ignored { place, why } in shown {
+                let (line, statement) = (place.line, &place.statement);
+                warnings.push(format!("{file}:{line}: `{statement}` {why}"));
+            }
+            if !others.is_empty() {
+                let more = others.len();
+                warnings.push(format!("{file}: {more} more lines are ignored"));
+            }
+        }
+        for (oddity, places) in oddities {
+            let first = places.iter().min().expect("each kind has a place");
+            let (file, line) = (&self.files[first.file], first.line);
+            let statement = &first.statement;
+            let times = match places.len() {
+                1 => String::new(),
+                n => format!(" ({n} times)"),
+            };
+            warnings.push(format!("{file}:{line}: `{statement}`: {oddity}{times}"));
+        }
+        warnings
     }
 }
 
 /// Returns the file names in an `mtllib` line that is not one file name: each ends with `.mtl`, as names may hold spaces.
 fn file_names(rest: &str) -> Vec<String> {
-    let words: Vec<&str> = rest.split_whitespace().collect();
+    let words: Vec<&str> = rest.split_ascii_whitespace().collect();
     let is_last = |word: &&str| {
         let word = word.trim_end_matches('"').to_ascii_lowercase();
         word.ends_with(".mtl")
@@ -130,71 +306,161 @@ fn file_names(rest: &str) -> Vec<String> {
     words.split_inclusive(is_last).map(name).collect()
 }
 
-/// Returns the material that the parser read; channels and exponents that it did not find have their defaults.
-fn material(parsed: &tobj::Material) -> Material {
-    // Illumination models 0 (constant) and 1 (diffuse) have no highlight.
-    let matte = matches!(parsed.illumination_model, Some(0 | 1));
-    let specular = parsed.specular.filter(|_| !matte);
-    let shininess = parsed.shininess.map(|n| n as f32);
-    let colour = |parsed: Option<[f64; 3]>, default| {
-        parsed.map_or(default, |channels| channels.map(|channel| channel as f32))
-    };
-    Material {
-        ambient: colour(parsed.ambient, AMBIENT),
-        diffuse: colour(parsed.diffuse, DIFFUSE),
-        specular: colour(specular, SPECULAR),
-        shininess: shininess.unwrap_or(Material::default().shininess),
-    }
-}
-
-/// Returns the lines of `text` that the parser needs, as it can take them.
-fn sanitise(file: &str, text: &str, warnings: &mut Vec<String>) -> String {
-    let mut clean = String::new();
-    let mut named = false;
-    for (line, statement) in Statements::new(text) {
-        let (word, rest) = keyword(&statement);
-        let values = without_comment(rest).trim();
-        let accepted = match word {
-            "newmtl" => {
-                named = !rest.is_empty();
-                let name = named.then(|| rest.to_string());
-                name.ok_or("expected a name")
+impl Definition {
+    /// Reads a statement: its keyword in lower case, and what follows it without a comment.
+    fn read(&mut self, word: &str, values: &str, place: Place) {
+        const NUMBER: &str = "is ignored: expected one finite number, 0 or more";
+        let read = match word {
+            "ka" | "kd" | "ks" => self.read_colour(word, values, &place),
+            "ns" => number(values)
+                .map(|n| self.shininess = Some(n))
+                .ok_or(NUMBER),
+            "illum" => self.read_illumination(values, &place),
+            "d" => last_number(values)
+                .map(|value| self.dissolve = Some(stated(value, &place)))
+                .ok_or(NUMBER),
+            "tr" => last_number(values)
+                .map(|value| self.transparency = Some(stated(value, &place)))
+                .ok_or(NUMBER),
+            "tf" => colour(values).map(|colour| {
+                let least = colour.into_iter().fold(f32::INFINITY, f32::min);
+                self.filter = Some(stated(least, &place));
+            }),
+            "ke" => {
+                if colour(values) != Ok([0.0; 3]) {
+                    self.note(Oddity::Emission, &place);
+                }
+                Ok(())
             }
-            "Ka" | "Kd" | "Ks" => colour(values),
-            "Ns" => number(values)
-                .map(|n| n.to_string())
-                .ok_or("expected one finite number, 0 or more"),
-            "illum" => match values.parse::<u8>() {
-                Ok(model) => Ok(model.to_string()),
-                Err(_) => Err("expected the number of an illumination model, 0 to 10"),
-            },
-            _ => continue,
+            "pr" | "pm" | "ps" | "pc" | "pcr" | "aniso" | "anisor" => {
+                self.note(Oddity::PhysicallyBased, &place);
+                Ok(())
+            }
+            // Index of refraction, sharpness of reflections, anti-aliasing of textures: nothing by themselves.
+            "ni" | "sharpness" | "map_aat" => Ok(()),
+            _ if is_texture(word) => {
+                self.read_texture(word, values, &place);
+                Ok(())
+            }
+            _ => {
+                self.note(Oddity::Unknown, &place);
+                Ok(())
+            }
         };
-        match accepted {
-            Ok(_) if !named => warnings.push(format!(
-                "{file}:{line}: `{word}` before any `newmtl` is ignored"
-            )),
-            Ok(value) => clean += &format!("{word} {value}\n"),
-            Err(expected) => {
-                let what = quote(&format!("{word} {values}"));
-                warnings.push(format!("{file}:{line}: `{what}` is ignored: {expected}"));
+        if let Err(why) = read {
+            self.ignored.push(Ignored { place, why });
+        }
+    }
+
+    fn read_colour(&mut self, word: &str, values: &str, place: &Place) -> Result<(), &'static str> {
+        let colour = colour(values)?;
+        if colour.iter().any(|channel| *channel > 1.0) {
+            self.note(Oddity::ColourOutOfRange, place);
+        }
+        match word {
+            "ka" => self.ambient = Some(colour),
+            "kd" => self.diffuse = Some(colour),
+            _ => self.specular = Some(colour),
+        }
+        Ok(())
+    }
+
+    fn read_illumination(&mut self, values: &str, place: &Place) -> Result<(), &'static str> {
+        let expected = "is ignored: expected the number of an illumination model, 0 to 10";
+        let model: u8 = values.parse().map_err(|_| expected)?;
+        if model > 2 {
+            self.note(Oddity::Reflection, place);
+        }
+        self.illumination = Some(model);
+        Ok(())
+    }
+
+    /// Reads a texture; exporters also write the keyword without a file.
+    fn read_texture(&mut self, word: &str, values: &str, place: &Place) {
+        if !values.is_empty() {
+            self.note(Oddity::Texture, place);
+            if word == "map_kd" {
+                self.diffuse_map = Some(place.clone());
             }
         }
     }
-    clean
+
+    fn note(&mut self, oddity: Oddity, place: &Place) {
+        self.oddities.push((oddity, place.clone()));
+    }
+
+    /// Looks at statements that depend on others, once all are read.
+    fn finish(&mut self) {
+        let is_black = self
+            .diffuse
+            .is_none_or(|colour| colour.iter().all(|c| *c == 0.0));
+        if let Some(map) = self.diffuse_map.take().filter(|_| is_black) {
+            self.diffuse = None;
+            self.note(Oddity::DefaultGrey, &map);
+        }
+        let dissolve = self.dissolve.take();
+        let transparency = self.transparency.take();
+        let filter = self.filter.take();
+        let told = match (dissolve, transparency, filter) {
+            (Some(dissolve), _, _) if dissolve.value != 1.0 => Some(dissolve),
+            // Some programs write `Tr` with the meaning of `d`: beside `d 1`, both 0 and 1 are opaque.
+            (Some(_), transparency, _) => {
+                transparency.filter(|stated| stated.value != 0.0 && stated.value != 1.0)
+            }
+            (None, Some(transparency), _) => {
+                Some(transparency).filter(|stated| stated.value != 0.0)
+            }
+            (None, None, filter) => filter.filter(|stated| stated.value != 1.0),
+        };
+        if let Some(Stated { place, .. }) = told {
+            self.note(Oddity::Transparency, &place);
+        }
+    }
+
+    /// Returns the material; channels and exponents that are not stated have their defaults.
+    fn material(&self) -> Material {
+        // Illumination models 0 (constant) and 1 (diffuse) have no highlight.
+        let matte = matches!(self.illumination, Some(0 | 1));
+        let specular = self.specular.filter(|_| !matte);
+        Material {
+            ambient: self.ambient.unwrap_or(AMBIENT),
+            diffuse: self.diffuse.unwrap_or(DIFFUSE),
+            specular: specular.unwrap_or(SPECULAR),
+            shininess: self.shininess.unwrap_or(Material::default().shininess),
+        }
+    }
 }
 
-/// Returns three channels as text, read from three numbers or from one for all of them.
-fn colour(values: &str) -> Result<String, &'static str> {
-    if values.starts_with("spectral") || values.starts_with("xyz") {
-        return Err("expected red, green and blue, other colour models are not read");
+/// True if the keyword, in lower case, is that of a texture.
+fn is_texture(word: &str) -> bool {
+    word.starts_with("map_") || matches!(word, "bump" | "disp" | "decal" | "refl" | "norm")
+}
+
+fn stated(value: f32, place: &Place) -> Stated {
+    let place = place.clone();
+    Stated { value, place }
+}
+
+/// Returns three channels, read from three numbers or from one for all of them.
+fn colour(values: &str) -> Result<Rgb, &'static str> {
+    let first = values.split_ascii_whitespace().next().unwrap_or_default();
+    if first.eq_ignore_ascii_case("spectral") || first.eq_ignore_ascii_case("xyz") {
+        return Err("is ignored: expected red, green and blue, other colour models are not read");
     }
     let numbers: Option<Vec<f32>> = values.split_ascii_whitespace().map(number).collect();
     match numbers.as_deref() {
-        Some([grey]) => Ok(format!("{grey} {grey} {grey}")),
-        Some([red, green, blue]) => Ok(format!("{red} {green} {blue}")),
-        _ => Err("expected one or three finite numbers, 0 or more"),
+        Some([grey]) => Ok([*grey; 3]),
+        Some([red, green, blue]) => Ok([*red, *green, *blue]),
+        _ if values.contains(',') => {
+            Err("is ignored: expected one or three finite numbers, 0 or more, with decimal points")
+        }
+        _ => Err("is ignored: expected one or three finite numbers, 0 or more"),
     }
+}
+
+/// Reads the last of `values`: `-halo` may stand before it.
+fn last_number(values: &str) -> Option<f32> {
+    number(values.split_ascii_whitespace().next_back()?)
 }
 
 /// Reads a finite number that is 0 or more.

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::string::{String, ToString};
 
 /// Runs the parser. A panic inside it becomes an error: the text it gets is checked first, so this is a last resort.
-pub(super) fn guarded<T>(parse: impl FnOnce() -> Result<T, tobj::LoadError>) -> Result<T, String> {
+fn guarded<T>(parse: impl FnOnce() -> Result<T, tobj::LoadError>) -> Result<T, String> {
     match catch_unwind(AssertUnwindSafe(parse)) {
         Ok(Ok(parsed)) => Ok(parsed),
         Ok(Err(error)) => Err(error.to_string()),
@@ -37,7 +37,7 @@ pub(super) fn parse(scan: &Prescan) -> Result<tobj::Mesh, String> {
     let fits = found == (scan.polygons, scan.corners)
         && mesh.indices.len() == corners
         && (!scan.has_normals() || mesh.normal_indices.len() == corners)
-        && (!scan.has_colours() || mesh.vertex_color.len() == mesh.positions.len());
+        && mesh.positions.len() == 3 * scan.used_positions.len();
     if !fits {
         return Err(format!(
             "{} polygons with {corners} corners where {} with {} were given",

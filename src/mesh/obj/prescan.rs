@@ -6,11 +6,13 @@
 //! with absolute indices, as one group; groups, materials and smoothing are followed here.
 
 use super::corner::{Entries, ObjCorner, WrittenCorner};
-use super::error::{ObjProblem, quote};
-use super::lines::{FREE_FORM, Statements, is_plain_number, keyword, without_comment};
+use super::error::{ObjProblem, VectorProblem, quote};
+use super::lines::{FREE_FORM, Statements, is_plain_number, keyword, read_number, without_comment};
+use glam::Vec3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::format;
+use std::str::SplitAsciiWhitespace;
 use std::string::String;
 use std::vec::Vec;
 
@@ -38,10 +40,14 @@ enum Oddity {
     RepeatedCorner,
     #[error("the weight w of a position is ignored")]
     Weight,
-    #[error("a position has no colour: the colours of the others are not used")]
+    #[error("a position is not three finite numbers and is left out")]
+    BadPosition,
+    #[error("a normal is not three finite numbers: corners that name it count as without a normal")]
+    BadNormal,
+    #[error("a face uses a position that has no colour: the colours of the others are not used")]
     NoColour,
     #[error(
-        "the colour of a position is not within 0 to 1: what is shown is clamped at each pixel"
+        "a face uses a position whose colour is not within 0 to 1: what is shown is clamped at each pixel"
     )]
     ColourOutOfRange,
     #[error("a texture coordinate that does not exist is ignored, as all of them are")]
@@ -81,10 +87,14 @@ pub(super) struct Prescan {
     early_normal: Option<(usize, ObjProblem)>,
     /// The number of corners with a normal of their own.
     pub corners_with_normal: usize,
-    /// The number of positions with a colour.
-    colours: usize,
-    /// True if the first position has a colour: the parser is then given one with each, white where there is none.
-    writes_colours: bool,
+    /// Positions that are not three finite numbers.
+    bad_positions: Vec<BadPosition>,
+    /// The line of the first face that uses each position; 0 if none does.
+    first_uses: Vec<u32>,
+    /// The positions in the order in which faces first use them: that of the parser's mesh.
+    pub used_positions: Vec<u32>,
+    /// The colour of each position up to the last one that has a colour; [`NO_COLOUR`] for the others.
+    colours: Vec<Vec3>,
     /// The first word that is no statement.
     unknown_word: String,
     /// The first word that is no smoothing group.
@@ -93,14 +103,30 @@ pub(super) struct Prescan {
     oddities: BTreeMap<Oddity, (usize, usize)>,
 }
 
+/// A position that is not three finite numbers.
+struct BadPosition {
+    /// Its index, counted from 0.
+    index: usize,
+    line: usize,
+    problem: VectorProblem,
+}
+
+const NO_COLOUR: Vec3 = Vec3::NAN;
+
+/// The reason why a file is refused.
+pub(super) struct Refusal {
+    /// The first line that is wrong; `None` for the file as a whole.
+    pub line: Option<usize>,
+    pub problem: ObjProblem,
+    /// What was odd before.
+    pub warnings: Vec<String>,
+}
+
 /// Reads all of `text`.
 ///
 /// # Errors
-/// The first line that is wrong, or `None` for the file as a whole, and the problem.
-pub(super) fn prescan(
-    text: &str,
-    limits: MeshLimits,
-) -> Result<Prescan, (Option<usize>, ObjProblem)> {
+/// For the first line that is wrong, or the file as a whole.
+pub(super) fn prescan(text: &str, limits: MeshLimits) -> Result<Prescan, Refusal> {
     let mut scan = Prescan {
         text: Vec::with_capacity(text.len()),
         limits,
@@ -110,22 +136,19 @@ pub(super) fn prescan(
     };
     let mut corners = Vec::new();
     for (line, statement) in Statements::new(text) {
-        scan.statement(line, &statement, &mut corners)
-            .map_err(|problem| (Some(line), problem))?;
+        if let Err(problem) = scan.statement(line, &statement, &mut corners) {
+            return Err(scan.refusal(Some(line), problem));
+        }
     }
-    // As for other loaders, a file without any normal may name them.
-    let undeclared = scan.normals.count == 0;
-    let missing = [
-        scan.positions.missing(),
-        scan.normals.missing().filter(|_| !undeclared),
-        scan.early_normal.take().filter(|_| !undeclared),
-    ];
-    if let Some((line, problem)) = missing.into_iter().flatten().min_by_key(|(line, _)| *line) {
-        return Err((Some(line), problem));
+    if let Some((line, problem)) = scan.wrong_index() {
+        return Err(scan.refusal(Some(line), problem));
     }
+    scan.check_colours();
     match scan.polygons {
-        0 if scan.has(Oddity::PointOrLine) => Err((None, ObjProblem::OnlyPointsOrLines)),
-        0 => Err((None, ObjProblem::NoPolygons)),
+        0 if scan.has(Oddity::PointOrLine) => {
+            Err(scan.refusal(None, ObjProblem::OnlyPointsOrLines))
+        }
+        0 => Err(scan.refusal(None, ObjProblem::NoPolygons)),
         _ => Ok(scan),
     }
 }
@@ -136,16 +159,72 @@ impl Prescan {
         self.normals.count > 0 && self.corners_with_normal > 0
     }
 
-    /// True if every position has a colour: only then the colours of the file are used.
-    pub(super) fn has_colours(&self) -> bool {
-        self.colours > 0 && !self.has(Oddity::NoColour)
+    /// Returns the colours of the positions that faces use, in the order of the parser's mesh; `None` if they are not all there.
+    pub(super) fn used_colours(&self) -> Option<Vec<Vec3>> {
+        let colours = self.used_positions.iter().map(|&at| self.colour(at));
+        let is_whole = !self.colours.is_empty() && !self.has(Oddity::NoColour);
+        is_whole.then(|| colours.collect())
+    }
+
+    fn colour(&self, position: u32) -> Vec3 {
+        let colour = self.colours.get(position as usize);
+        colour.copied().unwrap_or(NO_COLOUR)
+    }
+
+    /// Makes the error for `problem`, with what was odd before.
+    fn refusal(&self, line: Option<usize>, problem: ObjProblem) -> Refusal {
+        Refusal {
+            line,
+            problem,
+            warnings: self.warnings(),
+        }
+    }
+
+    /// Returns the first line that names what the whole file does not have, or that is named and cannot be read, and the
+    /// problem.
+    fn wrong_index(&mut self) -> Option<(usize, ObjProblem)> {
+        // As for other loaders, a file without any normal may name them.
+        let undeclared = self.normals.count == 0;
+        let face = |bad: &BadPosition| {
+            let face = self.first_uses.get(bad.index).copied();
+            face.filter(|&face| face > 0).map(|face| face as usize)
+        };
+        let bad_position = self.bad_positions.iter().find_map(|bad| {
+            let (face, problem) = (face(bad)?, bad.problem.clone());
+            Some((bad.line, ObjProblem::BadPosition { problem, face }))
+        });
+        let wrong = [
+            bad_position,
+            self.positions.missing(),
+            self.normals.missing().filter(|_| !undeclared),
+            self.early_normal.take().filter(|_| !undeclared),
+        ];
+        wrong.into_iter().flatten().min_by_key(|(line, _)| *line)
+    }
+
+    /// Looks at the colours of the positions that faces use. If none of them has one, the file counts as without colours.
+    fn check_colours(&mut self) {
+        let mut used = self.used_positions.iter();
+        if used.all(|&position| self.colour(position).is_nan()) {
+            self.colours.clear();
+            return;
+        }
+        for number in 0..self.used_positions.len() {
+            let position = self.used_positions[number];
+            let face = self.first_uses[position as usize] as usize;
+            let colour = self.colour(position);
+            if colour.is_nan() {
+                self.note(face, Oddity::NoColour);
+            } else if colour.min_element() < 0.0 || colour.max_element() > 1.0 {
+                self.note(face, Oddity::ColourOutOfRange);
+            }
+        }
     }
 
     /// Returns a line for each kind of thing that was passed over or read in another way than it may be meant.
     pub(super) fn warnings(&self) -> Vec<String> {
         let matters = |oddity: &Oddity| match oddity {
-            Oddity::NoColour => self.colours > 0,
-            Oddity::ColourOutOfRange => self.has_colours(),
+            Oddity::ColourOutOfRange => !self.has(Oddity::NoColour),
             Oddity::UndeclaredNormal => self.normals.count == 0,
             Oddity::NoTextureCoordinate => {
                 let is_told = self.normals.count == 0 && self.has(Oddity::UndeclaredNormal);
@@ -189,12 +268,15 @@ impl Prescan {
             word = Cow::Owned(written.to_ascii_lowercase());
         }
         match &*word {
-            "v" => self.position(line, rest)?,
+            "v" => self.position(line, rest),
             "vn" => {
                 if self.normals.count == 0 {
                     self.text.extend_from_slice(b"vn 0 0 0\n");
                 }
-                self.vector("vn", rest)?;
+                let mut words = without_comment(rest).split_ascii_whitespace();
+                if self.vector("vn", &mut words).is_err() {
+                    self.note(line, Oddity::BadNormal);
+                }
                 self.text.push(b'\n');
                 self.normals.count += 1;
             }
@@ -228,64 +310,82 @@ impl Prescan {
         Ok(())
     }
 
-    /// Reads a vector: three finite numbers, which are written for the parser, and others after them, which are checked.
+    /// Writes the first three of `words` for the parser: finite numbers, or a NaN in place of all if they are not.
     ///
-    /// Returns the fourth to sixth number, 0 where there are fewer, and the number of all.
+    /// # Errors
+    /// When they are not. The word that is wrong is the last one taken from `words`.
     fn vector(
         &mut self,
-        keyword: &'static str,
-        rest: &str,
-    ) -> Result<([f32; 3], usize), ObjProblem> {
-        let mut found = 0;
-        let mut more = [0.0; 3];
+        keyword: &str,
+        words: &mut SplitAsciiWhitespace,
+    ) -> Result<(), VectorProblem> {
+        let start = self.text.len();
+        let mut problem = None;
         self.text.extend_from_slice(keyword.as_bytes());
-        for word in without_comment(rest).split_ascii_whitespace() {
-            found += 1;
-            if found <= 3 {
-                self.text.push(b' ');
-                self.text.extend_from_slice(word.as_bytes());
-                // The parser finds its value; most are plainly numbers, and need not be read twice.
-                if is_plain_number(word) {
-                    continue;
-                }
+        for found in 0..3 {
+            let Some(word) = words.next() else {
+                problem = Some(VectorProblem::TooFewNumbers { found });
+                break;
+            };
+            // The parser finds its value; most are plainly numbers, and need not be read twice.
+            if !is_plain_number(word) && !word.parse().is_ok_and(f32::is_finite) {
+                let found = quote(word);
+                problem = Some(VectorProblem::BadNumber { found });
+                break;
             }
-            let number = word.parse().ok().filter(|number: &f32| number.is_finite());
-            let number = number.ok_or_else(|| ObjProblem::BadNumber {
-                keyword,
-                found: quote(word),
-            })?;
-            if (4..=6).contains(&found) {
-                more[found - 4] = number;
-            }
+            self.text.push(b' ');
+            self.text.extend_from_slice(word.as_bytes());
         }
-        match found {
-            3.. => Ok((more, found)),
-            _ => Err(ObjProblem::TooFewNumbers { keyword, found }),
-        }
+        let Some(problem) = problem else {
+            return Ok(());
+        };
+        self.text.truncate(start);
+        self.text.extend_from_slice(keyword.as_bytes());
+        self.text.extend_from_slice(b" nan nan nan");
+        Err(problem)
     }
 
-    /// Reads a position: three numbers, with a colour (three more) or a weight (one more), which is dropped.
-    fn position(&mut self, line: usize, rest: &str) -> Result<(), ObjProblem> {
-        let (more, found) = self.vector("v", rest)?;
-        if found == 4 && more[0] != 1.0 {
-            self.note(line, Oddity::Weight);
-        }
-        if found != 6 {
-            self.note(line, Oddity::NoColour);
-        } else {
-            self.writes_colours |= self.positions.count == 0;
-            self.colours += 1;
-            if !more.iter().all(|channel| (0.0..=1.0).contains(channel)) {
-                self.note(line, Oddity::ColourOutOfRange);
-            }
-        }
-        if self.writes_colours {
-            let [r, g, b] = if found == 6 { more } else { [1.0; 3] };
-            self.text
-                .extend_from_slice(format!(" {r} {g} {b}").as_bytes());
+    /// Reads a position: three numbers, with a colour (three more) or a weight (one more), which is dropped. What follows a
+    /// colour is not looked at.
+    fn position(&mut self, line: usize, rest: &str) {
+        let mut words = without_comment(rest).split_ascii_whitespace();
+        let read = self.vector("v", &mut words);
+        if let Err(problem) = read.and_then(|()| self.colour_or_weight(line, &mut words)) {
+            self.note(line, Oddity::BadPosition);
+            self.bad_positions.push(BadPosition {
+                index: self.positions.count,
+                line,
+                problem,
+            });
         }
         self.text.push(b'\n');
         self.positions.count += 1;
+    }
+
+    /// Reads the words after the three numbers of a position.
+    ///
+    /// # Errors
+    /// When one of them is no number: two lines that ran together are no position.
+    fn colour_or_weight(
+        &mut self,
+        line: usize,
+        words: &mut SplitAsciiWhitespace,
+    ) -> Result<(), VectorProblem> {
+        let mut numbers = [f32::NAN; 3];
+        let mut found = 0;
+        for (number, word) in numbers.iter_mut().zip(words) {
+            let problem = || VectorProblem::BadNumber { found: quote(word) };
+            *number = read_number(word).ok_or_else(problem)?;
+            found += 1;
+        }
+        let colour = Vec3::from_array(numbers);
+        if found == 1 && numbers[0] != 1.0 {
+            self.note(line, Oddity::Weight);
+        }
+        if found == 3 && colour.is_finite() {
+            self.colours.resize(self.positions.count, NO_COLOUR);
+            self.colours.push(colour);
+        }
         Ok(())
     }
 
@@ -319,8 +419,27 @@ impl Prescan {
         }
         self.polygons += 1;
         self.corners += corners.len();
+        self.note_uses(line, corners);
         self.write_face(corners);
         Ok(())
+    }
+
+    /// Notes which positions a face in `line` is the first to use.
+    fn note_uses(&mut self, line: usize, corners: &[ObjCorner]) {
+        let line = u32::try_from(line).unwrap_or(u32::MAX);
+        for position in corners.iter().map(|corner| corner.position) {
+            if position >= self.first_uses.len() {
+                // A position takes two bytes or more: one so far ahead does not come.
+                if position >= self.text.capacity().max(self.positions.count) {
+                    continue;
+                }
+                self.first_uses.resize(position + 1, 0);
+            }
+            if self.first_uses[position] == 0 {
+                self.first_uses[position] = line;
+                self.used_positions.push(position as u32);
+            }
+        }
     }
 
     /// Writes a face for the parser, whose first normal is zero and means none.

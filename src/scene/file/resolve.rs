@@ -34,7 +34,7 @@ pub struct Resolved {
     pub notes: Vec<String>,
 }
 
-/// A mesh, and what its loader found odd about it; or why there is none.
+/// A mesh, and what its loader found odd about it; or why there is none, with a line for each thing that was odd before.
 pub type LoadedMesh = Result<(Arc<PolygonMesh>, Vec<String>), String>;
 
 impl SceneFile {
@@ -205,16 +205,19 @@ fn lights(file: &Section) -> Result<Vec<Light>, SceneError> {
 }
 
 /// Makes the error for a mesh that could not be loaded; the caret stands under its name.
+///
+/// The first line of `reason` says why, lines after it what was odd before.
 fn mesh_error(object: &Section, mesh: &str, reason: &str) -> SceneError {
+    let (reason, odd) = reason.split_once('\n').unwrap_or((reason, ""));
     let origin = object.table.get("mesh").map(|value| &value.origin);
-    if !matches!(origin, Some(Origin::File(_))) {
+    let error = match origin {
+        Some(Origin::File(_)) => object.error("mesh", &format!("`{mesh}` cannot be used"), reason),
         // The input itself names the mesh: no line of a scene file, and no key.
-        return SceneError::new(Origin::Program, reason, "");
-    }
-    let problem = format!("`{mesh}` cannot be used");
-    match reason.contains('\n') {
-        false => object.error("mesh", &problem, reason),
-        true => object.error("mesh", &problem, "").note(reason),
+        _ => SceneError::new(Origin::Program, reason, ""),
+    };
+    match odd {
+        "" => error,
+        odd => error.note(odd),
     }
 }
 

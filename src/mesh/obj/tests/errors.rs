@@ -3,9 +3,11 @@
 use super::*;
 use crate::mesh::obj::prescan::MeshLimits;
 use crate::mesh::obj::{ObjProblem, load_obj, parse_limited};
+use glam::Vec3;
 use std::error::Error;
 use std::path::Path;
 use std::string::ToString;
+use std::vec;
 
 /// Checks that `text` gives an error at `line` (0: none) with `message` after its place.
 #[track_caller]
@@ -81,44 +83,123 @@ fn binary_data() {
     assert!(parse([0x89, b'P', b'N', b'G', 13, 10, 26, 10, 200]).is_err());
 }
 
+/// Checks the error of a triangle whose second position is the statement `v`, and none without the triangle's face.
+#[track_caller]
+fn assert_bad_position(v: &str, message: &str) {
+    let text = format!("v 0 0 0\n{v}\nv 0 1 0\n\nf 1 2 3\n");
+    let used = ", and the face in line 5 uses this position";
+    assert_error(text, 2, &format!("{message}{used}"));
+    let loaded = after_points(&format!("{v}\nf 1 2 3\n"));
+    let told = "a position is not three finite numbers and is left out (line 6)";
+    assert_eq!(warning(&loaded), told, "{v}");
+}
+
 #[test]
-fn numbers() {
-    assert_error(
-        "v 0 0 0\nv 1 2",
-        2,
-        "`v` has too few numbers: expected three, found 2",
-    );
-    assert_error(
-        "v 0 0 # 0\n",
-        1,
-        "`v` has too few numbers: expected three, found 2",
-    );
-    assert_error("v\n", 1, "`v` has too few numbers: expected three, found 0");
-    assert_error_after_points(
-        "vn 1 2\n",
-        6,
-        "`vn` has too few numbers: expected three, found 2",
-    );
-    for number in ["nan", "inf", "-inf", "1e99", "1,5", "0x10", "1.2.3", "é"] {
-        assert_error(
-            format!("\nv 0 {number} 0\n"),
-            2,
-            &format!("`{number}` in `v`: expected a finite number"),
-        );
-        let message = format!("`{number}` in `vn`: expected a finite number");
-        assert_error_after_points(&format!("vn {number} 0 0\nf 1 2 3\n"), 6, &message);
+fn a_position_that_is_no_number_refuses_the_file_only_if_a_face_uses_it() {
+    for number in [
+        "nan",
+        "inf",
+        "-inf",
+        "1e99",
+        "1e400",
+        "0x10",
+        "1.2.3",
+        "é",
+        "1.#QNAN",
+        "-1.#IND",
+        "1.#INF00",
+        "-nan(ind)",
+        "NaN",
+        "1.#J",
+    ] {
+        let message = format!("`{number}` in `v`: expected a finite number");
+        assert_bad_position(&format!("v 0 {number} 0"), &message);
     }
+    let message = "`1,5` in `v`: expected a finite number with a decimal point";
+    assert_bad_position("v 0 1,5 0", message);
+    let few = |found| format!("`v` has too few numbers: expected three, found {found}");
+    assert_bad_position("v 1 2", &few(2));
+    assert_bad_position("v 0 0 # 0", &few(2));
+    assert_bad_position("v", &few(0));
     // Two lines run together.
-    assert_error(
-        "v 0 0 0v 1 0 0\n",
-        1,
-        "`0v` in `v`: expected a finite number",
+    let message = "`0v` in `v`: expected a finite number";
+    assert_bad_position("v 0 0 0v 1 0 0", message);
+    let message = "`v` in `v`: expected a finite number";
+    assert_bad_position("v 0 0 0 v 1 0 0", message);
+}
+
+#[test]
+fn the_first_face_that_uses_a_position_is_named() {
+    // The face comes before the position, and another one, which is left out, before both.
+    let text = "f 1 2\nf 2 3 4\nf 1 2 3\nv 0 0 0\nv nan 0 0\nv 1 0 0\nv 0 1 0\n";
+    let message =
+        "`nan` in `v`: expected a finite number, and the face in line 2 uses this position";
+    assert_error(text, 5, message);
+    // A face that is left out uses nothing.
+    let loaded = after_points("v nan 0 0\nf 1 6\nf 6 6 6\nf 1 2 3\n");
+    assert_eq!(polygons(&loaded), [[0, 1, 2]]);
+}
+
+#[test]
+fn normals_and_texture_coordinates_that_are_no_numbers_refuse_nothing() {
+    for vn in [
+        "nan nan nan",
+        "1 2",
+        "",
+        "1.#QNAN 0 -1.#IND00",
+        "0 1,5 0",
+        "1e999 0 0",
+        "x",
+    ] {
+        let loaded = after_points(&format!("vn {vn}\nvn 0 0 2\nf 1//1 2//2 3//2\n"));
+        let normals = loaded.mesh.given_normals().unwrap();
+        let values = normals.corners.as_deref().unwrap().iter();
+        let values: Vec<Vec3> = values.map(|&n| normals.values[n as usize]).collect();
+        assert_eq!(values, [Vec3::ZERO, Vec3::Z, Vec3::Z], "{vn}");
+        let told = "a normal is not three finite numbers: corners that name it count as without a normal (line 6)";
+        assert_eq!(warning(&loaded), told, "{vn}");
+    }
+    let loaded = after_points("vt nan\nvt\nvt 1,5 x\nf 1/1 2/2 3/3\n");
+    assert_eq!(loaded.warnings, Vec::<String>::new());
+}
+
+#[test]
+fn what_was_odd_before_an_error_is_shown_with_it() {
+    let error = parse(format!("{POINTS}hello\nl 1 2\nf 1 2 9\n")).unwrap_err();
+    assert_eq!(
+        error.warnings,
+        [
+            "points and lines are not drawn (line 7)",
+            "`hello` is no OBJ statement and is passed over (line 6)"
+        ]
     );
-    assert_error(
-        "v 0 0 0 zero\n",
-        1,
-        "`zero` in `v`: expected a finite number",
+    let error = parse("Not Found\n").unwrap_err();
+    let told = "`Not` is no OBJ statement and is passed over (line 1)";
+    assert_eq!(
+        (error.problem, error.warnings),
+        (ObjProblem::NoPolygons, vec![told.to_string()])
     );
+}
+
+#[test]
+fn files_of_other_formats_are_told_as_such() {
+    let utf16 = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let files: [(Vec<u8>, &str); 7] = [
+        (utf16("\u{feff}v 0 0 0\n"), "UTF-16 text (not UTF-8)"),
+        (utf16("v 0 0 0\n"), "UTF-16 text (not UTF-8)"),
+        (b"\x89PNG\r\n\x1a\n".to_vec(), "a PNG picture"),
+        (b"\x1f\x8b\x08".to_vec(), "a gzip archive"),
+        (b"\n <!DOCTYPE HTML>\n".to_vec(), "a page of HTML"),
+        (b"\xef\xbb\xbf<html>".to_vec(), "a page of HTML"),
+        (
+            b"version https://git-lfs.github.com/spec/v1\n".to_vec(),
+            "a pointer of Git LFS, not the file (`git lfs pull` fetches it)",
+        ),
+    ];
+    for (bytes, what) in files {
+        let message = format!("is {what}: expected OBJ text with `v` and `f` lines");
+        assert_error(bytes, 0, &message);
+    }
 }
 
 #[test]
@@ -210,19 +291,19 @@ fn a_continued_statement_is_told_by_its_first_line() {
         "`x` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers",
     );
     assert_error_after_points(
-        "f 1 \\\n2 3\nv x\n",
+        "f 1 \\\n2 3\nf x\n",
         8,
-        "`x` in `v`: expected a finite number",
+        "`x` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers",
     );
 }
 
 #[test]
 fn quotes_are_one_short_line() {
-    let error = parse(format!("v 0 0 \u{1b}[31m{}\n", "x".repeat(1000)))
+    let error = parse(format!("f 1 2 \u{1b}[31m{}\n", "x".repeat(1000)))
         .unwrap_err()
         .to_string();
     assert!(
-        error.contains("\\u{1b}[31mxxx") && error.contains('…') && error.len() < 120,
+        error.contains("\\u{1b}[31mxxx") && error.contains('…') && error.len() < 140,
         "{error}"
     );
 }

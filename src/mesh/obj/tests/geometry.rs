@@ -80,6 +80,75 @@ fn comments_continued_lines_and_line_ends() {
 }
 
 #[test]
+fn carriage_returns_and_line_feeds_end_lines_in_any_mixture() {
+    let text =
+        "# square\nv 0 0 0\rv 1 0 0\r\nv 1 1 0\nv 0 1 0\rf 1 2 4 # a\rf 1 4 3\n\rf 2 3 4\r\r\nf 1";
+    let loaded = parse(text).unwrap();
+    assert_eq!(polygons(&loaded), [[0, 1, 2], [0, 2, 3], [1, 3, 2]]);
+    // The blank lines between count.
+    assert!(
+        warning(&loaded).ends_with("is left out (line 11)"),
+        "{:?}",
+        loaded.warnings
+    );
+    // A line that ends in CR alone may be continued, too.
+    let loaded = parse("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 \\\r2 \\\r\n3\rf 3 2 1\r").unwrap();
+    assert_eq!(polygons(&loaded), [[0, 1, 2], [2, 1, 0]]);
+}
+
+#[test]
+fn a_backslash_continues_no_name_and_no_comment() {
+    for line in [
+        "usemtl C:\\materials\\",
+        "USEMTL \u{95}\\",
+        "g left\\",
+        "o left \\",
+        "mtllib C:\\models\\",
+        "usemap wood\\",
+        "shadow_obj a\\",
+        "# C:\\models\\",
+        "hello \\",
+    ] {
+        let loaded = after_points(&format!("{line}\nf 1 2 3\n"));
+        assert_eq!(polygons(&loaded), [[0, 1, 2]], "{line}");
+    }
+    // Numbers go on: of faces, positions and curves.
+    let text =
+        "v 0 \\\n0 0\nvn \\\n0 0 1\nV 1 0\\ \n 0\ncurv2 1 \\\n2 \\\n3\nv 0 1 0\nf 1 2 \\\n3\n";
+    let loaded = parse(text).unwrap();
+    assert_eq!(polygons(&loaded), [[0, 1, 2]]);
+    assert!(
+        warning(&loaded).starts_with("free-form curves"),
+        "{:?}",
+        loaded.warnings
+    );
+}
+
+#[test]
+fn a_comment_begins_after_a_number() {
+    let loaded = parse("v 0 0 0#a\nv 1 0 0.#b\nv 0 1. # c\\\n\nv 0 1 1.# d\nf 1 2 4# e\n");
+    assert_eq!(
+        loaded.unwrap().mesh.positions()[2],
+        Vec3::new(0.0, 1.0, 1.0)
+    );
+}
+
+#[test]
+fn keywords_may_have_capitals() {
+    let loaded = parse("V 0 0 0\nV 1 0 0\nV 0 1 0\nVN 0 0 1\nF 1//1 2//1 3//1\n").unwrap();
+    assert_eq!(polygons(&loaded), [[0, 1, 2]]);
+    assert!(loaded.mesh.given_normals().is_some() && loaded.warnings.is_empty());
+}
+
+#[test]
+fn geometry_in_other_files_is_missing() {
+    let loaded = after_points("call other.obj\nf 1 2 3\n");
+    let told =
+        "`call` and `csh` are not followed: the geometry that they would add is missing (line 6)";
+    assert_eq!(warning(&loaded), told);
+}
+
+#[test]
 fn byte_order_mark_and_latin_1() {
     // If the mark is in its first line, the parser loses that position and all indices shift by
     // one.
@@ -97,7 +166,7 @@ fn weights_and_colours_do_not_move_positions() {
         loaded.mesh.positions(),
         [Vec3::new(2.0, 4.0, 6.0), Vec3::X, Vec3::new(1.0, 1.0, 0.0)]
     );
-    let no_colours = "a position has no colour: the colours of the others are not used (2 times, first in line 1)";
+    let no_colours = "a face uses a position that has no colour: the colours of the others are not used (2 times, first in line 4)";
     assert_eq!(
         loaded.warnings,
         ["the weight w of a position is ignored (line 1)", no_colours]
@@ -425,26 +494,52 @@ fn colours_follow_their_positions() {
 }
 
 #[test]
-fn colours_are_used_if_all_positions_have_one() {
+fn colours_are_used_if_all_positions_of_faces_have_one() {
     for (first, last, line) in [
-        ("v 0 0 0 1 0 0", "v 0 1 0", 3),
-        ("v 0 0 0", "v 0 1 0 1 0 0", 1),
+        ("v 0 0 0 1 0 0", "v 0 1 0", 5),
+        ("v 0 0 0", "v 0 1 0 1 0 0", 5),
+        ("v 0 0 0 1 0 0", "v 0 1 0 nan 0 0", 5),
     ] {
-        let loaded = parse(format!("{first}\nv 1 0 0 0 1 0\n{last}\nf 1 2 3\n")).unwrap();
+        let loaded = parse(format!("{first}\nv 1 0 0 0 1 0\n{last}\n\nf 1 2 3\n")).unwrap();
         assert!(loaded.mesh.colours().is_empty());
         let expected = format!(
-            "a position has no colour: the colours of the others are not used (line {line})"
+            "a face uses a position that has no colour: the colours of the others are not used (line {line})"
         );
         assert_eq!(loaded.warnings, [expected]);
     }
+    // Unused positions count neither as missing, nor as out of range, nor as having colours.
+    let colours = [Vec3::X, Vec3::Y, Vec3::Z];
+    let points = "v 9 9 9\nv 0 0 0 1 0 0\nv 8 8 8 255 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nv 7 7 7\n";
+    let loaded = parse(format!("{points}f 2 4 5\n")).unwrap();
+    assert_eq!(
+        (loaded.mesh.colours(), loaded.warnings.len()),
+        (&colours[..], 0)
+    );
+    let loaded = after_points("v 7 7 7 1 0 0\nf 1 2 3\n");
+    assert!(loaded.mesh.colours().is_empty() && loaded.warnings.is_empty());
+
     let loaded = parse("v 0 0 0 255 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 -1\nf 1 2 3\n").unwrap();
     assert_eq!(loaded.mesh.colours()[0], Vec3::new(255.0, 0.0, 0.0));
     assert_eq!(loaded.warnings.len(), 1);
     assert!(
         loaded.warnings[0].contains("not within 0 to 1") && loaded.warnings[0].contains("2 times")
     );
-    // Four numbers are a position with a weight. Seven add a colour, which no program writes. Both
-    // give no colour.
-    let loaded = parse("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1 0 0 1\nf 1 2 3\n").unwrap();
-    assert!(loaded.mesh.colours().is_empty());
+    // Numbers after a colour, such as alpha, are ignored; four numbers are a position with a weight, five are no colour.
+    let loaded =
+        parse("v 0 0 0 1 0 0 1\nv 1 0 0 0 1 0 .5 x\nv 0 1 0 0 0 1 nan\nf 1 2 3\n").unwrap();
+    assert_eq!(
+        (loaded.mesh.colours(), loaded.warnings.len()),
+        (&colours[..], 0)
+    );
+    for more in ["1", "0 1"] {
+        let text = format!("v 0 0 0 {more}\nv 1 0 0 {more}\nv 0 1 0 {more}\nf 1 2 3\n");
+        let loaded = parse(text).unwrap();
+        assert!(loaded.mesh.colours().is_empty() && loaded.warnings.is_empty());
+    }
+}
+
+#[test]
+fn an_index_far_ahead_takes_no_memory() {
+    let error = parse(format!("f 1 2 {}\n{POINTS}", u32::MAX)).unwrap_err();
+    assert!(error.to_string().contains("out of range: expected 1 to 5"));
 }

@@ -58,7 +58,7 @@ fn properties_of_materials() {
 fn defaults_of_materials() {
     assert_eq!(material("newmtl m"), (Some(PLAIN), vec![]));
     // Illumination models 0 and 1 have no highlight.
-    for (illum, specular) in [("0", 0.0), ("1", 0.0), ("2", 0.5), ("3", 0.5)] {
+    for (illum, specular) in [("0", 0.0), ("1", 0.0), ("2", 0.5)] {
         let (found, warnings) = material(&format!("newmtl m\nKs 0.5 0.5 0.5\nillum {illum}\n"));
         assert_eq!(
             (found.unwrap().specular, warnings),
@@ -102,7 +102,7 @@ fn lines_that_cannot_be_read_are_told_and_ignored() {
             "Kd 1 1 1 1",
             "`Kd 1 1 1 1` is ignored: expected one or three",
         ),
-        ("Kd", "`Kd ` is ignored: expected one or three"),
+        ("Kd", "`Kd` is ignored: expected one or three"),
         (
             "Kd 1 nan 1",
             "`Kd 1 nan 1` is ignored: expected one or three",
@@ -112,7 +112,7 @@ fn lines_that_cannot_be_read_are_told_and_ignored() {
             "Ns nan",
             "`Ns nan` is ignored: expected one finite number, 0 or more",
         ),
-        ("Ns", "`Ns ` is ignored: expected one finite"),
+        ("Ns", "`Ns` is ignored: expected one finite"),
         ("Ns -3", "`Ns -3` is ignored: expected one finite"),
         (
             "illum 2.0",
@@ -131,17 +131,166 @@ fn lines_that_cannot_be_read_are_told_and_ignored() {
     assert_eq!(found, Some(PLAIN));
     assert_eq!(warnings.len(), 3);
     assert!(
-        warnings[0].starts_with("a.mtl:1: `Kd` before any `newmtl`"),
+        warnings[0].starts_with("a.mtl:1: `Kd 1 0 0` before any `newmtl`"),
         "{warnings:?}"
     );
     assert!(
-        warnings[1].starts_with("a.mtl:3: `newmtl ` is ignored: expected a name"),
+        warnings[1].starts_with("a.mtl:3: `newmtl` is ignored: expected a name"),
         "{warnings:?}"
     );
     // A file with other content must not fill the screen.
-    let (_, warnings) = material(&"Kd\n".repeat(1000));
-    assert_eq!(warnings.len(), 8 + 2, "{warnings:?}");
+    let (_, warnings) = material(&("newmtl m\n".to_string() + &"Kd\n".repeat(1000)));
+    assert_eq!(warnings.len(), 8 + 1, "{warnings:?}");
     assert_eq!(warnings[8], "a.mtl: 992 more lines are ignored");
+}
+
+#[test]
+fn keywords_have_any_case() {
+    let text = "NEWMTL m\nKA 0.1 0.2 0.3\nkd 0.4 0.5 0.6\nkS 0.7 0.8 0.9\nNS 96.5\nIllum 2\nD 1\n";
+    let (found, warnings) = material(text);
+    let found = found.unwrap();
+    assert_eq!((found.diffuse, found.shininess), ([0.4, 0.5, 0.6], 96.5));
+    assert_eq!((found.specular, warnings), ([0.7, 0.8, 0.9], vec![]));
+}
+
+#[test]
+fn lines_end_by_cr_and_names_go_on_to_their_end() {
+    for text in [
+        "newmtl m\rKd 1 0 0 # a\rmap_Kd\r\nNs 5\r",
+        "newmtl x\\\nnewmtl m\nKd 1 \\\n0 0\nNs 5",
+        "newmtl x\nmap_Kd C:\\wood\\\nnewmtl m\nKd 1 0 0\nNs \\\r5",
+    ] {
+        let (found, warnings) = material(text);
+        let found = found.unwrap();
+        assert_eq!(
+            (found.diffuse, found.shininess),
+            ([1.0, 0.0, 0.0], 5.0),
+            "{text:?}"
+        );
+        assert_eq!(warnings, Vec::<String>::new(), "{text:?}");
+    }
+}
+
+#[test]
+fn what_is_not_drawn_is_told_once_a_kind() {
+    for (lines, told) in [
+        (
+            "map_Bump -bm 1.0 a.png\nnorm b.png\nrefl c\nmap_Kd\nKd 1",
+            "3: `map_Bump -bm 1.0 a.png`: textures are not drawn (3 times)",
+        ),
+        (
+            "d 0.5\nTr 0.5",
+            "3: `d 0.5`: transparency is not drawn, all surfaces are opaque",
+        ),
+        (
+            "d -halo 0.25",
+            "3: `d -halo 0.25`: transparency is not drawn, all surfaces are opaque",
+        ),
+        (
+            "Tr 1",
+            "3: `Tr 1`: transparency is not drawn, all surfaces are opaque",
+        ),
+        (
+            "d 1\nTr 0.5",
+            "4: `Tr 0.5`: transparency is not drawn, all surfaces are opaque",
+        ),
+        (
+            "Tf 1 0.5 1",
+            "3: `Tf 1 0.5 1`: transparency is not drawn, all surfaces are opaque",
+        ),
+        ("Ke 0 0.1 0", "3: `Ke 0 0.1 0`: emission is not drawn"),
+        (
+            "KE spectral a.rfl",
+            "3: `KE spectral a.rfl`: emission is not drawn",
+        ),
+        (
+            "Pr 0.5\nPm 0\naniso 0",
+            "3: `Pr 0.5`: physically based keys are not read (3 times)",
+        ),
+        (
+            "illum 3",
+            "3: `illum 3`: reflection, refraction and cast shadows are not drawn",
+        ),
+        (
+            "Ka 2\nKd 255 0 0",
+            "3: `Ka 2`: a colour is not within 0 to 1: what is shown is clamped at each pixel (2 times)",
+        ),
+        (
+            "colour red\nshine",
+            "3: `colour red`: no MTL statement, passed over (2 times)",
+        ),
+        (
+            "newmtl m\nKd 0\nnewmtl m",
+            "3: `newmtl m`: a name that is defined already: the first definition is used (2 times)",
+        ),
+    ] {
+        let (found, warnings) = material(&format!("newmtl m\nNs 5\n{lines}\n"));
+        assert_eq!(found.unwrap().shininess, 5.0);
+        assert_eq!(warnings, [format!("a.mtl:{told}")], "{lines}");
+    }
+    let neutral = "d 1\nTr 1\nTf 0 0 0\nKe 0 0 0\nNi 1.5\nsharpness 60\nmap_aat on\nmap_d # none\n";
+    assert_eq!(
+        material(&format!("newmtl m\n{neutral}")).1,
+        Vec::<String>::new()
+    );
+    assert_eq!(material("newmtl m\nTr 0\nTf 0.5\n").1, Vec::<String>::new());
+}
+
+#[test]
+fn materials_that_no_face_uses_are_not_told() {
+    let (_, warnings) = material("newmtl m\nnewmtl n\nmap_Kd a.png\nd 0\nKd x\nnewmtl n\n");
+    assert_eq!(warnings, Vec::<String>::new());
+}
+
+#[test]
+fn a_texture_over_black_or_no_colour_is_drawn_grey() {
+    for (lines, line) in [
+        ("map_Kd wood.png\nKd 0 0 0", 2),
+        ("Kd 0\nmap_Kd wood.png", 3),
+        ("map_Kd wood.png", 2),
+    ] {
+        let (found, warnings) = material(&format!("newmtl m\n{lines}\n"));
+        assert_eq!(found, Some(PLAIN), "{lines}");
+        let told = format!(
+            "a.mtl:{line}: `map_Kd wood.png`: over a black or missing `Kd`: the default grey is drawn"
+        );
+        assert_eq!((warnings.len(), &warnings[1]), (2, &told), "{lines}");
+    }
+    assert_eq!(material("newmtl m\nKd 0\n").0.unwrap().diffuse, [0.0; 3]);
+    assert_eq!(
+        material("newmtl m\nKd 0 0.5 0\nmap_Kd a\n")
+            .0
+            .unwrap()
+            .diffuse,
+        [0.0, 0.5, 0.0]
+    );
+}
+
+#[test]
+fn a_library_that_is_no_mtl_text_is_told_as_such() {
+    let utf16: Vec<u8> = "\u{feff}newmtl m\n"
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    let files: [(&[u8], &str); 8] = [
+        (&utf16, "is UTF-16 text (not UTF-8)"),
+        (&utf16[2..], "is UTF-16 text (not UTF-8)"),
+        (b"\x89PNG\r\n\x1a\n\0\0", "is a PNG picture"),
+        (b"<!doctype html><title>404</title>", "is a page of HTML"),
+        (b"\x7fELF\0", "holds binary data"),
+        (b"", "is empty"),
+        (b"404: Not Found\n", "has no `newmtl` line"),
+        (b"# Blender MTL File: None\nKd 1\n", "has no `newmtl` line"),
+    ];
+    for (bytes, told) in files {
+        let text = format!("{POINTS}mtllib a.mtl\nusemtl m\nf 1 2 3\n");
+        let loaded = parse_obj("t.obj", text.as_bytes(), |_| Ok(bytes.to_vec())).unwrap();
+        let expected = "expected MTL text with `newmtl` lines";
+        assert_eq!(
+            warning(&loaded),
+            &format!("material library `a.mtl` (line 6) {told}: {expected}")
+        );
+    }
 }
 
 #[test]
@@ -212,11 +361,10 @@ fn several_libraries() {
             .iter()
             .map(|m| m.diffuse[0])
             .collect();
-        assert_eq!(
-            (greys, loaded.warnings),
-            (vec![1.0, 0.25], vec![]),
-            "{lines}"
-        );
+        assert_eq!(greys, [1.0, 0.25], "{lines}");
+        let told =
+            "b c.MTL:1: `newmtl m`: a name that is defined already: the first definition is used";
+        assert_eq!(warning(&loaded), told, "{lines}");
     }
 }
 

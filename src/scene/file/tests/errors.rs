@@ -392,7 +392,7 @@ fn scenes_as_a_whole() {
     );
 }
 
-/// The error points at a mesh that cannot be loaded. Reasons of several lines follow below.
+/// The error points at a mesh that cannot be loaded. What was odd before follows below.
 #[test]
 fn meshes_that_cannot_be_loaded() {
     let file = SceneFile::parse("[[object]]\nmesh = \"vase.obj\"\n", "scene.toml").expect("valid");
@@ -408,7 +408,7 @@ fn meshes_that_cannot_be_loaded() {
   |        ^^^^^^^^^^ no such file"#
     );
     let error = file
-        .resolve(|_, _| Err("line 3:\n  v 1 2".into()))
+        .resolve(|_, _| Err("line 3: no number\n`x` is odd\n`y` is odd".into()))
         .expect_err("no mesh");
     assert_eq!(
         error.render(false),
@@ -416,10 +416,10 @@ fn meshes_that_cannot_be_loaded() {
  --> scene.toml:2:8
   |
 2 | mesh = "vase.obj"
-  |        ^^^^^^^^^^
+  |        ^^^^^^^^^^ line 3: no number
   |
-  = note: line 3:
-            v 1 2"#
+  = note: `x` is odd
+          `y` is odd"#
     );
 }
 
