@@ -224,6 +224,22 @@ impl RenderJob {
         file.finish()
     }
 
+    /// Returns about how many bytes the picture needs beside the frame, where it is computed in `f64`; else 0, as little more than
+    /// the picture itself is in memory.
+    pub fn memory_needed(&self) -> u64 {
+        // The reference keeps polygon, depth and gap of each sample, twice while it shades; CS171 a depth buffer.
+        let a_sample = match self.content {
+            PictureContent::Reference(_) => 32 + 2 * (4 + 8 + 8),
+            PictureContent::Cs171(..) => 32 + 8,
+            _ => return 0,
+        };
+        let samples = (self.frame.width() * self.frame.height()) as u64;
+        let filtered = if self.frame.samples() > 1 { 32 } else { 0 };
+        let pixels = self.size().map(|side| side as u64).iter().product::<u64>();
+        // As stored, and packed for the file.
+        a_sample * samples + (filtered + 4 + 4) * pixels
+    }
+
     /// Returns width and height of the picture in pixels.
     pub fn size(&self) -> [usize; 2] {
         [self.frame.picture_width(), self.frame.picture_height()]

@@ -11,7 +11,7 @@ use super::reference_check::ReferenceCheck;
 use super::scene_flags::SceneFlags;
 use super::text::counted;
 use super::watch::watch;
-use super::{CliError, Log, Outcome, files, values};
+use super::{CliError, Log, Outcome, files, memory, values};
 use fastphong::frame::Frame;
 use fastphong::picture::image_file::Format;
 use fastphong::raster::Renderer;
@@ -165,6 +165,7 @@ impl RenderArgs {
             written: output.as_ref(),
         });
         check_destinations(output.as_ref(), check.as_ref())?;
+        memory::check_picture(&job)?;
         if let Some(output) = &output {
             write(&mut job, output, &progress, log)?;
         }

@@ -389,17 +389,37 @@ fn the_legend_of_the_mark_stands_only_under_tables_that_have_it() {
     }
 }
 
-/// A picture that can be drawn and not compared in this memory is an error before anything is drawn, not a program that is gone.
+/// Returns free memory and swap.
 #[cfg(target_os = "linux")]
-#[test]
-fn what_a_comparison_needs_is_said_and_checked() {
+fn free_gigabytes() -> u64 {
     let memory = std::fs::read_to_string("/proc/meminfo").expect("Linux tells");
     let gigabytes = |key: &str| {
         let kilobytes = memory.lines().find_map(|line| line.strip_prefix(key));
         let kilobytes = kilobytes.and_then(|text| text.split_whitespace().next());
         kilobytes.map_or(0, |text| text.parse::<u64>().expect("a number") / 1_000_000)
     };
-    if gigabytes("MemAvailable:") + gigabytes("SwapFree:") > 90 {
+    gigabytes("MemAvailable:") + gigabytes("SwapFree:")
+}
+
+/// The reference keeps more than eighty bytes a pixel.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_reference_that_does_not_fit_into_memory_is_not_begun() {
+    if free_gigabytes() > 20 {
+        return; // it would be drawn
+    }
+    let folder = Folder::new();
+    folder
+        .run("render builtin:cube --size 16384x16384 -m reference -o out.png")
+        .refused(&["16384x16384: reference needs about 21.5 GB of memory, and "]);
+    assert!(folder.names().is_empty());
+}
+
+/// A picture that can be drawn and not compared in this memory is an error before anything is drawn, not a program that is gone.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_a_comparison_needs_is_said_and_checked() {
+    if free_gigabytes() > 90 {
         return; // it would be drawn
     }
     let folder = Folder::new();
