@@ -84,9 +84,9 @@ impl FrameBuilder {
         (self.frame.lightings.len() - 1) as u32
     }
 
-    /// Sets the position of the eye in the world. See [`Frame::eye`].
-    pub fn eye(&mut self, position: [f64; 3]) -> &mut Self {
-        self.frame.eye = position;
+    /// Sets the point in the world that positions count from. See [`Frame::origin`].
+    pub fn origin(&mut self, point: [f64; 3]) -> &mut Self {
+        self.frame.origin = point;
         self
     }
 
@@ -245,7 +245,7 @@ impl Frame {
             depth_range: DepthRange::default(),
             encoding: Encoding::Linear,
             alpha: Alpha::Straight,
-            eye: [0.0; 3],
+            origin: [0.0; 3],
             geometry: Arc::new(Geometry::default()),
             vertices: Vec::new(),
             cut_materials: Vec::new(),
@@ -259,7 +259,7 @@ impl Frame {
         }
     }
 
-    /// True if size, samples, eye and depth make sense together.
+    /// True if size, samples, origin and depth make sense together.
     pub(crate) fn check_settings(&self) -> Result<(), FrameError> {
         let side = 1..=Scene::MAX_SIDE;
         let &Frame {
@@ -281,7 +281,7 @@ impl Frame {
         if self.clipping == Clipping::NdcCube && self.interpolation == Interpolation::Perspective {
             return Err(FrameError::Unclipped);
         }
-        if !self.depth_range.is_valid() || !self.eye.iter().all(|c| c.is_finite()) {
+        if !self.depth_range.is_valid() || !self.origin.iter().all(|c| c.is_finite()) {
             return Err(FrameError::Camera);
         }
         Ok(())

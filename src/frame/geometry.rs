@@ -13,7 +13,7 @@ pub(crate) struct Geometry {
     pub materials: Vec<u32>,
     /// One a vertex, or none.
     pub colours: Vec<[f32; 3]>,
-    /// Positions from the eye, one per vertex, or none: those of [`Geometry::models`] then.
+    /// Positions from the origin of the frame, one per vertex, or none: those of [`Geometry::models`] then.
     pub positions: Vec<[f32; 3]>,
     /// Positions of vertices in model space, one per vertex, or none.
     pub models: Models,
@@ -44,6 +44,16 @@ pub(crate) struct PlacedModel {
     pub transform: DAffine3,
     /// The largest magnitude of a coordinate along each axis of model space.
     pub extent: DVec3,
+}
+
+impl PlacedModel {
+    /// Returns how far positions of the object reach from its translation, along each axis of the world at most.
+    pub fn reach(&self) -> DVec3 {
+        let linear = self.transform.matrix3;
+        linear.x_axis.abs() * self.extent.x
+            + linear.y_axis.abs() * self.extent.y
+            + linear.z_axis.abs() * self.extent.z
+    }
 }
 
 impl Models {
@@ -110,16 +120,16 @@ impl Geometry {
             .unwrap_or([1.0; 3])
     }
 
-    /// Returns the position of a vertex relative to the eye.
+    /// Returns the position of a vertex relative to `origin`.
     #[inline(always)]
-    pub fn position(&self, vertex: u32, eye: [f64; 3]) -> [f32; 3] {
+    pub fn position(&self, vertex: u32, origin: [f64; 3]) -> [f32; 3] {
         match self.positions.get(vertex as usize) {
             Some(position) => *position,
-            None => self.position_of_model(vertex, eye),
+            None => self.position_of_model(vertex, origin),
         }
     }
 
-    fn position_of_model(&self, vertex: u32, eye: [f64; 3]) -> [f32; 3] {
+    fn position_of_model(&self, vertex: u32, origin: [f64; 3]) -> [f32; 3] {
         let vertex = vertex as usize;
         let front = if vertex < self.models.len() {
             Some(vertex)
@@ -130,7 +140,7 @@ impl Geometry {
             return [0.0; 3];
         };
         let transform = &self.models.objects[self.models.object_of(front)].transform;
-        (transform.transform_point3(self.models.position(front)) - DVec3::from_array(eye))
+        (transform.transform_point3(self.models.position(front)) - DVec3::from_array(origin))
             .as_vec3()
             .to_array()
     }

@@ -48,7 +48,7 @@ pub struct Frame {
     pub(crate) depth_range: DepthRange,
     pub(crate) encoding: Encoding,
     pub(crate) alpha: Alpha,
-    pub(crate) eye: [f64; 3],
+    pub(crate) origin: [f64; 3],
     pub(crate) geometry: Arc<Geometry>,
     /// The vertices of the geometry, then those that clipping made.
     pub(crate) vertices: Vec<ScreenVertex>,
@@ -142,9 +142,10 @@ impl Frame {
         self.alpha = alpha;
     }
 
-    /// Returns the position of the eye in the world, the origin of [`Frame::position`]; 0 if none was given.
-    pub fn eye(&self) -> [f64; 3] {
-        self.eye
+    /// Returns the point in the world that [`Frame::position`] and positions of lights and eye count from: the eye, or the
+    /// middle of a scene that the eye is far from; 0 if none was given.
+    pub fn origin(&self) -> [f64; 3] {
+        self.origin
     }
 
     /// Returns all vertices in screen space. Not all of them need be corners of a polygon; those without pixel coordinates
@@ -192,12 +193,12 @@ impl Frame {
         }
     }
 
-    /// Returns the position of a vertex relative to the eye, in world units along the axes of the world: points near the
-    /// eye, where precision matters, have small coordinates. 0 if the frame was given no positions. At a clip corner it
+    /// Returns the position of a vertex relative to [`Frame::origin`], in world units along the axes of the world: points near
+    /// the eye, where precision matters, have small coordinates. 0 if the frame was given no positions. At a clip corner it
     /// means nothing, like the normal.
     #[inline(always)]
     pub fn position(&self, vertex: u32) -> [f32; 3] {
-        self.geometry.position(vertex, self.eye)
+        self.geometry.position(vertex, self.origin)
     }
 
     /// Returns the colour of a vertex, linear; white if the frame was given no colours. At a clip corner it means nothing.

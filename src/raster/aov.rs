@@ -143,11 +143,12 @@ pub fn checkerboard(
 ) -> LinearPicture {
     // An even number of squares more or less makes no difference: far from 0, coordinates stay as small as they can be.
     let period = 2048.0 * size;
-    let eye = frame.eye().map(|e| e - libm::rint(e / period) * period);
+    let origin = frame.origin();
+    let origin = origin.map(|o| o - libm::rint(o / period) * period);
     // The position of a vertex in the world, rounded once.
     let world = |vertex: u32| {
-        let from_eye = frame.position(vertex);
-        core::array::from_fn(|i| (eye[i] + f64::from(from_eye[i])) as f32)
+        let position = frame.position(vertex);
+        core::array::from_fn(|i| (origin[i] + f64::from(position[i])) as f32)
     };
     shown(frame, edges, world, |[x, _, z]| {
         let square = |coordinate: f32| libm::floor(f64::from(coordinate) / size);

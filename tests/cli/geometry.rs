@@ -83,6 +83,27 @@ fn a_checkerboard_far_from_the_origin_has_straight_lines() {
 }
 
 #[test]
+fn a_camera_far_from_the_mesh_sees_it_lit_as_from_near() {
+    let folder = Folder::new();
+    folder.write("ball.obj", obj(ROUND, 1.0, [0.0; 3], false));
+    let draw = |eye: &str, viewer: &str| {
+        let command = format!(
+            "render ball.obj --eye 0,0,{eye} --half-height 1.2 --light-at 1.5,1,1 --viewer {viewer}"
+        );
+        folder.run(&(command + " -o out.png --size 96x72")).done();
+        picture(&folder.path("out.png"))
+    };
+    let near = draw("5", "infinite");
+    assert!(covered(&near) > 2000);
+    for eye in ["1e4", "1e6", "1e9", "1e12"] {
+        for viewer in ["infinite", "local"] {
+            // From 10⁴ on, a viewer at the eye is as good as one at infinity: its direction differs by 10⁻⁴.
+            assert_eq!(different(&near, &draw(eye, viewer), 1), 0, "{eye} {viewer}");
+        }
+    }
+}
+
+#[test]
 fn one_unused_position_at_the_origin_does_not_bring_a_far_mesh_near() {
     let folder = Folder::new();
     let far = obj(ROUND, 1.0, [4e5, 4e6, 0.0], false);

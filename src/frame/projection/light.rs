@@ -6,21 +6,30 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 impl Scene {
-    /// Returns the lights, with positions relative to the eye as [`Frame::position`] gives those of vertices.
-    fn lights_from_eye(&self) -> Vec<Light> {
-        let from_eye = |light: &Light| match light.place {
+    /// Returns the lights, with positions relative to `origin` as [`Frame::position`] gives those of vertices.
+    fn lights_from(&self, origin: DVec3) -> Vec<Light> {
+        let from_origin = |light: &Light| match light.place {
             Place::Infinite(_) => *light,
             Place::Local(p) => Light {
-                place: Place::Local(p - self.camera.eye),
+                place: Place::Local(p - origin),
                 ..*light
             },
         };
-        self.lights.iter().map(from_eye).collect()
+        self.lights.iter().map(from_origin).collect()
     }
 
-    /// Computes the light on each of `materials`.
-    pub(super) fn light(&self, materials: &[Material], lightings: &mut Vec<Lighting>) {
-        let (lights, view) = (self.lights_from_eye(), self.camera.view());
+    /// Computes the light on each of `materials`; positions count from `origin`.
+    pub(super) fn light(
+        &self,
+        materials: &[Material],
+        origin: DVec3,
+        lightings: &mut Vec<Lighting>,
+    ) {
+        let lights = self.lights_from(origin);
+        let view = match self.local_viewer {
+            true => Place::Local(self.camera.eye - origin),
+            false => Place::Infinite(self.camera.view()),
+        };
         lightings.clear();
         lightings.extend(
             materials
@@ -29,18 +38,14 @@ impl Scene {
         );
     }
 
-    /// Returns the light on `material`; `lights` as [`Scene::lights_from_eye`] gives them.
-    fn lighting(&self, material: &Material, lights: &[Light], view: DVec3) -> Lighting {
-        let far = Lighting::new(material, self.ambient, lights, view);
+    /// Returns the light on `material`; `lights` as [`Scene::lights_from`] gives them.
+    fn lighting(&self, material: &Material, lights: &[Light], view: Place<DVec3>) -> Lighting {
+        let far = Lighting::new(material, self.ambient, lights, self.camera.view());
         Lighting {
             shininess: self.specular.exponent(far.shininess, self.shininess_for),
             specular: self.specular,
             gate: self.gate,
-            view: if self.local_viewer {
-                Place::Local([0.0; 3])
-            } else {
-                far.view
-            },
+            view: view.map(|v| v.as_vec3().to_array()),
             ..far
         }
     }

@@ -24,6 +24,7 @@ use crate::scene::{Camera, Light, Scene};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use cut::Cutting;
+use glam::DVec3;
 use polygons::{Chunk, Filling, Piece, PolygonTable, Sight, add_up, for_each_cut};
 use prepare::Preparation;
 use view::{Codes, View};
@@ -166,10 +167,12 @@ impl PreparedScene {
     fn fill(&self, frame: &mut Frame, scratch: &mut Scratch) -> Result<(), FrameError> {
         let view = View::new(&self.settings)?;
         self.settings(frame, &view);
-        self.settings.light(&self.materials, &mut frame.lightings);
+        let origin = DVec3::from_array(frame.origin);
+        self.settings
+            .light(&self.materials, origin, &mut frame.lightings);
         frame.check_settings()?;
         frame.check_lightings()?;
-        self.check_positions()?;
+        self.check_positions(origin)?;
         let is_any_beyond = self.vertices(frame, &view, &mut scratch.codes)?;
         let Scratch {
             codes,
@@ -218,7 +221,7 @@ impl PreparedScene {
         frame.clipping = scene.clipping;
         frame.depth_range = DepthRange::from(&scene.camera);
         frame.encoding = scene.encoding;
-        frame.eye = scene.camera.eye.to_array();
+        frame.origin = self.origin().to_array();
         frame.geometry = self.geometry.clone();
         frame.cut_materials.clear();
         frame.means.clear();
@@ -246,23 +249,36 @@ impl PreparedScene {
         Ok(is_any_beyond)
     }
 
-    /// True if the positions of all vertices, seen from the eye, are numbers that an `f32` can hold.
-    fn check_positions(&self) -> Result<(), FrameError> {
+    /// Returns the point that positions count from. Under a local light or viewer, `f32` must hold what matters: around the eye
+    /// where that is among the objects or not far from them, else around their middle.
+    fn origin(&self) -> DVec3 {
+        // As far as a mesh may be from 0 until it gets an origin of its own.
+        const FAR: f64 = 16.0;
+        let eye = self.settings.camera.eye;
+        let boxes = self.geometry.models.objects.iter().map(|object| {
+            let (middle, reach) = (object.transform.translation, object.reach());
+            (middle - reach, middle + reach)
+        });
+        let all = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let Some((low, high)) = all else {
+            return eye;
+        };
+        let middle = 0.5 * low + 0.5 * high;
+        let is_far = (eye - middle).abs().max_element() > FAR * (high - low).max_element();
+        if is_far { middle } else { eye }
+    }
+
+    /// True if the positions of all vertices, relative to `origin`, are numbers that an `f32` can hold.
+    fn check_positions(&self, origin: DVec3) -> Result<(), FrameError> {
         let models = &self.geometry.models;
         for object in &models.objects {
-            let (linear, translation) = (object.transform.matrix3, object.transform.translation);
-            let farthest = linear.x_axis.abs() * object.extent.x
-                + linear.y_axis.abs() * object.extent.y
-                + linear.z_axis.abs() * object.extent.z
-                + translation.abs()
-                + self.settings.camera.eye.abs();
+            let farthest = object.reach() + object.transform.translation.abs() + origin.abs();
             if farthest.max_element() < 0.5 * f64::from(f32::MAX) {
                 continue;
             }
-            let eye = self.settings.camera.eye.to_array();
             let is_finite = |v: &usize| {
                 self.geometry
-                    .position(*v as u32, eye)
+                    .position(*v as u32, origin.to_array())
                     .iter()
                     .all(|c| c.is_finite())
             };

@@ -273,8 +273,8 @@ fn frames_equal_plain_projection() {
 /// Asserts that two frames agree in everything that can be read from them.
 fn assert_same(a: &Frame, b: &Frame, name: &str) {
     assert_eq!(
-        (a.width(), a.height(), a.stats(), a.eye()),
-        (b.width(), b.height(), b.stats(), b.eye()),
+        (a.width(), a.height(), a.stats(), a.origin()),
+        (b.width(), b.height(), b.stats(), b.origin()),
         "{name}"
     );
     assert_eq!(a.lightings(), b.lightings(), "{name}");
