@@ -126,7 +126,7 @@ mod tests {
             let normals = once.repeat(repeats);
             let sums = CapSums::new(normals.clone());
             for degrees in [0.0f64, 10.0, 60.0, 90.0, 180.0] {
-                let least = degrees.to_radians().cos() - 16.0 * f64::EPSILON;
+                let least = libm::cos(degrees.to_radians()) - 16.0 * f64::EPSILON;
                 for own in directions(40)
                     .into_iter()
                     .chain(once.iter().copied().take(40))
