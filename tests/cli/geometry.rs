@@ -157,6 +157,19 @@ fn objects_too_far_apart_for_32_bits_are_told() {
         .says("polygons are so small, so far from the middle of the mesh, that 32-bit coordinates bend their shape");
 }
 
+#[test]
+fn coordinates_beyond_all_scenes_are_refused_in_the_words_of_the_user() {
+    let folder = Folder::new();
+    folder.write("over.obj", obj("cube", 1.0, [2e15, 0.0, 0.0], false));
+    let refused = folder.run("render over.obj -o out.png");
+    refused.refused(&[
+        "error: `over.obj` reaches too far: expected coordinates between -1e15 and 1e15",
+    ]);
+    folder.write("over.toml", "[[object]]\nmesh = 'over.obj'\n");
+    let refused = folder.run("render over.toml -o out.png");
+    refused.refused(&["`object.mesh` `over.obj` reaches too far", "over.toml:2:8"]);
+}
+
 /// A cube as Blender writes it: flat normals of its own, and `s off`.
 const CUBE: &str = "o Cube\nv 1 1 -1\nv 1 -1 -1\nv 1 1 1\nv 1 -1 1\nv -1 1 -1\nv -1 -1 -1\nv -1 1 1\nv -1 -1 1\n\
     vn 0 1 0\nvn 0 0 1\nvn -1 0 0\nvn 0 -1 0\nvn 1 0 0\nvn 0 0 -1\ns off\n\

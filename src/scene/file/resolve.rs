@@ -170,7 +170,10 @@ impl SceneFile {
             if !world_points(&object).all(is_position) {
                 let problem = format!("`{spec}` reaches too far");
                 let expected = "expected coordinates between -1e15 and 1e15 after the transform";
-                return Err(section.error("mesh", &problem, expected));
+                return Err(match is_named_in_file(&section) {
+                    true => section.error("mesh", &problem, expected),
+                    false => SceneError::new(Origin::Program, problem, expected),
+                });
             }
             objects.push(object);
         }
@@ -204,16 +207,20 @@ fn lights(file: &Section) -> Result<Vec<Light>, SceneError> {
         .collect()
 }
 
+/// True if a scene file names the mesh of `object`. Else the input itself does: there is no line of a scene file, and no key.
+fn is_named_in_file(object: &Section) -> bool {
+    let origin = object.table.get("mesh").map(|value| &value.origin);
+    matches!(origin, Some(Origin::File(_)))
+}
+
 /// Makes the error for a mesh that could not be loaded; the caret stands under its name.
 ///
 /// The first line of `reason` says why, lines after it what was odd before.
 fn mesh_error(object: &Section, mesh: &str, reason: &str) -> SceneError {
     let (reason, odd) = reason.split_once('\n').unwrap_or((reason, ""));
-    let origin = object.table.get("mesh").map(|value| &value.origin);
-    let error = match origin {
-        Some(Origin::File(_)) => object.error("mesh", &format!("`{mesh}` cannot be used"), reason),
-        // The input itself names the mesh: no line of a scene file, and no key.
-        _ => SceneError::new(Origin::Program, reason, ""),
+    let error = match is_named_in_file(object) {
+        true => object.error("mesh", &format!("`{mesh}` cannot be used"), reason),
+        false => SceneError::new(Origin::Program, reason, ""),
     };
     match odd {
         "" => error,
