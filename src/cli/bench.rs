@@ -16,7 +16,7 @@ use std::path::PathBuf;
 /// Time methods on scenes: interleaved rounds, medians with their spread, ratios; or whole frames
 #[derive(clap::Args, Debug)]
 pub struct BenchArgs {
-    /// Scene files, mesh files, builtin:NAME?key=value, or names of shipped scenes [default: all shipped scenes]
+    /// Scene files, mesh files, builtin:NAME?key=value, names of shipped scenes, or `-` for standard input [default: all shipped scenes]
     #[arg(value_name = "INPUT")]
     inputs: Vec<String>,
     #[command(flatten)]

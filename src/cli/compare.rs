@@ -11,7 +11,7 @@ use fastphong::report::Document;
 /// Compare methods on one scene: error against the reference, time, ratios
 #[derive(clap::Args, Debug)]
 pub struct CompareArgs {
-    /// Scene file, mesh file, builtin:NAME?key=value, or name of a shipped scene
+    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
     input: String,
     #[command(flatten)]
     timing: TimingFlags,

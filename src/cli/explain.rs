@@ -123,7 +123,9 @@ impl ExplainArgs {
 const EXAMPLE: &str = "teapot";
 
 fn example_bound(method: &Variant) -> Result<f64, CliError> {
-    let frame = files::resolve(&files::load(EXAMPLE)?)?.scene.frame()?;
+    let frame = files::resolve(&files::load(EXAMPLE, None)?)?
+        .scene
+        .frame()?;
     Ok(method.bound(&frame))
 }
 

@@ -13,7 +13,7 @@ use fastphong::picture::image_file::{
 use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::SceneError;
 use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::input;
+use fastphong::scene::input::{self, InputFormat, STANDARD_INPUT, read_input};
 use std::fmt;
 use std::fs::{self, Metadata};
 use std::io::{self, Write};
@@ -133,16 +133,23 @@ pub fn will_read_of_scene(path: &Path) {
 
 /// Reads a file that a scene is made of.
 fn read_of_scene(path: &Path) -> io::Result<Vec<u8>> {
-    will_read_of_scene(path);
-    fs::read(path)
+    match path.as_os_str() == STANDARD_INPUT {
+        true => will_read_stdin("the input"),
+        false => will_read_of_scene(path),
+    }
+    read_input(path)
 }
 
-/// Loads the scene that `input` names, as [`input::load`] does. Its mesh files are registered, though not yet read.
+/// Loads the scene that `input` names, as [`input::load`] does; on standard input it has `format`. Its mesh files are registered,
+/// though not yet read.
 ///
 /// # Errors
 /// As [`input::load`].
-pub fn load(input: &str) -> Result<SceneFile, SceneError> {
-    let file = input::load_by(input, &mut read_of_scene)?;
+pub fn load(input: &str, format: Option<InputFormat>) -> Result<SceneFile, SceneError> {
+    let file = match input {
+        STANDARD_INPUT => input::load_standard_input(format, &mut read_of_scene)?,
+        input => input::load_by(input, &mut read_of_scene)?,
+    };
     let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
     for mesh in file.meshes().filter(|mesh| input::is_mesh_file(mesh)) {
         will_read_of_scene(&folder.join(mesh));

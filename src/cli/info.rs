@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Describe a scene or a mesh; a mesh alone as `compare` sees it, without the light and background that `render` adds
 #[derive(clap::Args, Debug)]
 pub struct InfoArgs {
-    /// Scene file, mesh file, builtin:NAME?key=value, or name of a shipped scene
+    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
     input: String,
     /// Print everything as JSON
     #[arg(long)]
@@ -213,6 +213,10 @@ impl ObjectFacts<'_> {
             0 => String::new(),
             n => format!(", {} that cross themselves, their areas cancel", grouped(n)),
         };
+        let colours = match facts.colours {
+            true => "\n  colours     one a position; render --aov colours shows them",
+            false => "",
+        };
         let (mesh, normals, share) = (self.mesh, &self.normals, 100.0 * PLANAR);
         format!(
             "
@@ -223,7 +227,7 @@ impl ObjectFacts<'_> {
   not planar  {bent} by more than {share} % of their extent
   vertices    {vertices} places, {positions} positions
   edges       {edges}: {closed}{bounds}
-  materials   {materials}
+  materials   {materials}{colours}
   normals     {normals}
   memory      {bytes} bytes
 "

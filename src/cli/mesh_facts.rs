@@ -50,6 +50,8 @@ pub struct MeshFacts {
     pub materials: usize,
     /// Polygons without a material of the mesh.
     pub polygons_without_material: usize,
+    /// True if each position has a colour.
+    pub colours: bool,
     /// True if normals come with the mesh.
     pub given_normals: bool,
     /// Bytes that the mesh takes in memory.
@@ -69,6 +71,7 @@ impl MeshFacts {
             bounds: bounds.map(|ends| ends.map(|p| p.to_array())),
             materials: mesh.materials().len(),
             inside_out: inside_out_parts(mesh),
+            colours: !mesh.colours().is_empty(),
             given_normals: mesh.given_normals().is_some(),
             bytes: bytes(mesh),
             ..MeshFacts::default()

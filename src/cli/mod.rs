@@ -55,7 +55,8 @@ pub struct Cli {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 a comparison failed, 2 wrong usage or input.\n\
-    INPUT is a scene file (.toml), a mesh file (.obj), builtin:NAME?key=value&key=value, or the name of a shipped scene.";
+    INPUT is a scene file (.toml), a mesh file (.obj), builtin:NAME?key=value&key=value, the name of a\n\
+    shipped scene, or `-`: a scene or a mesh on standard input.";
 
 /// Five commands to try, and where help is: what the program says when it is given nothing to do.
 pub const FIRST_STEPS: &str = "\

@@ -1,6 +1,7 @@
 //! Placeholders in the name of a picture: `-o "{scene}_{method}.png"`.
 
 use super::CliError;
+use fastphong::scene::input::STANDARD_INPUT;
 use std::path::{Path, PathBuf};
 
 /// The facts about a picture that its name may hold.
@@ -35,8 +36,11 @@ pub fn named(path: &Path, values: [&str; PLACEHOLDERS.len()]) -> Result<PathBuf,
     Ok(name.into())
 }
 
-/// Returns the name of what `input` shows: of a file its name without ending.
+/// Returns the name of what `input` shows: of a file its name without ending, `stdin` of standard input.
 pub fn scene_name(input: &str) -> &str {
+    if input == STANDARD_INPUT {
+        return "stdin";
+    }
     let stem = Path::new(input).file_stem().and_then(|stem| stem.to_str());
     let stem = stem.filter(|_| !input.starts_with("builtin:"));
     stem.unwrap_or(input)

@@ -29,7 +29,7 @@ use std::time::Instant;
                       fastphong render [OPTIONS] <--stats|--print-scene> <INPUT>"
 )]
 pub struct RenderArgs {
-    /// Scene file, mesh file, builtin:NAME?key=value, or name of a shipped scene
+    /// Scene file, mesh file, builtin:NAME?key=value, name of a shipped scene, or `-` for standard input
     input: String,
     /// Picture file: .png, .ppm or .pfm (linear floats); `-` is standard output. `{scene}`, `{method}`, `{engine}`, `{width}` and
     /// `{height}` stand for those of the picture
@@ -118,6 +118,9 @@ impl RenderArgs {
         }
         progress.aside(|| {
             self.scene.warn(&file, &resolved, log);
+            if self.aov != Some(Aov::Colours) {
+                self.scene.note_colours(&file, &resolved, log);
+            }
             log.duration("loaded", started);
         });
         if self.print_scene {

@@ -26,7 +26,7 @@ use std::time::{Instant, SystemTime};
 /// Compare methods on scenes: pictures, errors and times on one page
 #[derive(clap::Args, Debug)]
 pub struct ReportArgs {
-    /// Scene files, mesh files, builtin:NAME?key=value, or names of shipped scenes [default: all shipped scenes]
+    /// Scene files, mesh files, builtin:NAME?key=value, names of shipped scenes, or `-` for standard input [default: all shipped scenes]
     #[arg(value_name = "INPUT")]
     inputs: Vec<String>,
     #[command(flatten)]

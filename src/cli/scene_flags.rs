@@ -10,6 +10,7 @@ use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
 use fastphong::scene::file::schema::{self, ValueKind};
 use fastphong::scene::file::value::{Data, SceneTable};
+use fastphong::scene::input::{InputFormat, STANDARD_INPUT};
 
 /// A flag that gives values to keys of a scene file.
 struct Flag {
@@ -210,10 +211,29 @@ pub struct SceneFlags {
     over: SceneTable,
     /// The keys that every object gets, whatever the scene file says of it.
     every_object: SceneTable,
+    /// The format of the input `-`; `None`: its text decides.
+    input_format: Option<InputFormat>,
+}
+
+/// The flag of [`SceneFlags::input_format`].
+const INPUT_FORMAT: &str = "input-format";
+
+fn input_format_arg() -> Arg {
+    let names = PossibleValuesParser::new(["obj", "toml"]);
+    let format = |name: String| match &*name {
+        "obj" => InputFormat::Obj,
+        _ => InputFormat::Toml,
+    };
+    Arg::new(INPUT_FORMAT)
+        .long(INPUT_FORMAT)
+        .value_name("FORMAT")
+        .help("Format of the input `-`, standard input: mesh or scene [default: by its text]")
+        .value_parser(names.map(format))
 }
 
 impl clap::Args for SceneFlags {
     fn augment_args(command: Command) -> Command {
+        let command = command.arg(input_format_arg());
         command.args(FLAGS.iter().map(Flag::arg))
     }
 
@@ -225,7 +245,10 @@ impl clap::Args for SceneFlags {
 impl clap::FromArgMatches for SceneFlags {
     /// Collects the values of all flags that are given.
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let mut flags = SceneFlags::default();
+        let mut flags = SceneFlags {
+            input_format: matches.get_one(INPUT_FORMAT).copied(),
+            ..SceneFlags::default()
+        };
         let mut lights: Vec<SceneTable> = Vec::new();
         // The keys that every light at a position gets.
         let mut near = SceneTable::default();
@@ -276,7 +299,20 @@ impl SceneFlags {
     /// # Errors
     /// When there is no such input.
     pub fn load(&self, input: &str) -> Result<SceneFile, CliError> {
-        Ok(self.over(files::load(input)?))
+        Ok(self.over(self.read(input)?))
+    }
+
+    /// Loads the scene that `input` names, without the changes of the flags.
+    ///
+    /// # Errors
+    /// When there is no such input.
+    pub fn read(&self, input: &str) -> Result<SceneFile, CliError> {
+        if self.input_format.is_some() && input != STANDARD_INPUT {
+            let problem = format!("`--{INPUT_FORMAT}` is for standard input, not for `{input}`");
+            let expected = format!("expected the input `{STANDARD_INPUT}`");
+            return Err(format!("{problem}: {expected}").into());
+        }
+        Ok(files::load(input, self.input_format)?)
     }
 
     /// Returns `file` with the changes of the flags.
@@ -297,6 +333,19 @@ impl SceneFlags {
     pub fn gives(&self, table: Option<&str>, key: &str) -> bool {
         let table = table.map_or(Some(&self.over), |table| self.over.table(table));
         table.is_some_and(|table| table.get(key).is_some())
+    }
+
+    /// Says that mesh files have colours, which nothing but `--aov colours` shows.
+    pub fn note_colours(&self, file: &SceneFile, resolved: &Resolved, log: Log) {
+        let objects = resolved.scene.objects.iter().zip(file.meshes());
+        let mut told = Vec::new();
+        for (_, mesh) in objects.filter(|(object, _)| !object.mesh.colours().is_empty()) {
+            if !mesh.starts_with("builtin:") && !told.contains(&mesh) {
+                let has = "has vertex colours, which shading leaves out";
+                log.note(&format!("{mesh}: {has}; --aov colours shows them"));
+                told.push(mesh);
+            }
+        }
     }
 
     /// Says what is odd about a scene, and where its vertex normals are from.

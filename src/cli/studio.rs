@@ -36,7 +36,7 @@ impl SceneFlags {
     /// # Errors
     /// When there is no such input.
     pub fn load_to_show(&self, input: &str) -> Result<SceneFile, CliError> {
-        let mut file = files::load(input)?;
+        let mut file = self.read(input)?;
         if is_mesh_alone(&file) {
             file.overlay(SceneTable::parse(STUDIO)?);
         }

@@ -6,6 +6,7 @@
 //! | `path/to/mesh.obj` | a mesh file, seen as [`SceneFile::for_mesh`] says |
 //! | `builtin:NAME?key=value&key=value` | a built-in mesh, seen likewise |
 //! | `teapot` | the shipped scene of that name: one of [`SCENES`] |
+//! | `-` | a scene file or a mesh file on standard input |
 //!
 //! Shipped scenes and the mesh files that they use are part of the program. A mesh among them is named `shipped:vase.obj`
 //! in scene files that do not stand beside it.
@@ -22,12 +23,13 @@ use super::file::resolve::{LoadedMesh, Resolved};
 use super::file::value::{Data, Value};
 use super::file::{BUILTIN, SceneFile};
 use crate::mesh::builtin::{BUILTINS, builtin};
-use crate::mesh::obj::{load_obj_by, parse_obj};
+use crate::mesh::obj::{ObjError, load_obj_by, parse_obj};
 use crate::number::suggest::nearest;
 use std::borrow::ToOwned;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::vec::Vec;
 use std::{format, fs, io};
 
@@ -64,6 +66,58 @@ static SHIPPED_FILES: &[(&str, &[u8])] = &[
 
 const SHIPPED: &str = "shipped:";
 
+/// The name of standard input, as an input and as the mesh of a scene.
+pub const STANDARD_INPUT: &str = "-";
+
+/// Standard input in messages.
+const STANDARD_INPUT_SHOWN: &str = "standard input";
+
+/// The format of a text on standard input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InputFormat {
+    /// A mesh file.
+    Obj,
+    /// A scene file.
+    Toml,
+}
+
+impl InputFormat {
+    /// Returns the format of `text`: a scene file begins with a table, or with a key and `=`.
+    fn of(text: &[u8]) -> InputFormat {
+        let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+        let lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
+        let mut lines = lines.map(<[u8]>::trim_ascii);
+        let first = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"));
+        let first = first.unwrap_or_default();
+        let equals = first.iter().position(|byte| *byte == b'=');
+        let key = first[..equals.unwrap_or(0)].trim_ascii();
+        let has_key = !key.is_empty() && !key.iter().any(u8::is_ascii_whitespace);
+        match has_key || first.starts_with(b"[") {
+            true => InputFormat::Toml,
+            false => InputFormat::Obj,
+        }
+    }
+}
+
+/// Reads a file, or standard input under the name [`STANDARD_INPUT`]. That is read once; after that, what it held is returned
+/// again.
+///
+/// # Errors
+/// Those of the operating system.
+pub fn read_input(path: &Path) -> io::Result<Vec<u8>> {
+    static READ: OnceLock<Result<Vec<u8>, String>> = OnceLock::new();
+    if path.as_os_str() != STANDARD_INPUT {
+        return fs::read(path);
+    }
+    let read = READ.get_or_init(|| {
+        let mut bytes = Vec::new();
+        let read = io::stdin().lock().read_to_end(&mut bytes);
+        read.map_err(|error| error.to_string())?;
+        Ok(bytes)
+    });
+    read.clone().map_err(io::Error::other)
+}
+
 impl ShippedScene {
     /// Returns the shipped scene called `name`.
     pub fn named(name: &str) -> Option<&'static ShippedScene> {
@@ -95,7 +149,7 @@ fn shipped_file(name: &str) -> Option<&'static [u8]> {
 /// # Errors
 /// [`SceneError`] when there is no such thing, or the scene file is not one.
 pub fn load(input: &str) -> Result<SceneFile, SceneError> {
-    load_by(input, &mut |path| fs::read(path))
+    load_by(input, &mut read_input)
 }
 
 /// Reads the scene that `input` names as [`load`] does, files by `read`: which may note what a scene is made of.
@@ -107,6 +161,9 @@ pub fn load_by(
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<SceneFile, SceneError> {
     let path = Path::new(input);
+    if input == STANDARD_INPUT {
+        return load_standard_input(None, read);
+    }
     if input.starts_with(BUILTIN) || input.starts_with(SHIPPED) {
         return Ok(SceneFile::for_mesh(input.to_owned()));
     }
@@ -120,6 +177,28 @@ pub fn load_by(
         SceneFile::load_by(path, read)
     } else {
         Ok(SceneFile::for_mesh(input.to_owned()))
+    }
+}
+
+/// Reads the scene on standard input, for which `read` is asked under the name [`STANDARD_INPUT`]. Without a `format`, its text
+/// decides.
+///
+/// # Errors
+/// When it cannot be read, and those of [`SceneFile::load`].
+pub fn load_standard_input(
+    format: Option<InputFormat>,
+    read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+) -> Result<SceneFile, SceneError> {
+    let path = Path::new(STANDARD_INPUT);
+    let bytes = read(path).map_err(|error| {
+        let problem = format!("{STANDARD_INPUT_SHOWN}: cannot be read: {error}");
+        SceneError::new(Origin::Program, problem, "")
+    })?;
+    match format.unwrap_or_else(|| InputFormat::of(&bytes)) {
+        InputFormat::Obj => Ok(SceneFile::for_mesh(STANDARD_INPUT)),
+        InputFormat::Toml => {
+            SceneFile::load_by(Path::new(STANDARD_INPUT_SHOWN), &mut |_| Ok(bytes.clone()))
+        }
     }
 }
 
@@ -154,9 +233,9 @@ fn is_builtin(name: &str) -> bool {
     BUILTINS.iter().any(|shape| shape.name == name)
 }
 
-/// True if `mesh`, as a scene names it, is a file, and not part of the program.
+/// True if `mesh`, as a scene names it, is a file, and neither part of the program nor standard input.
 pub fn is_mesh_file(mesh: &str) -> bool {
-    !mesh.starts_with(BUILTIN) && !mesh.starts_with(SHIPPED)
+    !mesh.starts_with(BUILTIN) && !mesh.starts_with(SHIPPED) && mesh != STANDARD_INPUT
 }
 
 fn has_known_ending(path: &Path) -> bool {
@@ -173,7 +252,7 @@ fn has_ending(path: &Path, ending: &str) -> bool {
 /// # Errors
 /// [`SceneError`] when a value is out of its range or a mesh cannot be used.
 pub fn resolve(file: &SceneFile) -> Result<Resolved, SceneError> {
-    resolve_by(file, &mut |path| fs::read(path))
+    resolve_by(file, &mut read_input)
 }
 
 /// Returns the scene that `file` describes as [`resolve`] does, with files read by `read`: it is asked for meshes and material
@@ -188,12 +267,12 @@ pub fn resolve_by(
     file.resolve(|name, folder| load_mesh_by(name, folder, read))
 }
 
-/// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…` or an OBJ file, relative to `folder`.
+/// Loads the mesh that a scene calls `name`: `builtin:…`, `shipped:…`, `-` or an OBJ file, relative to `folder`.
 ///
 /// # Errors
 /// What is wrong with which file, in which line, and what was expected: one line, and one for each thing that was odd before.
 pub fn load_mesh(name: &str, folder: &Path) -> LoadedMesh {
-    load_mesh_by(name, folder, &mut |path| fs::read(path))
+    load_mesh_by(name, folder, &mut read_input)
 }
 
 fn load_mesh_by(
@@ -218,6 +297,11 @@ fn load_mesh_by(
             let bytes = shipped_file(name).map(<[u8]>::to_vec);
             bytes.ok_or(std::io::ErrorKind::NotFound.into())
         })
+    } else if name == STANDARD_INPUT {
+        load_obj_by(Path::new(name), read).map_err(|error| ObjError {
+            path: STANDARD_INPUT_SHOWN.into(),
+            ..error
+        })
     } else {
         let path: PathBuf = folder.join(name);
         if !has_ending(&path, "obj") {
@@ -236,8 +320,12 @@ fn load_mesh_by(
         let odd = error.warnings.iter();
         odd.fold(error.to_string(), |text, odd| format!("{text}\n{odd}"))
     })?;
+    let shown = match name {
+        STANDARD_INPUT => STANDARD_INPUT_SHOWN,
+        name => name,
+    };
     let warnings = loaded.warnings.iter();
-    let warnings = warnings.map(|warning| format!("{name}: {warning}"));
+    let warnings = warnings.map(|warning| format!("{shown}: {warning}"));
     Ok((Arc::new(loaded.mesh), warnings.collect()))
 }
 
@@ -318,6 +406,22 @@ mod tests {
                 "{}",
                 scene.name
             );
+        }
+    }
+
+    #[test]
+    fn the_format_of_a_text_is_seen() {
+        for (text, format) in [
+            ("", InputFormat::Obj),
+            ("# a=1\n\nv 0 0 0\n", InputFormat::Obj),
+            ("o a = b\r[\r", InputFormat::Obj),
+            ("=\n", InputFormat::Obj),
+            ("\u{feff}# scene\n[image]\nwidth = 3\n", InputFormat::Toml),
+            ("  camera.fit=1\n", InputFormat::Toml),
+            ("title = \"a\"\r\n", InputFormat::Toml),
+            ("[[object]]", InputFormat::Toml),
+        ] {
+            assert_eq!(InputFormat::of(text.as_bytes()), format, "{text:?}");
         }
     }
 

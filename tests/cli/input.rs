@@ -231,6 +231,137 @@ fn what_was_odd_before_an_error_in_a_mesh_of_a_scene_is_noted() {
     ]);
 }
 
+/// Runs with the file `name` as standard input.
+fn piped(folder: &Folder, name: &str, arguments: &str) -> super::Ended {
+    let mut command = folder.command(arguments);
+    command.stdin(std::fs::File::open(folder.path(name)).unwrap());
+    super::Ended::new(arguments, command.output().unwrap())
+}
+
+#[test]
+fn a_mesh_or_a_scene_is_read_from_standard_input() {
+    let folder = Folder::new();
+    let mesh = format!("mtllib red.mtl\nusemtl red\n{TRIANGLE}f 1 2 3\n");
+    folder
+        .write("mesh", &mesh)
+        .write("named.obj", &mesh)
+        .write("red.mtl", "newmtl red\nKd 1 0 0\n")
+        .write("scene", "[[object]]\nmesh = \"named.obj\"\n")
+        .write("of-mesh", "[[object]]\nmesh = \"-\"\n");
+    let flags = "--size 16x12 --simd scalar -m flat";
+    for format in ["", " --input-format obj"] {
+        let ended = piped(
+            &folder,
+            "mesh",
+            &format!("render - {flags} -o {{scene}}.png{format}"),
+        );
+        assert_eq!(ended.done().err, "stdin.png: 16x12, flat\n");
+        folder
+            .run(&format!("render named.obj {flags} -o named.png"))
+            .done();
+        assert_eq!(
+            folder.read("stdin.png"),
+            folder.read("named.png"),
+            "{format}"
+        );
+    }
+    for format in ["", " --input-format toml"] {
+        piped(
+            &folder,
+            "scene",
+            &format!("render - {flags} -o scene.png{format}"),
+        )
+        .done();
+        folder.write("scene.toml", folder.read("scene"));
+        folder
+            .run(&format!("render scene.toml {flags} -o file.png"))
+            .done();
+        assert_eq!(
+            folder.read("scene.png"),
+            folder.read("file.png"),
+            "{format}"
+        );
+    }
+    piped(&folder, "mesh", "info -")
+        .done()
+        .prints("1 of 3 sides");
+    folder.write("of-mesh.toml", folder.read("of-mesh"));
+    piped(&folder, "mesh", "info of-mesh.toml")
+        .done()
+        .prints("1 of 3 sides");
+}
+
+#[test]
+fn bad_standard_input_is_told_with_its_line() {
+    let folder = Folder::new();
+    folder
+        .write("empty", "")
+        .write("mesh", format!("{TRIANGLE}f 1 2 9\n"))
+        .write("scene", "[image]\nwidth = 0\n")
+        .write("binary", b"[\xff\xfe");
+    for (name, flags, parts) in [
+        (
+            "empty",
+            "",
+            &["standard input: is empty: expected OBJ text"][..],
+        ),
+        ("mesh", "", &["standard input:4: position index 9"]),
+        (
+            "mesh",
+            " --input-format toml",
+            &["standard input:1:", "not valid TOML"],
+        ),
+        ("scene", "", &["standard input:2:9", "`image.width` is 0"]),
+        (
+            "scene",
+            " --input-format obj",
+            &["standard input: has no polygon"],
+        ),
+        ("binary", "", &["`standard input`: line 1 is not text"]),
+    ] {
+        piped(&folder, name, &format!("render - -o a.png{flags}")).refused(parts);
+    }
+    let refused = folder.run("render teapot --input-format obj -o a.png");
+    refused.refused(&["`--input-format` is for standard input, not for `teapot`"]);
+    // A file that is read is not written, under this name either.
+    let ended = piped(&folder, "mesh", "render - -o mesh --format png");
+    ended.refused(&[]);
+    assert_eq!(
+        folder.read("mesh"),
+        format!("{TRIANGLE}f 1 2 9\n").into_bytes()
+    );
+    folder.write("good", format!("{TRIANGLE}f 1 2 3\n"));
+    let ended = piped(&folder, "good", "render - --size 8x6 -o good --format png");
+    ended.refused(&["`--output` is the input itself"]);
+}
+
+#[test]
+fn vertex_colours_are_told_where_nothing_shows_them() {
+    let folder = Folder::new();
+    let points = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\n";
+    folder.write("mesh.obj", format!("{points}f 1 2 3\n"));
+    let told = "mesh.obj: has vertex colours, which shading leaves out; --aov colours shows them";
+    folder
+        .run("render mesh.obj --size 8x6 -o a.png")
+        .done()
+        .says(told);
+    let shown = folder
+        .run("render mesh.obj --size 8x6 --aov colours -o a.png")
+        .done();
+    assert!(!shown.err.contains("vertex colours"), "{}", shown.err);
+    folder
+        .run("info mesh.obj")
+        .done()
+        .prints("colours     one a position; render --aov colours");
+    assert_eq!(
+        folder.run("info mesh.obj --json").json()["objects"][0]["colours"],
+        true
+    );
+    folder.write("mesh.obj", format!("{TRIANGLE}f 1 2 3\n"));
+    let without = folder.run("info mesh.obj").done();
+    assert!(!without.out.contains("colours"), "{}", without.out);
+}
+
 #[test]
 fn colours_are_for_terminals_only() {
     let folder = Folder::new();

@@ -4,5 +4,6 @@
 mod flags;
 mod lectures;
 mod markdown;
+mod obj;
 mod rooms;
 mod tidy;
