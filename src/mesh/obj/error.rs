@@ -92,18 +92,22 @@ pub enum VectorProblem {
         found: usize,
     },
     /// Something stands where a finite number should.
-    #[error("`{found}` in `v`: expected a finite number{}", decimal_point(found))]
+    #[error("`{found}` in `v`: expected a finite number{}", hint(found))]
     BadNumber {
         /// The word in place of the number.
         found: String,
     },
 }
 
-/// Returns a hint for numbers that were written where decimals follow a comma.
-fn decimal_point(found: &str) -> &'static str {
-    match found.replacen(',', ".", 1).parse::<f64>() {
-        Ok(_) if found.contains(',') => " with a decimal point",
-        _ => "",
+/// Returns a hint for numbers whose decimals follow a comma, and for those past the range of an `f32`.
+fn hint(found: &str) -> &'static str {
+    let is_number = |text: &str| text.parse().is_ok_and(f64::is_finite);
+    match is_number(found) {
+        true => ", at most 3.4e38",
+        false if found.contains(',') && is_number(&found.replacen(',', ".", 1)) => {
+            " with a decimal point"
+        }
+        false => "",
     }
 }
 
@@ -136,7 +140,14 @@ pub(super) fn quote(text: &str) -> String {
     }
     let mut characters = text.chars();
     let start = characters.by_ref().take(QUOTED);
-    let mut quoted: String = start.flat_map(char::escape_debug).collect();
+    let mut quoted = String::new();
+    for character in start {
+        match character {
+            // Names hold these as they are.
+            '\\' | '"' | '\'' => quoted.push(character),
+            _ => quoted.extend(character.escape_debug()),
+        }
+    }
     if characters.next().is_some() {
         quoted.push('…');
     }

@@ -3,11 +3,13 @@
 use std::borrow::Cow;
 use std::string::String;
 
-/// Returns the text of a file: UTF-8 without its mark, else Latin-1, which no byte sequence fails.
+/// Returns the text of a file: UTF-8 without its mark, else Latin-1, which no byte sequence fails. The byte by which DOS ended
+/// texts is left out.
 ///
 /// Latin-1 and not replacement characters: two names that differ stay different, and are found in the other file.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let bytes = bytes.strip_suffix(b"\x1a").unwrap_or(bytes);
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(bytes.iter().map(|&byte| byte as char).collect::<String>()),

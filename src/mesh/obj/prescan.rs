@@ -172,7 +172,10 @@ impl Prescan {
     }
 
     /// Makes the error for `problem`, with what was odd before.
-    fn refusal(&self, line: Option<usize>, problem: ObjProblem) -> Refusal {
+    fn refusal(&mut self, line: Option<usize>, problem: ObjProblem) -> Refusal {
+        if let ObjProblem::BadPosition { .. } = problem {
+            self.oddities.remove(&Oddity::BadPosition);
+        }
         Refusal {
             line,
             problem,

@@ -100,7 +100,6 @@ fn a_position_that_is_no_number_refuses_the_file_only_if_a_face_uses_it() {
         "nan",
         "inf",
         "-inf",
-        "1e99",
         "1e400",
         "0x10",
         "1.2.3",
@@ -115,6 +114,8 @@ fn a_position_that_is_no_number_refuses_the_file_only_if_a_face_uses_it() {
         let message = format!("`{number}` in `v`: expected a finite number");
         assert_bad_position(&format!("v 0 {number} 0"), &message);
     }
+    let message = "`-1e39` in `v`: expected a finite number, at most 3.4e38";
+    assert_bad_position("v 0 -1e39 0", message);
     let message = "`1,5` in `v`: expected a finite number with a decimal point";
     assert_bad_position("v 0 1,5 0", message);
     let few = |found| format!("`v` has too few numbers: expected three, found {found}");
@@ -135,6 +136,9 @@ fn the_first_face_that_uses_a_position_is_named() {
     let message =
         "`nan` in `v`: expected a finite number, and the face in line 2 uses this position";
     assert_error(text, 5, message);
+    // The error says it all.
+    let told = ["a face of fewer than three different corners is left out (line 1)"];
+    assert_eq!(parse(text).unwrap_err().warnings, told);
     // A face that is left out uses nothing.
     let loaded = after_points("v nan 0 0\nf 1 6\nf 6 6 6\nf 1 2 3\n");
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
@@ -306,6 +310,13 @@ fn quotes_are_one_short_line() {
         error.contains("\\u{1b}[31mxxx") && error.contains('…') && error.len() < 140,
         "{error}"
     );
+}
+
+#[test]
+fn names_are_quoted_as_they_are() {
+    let loaded = after_points("usemtl C:\\a\"b'\\\nf 1 2 3\n");
+    let told = "no material library defines `C:\\a\"b'\\`: the default material is used";
+    assert_eq!(warning(&loaded), told);
 }
 
 #[test]

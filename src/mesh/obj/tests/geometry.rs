@@ -154,6 +154,11 @@ fn byte_order_mark_and_latin_1() {
     // one.
     let loaded = parse(format!("\u{feff}{POINTS}f 2 3 4\n")).unwrap();
     assert_eq!(loaded.mesh.positions()[0], Vec3::X);
+    let dos = after_points("f 1 2 3\r\n\u{1a}");
+    assert_eq!(
+        (polygons(&dos), dos.warnings),
+        (vec![vec![0, 1, 2]], vec![])
+    );
     let latin = [b"o Gr\xfcn \xa9\n", POINTS.as_bytes(), b"f 1 2 3 # \xe9\n"].concat();
     assert_eq!(polygons(&parse(latin).unwrap()), [[0, 1, 2]]);
 }
