@@ -398,8 +398,14 @@ impl Prescan {
         rest: &str,
         corners: &mut Vec<ObjCorner>,
     ) -> Result<(), ObjProblem> {
+        let words = without_comment(rest).split_ascii_whitespace();
+        // What is left out in any case may name what is not there: the file may be cut off here.
+        if words.clone().nth(2).is_none() {
+            self.note(line, Oddity::SmallFace);
+            return Ok(());
+        }
         corners.clear();
-        for word in without_comment(rest).split_ascii_whitespace() {
+        for word in words {
             corners.push(self.corner(line, word)?);
         }
         let written = corners.len();

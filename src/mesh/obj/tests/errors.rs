@@ -168,6 +168,15 @@ fn normals_and_texture_coordinates_that_are_no_numbers_refuse_nothing() {
 }
 
 #[test]
+fn a_face_that_is_left_out_refuses_nothing() {
+    for face in ["f 99", "f 1 -99", "f 1 x", "f 1//7 2/", "f 1.5 2"] {
+        let loaded = after_points(&format!("f 1 2 3\n{face}\nvn 0 0 1\n"));
+        let told = "a face of fewer than three different corners is left out (line 7)";
+        assert_eq!(warning(&loaded), told, "{face}");
+    }
+}
+
+#[test]
 fn what_was_odd_before_an_error_is_shown_with_it() {
     let error = parse(format!("{POINTS}hello\nl 1 2\nf 1 2 9\n")).unwrap_err();
     assert_eq!(
@@ -295,7 +304,7 @@ fn a_continued_statement_is_told_by_its_first_line() {
         "`x` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers",
     );
     assert_error_after_points(
-        "f 1 \\\n2 3\nf x\n",
+        "f 1 \\\n2 3\nf 1 2 x\n",
         8,
         "`x` is no corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`, whole numbers",
     );
