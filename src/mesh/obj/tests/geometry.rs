@@ -545,6 +545,7 @@ fn colours_are_used_if_all_positions_of_faces_have_one() {
 
 #[test]
 fn an_index_far_ahead_takes_no_memory() {
-    let error = parse(format!("f 1 2 {}\n{POINTS}", u32::MAX)).unwrap_err();
+    // Four bytes for each position up to there are more than processors can address.
+    let error = parse(format!("f 1 2 {}\n{POINTS}", 1u64 << 50)).unwrap_err();
     assert!(error.to_string().contains("out of range: expected 1 to 5"));
 }
