@@ -10,10 +10,10 @@ use super::{CliError, signals};
 use fastphong::picture::image_file::{
     FilePicture, ImageFileError, end_of_links, read_picture, write_file_by,
 };
-use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::SceneError;
 use fastphong::scene::file::resolve::Resolved;
-use fastphong::scene::input::{self, InputFormat, STANDARD_INPUT, read_input};
+use fastphong::scene::file::{STANDARD_INPUT, SceneFile};
+use fastphong::scene::input::{self, InputFormat, read_input};
 use std::fmt;
 use std::fs::{self, Metadata};
 use std::io::{self, Write};

@@ -1,7 +1,7 @@
 //! Placeholders in the name of a picture: `-o "{scene}_{method}.png"`.
 
 use super::CliError;
-use fastphong::scene::input::STANDARD_INPUT;
+use fastphong::scene::file::STANDARD_INPUT;
 use std::path::{Path, PathBuf};
 
 /// The facts about a picture that its name may hold.

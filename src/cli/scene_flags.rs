@@ -5,12 +5,12 @@ use super::normals::describe;
 use super::{CliError, Log, files};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use fastphong::scene::file::SceneFile;
 use fastphong::scene::file::diagnostics::Origin;
 use fastphong::scene::file::resolve::Resolved;
 use fastphong::scene::file::schema::{self, ValueKind};
 use fastphong::scene::file::value::{Data, SceneTable};
-use fastphong::scene::input::{InputFormat, STANDARD_INPUT};
+use fastphong::scene::file::{STANDARD_INPUT, SceneFile, shown};
+use fastphong::scene::input::InputFormat;
 
 /// A flag that gives values to keys of a scene file.
 struct Flag {
@@ -342,7 +342,7 @@ impl SceneFlags {
         for (_, mesh) in objects.filter(|(object, _)| !object.mesh.colours().is_empty()) {
             if !mesh.starts_with("builtin:") && !told.contains(&mesh) {
                 let has = "has vertex colours, which shading leaves out";
-                log.note(&format!("{mesh}: {has}; --aov colours shows them"));
+                log.note(&format!("{}: {has}; --aov colours shows them", shown(mesh)));
                 told.push(mesh);
             }
         }

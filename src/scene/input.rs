@@ -21,7 +21,7 @@
 use super::file::diagnostics::{Origin, SceneError};
 use super::file::resolve::{LoadedMesh, Resolved};
 use super::file::value::{Data, Value};
-use super::file::{BUILTIN, SceneFile};
+use super::file::{BUILTIN, STANDARD_INPUT, SceneFile, shown};
 use crate::mesh::builtin::{BUILTINS, builtin};
 use crate::mesh::obj::{ObjError, load_obj_by, parse_obj};
 use crate::number::suggest::nearest;
@@ -65,12 +65,6 @@ static SHIPPED_FILES: &[(&str, &[u8])] = &[
 ];
 
 const SHIPPED: &str = "shipped:";
-
-/// The name of standard input, as an input and as the mesh of a scene.
-pub const STANDARD_INPUT: &str = "-";
-
-/// Standard input in messages.
-const STANDARD_INPUT_SHOWN: &str = "standard input";
 
 /// The format of a text on standard input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -191,13 +185,13 @@ pub fn load_standard_input(
 ) -> Result<SceneFile, SceneError> {
     let path = Path::new(STANDARD_INPUT);
     let bytes = read(path).map_err(|error| {
-        let problem = format!("{STANDARD_INPUT_SHOWN}: cannot be read: {error}");
+        let problem = format!("{}: cannot be read: {error}", shown(STANDARD_INPUT));
         SceneError::new(Origin::Program, problem, "")
     })?;
     match format.unwrap_or_else(|| InputFormat::of(&bytes)) {
         InputFormat::Obj => Ok(SceneFile::for_mesh(STANDARD_INPUT)),
         InputFormat::Toml => {
-            SceneFile::load_by(Path::new(STANDARD_INPUT_SHOWN), &mut |_| Ok(bytes.clone()))
+            SceneFile::load_by(Path::new(shown(STANDARD_INPUT)), &mut |_| Ok(bytes.clone()))
         }
     }
 }
@@ -299,7 +293,7 @@ fn load_mesh_by(
         })
     } else if name == STANDARD_INPUT {
         load_obj_by(Path::new(name), read).map_err(|error| ObjError {
-            path: STANDARD_INPUT_SHOWN.into(),
+            path: shown(name).into(),
             ..error
         })
     } else {
@@ -320,12 +314,9 @@ fn load_mesh_by(
         let odd = error.warnings.iter();
         odd.fold(error.to_string(), |text, odd| format!("{text}\n{odd}"))
     })?;
-    let shown = match name {
-        STANDARD_INPUT => STANDARD_INPUT_SHOWN,
-        name => name,
-    };
+    let name = shown(name);
     let warnings = loaded.warnings.iter();
-    let warnings = warnings.map(|warning| format!("{shown}: {warning}"));
+    let warnings = warnings.map(|warning| format!("{name}: {warning}"));
     Ok((Arc::new(loaded.mesh), warnings.collect()))
 }
 

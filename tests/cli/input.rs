@@ -345,6 +345,9 @@ fn vertex_colours_are_told_where_nothing_shows_them() {
         .run("render mesh.obj --size 8x6 -o a.png")
         .done()
         .says(told);
+    piped(&folder, "mesh.obj", "render - --size 8x6 -o a.png")
+        .done()
+        .says("standard input: has vertex colours");
     let shown = folder
         .run("render mesh.obj --size 8x6 --aov colours -o a.png")
         .done();

@@ -30,6 +30,17 @@ use value::{Data, SceneTable, Value};
 /// The beginning of the name of a built-in mesh.
 pub(super) const BUILTIN: &str = "builtin:";
 
+/// The name of standard input, as an input and as the mesh of a scene.
+pub const STANDARD_INPUT: &str = "-";
+
+/// Returns the name of an input or a mesh as messages show it.
+pub fn shown(name: &str) -> &str {
+    match name {
+        STANDARD_INPUT => "standard input",
+        name => name,
+    }
+}
+
 /// A scene as it is written. Two scene files are equal when they say the same, wherever it stands.
 #[derive(Clone, Debug, Default)]
 pub struct SceneFile {

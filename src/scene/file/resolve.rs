@@ -1,7 +1,5 @@
 //! From a scene file to a scene: values are checked, meshes loaded, the camera is fitted.
 
-use super::BUILTIN;
-use super::SceneFile;
 use super::check::{COORDINATES, Section, is_coordinate, is_position};
 use super::diagnostics::{Origin, SceneError};
 use super::lights::{check_distance, light};
@@ -9,6 +7,7 @@ use super::normals::{normals, note_unused};
 use super::value::{Data, SceneTable};
 use super::viewpoint::Viewpoint;
 use super::visibility::{clipping, hidden_surfaces, samples};
+use super::{BUILTIN, SceneFile, shown};
 use crate::mesh::orientation::inside_out_parts;
 use crate::mesh::{Material, PolygonMesh};
 use crate::scene::of_mesh::unit;
@@ -79,6 +78,7 @@ impl SceneFile {
         // What a built-in mesh has is right, and nothing that the user stated.
         let from_files = objects.iter().zip(self.meshes());
         for (object, name) in from_files.filter(|(_, name)| !name.starts_with(BUILTIN)) {
+            let name = shown(name);
             note_unused(name, &object.mesh, object.normals, &mut notes);
             let shows_both =
                 file.is_on("two_sided") && file.word::<Culling>("cull") == Culling::None;
