@@ -86,13 +86,12 @@ pub enum DecodeError {
 }
 
 /// The formats that are read.
-const EXPECTED: &str = "PNG, PBM, PGM, PPM (P1 to P6), PAM or PFM";
+const EXPECTED: &str = "PNG, PBM, PGM, PPM (P1 to P6), PAM, PFM, BMP or Targa (.tga)";
 
 /// Other formats by their first bytes.
-const OTHERS: [(&[u8], &str); 14] = [
+const OTHERS: [(&[u8], &str); 13] = [
     (b"\xff\xd8\xff", "a JPEG file"),
     (b"GIF8", "a GIF file"),
-    (b"BM", "a BMP file"),
     (b"RIFF", "a WebP or another RIFF file"),
     (b"II*\0", "a TIFF file"),
     (b"MM\0*", "a TIFF file"),

@@ -7,8 +7,8 @@
 //! | `.pfm` | red, green, blue as floats (PF) | alpha |
 //!
 //! Read are PNG of all colour types and depths, PBM, PGM and PPM (P1 to P6), PAM (P7) and PFM, as they are stored: 8 bits, 16
-//! bits or floats. Writing goes by the ending of the path, reading by the first bytes of the file. [`Pair`] makes two pictures
-//! comparable.
+//! bits or floats, and BMP and Targa in 8 bits. Writing goes by the ending of the path, reading by the first bytes of the file;
+//! Targa has none that tell, and is known by the ending `.tga`. [`Pair`] makes two pictures comparable.
 //!
 //! ```no_run
 //! use fastphong::compare::metrics::{compare, difference_map};
@@ -35,12 +35,14 @@ use std::vec::Vec;
 use super::encoding::quantise;
 use super::{Encoding, Levels, LinearPicture, Picture, Picture8, Pixel};
 
+mod bitmap;
 mod error;
 mod netpbm;
 mod pair;
 mod png;
 mod replace;
 
+use bitmap::Bitmap;
 pub use error::{DecodeError, EncodeError, ImageFileError};
 pub use netpbm::PpmWriter;
 pub use pair::{AlphaUse, LevelView, Pair, UsedEncoding};
@@ -281,22 +283,24 @@ pub fn read_picture(path: &Path) -> Result<FilePicture, ImageFileError> {
 /// # Errors
 /// As [`read_picture`].
 pub fn read_picture_from(input: impl Read, path: &Path) -> Result<FilePicture, ImageFileError> {
+    let ending = path.extension().unwrap_or_default();
+    let is_targa = ending.eq_ignore_ascii_case("tga");
     let path = path.to_owned();
     // One byte more than is allowed, to see that there is more: some files, such as devices, never end.
     let mut input = BufReader::new(input.take(MAX_BYTES + 1));
-    decode(&mut input).map_err(|problem| match problem {
+    decode(&mut input, is_targa).map_err(|problem| match problem {
         ReadProblem::Io(cause) => ImageFileError::Read { path, cause },
         ReadProblem::Decode(cause) => ImageFileError::Decode { path, cause },
     })
 }
 
-/// Reads the picture that the bytes of a file of any of the formats hold.
+/// Reads the picture that the bytes of a file of any of the formats hold, except Targa, which only a name tells.
 ///
 /// # Errors
 /// If the bytes are none of the formats, are broken or cut off, or hold more than [`MAX_PIXELS`] pixels.
 pub fn decode_picture(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
     let mut input = bytes;
-    decode(&mut input).map_err(|problem| match problem {
+    decode(&mut input, false).map_err(|problem| match problem {
         ReadProblem::Io(error) => unreachable!("bytes in memory can be read: {error}"),
         ReadProblem::Decode(error) => error,
     })
@@ -321,25 +325,37 @@ impl From<DecodeError> for ReadProblem {
     }
 }
 
-fn decode(input: &mut dyn BufRead) -> Result<FilePicture, ReadProblem> {
+/// Reads a picture: by its first bytes, or as Targa where these are of no format and the name says so.
+fn decode(input: &mut dyn BufRead, is_targa: bool) -> Result<FilePicture, ReadProblem> {
     // The beginning of a file tells that it is no picture: the rest need not be read.
     let mut beginning = Vec::new();
     let mut first = (&mut *input).take(BEGINNING);
     first.read_to_end(&mut beginning)?;
     let mut whole = beginning.as_slice().chain(input);
     if beginning.starts_with(&png::SIGNATURE) {
-        let mut bytes = Vec::new();
-        whole.read_to_end(&mut bytes)?;
-        if bytes.len() as u64 > MAX_BYTES {
-            let problem = "the file is too large for a picture";
-            return Err(io::Error::new(io::ErrorKind::FileTooLarge, problem).into());
-        }
-        return Ok(png::decode(&bytes)?);
+        return Ok(png::decode(&all_bytes(&mut whole)?)?);
     }
-    match netpbm::Kind::announced(&beginning) {
-        Some(kind) => netpbm::read(kind, &mut whole),
-        None => Err(DecodeError::not_a_picture(&beginning).into()),
+    if let Some(kind) = netpbm::Kind::announced(&beginning) {
+        return netpbm::read(kind, &mut whole);
     }
+    if beginning.starts_with(&Bitmap::BMP_SIGNATURE) {
+        return Ok(Bitmap::Bmp.decode(&all_bytes(&mut whole)?)?);
+    }
+    match DecodeError::not_a_picture(&beginning) {
+        DecodeError::NotAPicture if is_targa => Ok(Bitmap::Targa.decode(&all_bytes(&mut whole)?)?),
+        error => Err(error.into()),
+    }
+}
+
+/// Reads a file to its end, unless that is too far.
+fn all_bytes(input: &mut dyn Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    input.read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        let problem = "the file is too large for a picture";
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, problem));
+    }
+    Ok(bytes)
 }
 
 /// Bytes that tell the format of a file.

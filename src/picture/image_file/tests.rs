@@ -895,7 +895,7 @@ fn pfm_files_of_others_are_read() {
 
 #[test]
 fn broken_headers_are_told() {
-    let expected = "expected PNG, PBM, PGM, PPM (P1 to P6), PAM or PFM";
+    let expected = "expected PNG, PBM, PGM, PPM (P1 to P6), PAM, PFM, BMP or Targa (.tga)";
     assert_eq!(message(b""), format!("the file is empty: {expected}"));
     for text in ["P8 1 1 255 0 0 0", "P", "P6", "P65", "PNG", "v 0 0 0"] {
         let told = format!("not a picture that can be read: {expected}");
@@ -997,4 +997,51 @@ fn files_go_by_path_and_errors_name_it() {
         Err(ImageFileError::UnknownEnding { .. })
     ));
     assert!(!path("b.png").exists() && !path("b.gif").exists());
+}
+
+/// An uncompressed BMP of 2 × 2 pixels in 24 bits, as a rasterizer without a library writes it: from the bottom up, blue first.
+const BMP: &[u8] = b"BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x02\0\0\0\x02\0\0\0\x01\0\x18\0\0\0\0\0\x10\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\
+\x01\x02\x03\x04\x05\x06\0\0\x07\x08\x09\x0a\x0b\x0c\0\0";
+
+/// The same pixels as Targa, type 2, from the top down.
+const TARGA: &[u8] = b"\0\0\x02\0\0\0\0\0\0\0\0\0\x02\0\x02\0\x18\x20\
+\x07\x08\x09\x0a\x0b\x0c\x01\x02\x03\x04\x05\x06";
+
+#[test]
+fn bitmaps_of_rasterizers_without_a_library_are_read() {
+    let pixels = [
+        [9, 8, 7, 255],
+        [12, 11, 10, 255],
+        [3, 2, 1, 255],
+        [6, 5, 4, 255],
+    ];
+    let named = |bytes, name: &str| read_picture_from(bytes, Path::new(name));
+    for (bytes, name) in [(BMP, "a.bmp"), (BMP, "no ending"), (TARGA, "a.TGA")] {
+        let picture = named(bytes, name).unwrap();
+        assert_eq!(picture.to_stored().pixels(), pixels, "{name}");
+        assert_eq!(
+            (picture.has_alpha, picture.encoding),
+            (false, None),
+            "{name}"
+        );
+    }
+    // Targa has no mark: only the ending of a name tells it.
+    let error = named(TARGA, "a.png").unwrap_err().to_string();
+    assert!(error.contains("not a picture that can be read"), "{error}");
+    for (bytes, name) in [
+        (&BMP[..60], "a.bmp"),
+        (&TARGA[..20], "a.tga"),
+        (b"text", "a.tga"),
+    ] {
+        let error = named(bytes, name).unwrap_err().to_string();
+        assert!(error.contains("broken"), "{name}: {error}");
+    }
+    // A header that claims 2³¹ − 1 columns.
+    let mut large = BMP.to_vec();
+    large[18..22].copy_from_slice(&[0xff, 0xff, 0xff, 0x7f]);
+    let error = named(&large, "a.bmp").unwrap_err().to_string();
+    assert!(
+        error.contains("a.bmp: ") && !error.contains("panic"),
+        "{error}"
+    );
 }

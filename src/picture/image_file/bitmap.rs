@@ -1,0 +1,64 @@
+//! BMP and Targa, by the crate `image`: authors of rasterizers write these, as they need no library.
+
+use std::io::Cursor;
+use std::string::ToString;
+
+use image::codecs::bmp::BmpDecoder;
+use image::codecs::tga::TgaDecoder;
+use image::{DynamicImage, ImageDecoder, ImageResult, Limits};
+
+use super::{DecodeError, FilePicture, FilePixels, MAX_PIXELS, checked_size};
+use crate::picture::Picture8;
+
+/// A format that this file reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bitmap {
+    /// Windows bitmap; its files begin with `BM`.
+    Bmp,
+    /// Truevision Targa; its files begin with no mark, so that only the ending of a name tells them.
+    Targa,
+}
+
+impl Bitmap {
+    /// The first bytes of every BMP file.
+    pub const BMP_SIGNATURE: [u8; 2] = *b"BM";
+
+    fn name(self) -> &'static str {
+        match self {
+            Bitmap::Bmp => "BMP",
+            Bitmap::Targa => "Targa",
+        }
+    }
+
+    /// Reads the picture in the bytes of a file, in 8 bits a channel, which all of these files have.
+    pub fn decode(self, bytes: &[u8]) -> Result<FilePicture, DecodeError> {
+        match self {
+            Bitmap::Bmp => self.picture(BmpDecoder::new(Cursor::new(bytes))),
+            Bitmap::Targa => self.picture(TgaDecoder::new(Cursor::new(bytes))),
+        }
+    }
+
+    fn picture(self, opened: ImageResult<impl ImageDecoder>) -> Result<FilePicture, DecodeError> {
+        let broken =
+            |error: image::ImageError| DecodeError::malformed(self.name(), error.to_string());
+        let mut decoder = opened.map_err(broken)?;
+        let (width, height) = decoder.dimensions();
+        let [width, height] = checked_size(self.name(), width.into(), height.into())?;
+        let mut limits = Limits::no_limits();
+        // Four channels as the file has them, and again in order.
+        limits.max_alloc = Some(8 * MAX_PIXELS);
+        decoder.set_limits(limits).map_err(broken)?;
+        let has_alpha = decoder.color_type().has_alpha();
+        let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
+        let pixels = image.into_rgba8().as_raw().as_chunks().0.to_vec();
+        let picture = Picture8::from_pixels(width, height, pixels);
+        let wrong_count = || {
+            let problem = "the number of its pixels is not width × height";
+            DecodeError::malformed(self.name(), problem)
+        };
+        Ok(FilePicture {
+            has_alpha,
+            ..FilePicture::of_pixels(FilePixels::Stored(picture.ok_or_else(wrong_count)?))
+        })
+    }
+}
