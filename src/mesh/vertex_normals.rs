@@ -228,8 +228,10 @@ fn averaged(mesh: &PolygonMesh, polygons: &[DVec3], smoothing: Smoothing) -> Cor
             let fan = fans.of(v);
             let mut sum = Sum::default();
             fan.iter().for_each(|item| sum.add(item.polygon, &normals));
-            let is_simple = finder.is_simple(v, fan, smoothing);
-            is_simple.then(|| sum.average()).flatten()
+            // The pole of a sphere has too many corners to be seen quickly.
+            let has_one_value =
+                finder.is_simple(v, fan, smoothing) || finder.find_groups(v, fan, smoothing) == 1;
+            has_one_value.then(|| sum.average()).flatten()
         });
         if let Some(values) = simple.collect() {
             let numbers = Vec::new();
