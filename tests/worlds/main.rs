@@ -1,0 +1,131 @@
+//! Random worlds: scenes that nobody thought of, and what must hold in all of them (`properties.rs`).
+//!
+//! `cargo test --test worlds` tries a few hundred worlds, always the same ones. More are tried by
+//!
+//! ```sh
+//! FASTPHONG_WORLDS=100000 cargo test --release --test worlds -- --nocapture
+//! ```
+//!
+//! and others by `FASTPHONG_WORLDS_SEED=2`. A world in which something does not hold is made as small as it gets and printed
+//! as the files of a scene: make a test of these, whose name says the situation.
+
+mod known;
+mod mesh;
+mod numbers;
+mod properties;
+mod scene;
+mod wild;
+mod world;
+
+#[path = "../conformance/support/differences.rs"]
+#[allow(dead_code)]
+mod differences;
+#[path = "../conformance/support/renderers.rs"]
+#[allow(dead_code)]
+mod renderers;
+
+use properties::{Tally, check};
+use proptest::strategy::Strategy;
+use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
+use std::cell::{Cell, RefCell};
+use std::fmt::Debug;
+use world::World;
+
+/// The worlds of a test run, unless the environment asks for more.
+const WORLDS: u32 = 600;
+
+/// The worlds that are drawn from one seed. After a failure the next block goes on.
+const BLOCK: u32 = 100;
+
+/// Returns a number of the environment.
+fn setting(name: &str, default: u32) -> u32 {
+    match std::env::var(name) {
+        Ok(text) => text
+            .parse()
+            .unwrap_or_else(|_| panic!("{name} is `{text}`: expected a whole number")),
+        Err(_) => default,
+    }
+}
+
+/// Tries worlds in blocks, each from a seed of its own. Returns a message for each block that fails: the smallest input found
+/// for which `test` fails, and why.
+fn try_all<S: Strategy>(
+    inputs: &S,
+    count: u32,
+    test: impl Fn(S::Value) -> Result<(), String>,
+) -> Vec<String>
+where
+    S::Value: Debug,
+{
+    let seed = setting("FASTPHONG_WORLDS_SEED", 1);
+    let blocks = (0..count.div_ceil(BLOCK)).filter_map(|block| {
+        let mut bytes = [0; 32];
+        bytes[..4].copy_from_slice(&seed.to_le_bytes());
+        bytes[4..8].copy_from_slice(&block.to_le_bytes());
+        let config = Config {
+            cases: BLOCK.min(count - block * BLOCK),
+            failure_persistence: None,
+            max_shrink_iters: 2000,
+            ..Config::default()
+        };
+        let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
+        let mut runner = TestRunner::new_with_rng(config, rng);
+        let tried = runner.run(inputs, |input| test(input).map_err(TestCaseError::fail));
+        let failure = match tried {
+            Ok(()) => return None,
+            Err(TestError::Fail(reason, input)) => format!("{reason}\n{input:?}"),
+            Err(TestError::Abort(reason)) => format!("gave up: {reason}"),
+        };
+        println!("block {block}: {failure}");
+        Some(failure)
+    });
+    blocks.collect()
+}
+
+fn assert_none(failures: &[String]) {
+    let count = failures.len();
+    assert!(
+        count == 0,
+        "{count} blocks of worlds fail, for example: {}",
+        failures[0]
+    );
+}
+
+#[test]
+fn everything_holds_in_random_worlds() {
+    let worlds = setting("FASTPHONG_WORLDS", WORLDS);
+    let tally = RefCell::new(Tally::default());
+    let failures = try_all(&scene::worlds(), worlds, |world: World| {
+        let Ok(scene) = world.scene() else {
+            tally.borrow_mut().refused += 1;
+            return Ok(());
+        };
+        *tally.borrow_mut() += check(&scene)?;
+        Ok(())
+    });
+    let tally = tally.into_inner();
+    println!("{worlds} worlds: {tally:?}");
+    assert_none(&failures);
+    // Worlds that are mostly refused or empty would hold whatever the code does.
+    let worlds = worlds as usize;
+    assert!(tally.refused * 5 < worlds, "{tally:?}");
+    assert!(tally.seen * 2 > worlds, "{tally:?}");
+    assert!(tally.pixels_in_bound > 200 * worlds, "{tally:?}");
+    assert!(tally.simple_polygons > worlds, "{tally:?}");
+}
+
+/// Numbers that are not finite, that overflow or vanish end in an error or a picture.
+#[test]
+fn no_number_in_a_scene_makes_it_panic() {
+    let worlds = setting("FASTPHONG_WORLDS", WORLDS);
+    let drawn = Cell::new(0);
+    let failures = try_all(&wild::changed_worlds(), worlds, |(world, changes)| {
+        if let Ok(scene) = world.scene() {
+            drawn.set(drawn.get() + u32::from(wild::draw(scene, &changes)));
+        }
+        Ok(())
+    });
+    println!("{worlds} worlds, {} of them drawn", drawn.get());
+    assert_none(&failures);
+    assert!(drawn.get() * 5 > worlds, "{} are drawn", drawn.get());
+}

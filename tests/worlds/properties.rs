@@ -1,0 +1,475 @@
+//! What must hold in every world.
+
+use super::differences::largest_difference;
+use super::known;
+use super::renderers::{depth_rounding, distinct, name, renderers};
+use fastphong::frame::{Frame, FrameBuilder, FrameError};
+use fastphong::mesh::Material;
+use fastphong::picture::{LinearPicture, Picture, Picture8};
+use fastphong::raster::{self, Edges, NOTHING, Renderer};
+use fastphong::reference::{self, Model, Visibility};
+use fastphong::scene::{
+    Clipping, DepthBuffer, DepthSource, HiddenSurfaces, Lighting, Place, Scene,
+};
+use fastphong::shading::{METHODS, Variant};
+use glam::DVec3;
+use std::collections::BTreeSet;
+use std::ops::AddAssign;
+use std::sync::OnceLock;
+
+/// Counts of what was checked. A run that checks little proves little.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tally {
+    /// Worlds that the program refuses with a message.
+    pub refused: usize,
+    /// Worlds of which a polygon is seen.
+    pub seen: usize,
+    /// Pictures by engines and instruction sets that were compared with the span engine's visible polygons.
+    pub other_engines: usize,
+    /// Polygons that were drawn by the barycentric renderer too.
+    pub simple_polygons: usize,
+    /// Pixels of methods that were compared with the reference, under a bound of less than a grey level.
+    pub pixels_in_bound: usize,
+    /// Pictures that were drawn on one thread and on three.
+    pub threads: usize,
+}
+
+impl AddAssign for Tally {
+    fn add_assign(&mut self, other: Tally) {
+        self.refused += other.refused;
+        self.seen += other.seen;
+        self.other_engines += other.other_engines;
+        self.simple_polygons += other.simple_polygons;
+        self.pixels_in_bound += other.pixels_in_bound;
+        self.threads += other.threads;
+    }
+}
+
+/// Checks everything that must hold of a scene.
+///
+/// # Errors
+/// One sentence about the first thing that does not hold.
+pub fn check(scene: &Scene) -> Result<Tally, String> {
+    let mut tally = Tally::default();
+    let Some(frame) = known::frame(scene) else {
+        return Ok(tally);
+    };
+    let frame = match frame {
+        Ok(frame) => frame,
+        Err(FrameError::Polygon { index }) => return Err(format!("polygon {index} is invalid")),
+        Err(_) => {
+            tally.refused = 1;
+            return Ok(tally);
+        }
+    };
+    check_coverage(&frame)?;
+    tally.simple_polygons = check_simple_polygons(&frame)?;
+    let world = Seen::new(scene, &frame)?;
+    let truly = &world.visibility.polygons;
+    tally.seen = usize::from(truly.pixels().iter().any(|&p| p != NOTHING));
+    for renderer in renderers() {
+        world.check_visibility(renderer)?;
+    }
+    tally.other_engines = renderers().len() - 1;
+    for entry in METHODS {
+        let variant = entry.variant();
+        if known::may_panic(&variant, &frame) {
+            continue;
+        }
+        for renderer in distinct(&variant, &frame) {
+            tally.pixels_in_bound += world.check_method(&variant, renderer)?;
+            tally.threads += 1;
+        }
+    }
+    check_views(&frame)?;
+    Ok(tally)
+}
+
+/// Copies polygons of `frame`, those whose numbers `is_taken` holds for, such that the colour of a sample tells which of them
+/// is seen.
+fn numbered(
+    frame: &Frame,
+    hidden_surfaces: HiddenSurfaces,
+    is_taken: impl Fn(u32) -> bool,
+) -> Result<Frame, String> {
+    let mut builder = FrameBuilder::new(frame.width() as u32, frame.height() as u32);
+    builder
+        .hidden_surfaces(hidden_surfaces)
+        .depth_range(frame.depth_range())
+        .clipping(frame.clipping());
+    for (number, polygon) in (0u32..).zip(frame.polygons()) {
+        if !is_taken(number) {
+            continue;
+        }
+        let dark = Material {
+            // Exact: fewer than 2²⁴ polygons.
+            ambient: [(number + 1) as f32 / (1 << 24) as f32; 3],
+            diffuse: [0.0; 3],
+            specular: [0.0; 3],
+            shininess: 1.0,
+        };
+        let material = builder.lighting(Lighting::new(&dark, [1.0; 3], &[], DVec3::Z));
+        let corners: Vec<u32> = frame
+            .corners(polygon)
+            .iter()
+            .map(|&corner| {
+                let mut vertex = frame.vertex(corner);
+                (vertex.material, vertex.normal) = (material, [0.0, 0.0, 1.0]);
+                builder.vertex(vertex)
+            })
+            .collect();
+        builder.polygon(&corners, [0.0, 0.0, 1.0], number);
+    }
+    builder
+        .finish()
+        .map_err(|error| format!("the scene's frame is none by the builder's rules: {error}"))
+}
+
+/// Returns the number of the polygon seen at each sample of a frame that [`numbered`] made.
+///
+/// The row engine has depth from plane equations, but from edges where it walks along runs, for slerp Phong alone:
+/// `walks` says which.
+fn numbers(numbered: &Frame, renderer: Renderer, walks: bool) -> Picture<u32> {
+    let method = Variant::parse(if walks { "slerp-phong" } else { "flat" });
+    let method = method.expect("a method");
+    let picture = method.render_linear_with(numbered, renderer);
+    picture.map(|[red, _, _, alpha]| match alpha {
+        0.0 => NOTHING,
+        _ => (red * (1 << 24) as f32) as u32 - 1,
+    })
+}
+
+/// Returns a message about the first sample in which two pictures differ and for which `counts` holds.
+fn difference<T: Copy + PartialEq + std::fmt::Debug>(
+    expected: &Picture<T>,
+    actual: &Picture<T>,
+    counts: impl Fn(usize, usize) -> bool,
+) -> Option<String> {
+    for y in 0..expected.height() {
+        for x in 0..expected.width() {
+            let (a, b) = (expected.get(x, y), actual.get(x, y));
+            if a != b && counts(x, y) {
+                return Some(format!("{a:?} and {b:?} at {x}, {y}"));
+            }
+        }
+    }
+    None
+}
+
+/// Every polygon covers the same samples in all engines and in the reference: in the order of drawing the last one is seen.
+fn check_coverage(frame: &Frame) -> Result<(), String> {
+    if frame.clipping() == Clipping::NdcCube {
+        // A sample's depth decides whether it is drawn, and depth is rounded.
+        return Ok(());
+    }
+    let ordered = numbered(frame, HiddenSurfaces::DrawOrder, |_| true)?;
+    let truth = reference::visibility(&ordered).polygons;
+    let ours = raster::polygon_numbers(&ordered);
+    if let Some(where_) = difference(&truth, &ours, |_, _| true) {
+        return Err(format!(
+            "reference and span engine cover other pixels: polygon {where_}"
+        ));
+    }
+    for renderer in renderers() {
+        for walks in [false, true] {
+            let ours = numbers(&ordered, renderer, walks);
+            if let Some(where_) = difference(&truth, &ours, |_, _| true) {
+                let name = name(renderer);
+                return Err(format!(
+                    "reference and {name} cover other pixels: polygon {where_}"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Polygons that do not cross themselves cover the same samples when they are cut into triangles. Returns their number.
+fn check_simple_polygons(frame: &Frame) -> Result<usize, String> {
+    if frame.clipping() == Clipping::NdcCube {
+        return Ok(0);
+    }
+    let cut = fastphong::frame::triangulate::triangulated(frame);
+    let simple: BTreeSet<u32> = cut.origins.iter().copied().collect();
+    let is_simple = |number: u32| simple.contains(&number);
+    for (number, polygon) in (0..).zip(frame.polygons()) {
+        let places = frame.corners(polygon).iter().map(|&corner| {
+            let vertex = &frame.vertices()[corner as usize];
+            [vertex.x, vertex.y].map(|c| i64::from(c.to_bits()))
+        });
+        if !is_simple(number) && is_surely_simple(&places.collect::<Vec<_>>()) {
+            return Err(format!(
+                "polygon {number} is simple, and was not cut into triangles"
+            ));
+        }
+    }
+    let ordered = numbered(frame, HiddenSurfaces::DrawOrder, is_simple)?;
+    let sources: Vec<u32> = ordered.polygons().iter().map(|p| p.source).collect();
+    let cut = fastphong::frame::triangulate::triangulated(&ordered);
+    let triangles = raster::barycentric_polygon_numbers(&cut.frame, Edges::TopLeft);
+    let from = |number: u32| match number {
+        NOTHING => NOTHING,
+        triangle => sources[cut.origins[triangle as usize] as usize],
+    };
+    let whole = raster::polygon_numbers(&ordered).map(|number| match number {
+        NOTHING => NOTHING,
+        polygon => sources[polygon as usize],
+    });
+    match difference(&whole, &triangles.map(from), |_, _| true) {
+        Some(where_) => Err(format!(
+            "span engine and barycentric renderer cover other pixels: polygon {where_}"
+        )),
+        None => Ok(simple.len()),
+    }
+}
+
+/// True if no two edges of a polygon have a point in common but the corner between neighbours.
+fn is_surely_simple(places: &[[i64; 2]]) -> bool {
+    let side = |[ax, ay]: [i64; 2], [bx, by]: [i64; 2], [x, y]: [i64; 2]| {
+        ((bx - ax) * (y - ay) - (by - ay) * (x - ax)).signum()
+    };
+    let touch = |[a, b]: [[i64; 2]; 2], [p, q]: [[i64; 2]; 2]| {
+        let overlap =
+            |c: usize| a[c].min(b[c]) <= p[c].max(q[c]) && p[c].min(q[c]) <= a[c].max(b[c]);
+        side(a, b, p) * side(a, b, q) <= 0
+            && side(p, q, a) * side(p, q, b) <= 0
+            && overlap(0)
+            && overlap(1)
+    };
+    let n = places.len();
+    let edge = |i: usize| [places[i % n], places[(i + 1) % n]];
+    (0..n).all(|i| {
+        let [a, b] = edge(i);
+        let [_, c] = edge(i + 1);
+        // Neighbours share one corner: three different ones, and no way straight back.
+        let goes_on = a != b
+            && b != c
+            && c != a
+            && (side(a, b, c) != 0 || {
+                let back = (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]);
+                back < 0
+            });
+        let others = (i + 2..n).filter(|j| (j + 1) % n != i);
+        goes_on && others.into_iter().all(|j| !touch(edge(i), edge(j)))
+    })
+}
+
+/// A frame, and the polygons that are seen of it.
+struct Seen<'a> {
+    scene: &'a Scene,
+    frame: &'a Frame,
+    numbered: Frame,
+    visibility: Visibility,
+    /// Samples whose visible polygon rounding cannot change.
+    decided: Picture<bool>,
+    truths: [OnceLock<LinearPicture>; Model::ALL.len()],
+}
+
+impl<'a> Seen<'a> {
+    fn new(scene: &'a Scene, frame: &'a Frame) -> Result<Seen<'a>, String> {
+        // The painter's order is that of the polygons already.
+        let hidden_surfaces = match frame.hidden_surfaces() {
+            HiddenSurfaces::Painter(_) => HiddenSurfaces::DrawOrder,
+            other => other,
+        };
+        let visibility = reference::visibility(frame);
+        let margin = depth_margin(frame);
+        Ok(Seen {
+            scene,
+            frame,
+            numbered: numbered(frame, hidden_surfaces, |_| true)?,
+            decided: visibility.depth_gap.map(|gap| gap > margin),
+            visibility,
+            truths: Default::default(),
+        })
+    }
+
+    /// Checks that `renderer` sees the reference's polygon at each sample, unless another one is as near but for rounding.
+    fn check_visibility(&self, renderer: Renderer) -> Result<(), String> {
+        let is_cube = self.frame.clipping() == Clipping::NdcCube;
+        let counts = |x, y| !is_cube && self.decided.get(x, y);
+        for walks in [false, true] {
+            let seen = numbers(&self.numbered, renderer, walks);
+            if let Some(where_) = difference(&self.visibility.polygons, &seen, counts) {
+                let name = name(renderer);
+                return Err(format!("reference and {name} see other polygons: {where_}"));
+            }
+        }
+        Ok(())
+    }
+
+    fn truth(&self, model: Model) -> &LinearPicture {
+        let number = Model::ALL.iter().position(|m| *m == model);
+        self.truths[number.expect("a model of the reference")]
+            .get_or_init(|| reference::shade(self.frame, &self.visibility, model).to_linear())
+    }
+
+    /// Checks a method's picture by `renderer` on one thread and on three. Returns the number of pixels that a bound of less
+    /// than a grey level was kept at.
+    fn check_method(&self, variant: &Variant, renderer: Renderer) -> Result<usize, String> {
+        let frame = self.frame;
+        let who = || format!("{} by {}", variant.info().name, name(renderer));
+        let draw = || {
+            let mut stored = Picture8::new(1, 1, [7; 4]);
+            variant.render_with(frame, renderer, &mut stored);
+            (stored, variant.render_linear_with(frame, renderer))
+        };
+        let [one, three] = [0, 1].map(|pool| pools()[pool].install(draw));
+        let bits = |picture: &LinearPicture| picture.map(|pixel| pixel.map(f32::to_bits));
+        if let Some(where_) = difference(&one.0, &three.0, |_, _| true)
+            .or_else(|| difference(&bits(&one.1), &bits(&three.1), |_, _| true))
+        {
+            return Err(format!("{}: threads change {where_}", who()));
+        }
+        let ours = one.1;
+        if let Some(pixel) = ours.pixels().iter().find(|p| !is_colour(**p)) {
+            return Err(format!("{}: a pixel is {pixel:?}", who()));
+        }
+        let bound = variant.bound(frame);
+        if !(bound >= 0.0) {
+            return Err(format!("{}: the bound is {bound}", who()));
+        }
+        let same = self.same_polygons(variant, renderer);
+        let truth = self.truth(variant.info().model);
+        let (most, uncovered) = largest_difference(truth, &ours, |x, y| same.get(x, y));
+        if most > bound {
+            let jumps = self.jumps(variant.info().model, bound);
+            let counts = |x, y| same.get(x, y) && !jumps.get(x, y);
+            let (most, _) = largest_difference(truth, &ours, counts);
+            if most > bound {
+                return Err(format!("{}: {most:.3e} over its bound {bound:.3e}", who()));
+            }
+        }
+        if uncovered > 0 && frame.clipping() != Clipping::NdcCube {
+            return Err(format!("{}: {uncovered} pixels have another alpha", who()));
+        }
+        let is_tight = bound < 1.0 / 255.0;
+        let drawn = same.pixels().iter().zip(ours.pixels());
+        let drawn = drawn.filter(|(same, pixel)| **same && pixel[3] > 0.0);
+        Ok(if is_tight { drawn.count() } else { 0 })
+    }
+
+    /// Returns the pixels where the reference itself jumps by more than `bound`: light from behind has no highlight, so that
+    /// where L·N is 0 but for rounding the last bit decides, and no bound holds.
+    ///
+    /// There a light that turns by an angle above all errors of a cosine changes the picture as much as one that turns 16 times
+    /// as far. Where the picture is smooth the latter changes it about 16 times as much.
+    fn jumps(&self, model: Model, bound: f64) -> Picture<bool> {
+        const ANGLE: f64 = 1e-4;
+        let [near, far] = [ANGLE, 16.0 * ANGLE].map(|angle| self.change(model, angle));
+        let mut jumps = near.map(|change| change > bound);
+        for (jump, (near, far)) in jumps
+            .pixels_mut()
+            .iter_mut()
+            .zip(near.pixels().iter().zip(far.pixels()))
+        {
+            *jump &= *far < 4.0 * near;
+        }
+        jumps
+    }
+
+    /// Returns the largest change of each pixel of the reference when the lights turn by an angle around an axis of the world.
+    fn change(&self, model: Model, angle: f64) -> Picture<f64> {
+        let truth = self.truth(model);
+        let mut changes = truth.map(|_| 0.0);
+        for turn in [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| angle * axis) {
+            for turn in [turn, -turn] {
+                let mut scene = self.scene.clone();
+                for light in &mut scene.lights {
+                    light.place = match light.place {
+                        Place::Infinite(toward) => Place::Infinite((toward + turn).normalize()),
+                        Place::Local(position) => {
+                            let far = (position - scene.camera.target).length();
+                            Place::Local(position + far * turn)
+                        }
+                    };
+                }
+                let Ok(frame) = scene.frame() else { continue };
+                let turned = reference::shade(&frame, &self.visibility, model).to_linear();
+                let pixels = truth.pixels().iter().zip(turned.pixels());
+                for (change, (a, b)) in changes.pixels_mut().iter_mut().zip(pixels) {
+                    let apart = (0..3).map(|c| f64::from((a[c] - b[c]).abs()));
+                    *change = apart.fold(*change, f64::max);
+                }
+            }
+        }
+        changes
+    }
+
+    /// Returns the pixels at all of whose samples `renderer` sees the reference's polygon.
+    fn same_polygons(&self, variant: &Variant, renderer: Renderer) -> Picture<bool> {
+        let walks = variant.info().name.starts_with("slerp");
+        let renderer = variant.plan(self.frame, renderer).renderer;
+        let seen = numbers(&self.numbered, renderer, walks);
+        let frame = self.frame;
+        let n = frame.samples();
+        let mut same = Picture::new(frame.picture_width(), frame.picture_height(), true);
+        for y in 0..frame.height() {
+            for x in 0..frame.width() {
+                let (ours, truly) = (seen.get(x, y), self.visibility.polygons.get(x, y));
+                let is_known = || {
+                    let polygon = frame.polygons().get(truly as usize);
+                    polygon.is_some_and(|polygon| known::are_normals_apart(frame, polygon))
+                };
+                same.row_mut(y / n)[x / n] &= ours == truly && !is_known();
+            }
+        }
+        same
+    }
+}
+
+/// True if all channels are in 0..=1.
+fn is_colour(pixel: [f32; 4]) -> bool {
+    pixel.iter().all(|channel| (0.0..=1.0).contains(channel))
+}
+
+/// Returns pools of one thread and of three.
+fn pools() -> &'static [rayon::ThreadPool; 2] {
+    static POOLS: OnceLock<[rayon::ThreadPool; 2]> = OnceLock::new();
+    POOLS.get_or_init(|| {
+        [1, 3].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("a pool of threads")
+        })
+    })
+}
+
+/// Returns by how much two stored depths may differ and still be seen in another order: twice the error of one.
+///
+/// Rounding is derived at [`depth_rounding`] for depths in 0..=1, two of them; those of corners that are not cut may be
+/// larger. Depth that is computed from 1/w anew is `f/(f − n) (1 − n/w)`: its rounding is larger by f/(f − n). In a narrow
+/// buffer each depth may be stored one level away.
+fn depth_margin(frame: &Frame) -> f64 {
+    let HiddenSurfaces::ZBuffer(DepthBuffer { bits, source }) = frame.hidden_surfaces() else {
+        return 0.0;
+    };
+    let depths = frame.vertices().iter().map(|v| f64::from(v.depth.abs()));
+    let largest = depths.fold(1.0, f64::max);
+    let (near, far) = frame.depth_range().ends();
+    let gain = match source {
+        DepthSource::Interpolated => 1.0,
+        DepthSource::PerSample => 1.0 + (far / (far - near)).abs(),
+    };
+    let level = bits.most().map_or(0.0, |most| 2.0 / f64::from(most));
+    depth_rounding(frame) * largest * gain + level
+}
+
+/// Draws all that is drawn beside shaded colours, and the method that is chosen: none of it may panic.
+fn check_views(frame: &Frame) -> Result<(), String> {
+    let views = [
+        raster::normals(frame),
+        raster::vertex_colours(frame, None),
+        raster::vertex_colours(frame, Some(Edges::Closed)),
+        raster::checkerboard(frame, None, 0.5, [[0.0; 3], [1.0; 3]]),
+    ];
+    for (number, view) in views.iter().enumerate() {
+        if let Some(pixel) = view.pixels().iter().find(|p| !is_colour(**p)) {
+            return Err(format!("view {number}: a pixel is {pixel:?}"));
+        }
+    }
+    raster::depth(frame);
+    for renderer in renderers() {
+        Variant::auto(frame, renderer);
+    }
+    Ok(())
+}

@@ -1,0 +1,62 @@
+//! A world: the files of a random scene, as a person would write them.
+
+use fastphong::mesh::builtin::builtin;
+use fastphong::mesh::obj::parse_obj;
+use fastphong::scene::Scene;
+use fastphong::scene::file::SceneFile;
+use std::fmt;
+use std::io::ErrorKind;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A scene file, and the mesh with its materials that the scene file may name.
+///
+/// `Debug` prints the files. They can be drawn by the program, and stand in a test as they are.
+#[derive(Clone, PartialEq)]
+pub struct World {
+    /// `world.toml`.
+    pub scene: String,
+    /// `world.obj`; empty if no object of the scene is this mesh.
+    pub mesh: String,
+    /// `world.mtl`, the library that the mesh names.
+    pub materials: String,
+}
+
+impl World {
+    /// Returns the scene, read as the program reads files.
+    ///
+    /// # Errors
+    /// The reader's message: a world may be one that the program refuses.
+    pub fn scene(&self) -> Result<Scene, String> {
+        let file = SceneFile::parse(&self.scene, "world.toml").map_err(|e| e.render(false))?;
+        let load = |name: &str, _: &Path| match name.strip_prefix("builtin:") {
+            Some(spec) => builtin(spec)
+                .map(|mesh| (Arc::new(mesh), Vec::new()))
+                .map_err(|error| error.to_string()),
+            None => parse_obj(name, self.mesh.as_bytes(), |library| match library {
+                "world.mtl" => Ok(self.materials.clone().into_bytes()),
+                _ => Err(ErrorKind::NotFound.into()),
+            })
+            .map(|loaded| (Arc::new(loaded.mesh), loaded.warnings))
+            .map_err(|error| error.to_string()),
+        };
+        let resolved = file.resolve(load).map_err(|error| error.render(false))?;
+        Ok(resolved.scene)
+    }
+}
+
+impl fmt::Debug for World {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let files = [
+            ("toml", &self.scene),
+            ("obj", &self.mesh),
+            ("mtl", &self.materials),
+        ];
+        for (ending, text) in files {
+            if !text.is_empty() {
+                write!(f, "\n--- world.{ending}\n{text}")?;
+            }
+        }
+        writeln!(f, "---")
+    }
+}
