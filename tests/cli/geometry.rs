@@ -323,6 +323,39 @@ fn normals_and_groups_that_are_not_used_are_told_and_no_others() {
 }
 
 #[test]
+fn a_triangle_of_which_clipping_leaves_nothing_lies_outside_the_view() {
+    let folder = Folder::new();
+    folder.write(
+        "far.obj",
+        "v -200 0 0\nv -200 -200 0\nv 0 -200 0\nf 1 2 3\n",
+    );
+    for more in [
+        "",
+        " --samples 8",
+        " --size 2000x1500",
+        " --method slerp-phong",
+    ] {
+        folder
+            .run(&format!(
+                "render far.obj --eye 0,0,5 --half-height 1 -o out.png{more}"
+            ))
+            .done()
+            .says("nothing is drawn: 1 polygon lies outside the view");
+    }
+}
+
+#[test]
+fn a_triangle_seen_from_behind_in_local_light_is_compared() {
+    let folder = Folder::new();
+    let seen = "compare builtin:triangle --light-at 1,2,3 --time-budget 0 --size 64x48 --eye";
+    for (eye, told) in [("0,0,-5", "0 of 1 polygon"), ("0,0,5", "1 polygon")] {
+        let ended = folder.run(&format!("{seen} {eye}")).done();
+        assert!(ended.out.contains(told), "{}", ended.out);
+        assert!(ended.out.contains("slerp-phong-vector"), "{}", ended.out);
+    }
+}
+
+#[test]
 fn what_is_not_seen_is_told_for_what_it_is() {
     let folder = Folder::new();
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

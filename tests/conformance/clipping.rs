@@ -363,3 +363,93 @@ fn inside_a_closed_mesh_every_pixel_is_covered_once() {
     }
     assert!(clipped > 0, "polygons that are seen reach behind the eye");
 }
+
+/// Returns the frame of one polygon with the given corners, seen orthographically from +z at a scale of 1.
+fn one_polygon(corners: &[[f32; 3]], change: impl FnOnce(&mut Scene)) -> Frame {
+    let positions = corners.iter().map(|&c| Vec3::from_array(c)).collect();
+    let mut builder = MeshBuilder::new(positions);
+    let all: Vec<u32> = (0..corners.len() as u32).collect();
+    builder.polygon(&all);
+    let camera = Camera {
+        eye: DVec3::new(0.0, 0.0, 5.0),
+        target: DVec3::ZERO,
+        projection: Projection::Orthographic { half_height: 1.0 },
+        near: 1.0,
+        far: 9.0,
+        ..above_ground(1.0)
+    };
+    let mut scene = scene(builder.finish().expect("a mesh"), camera);
+    (scene.width, scene.height) = (640, 480);
+    change(&mut scene);
+    scene.frame().expect("a frame")
+}
+
+/// One plane of the guard band cuts, and what it leaves lies wholly beyond the next, though the polygon is outside no single plane
+/// of the view.
+#[test]
+fn a_polygon_that_two_planes_leave_nothing_of_is_outside() {
+    let triangle = [
+        [-200.0, 0.0, 0.0],
+        [-200.0, -200.0, 0.0],
+        [0.0, -200.0, 0.0],
+    ];
+    for samples in [1, 8] {
+        let frame = one_polygon(&triangle, |scene| scene.samples = samples);
+        let stats = frame.stats();
+        assert_eq!((stats.outside, stats.clipped), (1, 0), "{samples}");
+        assert_eq!(frame.polygons().len(), 0);
+    }
+}
+
+/// A polygon that stands on the near plane with a corner or an edge, behind it: nothing is inside.
+#[test]
+fn a_polygon_that_touches_the_near_plane_from_behind_is_outside() {
+    for other in [[0.0, 0.5, 5.5], [0.0, 0.5, 4.0]] {
+        // z = 4 is the near plane.
+        let frame = one_polygon(&[[-0.5, 0.0, 4.0], [0.5, 0.0, 5.5], other], |_| ());
+        let stats = frame.stats();
+        assert_eq!((stats.outside, stats.clipped), (1, 0), "{other:?}");
+        assert_eq!(frame.polygons().len(), 0);
+    }
+}
+
+/// Each polygon is counted once, however near or far its corners are, in pictures whose guard band is wide or narrow.
+#[test]
+fn every_polygon_around_the_eye_is_counted_once() {
+    // A linear congruential generator (Knuth).
+    let mut state = 29u64;
+    let mut below = |n: u64| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) % n
+    };
+    let mut cut = 0;
+    for round in 0..3000 {
+        let (reach, count) = ([1.0, 30.0, 1e4][round % 3], 3 + below(4));
+        let corners: Vec<[f32; 3]> = (0..count)
+            .map(|_| [0; 3].map(|_| reach * (below(9) as f32 - 4.0)))
+            .collect();
+        let (side, samples) = [(64, 1), (2048, 4), (2048, 8)][round / 3 % 3];
+        let frame = one_polygon(&corners, |scene| {
+            (scene.width, scene.height, scene.samples) = (side, side, samples);
+            if round % 2 == 0 {
+                scene.camera.projection = Projection::Perspective { fovy: 90.0 };
+                scene.camera.near = 1e-3;
+            }
+        });
+        let s = frame.stats();
+        let left_out = s.no_area + s.cancelling + s.outside;
+        // Pieces of a cut one may each be drawn or seen edge-on.
+        let shown = frame.polygons().len() + s.edge_on;
+        assert!(left_out + s.clipped <= 1, "{corners:?}: {s:?}");
+        match (left_out, s.clipped) {
+            (1, _) => assert_eq!(shown, 0, "{corners:?}: {s:?}"),
+            (_, 1) => assert!(shown >= 1, "{corners:?}: {s:?}"),
+            _ => assert_eq!(shown, 1, "{corners:?}: {s:?}"),
+        }
+        assert!(frame.polygons().iter().all(|polygon| polygon.count >= 3));
+        cut += s.clipped;
+    }
+    assert!(cut > 300, "{cut}");
+}

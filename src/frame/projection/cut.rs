@@ -20,7 +20,7 @@ pub(super) struct Cutting<'a> {
 }
 
 impl Cutting<'_> {
-    /// Adds the pieces of a polygon that are inside all planes.
+    /// Adds the pieces of a polygon that are inside all planes, and counts it as clipped, or as outside if nothing is.
     pub fn polygon(&mut self, polygon: usize) {
         let geometry = self.frame.geometry.clone();
         let (first, count) = self.table.corners(polygon);
@@ -62,6 +62,10 @@ impl Cutting<'_> {
                 );
             }
             pieces = inside;
+        }
+        match pieces.is_empty() {
+            true => self.frame.stats.outside += 1,
+            false => self.frame.stats.clipped += 1,
         }
         for piece in pieces {
             let area = doubled_area(piece.iter().map(|c| self.view.snap(c.position)));

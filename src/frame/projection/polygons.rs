@@ -160,8 +160,6 @@ impl Sight<'_> {
         if self.scene.clipping == Clipping::NdcCube {
             stats.unprojected += number(cut);
             cut = 0;
-        } else {
-            stats.clipped += number(cut);
         }
         let culled = match self.scene.culling {
             Culling::Back => clockwise,
@@ -253,7 +251,6 @@ pub(super) fn add_up(chunks: &mut [Chunk], pieces: &[Piece], stats: &mut FrameSt
             (&mut stats.cancelling, chunk.stats.cancelling),
             (&mut stats.edge_on, chunk.stats.edge_on),
             (&mut stats.outside, chunk.stats.outside),
-            (&mut stats.clipped, chunk.stats.clipped),
             (&mut stats.unprojected, chunk.stats.unprojected),
         ] {
             *sum += count;
