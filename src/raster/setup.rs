@@ -1,4 +1,4 @@
-//! The set-up before the first scanline: uniforms once per material; then vertices, corners or polygons are lit, each once, by the
+//! The set-up before the first scanline: uniforms once per material, and once per polygon where each sees other light; then vertices, corners or polygons are lit, each once, by the
 //! method's vertex kernel, on all threads. The loop over them is `light` in `shading/kernels.rs`.
 
 use crate::frame::{ClipCorner, Frame, Polygon};
@@ -8,7 +8,8 @@ use crate::scene::Interpolation;
 use crate::shading::increments::GreatCircle;
 use crate::shading::lighting::Uniforms;
 use crate::shading::{
-    Extras, Kernels, LitAt, Local, Perspective, Pixels, Run, Variant, VertexKernel, Vertices, ramp,
+    Extras, Kernels, LitAt, Local, Perspective, Pixels, Run, UniformsIndex, Variant, VertexKernel,
+    Vertices, ramp,
 };
 use alloc::borrow::Cow;
 use alloc::vec;
@@ -79,8 +80,10 @@ pub(super) struct SetUp<'a> {
     pub kernels: &'static Kernels,
     pub parameters: &'a [u32],
     pub extras: Extras,
-    /// By material; or by polygon, where light and eye at positions are seen from each polygon.
+    /// Those of the polygons, where each sees light and eye at positions from its own place; then those of the materials. The
+    /// numbers of polygons come first, so that the row engine, which stores them as floats, has exact ones.
     pub uniforms: Vec<Uniforms>,
+    /// True if each polygon has uniforms of its own.
     pub is_by_polygon: bool,
     pub varyings: Varyings<'a>,
     /// Lights vertices on the instruction set of the engine.
@@ -93,7 +96,7 @@ const BATCH: usize = 64;
 const CHUNK: usize = 1 << 13;
 
 /// A vertex to be lit: its uniforms, normal and position.
-type Item = (u32, [f32; 3], [f32; 3]);
+type Item = (UniformsIndex, [f32; 3], [f32; 3]);
 
 impl<'a> SetUp<'a> {
     /// Computes uniforms and varyings of a method on a frame: on an instruction set, with colours multiplied by a scale, in memory
@@ -110,7 +113,8 @@ impl<'a> SetUp<'a> {
             let polygons = frame.polygons().iter();
             let seen =
                 |p: &Polygon| uniforms[p.material as usize].seen_from(frame.mean(p).position);
-            uniforms = polygons.map(seen).collect();
+            let by_polygon: Vec<Uniforms> = polygons.map(seen).collect();
+            uniforms.splice(..0, by_polygon);
         }
         let extras = entry.extras(near, is_perspective);
         let vertices = (kernels.simd)(level).and_then(|simd| simd.vertices);
@@ -139,11 +143,21 @@ impl<'a> SetUp<'a> {
 
     /// Returns the number of the uniforms of a polygon.
     #[inline(always)]
-    pub fn uniforms_of(&self, number: u32) -> u32 {
+    pub fn uniforms_of(&self, number: u32) -> UniformsIndex {
         match self.is_by_polygon {
-            true => number,
-            false => self.frame.polygons()[number as usize].material,
+            true => UniformsIndex(number),
+            false => UniformsIndex(self.frame.polygons()[number as usize].material),
         }
+    }
+
+    /// Returns the number of the uniforms of a material, as vertices have them that no polygon lights.
+    #[inline(always)]
+    pub fn uniforms_of_material(&self, material: u32) -> UniformsIndex {
+        let before = match self.is_by_polygon {
+            true => self.frame.polygons().len() as u32,
+            false => 0,
+        };
+        UniformsIndex(before + material)
     }
 
     /// Returns the job of a kernel that shades runs, or walks along them.
@@ -176,7 +190,8 @@ impl<'a> SetUp<'a> {
             };
             // The only material need not be read.
             let material = (!has_one_material).then(|| frame.material(vertex));
-            (material.unwrap_or(0), frame.normal(vertex), point)
+            let uniforms = self.uniforms_of_material(material.unwrap_or(0));
+            (uniforms, frame.normal(vertex), point)
         };
         let mut values = self.lit(memory, frame.vertices().len(), ready.unwrap_or(&[]), &item);
         let great_circle = self.varyings.great_circle;
@@ -208,7 +223,10 @@ impl<'a> SetUp<'a> {
             let vertices = frame.corners(polygon).iter();
             corners.extend(vertices.map(|&vertex| (number, vertex)));
         }
-        let item = |i: usize| (corners[i].0, frame.normal(corners[i].1), [0.0; 3]);
+        let item = |i: usize| {
+            let (number, vertex) = corners[i];
+            (self.uniforms_of(number), frame.normal(vertex), [0.0; 3])
+        };
         let mut values = self.lit(Vec::new(), corners.len(), &[], &item);
         for (&(number, vertex), to) in corners.iter().zip(values.chunks_exact_mut(count)) {
             if frame.clip_corner(vertex).is_some() {
@@ -225,7 +243,13 @@ impl<'a> SetUp<'a> {
     /// Returns the varying of a vertex on polygon `number`: between the ends of the edge on which clipping made it, or lit.
     fn clipped(&self, number: u32, vertex: u32) -> Vec<f32> {
         let Some(corner) = self.frame.clip_corner(vertex) else {
-            let item = |_| (number, self.frame.normal(vertex), [0.0; 3]);
+            let item = |_| {
+                (
+                    self.uniforms_of(number),
+                    self.frame.normal(vertex),
+                    [0.0; 3],
+                )
+            };
             return self.lit(Vec::new(), 1, &[], &item);
         };
         let ends = [corner.a, corner.b].map(|v| self.clipped(number, v));
@@ -256,7 +280,7 @@ impl<'a> SetUp<'a> {
                 let normals = &ready[first..first + whole];
                 let (here, others) = rest.split_at_mut(whole * stride);
                 // Directional lights do not ask for points.
-                self.light(0, normals, normals, here);
+                self.light(self.uniforms_of_material(0), normals, normals, here);
                 (rest, first) = (others, first + whole);
             }
             let (mut normals, mut points) = ([[0.0; 3]; BATCH], [[0.0; 3]; BATCH]);
@@ -292,11 +316,18 @@ impl<'a> SetUp<'a> {
         values
     }
 
-    /// Lights vertices of one material.
-    fn light(&self, uniforms: u32, normals: &[[f32; 3]], points: &[[f32; 3]], to: &mut [f32]) {
+    /// Lights vertices of the same uniforms.
+    fn light(
+        &self,
+        uniforms: UniformsIndex,
+        normals: &[[f32; 3]],
+        points: &[[f32; 3]],
+        to: &mut [f32],
+    ) {
+        debug_assert_eq!(normals.len(), points.len(), "a position a normal");
         let vertices = Vertices {
             parameters: self.parameters,
-            uniforms: &self.uniforms[uniforms as usize],
+            uniforms: &self.uniforms[uniforms.0 as usize],
             normals,
             points,
         };

@@ -19,11 +19,16 @@ use fearless_simd::*;
 /// The state that a span of a method starts from.
 pub type Span<S, F> = <<S as Shader>::Varying<F> as Varying<F>>::Span;
 
+/// The number of some uniforms in the list of a method on a frame. It is not the number of a material: under local lights each polygon
+/// may have uniforms of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UniformsIndex(pub u32);
+
 /// A run of pixels of one polygon on one scanline. Its start values stand in a list beside it, `start_len` numbers per run.
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
     /// The uniforms that it is shaded with.
-    pub uniforms: u32,
+    pub uniforms: UniformsIndex,
     /// The column of its first pixel.
     pub x: u32,
     /// The number of its pixels.
@@ -82,7 +87,7 @@ pub(crate) const fn start_len(great_circle: bool, varyings: usize) -> usize {
     if great_circle { 11 } else { 2 * varyings }
 }
 
-/// The vertices whose varyings are computed together: they have the same material. SIMD kernels take whole blocks of them.
+/// The vertices whose varyings are computed together: they have the same uniforms. SIMD kernels take whole blocks of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertices<'a> {
     pub parameters: &'a [u32],
@@ -121,7 +126,7 @@ impl<'a> Pixels<'a> {
         groups.map(move |runs| {
             let (here, rest) = starts.split_at(runs.len() * len);
             starts = rest;
-            let uniforms = &uniforms[runs[0].uniforms as usize];
+            let uniforms = &uniforms[runs[0].uniforms.0 as usize];
             (uniforms, runs.iter().zip(here.chunks_exact(len)))
         })
     }

@@ -49,7 +49,7 @@ pub use count::OperationCounts;
 pub use increments::{Constant, Linear, Walk};
 pub use info::{Auto, Info, LitAt, Local, MethodParameter, Perspective};
 pub(crate) use kernels::{Extras, Pixels, VertexKernel, Vertices, ramp};
-pub use kernels::{Kernels, Run, Span};
+pub use kernels::{Kernels, Run, Span, UniformsIndex};
 #[cfg(feature = "simd")]
 pub(crate) use kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel, start_len};
 pub use lighting::{LightModel, Lit, Seen};

@@ -3,17 +3,20 @@
 
 use crate::support::cases::Case;
 use crate::support::differences::largest_difference;
+use crate::support::renderers;
 use fastphong::frame::Frame;
 use fastphong::mesh::Material;
 use fastphong::mesh::builtin::builtin;
+use fastphong::mesh::vertex_normals::NormalSource;
 use fastphong::picture::LinearPicture;
 use fastphong::reference::{self, Model};
 use fastphong::scene::{
-    Culling, Falloff, Interpolation, Light, Projection, Scene, SpecularGate, SpecularModel,
+    Culling, Falloff, Interpolation, Light, Object, Projection, Scene, SpecularGate, SpecularModel,
 };
 use fastphong::shading::{METHODS, SpanBench, Variant};
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Builds a near sphere of n-gons with one directional and two positional lights. Nothing is
 /// clipped unless `change` moves the near plane.
@@ -307,6 +310,84 @@ fn degenerate_light_positions_make_no_artefacts() {
                     "{}: a highlight without k_s",
                     entry.info.name
                 );
+            }
+        }
+    }
+}
+
+/// Puts shapes side by side under a local light, each of its own material. Those of `hidden` show the side that is culled.
+fn side_by_side(shape: &str, count: usize, hidden: std::ops::Range<usize>) -> Scene {
+    let mesh = Arc::new(builtin(shape).expect("a built-in mesh"));
+    scene(|scene| {
+        let place = |i: usize| 1.2 * (i as f64 - 0.5 * (count - 1) as f64);
+        scene.objects = (0..count)
+            .map(|i| {
+                let turn = match hidden.contains(&i) {
+                    true => DAffine3::from_rotation_y(core::f64::consts::PI),
+                    false => DAffine3::IDENTITY,
+                };
+                let share = (i + 1) as f32 / count as f32;
+                Object {
+                    mesh: mesh.clone(),
+                    transform: DAffine3::from_translation(DVec3::X * place(i))
+                        * turn
+                        * DAffine3::from_scale(DVec3::splat(0.5)),
+                    material: Some(Material {
+                        ambient: [0.1; 3],
+                        diffuse: [share, 0.5, 1.0 - share],
+                        specular: [0.4; 3],
+                        shininess: 4.0 + 3.0 * i as f32,
+                    }),
+                    normals: NormalSource::Given,
+                }
+            })
+            .collect();
+        scene.camera.target = DVec3::ZERO;
+        scene.camera.eye = DVec3::new(0.0, 0.0, 4.0);
+        scene.camera.far = 9.0;
+        scene.lights = vec![Light::positional(DVec3::new(1.0, 2.0, 3.0), [0.8; 3])];
+    })
+}
+
+/// Light is seen from each polygon, and methods on great circles are lit at vertices all the same: whatever the numbers of polygons
+/// and materials are, each polygon has the colours of its own material.
+#[test]
+fn polygons_may_be_more_or_fewer_than_materials_under_local_lights() {
+    for (shape, count, hidden, drawn) in [
+        ("triangle", 1, 0..1, 0..=0),
+        ("triangle", 4, 0..4, 0..=0),
+        ("triangle", 4, 0..3, 1..=1),
+        ("triangle", 4, 1..4, 1..=1),
+        ("triangle", 3, 0..0, 3..=3),
+        ("triangle", 1, 0..0, 1..=1),
+        ("sphere?rings=6&segments=12", 3, 0..0, 30..=200),
+    ] {
+        for (interpolation, near) in [
+            (Interpolation::Screen, 0.5),
+            (Interpolation::Perspective, 0.5),
+            (Interpolation::Screen, 3.7),
+        ] {
+            let mut scene = side_by_side(shape, count, hidden.clone());
+            scene.interpolation = interpolation;
+            scene.camera.near = near;
+            let case = Case::new(shape, scene.frame().expect("a frame"));
+            let polygons = case.frame.polygons().len();
+            assert!(drawn.contains(&polygons), "{shape} {count}: {polygons}");
+            assert!(case.frame.is_local());
+            for entry in METHODS {
+                let variant = entry.variant();
+                for renderer in renderers::distinct(&variant, &case.frame) {
+                    let picture = variant.render_linear_with(&case.frame, renderer);
+                    let error = most(case.truth(entry.info.model), &picture);
+                    let bound = variant.bound(&case.frame);
+                    assert!(bound < 0.02, "{bound} could hide the colour of another");
+                    assert!(
+                        error <= bound,
+                        "{} by {}, {shape} {count} {hidden:?} {near}: {error:.2e} over {bound:.2e}",
+                        entry.info.name,
+                        renderers::name(renderer)
+                    );
+                }
             }
         }
     }

@@ -4,8 +4,8 @@ use crate::number::Level;
 use crate::number::simd::BLOCK;
 use crate::shading::lighting::Uniforms;
 use crate::shading::{
-    Extras, Kernels, Pixels, RowColours, Run, ShadeRow, SpanBench, Variant, Vertices, ramp,
-    start_len,
+    Extras, Kernels, Pixels, RowColours, Run, ShadeRow, SpanBench, UniformsIndex, Variant,
+    Vertices, ramp, start_len,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -74,7 +74,7 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
         kernels,
         extras,
         run: [Run {
-            uniforms: 0,
+            uniforms: UniformsIndex(0),
             x: 0,
             pixels: pixels as u32,
         }],

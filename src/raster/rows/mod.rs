@@ -40,7 +40,7 @@ use crate::number::lanes::Lanes;
 use crate::number::parallel::for_each_chunk;
 use crate::number::simd::{BLOCK, Token, vectorize};
 use crate::picture::Picture;
-use crate::shading::{SimdKernels, Variant, WalkKernel};
+use crate::shading::{SimdKernels, UniformsIndex, Variant, WalkKernel};
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use core::cell::RefCell;
@@ -86,7 +86,7 @@ struct RowEngine<'a> {
     /// The floats of a pixel in the G-buffer: depth, varyings, and the material if materials differ.
     numbers: usize,
     /// The uniforms of all pixels, if they are the same.
-    only: Option<u32>,
+    only: Option<UniformsIndex>,
     background: [u8; 4],
 }
 
@@ -102,7 +102,7 @@ pub(super) fn draw(
     let scale = if is_scaled { 255.0 } else { 1.0 };
     let memory = BUFFERS.with_borrow_mut(|buffers| core::mem::take(&mut buffers.varyings));
     let Some(rows) = RowEngine::new(variant, frame, (level, scale, memory)) else {
-        return; // unreachable: `Variant::plan` chose the span engine
+        unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
     let bins = Bins::new(frame, HEIGHT);
     each_band(HEIGHT, &|number, band, target| {
@@ -125,7 +125,7 @@ pub(super) fn draw(
 pub(super) fn polygon_numbers(variant: &Variant, frame: &Frame, level: Level) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NOTHING);
     let Some(rows) = RowEngine::new(variant, frame, (level, 1.0, Vec::new())) else {
-        return picture; // unreachable, as in `draw`
+        unreachable!("`Variant::plan` chooses the span engine where a method has no loops");
     };
     let rows = rows.numbering();
     let bins = Bins::new(frame, HEIGHT);
@@ -149,17 +149,18 @@ pub(super) fn polygon_numbers(variant: &Variant, frame: &Frame, level: Level) ->
 
 /// Returns the number of the uniforms that all polygons have, if they are the same: objects of a scene bring their own materials,
 /// which are often equal.
-fn only_material(setup: &SetUp<'_>) -> Option<u32> {
+fn only_uniforms(setup: &SetUp<'_>) -> Option<UniformsIndex> {
     let (frame, polygons) = (setup.frame, setup.frame.polygons());
     if setup.is_by_polygon {
         return None;
     }
     if frame.lightings().windows(2).all(|two| two[0] == two[1]) {
-        return Some(0);
+        return Some(setup.uniforms_of_material(0));
     }
     let first = polygons.first().map_or(0, |polygon| polygon.material);
     let is_first = |polygon: &Polygon| polygon.material == first;
-    polygons.iter().all(is_first).then_some(first)
+    let is_same = polygons.iter().all(is_first);
+    is_same.then(|| setup.uniforms_of_material(first))
 }
 
 impl<'a> RowEngine<'a> {
@@ -175,7 +176,7 @@ impl<'a> RowEngine<'a> {
         let [_, walked] = (setup.kernels.counts)(frame.light_count());
         let walk = kernels.walk_of(variant);
         let planes = walk.map_or(setup.varyings.count, |_| walked);
-        let only = only_material(&setup);
+        let only = only_uniforms(&setup);
         let numbers = 1 + planes + usize::from(only.is_none());
         Some(RowEngine {
             test: SampleDepth::new(frame),
@@ -234,7 +235,7 @@ impl<'a> RowEngine<'a> {
                 Level::Avx512 => self.rasterise::<fearless_simd::Avx512>(polygons, band, buffers),
                 #[cfg(target_arch = "aarch64")]
                 Level::Neon => self.rasterise::<fearless_simd::Neon>(polygons, band, buffers),
-                _ => return, // unreachable: the method has loops for the instruction set
+                _ => unreachable!("the method has loops for {level:?}"),
             }
         }
     }

@@ -9,7 +9,7 @@ use crate::raster::setup::SetUp;
 use crate::raster::spans::active::ActiveEdges;
 use crate::raster::spans::edge::{EdgeCrossing, first_centre};
 use crate::raster::spans::edge_table::{TableEdge, for_each_edge};
-use crate::shading::{Run, WalkKernel, start_len};
+use crate::shading::{Run, UniformsIndex, WalkKernel, start_len};
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, f32x8, i32x8};
@@ -42,7 +42,7 @@ const MOST_BLOCKS: usize = 128;
 impl RunQueue {
     /// Adds a run, whose start stands at the end of `starts` already.
     #[inline(always)]
-    fn push(&mut self, uniforms: u32, pixels: Range<usize>, place: RunPlace) {
+    fn push(&mut self, uniforms: UniformsIndex, pixels: Range<usize>, place: RunPlace) {
         self.blocks += pixels.len().div_ceil(BLOCK);
         self.places.push(place);
         self.runs.push(Run {
@@ -134,7 +134,7 @@ impl RunQueue {
         let len = start_len(setup.varyings.great_circle, setup.varyings.count);
         let mut walked = BLOCK;
         for (i, (run, place)) in self.runs.iter().zip(&self.places).enumerate() {
-            let (material, pixels) = (m.splat(run.uniforms as f32), pixels_of(run));
+            let (material, pixels) = (m.splat(run.uniforms.0 as f32), pixels_of(run));
             if walk.is_some() {
                 let length = pixels.len().next_multiple_of(BLOCK);
                 let from = &self.walked[walked - BLOCK..walked + length * planes + BLOCK];

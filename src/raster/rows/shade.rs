@@ -5,7 +5,7 @@ use super::tile::Tile;
 use super::{Buffers, RowEngine};
 use crate::number::simd::BLOCK;
 use crate::raster::target::Target;
-use crate::shading::{RowColours, ShadeRow};
+use crate::shading::{RowColours, ShadeRow, UniformsIndex};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -31,12 +31,12 @@ impl RowEngine<'_> {
             to[..drawn.start].fill(background);
             to[drawn.end..].fill(background);
         }
-        self.each_material(tile, row, drawn, |uniforms, pixels| {
+        self.each_uniforms(tile, row, drawn, |uniforms, pixels| {
             let steps = pixels.start / STEP * STEP..pixels.end.next_multiple_of(STEP);
             let cells = tile.row(row, steps.start / BLOCK..steps.end / BLOCK);
             let job = ShadeRow {
                 parameters: self.setup.parameters,
-                uniforms: &self.setup.uniforms[uniforms as usize],
+                uniforms: &self.setup.uniforms[uniforms.0 as usize],
                 extras: self.setup.extras,
                 numbers: self.numbers,
             };
@@ -78,12 +78,12 @@ impl RowEngine<'_> {
     }
 
     /// Calls `visit` with the number of some uniforms and pixels of which all that are drawn have these.
-    fn each_material(
+    fn each_uniforms(
         &self,
         tile: &Tile,
         row: usize,
         drawn: Range<usize>,
-        mut visit: impl FnMut(u32, Range<usize>),
+        mut visit: impl FnMut(UniformsIndex, Range<usize>),
     ) {
         if drawn.is_empty() {
             return;
@@ -99,14 +99,16 @@ impl RowEngine<'_> {
         let (mut from, mut same) = (drawn.start, None);
         for x in drawn.clone() {
             if at(x, 0) < f32::INFINITY {
-                let material = at(x, self.numbers - 1) as u32;
-                if same.is_some_and(|same| same != material) {
-                    visit(same.unwrap_or(0), from..x);
+                let uniforms = UniformsIndex(at(x, self.numbers - 1) as u32);
+                if let Some(same) = same.filter(|same| *same != uniforms) {
+                    visit(same, from..x);
                     from = x;
                 }
-                same = Some(material);
+                same = Some(uniforms);
             }
         }
-        visit(same.unwrap_or(0), from..drawn.end);
+        // A row that shows nothing is background whatever it is shaded with.
+        let first = self.setup.uniforms_of_material(0);
+        visit(same.unwrap_or(first), from..drawn.end);
     }
 }

@@ -357,7 +357,7 @@ impl Batch {
                     *to = *value;
                 }
                 if count.get() > 1 + varyings.count {
-                    line[count.get() - 1] = setup.uniforms_of(number) as f32;
+                    line[count.get() - 1] = setup.uniforms_of(number).0 as f32;
                 }
             },
         );

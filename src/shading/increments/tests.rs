@@ -377,7 +377,7 @@ mod blocks {
     use crate::number::simd::BLOCK;
     use crate::scene::{Light, Lighting};
     use crate::shading::lighting::Uniforms;
-    use crate::shading::{Entry, Extras, Pixels, Run};
+    use crate::shading::{Entry, Extras, Pixels, Run, UniformsIndex};
     use glam::DVec3;
     use std::vec;
 
@@ -393,7 +393,7 @@ mod blocks {
         let lighting = Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z);
         let uniforms = [Uniforms::new(&lighting, 1.0)];
         let run = |pixels: usize| Run {
-            uniforms: 0,
+            uniforms: UniformsIndex(0),
             x: 0,
             pixels: pixels as u32,
         };
