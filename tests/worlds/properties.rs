@@ -326,7 +326,7 @@ impl<'a> Seen<'a> {
             return Err(format!("{}: a pixel is {pixel:?}", who()));
         }
         let bound = variant.bound(frame);
-        if !(bound >= 0.0) {
+        if bound.is_nan() || bound < 0.0 {
             return Err(format!("{}: the bound is {bound}", who()));
         }
         let same = self.same_polygons(variant, renderer);
