@@ -5,6 +5,7 @@ use super::Frame;
 use super::SubPixel;
 #[allow(unused_imports)] // named by the documentation
 use crate::scene::Clipping;
+use core::cmp::Ordering;
 
 /// A vertex to be added to a frame: its screen coordinates, depth and vertex attributes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,15 @@ pub struct ScreenVertex {
 }
 
 impl ScreenVertex {
+    /// Orders vertices by row, column, depth and 1/w. Who adds up depth over a polygon's corners goes by this order, so that the
+    /// sum does not depend on the corner that the polygon begins with, nor on the way in which it runs.
+    pub(crate) fn compare(&self, other: &ScreenVertex) -> Ordering {
+        let places = (self.y, self.x).cmp(&(other.y, other.x));
+        places
+            .then(self.depth.total_cmp(&other.depth))
+            .then(self.inv_w.total_cmp(&other.inv_w))
+    }
+
     /// Packs column and row into one number, to be read and written at once: the bits of the column below those of the row.
     #[inline(always)]
     pub(crate) fn packed(&self) -> u64 {

@@ -84,7 +84,10 @@ pub(super) fn scan(
         if x_range.is_empty() || y_range.is_empty() || doubled_area == 0 {
             continue;
         }
-        let order = [[0, 1, 2], [0, 2, 1]][usize::from(doubled_area < 0)];
+        // From the uppermost corner on, at equal height the leftmost: the sum of depths depends on no other order.
+        let first = (0..3).min_by_key(|i| [points[*i][1], points[*i][0]]);
+        let order = [[0, 1, 2], [0, 2, 1]][usize::from(doubled_area < 0)]
+            .map(|step| (first.unwrap_or(0) + step) % 3);
         let [a, b, c] = each(|i| points[order[i]]);
         let functions = [(b, c), (c, a), (a, b)].map(|(i, j)| EdgeFunction::new(i, j));
         // f ≥ 1 is f > 0 in integers: the edges that do not own their pixels need that.

@@ -94,10 +94,17 @@ impl Crossing {
         self.x_height <= xc * self.height
     }
 
-    /// Orders crossings from left to right.
-    fn compare(&self, other: &Crossing) -> Ordering {
+    /// Orders crossings from left to right; those that meet by the upper ends of their edges, then by the lower ones.
+    fn compare(&self, other: &Crossing, frame: &Frame) -> Ordering {
         let cross = |a: i64, b: i64| i128::from(a) * i128::from(b);
-        cross(self.x_height, other.height).cmp(&cross(other.x_height, self.height))
+        let ends = |a: u32, b: u32| {
+            let [a, b] = [a, b].map(|v| &frame.vertices()[v as usize]);
+            a.compare(b)
+        };
+        cross(self.x_height, other.height)
+            .cmp(&cross(other.x_height, self.height))
+            .then_with(|| ends(self.top, other.top))
+            .then_with(|| ends(self.bottom, other.bottom))
     }
 
     /// Returns the parameter down the edge, 0..1.
@@ -137,8 +144,10 @@ impl VertexWeights {
     /// ```text
     /// P = β₁ P₁ + β₂ P₂ + β₃ P₃      (L21 3)
     /// ```
-    /// The triangle must have an area.
-    fn of_triangle(frame: &Frame, corners: [u32; 3], xc: i64, yc: i64) -> VertexWeights {
+    /// The triangle must have an area. Its corners stand in the order of [`ScreenVertex::compare`](crate::frame::ScreenVertex).
+    fn of_triangle(frame: &Frame, mut corners: [u32; 3], xc: i64, yc: i64) -> VertexWeights {
+        let vertex = |v: u32| &frame.vertices()[v as usize];
+        corners.sort_by(|a, b| vertex(*a).compare(vertex(*b)));
         let [a, b, c] = corners.map(|v| position(frame, v));
         let twice_area = |p: (i64, i64), q: (i64, i64), r: (i64, i64)| {
             ((q.0 - p.0) * (r.1 - p.1) - (q.1 - p.1) * (r.0 - p.0)) as f64
@@ -183,7 +192,7 @@ pub(crate) struct Scanline<'a> {
     frame: &'a Frame,
     corners: &'a [u32],
     yc: i64,
-    /// From left to right; where several meet, in the order of the polygon's edges.
+    /// From left to right; where several meet, in the order of their ends.
     crossings: Vec<Crossing>,
 }
 
@@ -207,7 +216,8 @@ impl<'a> Scanline<'a> {
         self.crossings.extend(
             ends.filter_map(|(&from, &to)| Crossing::of_edge(self.frame, from, to, self.yc)),
         );
-        self.crossings.sort_by(Crossing::compare);
+        let frame = self.frame;
+        self.crossings.sort_by(|a, b| a.compare(b, frame));
     }
 
     /// Returns the two edges between which the centre of the pixel `x` lies; `None` where the polygon does not cover it.

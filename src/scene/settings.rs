@@ -29,7 +29,8 @@ pub enum Culling {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HiddenSurfaces {
     /// The nearest polygon at each sample is seen (CS171 4, L5 *Z-Buffer*). The order of drawing decides ties only: of
-    /// equally near polygons the first is seen, as strictly less depth wins.
+    /// equally near polygons the first is seen, as strictly less depth wins. Polygons with the same corners are equally near
+    /// everywhere, whichever corner each begins with and whichever way it runs.
     ZBuffer(DepthBuffer),
     /// Polygons are sorted from back to front once, in O(n log n), and later ones hide earlier ones (L5 *Painter's
     /// Algorithm*). No order is right for polygons that overlap in a ring or cut each other.

@@ -1,10 +1,11 @@
 //! Visibility by depth buffers of every width, by both depth sources, and by the painter.
 
 use crate::support;
-use crate::support::{Corner, Random, add, plain_lighting, random_polygon};
+use crate::support::{Corner, Random, add, plain_lighting, random_polygon, renderers};
 use fastphong::frame::triangulate::triangulated;
-use fastphong::frame::{Frame, FrameBuilder};
+use fastphong::frame::{DepthRange, Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::mesh::builtin::builtin;
+use fastphong::picture::Picture;
 use fastphong::raster::painter::conflicts;
 use fastphong::raster::{self, Edges, NOTHING};
 use fastphong::reference;
@@ -12,6 +13,8 @@ use fastphong::scene::{
     Clipping, Culling, DepthBits, DepthBuffer, DepthSource, HiddenSurfaces, PainterKey, Projection,
     Scene,
 };
+use fastphong::shading::Variant;
+use std::collections::BTreeMap;
 
 fn buffer(bits: DepthBits, source: DepthSource) -> HiddenSurfaces {
     HiddenSurfaces::ZBuffer(DepthBuffer { bits, source })
@@ -514,4 +517,175 @@ fn the_painter_keeps_the_means_of_clipped_polygons() {
             polygon.source
         );
     }
+}
+
+/// A shape whose corners lie at random places: some of them at the same one.
+#[derive(Clone, Copy, Debug)]
+enum Shape {
+    /// A random polygon of so many corners, which may cross itself.
+    Sides(usize),
+    /// A polygon with a corner inside the hull of the others.
+    Concave,
+    /// A triangle, with a second corner where one is, at another depth.
+    CornerTwice,
+    /// A polygon that goes to a place and back to where it came from, at another depth.
+    Spike,
+    /// A polygon that crosses itself on a row of pixel centres.
+    Bow,
+}
+
+const SHAPES: [Shape; 9] = [
+    Shape::Sides(3),
+    Shape::Sides(4),
+    Shape::Sides(3),
+    Shape::Sides(5),
+    Shape::Sides(7),
+    Shape::Concave,
+    Shape::CornerTwice,
+    Shape::Spike,
+    Shape::Bow,
+];
+
+/// Returns the corners of a shape about `size` pixels wide in a picture `side` samples wide, each at a place with a depth and a
+/// 1/w of its own.
+fn corners_of(shape: Shape, random: &mut Random, size: u64, side: u64) -> Vec<Vertex> {
+    let middle = [0; 2].map(|_| random.below(256 * side) as i32);
+    // Every other shape has corners at pixel centres and on their rows: there crossings meet.
+    let grid = [1, 128][random.below(2) as usize];
+    let mut place = || {
+        let moved = middle.map(|at| {
+            let at = at + random.below(256 * size) as i32 - 128 * size as i32;
+            at / grid * grid
+        });
+        Vertex {
+            x: SubPixel::from_bits(moved[0]),
+            y: SubPixel::from_bits(moved[1]),
+            depth: 0.1 + 0.8 * random.unit(),
+            inv_w: 0.2 + 0.8 * random.unit(),
+            normal: [0.0, 0.0, 1.0],
+            material: 0,
+        }
+    };
+    let at = |place: Vertex, other: Vertex| Vertex {
+        x: place.x,
+        y: place.y,
+        ..other
+    };
+    match shape {
+        Shape::Sides(count) => (0..count).map(|_| place()).collect(),
+        Shape::Concave => {
+            let [a, b, c, d] = [place(), place(), place(), place()];
+            let mean = |one: SubPixel, two: SubPixel, three: SubPixel| {
+                SubPixel::from_bits((one.to_bits() + two.to_bits() + 2 * three.to_bits()) / 4)
+            };
+            let (x, y) = (mean(a.x, c.x, b.x), mean(a.y, c.y, b.y));
+            vec![a, b, c, Vertex { x, y, ..d }]
+        }
+        Shape::CornerTwice => {
+            let [a, b, c, d] = [place(), place(), place(), place()];
+            vec![a, b, c, at(c, d)]
+        }
+        Shape::Spike => {
+            let [a, b, c, d, e] = [place(), place(), place(), place(), place()];
+            vec![a, b, c, d, at(c, e)]
+        }
+        Shape::Bow => {
+            // Both diagonals of a square, whose middle is a pixel centre.
+            let half = 256 * (1 + size as i32 / 2);
+            let [cx, cy] = middle.map(|at| at / 256 * 256 + 128);
+            [[-1, -1], [1, 1], [-1, 1], [1, -1]]
+                .map(|[x, y]| Vertex {
+                    x: SubPixel::from_bits(cx + x * half),
+                    y: SubPixel::from_bits(cy + y * half),
+                    ..place()
+                })
+                .to_vec()
+        }
+    }
+}
+
+/// Returns the number of pixels where a polygon other than the first is seen, and of those where any is.
+fn later_ones(seen: &Picture<u32>) -> [usize; 2] {
+    let covered = seen.pixels().iter().filter(|number| **number != NOTHING);
+    [
+        covered.clone().filter(|number| **number > 0).count(),
+        covered.count(),
+    ]
+}
+
+/// Of polygons with the same corners the first is seen everywhere, whichever corner each begins with and whichever way it runs,
+/// by every engine and the reference: depth at a sample depends on the corners alone.
+#[test]
+fn of_equal_polygons_the_first_stays_whatever_corner_each_begins_with() {
+    let mut random = Random::new(29);
+    let mut found: BTreeMap<String, [usize; 2]> = BTreeMap::new();
+    for round in 0..360 {
+        let side = 64;
+        let shape = SHAPES[round % SHAPES.len()];
+        // From tiny triangles to ones that reach beyond the picture.
+        let size = [5, 14, 40, 70, 300][round / SHAPES.len() % 5];
+        let [bits, source, range, samples] = [3, 2, 2, 2].map(|n| random.below(n) as usize);
+        let mut builder = FrameBuilder::new(side, side);
+        builder
+            .samples([1, 2][samples])
+            .hidden_surfaces(buffer(
+                [
+                    DepthBits::Sixteen,
+                    DepthBits::TwentyFour,
+                    DepthBits::ThirtyTwo,
+                ][bits],
+                [DepthSource::Interpolated, DepthSource::PerSample][source],
+            ))
+            .depth_range(
+                [
+                    DepthRange::Perspective {
+                        near: 0.3,
+                        far: 7.0,
+                    },
+                    DepthRange::Orthographic {
+                        near: -2.0,
+                        far: 5.1,
+                    },
+                ][range],
+            );
+        builder.lighting(plain_lighting());
+        let corners: Vec<u32> = corners_of(shape, &mut random, size, u64::from(side))
+            .into_iter()
+            .map(|corner| builder.vertex(corner))
+            .collect();
+        // The first of them runs either way from any corner, too.
+        let first = random.below(2 * corners.len() as u64) as usize;
+        for turn in first..first + 2 * corners.len() {
+            let mut turned = corners.clone();
+            turned.rotate_left(turn / 2 % corners.len());
+            if turn % 2 == 1 {
+                turned.reverse();
+            }
+            builder.polygon(&turned, [0.0, 0.0, 1.0], turn as u32);
+        }
+        let frame = builder.finish().expect("corners inside the guard band");
+        let mut count = |name: String, seen: &Picture<u32>| {
+            let sum = found.entry(name).or_default();
+            for (sum, more) in sum.iter_mut().zip(later_ones(seen)) {
+                *sum += more;
+            }
+        };
+        count("reference".into(), &reference::visibility(&frame).polygons);
+        if corners.len() == 3 {
+            let seen = raster::barycentric_polygon_numbers(&frame, Edges::TopLeft);
+            count("barycentric".into(), &seen);
+        }
+        // By plane equations, and by runs because a walk remembers the pixel before.
+        for method in ["naive-phong", "slerp-phong"] {
+            let variant = Variant::parse(method).expect("a method");
+            for renderer in renderers::distinct(&variant, &frame) {
+                let name = format!("{method}, {}", renderers::name(renderer));
+                count(name, &variant.polygon_numbers(&frame, renderer));
+            }
+        }
+    }
+    let covered = found.values().all(|[_, covered]| *covered > 10_000);
+    assert!(covered, "pixels of later ones, and all: {found:?}");
+    let none_later = found.values().all(|[later, _]| *later == 0);
+    assert!(none_later, "pixels of later ones, and all: {found:?}");
 }

@@ -228,7 +228,7 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
     let count = writer.count.get();
     let step = batch.planes.growth(m, k, count, across);
     // From the top corner two edges go down; the third one follows one of them.
-    let [above, middle, below] = downward(y).map(|i| [x[i], y[i]].map(SubPixel::from_bits));
+    let [above, middle, below] = [0, 1, 2].map(|i| [x[i], y[i]].map(SubPixel::from_bits));
     let bend = first_centre(middle[1]).clamp(rows.start, rows.end);
     let mut long = EdgeCrossing::new(above, below, rows.start);
     for (from, to, rows) in [
@@ -262,13 +262,6 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
             short.advance();
         }
     }
-}
-
-/// Returns corners by their rows, from the top down.
-fn downward(rows: [i32; 3]) -> [usize; 3] {
-    let mut order = [0, 1, 2];
-    order.sort_unstable_by_key(|&i| rows[i]);
-    order
 }
 
 /// Returns a number below 0 at those pixels of block `block` that a run does not have.

@@ -7,7 +7,7 @@
 //! Edge functions hold the fill rule: left and top edges own the pixel centres that lie on them (`Batch::edge`).
 
 use super::tile::{MOST, NumberCount};
-use crate::frame::Frame;
+use crate::frame::{Frame, ScreenVertex};
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use crate::raster::bins::Listed;
@@ -51,7 +51,11 @@ pub(super) enum CoveragePath {
 #[derive(Debug, Default)]
 pub(crate) struct Batch {
     pub(super) count: usize,
-    pub(super) listed: [Listed; BATCH],
+    /// The corners from the top down, at equal height from left to right: depth is rounded by that order, and so does not depend
+    /// on the corner that a polygon begins with, nor on the way in which it runs.
+    listed: [Listed; BATCH],
+    /// The numbers that these corners have in the polygon.
+    numbers: [[u32; 3]; BATCH],
     /// Columns and rows of the corners in sub-pixels.
     pub(super) x: [Ints; 3],
     pub(super) y: [Ints; 3],
@@ -90,7 +94,7 @@ pub(super) const LINE: usize = MOST.next_multiple_of(BLOCK);
 /// The numbers of a corner or a pixel, depth first.
 pub(super) type Numbers = [f32; LINE];
 
-/// Plane equations of each triangle: numbers at its first corner, and the differences of the other two from it.
+/// Plane equations of each triangle: numbers at its uppermost corner, and the differences of the other two from it.
 ///
 /// ```text
 /// A = A_a + β (A_b − A_a) + γ (A_c − A_a)
@@ -138,6 +142,45 @@ impl PlaneEquations {
     }
 }
 
+/// The place of a triangle's corner and its number there, packed in the order in which corners are sorted: the row, which is within
+/// ±2²³ sub-pixels, the column from −2³¹ on, and two bits of the number.
+///
+/// Corners of a triangle that has an area are at three places, so that nothing else decides their order.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct CornerPlace(i64);
+
+impl CornerPlace {
+    #[inline(always)]
+    fn new(vertex: &ScreenVertex, number: usize) -> Self {
+        let column = vertex.x.to_bits().wrapping_sub(i32::MIN) as u32;
+        let row = i64::from(vertex.y.to_bits());
+        CornerPlace(row << 34 | i64::from(column) << 2 | number as i64)
+    }
+
+    /// Returns three of them in order, without branches.
+    #[inline(always)]
+    fn sorted([a, b, c]: [Self; 3]) -> [Self; 3] {
+        let (a, b) = (a.min(b), a.max(b));
+        let (b, c) = (b.min(c), b.max(c));
+        [a.min(b), a.max(b), c]
+    }
+
+    #[inline(always)]
+    fn x(self) -> i32 {
+        ((self.0 >> 2) as i32).wrapping_add(i32::MIN)
+    }
+
+    #[inline(always)]
+    fn y(self) -> i32 {
+        (self.0 >> 34) as i32
+    }
+
+    #[inline(always)]
+    fn number(self) -> u32 {
+        self.0 as u32 & 3
+    }
+}
+
 /// Eight triangles in relation to the pixels.
 #[derive(Clone, Copy)]
 struct Bounded<S: Simd> {
@@ -168,10 +211,14 @@ impl Batch {
         let polygons = &polygons[..most];
         let mut k = 0;
         while k < most && polygons[k].is_triangle() {
-            self.listed[k] = polygons[k];
+            let Listed { number, corners } = polygons[k];
+            let place = |i: usize| CornerPlace::new(&vertices[corners[i] as usize], i);
+            let places = CornerPlace::sorted([place(0), place(1), place(2)]);
+            self.listed[k].number = number;
             for i in 0..3 {
-                let vertex = &vertices[polygons[k].corners[i] as usize];
-                (self.x[i][k], self.y[i][k]) = (vertex.x.to_bits(), vertex.y.to_bits());
+                (self.x[i][k], self.y[i][k]) = (places[i].x(), places[i].y());
+                self.numbers[k][i] = places[i].number();
+                self.listed[k].corners[i] = corners[places[i].number() as usize];
             }
             k += 1;
         }
@@ -222,7 +269,7 @@ impl Batch {
         let load = |from: &[Ints; 3]| [of(&from[0]), of(&from[1]), of(&from[2])];
         let (x, y) = (load(&self.x), load(&self.y));
         let (left, right) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
-        let (top, bottom) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
+        let [top, _, bottom] = y;
         // `first_centre` in 32 bits: coordinates are within ±2²³.
         let centre = |at: i32x8<S>| (at + m.int(127)) >> 8;
         let columns = [centre(left).max(zero), centre(right).min(m.int(width))];
@@ -373,11 +420,11 @@ impl Batch {
         read: impl Fn(u32, u32, u32, &mut Numbers),
     ) {
         for k in bits(drawn) {
-            let Listed { number, corners } = self.listed[k];
+            let (Listed { number, corners }, numbers) = (self.listed[k], self.numbers[k]);
             let (mut at, mut to_b, mut to_c) = ([0.0; LINE], [0.0; LINE], [0.0; LINE]);
-            read(number, 0, corners[0], &mut at);
-            read(number, 1, corners[1], &mut to_b);
-            read(number, 2, corners[2], &mut to_c);
+            read(number, numbers[0], corners[0], &mut at);
+            read(number, numbers[1], corners[1], &mut to_b);
+            read(number, numbers[2], corners[2], &mut to_c);
             let to = &mut self.planes.0[k];
             let mut i = 0;
             while i < count.get() {

@@ -330,7 +330,7 @@ impl<'a> ActiveEdges<'a> {
             while end < self.edges.len() && self.edges[end].polygon == polygon {
                 end += 1;
             }
-            order(&mut self.edges[first..end]);
+            order(self.frame, &mut self.edges[first..end]);
             // A closed polygon crosses a scanline an even number of times.
             for left in (first..end - 1).step_by(2) {
                 let pair = [&self.edges[left], &self.edges[left + 1]];
@@ -391,11 +391,11 @@ fn between([left, right]: [Group; 2], parameter: [f32; 2]) -> Group {
 }
 
 /// Puts the edges of a polygon in order, by insertion: crossings change places only where edges cross each other. Ties keep the
-/// order of corners, so that the result does not depend on the past.
-fn order(edges: &mut [ActiveEdge]) {
+/// order of their ends, so that the result depends neither on the past nor on the corner that the polygon begins with.
+fn order(frame: &Frame, edges: &mut [ActiveEdge]) {
     for i in 1..edges.len() {
         let mut at = i;
-        while at > 0 && is_before(&edges[at], &edges[at - 1]) {
+        while at > 0 && is_before(frame, &edges[at], &edges[at - 1]) {
             edges.swap(at, at - 1);
             at -= 1;
         }
@@ -403,9 +403,26 @@ fn order(edges: &mut [ActiveEdge]) {
 }
 
 /// True if `a` lies left of `b`.
-fn is_before(a: &ActiveEdge, b: &ActiveEdge) -> bool {
+fn is_before(frame: &Frame, a: &ActiveEdge, b: &ActiveEdge) -> bool {
     let order = a.crossing.compare(&b.crossing);
-    order.then(a.corner.cmp(&b.corner)) == Ordering::Less
+    order.then_with(|| compare_ends(frame, a, b)) == Ordering::Less
+}
+
+/// Compares two edges of a polygon by their upper and their lower ends; equal ones by the corners that they start from.
+#[cold]
+fn compare_ends(frame: &Frame, a: &ActiveEdge, b: &ActiveEdge) -> Ordering {
+    let corners = frame.corners(&frame.polygons()[a.polygon as usize]);
+    let ends = |edge: &ActiveEdge| {
+        let from = edge.corner as usize;
+        let mut ends = [from, (from + 1) % corners.len()]
+            .map(|corner| &frame.vertices()[corners[corner] as usize]);
+        ends.sort_by(|p, q| p.compare(q));
+        ends
+    };
+    let ([a_top, a_bottom], [b_top, b_bottom]) = (ends(a), ends(b));
+    (a_top.compare(b_top))
+        .then(a_bottom.compare(b_bottom))
+        .then(a.corner.cmp(&b.corner))
 }
 
 /// Returns the span between two edges, of which the left one has number `number`, if it covers a pixel.
