@@ -199,16 +199,33 @@ fn faint(shininess: f32, scale: f32, lights: &[LightUniforms]) -> f32 {
 /// out is then over 2⁻²⁴ at distances of 10⁻¹⁵ or so.
 const LEAST_POWER: f32 = 2.0 * f32::MIN_POSITIVE;
 
-/// Returns the factor of the highlight on an error of a cosine between unit vectors, for `shininess` n; `half` is |L + V|.
+/// Returns how far a highlight of `lighting` is off, as a share of `I_p k_s`, if the cosines of unit vectors are off by `e`;
+/// `half` is |L + V|.
 ///
 /// `R·V = 2 (L·N)(N·V) − L·V` is off by up to four times as much; of `N·H = (L·N + V·N) / h` the sum is off by twice that and
-/// h by e/h, so that it is off by `2 e/h + e/h²`. The power multiplies by n.
-pub(super) fn highlight_gain(specular: SpecularModel, shininess: f32, half: f64) -> f64 {
-    let cosine = match specular {
+/// h by e/h, so that it is off by `2 e/h + e/h²`. An exponent of 1 or more multiplies by n. One below 1 is concave, and
+/// infinitely steep at 0, where highlights end:
+/// ```text
+/// |aⁿ − bⁿ| ≤ |a − b|ⁿ   for a, b ≥ 0 and 0 < n ≤ 1, with equality at b = 0
+/// ```
+/// as `aⁿ ≤ bⁿ + (a − b)ⁿ` for a over b. Its power is a logarithm's, off by `(0.7 n (|log₂ x| + 1.5) + 2) 2⁻²³` of xⁿ itself
+/// (`number/powf.rs`), which is below 8 · 2⁻²⁴, as `y 2⁻ʸ` is at most 0.54. The power 0 is 1, exactly;
+/// it counts as the power 1. Where the highlight is weighted with L·N, it has the error of that, too.
+pub(super) fn highlight_error(lighting: &Lighting, half: f64, e: f64) -> f64 {
+    let gain = match lighting.specular {
         SpecularModel::Phong => 4.0,
         SpecularModel::Blinn => 2.0 / half + 1.0 / (half * half),
     };
-    cosine * f64::from(shininess.max(1.0))
+    let weight = match lighting.gate {
+        SpecularGate::Weighted => e,
+        _ => 0.0,
+    };
+    let power = match f64::from(lighting.shininess) {
+        0.0 => gain * e,
+        n if n < 1.0 => libm::pow(gain * e, n) + 8.0 * f64::from(FAINT),
+        n => gain * n * e,
+    };
+    power + weight
 }
 
 /// The lights on a material as a point (or a block of points) sees them.

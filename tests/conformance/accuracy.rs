@@ -3,11 +3,13 @@
 use crate::support::cases::{Case, case, cases};
 use crate::support::differences::largest_difference;
 use crate::support::renderers::{self, distinct, name};
-use fastphong::frame::{Frame, FrameBuilder};
+use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
 use fastphong::picture::LinearPicture;
 use fastphong::raster::NOTHING;
 use fastphong::reference::{self, Model};
-use fastphong::scene::{DepthBuffer, HiddenSurfaces};
+use fastphong::scene::{
+    DepthBuffer, Falloff, HiddenSurfaces, LightTerm, Lighting, Place, SpecularGate, SpecularModel,
+};
 use fastphong::shading::{Entry, METHODS, Variant};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -114,6 +116,128 @@ fn every_method_is_within_its_bound_and_the_bound_bites() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// Checks every method with every renderer on a scene with each exponent. Returns each method's error as a
+/// share of its bound, by exponent.
+fn check_exponents(name: &str, frame: &Frame, exponents: &[f32]) -> Vec<Vec<f64>> {
+    let mut failures = Vec::new();
+    let shares = exponents.iter().map(|&shininess| {
+        let frame = relit(frame, |lighting| lighting.shininess = shininess);
+        let scene = Case::new(format!("{name} with {shininess}"), frame);
+        scene.seen();
+        let found: Vec<_> = METHODS
+            .par_iter()
+            .map(|entry| check(&scene, entry))
+            .collect();
+        let (shares, wrong): (Vec<f64>, Vec<Vec<String>>) = found.into_iter().unzip();
+        failures.extend(wrong.into_iter().flatten());
+        shares
+    });
+    let shares = shares.collect();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    shares
+}
+
+/// Exponents below 1 are infinitely steep at 0, where highlights end on all these scenes.
+#[test]
+fn exponents_below_1_are_within_their_bound() {
+    for name in [
+        "fine-sphere",
+        "coarse-sphere",
+        "blinn",
+        "two-lights",
+        "local-lights",
+        "perspective",
+        "vase",
+        "teapot",
+    ] {
+        let frame = &case(name, Some((64, 48))).frame;
+        check_exponents(name, frame, &[1e-6, 0.1, 0.25, 0.5, 0.999, 0.0, 1.0]);
+    }
+}
+
+/// Builds small squares that all lean by 45° from the eye, each another way, with the light at the eye: R is at a right
+/// angle to the eye, and rounding alone decides whether R·V is just over 0 or just under.
+fn ends_of_highlights(specular: SpecularModel, gate: SpecularGate, colours: &[f32]) -> Frame {
+    const SIDE: u32 = 32;
+    let mut builder = FrameBuilder::new(SIDE, SIDE);
+    let toward = match specular {
+        SpecularModel::Phong => [0.0, 0.0, 1.0],
+        // N·H, and not L·N, is 0 for a normal at a right angle to H.
+        SpecularModel::Blinn => [0.0, 0.6, 0.8],
+    };
+    let lights = colours.iter().map(|&colour| LightTerm {
+        place: Place::Infinite(toward),
+        diffuse: [0.0; 3],
+        specular: [colour; 3],
+        falloff: Falloff::None,
+    });
+    let material = builder.lighting(Lighting {
+        ambient: [0.0; 3],
+        lights: lights.collect(),
+        view: Place::Infinite([0.0, 0.0, 1.0]),
+        shininess: 1.0,
+        specular,
+        gate,
+    });
+    for number in 0..SIDE * SIDE {
+        let (x, y) = (f64::from(number % SIDE), f64::from(number / SIDE));
+        let (sin, cos) = (f64::from(number) * 0.01).sin_cos();
+        // A few units in the last place about 45°, so that both signs of R·V occur.
+        let half = core::f64::consts::FRAC_1_SQRT_2 + f64::from(number % 7) * 6e-8 - 1.8e-7;
+        let normal = match specular {
+            SpecularModel::Phong => [cos * half, sin * half, half],
+            SpecularModel::Blinn => {
+                // H = (0, 0.6, 1.8) / |…|; its normals are spanned by (1, 0, 0) and (0, 1.8, −0.6) / |…|.
+                let length = f64::hypot(1.8, 0.6);
+                [cos, sin * 1.8 / length, -sin * 0.6 / length]
+            }
+        };
+        let normal = normal.map(|x| x as f32);
+        let corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0)].map(|(right, down)| {
+            builder.vertex(Vertex {
+                x: SubPixel::from_num(x + right),
+                y: SubPixel::from_num(y + down),
+                depth: 0.5,
+                inv_w: 1.0,
+                normal,
+                material,
+            })
+        });
+        builder.polygon(&corners, normal, number);
+    }
+    builder.finish().expect("all corners are on the picture")
+}
+
+/// Where highlights end, exponents below 1 turn the last bit of a cosine into grey levels: the worst error of each method
+/// and exponent is over a tenth of its bound, and within it.
+#[test]
+fn exponents_below_1_bite_where_highlights_end() {
+    let exponents = [0.1, 0.25, 0.5];
+    let frame = ends_of_highlights(SpecularModel::Phong, SpecularGate::Gated, &[1.0]);
+    let shares = check_exponents("ends of highlights", &frame, &exponents);
+    for (shares, exponent) in shares.iter().zip(exponents) {
+        for (share, entry) in shares.iter().zip(METHODS) {
+            let name = entry.info.name;
+            println!("{name} to the power {exponent}: {share:.2} of its bound");
+            assert!(*share > 0.1, "{name} to the power {exponent}: {share}");
+        }
+    }
+}
+
+/// The bound holds for both kinds of highlight, for weighted and ungated ones, for lights of many strengths and for several.
+#[test]
+fn exponents_below_1_are_within_their_bound_under_every_highlight() {
+    for specular in [SpecularModel::Phong, SpecularModel::Blinn] {
+        for gate in [SpecularGate::Ungated, SpecularGate::Weighted] {
+            for colours in [&[1e-3][..], &[0.3; 3], &[40.0, 1e-9]] {
+                let frame = ends_of_highlights(specular, gate, colours);
+                let name = format!("{specular:?}, {gate:?}, {colours:?}");
+                check_exponents(&name, &frame, &[0.0, 1e-6, 0.1, 0.5, 0.9, 1.0]);
+            }
+        }
+    }
+}
+
 fn linear(variant: &str, frame: &Frame) -> LinearPicture {
     Variant::parse(variant)
         .expect("a method")
@@ -218,6 +342,15 @@ fn visible_polygons_differ_only_where_surfaces_meet() {
 
 /// Copies a frame without specular light.
 fn matte(frame: &Frame) -> Frame {
+    relit(frame, |lighting| {
+        for light in &mut lighting.lights {
+            light.specular = [0.0; 3];
+        }
+    })
+}
+
+/// Copies a frame with its lightings changed.
+fn relit(frame: &Frame, change: impl Fn(&mut Lighting)) -> Frame {
     let mut builder = FrameBuilder::new(frame.width() as u32, frame.height() as u32);
     builder
         .interpolation(frame.interpolation())
@@ -225,10 +358,7 @@ fn matte(frame: &Frame) -> Frame {
         .depth_range(frame.depth_range());
     for lighting in frame.lightings() {
         let mut lighting = lighting.clone();
-        lighting
-            .lights
-            .iter_mut()
-            .for_each(|light| light.specular = [0.0; 3]);
+        change(&mut lighting);
         builder.lighting(lighting);
     }
     for number in 0..frame.vertices().len() as u32 {
