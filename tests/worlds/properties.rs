@@ -51,10 +51,7 @@ impl AddAssign for Tally {
 /// One sentence about the first thing that does not hold.
 pub fn check(scene: &Scene) -> Result<Tally, String> {
     let mut tally = Tally::default();
-    let Some(frame) = known::frame(scene) else {
-        return Ok(tally);
-    };
-    let frame = match frame {
+    let frame = match scene.frame() {
         Ok(frame) => frame,
         Err(FrameError::Polygon { index }) => return Err(format!("polygon {index} is invalid")),
         Err(_) => {
@@ -73,9 +70,6 @@ pub fn check(scene: &Scene) -> Result<Tally, String> {
     tally.other_engines = renderers().len() - 1;
     for entry in METHODS {
         let variant = entry.variant();
-        if known::may_panic(&variant, &frame) {
-            continue;
-        }
         for renderer in distinct(&variant, &frame) {
             tally.pixels_in_bound += world.check_method(&variant, renderer)?;
             tally.threads += 1;
@@ -398,10 +392,8 @@ impl<'a> Seen<'a> {
 
     /// Returns the pixels at all of whose samples `renderer` sees the reference's polygon.
     fn same_polygons(&self, variant: &Variant, renderer: Renderer) -> Picture<bool> {
-        let walks = variant.info().name.starts_with("slerp");
-        let renderer = variant.plan(self.frame, renderer).renderer;
-        let seen = numbers(&self.numbered, renderer, walks);
         let frame = self.frame;
+        let seen = variant.polygon_numbers(frame, renderer);
         let n = frame.samples();
         let mut same = Picture::new(frame.picture_width(), frame.picture_height(), true);
         for y in 0..frame.height() {

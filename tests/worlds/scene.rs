@@ -1,6 +1,5 @@
 //! Strategies for scene files: settings, camera, lights, objects.
 
-use super::known;
 use super::mesh::{builtin_name, mtl, obj, used_materials};
 use super::numbers::{any_size, colour, number, size, text, triple};
 use super::world::World;
@@ -31,7 +30,6 @@ pub fn shininess() -> BoxedStrategy<f64> {
         1 => Just(0.0),
         4 => size(-1.0..4.0),
     ]
-    .prop_filter("known", |&n| known::is_exponent_bounded(n))
     .boxed()
 }
 

@@ -51,11 +51,16 @@ impl Cut {
         Cut { a, b, t, position }
     }
 
-    /// Returns the parameter of the cut on the screen; both ends must be in front of the eye.
+    /// Returns the parameter of the cut on the screen, where both ends are in front of the eye.
+    ///
+    /// The near plane cuts first. But a corner that it makes, of ends that are some 10¹⁶ times as far from the eye, may be rounded
+    /// to behind the eye: it has no place on the screen, and keeps the parameter in space.
     pub fn t_on_screen(&self) -> f64 {
         let (wa, wb) = (self.a.position.w, self.b.position.w);
-        debug_assert!(wa > 0.0 && wb > 0.0, "the near plane cuts first");
-        (self.t * wb / ((1.0 - self.t) * wa + self.t * wb)).clamp(0.0, 1.0)
+        match wa > 0.0 && wb > 0.0 {
+            true => (self.t * wb / ((1.0 - self.t) * wa + self.t * wb)).clamp(0.0, 1.0),
+            false => self.t,
+        }
     }
 }
 

@@ -1,0 +1,6 @@
+#![no_main]
+
+#[path = "../inputs/obj.rs"]
+mod obj;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| obj::run(bytes));

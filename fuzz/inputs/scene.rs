@@ -1,0 +1,68 @@
+//! Scene files: any text gives a scene or one error, what is printed reads the same, and the scene can be drawn.
+//!
+//! Meshes are built-in ones of a few cells, whatever the file asks for.
+
+use fastphong::mesh::builtin::builtin;
+use fastphong::raster::Renderer;
+use fastphong::scene::file::SceneFile;
+use fastphong::shading::METHODS;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Longer files only repeat what shorter ones have.
+const MOST_BYTES: usize = 1 << 13;
+
+/// Built-in meshes of more polygons take the time of many others.
+const MOST_POLYGONS: usize = 2000;
+
+pub fn run(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return;
+    };
+    if text.len() > MOST_BYTES {
+        return;
+    }
+    let file = match SceneFile::parse(text, "fuzz.toml") {
+        Ok(file) => file,
+        Err(error) => {
+            assert!(!error.render(false).is_empty());
+            return;
+        }
+    };
+    let printed = file.to_toml();
+    let again = SceneFile::parse(&printed, "printed.toml");
+    let again = again.unwrap_or_else(|error| panic!("{}\n{printed}", error.render(false)));
+    assert_eq!(file, again, "{printed}");
+    let load = |name: &str, _: &Path| {
+        // A name with a number of three digits asks for a large mesh.
+        let is_large = name
+            .split(|c: char| !c.is_ascii_digit())
+            .any(|n| n.len() > 2);
+        let name = name.strip_prefix("builtin:").filter(|_| !is_large);
+        let mesh = builtin(name.unwrap_or("cube")).map_err(|error| error.to_string())?;
+        match mesh.polygon_count() > MOST_POLYGONS {
+            true => Err("more polygons than are drawn here".to_owned()),
+            false => Ok((Arc::new(mesh), Vec::new())),
+        }
+    };
+    let mut scene = match file.resolve(load) {
+        Ok(resolved) => resolved.scene,
+        Err(error) => {
+            assert!(!error.render(false).is_empty());
+            return;
+        }
+    };
+    (scene.width, scene.height) = (scene.width.min(12), scene.height.min(9));
+    let Ok(frame) = scene.frame() else {
+        return;
+    };
+    for entry in METHODS {
+        for renderer in [Renderer::LECTURE, Renderer::fastest()] {
+            let picture = entry.variant().render_linear_with(&frame, renderer);
+            for pixel in picture.pixels() {
+                let is_colour = pixel.iter().all(|channel| (0.0..=1.0).contains(channel));
+                assert!(is_colour, "{}: {pixel:?}", entry.info.name);
+            }
+        }
+    }
+}

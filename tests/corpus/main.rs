@@ -1,0 +1,59 @@
+//! Replays the corpora of the fuzz targets: what a fuzzer found once stays found, without a fuzzer.
+
+#![cfg(feature = "cli")]
+
+#[path = "../../fuzz/inputs/obj.rs"]
+mod obj;
+#[path = "../../fuzz/inputs/picture.rs"]
+mod picture;
+#[path = "../../fuzz/inputs/pixels.rs"]
+mod pixels;
+#[path = "../../fuzz/inputs/results.rs"]
+mod results;
+#[path = "../../fuzz/inputs/scene.rs"]
+mod scene;
+
+use std::fs;
+use std::path::Path;
+
+/// Runs each file of a target's corpus, and the file without its last half: most readers stumble at an end.
+fn replay(target: &str, run: fn(&[u8])) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("fuzz/corpus")
+        .join(target);
+    let files = fs::read_dir(&folder).expect("the corpus");
+    let mut count = 0;
+    for path in files.map(|entry| entry.expect("an entry").path()) {
+        println!("{}", path.display());
+        let bytes = fs::read(&path).expect("a readable file");
+        run(&bytes);
+        run(&bytes[..bytes.len() / 2]);
+        count += 1;
+    }
+    assert!(count > 0, "{} is empty", folder.display());
+}
+
+#[test]
+fn obj_files() {
+    replay("obj", obj::run);
+}
+
+#[test]
+fn scene_files() {
+    replay("scene", scene::run);
+}
+
+#[test]
+fn picture_files() {
+    replay("picture", picture::run);
+}
+
+#[test]
+fn results_in_json() {
+    replay("results", results::run);
+}
+
+#[test]
+fn worlds_by_bytes() {
+    replay("pixels", pixels::run);
+}
