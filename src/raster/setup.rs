@@ -153,6 +153,10 @@ impl<'a> SetUp<'a> {
     /// Returns the number of the uniforms of a material, as vertices have them that no polygon lights.
     #[inline(always)]
     pub fn uniforms_of_material(&self, material: u32) -> UniformsIndex {
+        debug_assert!(
+            (material as usize) < self.frame.lightings().len(),
+            "a material and not a polygon"
+        );
         let before = match self.is_by_polygon {
             true => self.frame.polygons().len() as u32,
             false => 0,
@@ -270,6 +274,10 @@ impl<'a> SetUp<'a> {
     ) -> Vec<f32> {
         let (stride, extras) = (self.varyings.count, self.extras);
         let own = stride - extras.count();
+        debug_assert!(
+            ready.is_empty() || ready.len() == count && extras == Extras::default(),
+            "normals in a row are those of all vertices, and have nothing beside them"
+        );
         values.resize(count * stride, 0.0);
         // Without varyings the chunks have a size all the same.
         let size = CHUNK * stride.max(1);
@@ -358,6 +366,10 @@ pub(super) fn finish(
     is_weighted: bool,
 ) {
     for corner in frame.clip_corners() {
+        debug_assert!(
+            corner.a.max(corner.b) < corner.vertex,
+            "a cut is finished after the ends of its edge"
+        );
         let ends = [corner.a, corner.b].map(|v| values[v as usize * count..][..count].to_vec());
         let to = &mut values[corner.vertex as usize * count..][..count];
         between(great_circle, corner, &ends, to);

@@ -122,6 +122,11 @@ impl<'a> Pixels<'a> {
         len: usize,
     ) -> impl Iterator<Item = (&'a Uniforms, impl Iterator<Item = (&'a Run, &'a [f32])>)> {
         let (uniforms, mut starts) = (self.uniforms, self.starts);
+        debug_assert_eq!(
+            starts.len(),
+            self.runs.len() * len,
+            "each run has all numbers that it starts from"
+        );
         let groups = self.runs.chunk_by(|a, b| a.uniforms == b.uniforms);
         groups.map(move |runs| {
             let (here, rest) = starts.split_at(runs.len() * len);
@@ -222,6 +227,15 @@ fn light<M: Shader, F: Num>(
     let (model, lights) = (job.uniforms.model, &job.uniforms.lights[..]);
     let method = M::new(job.parameters, &model);
     let own = count::<M::Varying<f32>>(lights.len());
+    debug_assert!(
+        job.normals.len().is_multiple_of(F::WIDTH),
+        "vertices are lit in whole blocks"
+    );
+    debug_assert_eq!(
+        out.len(),
+        job.normals.len() * own,
+        "each vertex has a place for all its numbers"
+    );
     let points = job.points.chunks_exact(F::WIDTH);
     let vertices = job.normals.chunks_exact(F::WIDTH).zip(points);
     let out = out.chunks_exact_mut((F::WIDTH * own).max(1));

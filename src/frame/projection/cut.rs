@@ -88,6 +88,7 @@ impl Cutting<'_> {
     }
 
     fn piece(&mut self, polygon: usize, side: Side, whole: &[u32], corners: &[HomogeneousCorner]) {
+        debug_assert!(corners.len() >= 3, "clipping leaves polygons");
         let mean = self.frame.mean_of(whole);
         let frame = &mut *self.frame;
         let first = (frame.geometry.corners.len() + frame.cut_corners.len()) as u32;
@@ -113,6 +114,10 @@ impl Cutting<'_> {
         let on_screen = self.view.scene.interpolation == Interpolation::Screen && plane.in_front;
         let t = if on_screen { cut.t_on_screen() } else { cut.t };
         let (a, b) = (cut.a.vertex, cut.b.vertex);
+        debug_assert!(
+            a.max(b) < number,
+            "the ends of an edge are numbered before its cuts"
+        );
         self.frame.clip_corners.push(ClipCorner {
             vertex: number,
             a,

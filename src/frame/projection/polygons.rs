@@ -305,6 +305,7 @@ impl Filling<'_> {
             }
             out = rest;
         }
+        debug_assert!(out.is_empty(), "every polygon that was counted is written");
     }
 
     /// Writes the polygons of a word of which none is cut.
@@ -328,7 +329,11 @@ impl Filling<'_> {
         out: &'o mut [Polygon],
     ) -> &'o mut [Polygon] {
         let mut out = out.iter_mut();
-        let mut put = |polygon| _ = out.next().map(|place| *place = polygon);
+        let mut put = |polygon| {
+            let place = out.next();
+            debug_assert!(place.is_some(), "the pieces were counted before");
+            _ = place.map(|place| *place = polygon);
+        };
         let mut left = word.drawn | word.cut;
         while left != 0 {
             let bit = left.trailing_zeros();

@@ -131,6 +131,7 @@ impl RunQueue {
             let job = setup.pixels(&self.runs, &self.starts);
             walk(&job, &mut self.walked[BLOCK..BLOCK + room]);
         }
+        debug_assert_eq!(self.runs.len(), self.places.len(), "a place a run");
         let len = start_len(setup.varyings.great_circle, setup.varyings.count);
         let mut walked = BLOCK;
         for (i, (run, place)) in self.runs.iter().zip(&self.places).enumerate() {

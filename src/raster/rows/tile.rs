@@ -146,6 +146,7 @@ impl<S: Simd, const N: usize> Writer<'_, S, N> {
             depth = level_of(m, depth, most as f32);
         }
         let Some(values) = self.values.get_mut(place..place + stride) else {
+            debug_assert!(false, "a block beyond the tile: {place}");
             return;
         };
         let mask = m.depth_mask(outside, depth, m.load(values).max(self.least));

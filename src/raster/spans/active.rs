@@ -244,6 +244,10 @@ impl<'a> ActiveEdges<'a> {
         let height = (bottom.y - top.y).to_bits() as f32;
         let centre = SubPixel::from_num(row) + SubPixel::from_bits(1 << (SubPixel::FRAC_NBITS - 1));
         let t0 = (centre - top.y).to_bits() as f32 / height;
+        debug_assert!(
+            (0.0..=1.0).contains(&t0),
+            "the scanline crosses the edge between its ends"
+        );
         let dt = (1 << SubPixel::FRAC_NBITS) as f32 / height; // Δt = 1 / (y_2 − y_1)
         let (varyings, slot) = match self.is_walked {
             true => self.start_varyings(edge, [t0, dt]),
@@ -288,6 +292,12 @@ impl<'a> ActiveEdges<'a> {
             if self.frame.corners(polygon)[edge.corner as usize] != edge.top {
                 corners.reverse();
             }
+            let all = self.frame.corners(polygon);
+            debug_assert_eq!(
+                corners.map(|corner| all[corner as usize]),
+                [edge.top, edge.bottom],
+                "corners are numbered within the polygon"
+            );
         }
         [
             self.varyings.of_corner(polygon, corners[0], edge.top),
@@ -331,7 +341,10 @@ impl<'a> ActiveEdges<'a> {
                 end += 1;
             }
             order(self.frame, &mut self.edges[first..end]);
-            // A closed polygon crosses a scanline an even number of times.
+            debug_assert!(
+                (end - first).is_multiple_of(2),
+                "a closed polygon crosses a scanline an even number of times"
+            );
             for left in (first..end - 1).step_by(2) {
                 let pair = [&self.edges[left], &self.edges[left + 1]];
                 if let Some(span) = span(pair, left as u32, width) {

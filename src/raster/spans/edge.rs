@@ -1,6 +1,6 @@
 //! The fill rule: where an edge crosses the scanlines, and which pixel centres are right of it, in exact integers.
 
-use crate::frame::SubPixel;
+use crate::frame::{Frame, SubPixel};
 use core::cmp::Ordering;
 
 /// Sub-pixels a pixel: what `SubPixel` counts in.
@@ -42,6 +42,13 @@ impl EdgeCrossing {
         let (x0, y0) = (bits(top[0]), bits(top[1]));
         let (dx, dy) = (bits(bottom[0]) - x0, bits(bottom[1]) - y0);
         assert!(dy > 0, "a crossing needs an edge that goes down");
+        debug_assert!(
+            [top, bottom]
+                .as_flattened()
+                .iter()
+                .all(|c| c.unsigned_abs() <= Frame::GUARD.unsigned_abs()),
+            "coordinates within the guard: the products fit in 64 bits"
+        );
         let denominator = UNIT * dy;
         let centre = i64::from(row) * UNIT + UNIT / 2;
         // The crossing relative to the centre of pixel 0, times the denominator.
@@ -82,6 +89,12 @@ impl EdgeCrossing {
     /// Compares two crossings with the same scanline, exactly: the one farther left is less.
     #[inline(always)]
     pub fn compare(&self, other: &EdgeCrossing) -> Ordering {
+        debug_assert!(
+            [self, other]
+                .iter()
+                .all(|c| (0..c.denominator).contains(&c.rest)),
+            "a rest is less than a pixel"
+        );
         self.pixel.cmp(&other.pixel).then_with(|| {
             // The larger rest lies farther left. Rests are under 2³², denominators at most 2³²: the products fit.
             let left = other.rest as u64 * self.denominator as u64;
