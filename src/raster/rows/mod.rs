@@ -154,13 +154,11 @@ fn only_uniforms(setup: &SetUp<'_>) -> Option<UniformsIndex> {
     if setup.is_by_polygon {
         return None;
     }
-    if frame.lightings().windows(2).all(|two| two[0] == two[1]) {
-        return Some(setup.uniforms_of_material(0));
-    }
-    let first = polygons.first().map_or(0, |polygon| polygon.material);
+    // A frame without polygons may have no material either.
+    let first = polygons.first()?.material;
     let is_first = |polygon: &Polygon| polygon.material == first;
-    let is_same = polygons.iter().all(is_first);
-    is_same.then(|| setup.uniforms_of_material(first))
+    let are_alike = frame.lightings().windows(2).all(|two| two[0] == two[1]);
+    (are_alike || polygons.iter().all(is_first)).then(|| setup.uniforms_of_material(first))
 }
 
 impl<'a> RowEngine<'a> {
