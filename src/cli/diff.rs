@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 /// Compare two picture files
 #[derive(clap::Args, Debug)]
 pub struct DiffArgs {
-    /// Reference picture: PNG, PBM, PGM, PPM, PAM or PFM; `-` is standard input
+    /// Reference picture: PNG, PBM, PGM, PPM, PAM, PFM, BMP or Targa; `-` is standard input
     reference: PathBuf,
     /// Picture to compare with it; `-` is standard input
     actual: PathBuf,

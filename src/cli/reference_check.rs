@@ -44,8 +44,9 @@ pub fn alpha_text(pair: &Pair<'_>, names: [impl fmt::Display; 2]) -> Option<Stri
         AlphaUse::Flattened { of_reference } => {
             (of_reference, "is put over the background that it states")
         }
-        AlphaUse::Dropped { of_reference } => {
-            let done = "states no background to be put over: its colours count as they are stored";
+        AlphaUse::Opaque { of_reference } => {
+            let done =
+                "states no background to be put over, and is compared with an opaque picture";
             (of_reference, done)
         }
     };

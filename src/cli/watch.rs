@@ -4,26 +4,30 @@ use super::files;
 use super::log::{Log, colour, to_stderr};
 use super::text::counted;
 use super::{CliError, Outcome};
+use fastphong::scene::input::has_known_ending;
 use std::path::Path;
 
 /// Draws, and again after every change of a file that `draw` read or looked for, until the program is ended. Errors are shown,
-/// once each time: a later change may mend them. A file may go, and come back, and be another one under the same name.
+/// once each time: a later change may mend them. A file may go, and come back, and be another one under the same name; it may also
+/// be there only later.
 ///
 /// # Errors
-/// When `input` is no file, or a file is to be read and written.
+/// When `input` is not the name of a file, or a file is to be read and written.
 pub fn watch(
     input: &str,
     log: Log,
     draw: impl Fn() -> Result<Outcome, CliError>,
 ) -> Result<Outcome, CliError> {
-    if !Path::new(input).is_file() {
+    let path = Path::new(input);
+    let may_come = !path.exists() && has_known_ending(path);
+    if !path.is_file() && !may_come {
         let expected = "expected a scene file or a mesh file with `--watch`";
         return Err(format!("`{input}` is no file, and never changes: {expected}").into());
     }
     loop {
         files::forget();
         // Where it is gone it is not read, and may come back.
-        files::will_read_of_scene(Path::new(input));
+        files::will_read_of_scene(path);
         match draw() {
             Err(failure) if failure.is_of_files() => return Err(failure),
             Err(failure) => to_stderr(&failure.render(colour())),

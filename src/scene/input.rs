@@ -232,7 +232,8 @@ pub fn is_mesh_file(mesh: &str) -> bool {
     !mesh.starts_with(BUILTIN) && !mesh.starts_with(SHIPPED) && mesh != STANDARD_INPUT
 }
 
-fn has_known_ending(path: &Path) -> bool {
+/// True if `path` ends as scene files and mesh files do.
+pub fn has_known_ending(path: &Path) -> bool {
     has_ending(path, "toml") || has_ending(path, "obj")
 }
 

@@ -385,3 +385,27 @@ fn notes_about_a_file_are_warnings() {
     let ended = folder.run("diff two.ppm two.ppm").done();
     ended.says("warning: two.ppm: the file holds several pictures: this is the first");
 }
+
+/// A picture whose alpha is 127 is not equal to one without alpha, which is opaque.
+#[test]
+fn a_picture_without_alpha_is_opaque_beside_one_that_states_no_background() {
+    let folder = Folder::new();
+    let pixel = |alpha| Picture8::new(2, 2, [10, 20, 30, alpha]);
+    for (name, alpha) in [("half.png", 127), ("none.png", 0), ("full.png", 255)] {
+        write_picture(&folder.path(name), &FilePicture::stored(pixel(alpha))).unwrap();
+    }
+    folder.write(
+        "opaque.ppm",
+        b"P6 2 2 255 \x0a\x14\x1e\x0a\x14\x1e\x0a\x14\x1e\x0a\x14\x1e",
+    );
+    for (name, code) in [("half.png", 1), ("none.png", 1), ("full.png", 0)] {
+        let ended = folder.run(&format!("diff {name} opaque.ppm --fail-above 0"));
+        assert_eq!(
+            ended.code,
+            Some(code),
+            "{name}: {} {}",
+            ended.out,
+            ended.err
+        );
+    }
+}

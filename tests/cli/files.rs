@@ -292,3 +292,27 @@ fn other_files_and_devices_are_written() {
         .run("report --from d.json -o /dev/null --json /dev/null --csv /dev/null")
         .done();
 }
+
+/// A mesh that names a library and uses none of its materials: whoever draws it still owns both files.
+#[test]
+fn a_library_that_no_face_uses_is_not_written_over() {
+    let folder = folder();
+    folder.write(
+        "bare.obj",
+        "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    );
+    refuses(
+        &folder,
+        "render bare.obj -o c.mtl --format png",
+        "is the material library itself",
+    );
+    // What it lacks is not missed.
+    folder.write(
+        "gone.obj",
+        "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    );
+    let ended = folder
+        .run("render gone.obj -o gone.png --size 16x12")
+        .done();
+    assert!(!ended.err.contains("gone.mtl"), "{}", ended.err);
+}

@@ -452,6 +452,12 @@ fn a_closed_mesh_that_is_wound_inside_out_is_told() {
         let command = format!("render {name}.obj -o wrong.png --size 64x48");
         folder.run(&command).done().says(told);
     }
+    // Where the outside is drawn, it is not said to be missing.
+    for flag in ["--cull none", "--cull front"] {
+        let command = format!("render wrong.obj -o wrong.png --size 64x48 {flag}");
+        let ended = folder.run(&command).done();
+        ended.says("wound inside out, so that its outside is lit from within: turn");
+    }
     let right = folder
         .run("render right.obj -o right.png --size 64x48")
         .done();

@@ -87,11 +87,24 @@ fn any_file_change_draws_again_and_errors_do_not_stop_it() {
 #[test]
 fn only_files_can_be_watched() {
     let folder = Folder::new();
-    for input in ["teapot", "builtin:cube", "gone.obj"] {
+    for input in ["teapot", "builtin:cube", "gone.png", "."] {
         folder
             .run(&format!("render {input} --watch -o out.png"))
             .refused(&["is no file, and never changes: expected a scene file or a mesh file with `--watch`"]);
     }
+}
+
+#[test]
+fn a_scene_that_is_not_there_yet_is_drawn_when_it_appears() {
+    let folder = Folder::new();
+    folder
+        .write("mesh.obj", MESH)
+        .write("m.mtl", "newmtl m\nKd 1 0 0\n");
+    let watcher = Watcher::new(&folder, "render scene.toml --watch -o out.png");
+    watcher.says("`scene.toml` is neither a file nor");
+    watcher.says("watching 1 file:");
+    folder.write("scene.toml", SCENE);
+    watcher.says("out.png: 16x12");
 }
 
 const SCENE: &str = "image = { width = 16, height = 12 }\n[[object]]\nmesh = \"mesh.obj\"\n";

@@ -181,8 +181,11 @@ fn parse_limited(
     builder.parts(groups(&scan.object_runs, HashMap::new(), scan.polygons));
     let off = HashMap::from([(&0, PolygonMesh::FACETED)]);
     builder.smoothing_groups(groups(&scan.smoothing_runs, off, scan.polygons));
+    // Libraries are read even if no face uses a material: who writes files must know all that belong to the mesh.
+    let mut told = Vec::new();
+    let mut library = Library::load(&scan.libraries, &mut load_mtl, &mut told);
     if scan.material_runs.iter().any(|(_, name)| name.is_some()) {
-        let mut library = Library::load(&scan.libraries, &mut load_mtl, &mut warnings);
+        warnings.append(&mut told);
         let (materials, of_polygons) = assign_materials(&scan, &mut library, &mut warnings);
         warnings.extend(library.warnings());
         builder.materials(materials, of_polygons);

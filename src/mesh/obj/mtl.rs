@@ -223,7 +223,7 @@ impl Library {
             ignored.push(Ignored { place, why });
         }
         if self.definitions.len() == before {
-            return Err("has no `newmtl` line".to_string());
+            return Err("has no `newmtl` line with a name".to_string());
         }
         self.definitions[before..]
             .iter_mut()

@@ -38,8 +38,8 @@ pub enum AlphaUse {
         /// True if that file is the reference.
         of_reference: bool,
     },
-    /// One file has alpha and states no background: its colours count as they are stored.
-    Dropped {
+    /// One file has alpha and states no background: the other one counts as opaque, and alpha is compared.
+    Opaque {
         /// True if that file is the reference.
         of_reference: bool,
     },
@@ -73,7 +73,7 @@ impl<'a> Pair<'a> {
                 match has_alpha.background {
                     _ if is_opaque(has_alpha) => AlphaUse::Absent,
                     Some(_) => AlphaUse::Flattened { of_reference },
-                    None => AlphaUse::Dropped { of_reference },
+                    None => AlphaUse::Opaque { of_reference },
                 }
             }
         };
@@ -120,7 +120,7 @@ impl<'a> Pair<'a> {
                 AlphaUse::Flattened { .. } => Some(self.background(i, self.pictures[i])),
                 _ => None,
             },
-            keeps_alpha: self.alpha == AlphaUse::Compared,
+            keeps_alpha: matches!(self.alpha, AlphaUse::Compared | AlphaUse::Opaque { .. }),
             ..self.view(i, self.compared_encoding())
         })
     }
@@ -136,8 +136,8 @@ impl<'a> Pair<'a> {
         };
         [0, 1].map(|i| LevelView {
             background: match self.alpha {
-                AlphaUse::Absent | AlphaUse::Dropped { .. } => None,
-                AlphaUse::Compared | AlphaUse::Flattened { .. } => {
+                AlphaUse::Absent => None,
+                AlphaUse::Compared | AlphaUse::Flattened { .. } | AlphaUse::Opaque { .. } => {
                     Some(self.background(i, stating))
                 }
             },

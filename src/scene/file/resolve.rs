@@ -80,11 +80,13 @@ impl SceneFile {
         for (object, name) in from_files.filter(|(_, name)| !name.starts_with(BUILTIN)) {
             let name = shown(name);
             note_unused(name, &object.mesh, object.normals, &mut notes);
-            let shows_both =
-                file.is_on("two_sided") && file.word::<Culling>("cull") == Culling::None;
-            if !shows_both {
-                warn_of_inside_out(name, &object.mesh, &mut warnings);
-            }
+            let outside = match file.word("cull") {
+                Culling::Back => "so that its outside is not drawn",
+                // Its outside is shown, and lit on both sides.
+                Culling::Front | Culling::None if file.is_on("two_sided") => continue,
+                Culling::Front | Culling::None => "so that its outside is lit from within",
+            };
+            warn_of_inside_out(name, &object.mesh, outside, &mut warnings);
         }
         let points: Vec<DVec3> = objects.iter().flat_map(world_points).collect();
         let camera = viewpoint.camera(points.iter().copied(), &mut warnings)?;
@@ -291,7 +293,7 @@ fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, Scene
 }
 
 /// Adds a warning, once, if the mesh file `name` is wound inside out.
-fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, warnings: &mut Vec<String>) {
+fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, outside: &str, warnings: &mut Vec<String>) {
     let which = match (inside_out_parts(mesh), mesh.has_parts()) {
         (0, _) => return,
         (_, false) => "the mesh is".into(),
@@ -304,7 +306,7 @@ fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, warnings: &mut Vec<String>
         None => "",
     };
     let warning = format!(
-        "{name}: {which} closed and wound inside out, so that its outside is not drawn: turn the faces around, or try \
+        "{name}: {which} closed and wound inside out, {outside}: turn the faces around, or try \
          --cull none --two-sided{averaged}"
     );
     if !warnings.contains(&warning) {

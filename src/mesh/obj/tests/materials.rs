@@ -272,15 +272,19 @@ fn a_library_that_is_no_mtl_text_is_told_as_such() {
         .encode_utf16()
         .flat_map(u16::to_le_bytes)
         .collect();
-    let files: [(&[u8], &str); 8] = [
+    let files: [(&[u8], &str); 9] = [
         (&utf16, "is UTF-16 text (not UTF-8)"),
         (&utf16[2..], "is UTF-16 text (not UTF-8)"),
         (b"\x89PNG\r\n\x1a\n\0\0", "is a PNG picture"),
         (b"<!doctype html><title>404</title>", "is a page of HTML"),
         (b"\x7fELF\0", "holds binary data"),
         (b"", "is empty"),
-        (b"404: Not Found\n", "has no `newmtl` line"),
-        (b"# Blender MTL File: None\nKd 1\n", "has no `newmtl` line"),
+        (b"404: Not Found\n", "has no `newmtl` line with a name"),
+        (b"newmtl\nKd 1 0 0\n", "has no `newmtl` line with a name"),
+        (
+            b"# Blender MTL File: None\nKd 1\n",
+            "has no `newmtl` line with a name",
+        ),
     ];
     for (bytes, told) in files {
         let text = format!("{POINTS}mtllib a.mtl\nusemtl m\nf 1 2 3\n");
