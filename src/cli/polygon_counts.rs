@@ -5,11 +5,12 @@ use super::text::{counted, grouped};
 use fastphong::compare::table::aligned;
 use fastphong::frame::Frame;
 use fastphong::reference::is_anything_covered;
+use fastphong::scene::Clipping;
 
 /// Returns the numbers of polygons as a table.
 pub fn stats_text(frame: &Frame) -> String {
     let (s, drawn) = (frame.stats(), frame.polygons().len());
-    let no_place = "left out: a corner has no place on the picture (--clipping ndc-cube)";
+    let no_place = "left out: a corner has no place on the picture";
     let cut = "cut by the near plane, the far plane or the guard band";
     let rows = [
         ("polygons", s.polygons, "of the scene"),
@@ -55,10 +56,19 @@ pub fn warn_of_polygons_left_out(frame: &Frame, log: Log) {
         log.warning(&format!("{cancelling} of {all} polygons {cross} left out"));
     }
     if s.unprojected > 0 {
-        let one = "polygon has a corner at the plane of the eye and is left out";
-        let more = "polygons have a corner at the plane of the eye and are left out";
-        let left_out = counted(s.unprojected, one, more);
-        log.warning(&(left_out + ": --clipping planes draws the visible part"));
+        let (one, more, hint) = match frame.clipping() {
+            Clipping::NdcCube => (
+                "polygon has a corner at the plane of the eye and is left out",
+                "polygons have a corner at the plane of the eye and are left out",
+                ": --clipping planes draws the visible part",
+            ),
+            Clipping::Planes => (
+                "polygon reaches so far that its visible part cannot be cut out, and is left out",
+                "polygons reach so far that their visible parts cannot be cut out, and are left out",
+                "",
+            ),
+        };
+        log.warning(&(counted(s.unprojected, one, more) + hint));
     }
     if log != Log::Quiet
         && let Some(why) = nothing_drawn(frame)

@@ -112,7 +112,8 @@ pub struct FrameStats {
     pub outside: usize,
     /// Cut by the near plane, the far plane or the guard band.
     pub clipped: usize,
-    /// Left out because a corner has no place on the picture: under [`Clipping::NdcCube`] only.
+    /// Left out because a corner has no place on the picture: under [`Clipping::NdcCube`], or where a polygon reaches so far that
+    /// a cut is rounded to beyond its plane.
     pub unprojected: usize,
 }
 

@@ -63,6 +63,12 @@ impl Cutting<'_> {
             }
             pieces = inside;
         }
+        // Cuts of edges that reach some 10⁹ times as far as they are away may be rounded to beyond the plane that made them.
+        let is_placed = |corner: &HomogeneousCorner| self.view.is_on_picture(corner.position);
+        if !pieces.iter().flatten().all(is_placed) {
+            self.frame.stats.unprojected += 1;
+            return;
+        }
         match pieces.is_empty() {
             true => self.frame.stats.outside += 1,
             false => self.frame.stats.clipped += 1,

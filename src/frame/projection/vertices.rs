@@ -174,7 +174,7 @@ impl<'a> Placing<'a> {
             codes[i] = self.view.codes(clip);
             out[i] = self.view.vertex(clip);
             is_any_beyond |= codes[i] != 0;
-            if !clip.is_finite() || !self.view.is_valid(&out[i]) {
+            if !View::is_in_range(clip) || !self.view.is_valid(&out[i]) {
                 return Err(from + i);
             }
         }

@@ -97,9 +97,16 @@ impl<'a> View<'a> {
         bits(&[x < -w, x > w, y < -w, y > w, z < 0.0, z > w]) | bits(&beyond_planes) << 8
     }
 
-    /// Returns the vertex at a position. If it has no pixel coordinates, only its attributes matter.
-    pub fn vertex(&self, clip: DVec4) -> ScreenVertex {
-        let on_picture = match self.scene.clipping {
+    /// True if clipping can compute with a position: its coordinates are finite, and stay so in distances from planes, up to
+    /// 2¹⁵ times as large, and in their squares.
+    pub fn is_in_range(clip: DVec4) -> bool {
+        const MOST: f64 = 1e140;
+        clip.is_finite() && clip.abs().max_element() <= MOST
+    }
+
+    /// True if a position has pixel coordinates.
+    pub fn is_on_picture(&self, clip: DVec4) -> bool {
+        match self.scene.clipping {
             // Cuts are rounded, and may lie beyond the plane that made them.
             Clipping::Planes => {
                 let least = -1e-9 * clip.abs().max_element();
@@ -109,8 +116,12 @@ impl<'a> View<'a> {
                     && clip.w > 0.0
             }
             Clipping::NdcCube => self.codes_unclipped(clip) & BEYOND_PLANES == 0,
-        };
-        if !on_picture {
+        }
+    }
+
+    /// Returns the vertex at a position. If it has no pixel coordinates, only its attributes matter.
+    pub fn vertex(&self, clip: DVec4) -> ScreenVertex {
+        if !self.is_on_picture(clip) {
             return NOWHERE;
         }
         let [x, y] = self.snap(clip);
