@@ -164,6 +164,16 @@ mod tests {
     }
 
     #[test]
+    fn an_offset_is_the_way_from_the_crossing_to_the_next_centre() {
+        // A quarter of a pixel to the right per scanline; the first centre line is crossed at x = 1/8.
+        let mut crossing = EdgeCrossing::new([at(0), at(0)], [at(256), at(1024)], 0);
+        for (pixel, offset) in [(0, 0.375), (0, 0.125), (1, 0.875), (1, 0.625)] {
+            assert_eq!((crossing.pixel(), crossing.offset()), (pixel, offset));
+            crossing.advance();
+        }
+    }
+
+    #[test]
     fn order_is_exact() {
         // Two edges whose crossings differ by less than an f64 can tell at this distance.
         let steep = EdgeCrossing::new([at(1 << 22), at(0)], [at((1 << 22) + 1), at(1 << 23)], 0);

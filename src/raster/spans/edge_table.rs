@@ -94,3 +94,70 @@ pub(crate) fn for_each_edge(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{FrameBuilder, SubPixel, Vertex};
+    use crate::mesh::Material;
+    use crate::scene::Lighting;
+    use glam::DVec3;
+
+    /// Builds a frame of 8 × 4 pixels from the corners of polygons, in pixels; no two polygons share a vertex.
+    fn frame(polygons: &[&[[f64; 2]]]) -> Frame {
+        let mut builder = FrameBuilder::new(8, 4);
+        let material =
+            builder.lighting(Lighting::new(&Material::default(), [1.0; 3], &[], DVec3::Z));
+        for (number, corners) in (0..).zip(polygons) {
+            let corners = corners.iter().map(|at| {
+                let [x, y] = at.map(SubPixel::from_num);
+                builder.vertex(Vertex {
+                    x,
+                    y,
+                    depth: 0.5,
+                    inv_w: 1.0,
+                    normal: [0.0, 0.0, 1.0],
+                    material,
+                })
+            });
+            let corners: Vec<u32> = corners.collect();
+            builder.polygon(&corners, [0.0, 0.0, 1.0], number);
+        }
+        builder.finish().expect("corners inside the guard band")
+    }
+
+    /// Returns polygon, corner, top and bottom of the edges in each bucket.
+    fn buckets(frame: &Frame) -> Vec<Vec<[u32; 4]>> {
+        let table = EdgeTable::new(frame);
+        let fields = |e: &TableEdge| [e.polygon, e.corner, e.top, e.bottom];
+        let bucket = |row| table.bucket(row).iter().map(fields).collect();
+        (0..frame.height()).map(bucket).collect()
+    }
+
+    #[test]
+    fn each_edge_stands_where_it_crosses_its_first_scanline() {
+        let frame = frame(&[
+            // From above the picture down to its last row. Its lower edge is horizontal.
+            &[[1.0, -2.0], [5.0, 2.0], [5.0, 4.0], [1.0, 4.0]],
+            // From the centre line of row 1, which belongs to it, to that of row 3, which does not.
+            &[[6.0, 1.5], [7.0, 3.5], [5.0, 3.5]],
+        ]);
+        let expected: [&[[u32; 4]]; 4] = [
+            &[[0, 3, 0, 3], [0, 0, 0, 1]],
+            &[[1, 2, 4, 6], [1, 0, 4, 5]],
+            &[[0, 1, 1, 2]],
+            &[],
+        ];
+        assert_eq!(buckets(&frame), expected);
+    }
+
+    #[test]
+    fn edges_that_cross_no_scanline_of_the_picture_are_left_out() {
+        let frame = frame(&[
+            &[[1.0, 1.6], [2.0, 2.4], [3.0, 1.8]], // between the centre lines of two rows
+            &[[1.0, -3.0], [2.0, 0.5], [3.0, -1.0]], // above, as far as the first centre line
+            &[[1.0, 4.0], [2.0, 9.0], [3.0, 5.0]], // below
+        ]);
+        assert!(buckets(&frame).iter().all(Vec::is_empty));
+    }
+}
