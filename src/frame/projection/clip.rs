@@ -96,13 +96,10 @@ pub(crate) fn clip(
     };
     // Runs of inside corners, each with its two cuts; starting from an outside corner none is split in two.
     let mut runs: Vec<Vec<HomogeneousCorner>> = Vec::new();
+    let at = |step: usize| (outside + step) % count;
     let mut first = 0;
-    while first < count {
-        let at = |step: usize| (outside + step) % count;
-        // From the last outside corner before the run to the first one behind it.
-        let Some(before) = (first..count).find(|&step| is_inside(at(step + 1))) else {
-            break;
-        };
+    // From the last outside corner before a run to the first one behind it.
+    while let Some(before) = (first..count).find(|&step| is_inside(at(step + 1))) {
         let behind = (before + 1..count).find(|&step| !is_inside(at(step)));
         let behind = behind.unwrap_or(count);
         first = behind;
@@ -171,9 +168,9 @@ fn join(runs: &[Vec<HomogeneousCorner>], piece: &mut impl FnMut(&[HomogeneousCor
     }
 }
 
-/// Divides a position by w, or returns its direction where w is 0.
+/// Divides a position by w, or returns its direction where w is 0 or too small to divide by.
 fn flat(p: DVec4) -> glam::DVec3 {
-    if p.w.abs() > f64::MIN_POSITIVE {
+    if p.w.is_normal() {
         p.truncate() / p.w
     } else {
         p.truncate()
@@ -222,6 +219,34 @@ mod tests {
                 (back.position, back.t, back.a.vertex)
             );
             cuts += 1;
+        }
+    }
+
+    fn cut(wa: f64, wb: f64, t: f64) -> Cut {
+        let corner = |w: f64| HomogeneousCorner {
+            position: DVec4::W * w,
+            vertex: 0,
+        };
+        Cut {
+            a: corner(wa),
+            b: corner(wb),
+            t,
+            position: DVec4::ZERO,
+        }
+    }
+
+    #[test]
+    fn the_middle_of_an_edge_on_the_screen_is_nearer_to_its_near_end_in_space() {
+        // From x = −2 at w = 2 to x = 6 at w = 6: x/w is 0, half-way from −1 to 1, where x is 0.
+        assert_eq!(cut(2.0, 6.0, 0.25).t_on_screen(), 0.5);
+        assert_eq!(cut(6.0, 2.0, 0.75).t_on_screen(), 0.5);
+    }
+
+    #[test]
+    fn a_cut_keeps_its_parameter_in_space_if_an_end_has_no_place_on_the_screen() {
+        for w in [0.0, -0.5] {
+            assert_eq!(cut(w, 2.0, 0.25).t_on_screen(), 0.25, "{w}");
+            assert_eq!(cut(2.0, w, 0.25).t_on_screen(), 0.25, "{w}");
         }
     }
 
@@ -322,6 +347,36 @@ mod tests {
         let pieces = pieces(&corners, &plane([0.0, 1.0, 0.0, -1.0]));
         assert_eq!(pieces.len(), 1);
         assert_eq!(pieces[0].len(), 4);
+    }
+
+    /// The lower part of a U is one piece: its cuts are joined in the order of x/w. Of a U around x = 0 the outermost cuts add up to
+    /// no direction of the line. In the other one the order of x differs from that of x/w.
+    #[test]
+    fn a_u_cut_through_its_arms_is_one_piece() {
+        for (middle, w_left) in [(0.0, 1.0), (3.0, 8.0)] {
+            let outline = [
+                [-2.0, 2.0],
+                [-2.0, -2.0],
+                [2.0, -2.0],
+                [2.0, 2.0],
+                [1.0, 1.0],
+                [1.0, -1.0],
+                [-1.0, -1.0],
+                [-1.0, 1.0],
+            ];
+            let positions = outline.map(|[x, y]| {
+                let w = if x == -2.0 { w_left } else { 1.0 };
+                [(x + middle) * w, y * w, 0.0, w]
+            });
+            let pieces = pieces(&polygon(&positions), &plane([0.0, -1.0, 0.0, 0.0]));
+            let on_screen = pieces.iter().map(|piece| {
+                let places = piece.iter().map(|c| c.position / c.position.w);
+                places.map(|p| [p.x - middle, p.y]).collect::<Vec<_>>()
+            });
+            let mut expected = outline;
+            expected.iter_mut().for_each(|[_, y]| *y = y.min(0.0));
+            assert_eq!(on_screen.collect::<Vec<_>>(), [expected], "{middle}");
+        }
     }
 
     /// A cut at an end is that end to the last bit, in whatever order the ends are.
