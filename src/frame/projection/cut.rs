@@ -140,3 +140,273 @@ struct EdgeOf {
     material: u32,
     face: [f32; 3],
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::FrameStats;
+    use crate::mesh::vertex_normals::NormalSource;
+    use crate::mesh::{Material, MeshBuilder};
+    use crate::scene::{Camera, Object, Projection, Scene};
+    use alloc::sync::Arc;
+    use glam::{DAffine3, DVec3, Vec3};
+
+    /// Returns a scene of polygons, each with a material of its own, that a camera in the origin sees toward −z: on 4 × 4 pixels, one
+    /// a unit, (0, 0) in the middle; near plane at z = −1, far plane at z = −3.
+    fn scene(polygons: &[&[[f32; 3]]]) -> Scene {
+        let positions = polygons.concat().into_iter().map(Vec3::from_array);
+        let mut builder = MeshBuilder::new(positions.collect());
+        let mut first = 0;
+        for corners in polygons {
+            let end = first + corners.len() as u32;
+            builder.polygon(&(first..end).collect::<Vec<_>>());
+            first = end;
+        }
+        let count = polygons.len();
+        builder.materials(
+            vec![Material::default(); count],
+            (0..count as u32).collect(),
+        );
+        Scene {
+            width: 4,
+            height: 4,
+            objects: vec![Object {
+                mesh: Arc::new(builder.finish().expect("a mesh")),
+                transform: DAffine3::IDENTITY,
+                material: None,
+                normals: NormalSource::default(),
+            }],
+            ..Scene::new(Camera {
+                eye: DVec3::ZERO,
+                target: -DVec3::Z,
+                up: DVec3::Y,
+                projection: Projection::Orthographic { half_height: 2.0 },
+                near: 1.0,
+                far: 3.0,
+            })
+        }
+    }
+
+    fn frame(scene: &Scene) -> Frame {
+        scene.frame().expect("a frame")
+    }
+
+    /// Returns column, row and depth of the corners of a polygon.
+    fn outline(frame: &Frame, polygon: usize) -> Vec<[f32; 3]> {
+        let corners = frame.corners(&frame.polygons()[polygon]).iter();
+        let vertices = corners.map(|&v| frame.vertices()[v as usize]);
+        vertices
+            .map(|v| [v.x.to_num(), v.y.to_num(), v.depth])
+            .collect()
+    }
+
+    /// A square that rises to the right, from the middle between the planes through the near one.
+    const RISING: [[f32; 3]; 4] = [
+        [-1.0, -1.0, -2.0],
+        [1.0, -1.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [-1.0, 1.0, -2.0],
+    ];
+
+    fn reversed<const N: usize>(mut corners: [[f32; 3]; N]) -> [[f32; 3]; N] {
+        corners.reverse();
+        corners
+    }
+
+    fn counts(polygons: usize) -> FrameStats {
+        FrameStats {
+            polygons,
+            ..FrameStats::default()
+        }
+    }
+
+    #[test]
+    fn pieces_have_corners_material_and_mean_of_their_polygons() {
+        let lower = RISING.map(|[x, y, z]| [x, y - 1.0, z]);
+        let mut scene = scene(&[&RISING, &lower]);
+        scene.objects[0].transform = DAffine3::from_translation(DVec3::new(0.0, 0.5, 0.0));
+        let frame = frame(&scene);
+        let clipped = 2;
+        assert_eq!(
+            frame.stats(),
+            FrameStats {
+                clipped,
+                ..counts(2)
+            }
+        );
+        for (number, top) in [(0, 0.5), (1, 1.5)] {
+            let bottom = top + 2.0;
+            let expected = [
+                [1.0, bottom, 0.5],
+                [2.0, bottom, 0.0],
+                [2.0, top, 0.0],
+                [1.0, top, 0.5],
+            ];
+            let mut found = outline(&frame, number);
+            let first = found.iter().position(|at| *at == expected[0]);
+            found.rotate_left(first.expect("its first corner"));
+            assert_eq!(found, expected);
+            let polygon = &frame.polygons()[number];
+            assert_eq!(polygon.source, number as u32);
+            assert_eq!(polygon.material, number as u32);
+            let corners = frame.corners(polygon);
+            assert!(corners.iter().all(|&v| frame.material(v) == number as u32));
+            // Of the whole polygon.
+            assert_eq!(
+                frame.mean(polygon).position,
+                [0.0, 2.0 - 0.5 * (top + bottom), -1.0]
+            );
+        }
+    }
+
+    /// As is said of [`Interpolation`]: on the screen unless by perspective, where that exists.
+    #[test]
+    fn attributes_are_divided_on_the_screen_only_behind_the_near_plane() {
+        let through = |z: [f32; 2]| [[-0.5, 0.0, z[0]], [0.5, 0.0, z[1]], [0.5, 0.5, z[1]]];
+        let (near, far) = (through([-1.5, -0.5]), through([-2.0, -4.0]));
+        // Both planes are half-way along the edges in space. The far one is at (½ · 4) / (½ · 2 + ½ · 4) on the screen.
+        for (corners, interpolation, t) in [
+            (near, Interpolation::Screen, 0.5),
+            (near, Interpolation::Perspective, 0.5),
+            (far, Interpolation::Screen, 2.0 / 3.0),
+            (far, Interpolation::Perspective, 0.5),
+        ] {
+            let mut scene = scene(&[&corners]);
+            scene.camera.projection = Projection::Perspective { fovy: 90.0 };
+            scene.interpolation = interpolation;
+            let frame = frame(&scene);
+            let found: Vec<f32> = frame.clip_corners().iter().map(|c| c.t).collect();
+            assert_eq!(found, [t; 2], "{corners:?} {interpolation:?}");
+        }
+    }
+
+    #[test]
+    fn clipped_polygons_are_culled_like_others() {
+        for (corners, is_front) in [(RISING, true), (reversed(RISING), false)] {
+            for (culling, is_drawn) in [
+                (Culling::Back, is_front),
+                (Culling::Front, !is_front),
+                (Culling::None, true),
+            ] {
+                let mut scene = scene(&[&corners]);
+                scene.culling = culling;
+                let frame = frame(&scene);
+                let expected = FrameStats {
+                    clipped: 1,
+                    culled: usize::from(!is_drawn),
+                    ..counts(1)
+                };
+                assert_eq!(frame.stats(), expected, "{culling:?}");
+                assert_eq!(frame.polygons().len(), usize::from(is_drawn));
+            }
+        }
+    }
+
+    #[test]
+    fn clipped_polygons_that_are_seen_edge_on_are_drawn_and_culled_nowhere() {
+        for culling in [Culling::Back, Culling::Front, Culling::None] {
+            let mut scene = scene(&[&RISING.map(|[x, y, z]| [0.0, y, z + 0.5 * x])]);
+            scene.culling = culling;
+            let frame = frame(&scene);
+            let expected = FrameStats {
+                clipped: 1,
+                edge_on: 1,
+                ..counts(1)
+            };
+            assert_eq!(frame.stats(), expected, "{culling:?}");
+            assert_eq!(frame.polygons().len(), 0);
+        }
+    }
+
+    #[test]
+    fn clipped_polygons_seen_from_behind_are_lit_from_behind_if_that_is_asked_for() {
+        let normal = DVec3::new(-1.0, 0.0, 1.0).normalize().as_vec3().to_array();
+        for (corners, two_sided, toward_eye) in [
+            (RISING, false, true),
+            (RISING, true, true),
+            (reversed(RISING), false, false),
+            (reversed(RISING), true, true),
+        ] {
+            let mut scene = scene(&[&corners]);
+            (scene.culling, scene.two_sided) = (Culling::None, two_sided);
+            let frame = frame(&scene);
+            let polygon = &frame.polygons()[0];
+            let expected = normal.map(|n| if toward_eye { n } else { -n });
+            assert_eq!(frame.polygon_normal(polygon), expected);
+            for &v in frame.corners(polygon) {
+                match frame.clip_corner(v) {
+                    Some(corner) => {
+                        assert_eq!(corner.face, expected);
+                        let ends = [corner.a, corner.b].map(|v| frame.normal(v));
+                        assert_eq!(ends, [expected; 2]);
+                    }
+                    None => assert_eq!(frame.normal(v), expected),
+                }
+            }
+        }
+    }
+
+    /// As large from the front as from behind: the sides of its lobes on the picture cancel.
+    #[test]
+    fn a_clipped_polygon_of_no_side_is_lit_from_the_front() {
+        // On the picture an hourglass that lies on its side; the left lobe is in front of the near plane.
+        let mut scene = scene(&[&[
+            [-1.0, 1.0, -2.0],
+            [-1.0, -1.0, -2.0],
+            [1.0, 1.0, 0.0],
+            [1.0, -1.0, -0.5],
+        ]]);
+        (scene.culling, scene.two_sided) = (Culling::None, true);
+        let frame = frame(&scene);
+        assert_eq!(frame.polygons().len(), 1);
+        let normal = frame.polygon_normal(&frame.polygons()[0]);
+        let mesh = &scene.objects[0].mesh;
+        let of_mesh = crate::mesh::newell::polygon_normal(mesh, 0).normalize();
+        assert_eq!(normal, of_mesh.as_vec3().to_array());
+    }
+
+    #[test]
+    fn a_polygon_that_is_beyond_either_of_two_planes_everywhere_is_outside() {
+        // Its way from behind the near plane to the left side of the guard band is outside both.
+        let frame = frame(&scene(&[&[
+            [0.0, 0.0, 0.0],
+            [-1e6, 1.0, -2.0],
+            [-1e6, -1.0, -2.0],
+        ]]));
+        let outside = 1;
+        assert_eq!(
+            frame.stats(),
+            FrameStats {
+                outside,
+                ..counts(1)
+            }
+        );
+        assert_eq!(frame.polygons().len(), 0);
+    }
+
+    /// The upper edge runs from far behind the eye to far before it. Its cuts are rounded to 2⁻⁵³ of its length, up to 10⁻³ in depth,
+    /// to this side of the plane or beyond it.
+    #[test]
+    fn polygons_whose_cuts_are_rounded_to_beyond_the_plane_are_not_drawn() {
+        let mut unprojected = 0;
+        for k in 1..=64 {
+            let reach = 1e13 / k as f32;
+            let frame = frame(&scene(&[&[
+                [-1.0, -1.0, -2.0],
+                [1.0, -1.0, -2.0],
+                [1.0, 1.0, -2.0 * reach],
+                [-1.0, 1.0, reach],
+            ]]));
+            let is_placed = frame.stats().unprojected == 0;
+            let expected = FrameStats {
+                unprojected: usize::from(!is_placed),
+                clipped: usize::from(is_placed),
+                ..counts(1)
+            };
+            assert_eq!(frame.stats(), expected);
+            assert_eq!(frame.polygons().len(), usize::from(is_placed));
+            unprojected += frame.stats().unprojected;
+        }
+        assert!(0 < unprojected && unprojected < 64, "{unprojected}");
+    }
+}
