@@ -453,3 +453,25 @@ fn every_polygon_around_the_eye_is_counted_once() {
     }
     assert!(cut > 300, "{cut}");
 }
+
+/// Where near/w at a cut is less than the least `f32` the polygon is left out, as a mesh's own vertex is refused: without a weight
+/// nothing can be interpolated to it.
+#[test]
+fn a_cut_without_a_weight_leaves_its_polygon_out() {
+    // Two corners are beyond the guard band, so that only cuts have a weight. The least near/w is 10⁻⁴⁸ or 10⁻⁴², and the least `f32`
+    // 1.4·10⁻⁴⁵.
+    let corners = [[0.0, -1.0, 4.0], [9e7, 0.0, -1e6], [-9e7, 0.0, -1e6]];
+    for (near, unprojected) in [(1e-42, 1), (1e-36, 0)] {
+        let frame = one_polygon(&corners, |scene| {
+            scene.camera.projection = Projection::Perspective { fovy: 90.0 };
+            (scene.camera.near, scene.camera.far) = (near, 1e8);
+            scene.interpolation = Interpolation::Perspective;
+        });
+        assert_eq!(frame.stats().unprojected, unprojected, "{near}");
+        assert_eq!(frame.polygons().len(), 1 - unprojected, "{near}");
+        let drawn = frame.polygons().iter().flat_map(|p| frame.corners(p));
+        for &vertex in drawn {
+            assert!(frame.vertices()[vertex as usize].inv_w > 0.0, "{near}");
+        }
+    }
+}

@@ -63,8 +63,14 @@ impl Cutting<'_> {
             }
             pieces = inside;
         }
-        // Cuts of edges that reach some 10⁹ times as far as they are away may be rounded to beyond the plane that made them.
-        let is_placed = |corner: &HomogeneousCorner| self.view.is_on_picture(corner.position);
+        // Cuts of edges that reach some 10⁹ times as far as they are away may be rounded to beyond the plane that made them, and
+        // near/w of cuts some 10⁴⁵ times as far as the near plane to 0.
+        let is_placed = |corner: &HomogeneousCorner| {
+            self.view.is_on_picture(corner.position)
+                && self
+                    .view
+                    .is_valid(&self.frame.vertices[corner.vertex as usize])
+        };
         if !pieces.iter().flatten().all(is_placed) {
             self.frame.stats.unprojected += 1;
             return;

@@ -56,14 +56,14 @@ pub fn decided(frame: &Frame, visibility: &Visibility) -> Picture<bool> {
 /// True if rounding cannot change the visible polygon: the next one is farther behind than the
 /// error of depths in any engine.
 pub fn is_decided(frame: &Frame, visibility: &Visibility, x: usize, y: usize) -> bool {
-    // A stored depth may fall on either side of a border between two levels.
-    let level = match frame.hidden_surfaces() {
+    // Storing moves a depth by half a level at most, here and in the reference: that is one level for each of the two.
+    let levels = match frame.hidden_surfaces() {
         HiddenSurfaces::ZBuffer(DepthBuffer { bits, .. }) => {
-            bits.most().map_or(0.0, |most| 1.0 / f64::from(most))
+            bits.most().map_or(0.0, |most| 2.0 / f64::from(most))
         }
         HiddenSurfaces::Painter(_) | HiddenSurfaces::DrawOrder => 0.0,
     };
-    visibility.depth_gap.get(x, y) > depth_rounding(frame) + level
+    visibility.depth_gap.get(x, y) > depth_rounding(frame) + levels
 }
 
 /// Returns the error bound of the difference of two depths in 0..=1.
