@@ -4,6 +4,7 @@ use super::output::{Output, print_beside};
 use super::reference_check::{
     SCALE, alpha_text, has_two_encodings, largest_difference, not_finite_text,
 };
+use super::text::measured;
 use super::{CliError, Log, Outcome, files, values};
 use fastphong::compare::metrics::{
     Difference, MAX_PERCEIVED, METRICS, compare, difference_map, flip_colours, flip_map, mean_flip,
@@ -119,7 +120,7 @@ impl DiffArgs {
             return Ok(Outcome::Done);
         };
         let by = match found.is_finite() {
-            true => format!("by {found:.4} grey levels, more than {most}"),
+            true => format!("by {} grey levels, more than {most}", measured(found)),
             false => not_finite_text(&difference),
         };
         log.note(&format!("the pictures differ {by}"));
@@ -216,9 +217,8 @@ fn sizes_text(pair: &Pair<'_>, sizes: [[usize; 2]; 2]) -> String {
 fn table(difference: &Difference, is_one_size: bool) -> String {
     let value = |value: Option<f64>| match value {
         None => "-".to_owned(),
-        Some(value) if value.is_infinite() => "inf".to_owned(),
-        Some(value) if value == value.round() => format!("{value:.0}"),
-        Some(value) => format!("{value:.4}"),
+        Some(value) if value == value.round() && value.abs() < 1e15 => format!("{value:.0}"),
+        Some(value) => measured(value),
     };
     let rows = METRICS.iter().map(|metric| {
         let value = value((metric.value)(difference));

@@ -342,8 +342,12 @@ fn in_triangles(frame: Frame, engine: &str, log: Log) -> Frame {
         return frame;
     }
     let cut = triangulated(&frame);
-    let [of, into] = [with_more_corners, cut.frame.polygons().len()].map(grouped);
-    let done = format!("{of} polygons of more than three corners are cut into triangles");
+    let one = "polygon of more than three corners is cut into triangles";
+    let more = "polygons of more than three corners are cut into triangles";
+    let (done, into) = (
+        counted(with_more_corners, one, more),
+        grouped(cut.frame.polygons().len()),
+    );
     log.note(&format!("{done} for {engine}: {into} in all"));
     if cut.not_simple > 0 {
         let one = "polygon crosses or overlaps itself and is left out";

@@ -187,10 +187,12 @@ impl ObjectFacts<'_> {
         };
         let closed = match (facts.inside_out, facts.closed) {
             (0, _) => closed,
-            (_, true) => format!("{closed}, wound inside out"),
+            (_, true) if facts.inside_out_polygons == facts.polygons => {
+                format!("{closed}, wound inside out")
+            }
             (n, _) => {
-                let parts = counted(n, "object is closed and", "objects are closed and");
-                format!("{closed}; {parts} wound inside out")
+                let surfaces = counted(n, "surface is closed and", "surfaces are closed and");
+                format!("{closed}; {surfaces} wound inside out")
             }
         };
         let materials = match (facts.materials, facts.polygons_without_material) {

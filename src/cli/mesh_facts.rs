@@ -2,7 +2,7 @@
 
 use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::newell::{areas_cancel, polygon_normal, unit_normal};
-use fastphong::mesh::orientation::inside_out_parts;
+use fastphong::mesh::orientation::inside_out;
 use fastphong::mesh::weld::weld;
 use glam::DVec3;
 use std::collections::{BTreeMap, HashSet};
@@ -44,8 +44,10 @@ pub struct MeshFacts {
     pub non_manifold_edges: usize,
     /// Edges whose two polygons go along them in the same direction: they are not wound alike.
     pub reversed_edges: usize,
-    /// Parts of the mesh (objects of its file) that are closed and wound inside out.
+    /// Surfaces of the mesh, each linked by edges, that are closed and wound inside out.
     pub inside_out: usize,
+    /// Their polygons.
+    pub inside_out_polygons: usize,
     /// Materials that come with the mesh.
     pub materials: usize,
     /// Polygons without a material of the mesh.
@@ -63,6 +65,7 @@ impl MeshFacts {
     pub fn of(mesh: &PolygonMesh) -> MeshFacts {
         let (vertex, _) = weld(mesh.positions());
         let used = mesh.corners().iter().map(|&corner| vertex[corner as usize]);
+        let inside_out = inside_out(mesh);
         let bounds = mesh.bounds().map(|(low, high)| [low, high]);
         let mut facts = MeshFacts {
             polygons: mesh.polygon_count(),
@@ -70,7 +73,8 @@ impl MeshFacts {
             positions: mesh.positions().len(),
             bounds: bounds.map(|ends| ends.map(|p| p.to_array())),
             materials: mesh.materials().len(),
-            inside_out: inside_out_parts(mesh),
+            inside_out: inside_out.surfaces,
+            inside_out_polygons: inside_out.polygons,
             colours: !mesh.colours().is_empty(),
             given_normals: mesh.given_normals().is_some(),
             bytes: bytes(mesh),

@@ -1,7 +1,7 @@
 //! Polygons of a scene by their fate, and messages on those that are not drawn.
 
 use super::Log;
-use super::text::{counted, grouped};
+use super::text::{counted, grouped, part_of};
 use fastphong::compare::table::aligned;
 use fastphong::frame::Frame;
 use fastphong::reference::is_anything_covered;
@@ -38,22 +38,20 @@ pub fn stats_text(frame: &Frame) -> String {
 /// Warns of polygons that cannot be drawn, and of a picture that shows none.
 pub fn warn_of_polygons_left_out(frame: &Frame, log: Log) {
     let s = frame.stats();
-    let all = grouped(s.polygons);
+    let of_all = |number| part_of(number, s.polygons, "polygon");
     if s.no_area > 0 {
         let are = match s.no_area {
             1 => "has no area and is",
             _ => "have no area and are",
         };
-        let flat = grouped(s.no_area);
-        log.warning(&format!("{flat} of {all} polygons {are} left out"));
+        log.warning(&format!("{} {are} left out", of_all(s.no_area)));
     }
     if s.cancelling > 0 {
         let cross = match s.cancelling {
             1 => "crosses itself, its areas cancel: it has no normal and is",
             _ => "cross themselves, their areas cancel: they have no normal and are",
         };
-        let cancelling = grouped(s.cancelling);
-        log.warning(&format!("{cancelling} of {all} polygons {cross} left out"));
+        log.warning(&format!("{} {cross} left out", of_all(s.cancelling)));
     }
     if s.unprojected > 0 {
         let (one, more, hint) = match frame.clipping() {

@@ -3,7 +3,7 @@
 use super::drawing::RenderJob;
 use super::files::Destination;
 use super::output::Output;
-use super::text::counted;
+use super::text::{counted, measured};
 use super::{CliError, Outcome, files};
 use fastphong::compare::metrics::{Difference, compare, difference_map};
 use fastphong::picture::Encoding;
@@ -182,19 +182,26 @@ impl ReferenceCheck<'_> {
         let (found, most) = (largest_difference(difference), self.threshold);
         let shown = self.reference.display();
         let mut text = match found.is_finite() {
-            true => format!("{shown}: differs by {found:.4} grey levels, more than {most}"),
+            true => {
+                let found = measured(found);
+                format!("{shown}: differs by {found} grey levels, more than {most}")
+            }
             false => format!(
                 "{shown}: the pictures differ {}",
                 not_finite_text(difference)
             ),
         };
         if difference.coverage_mismatches > 0 {
-            let count = difference.coverage_mismatches;
-            text += &format!(" ({count} pixels are covered in one picture only)");
+            let covered = counted(
+                difference.coverage_mismatches,
+                "pixel is covered in one picture only",
+                "pixels are covered in one picture only",
+            );
+            text += &format!(" ({covered})");
         }
         if let Some([x, y]) = difference.worst {
-            let count = difference.differing;
-            text += &format!("; {count} pixels differ, most at column {x}, row {y}");
+            let differ = counted(difference.differing, "pixel differs", "pixels differ");
+            text += &format!("; {differ}, most at column {x}, row {y}");
         }
         text
     }

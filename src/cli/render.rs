@@ -16,6 +16,7 @@ use fastphong::frame::Frame;
 use fastphong::picture::image_file::Format;
 use fastphong::raster::Renderer;
 use fastphong::raster::painter::{Conflicts, conflicts};
+use fastphong::scene::file::STANDARD_INPUT;
 use fastphong::scene::{HiddenSurfaces, input};
 use fastphong::shading::Variant;
 use std::path::PathBuf;
@@ -125,7 +126,13 @@ impl RenderArgs {
         });
         if self.print_scene {
             input::make_paths_relative_to_current_folder(&mut file);
-            progress.aside(|| print_beside(output.as_ref(), &file.to_toml()))?;
+            progress.aside(|| {
+                if file.meshes().any(|mesh| mesh == STANDARD_INPUT) {
+                    let there = "`mesh = \"-\"` reads the mesh from standard input again";
+                    log.note(&format!("{there}: write a file's name there to do without"));
+                }
+                print_beside(output.as_ref(), &file.to_toml())
+            })?;
         }
         if output.is_none() && self.reference.is_none() && !self.stats {
             return Ok(Outcome::Done);

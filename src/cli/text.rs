@@ -31,6 +31,24 @@ pub fn grouped(number: usize) -> String {
     }
 }
 
+/// Writes a number that was measured with four digits after the point, and from 10¹⁵ on, where digits would fill the line, with an
+/// exponent.
+pub fn measured(number: f64) -> String {
+    match number {
+        _ if number.is_infinite() => "inf".to_owned(),
+        _ if number.abs() >= 1e15 => format!("{number:.4e}"),
+        _ => format!("{number:.4}"),
+    }
+}
+
+/// Says how many of `all` things of one kind: `3 of 12 polygons`, or `the only polygon`.
+pub fn part_of(number: usize, all: usize, noun: &str) -> String {
+    match all {
+        1 => format!("the only {noun}"),
+        _ => format!("{} of {} {noun}s", grouped(number), grouped(all)),
+    }
+}
+
 /// Writes a number with its noun and verb: `one` after 1, `more` after others.
 pub fn counted(number: usize, one: &str, more: &str) -> String {
     let words = if number == 1 { one } else { more };

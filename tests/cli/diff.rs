@@ -409,3 +409,23 @@ fn a_picture_without_alpha_is_opaque_beside_one_that_states_no_background() {
         );
     }
 }
+
+/// Numbers that would fill a line with digits have an exponent.
+#[test]
+fn huge_differences_have_few_digits() {
+    let folder = Folder::new();
+    let pfm = |value: f32| [b"PF\n1 1\n-1\n".as_slice(), &value.to_le_bytes().repeat(3)].concat();
+    folder.write("a.pfm", pfm(3e38));
+    folder.write("b.pfm", pfm(-3e38));
+    let ended = folder.run("diff a.pfm b.pfm --fail-above 1");
+    assert!(ended.out.contains("1.5300e41"), "{}", ended.out);
+    let ended = ended.says("by 1.5300e41 grey levels");
+    let words = ended
+        .out
+        .split_whitespace()
+        .chain(ended.err.split_whitespace());
+    for word in words {
+        let digits = word.bytes().filter(u8::is_ascii_digit).count();
+        assert!(digits < 20, "{word}");
+    }
+}

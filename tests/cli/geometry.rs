@@ -234,7 +234,11 @@ fn a_cube_drawn_with_sharp_edges_has_sharp_edges() {
     ] {
         folder.write(&format!("{name}.obj"), text);
         let described = folder.run(&format!("info {name}.obj")).done();
-        assert_eq!(described.err, "", "{name}");
+        let told = match name {
+            "mixed" => "warning: mixed.obj: a normal that no face uses is passed over (line 10)\n",
+            _ => "",
+        };
+        assert_eq!(described.err, told, "{name}");
         let described = described.prints(&format!("normals     {normals}\n"));
         let command = format!("render {name}.obj -o {name}.png --size 96x72 --verbose");
         folder
@@ -524,4 +528,32 @@ fn curved_sheets_back_to_back_and_objects_that_touch_stay_as_they_are() {
             "{normals}"
         );
     }
+}
+
+/// A second closed surface of one object, wound inside out, is told by its size.
+#[test]
+fn a_closed_surface_of_an_object_that_is_wound_inside_out_is_told() {
+    let folder = Folder::new();
+    let right = obj("cube", 1.0, [0.0; 3], false);
+    let wrong = obj("cube", 1.0, [5.0, 0.0, 0.0], true);
+    folder.write("two.obj", right + &wrong);
+    let described = folder.run("info two.obj").done();
+    described
+        .says("1 surface of the file, of 6 polygons, is closed and wound inside out")
+        .prints("closed; 1 surface is closed and wound inside out\n");
+}
+
+/// Of one polygon it is not said that it is one of one polygons.
+#[test]
+fn the_only_polygon_is_told_as_such() {
+    let folder = Folder::new();
+    folder.write("bow.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n");
+    let told = folder.run("render bow.obj -o bow.png").done();
+    told.says("the only polygon crosses itself, its areas cancel");
+    folder.write("line.obj", "v 0 0 0\nv 1 1 0\nv 2 2 0\nf 1 2 3\n");
+    let told = folder.run("render line.obj -o line.png --view 0,0").done();
+    told.says("the only polygon has no area and is left out");
+    let quad = "render builtin:polygon?sides=5 -o out.png --engine barycentric";
+    let told = folder.run(quad).done();
+    told.says("1 polygon of more than three corners is cut into triangles for");
 }

@@ -384,3 +384,44 @@ fn colours_are_for_terminals_only() {
         );
     }
 }
+
+/// The printed scene of a mesh on standard input says where its mesh comes from, and draws it from there.
+#[test]
+fn a_printed_scene_reads_standard_input_again() {
+    let folder = Folder::new();
+    folder.write("mesh.obj", format!("{TRIANGLE}f 1 2 3\n"));
+    let printed = piped(&folder, "mesh.obj", "render - --print-scene")
+        .done()
+        .says("`mesh = \"-\"` reads the mesh from standard input again: write a file's name there");
+    folder.write("printed.toml", &printed.out);
+    let draw = |scene: &str, name: &str| {
+        let command = format!("render {scene} --size 16x12 -o {name}");
+        piped(&folder, "mesh.obj", &command).done();
+        folder.read(name)
+    };
+    assert_eq!(draw("printed.toml", "printed.png"), draw("-", "mesh.png"));
+    let named = folder.run("render mesh.obj --print-scene").done();
+    assert!(!named.err.contains("standard input"));
+}
+
+/// A library whose name differs in case is read where only one file can be meant, and told.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_material_library_is_found_in_another_case() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("Parts")).unwrap();
+    folder.write("Parts/Cube.MTL", "newmtl red\nKd 1 0 0\n");
+    let draw = || folder.run("render mesh.obj --size 16x12 -o red.png").done();
+    let named = |library: &str| format!("mtllib {library}\nusemtl red\n{TRIANGLE}f 1 2 3\n");
+    folder.write("mesh.obj", named("Parts/cube.mtl"));
+    let told =
+        draw().says("material library `Parts/cube.mtl` is not there: Parts/Cube.MTL is read");
+    assert!(!told.err.contains("no material library defines"));
+    // The exact name is not told.
+    folder.write("mesh.obj", named("Parts/Cube.MTL"));
+    assert!(!draw().err.contains("library"));
+    // Of two, neither.
+    folder.write("Parts/CUBE.mtl", "newmtl red\nKd 0 1 0\n");
+    folder.write("mesh.obj", named("Parts/cube.mtl"));
+    draw().says("material library `Parts/cube.mtl` (line 1) cannot be read");
+}

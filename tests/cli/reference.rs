@@ -66,7 +66,7 @@ fn a_difference_leaves_both_pictures_and_a_map() {
         .differs();
     ended
         .prints("ref.png: differs by 3.0000 grey levels, more than 2.5")
-        .prints("1 pixels differ, most at column 32, row 24")
+        .prints("1 pixel differs, most at column 32, row 24")
         .prints("actual: ref.actual.png")
         .prints("ref.diff.png")
         .prints("to accept it: cp ref.actual.png ref.png");

@@ -27,8 +27,9 @@ use glam::{DVec3, Vec3};
 use mtl::Library;
 use prescan::{MeshLimits, Prescan};
 use std::collections::HashMap;
+use std::ffi::OsStr;
 use std::hash::Hash;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
 use std::vec::Vec;
 use std::{format, fs, io, vec};
@@ -74,14 +75,23 @@ pub fn load_obj_by(
     let unreadable = |error: io::Error| failed(ObjProblem::Unreadable(error.to_string()));
     let bytes = read(path).map_err(unreadable)?;
     let directory = path.parent().unwrap_or(Path::new(""));
-    parse_obj(path, &bytes, |name| read_library(directory, name, read))
+    let mut in_other_case = Vec::new();
+    let loaded = parse_obj(path, &bytes, |name| {
+        read_library(directory, name, read, &mut in_other_case)
+    });
+    loaded.map(|mut loaded| {
+        loaded.warnings.append(&mut in_other_case);
+        loaded
+    })
 }
 
-/// Reads the material library `name` by `read`, looked for from `directory`, and last by its bare file name there.
+/// Reads the material library `name` by `read`, looked for from `directory`, and last by its bare file name there, in any case if
+/// only one file has it: `warnings` tell then.
 fn read_library(
     directory: &Path,
     name: &str,
     read: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+    warnings: &mut Vec<String>,
 ) -> io::Result<Vec<u8>> {
     // A device or a pipe might never end.
     let mut read = |file: &Path| match fs::metadata(file) {
@@ -90,10 +100,35 @@ fn read_library(
     };
     // Exporters write paths of the machine they ran on, often with the other separator.
     let path = directory.join(name.replace('\\', "/"));
-    read(&path).or_else(|error| match path.file_name() {
-        Some(bare) => read(&directory.join(bare)).map_err(|_| error),
-        None => Err(error),
+    read(&path).or_else(|error| {
+        let Some(bare) = path.file_name() else {
+            return Err(error);
+        };
+        read(&directory.join(bare)).or_else(|_| {
+            let folders = [path.parent().unwrap_or(directory), directory];
+            let Some(found) = folders.iter().find_map(|folder| in_any_case(folder, bare)) else {
+                return Err(error);
+            };
+            let bytes = read(&found).map_err(|_| error)?;
+            let (name, found) = (error::quote(name), found.display());
+            warnings.push(format!(
+                "material library `{name}` is not there: {found} is read"
+            ));
+            Ok(bytes)
+        })
     })
+}
+
+/// Returns the only file in `folder` whose name is `name` but for the case of ASCII letters.
+fn in_any_case(folder: &Path, name: &OsStr) -> Option<PathBuf> {
+    let folder = match folder.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => folder,
+    };
+    let entries = fs::read_dir(folder).ok()?.flatten();
+    let mut found = entries.filter(|entry| entry.file_name().eq_ignore_ascii_case(name));
+    let first = found.next()?;
+    found.next().is_none().then(|| first.path())
 }
 
 /// Reads the OBJ text `bytes`; `path` stands in errors only.

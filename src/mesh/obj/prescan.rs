@@ -44,6 +44,8 @@ enum Oddity {
     BadPosition,
     #[error("a normal is not three finite numbers: corners that name it count as without a normal")]
     BadNormal,
+    #[error("a normal that no face uses is passed over")]
+    UnusedNormal,
     #[error("a face uses a position that has no colour: the colours of the others are not used")]
     NoColour,
     #[error(
@@ -82,6 +84,8 @@ pub(super) struct Prescan {
     limits: MeshLimits,
     positions: Entries,
     normals: Entries,
+    /// The line of each normal; 0 for those that a face names.
+    unused_normals: Vec<u32>,
     texture_coordinates: usize,
     /// The first line that counts normals backwards before there is one, and the error about it.
     early_normal: Option<(usize, ObjProblem)>,
@@ -144,6 +148,12 @@ pub(super) fn prescan(text: &str, limits: MeshLimits) -> Result<Prescan, Refusal
         return Err(scan.refusal(Some(line), problem));
     }
     scan.check_colours();
+    for number in 0..scan.unused_normals.len().min(scan.normals.count) {
+        match scan.unused_normals[number] {
+            0 => {}
+            line => scan.note(line as usize, Oddity::UnusedNormal),
+        }
+    }
     match scan.polygons {
         0 if scan.has(Oddity::PointOrLine) => {
             Err(scan.refusal(None, ObjProblem::OnlyPointsOrLines))
@@ -282,6 +292,7 @@ impl Prescan {
                 }
                 self.text.push(b'\n');
                 self.normals.count += 1;
+                self.note_normal(self.normals.count - 1, line);
             }
             "vt" => self.texture_coordinates += 1,
             // Version 2 of the format called a face `fo`.
@@ -451,6 +462,20 @@ impl Prescan {
         }
     }
 
+    /// Notes the line of a normal, or 0 for one that a face names, before or after its line.
+    fn note_normal(&mut self, normal: usize, line: usize) {
+        if normal >= self.unused_normals.len() {
+            // A normal takes two bytes or more: one so far ahead does not come.
+            if normal >= self.text.capacity().max(self.normals.count) {
+                return;
+            }
+            self.unused_normals.resize(normal + 1, u32::MAX);
+        } else if self.unused_normals[normal] == 0 {
+            return;
+        }
+        self.unused_normals[normal] = u32::try_from(line).unwrap_or(u32::MAX);
+    }
+
     /// Writes a face for the parser, whose first normal is zero and means none.
     ///
     /// Corners without a normal are given that one, unless none before them has another: the parser then takes its first
@@ -462,6 +487,7 @@ impl Prescan {
             if let Some(normal) = corner.normal {
                 push_decimal(&mut self.text, b"//", normal + 2);
                 self.corners_with_normal += 1;
+                self.note_normal(normal, 0);
             } else if self.corners_with_normal > 0 {
                 self.text.extend_from_slice(b"//1");
             }

@@ -111,7 +111,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<FilePicture, DecodeError> {
         has_alpha,
         ..FilePicture::of_pixels(pixels)
     };
-    state(&mut picture, &reader);
+    state(&mut picture, &reader, has_gamma_of_zero(bytes));
     Ok(picture)
 }
 
@@ -164,13 +164,14 @@ fn pixels<const BYTES: usize, S: Copy + Default>(
 
 /// Sets what the chunks say beside the pixels, and notes what of it is not understood. The order is that of the
 /// specification (PNG, third edition, 4.3): `cICP`, `iCCP`, `sRGB`, `gAMA`.
-fn state(picture: &mut FilePicture, reader: &Reader<Cursor<&[u8]>>) {
+fn state(picture: &mut FilePicture, reader: &Reader<Cursor<&[u8]>>, has_gamma_of_zero: bool) {
     let info = reader.info();
     if info.animation_control.is_some() {
         let note = "the file is an animation: this is its still picture";
         picture.notes.push(note.to_owned());
     }
     let gamma = info.gama_chunk.map(ScaledFloat::into_scaled);
+    let gamma = gamma.or(has_gamma_of_zero.then_some(0));
     let by_gamma = gamma.and_then(|gamma| match gamma {
         _ if gamma.abs_diff(LINEAR_GAMMA) <= GAMMA_ROUNDING => Some(Encoding::Linear),
         _ if gamma.abs_diff(SRGB_GAMMA) <= GAMMA_ROUNDING => Some(Encoding::Srgb),
@@ -214,6 +215,24 @@ fn state(picture: &mut FilePicture, reader: &Reader<Cursor<&[u8]>>) {
         .bkgd
         .as_ref()
         .and_then(|samples| background(samples, reader));
+}
+
+/// True if the first `gAMA` is 0, which means nothing (PNG, third edition, 11.3.2.2). The decoder drops it.
+fn has_gamma_of_zero(bytes: &[u8]) -> bool {
+    let mut rest = bytes.get(SIGNATURE.len()..).unwrap_or_default();
+    // A length, a kind, the data and a checksum.
+    while let Some((length, after)) = rest.split_first_chunk::<4>()
+        && let Some((kind, data)) = after.split_first_chunk::<4>()
+    {
+        match kind {
+            b"gAMA" => return data.starts_with(&[0; 4]),
+            b"IDAT" => return false,
+            _ => {}
+        }
+        let whole = (u32::from_be_bytes(*length) as usize).saturating_add(4);
+        rest = data.get(whole..).unwrap_or_default();
+    }
+    false
 }
 
 /// Returns the background that `bKGD` states, in grey levels.

@@ -591,6 +591,12 @@ fn chunks_that_state_the_encoding_are_read() {
             "its gamma of 0.55556 (gAMA) is not understood: it is passed over",
         ),
         (
+            vec![gamma(0)],
+            None,
+            "its gamma of 0 (gAMA) is not understood: it is passed over",
+        ),
+        (vec![srgb.clone(), gamma(0)], is_srgb, ""),
+        (
             vec![profile, gamma(100_000)],
             linear,
             "its colour profile (iCCP) is not understood: its samples count as linear",

@@ -8,7 +8,7 @@ use super::value::{Data, SceneTable};
 use super::viewpoint::Viewpoint;
 use super::visibility::{clipping, hidden_surfaces, samples};
 use super::{BUILTIN, SceneFile, shown};
-use crate::mesh::orientation::inside_out_parts;
+use crate::mesh::orientation::inside_out;
 use crate::mesh::{Material, PolygonMesh};
 use crate::scene::of_mesh::unit;
 use crate::scene::{Culling, Light, MAX_COORDINATE, Object, Scene};
@@ -294,11 +294,13 @@ fn from_matrix(object: &Section, rows: &[[f64; 4]; 3]) -> Result<DAffine3, Scene
 
 /// Adds a warning, once, if the mesh file `name` is wound inside out.
 fn warn_of_inside_out(name: &str, mesh: &PolygonMesh, outside: &str, warnings: &mut Vec<String>) {
-    let which = match (inside_out_parts(mesh), mesh.has_parts()) {
-        (0, _) => return,
-        (_, false) => "the mesh is".into(),
-        (1, true) => "1 object of the file is".into(),
-        (n, true) => format!("{n} objects of the file are"),
+    let found = inside_out(mesh);
+    let polygons = found.polygons;
+    let which = match found.surfaces {
+        0 => return,
+        1 if polygons == mesh.polygon_count() => "the mesh is".into(),
+        1 => format!("1 surface of the file, of {polygons} polygons, is"),
+        n => format!("{n} surfaces of the file, of {polygons} polygons, are"),
     };
     // Given normals may point outward all the same.
     let averaged = match mesh.given_normals() {

@@ -170,7 +170,7 @@ fn normals_and_texture_coordinates_that_are_no_numbers_refuse_nothing() {
 #[test]
 fn a_face_that_is_left_out_refuses_nothing() {
     for face in ["f 99", "f 1 -99", "f 1 x", "f 1//7 2/", "f 1.5 2"] {
-        let loaded = after_points(&format!("f 1 2 3\n{face}\nvn 0 0 1\n"));
+        let loaded = after_points(&format!("f 1 2 3\n{face}\n"));
         let told = "a face of fewer than three different corners is left out (line 7)";
         assert_eq!(warning(&loaded), told, "{face}");
     }

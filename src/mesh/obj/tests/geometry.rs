@@ -113,8 +113,7 @@ fn a_backslash_continues_no_name_and_no_comment() {
         assert_eq!(polygons(&loaded), [[0, 1, 2]], "{line}");
     }
     // Numbers go on: of faces, positions and curves.
-    let text =
-        "v 0 \\\n0 0\nvn \\\n0 0 1\nV 1 0\\ \n 0\ncurv2 1 \\\n2 \\\n3\nv 0 1 0\nf 1 2 \\\n3\n";
+    let text = "v 0 \\\n0 0\nvn \\\n0 0 1\nV 1 0\\ \n 0\ncurv2 1 \\\n2 \\\n3\nv 0 1 0\nf 1//1 2//1 \\\n3//1\n";
     let loaded = parse(text).unwrap();
     assert_eq!(polygons(&loaded), [[0, 1, 2]]);
     assert!(
@@ -269,7 +268,7 @@ fn corners_with_and_without_normals_may_be_mixed() {
         }
     }
     let unused = after_points("vn 0 0 1\nf 1 2 3\n");
-    assert!(unused.mesh.given_normals().is_none() && unused.warnings.is_empty());
+    assert!(unused.mesh.given_normals().is_none());
 }
 
 /// Faces may name normals and texture coordinates that the file does not have at all, as in other
@@ -548,4 +547,22 @@ fn an_index_far_ahead_takes_no_memory() {
     // Four bytes for each position up to there are more than processors can address.
     let error = parse(format!("f 1 2 {}\n{POINTS}", 1u64 << 50)).unwrap_err();
     assert!(error.to_string().contains("out of range: expected 1 to 5"));
+}
+
+#[test]
+fn normals_that_no_face_names_are_told_once() {
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let told = |text: String| parse(&text).unwrap().warnings;
+    let unused = "a normal that no face uses is passed over";
+    let all = told(format!("{triangle}vn 0 0 1\nvn 0 1 0\nf 1 2 3\n"));
+    assert_eq!(all, [format!("{unused} (2 times, first in line 4)")]);
+    let one = told(format!("{triangle}vn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\n"));
+    assert_eq!(one, [format!("{unused} (line 5)")]);
+    // Named before it is given, or backwards.
+    for corners in [
+        "f 1//1 2//1 3//2\nvn 0 0 1\nvn 0 1 0\n",
+        "vn 0 0 1\nf 1//-1 2//-1 3//-1\n",
+    ] {
+        assert_eq!(told(format!("{triangle}{corners}")), [""; 0], "{corners}");
+    }
 }

@@ -421,8 +421,14 @@ fn a_library_in_latin_1() {
 
 #[test]
 fn paths_of_libraries() {
-    let read =
-        |folder: &Path, name: &str| read_library(folder, name, &mut |path| std::fs::read(path));
+    let read = |folder: &Path, name: &str| {
+        read_library(
+            folder,
+            name,
+            &mut |path| std::fs::read(path),
+            &mut Vec::new(),
+        )
+    };
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     // Paths have either separator. The bare name is tried if the path leads nowhere.
     for name in [
