@@ -129,14 +129,18 @@ pub(crate) fn clip(
 /// Joins several runs of corners into closed pieces along the cutting line.
 fn join(runs: &[Vec<HomogeneousCorner>], piece: &mut impl FnMut(&[HomogeneousCorner])) {
     debug_assert!(runs.len() >= 2, "one run is a piece by itself");
-    // The ends in order along the line: (place, run, whether it is the run's beginning).
+    // The ends in order along the line: (position, run, whether it is the run's beginning).
     let along = line_direction(runs);
-    let mut ends: Vec<(f64, usize, bool)> = Vec::new();
+    let mut ends: Vec<(DVec4, usize, bool)> = Vec::new();
     for (number, run) in runs.iter().enumerate() {
-        ends.push((along.dot(flat(run[0].position)), number, true));
-        ends.push((along.dot(flat(run[run.len() - 1].position)), number, false));
+        ends.push((run[0].position, number, true));
+        ends.push((run[run.len() - 1].position, number, false));
     }
-    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let place = |position| along.dot(flat(position));
+    ends.sort_by(|a, b| {
+        let places = place(a.0).total_cmp(&place(b.0));
+        places.then(canonical(a.0, b.0))
+    });
     // Each run's ending is followed by the beginning that is its neighbour on the line.
     let mut follower = alloc::vec![usize::MAX; runs.len()];
     for pair in ends.chunks_exact(2) {
@@ -177,11 +181,14 @@ fn flat(p: DVec4) -> glam::DVec3 {
     }
 }
 
-/// Returns the direction of the cutting line: from one end to the one farthest from it.
+/// Returns the direction of the cutting line: from one end to the one farthest from it. Of a polygon that is not plane the ends lie
+/// on no line: it is the least end, so that pieces depend neither on where the polygon begins nor on how it runs.
 fn line_direction(runs: &[Vec<HomogeneousCorner>]) -> glam::DVec3 {
-    let origin = flat(runs[0][0].position);
     let ends = runs.iter().flat_map(|run| [run[0], run[run.len() - 1]]);
-    let differences = ends.map(|end| flat(end.position) - origin);
+    let mut ends: Vec<DVec4> = ends.map(|end| end.position).collect();
+    ends.sort_by(|&a, &b| canonical(a, b));
+    let origin = flat(ends[0]);
+    let differences = ends.iter().map(|&end| flat(end) - origin);
     differences
         .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
         .unwrap_or(glam::DVec3::X)
@@ -484,5 +491,49 @@ mod tests {
             left += parts.len();
         }
         assert!(left > 1000, "{left}");
+    }
+
+    /// Whatever corner a polygon begins with and whichever way it runs, its pieces have the same edges, if it is not plane and
+    /// crosses itself too.
+    #[test]
+    fn pieces_do_not_depend_on_where_a_polygon_begins() {
+        let mut random = Random::new(17);
+        let plane = plane([0.0, 0.0, 1.0, 0.0]);
+        let mut several = 0;
+        for round in 0..2000 {
+            let corners: Vec<HomogeneousCorner> = (0..4 + round % 5)
+                .map(|vertex| {
+                    let mut number = || f64::from(random.signed());
+                    HomogeneousCorner {
+                        position: DVec4::new(number(), number(), number(), 1.0),
+                        vertex,
+                    }
+                })
+                .collect();
+            let edges = |corners: &[HomogeneousCorner]| {
+                let bits =
+                    |corner: &HomogeneousCorner| corner.position.to_array().map(f64::to_bits);
+                let mut edges = Vec::new();
+                for piece in pieces(corners, &plane) {
+                    for (a, b) in piece.iter().zip(piece.iter().cycle().skip(1)) {
+                        let (a, b) = (bits(a), bits(b));
+                        edges.push((a.min(b), a.max(b)));
+                    }
+                }
+                edges.sort_unstable();
+                edges
+            };
+            let first = edges(&corners);
+            several += usize::from(pieces(&corners, &plane).len() > 1);
+            for turn in 0..2 * corners.len() {
+                let mut turned = corners.clone();
+                turned.rotate_left(turn / 2);
+                if turn % 2 == 1 {
+                    turned.reverse();
+                }
+                assert_eq!(edges(&turned), first, "{corners:?}");
+            }
+        }
+        assert!(several > 100, "{several}");
     }
 }
