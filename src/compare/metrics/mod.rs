@@ -176,12 +176,10 @@ pub fn compare_where(
     included: impl Fn(usize, usize) -> bool,
 ) -> Result<Difference, SizeMismatch> {
     SizeMismatch::check(reference.size(), actual.size())?;
-    let [width, height] = reference.size();
     let mut sums = ErrorSums::default();
     let mut percentile = Percentile::new(PERCENTILE);
-    let is_perceived = width * height <= MAX_PERCEIVED;
-    let mut ssim = is_perceived.then(|| MeanSsim::new(width)).flatten();
-    let mut luminance = [(); 2].map(|()| Vec::with_capacity(width));
+    let mut ssim = MeanSsim::new(reference.size());
+    let mut luminance = [(); 2].map(|()| Vec::new());
     for_each_row(reference, actual, |y, r_row, a_row| {
         luminance.iter_mut().for_each(Vec::clear);
         for (x, (&r, &a)) in r_row.iter().zip(a_row).enumerate() {
@@ -212,7 +210,7 @@ pub fn compare_where(
             }
         });
     });
-    Ok(sums.finish(p99, ssim.and_then(MeanSsim::finish)))
+    Ok(sums.finish(p99, ssim.map(MeanSsim::finish)))
 }
 
 /// The difference of a pixel that one of the pictures covers, or both.

@@ -53,7 +53,7 @@ pub fn ssim_where(
 ) -> Result<Option<f64>, SizeMismatch> {
     SizeMismatch::check(reference.size(), actual.size())?;
     let [width, height] = reference.size();
-    let Some(mut ssim) = MeanSsim::new(width).filter(|_| width * height <= MAX_PERCEIVED) else {
+    let Some(mut ssim) = MeanSsim::new([width, height]) else {
         return Ok(None);
     };
     let mut luminance = [(); 2].map(|()| vec![0.0; width]);
@@ -65,7 +65,7 @@ pub fn ssim_where(
         }
         ssim.add(&luminance[0], &luminance[1]);
     });
-    Ok(ssim.finish())
+    Ok(Some(ssim.finish()))
 }
 
 /// The mean structural similarity of two rasters of values in 0..=1, which come row by row.
@@ -91,11 +91,12 @@ pub(super) struct MeanSsim {
 }
 
 impl MeanSsim {
-    /// Begins with rasters of `width` values a row; `None` if the window does not fit.
-    pub fn new(width: usize) -> Option<MeanSsim> {
-        let places = (width + 1)
-            .checked_sub(WINDOW)
-            .filter(|places| *places > 0)?;
+    /// Begins with rasters of a width and a height; `None` if the window does not fit, or beyond [`MAX_PERCEIVED`] values.
+    pub fn new([width, height]: [usize; 2]) -> Option<MeanSsim> {
+        if width < WINDOW || height < WINDOW || width * height > MAX_PERCEIVED {
+            return None;
+        }
+        let places = width + 1 - WINDOW;
         Some(MeanSsim {
             places,
             weights: weights(),
@@ -124,12 +125,9 @@ impl MeanSsim {
         self.rows += 1;
     }
 
-    /// Returns the mean, `None` if the window does not fit.
-    pub fn finish(self) -> Option<f64> {
-        let rows = (self.rows + 1)
-            .checked_sub(WINDOW)
-            .filter(|rows| *rows > 0)?;
-        Some(self.sum / (self.places * rows) as f64)
+    /// Returns the mean, once all rows were taken.
+    pub fn finish(self) -> f64 {
+        self.sum / (self.places * (self.rows + 1 - WINDOW)) as f64
     }
 }
 
@@ -201,13 +199,19 @@ mod tests {
     #[test]
     fn needs_room_for_one_window() {
         let of_equal = |width: usize, height: usize| {
-            let mut ssim = MeanSsim::new(width)?;
+            let mut ssim = MeanSsim::new([width, height])?;
             (0..height).for_each(|_| ssim.add(&vec![0.5; width], &vec![0.5; width]));
-            ssim.finish()
+            Some(ssim.finish())
         };
         assert_eq!(of_equal(0, 0), None);
         assert_eq!(of_equal(10, 11), None);
         assert_eq!(of_equal(11, 10), None);
         assert_eq!(of_equal(11, 11), Some(1.0));
+    }
+
+    #[test]
+    fn the_largest_pictures_that_have_it_are_those_of_max_perceived_pixels() {
+        assert!(MeanSsim::new([8192, 8192]).is_some());
+        assert!(MeanSsim::new([8192, 8193]).is_none());
     }
 }
