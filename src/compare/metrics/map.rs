@@ -211,6 +211,17 @@ mod tests {
     }
 
     #[test]
+    fn signed_map_runs_from_dark_to_light_as_the_scale_says() {
+        for ([from, to], sign) in [(BRIGHTER, 1.0), (DARKER, -1.0)] {
+            for (share, between) in [(0.25, [3.0, 1.0]), (0.75, [1.0, 3.0]), (1.0, [0.0, 4.0])] {
+                let mix = |i: usize| (between[0] * from[i] + between[1] * to[i]) / 4.0;
+                let [r, g, b] = [0, 1, 2].map(|i| mix(i).round() as u8);
+                assert_eq!(signed_colour(sign * share * 16.0, 16.0), [r, g, b, 255]);
+            }
+        }
+    }
+
+    #[test]
     fn coverage_and_nonsense_are_shown() {
         let covered = Picture::new(1, 1, [0.5f32, 0.5, 0.5, 1.0]);
         let uncovered = Picture::new(1, 1, [0.5f32, 0.5, 0.5, 0.0]);

@@ -81,6 +81,7 @@ impl Percentile {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use core::cell::Cell;
 
     /// Finds the percentile of values that can be visited any number of times.
     fn percentile(share: f64, count: usize, value: impl Fn(usize) -> f64) -> f64 {
@@ -100,6 +101,20 @@ mod tests {
             percentile(1.0, 3, |i| [0.25, f64::MAX, 1e-300][i]),
             f64::MAX
         );
+    }
+
+    #[test]
+    fn values_come_again_only_once_unless_too_many_share_their_leading_bits() {
+        for (count, expected) in [(KEPT as usize, 1), (KEPT as usize + 1, 3)] {
+            let mut percentile = Percentile::new(0.99);
+            percentile.extend((0..count).map(|_| 0.1));
+            let times = Cell::new(0);
+            percentile.find(|visit| {
+                times.set(times.get() + 1);
+                (0..count).for_each(|_| visit(0.1));
+            });
+            assert_eq!(times.get(), expected, "{count}");
+        }
     }
 
     #[test]

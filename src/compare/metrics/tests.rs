@@ -159,7 +159,7 @@ fn nothing_at_all_is_equal_to_itself() {
         (d.frame, d.compared, d.rms, d.p99, d.psnr, d.ssim),
         (0, 0, 0.0, 0.0, f64::INFINITY, None)
     );
-    assert_eq!(d.share(0), 0.0);
+    assert_eq!((d.share(0), d.mae, d.signed_mean), (0.0, 0.0, 0.0));
 }
 
 #[test]
@@ -194,6 +194,7 @@ fn coverage_is_counted_on_its_own() {
         (d.coverage_mismatches, d.compared, d.differing, d.max),
         (1, 1, 1, 1.0)
     );
+    assert_eq!((d.not_finite, d.not_finite_differing), (0, 0));
     assert!(!d.equal);
     // The object that one picture lacks is not hidden by the colour that the other stores there.
     assert_eq!((d.rms, d.mae, d.signed_mean), (1.0, 1.0, 0.0));
