@@ -34,6 +34,17 @@ fn linear_follows_the_line() {
     }
 }
 
+#[test]
+fn a_pair_remembers_if_either_of_its_walks_does() {
+    fn remembers<W: Walk<f32>>() -> bool {
+        W::REMEMBERS
+    }
+    type Plain = Linear<f32>;
+    type Newtons = Newton<f32>;
+    assert!(remembers::<(Plain, Newtons)>() && remembers::<(Newtons, Plain)>());
+    assert!(!remembers::<(Plain, Plain)>());
+}
+
 /// A vector along a span: its start and its step per pixel.
 type Line = (Vec3<f32>, Vec3<f32>);
 
