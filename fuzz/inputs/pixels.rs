@@ -7,11 +7,6 @@
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-#[path = "../../tests/conformance/support/differences.rs"]
-#[allow(dead_code)]
-mod differences;
-#[path = "../../tests/worlds/known.rs"]
-mod known;
 #[path = "../../tests/worlds/mesh.rs"]
 mod mesh;
 #[path = "../../tests/worlds/numbers.rs"]

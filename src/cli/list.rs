@@ -143,6 +143,7 @@ fn stepped(of: Stepped) -> &'static str {
         Stepped::Colours => "colours",
         Stepped::Sums => "unclamped colours",
         Stepped::Cosines => "cosines",
+        Stepped::GreatCircles => "cosines along great circles",
         Stepped::Products => "scalar products",
     }
 }

@@ -36,10 +36,11 @@ impl<S: Simd> Lanes<S> {
     pub fn counted(self) -> i32x8<S> {
         i32x8::simd_from(self.0, [0, 1, 2, 3, 4, 5, 6, 7])
     }
-    /// Returns `at + k · step` in lane k.
+    /// Returns `at + (first + k) · step` in lane k, rounded once. The factor is exact while it has 24 bits.
     #[inline(always)]
-    pub fn ramp(self, at: f32, step: f32) -> f32x8<S> {
-        SimdFloat::mul_add(self.float(self.counted()), self.splat(step), self.splat(at))
+    pub fn ramp(self, at: f32, first: i32, step: f32) -> f32x8<S> {
+        let k = self.float(self.counted() + self.int(first));
+        SimdFloat::mul_add(k, self.splat(step), self.splat(at))
     }
     #[inline(always)]
     pub fn load(self, from: &[f32]) -> f32x8<S> {

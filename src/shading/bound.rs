@@ -1,13 +1,19 @@
 //! Bounds of the difference between a method and its closed form: counted in roundings, not guessed.
 
+use super::extent::{Extent, wide};
 use super::lighting::highlight_error;
-use super::spread::Spread;
-use super::{Perspective, Variant};
-use crate::frame::{Frame, Polygon, ScreenVertex, SubPixel};
-use crate::scene::{Interpolation, LightTerm, Lighting, SpecularModel};
+use super::spread::{SeenLights, Spread};
+use super::{LitAt, Local, Perspective, Variant};
+use crate::frame::{Frame, Polygon};
+use crate::scene::{Interpolation, LightTerm, Lighting, SpecularGate, SpecularModel};
+use alloc::vec::Vec;
 
 /// One rounding of a number of 0.5..1: half a unit in the last place of an `f32`, and of the doubled numbers 2⁻²⁴ again.
 const ROUNDING: f64 = 1.0 / (1u64 << 24) as f64;
+
+/// The roundings of a value of at most 1 that is interpolated by barycentric coordinates, without steps: an integer, the inverse area
+/// (two), their product, another product and two sums.
+const BARYCENTRIC: f64 = 7.0;
 
 /// The roundings of 2⁻²⁴ that a method's cosines (or colours) gather.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,15 +43,38 @@ pub enum Stepped {
     Sums,
     /// Normals or cosines: the light model comes after, and multiplies their errors.
     Cosines,
+    /// Normals or cosines along great circles: as [`Stepped::Cosines`], but spans walk between points of edges.
+    GreatCircles,
     /// Products of two vectors that grow linearly: the light model comes after, too.
     Products,
 }
 
 impl Variant {
     /// Returns the largest difference that rounding in `f32` can make between this method's picture of `frame` and its closed
-    /// form ([`super::Info::model`]), in a linear channel of 0..=1.
+    /// form ([`super::Info::model`]), in a linear channel of 0..=1. A bound of 1 says nothing.
     ///
-    /// With s steps from a corner to a pixel, a cosine is off by `e = (start + step · s) · 2⁻²⁴`. The diffuse term passes
+    /// It is the largest of the bounds of all polygons ([`Variant::polygon_bounds`]), which are derived as follows.
+    ///
+    /// **Steps.** With s steps from a corner to a pixel, a value of at most 1 is off by `(start + step · s) · 2⁻²⁴`.
+    ///
+    /// **Set-up.** Steps begin from parameters, which are rounded too, and multiply the differences of corners, δ at most. Between
+    /// edges a parameter is rounded 4 times with its difference and product, along edges as often: 8 δ. Of a triangle in
+    /// the row engine each barycentric coordinate takes 5 roundings at the start of a run, with its difference. Its growth
+    /// takes 5, over a run on which both coordinates grow by 1 at most: 15 δ. A small triangle begins up to
+    /// 15 rows and 7 columns away ([`Extent::growth`], g): coordinates are up to g larger there, so that both starts take 10 g, and
+    /// both growths 12 g: 22 g δ more. On the way values are as large as `1 + 2 g δ`, and so are the roundings of steps. The
+    /// barycentric renderer steps nothing: coordinates, products and sums take 7 roundings of values.
+    ///
+    /// **Short normals.** Normals between corners whose normals are apart are shorter than 1. Let m be the unit mean of the
+    /// corners' normals N_i and `c = min N_i·m`. Every convex combination N has |N| ≥ N·m ≥ c, so that
+    /// dividing by its length makes errors of cosines larger by 1/c, and those of products, which are divided by N·N, by 1/c². Weights
+    /// of perspective are positive and change neither m nor c; vertices that clipping made lie between others, so that c holds for
+    /// pieces. The N_i are within θ of m, cos θ = c, so that δ ≤ 2 sin θ. A great circle divides by sin φ. Where φ is at most
+    /// 90°, both weights are at most 1 all the same; else `sin φ = 2 sin φ/2 cos φ/2 ≥ √2 c`, as cos φ/2 is the length of the chord's
+    /// middle. Points of edges lie in the same cone, and the span between them divides once more: 1/c². Where c is 0 or less the
+    /// bound is 1.
+    ///
+    /// **Light.** If a cosine is off by e, the diffuse term passes
     /// that on times `I_p k_d`; `R·V = 2 (L·N)(N·V) − L·V` is off by up to 4 e, and the power multiplies that by n. Of
     /// `N·H = (L·N + V·N) / h`, h = |L + V|, the sum is off by 2 e and h by e/h, so that it is off by `2 e/h + e/h²`, which
     /// is below 4 e while h is over 0.81. An exponent below 1 is infinitely steep at 0, and its power is off by up to (4 e)^n,
@@ -62,74 +91,127 @@ impl Variant {
     /// Where a parameter is left to the method ([`super::Auto`]), lengths may be too large by the relative error E that it
     /// allows itself. The diffuse terms D are divided by them: they lose E D at most, of which after the clamp, as all other
     /// terms are 0 or more, E/(1 − E) is left at most. Of N·H, which is divided by them too, the power n loses n times as much
-    /// of the specular terms. R·V is divided by the squared length, which has no such error.
+    /// of the specular terms. R·V is divided by the squared length, which has no such error. A highlight that is weighted with L·N
+    /// loses as much as that.
     ///
     /// Other errors of the method itself, those of a given number of Newton's steps on short spans with large angles among
     /// them, are no part of this, nor is a gate: a highlight ends with a jump where L·N = 0, and where a light lies in the plane
-    /// of a polygon the last bit decides whether all of it is there. Nor are interpolated normals much shorter than 1, between
-    /// corners whose normals are over 60° apart or so, though errors of directions grow as they shrink. Where the difference is over this bound, the report says so.
+    /// of a polygon the last bit decides whether all of it is there. Where the difference is over this bound, the report says so.
     pub fn bound(&self, frame: &Frame) -> f64 {
-        let info = self.info();
-        let walks = frame.polygons().iter().map(|p| longest_walk(frame, p));
-        let steps = walks.max().unwrap_or(0) as f64;
+        self.polygon_bounds(frame).fold(0.0, f64::max)
+    }
+
+    /// Returns [`Variant::bound`] for the pixels of each polygon of `frame`, in order.
+    pub fn polygon_bounds<'a>(&'a self, frame: &'a Frame) -> impl Iterator<Item = f64> + 'a {
         let spread = Spread::of(frame);
+        let materials = frame.lightings().iter().zip(&spread.materials);
+        let materials: Vec<MaterialBound<'a>> = materials
+            .map(|(lighting, seen)| self.material_bound(lighting, seen))
+            .collect();
+        frame.polygons().iter().map(move |polygon| {
+            let (cosine, stepped) = self.errors(frame, polygon, spread.vectors);
+            let bound = materials[polygon.material as usize].of(cosine, stepped);
+            // No channel differs by more.
+            if bound <= 1.0 { bound } else { 1.0 }
+        })
+    }
+
+    /// Returns the error of the cosines that the light model sees on a polygon, and that of colours of at most 1 which are stepped
+    /// over it. `vectors` is [`Spread::vectors`].
+    fn errors(&self, frame: &Frame, polygon: &Polygon, vectors: f64) -> (f64, f64) {
+        let info = self.info();
         let Roundings { start, step, of } = info.roundings;
+        let extent = Extent::of(frame, polygon);
         // A rounding where the weight of perspective is largest counts for more where it is smallest.
         let weights = match (info.perspective, frame.interpolation()) {
             (Perspective::Free | Perspective::Divides, Interpolation::Perspective) => {
-                spread.weights
+                extent.weights
             }
             _ => 1.0,
         };
-        let rounding = ROUNDING * weights;
         // The first value of a colour is lit from vectors to places, too.
-        let (toward, square) = (spread.vectors, spread.vectors * spread.vectors);
-        // What the cosines are off by that the light model sees.
+        let (toward, square) = (vectors, vectors * vectors);
+        // Colours and vectors to places may differ by all that they are; weights differ by 1 − 1/σ of the largest.
+        let apart = match of {
+            Stepped::Colours | Stepped::Sums => 1.0,
+            _ if frame.is_local() && info.local == Local::PerPixel => 2.0,
+            _ => f64::min(2.0, extent.apart() + 1.0 - 1.0 / weights),
+        };
+        let stepped = |step: f64| match step > 0.0 {
+            true => {
+                let largest = 1.0 + 2.0 * extent.growth * apart;
+                let stepped = step * extent.steps * largest + extent.set_up() * apart;
+                f64::max(stepped, BARYCENTRIC)
+            }
+            false => 0.0,
+        };
+        let rounding = ROUNDING * weights;
+        // The least length that a normal has before it is normalised.
+        let length = match info.lit_at {
+            LitAt::Polygon | LitAt::Vertex => 1.0,
+            LitAt::PolygonMean => wide(frame.mean(polygon).normal).length().min(1.0),
+            LitAt::Pixel => extent.cosine,
+        };
+        let over_length = match length > 0.0 {
+            true => 1.0 / length,
+            false => f64::INFINITY,
+        };
         let cosine = match of {
-            Stepped::Colours | Stepped::Sums => rounding * start * toward,
-            Stepped::Cosines => rounding * (start + step * steps) * toward,
+            Stepped::Colours | Stepped::Sums => rounding * start * toward * over_length,
+            Stepped::Cosines => rounding * (start + stepped(step)) * toward * over_length,
+            Stepped::GreatCircles => {
+                rounding * (start + stepped(step)) * toward * over_length * over_length
+            }
             // Squares of weighted vectors have the squares of the weights.
             Stepped::Products => {
                 // With positions three products are stepped, where there was one product and one cosine.
                 let step = if frame.is_local() { 3.0 * step } else { step };
-                rounding * weights * (start + step * steps) * square
+                let rounding = rounding * weights * over_length * over_length;
+                rounding * (start + stepped(step)) * square
             }
         };
-        // What the light model makes of it, its largest sum, and the loss that lengths are allowed.
-        let (mut lit, mut most, mut allowed) = (cosine, 1.0, 0.0);
-        for (lighting, lights) in frame.lightings().iter().zip(&spread.materials) {
-            let highlight = highlight_error(lighting, lights.half, cosine);
-            // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
-            let falls = if lighting.is_attenuated() { 2.0 } else { 0.0 };
-            let diffuse_error = self.length_error(lighting);
-            // (1 − E)ⁿ is 1 − n E at least, and 1 − E for an exponent below 1.
-            let specular_error = match lighting.specular {
-                SpecularModel::Phong => 0.0,
-                SpecularModel::Blinn => f64::from(lighting.shininess).max(1.0) * diffuse_error,
-            };
-            for c in 0..3 {
-                let sum = |colour: fn(&LightTerm) -> [f32; 3]| -> f64 {
-                    let all = lighting.lights.iter().zip(&lights.strengths);
-                    all.map(|(light, strength)| strength * f64::from(colour(light)[c]))
-                        .sum()
-                };
-                let (diffuse, specular) = (sum(|l| l.diffuse), sum(|l| l.specular));
-                let both = diffuse + specular;
-                let off = (diffuse + falls * both) * cosine + highlight * specular;
-                lit = f64::max(lit, off);
-                most = f64::max(most, f64::from(lighting.ambient[c]) + both);
-                let lost = lost(diffuse_error, diffuse) + lost(specular_error, specular);
-                allowed = f64::max(allowed, lost);
-            }
+        let colours = match of {
+            Stepped::Colours | Stepped::Sums => rounding * stepped(step),
+            _ => 0.0,
+        };
+        (cosine, colours)
+    }
+
+    /// Returns what the light model makes of errors on a material.
+    fn material_bound<'a>(&self, lighting: &'a Lighting, seen: &SeenLights) -> MaterialBound<'a> {
+        let diffuse_error = self.length_error(lighting);
+        // (1 − E)ⁿ is 1 − n E at least, and 1 − E for an exponent below 1.
+        let power = match lighting.specular {
+            SpecularModel::Phong => 0.0,
+            SpecularModel::Blinn => f64::from(lighting.shininess).max(1.0),
+        };
+        let factor = match lighting.gate {
+            SpecularGate::Weighted => 1.0,
+            _ => 0.0,
+        };
+        let specular_error = (power + factor) * diffuse_error;
+        let sum = |colour: fn(&LightTerm) -> [f32; 3], c: usize| -> f64 {
+            let all = lighting.lights.iter().zip(&seen.strengths);
+            all.map(|(light, strength)| strength * f64::from(colour(light)[c]))
+                .sum()
+        };
+        let diffuse = [0, 1, 2].map(|c| sum(|l| l.diffuse, c));
+        let specular = [0, 1, 2].map(|c| sum(|l| l.specular, c));
+        let of_channels =
+            |of: &dyn Fn(usize) -> f64| [0, 1, 2].map(of).into_iter().fold(0.0, f64::max);
+        let lost = |c: usize| lost(diffuse_error, diffuse[c]) + lost(specular_error, specular[c]);
+        let most = |c: usize| f64::from(lighting.ambient[c]) + diffuse[c] + specular[c];
+        MaterialBound {
+            lighting,
+            half: seen.half,
+            most: match self.info().roundings.of {
+                Stepped::Sums => f64::max(1.0, of_channels(&most)),
+                _ => 1.0,
+            },
+            other: of_channels(&lost) + ROUNDING * lighting.lights.len() as f64,
+            diffuse,
+            specular,
         }
-        let lights = frame.lightings().iter().map(|l| l.lights.len()).max();
-        let faint = ROUNDING * lights.unwrap_or(0) as f64;
-        let rounded = match of {
-            Stepped::Colours => lit + rounding * step * steps,
-            Stepped::Sums => lit + rounding * step * steps * most,
-            Stepped::Cosines | Stepped::Products => lit,
-        };
-        rounded + faint + allowed
     }
 
     /// Returns the relative error of lengths that the method allows itself on a material.
@@ -142,19 +224,40 @@ impl Variant {
     }
 }
 
+/// The light model on a material, as it passes errors on.
+struct MaterialBound<'a> {
+    lighting: &'a Lighting,
+    /// The least |L + V|.
+    half: f64,
+    /// All light together, where colours are clamped after they are stepped; else 1.
+    most: f64,
+    /// The errors that no polygon changes: faint highlights, and the loss that lengths are allowed.
+    other: f64,
+    /// The greatest sums of all lights, by channel.
+    diffuse: [f64; 3],
+    specular: [f64; 3],
+}
+
+impl MaterialBound<'_> {
+    /// Returns the bound where cosines are off by `cosine`, and colours of at most 1 that are stepped by `stepped`.
+    fn of(&self, cosine: f64, stepped: f64) -> f64 {
+        let highlight = highlight_error(self.lighting, self.half, cosine);
+        // A falloff is off by twice what its distance is, which is one error of a cosine; the colour by as much.
+        let falls = if self.lighting.is_attenuated() {
+            2.0
+        } else {
+            0.0
+        };
+        let off = |c: usize| {
+            let (diffuse, specular) = (self.diffuse[c], self.specular[c]);
+            (diffuse + falls * (diffuse + specular)) * cosine + highlight * specular
+        };
+        let lit = [0, 1, 2].map(off).into_iter().fold(cosine, f64::max);
+        lit + stepped * self.most + self.other
+    }
+}
+
 /// Returns the part of a sum of terms, clamped at 1, that is lost by a relative error of the lengths that divide them.
 fn lost(error: f64, sum: f64) -> f64 {
     sum.min(1.0) * error / (1.0 - error)
-}
-
-/// Returns the most steps from a corner to a pixel: down the rows of the polygon and across its columns, inside the picture.
-fn longest_walk(frame: &Frame, polygon: &Polygon) -> usize {
-    let extent = |coordinate: fn(&ScreenVertex) -> SubPixel, limit: usize| {
-        let corners = frame.corners(polygon).iter();
-        let all = corners.map(|&v| coordinate(&frame.vertices()[v as usize]).to_bits());
-        let (low, high) = (all.clone().min(), all.max());
-        let extent = high.unwrap_or(0) - low.unwrap_or(0);
-        (extent as usize / 256 + 1).min(limit)
-    };
-    extent(|v| v.y, frame.height()) + extent(|v| v.x, frame.width())
 }

@@ -20,6 +20,7 @@
 
 mod bound;
 mod count;
+pub(crate) mod extent;
 mod info;
 mod kernels;
 mod span_bench;

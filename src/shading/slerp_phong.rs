@@ -20,7 +20,7 @@ impl<const L: usize> Shader for SlerpPhong<L> {
                   I = Ia ka + Ip kd J + Ip ks (2 J K - L.V)^n",
         source: "L21 4.4, eq 4.7-4.12, summary c",
         model: Model::Slerp,
-        roundings: Roundings::new(4.0, 2.0, Stepped::Cosines),
+        roundings: Roundings::new(4.0, 2.0, Stepped::GreatCircles),
         derivation: "each step turns a vector of length 1 by two products and a sum in each component, 1.5 * 2^-24 in all, with a \
                      rotation whose entries are rounded by half of 2^-24",
         fails: "on short spans, which pay one inverse tangent, three pairs of sine and cosine, two roots and a \

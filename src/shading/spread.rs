@@ -1,5 +1,6 @@
 //! Spreads: how much the vectors toward lights and eye vary over the polygons of a frame. Bounds of rounding errors need them.
 
+use super::extent::{for_each_end, range, wide};
 use super::lighting::strength;
 use crate::frame::{Frame, Polygon};
 use crate::scene::{Lighting, Place};
@@ -17,8 +18,6 @@ use glam::DVec3;
 pub(super) struct Spread {
     /// The longest over the shortest, the coordinates that they are differences of counted as long: 1 or more.
     pub vectors: f64,
-    /// The largest weight of perspective over the smallest in one polygon.
-    pub weights: f64,
     /// The lights as each material sees them.
     pub materials: Vec<SeenLights>,
 }
@@ -39,19 +38,13 @@ impl Spread {
         };
         let mut spread = Spread {
             vectors: 1.0,
-            weights: 1.0,
             materials: frame.lightings().iter().map(unseen).collect(),
         };
-        for polygon in frame.polygons() {
-            let corners = frame.corners(polygon).iter();
-            let weights = corners.map(|&v| f64::from(frame.vertices()[v as usize].inv_w));
-            let (least, most) = range(weights);
-            spread.weights = f64::max(spread.weights, most / least);
-            if frame.is_local() {
+        if frame.is_local() {
+            for polygon in frame.polygons() {
                 spread.add(frame, polygon.material, &Ball::around(frame, polygon));
             }
-        }
-        if !frame.is_local() {
+        } else {
             // All points see the same.
             (0..frame.lightings().len() as u32)
                 .for_each(|material| spread.add(frame, material, &Ball::default()));
@@ -80,17 +73,6 @@ impl Spread {
     }
 }
 
-/// Returns the least and the greatest number.
-fn range(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
-    numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-        (low.min(x), high.max(x))
-    })
-}
-
-fn wide(v: [f32; 3]) -> DVec3 {
-    DVec3::from_array(v.map(f64::from))
-}
-
 /// A ball that holds a polygon, and its corners.
 #[derive(Default)]
 struct Ball {
@@ -114,15 +96,10 @@ struct SeenPlace {
 
 impl Ball {
     fn around(frame: &Frame, polygon: &Polygon) -> Ball {
-        let mut ends: Vec<u32> = frame.corners(polygon).to_vec();
-        // A corner that clipping made lies between its ends, which lie between theirs.
-        while let Some(i) = ends.iter().position(|&v| frame.clip_corner(v).is_some()) {
-            if let Some(corner) = frame.clip_corner(ends[i]) {
-                ends[i] = corner.a;
-                ends.push(corner.b);
-            }
-        }
-        let corners: Vec<DVec3> = ends.iter().map(|&v| wide(frame.position(v))).collect();
+        let mut corners: Vec<DVec3> = Vec::new();
+        for_each_end(frame, frame.corners(polygon), &mut |v| {
+            corners.push(wide(frame.position(v)))
+        });
         let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
         let most = |of: &dyn Fn(DVec3) -> f64| corners.iter().map(|p| of(*p)).fold(0.0, f64::max);
         Ball {

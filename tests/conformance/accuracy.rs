@@ -4,15 +4,19 @@ use crate::support::cases::{Case, case, cases};
 use crate::support::differences::largest_difference;
 use crate::support::renderers::{self, distinct, name};
 use fastphong::frame::{Frame, FrameBuilder, SubPixel, Vertex};
+use fastphong::mesh::builtin::builtin;
 use fastphong::picture::LinearPicture;
 use fastphong::raster::NOTHING;
 use fastphong::reference::{self, Model};
+use fastphong::scene::file::SceneFile;
 use fastphong::scene::{
     DepthBuffer, Falloff, HiddenSurfaces, LightTerm, Lighting, Place, SpecularGate, SpecularModel,
 };
 use fastphong::shading::{Entry, METHODS, Variant};
+use glam::{DQuat, DVec3, EulerRot};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Returns the largest difference where the engine and the reference see the same polygon.
 fn error(scene: &Case, variant: &Variant, truth: &LinearPicture) -> f64 {
@@ -151,7 +155,7 @@ fn exponents_below_1_are_within_their_bound() {
         "teapot",
     ] {
         let frame = &case(name, Some((64, 48))).frame;
-        check_exponents(name, frame, &[1e-6, 0.1, 0.25, 0.5, 0.999, 1.0]);
+        check_exponents(name, frame, &[0.0, 1e-6, 0.1, 0.25, 0.5, 0.999, 1.0]);
     }
 }
 
@@ -224,6 +228,32 @@ fn exponents_below_1_bite_where_highlights_end() {
     }
 }
 
+/// A highlight that is weighted with L·N has the error that a length is allowed, as L·N is divided by it.
+#[test]
+fn weighted_highlights_are_within_their_bound() {
+    let text = "
+        interpolation = 'perspective'
+        specular_gate = 'weighted'
+        [image]
+        width = 5
+        height = 20
+        [camera]
+        fovy = 77.6888562528367
+        [[light]]
+        position = [0, 0, 1]
+        [[object]]
+        mesh = 'builtin:polygon?sides=9'
+        material = { ka = [0, 0, 0], kd = [0, 0, 0], ks = 0.6, shininess = 1 }
+    ";
+    let file = SceneFile::parse(text, "weighted").unwrap_or_else(|e| panic!("{e}"));
+    let resolved = file.resolve(|name, _| {
+        let shape = builtin(name.trim_start_matches("builtin:")).map_err(|e| e.to_string())?;
+        Ok((Arc::new(shape), Vec::new()))
+    });
+    let scene = resolved.unwrap_or_else(|e| panic!("{e}")).scene;
+    check_exponents("weighted", &scene.frame().expect("a frame"), &[1.0, 4.0]);
+}
+
 /// The bound holds for both kinds of highlight, for weighted and ungated ones, for lights of many strengths and for several.
 #[test]
 fn exponents_below_1_are_within_their_bound_under_every_highlight() {
@@ -236,6 +266,125 @@ fn exponents_below_1_are_within_their_bound_under_every_highlight() {
             }
         }
     }
+}
+
+/// Builds polygons of four corners, and triangles if `is_cut`, in cells 16 pixels wide and high: `corners` in 1/256 pixel from the
+/// corner of a cell, each with a normal whose cosine with a mean direction is `cosine`. The directions differ from cell to cell.
+fn apart(cosine: f64, corners: [[i32; 2]; 4], is_cut: bool) -> Frame {
+    const SIDE: u32 = 8;
+    let mut builder = FrameBuilder::new(16 * SIDE, 16 * SIDE);
+    let toward = DVec3::new(0.3, 0.5, 0.8).normalize().as_vec3().to_array();
+    let material = builder.lighting(Lighting {
+        ambient: [0.0; 3],
+        lights: vec![LightTerm {
+            place: Place::Infinite(toward),
+            diffuse: [0.5; 3],
+            specular: [0.5; 3],
+            falloff: Falloff::None,
+        }],
+        view: Place::Infinite([0.0, 0.0, 1.0]),
+        shininess: 1.0,
+        specular: SpecularModel::Phong,
+        // Continuous, so that rounding alone makes differences.
+        gate: SpecularGate::Ungated,
+    });
+    for number in 0..SIDE * SIDE {
+        // The golden angle: directions that do not repeat, and round each in another way.
+        let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.1, f64::from(number) * 2.399963);
+        let cell = [number % SIDE, number / SIDE].map(|cell| 16 * 256 * cell as i32);
+        let sine = (1.0 - cosine * cosine).sqrt();
+        let around = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+        let corners: Vec<u32> = corners
+            .iter()
+            .zip(around)
+            .map(|([x, y], [right, up])| {
+                let normal = turn * DVec3::new(sine * right, sine * up, cosine);
+                builder.vertex(Vertex {
+                    x: SubPixel::from_bits(cell[0] + x),
+                    y: SubPixel::from_bits(cell[1] + y),
+                    depth: 0.5,
+                    inv_w: 1.0,
+                    normal: normal.as_vec3().to_array(),
+                    material,
+                })
+            })
+            .collect();
+        let face = (turn * DVec3::Z).as_vec3().to_array();
+        let [a, b, c, d] = corners[..] else {
+            unreachable!("four corners")
+        };
+        if is_cut {
+            builder.polygon(&[a, b, c], face, number);
+            builder.polygon(&[a, c, d], face, number);
+        } else {
+            builder.polygon(&corners, face, number);
+        }
+    }
+    builder.finish().expect("all corners are on the picture")
+}
+
+/// The corners of a whole cell.
+const SQUARE: [[i32; 2]; 4] = [[0, 0], [0, 4096], [4096, 4096], [4096, 0]];
+
+/// Checks every method with every renderer. Returns the largest error of the span engine as a share of the bound.
+fn check_all(name: &str, frame: Frame) -> f64 {
+    let scene = Case::new(name.to_owned(), frame);
+    scene.seen();
+    let found: Vec<_> = METHODS
+        .par_iter()
+        .map(|entry| check(&scene, entry))
+        .collect();
+    let failures: Vec<String> = found.iter().flat_map(|(_, wrong)| wrong.clone()).collect();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    found.iter().map(|(share, _)| *share).fold(0.0, f64::max)
+}
+
+/// Normals far apart have short ones between them, whose errors of direction are larger. Bounds grow as these do, and no faster.
+#[test]
+fn short_normals_are_within_their_bound_and_it_bites() {
+    for is_cut in [false, true] {
+        for cosine in [0.7, 0.3, 0.1, 0.03, 0.01] {
+            let name = format!("normals at {cosine} of their mean, cut: {is_cut}");
+            let most = check_all(&name, apart(cosine, SQUARE, is_cut));
+            println!("{name}: {most:.2} of the bound");
+            assert!(most > 0.02, "{name}: {most:.3} of the bound");
+        }
+    }
+}
+
+/// A span narrower than a pixel has steps of many times its values: parameters between nearly equal crossings must not lose digits.
+#[test]
+fn slivers_are_within_their_bound() {
+    let mut found = Vec::new();
+    for (left, right) in [(1, 1), (1, 2), (3, 20), (100, 27)] {
+        // Around the centres of column 8.
+        let [left, right] = [2176 - left, 2176 + right];
+        let upright = [[left, 0], [left, 4096], [right, 4096], [right, 0]];
+        let crossed = [[left, 0], [right, 4096], [left, 4096], [right, 0]];
+        // By 45°, through the centres of all columns, and by two columns in three rows, where crossings are rounded.
+        let lean = |[top, bottom]: [i32; 2], right: i32, height: i32| {
+            [
+                [left + top, 0],
+                [left + bottom, height],
+                [right + bottom, height],
+                [right + top, 0],
+            ]
+        };
+        let leaning = [
+            lean([-1920, 2176], right, 4096),
+            lean([-2133, 469], right - 1, 3903),
+        ];
+        for corners in [upright, crossed, leaning[0], leaning[1]] {
+            for is_cut in [false, true] {
+                for cosine in [0.99, 0.6] {
+                    let name = format!("slivers {corners:?} at {cosine}, cut: {is_cut}");
+                    found.push(check_all(&name, apart(cosine, corners, is_cut)));
+                }
+            }
+        }
+    }
+    println!("{found:.2?} of the bound");
+    assert!(found.iter().all(|share| *share > 0.02), "{found:.2?}");
 }
 
 fn linear(variant: &str, frame: &Frame) -> LinearPicture {

@@ -9,7 +9,6 @@
 //! and others by `FASTPHONG_WORLDS_SEED=2`. A world in which something does not hold is made as small as it gets and printed
 //! as the files of a scene: make a test of these, whose name says the situation.
 
-mod known;
 mod mesh;
 mod numbers;
 mod properties;
@@ -17,9 +16,6 @@ mod scene;
 mod wild;
 mod world;
 
-#[path = "../conformance/support/differences.rs"]
-#[allow(dead_code)]
-mod differences;
 #[path = "../conformance/support/renderers.rs"]
 #[allow(dead_code)]
 mod renderers;

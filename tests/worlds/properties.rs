@@ -1,7 +1,5 @@
 //! What must hold in every world.
 
-use super::differences::largest_difference;
-use super::known;
 use super::renderers::{depth_rounding, distinct, name, renderers};
 use fastphong::frame::{Frame, FrameBuilder, FrameError};
 use fastphong::mesh::Material;
@@ -319,47 +317,44 @@ impl<'a> Seen<'a> {
         if let Some(pixel) = ours.pixels().iter().find(|p| !is_colour(**p)) {
             return Err(format!("{}: a pixel is {pixel:?}", who()));
         }
-        let bound = variant.bound(frame);
-        if bound.is_nan() || bound < 0.0 {
-            return Err(format!("{}: the bound is {bound}", who()));
+        let bounds: Vec<f64> = variant.polygon_bounds(frame).collect();
+        if let Some(bound) = bounds.iter().find(|bound| !(0.0..=1.0).contains(*bound)) {
+            return Err(format!("{}: a bound is {bound}", who()));
         }
-        let same = self.same_polygons(variant, renderer);
-        let truth = self.truth(variant.info().model);
-        let (most, uncovered) = largest_difference(truth, &ours, |x, y| same.get(x, y));
-        if most > bound {
-            let jumps = self.jumps(variant.info().model, bound);
-            let counts = |x, y| same.get(x, y) && !jumps.get(x, y);
-            let (most, _) = largest_difference(truth, &ours, counts);
-            if most > bound {
-                return Err(format!("{}: {most:.3e} over its bound {bound:.3e}", who()));
+        let bounds = self.pixel_bounds(variant, renderer, &bounds);
+        let model = variant.info().model;
+        let truth = self.truth(model);
+        let (mut jumps, mut count) = (None, 0);
+        for y in 0..truth.height() {
+            for x in 0..truth.width() {
+                let (ours, truth) = (ours.get(x, y), truth.get(x, y));
+                if ours[3] != truth[3] && frame.clipping() != Clipping::NdcCube {
+                    return Err(format!("{}: another alpha at {x}, {y}", who()));
+                }
+                let Some(bound) = bounds.get(x, y) else {
+                    continue;
+                };
+                let apart = (0..3).map(|c| f64::from(ours[c]) - f64::from(truth[c]));
+                let most = apart.fold(0.0, |most, apart| f64::max(most, apart.abs()));
+                if most > bound {
+                    let changes = jumps.get_or_insert_with(|| self.changes(model));
+                    if !is_jump(changes, (x, y), bound) {
+                        let who = who();
+                        return Err(format!(
+                            "{who}: {most:.3e} over its bound {bound:.3e} at {x}, {y}"
+                        ));
+                    }
+                }
+                count += usize::from(bound < 1.0 / 255.0 && ours[3] > 0.0);
             }
         }
-        if uncovered > 0 && frame.clipping() != Clipping::NdcCube {
-            return Err(format!("{}: {uncovered} pixels have another alpha", who()));
-        }
-        let is_tight = bound < 1.0 / 255.0;
-        let drawn = same.pixels().iter().zip(ours.pixels());
-        let drawn = drawn.filter(|(same, pixel)| **same && pixel[3] > 0.0);
-        Ok(if is_tight { drawn.count() } else { 0 })
+        Ok(count)
     }
 
-    /// Returns the pixels where the reference itself jumps by more than `bound`: light from behind has no highlight, so that
-    /// where L·N is 0 but for rounding the last bit decides, and no bound holds.
-    ///
-    /// There a light that turns by an angle above all errors of a cosine changes the picture as much as one that turns 16 times
-    /// as far. Where the picture is smooth the latter changes it about 16 times as much.
-    fn jumps(&self, model: Model, bound: f64) -> Picture<bool> {
-        const ANGLE: f64 = 1e-4;
-        let [near, far] = [ANGLE, 16.0 * ANGLE].map(|angle| self.change(model, angle));
-        let mut jumps = near.map(|change| change > bound);
-        for (jump, (near, far)) in jumps
-            .pixels_mut()
-            .iter_mut()
-            .zip(near.pixels().iter().zip(far.pixels()))
-        {
-            *jump &= *far < 4.0 * near;
-        }
-        jumps
+    /// Returns the changes of the reference's pixels when the lights turn by a small angle, and by one that is 16 times as large:
+    /// see [`is_jump`].
+    fn changes(&self, model: Model) -> [Picture<f64>; 2] {
+        [ANGLE, 16.0 * ANGLE].map(|angle| self.change(model, angle))
     }
 
     /// Returns the largest change of each pixel of the reference when the lights turn by an angle around an axis of the world.
@@ -390,24 +385,42 @@ impl<'a> Seen<'a> {
         changes
     }
 
-    /// Returns the pixels at all of whose samples `renderer` sees the reference's polygon.
-    fn same_polygons(&self, variant: &Variant, renderer: Renderer) -> Picture<bool> {
+    /// Returns the bound at each pixel at all of whose samples `renderer` sees the reference's polygon, from those of polygons.
+    fn pixel_bounds(
+        &self,
+        variant: &Variant,
+        renderer: Renderer,
+        bounds: &[f64],
+    ) -> Picture<Option<f64>> {
         let frame = self.frame;
         let seen = variant.polygon_numbers(frame, renderer);
         let n = frame.samples();
-        let mut same = Picture::new(frame.picture_width(), frame.picture_height(), true);
+        let mut all = Picture::new(frame.picture_width(), frame.picture_height(), Some(0.0));
         for y in 0..frame.height() {
             for x in 0..frame.width() {
                 let (ours, truly) = (seen.get(x, y), self.visibility.polygons.get(x, y));
-                let is_known = || {
-                    let polygon = frame.polygons().get(truly as usize);
-                    polygon.is_some_and(|polygon| known::are_normals_apart(frame, polygon))
-                };
-                same.row_mut(y / n)[x / n] &= ours == truly && !is_known();
+                let bound = bounds.get(truly as usize).copied().unwrap_or(0.0);
+                let all = &mut all.row_mut(y / n)[x / n];
+                *all = all
+                    .filter(|_| ours == truly)
+                    .map(|most| f64::max(most, bound));
             }
         }
-        same
+        all
     }
+}
+
+/// An angle above all errors of a cosine.
+const ANGLE: f64 = 1e-4;
+
+/// True if the reference jumps by more than `bound` at a pixel: light from behind has no highlight, so that where L·N is 0 but for
+/// rounding the last bit decides, and no bound holds.
+///
+/// There a light that turns by [`ANGLE`] changes the picture as much as one that turns 16 times as far. Where the picture is
+/// smooth the latter changes it about 16 times as much.
+fn is_jump([near, far]: &[Picture<f64>; 2], (x, y): (usize, usize), bound: f64) -> bool {
+    let (near, far) = (near.get(x, y), far.get(x, y));
+    near > bound && far < 4.0 * near
 }
 
 /// True if all channels are in 0..=1.

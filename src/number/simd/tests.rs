@@ -360,7 +360,7 @@ fn integers_of_lanes_are_those_of_the_processor() {
             ints(m.truncated(m.load(&numbers))),
             numbers.map(|x| x as i32)
         );
-        m.store(m.ramp(0.75, 0.5), &mut floats);
+        m.store(m.ramp(0.25, 1, 0.5), &mut floats);
         assert_eq!(floats, [0.75, 1.25, 1.75, 2.25, 2.75, 3.25, 3.75, 4.25]);
     }
     on_each_level!(of);

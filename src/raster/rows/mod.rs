@@ -40,6 +40,7 @@ use crate::number::lanes::Lanes;
 use crate::number::parallel::for_each_chunk;
 use crate::number::simd::{BLOCK, Token, vectorize};
 use crate::picture::Picture;
+use crate::shading::extent::TILE_HEIGHT as HEIGHT;
 use crate::shading::{SimdKernels, UniformsIndex, Variant, WalkKernel};
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -51,9 +52,6 @@ use small::{RowStarts, SmallTriangle};
 use tile::{MOST, NumberCount, Tile};
 use tiny::Fragments;
 use triangles::{Batch, CoveragePath, bits};
-
-/// Scanlines of a tile: enough to amortise the restart of edges, few enough to give every thread work.
-const HEIGHT: usize = 16;
 
 /// Memory that a thread keeps from tile to tile, and from frame to frame.
 #[derive(Debug, Default)]

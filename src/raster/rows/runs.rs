@@ -160,9 +160,7 @@ impl RunQueue {
                     &mut writer,
                     #[inline(always)]
                     |number, x| match number - 1 {
-                        plane if plane < planes => {
-                            m.ramp(at[plane] + x as f32 * step[plane], step[plane])
-                        }
+                        plane if plane < planes => m.ramp(at[plane], x as i32, step[plane]),
                         _ => material,
                     },
                 );
@@ -196,7 +194,7 @@ fn draw_run<S: Simd, const N: usize>(
             outside(m, block, &pixels),
             #[inline(always)]
             |i| match i {
-                0 => m.ramp(depth[0] + x as f32 * depth[1], depth[1]),
+                0 => m.ramp(depth[0], x as i32, depth[1]),
                 _ => number(i, x),
             },
         );
@@ -256,7 +254,7 @@ pub(super) fn draw_large<S: Simd, const N: usize>(
                     (place, start as usize..end as usize),
                     writer,
                     #[inline(always)]
-                    |i, x| m.ramp(at[i] + x as f32 * step[i], step[i]),
+                    |i, x| m.ramp(at[i], x as i32, step[i]),
                 );
             }
             long.advance();

@@ -3,9 +3,10 @@
 
 use super::small::grown;
 use super::tile::{Tile, Writer};
-use super::triangles::{BATCH, Batch, CoveragePath, Ints, TINY_HEIGHT, TINY_WIDTH, bits};
+use super::triangles::{BATCH, Batch, CoveragePath, Ints, bits};
 use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
+use crate::shading::extent::{TINY_HEIGHT, TINY_WIDTH};
 use fearless_simd::{Simd, SimdFloat};
 
 /// Pixels of a box.

@@ -12,6 +12,7 @@ use crate::number::lanes::{Int, Lanes};
 use crate::number::simd::BLOCK;
 use crate::raster::bins::Listed;
 use crate::raster::setup::{Per, SetUp};
+use crate::shading::extent::{STEEPEST, TINY_HEIGHT, TINY_WIDTH};
 use core::ops::Range;
 use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, i32x8};
 
@@ -23,14 +24,6 @@ pub(super) const SMALL_WIDTH: i32 = 48;
 /// And up to this many pixels high. 32 bits hold the functions: blocks begin up to 7 pixels left of the box and end as far right
 /// of it, so that none is over 2 · 62 · 64 · 2¹⁶ < 2²⁹.
 pub(super) const SMALL_HEIGHT: i32 = 64;
-
-/// Up to this many pixels wide a triangle is drawn pixel by pixel, eight triangles at a time.
-pub(super) const TINY_WIDTH: i32 = 5;
-/// And up to this many pixels high: its box has no more pixels than a number has bits.
-pub(super) const TINY_HEIGHT: i32 = 6;
-
-/// Barycentric coordinates of a small triangle grow by at most this from pixel to pixel: it is not thinner than a quarter of one.
-pub(super) const STEEPEST: i32 = 4;
 
 /// An integer, or a float, for each triangle.
 pub(super) type Ints = [i32; BATCH];

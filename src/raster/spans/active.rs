@@ -448,8 +448,9 @@ fn span([left, right]: [&ActiveEdge; 2], number: u32, width: u32) -> Option<Poly
     }
     let offset = left.crossing.offset();
     // x_2 − x_1 between the crossings themselves, over 0 because a pixel centre lies between them.
-    let dt = 1.0 / ((to - from) as f32 + (offset - right.crossing.offset())); // Δt = 1 / (x_2 − x_1)
-    let t0 = ((start - from) as f32 + offset) * dt;
+    let dt = 1.0 / (f64::from(to - from) + (offset - right.crossing.offset())); // Δt = 1 / (x_2 − x_1)
+    let t0 = ((f64::from(start - from) + offset) * dt) as f32;
+    let dt = dt as f32;
     let [depth, depth_step] = ramp(left.depth[0], right.depth[0], t0, dt);
     Some(PolygonSpan {
         polygon: left.polygon,

@@ -70,9 +70,11 @@ impl EdgeCrossing {
     }
 
     /// Returns the distance from the crossing to the centre of [`EdgeCrossing::pixel`], in pixels, 0..1.
+    ///
+    /// In 53 bits: two crossings may be so near each other that little is left of their difference.
     #[inline(always)]
-    pub fn offset(&self) -> f32 {
-        self.rest as f32 / self.denominator as f32
+    pub fn offset(&self) -> f64 {
+        self.rest as f64 / self.denominator as f64
     }
 
     /// Steps to the next scanline.
