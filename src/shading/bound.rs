@@ -2,7 +2,7 @@
 
 use super::extent::{Extent, wide};
 use super::lighting::highlight_error;
-use super::spread::{SeenLights, Spread};
+use super::spread::{PolygonSpread, SeenLights, Spread};
 use super::{LitAt, Local, Perspective, Variant};
 use crate::frame::{Frame, Polygon};
 use crate::scene::{Interpolation, LightTerm, Lighting, SpecularGate, SpecularModel};
@@ -58,12 +58,14 @@ impl Variant {
     /// **Steps.** With s steps from a corner to a pixel, a value of at most 1 is off by `(start + step · s) · 2⁻²⁴`.
     ///
     /// **Set-up.** Steps begin from parameters, which are rounded too, and multiply the differences of corners, δ at most. Between
-    /// edges a parameter is rounded 4 times with its difference and product, along edges as often: 8 δ. Of a triangle in
-    /// the row engine each barycentric coordinate takes 5 roundings at the start of a run, with its difference. Its growth
-    /// takes 5, over a run on which both coordinates grow by 1 at most: 15 δ. A small triangle begins up to
-    /// 15 rows and 7 columns away ([`Extent::growth`], g): coordinates are up to g larger there, so that both starts take 10 g, and
-    /// both growths 12 g: 22 g δ more. On the way values are as large as `1 + 2 g δ`, and so are the roundings of steps. The
+    /// edges a parameter is rounded 4 times with its difference and product, along edges as often: 8 δ. The
     /// barycentric renderer steps nothing: coordinates, products and sums take 7 roundings of values.
+    ///
+    /// **Triangles in the row engine** have barycentric coordinates, which take 5 roundings at the start of a run, with differences. Their
+    /// growth takes 5, over a run on which both grow by 1 at most: 15 δ. A small triangle begins up to 15 rows and 7 columns away, where
+    /// coordinates are up to g larger ([`Extent::growth`]): both starts take 10 g, and both growths 12 g, 22 g δ more. From there to a
+    /// pixel are 17 sums at most, of values as large as `1 + 2 g δ`. Only lines are stepped: of a cosine two vectors, which
+    /// are rounded by 0.87 each.
     ///
     /// **Short normals.** Normals between corners whose normals are apart are shorter than 1. Let m be the unit mean of the
     /// corners' normals N_i and `c = min N_i·m`. Every convex combination N has |N| ≥ N·m ≥ c, so that
@@ -108,8 +110,9 @@ impl Variant {
         let materials: Vec<MaterialBound<'a>> = materials
             .map(|(lighting, seen)| self.material_bound(lighting, seen))
             .collect();
-        frame.polygons().iter().map(move |polygon| {
-            let (cosine, stepped) = self.errors(frame, polygon, spread.vectors);
+        let polygons = frame.polygons().iter().enumerate();
+        polygons.map(move |(number, polygon)| {
+            let (cosine, stepped) = self.errors(frame, polygon, spread.on(number));
             let bound = materials[polygon.material as usize].of(cosine, stepped);
             // No channel differs by more.
             if bound <= 1.0 { bound } else { 1.0 }
@@ -117,11 +120,11 @@ impl Variant {
     }
 
     /// Returns the error of the cosines that the light model sees on a polygon, and that of colours of at most 1 which are stepped
-    /// over it. `vectors` is [`Spread::vectors`].
-    fn errors(&self, frame: &Frame, polygon: &Polygon, vectors: f64) -> (f64, f64) {
+    /// over it.
+    fn errors(&self, frame: &Frame, polygon: &Polygon, spread: PolygonSpread) -> (f64, f64) {
         let info = self.info();
         let Roundings { start, step, of } = info.roundings;
-        let extent = Extent::of(frame, polygon);
+        let (extent, vectors) = (Extent::of(frame, polygon), spread.vectors);
         // A rounding where the weight of perspective is largest counts for more where it is smallest.
         let weights = match (info.perspective, frame.interpolation()) {
             (Perspective::Free | Perspective::Divides, Interpolation::Perspective) => {
@@ -129,19 +132,21 @@ impl Variant {
             }
             _ => 1.0,
         };
-        // The first value of a colour is lit from vectors to places, too.
-        let (toward, square) = (vectors, vectors * vectors);
-        // Colours and vectors to places may differ by all that they are; weights differ by 1 − 1/σ of the largest.
+        // True if vectors to places are stepped beside normals.
+        let is_followed = frame.is_local() && info.local == Local::PerPixel;
+        // Colours may differ by all that they are, weights by 1 − 1/σ of the largest.
         let apart = match of {
             Stepped::Colours | Stepped::Sums => 1.0,
-            _ if frame.is_local() && info.local == Local::PerPixel => 2.0,
-            _ => f64::min(2.0, extent.apart() + 1.0 - 1.0 / weights),
+            _ => {
+                let vectors = if is_followed { spread.apart } else { 0.0 };
+                f64::min(2.0, extent.apart() + vectors + 1.0 - 1.0 / weights)
+            }
         };
         let stepped = |step: f64| match step > 0.0 {
             true => {
-                let largest = 1.0 + 2.0 * extent.growth * apart;
-                let stepped = step * extent.steps * largest + extent.set_up() * apart;
-                f64::max(stepped, BARYCENTRIC)
+                let spans = step * extent.steps + 8.0 * apart;
+                let triangles = extent.triangle_roundings(step, apart);
+                spans.max(triangles).max(BARYCENTRIC)
             }
             false => 0.0,
         };
@@ -157,17 +162,20 @@ impl Variant {
             false => f64::INFINITY,
         };
         let cosine = match of {
-            Stepped::Colours | Stepped::Sums => rounding * start * toward * over_length,
-            Stepped::Cosines => rounding * (start + stepped(step)) * toward * over_length,
+            Stepped::Colours | Stepped::Sums => rounding * start * vectors * over_length,
+            Stepped::Cosines => rounding * (start + stepped(step)) * vectors * over_length,
             Stepped::GreatCircles => {
-                rounding * (start + stepped(step)) * toward * over_length * over_length
+                rounding * (start + stepped(step)) * vectors * over_length * over_length
             }
             // Squares of weighted vectors have the squares of the weights.
             Stepped::Products => {
                 // With positions three products are stepped, where there was one product and one cosine.
-                let step = if frame.is_local() { 3.0 * step } else { step };
+                let (step, vectors) = match is_followed {
+                    true => (3.0 * step, vectors * vectors),
+                    false => (step, vectors),
+                };
                 let rounding = rounding * weights * over_length * over_length;
-                rounding * (start + stepped(step)) * square
+                rounding * (start + stepped(step)) * vectors
             }
         };
         let colours = match of {

@@ -57,21 +57,23 @@ impl Extent {
         }
     }
 
-    /// Returns the roundings of a difference between corners of 1 before it is stepped: see [`Variant::bound`].
-    pub fn set_up(&self) -> f64 {
-        if self.is_triangle {
-            15.0 + 22.0 * self.growth
-        } else {
-            8.0
-        }
-    }
-
     /// Returns the largest distance between the normals of two corners: 2 sin θ, as all are within θ of one direction.
     pub fn apart(&self) -> f64 {
         match self.cosine > 0.0 {
             true => 2.0 * libm::sqrt(f64::max(0.0, 1.0 - self.cosine * self.cosine)),
             false => 2.0,
         }
+    }
+
+    /// Returns the roundings of values of at most 1 over a triangle in the row engine, 0 for other polygons: see
+    /// [`Variant::bound`]. `step` is [`Roundings::step`](super::Roundings::step), and corners differ by `apart`.
+    pub fn triangle_roundings(&self, step: f64, apart: f64) -> f64 {
+        if !self.is_triangle {
+            return 0.0;
+        }
+        let sums = self.steps.min((TILE_HEIGHT + 1) as f64);
+        let largest = 1.0 + 2.0 * self.growth * apart;
+        step.min(2.0) * sums * largest + (15.0 + 22.0 * self.growth) * apart
     }
 }
 

@@ -16,10 +16,31 @@ use glam::DVec3;
 /// corners that are parallel to the polygon, if all are on one side of it: a linear function has its least value at a
 /// corner. So a light above the middle of a large polygon is as near as it is high.
 pub(super) struct Spread {
-    /// The longest over the shortest, the coordinates that they are differences of counted as long: 1 or more.
-    pub vectors: f64,
+    /// That on each polygon; none where all is at infinity.
+    polygons: Vec<PolygonSpread>,
     /// The lights as each material sees them.
     pub materials: Vec<SeenLights>,
+}
+
+/// The vectors toward lights and eye on a polygon.
+#[derive(Clone, Copy)]
+pub(super) struct PolygonSpread {
+    /// The longest over the shortest, the coordinates that they are differences of counted as long: 1 or more.
+    pub vectors: f64,
+    /// The largest distance between two points over the longest vector there.
+    pub apart: f64,
+}
+
+impl PolygonSpread {
+    const NONE: PolygonSpread = PolygonSpread {
+        vectors: 1.0,
+        apart: 0.0,
+    };
+
+    fn add(&mut self, place: &SeenPlace) {
+        self.vectors = self.vectors.max(place.spread);
+        self.apart = self.apart.max(place.apart);
+    }
 }
 
 /// The lights as the polygons of a material see them.
@@ -37,30 +58,39 @@ impl Spread {
             half: 2.0,
         };
         let mut spread = Spread {
-            vectors: 1.0,
+            polygons: Vec::new(),
             materials: frame.lightings().iter().map(unseen).collect(),
         };
         if frame.is_local() {
             for polygon in frame.polygons() {
-                spread.add(frame, polygon.material, &Ball::around(frame, polygon));
+                let here = spread.add(frame, polygon.material, &Ball::around(frame, polygon));
+                spread.polygons.push(here);
             }
         } else {
             // All points see the same.
-            (0..frame.lightings().len() as u32)
-                .for_each(|material| spread.add(frame, material, &Ball::default()));
+            for material in 0..frame.lightings().len() as u32 {
+                spread.add(frame, material, &Ball::default());
+            }
         }
         spread
     }
 
-    /// Adds the points of a ball on a material.
-    fn add(&mut self, frame: &Frame, material: u32, ball: &Ball) {
+    /// Returns the spread on a polygon, by its number.
+    pub fn on(&self, polygon: usize) -> PolygonSpread {
+        let all = self.polygons.get(polygon);
+        all.copied().unwrap_or(PolygonSpread::NONE)
+    }
+
+    /// Adds the points of a ball on a material. Returns the spread there.
+    fn add(&mut self, frame: &Frame, material: u32, ball: &Ball) -> PolygonSpread {
         let lighting = &frame.lightings()[material as usize];
         let seen = &mut self.materials[material as usize];
         let view = ball.sees(lighting.view);
-        self.vectors = self.vectors.max(view.spread);
+        let mut here = PolygonSpread::NONE;
+        here.add(&view);
         for (light, greatest) in lighting.lights.iter().zip(&mut seen.strengths) {
             let to = ball.sees(light.place);
-            self.vectors = self.vectors.max(to.spread);
+            here.add(&to);
             let square = (to.nearest * to.nearest) as f32;
             let strength = strength(light.place.is_local(), light.falloff, square, 1.0);
             *greatest = greatest.max(strength.map_or(1.0, f64::from));
@@ -70,6 +100,7 @@ impl Spread {
             // Below 1e-9 the bound is over 1 whatever the light: no bound at all.
             seen.half = seen.half.min(2.0 * libm::cos(widest / 2.0)).max(1e-9);
         }
+        here
     }
 }
 
@@ -87,6 +118,7 @@ struct Ball {
 /// A place as the points of a ball see it.
 struct SeenPlace {
     spread: f64,
+    apart: f64,
     nearest: f64,
     /// The direction from the middle of the ball.
     direction: DVec3,
@@ -100,6 +132,8 @@ impl Ball {
         for_each_end(frame, frame.corners(polygon), &mut |v| {
             corners.push(wide(frame.position(v)))
         });
+        // Methods that see light from one point of a polygon see it from the mean of the whole one, of which this may be a piece.
+        corners.push(wide(frame.mean(polygon).position));
         let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
         let most = |of: &dyn Fn(DVec3) -> f64| corners.iter().map(|p| of(*p)).fold(0.0, f64::max);
         Ball {
@@ -116,6 +150,7 @@ impl Ball {
             Place::Infinite(direction) => {
                 return SeenPlace {
                     spread: 1.0,
+                    apart: 0.0,
                     nearest: f64::INFINITY,
                     direction: wide(direction),
                     angle: 0.0,
@@ -132,6 +167,7 @@ impl Ball {
         let longest = (far + self.radius).max(position.length() + self.reach);
         SeenPlace {
             spread: longest / nearest,
+            apart: 2.0 * self.radius / longest,
             nearest,
             direction: toward.normalize_or_zero(),
             // From inside the ball it is seen in any direction.
