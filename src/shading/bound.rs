@@ -83,7 +83,8 @@ impl Variant {
     /// where a highlight ends.
     ///
     /// A vector toward a place is rounded at its longest and divided by its length where it is shortest: with a spread of σ
-    /// between the two its direction is off by σ times as much, and its square by σ². A falloff of at most its strength
+    /// between the two its direction is off by σ times as much, and its square by σ². Where such vectors are stepped, δ is larger by
+    /// the size of the polygon over the longest. A falloff of at most its strength
     /// where the light is nearest multiplies colours and their errors, and is off by as much as the square itself.
     ///
     /// A faint highlight is left out: `I_p k_s (R·V)^n` of at most 2⁻²⁴ a light. Its threshold `t = (2⁻²⁴ / k)^(1/n)` is rounded,
